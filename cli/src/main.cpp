@@ -1,0 +1,69 @@
+#include <csignal>
+#include <exception>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+
+#include "failure.hpp"
+#include "nearest_verb.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace {
+
+using namespace zlg;
+
+int parse_and_run(CLI::App& program, int argc, char** argv) {
+    try {
+        program.parse(argc, argv);
+        return cli::good;
+    } catch (const CLI::CallForHelp&) {
+        cli::print(program.help());
+        return cli::good;
+    } catch (const CLI::CallForVersion&) {
+        cli::print("zlg " ZLG_VERSION "\n");
+        return cli::good;
+    } catch (const CLI::RuntimeError& error) {
+        return error.get_exit_code();
+    } catch (const CLI::ParseError& error) {
+        cli::complain(cli::explain(program, error, argc, argv));
+        return cli::wrong_usage;
+    }
+}
+
+int guarded(CLI::App& program, int argc, char** argv) {
+    try {
+        return parse_and_run(program, argc, argv);
+    } catch (const cli::UsageError& error) {
+        cli::complain(error.what());
+        return cli::wrong_usage;
+    } catch (const config::ConfigError& error) {
+        cli::complain(error.what());
+        return cli::wrong_usage;
+    } catch (const std::bad_alloc&) {
+        cli::complain("out of memory");
+        return cli::bad_input_or_output;
+    } catch (const std::exception& error) {
+        cli::complain(error.what());
+        return cli::bad_input_or_output;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A full disk or a closed pipe is a failed write, not the end of the program.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    CLI::App program{"Software of a Zeeman laser gyro in the quasi-four-frequency regime", "zlg"};
+    program.require_subcommand(1);
+    program.set_version_flag("--version", "zlg " ZLG_VERSION);
+    cli::add_run(program);
+    cli::add_simulate(program);
+    cli::add_process(program);
+    cli::add_inspect(program);
+    return guarded(program, argc, argv);
+}

@@ -1,0 +1,47 @@
+#pragma once
+// The options that verbs share, and the configuration that follows from them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <zlg/config/schema.hpp>
+
+namespace zlg::cli {
+
+struct Options {
+    std::string config_path;
+    std::vector<std::string> sets;
+    std::optional<std::int64_t> seed;
+    std::optional<double> duration_s;
+    int threads = 2;
+    std::string out;
+    std::string format = "csv";
+    bool force = false;
+    bool json = false;
+};
+
+void add_config_options(CLI::App& verb, Options& options);
+void add_run_options(CLI::App& verb, Options& options);   // seed, duration, threads
+void add_output_options(CLI::App& verb, Options& options);  // out, force, json
+
+// --set over --config over the defaults.
+//
+// errors  config::ConfigError.
+[[nodiscard]] config::Config load_config(const Options& options);
+
+// The same over the settings of a log, checked as far as compensation depends on it.
+//
+// errors  logs::FormatError for the log's settings; config::ConfigError, also where its tick or scale is contradicted.
+[[nodiscard]] config::Config load_log_config(const Options& options, const config::Settings& log_settings,
+                                             const std::string& log_path);
+
+// The path of a table to be written: its suffix chooses the format.
+//
+// errors  UsageError for no path or an unknown suffix.
+void check_table_path(const std::string& path);
+
+}  // namespace zlg::cli

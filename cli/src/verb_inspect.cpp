@@ -1,0 +1,183 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/log_kind.hpp>
+#include <zlg/logs/raw_log.hpp>
+
+#include "failure.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+using nlohmann::json;
+
+struct InspectOptions : Options {
+    std::string file;
+    bool repair = false;
+};
+
+struct RawFindings {
+    std::int64_t halves = 0;
+    std::int64_t open_halves = 0;
+    std::int64_t invalid_halves = 0;
+    std::int64_t gaps = 0;
+    std::int64_t mode_changes = 0;
+    std::string damage;  // empty: none
+
+    void take(const core::HalfRecord& r) {
+        const bool measured = r.loop_closed && r.valid;
+        // A gap is counted by ticks: the second half of a tick belongs to the gap of the first.
+        const bool new_tick = r.half % 2 == 0;
+        if (new_tick) {
+            tick_was_gap_ = tick_is_gap_;
+            tick_is_gap_ = false;
+        }
+        if (!measured && !tick_is_gap_) {
+            tick_is_gap_ = true;
+            if (!tick_was_gap_) ++gaps;
+        }
+        if (halves > 0 && r.mode != mode_) ++mode_changes;
+        mode_ = r.mode;
+        open_halves += r.loop_closed ? 0 : 1;
+        invalid_halves += r.valid ? 0 : 1;
+        ++halves;
+    }
+
+private:
+    bool tick_is_gap_ = false;
+    bool tick_was_gap_ = false;
+    int mode_ = 0;
+};
+
+std::vector<std::string> optional_columns(const logs::RawHeader& header) {
+    std::vector<std::string> columns;
+    if (header.has_valid) columns.emplace_back("valid");
+    if (header.has_detuning) columns.emplace_back("detuning_lambda");
+    if (header.has_detuning_sq) columns.emplace_back("detuning_sq_lambda2");
+    if (header.has_piezo) columns.emplace_back("piezo_v");
+    if (header.has_temperature) columns.emplace_back("temperature_c");
+    return columns;
+}
+
+// Read to the end or to the first damage; whole rows before it go to `copy`, if there is one.
+RawFindings read_raw(logs::RawReader& reader, logs::RawWriter* copy) {
+    RawFindings found;
+    core::HalfRecord record;
+    try {
+        while (reader.next(record)) {
+            found.take(record);
+            if (copy) copy->write(record);
+        }
+    } catch (const logs::FormatError& error) {
+        found.damage = error.what();
+    }
+    return found;
+}
+
+json raw_json(const InspectOptions& options, const logs::RawHeader& header, const config::Config& config, const RawFindings& f) {
+    return {{"file", options.file}, {"kind", "raw"}, {"halves", f.halves}, {"ticks", f.halves / 2},
+            {"tick_s", config.gyro.tick_s}, {"scale_arcsec", config.gyro.scale_arcsec},
+            {"duration_s", static_cast<double>(f.halves / 2) * config.gyro.tick_s},
+            {"optional_columns", optional_columns(header)}, {"settings", header.settings.size()}, {"gaps", f.gaps},
+            {"mode_changes", f.mode_changes}, {"open_halves", f.open_halves}, {"invalid_halves", f.invalid_halves},
+            {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
+}
+
+struct AngleFindings {
+    std::int64_t ticks = 0;
+    double end_s = 0.0;
+    std::array<std::int64_t, core::angle_flag_names.size()> flagged{};
+    std::string damage;
+};
+
+json angle_json(const InspectOptions& options, const AngleFindings& f) {
+    json flags = json::object();
+    for (std::size_t bit = 0; bit < f.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = f.flagged[bit];
+    return {{"file", options.file}, {"kind", "angles"}, {"ticks", f.ticks}, {"duration_s", f.end_s}, {"flagged_ticks", flags},
+            {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
+}
+
+AngleFindings read_angles(logs::AngleReader& reader) {
+    AngleFindings found;
+    logs::TimedAngle angle;
+    try {
+        while (reader.next(angle)) {
+            ++found.ticks;
+            found.end_s = angle.t_s;
+            for (std::size_t bit = 0; bit < found.flagged.size(); ++bit)
+                if (angle.row.flags & (1u << bit)) ++found.flagged[bit];
+        }
+    } catch (const logs::FormatError& error) {
+        found.damage = error.what();
+    }
+    return found;
+}
+
+// Nested values one per line, in the order of the names.
+std::string as_text(const json& findings) {
+    std::string text;
+    for (const auto& [key, value] : findings.items()) {
+        if (value.is_null()) continue;
+        if (value.is_object()) {
+            for (const auto& [name, n] : value.items())
+                if (n != 0) text += fmt::format("{:<18} {}: {}\n", key, name, n.dump());
+        } else {
+            text += fmt::format("{:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+        }
+    }
+    return text;
+}
+
+json inspect_raw(const InspectOptions& options) {
+    logs::RawReader reader{options.file};
+    for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
+    const config::Config config = load_log_config(options, reader.header().settings, options.file);
+    if (!options.repair) return raw_json(options, reader.header(), config, read_raw(reader, nullptr));
+    check_table_path(options.out);
+    logs::RawWriter copy{options.out, reader.header().settings, options.force};
+    const RawFindings found = read_raw(reader, &copy);
+    copy.close();
+    json findings = raw_json(options, reader.header(), config, found);
+    findings["repaired"] = options.out;
+    return findings;
+}
+
+void inspect(const InspectOptions& options) {
+    json findings;
+    switch (logs::recognise(options.file)) {
+        case logs::LogKind::raw_csv: findings = inspect_raw(options); break;
+        case logs::LogKind::angle_csv: {
+            if (options.repair) throw UsageError{"--repair takes a raw log; an angle log is made anew by zlg process"};
+            logs::AngleReader reader{options.file};
+            findings = angle_json(options, read_angles(reader));
+            break;
+        }
+        default:
+            throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log: no line names the columns of one",
+                                                options.file)};
+    }
+    print(options.json ? findings.dump(2) + "\n" : as_text(findings));
+    if (!findings["damage"].is_null() && !options.repair) throw CLI::RuntimeError{result_says_no};
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& program) {
+    const auto options = std::make_shared<InspectOptions>();
+    CLI::App* verb = program.add_subcommand("inspect", "what is in a log: columns, time span, flags, damage");
+    verb->add_option("FILE", options->file, "raw or angle log")->required();
+    verb->add_flag("--repair", options->repair, "write the whole rows before the first damage to --out");
+    add_output_options(*verb, *options);
+    verb->callback([options] { inspect(*options); });
+}
+
+}  // namespace zlg::cli

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/raw_log.hpp>
+#include <zlg/rig/wiring.hpp>
+
+#include "failure.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+struct ProcessOptions : Options {
+    std::string raw;
+};
+
+// mean_square where the log has what it needs, none where not; an explicit method is obeyed or refused.
+core::RelockMethod choose_relock(const config::Config& config, const logs::RawHeader& header, const std::string& path) {
+    using core::RelockMethod;
+    if (!config.compensation.relock) return header.has_detuning_sq ? RelockMethod::mean_square : RelockMethod::none;
+    const RelockMethod asked = *config.compensation.relock;
+    const auto refuse = [&](const char* method, const char* column) {
+        throw config::ConfigError{fmt::format("compensation.relock = \"{}\" needs the column {}, which {} lacks; "
+                                              "allowed without it: \"none\", \"frequency\"", method, column, path)};
+    };
+    if (asked == RelockMethod::detuning && !header.has_detuning) refuse("detuning", "detuning_lambda");
+    if (asked == RelockMethod::mean_square && !header.has_detuning_sq) refuse("mean_square", "detuning_sq_lambda2");
+    return asked;
+}
+
+struct Summary {
+    std::int64_t halves = 0;
+    std::int64_t ticks = 0;
+    std::int64_t gaps = 0;
+    double angle_arcsec = 0.0;
+    std::array<std::int64_t, core::angle_flag_names.size()> flagged{};
+
+    void take(const core::AngleRow& row) {
+        ++ticks;
+        for (std::size_t bit = 0; bit < flagged.size(); ++bit)
+            if (row.flags & (1u << bit)) ++flagged[bit];
+    }
+};
+
+Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& config, logs::AngleWriter& angles) {
+    Summary summary;
+    core::GyroCompensationState state;
+    core::HalfRecord record;
+    while (raw.next(record)) {
+        ++summary.halves;
+        const core::CompensationOutput out = step(config, state, record);
+        if (!out.has_sample) continue;
+        summary.angle_arcsec = out.angle_arcsec;
+        if (out.sample.has_gap) ++summary.gaps;
+        if (!out.sample.has_final) continue;
+        summary.take(out.sample.final_row);
+        angles.write(out.sample.final_row);
+    }
+    for (auto out = drain(config, state); out.has_row || out.has_gap; out = drain(config, state)) {
+        if (out.has_gap) ++summary.gaps;
+        if (!out.has_row) continue;
+        summary.take(out.row);
+        angles.write(out.row);
+    }
+    return summary;
+}
+
+std::string text(const Summary& s, const ProcessOptions& options) {
+    std::string flags;
+    for (std::size_t bit = 0; bit < s.flagged.size(); ++bit)
+        if (s.flagged[bit] > 0) flags += fmt::format("  {:<18} {}\n", core::angle_flag_names[bit], s.flagged[bit]);
+    return fmt::format("{}: {} ticks, {} gaps bridged, accumulated angle {} arcsec\n{}", options.out, s.ticks, s.gaps,
+                       s.angle_arcsec, flags.empty() ? "" : "ticks by flag:\n" + flags);
+}
+
+nlohmann::json json(const Summary& s, const ProcessOptions& options, const config::Config& config) {
+    nlohmann::json flags = nlohmann::json::object();
+    for (std::size_t bit = 0; bit < s.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = s.flagged[bit];
+    nlohmann::json settings = nlohmann::json::object();
+    for (const auto& [key, value] : config::to_settings(config)) settings[key] = value;
+    return {{"raw", options.raw}, {"angles", options.out}, {"ticks", s.ticks}, {"gaps", s.gaps},
+            {"angle_arcsec", s.angle_arcsec}, {"flagged_ticks", flags}, {"config", settings}};
+}
+
+void process(const ProcessOptions& options) {
+    check_table_path(options.out);
+    logs::RawReader raw{options.raw};
+    config::Config config = load_log_config(options, raw.header().settings, options.raw);
+    const core::RelockMethod relock = choose_relock(config, raw.header(), options.raw);
+    const auto compensation = rig::compensation_config(config, relock, config.compensation.bridge);
+    for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
+
+    config.compensation.relock = relock;
+    logs::AngleWriter angles{options.out, config.gyro.tick_s, config::to_settings(config), options.force};
+    const Summary summary = compensate(raw, compensation, angles);
+    if (summary.halves % 2 != 0)
+        complain(fmt::format("warning: {}: the last half-period ({}) is the first of a tick whose other half is missing; dropped",
+                             options.raw, summary.halves - 1));
+    angles.close();
+    print(options.json ? json(summary, options, config).dump(2) + "\n" : text(summary, options));
+}
+
+}  // namespace
+
+void add_process(CLI::App& program) {
+    const auto options = std::make_shared<ProcessOptions>();
+    CLI::App* verb = program.add_subcommand("process", "a recorded raw log through the compensation");
+    verb->add_option("RAW", options->raw, "raw log")->required();
+    add_config_options(*verb, *options);
+    add_output_options(*verb, *options);
+    verb->callback([options] { process(*options); });
+}
+
+}  // namespace zlg::cli

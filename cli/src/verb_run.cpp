@@ -1,0 +1,101 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/raw_log.hpp>
+#include <zlg/study/run.hpp>
+#include <zlg/study/run_page.hpp>
+
+#include "failure.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "run_files.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json variant_json(const study::VariantResult& v) {
+    json j{{"name", v.name}, {"drift_arcsec_s", v.drift_arcsec_s}, {"angle_error_arcsec", v.angle_error_arcsec}};
+    const auto add = [&](const char* key, double study::SwitchStatistics::*member) {
+        j[key] = v.switch_error ? json((*v.switch_error).*member) : json(nullptr);
+    };
+    add("switch_error_mean_arcsec", &study::SwitchStatistics::mean_arcsec);
+    add("switch_error_rms_arcsec", &study::SwitchStatistics::rms_arcsec);
+    add("switch_error_max_arcsec", &study::SwitchStatistics::max_arcsec);
+    return j;
+}
+
+json summary_json(const config::Config& config, const study::RunResult& result) {
+    json variants = json::array();
+    for (const study::VariantResult& v : result.variants) variants.push_back(variant_json(v));
+    json settings = json::object();
+    for (const auto& [key, value] : config::to_settings(config)) settings[key] = value;
+    return {{"duration_s", static_cast<double>(result.ticks) * result.tick_s},
+            {"ticks", result.ticks},
+            {"switches", result.switches.size()},
+            {"relock_false_drift_deg_h", result.relock_false_drift_deg_h},
+            {"variants", variants},
+            {"config", settings}};
+}
+
+std::string cell(const std::optional<study::SwitchStatistics>& s, double study::SwitchStatistics::*member) {
+    return s ? fmt::format("{:.3f}", (*s).*member) : "-";
+}
+
+std::string table(const study::RunResult& result) {
+    std::string text = fmt::format("{:<20}{:>12}{:>14}   error per switch, arcsec\n{:<20}{:>12}{:>14}{:>10}{:>10}{:>10}\n",
+                                   "", "drift", "angle error", "variant", "arcsec/s", "arcsec", "mean", "rms", "max");
+    for (const study::VariantResult& v : result.variants)
+        text += fmt::format("{:<20}{:>12.5f}{:>14.2f}{:>10}{:>10}{:>10}\n", v.name, v.drift_arcsec_s, v.angle_error_arcsec,
+                            cell(v.switch_error, &study::SwitchStatistics::mean_arcsec),
+                            cell(v.switch_error, &study::SwitchStatistics::rms_arcsec),
+                            cell(v.switch_error, &study::SwitchStatistics::max_arcsec));
+    return text;
+}
+
+std::string text(const study::RunResult& result, const std::string& folder) {
+    return fmt::format("{} s, {} switches, all compensations of one run's records (one_mode: a run without switching)\n\n{}\n"
+                       "drift: slope of the angle error (final minus true); 1 arcsec/s is 1 deg/h\nwritten to {}: {}\n",
+                       static_cast<double>(result.ticks) * result.tick_s, result.switches.size(), table(result), folder,
+                       RunFiles::list());
+}
+
+void run(const Options& options) {
+    if (options.format != "csv") throw UsageError{fmt::format("--format {}: allowed is csv", options.format)};
+    const config::Config config = load_config(options);
+    RunFiles files{options.out, options.force, config};
+    Progress progress;
+    study::RunTask task{.config = config, .threads = options.threads,
+                        .on_record = [&](const core::HalfRecord& record) { files.raw().write(record); },
+                        .on_row = [&](const core::AngleRow& row) { files.angles().write(row); },
+                        .on_progress = [&](double fraction) { progress.show(fraction); }};
+    const study::RunResult result = study::run(task);
+    const std::string summary = summary_json(config, result).dump(2) + "\n";
+    files.finish(result.switches, summary, report::html(study::run_page(config, result)));
+    print(options.json ? summary : text(result, files.folder()));
+}
+
+}  // namespace
+
+void add_run(CLI::App& program) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* verb = program.add_subcommand("run", "twin and core in closed loop: logs, summary and report into a folder");
+    verb->add_option("CONFIG", options->config_path, "configuration, TOML; the paper's gyro without it");
+    verb->add_option("--set", options->sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
+    verb->add_option("--format", options->format, "of the logs: csv");
+    add_run_options(*verb, *options);
+    add_output_options(*verb, *options);
+    verb->callback([options] { run(*options); });
+}
+
+}  // namespace zlg::cli

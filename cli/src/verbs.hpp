@@ -1,0 +1,13 @@
+#pragma once
+// One function per verb: it adds itself to the command line, and runs when it is called.
+
+#include <CLI/CLI.hpp>
+
+namespace zlg::cli {
+
+void add_run(CLI::App& program);
+void add_simulate(CLI::App& program);
+void add_process(CLI::App& program);
+void add_inspect(CLI::App& program);
+
+}  // namespace zlg::cli

@@ -1,0 +1,28 @@
+# One way to declare a library of the product: its sources, its own include root, what it may see.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+option(ZLG_COVERAGE "instrument for line coverage" OFF)
+
+# -Wno-missing-field-initializers: a designated initialiser names what differs from the members' own defaults.
+# -ffp-contract=off: a fused multiply-add rounds once where two operations round twice, and only some machines have it.
+function(zlg_flags target)
+    target_compile_options(${target} PRIVATE
+        -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Wno-missing-field-initializers
+        -Werror -ffp-contract=off)
+    if(ZLG_COVERAGE)
+        target_compile_options(${target} PRIVATE --coverage -O0)
+        target_link_options(${target} PUBLIC --coverage)
+    endif()
+endfunction()
+
+# zlg_library(name SOURCES ... USES ...): library zlg_<name> of the folder <name>/, seeing only the include roots it USES.
+function(zlg_library name)
+    cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+    add_library(zlg_${name} STATIC ${arg_SOURCES})
+    target_include_directories(zlg_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    target_link_libraries(zlg_${name} PUBLIC ${arg_USES})
+    zlg_flags(zlg_${name})
+endfunction()

@@ -1,0 +1,117 @@
+#pragma once
+// Everything configurable, as plain values: one struct per TOML section, one member per key, same names.
+//
+// Meaning, unit, default and range of each key stand in `schema.cpp`, in one table that reads, checks, writes and
+// documents them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <zlg/core/methods.hpp>
+
+namespace zlg::config {
+
+enum class Loop { analog, exponential, digital };
+enum class FirstSegment { full, half };
+enum class MotionKind { rest, constant, sine, sum, file };
+enum class ColumnHolds { increment, rate };
+
+struct Run {
+    std::optional<double> duration_s;  // unset: 3600, or the length of the motion file
+    std::int64_t seed = 1;
+};
+
+struct Gyro {
+    double tick_s = 0.005;
+    double scale_arcsec = 3.263;
+    double bias_hz = 60e3;  // mean over a half, edges included, at zero detuning and reference temperature
+    double bias_chi = 3.6;
+    double bias_edge_s = 50e-6;
+    std::int64_t first_bias_sign = 1;
+    double reference_temperature_c = 20.0;
+    double temperature_rise_c = 20.0;
+    double bias_temperature_coefficient_per_c = 0.0;
+    std::int64_t light_samples = 16;
+    double light_noise_lambda = 0.0033;
+    double discriminator_per_lambda = 0.332;  // (I1 - I2)/(I1 + I2) per wavelength of detuning
+};
+
+struct Drift {
+    double magnetic_arcsec_s = 0.7;
+    double magnetic_thermal_arcsec_s = 0.7;
+    double thermal_time_s = 3000.0;
+    double nonmagnetic_arcsec_s = 0.05;
+    double random_walk_arcsec_sqrt_s = 0.14;
+};
+
+struct Perimeter {
+    Loop loop = Loop::analog;
+    double tau_s = 0.0065;
+    double limit_lambda = 0.09;
+    double miss_lambda = 0.22;
+    double expansion_lambda_per_c = 0.025;
+};
+
+struct Piezo {
+    double half_wave_v = 40.0;
+    double half_wave_error = 0.0;  // relative error of the U_lambda/2 that control presumes before it has measured it
+    double rc_s = 0.001;
+    double slew_v_s = 4000.0;
+    double range_min_v = 0.0;
+    double range_max_v = 300.0;
+    std::int64_t dac_bits = 12;
+    std::int64_t adc_bits = 12;
+    double adc_noise_v = 0.02;
+};
+
+struct Switching {
+    double interval_s = 90.0;
+    bool interval_optimal = false;  // interval_s = "optimal"
+    FirstSegment first_segment = FirstSegment::full;
+    std::int64_t gap_ticks = 3;
+};
+
+struct Compensation {
+    std::optional<core::RelockMethod> relock;  // unset: mean_square where the log has detuning, none where not
+    std::int64_t relock_ticks = 20;
+    core::BridgeMethod bridge = core::BridgeMethod::quadratic;
+    std::int64_t extrapolation_points = 4;
+    std::int64_t points_before = 2;
+    std::int64_t points_after = 2;
+};
+
+struct Motion {
+    MotionKind kind = MotionKind::sine;
+    double rate_arcsec_s = 0.0;                            // a constant rate that is added to sine and sum
+    std::vector<double> amplitude_arcsec_s = {12000.0};    // one number for sine, one or more for sum
+    std::vector<double> frequency_hz = {7.03};
+    std::vector<double> phase_deg = {0.0};
+    std::string path;
+    std::int64_t column = 1;  // first column is 1
+    ColumnHolds column_holds = ColumnHolds::increment;
+    double scale_arcsec = 1.0;  // arcsec (or arcsec/s) per unit of the column
+    double rate_hz = 100.0;     // rows per second
+    std::string comment = "#";  // lines that begin with this are skipped
+    std::int64_t skip_lines = 0;  // numeric header lines to skip after comments and empty lines
+};
+
+struct Design {
+    double switch_error_arcsec = 10.0;
+    std::vector<double> run_lengths_s = {600.0, 900.0, 3600.0, 36000.0};
+};
+
+struct Config {
+    Run run;
+    Gyro gyro;
+    Drift drift;
+    Perimeter perimeter;
+    Piezo piezo;
+    Switching switching;
+    Compensation compensation;
+    Motion motion;
+    Design design;
+};
+
+}  // namespace zlg::config

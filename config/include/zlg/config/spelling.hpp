@@ -1,0 +1,12 @@
+#pragma once
+// How far a misspelt word is from the one that was meant.
+
+#include <cstddef>
+#include <string_view>
+
+namespace zlg::config {
+
+// The least number of letters to insert, delete or replace that makes one word of the other (Levenshtein).
+[[nodiscard]] std::size_t letters_apart(std::string_view a, std::string_view b);
+
+}  // namespace zlg::config

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+
+#include "key.hpp"
+#include "toml_text.hpp"
+
+namespace zlg::config {
+
+namespace {
+
+// A polynomial of order m goes through m + 1 points; none and constant need one point.
+int bridge_order(core::BridgeMethod bridge) {
+    switch (bridge) {
+        case core::BridgeMethod::linear:
+            return 1;
+        case core::BridgeMethod::quadratic:
+            return 2;
+        case core::BridgeMethod::none:
+        case core::BridgeMethod::constant:
+            break;
+    }
+    return 0;
+}
+
+void check_bridge(const Config& config) {
+    const Compensation& c = config.compensation;
+    const int order = bridge_order(c.bridge);
+    const auto complain = [&](std::string_view where, std::int64_t points) {
+        throw ConfigError(fmt::format("compensation.bridge = {}: a bridge of order {} needs {} points, but {} is {}",
+                                      value_text(*find_key("compensation", "bridge"), config), order, order + 1, where,
+                                      points));
+    };
+    if (order > c.extrapolation_points - 1) complain("compensation.extrapolation_points", c.extrapolation_points);
+    const std::int64_t both_sides = c.points_before + c.points_after;
+    if (order > both_sides - 1) complain("compensation.points_before + points_after", both_sides);
+}
+
+void check_motion(const Motion& m) {
+    if (m.kind == MotionKind::file && m.path.empty()) {
+        throw ConfigError("motion.path = \"\": kind \"file\" needs the path of a motion file");
+    }
+    if (m.kind != MotionKind::sine && m.kind != MotionKind::sum) return;
+    const std::size_t n = m.amplitude_arcsec_s.size();
+    if (m.frequency_hz.size() != n || m.phase_deg.size() != n) {
+        throw ConfigError(
+            fmt::format("motion: {} amplitude_arcsec_s, {} frequency_hz and {} phase_deg; allowed is an "
+                        "equal number of each",
+                        n, m.frequency_hz.size(), m.phase_deg.size()));
+    }
+    if (m.kind == MotionKind::sine && n != 1) {
+        throw ConfigError(fmt::format("motion.amplitude_arcsec_s: {} numbers; kind \"sine\" has one, use \"sum\"", n));
+    }
+}
+
+void check_times(const Gyro& gyro, const Switching& switching) {
+    if (!(gyro.bias_edge_s < gyro.tick_s / 2.0)) {
+        throw ConfigError(fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}",
+                                      toml_real(gyro.bias_edge_s), toml_real(gyro.tick_s)));
+    }
+    const auto least_ticks = static_cast<double>(switching.gap_ticks + 2);
+    if (!switching.interval_optimal && !(switching.interval_s >= least_ticks * gyro.tick_s)) {
+        throw ConfigError(
+            fmt::format("switching.interval_s = {}: allowed is from gap_ticks + 2 = {} ticks of {} s = {} s",
+                        toml_real(switching.interval_s), least_ticks, toml_real(gyro.tick_s),
+                        toml_real(least_ticks * gyro.tick_s)));
+    }
+}
+
+}  // namespace
+
+void check_compensation(const Config& config) {
+    for (const Key& key : all_keys()) {
+        if (key.section == "compensation" || key.section == "gyro") check_range(key, config);
+    }
+    check_bridge(config);
+}
+
+void check(const Config& config) {
+    for (const Key& key : all_keys()) check_range(key, config);
+    check_bridge(config);
+    check_times(config.gyro, config.switching);
+    check_motion(config.motion);
+    if (!(config.piezo.range_min_v < config.piezo.range_max_v)) {
+        throw ConfigError(fmt::format("piezo.range_min_v = {}: allowed is below piezo.range_max_v = {}",
+                                      toml_real(config.piezo.range_min_v), toml_real(config.piezo.range_max_v)));
+    }
+}
+
+}  // namespace zlg::config

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <zlg/config/schema.hpp>
+
+#include "key.hpp"
+#include "toml_text.hpp"
+
+namespace zlg::config {
+
+namespace {
+
+template <class... F>
+struct Overload : F... {
+    using F::operator()...;
+};
+template <class... F>
+Overload(F...) -> Overload<F...>;
+
+std::string list_text(const std::vector<double>& values) {
+    if (values.size() == 1) return toml_real(values.front());
+    std::string text = "[";
+    for (const double value : values) text += (text.size() > 1 ? ", " : "") + toml_real(value);
+    return text + "]";
+}
+
+std::string interval_text(const Switching& switching) {
+    return switching.interval_optimal ? toml_string("optimal") : toml_real(switching.interval_s);
+}
+
+std::string choice_text(const Choice& slot, const Config& config) {
+    const int index = slot.get(config);
+    return index < 0 ? std::string{} : toml_string(slot.names[static_cast<std::size_t>(index)]);
+}
+
+bool all_within(const Range& range, const std::vector<double>& values) {
+    for (const double value : values) {
+        if (!contains(range, value)) return false;
+    }
+    return !values.empty();
+}
+
+bool is_within(const Slot& slot, Config& config) {
+    return std::visit(
+        Overload{[&](const Real& s) { return contains(s.range, s.value(config)); },
+                 [&](const OptionalReal& s) { return !s.value(config) || contains(s.range, *s.value(config)); },
+                 [&](const Integer& s) { return s.value(config) >= s.min && s.value(config) <= s.max; },
+                 [&](const Sign& s) { return s.value(config) == 1 || s.value(config) == -1; },
+                 [&](const Text&) { return true; },
+                 [&](const RealList& s) { return all_within(s.range, s.value(config)); },
+                 [&](const Interval& s) {
+                     return config.switching.interval_optimal || contains(s.range, config.switching.interval_s);
+                 },
+                 [&](const Choice& s) { return s.get(config) < static_cast<int>(s.names.size()); }},
+        slot);
+}
+
+}  // namespace
+
+std::string dotted(const Key& key) { return fmt::format("{}.{}", key.section, key.name); }
+
+std::string value_text(const Key& key, const Config& config) {
+    // The table names members of a mutable Config; it is only read here.
+    Config copy = config;
+    return std::visit(
+        Overload{[&](const Real& s) { return toml_real(s.value(copy)); },
+                 [&](const OptionalReal& s) { return s.value(copy) ? toml_real(*s.value(copy)) : std::string{}; },
+                 [&](const Integer& s) { return fmt::format("{}", s.value(copy)); },
+                 [&](const Sign& s) { return fmt::format("{}", s.value(copy)); },
+                 [&](const Text& s) { return toml_string(s.value(copy)); },
+                 [&](const RealList& s) { return list_text(s.value(copy)); },
+                 [&](const Interval&) { return interval_text(copy.switching); },
+                 [&](const Choice& s) { return choice_text(s, copy); }},
+        key.slot);
+}
+
+std::string allowed_text(const Key& key) {
+    return std::visit(
+        Overload{
+            [](const Real& s) { return in_words(s.range); }, [](const OptionalReal& s) { return in_words(s.range); },
+            [](const Integer& s) {
+                return s.max == std::numeric_limits<std::int64_t>::max() ? fmt::format("from {}", s.min)
+                                                                         : fmt::format("{}..{}", s.min, s.max);
+            },
+            [](const Sign&) { return std::string{"-1 or 1"}; }, [](const Text&) { return std::string{"any text"}; },
+            [](const RealList& s) { return fmt::format("one number or an array, each {}", in_words(s.range)); },
+            [](const Interval& s) { return fmt::format("{}, or \"optimal\"", in_words(s.range)); },
+            [](const Choice& s) { return fmt::format("\"{}\"", fmt::join(s.names.begin(), s.names.end(), "\", \"")); }},
+        key.slot);
+}
+
+void check_range(const Key& key, const Config& config) {
+    Config copy = config;
+    if (is_within(key.slot, copy)) return;
+    throw ConfigError(fmt::format("{} = {}: allowed is {}", dotted(key), value_text(key, config), allowed_text(key)));
+}
+
+}  // namespace zlg::config

@@ -1,0 +1,56 @@
+#pragma once
+// The bias commutation as the processor sees it: which sign the field had, which comes next, whether time keeps step.
+
+#include <cstdint>
+
+namespace zlg::core {
+
+struct BiasCommutatorConfig {
+    std::uint64_t half_ticks = 25000;   // nominal half-period in ticks of the timer, 1..2^32
+    std::uint64_t tolerance_ticks = 2;  // of the time between two stamps; less than half_ticks
+};
+
+enum class BiasCommutatorFault : unsigned char { none, half_ticks, tolerance };
+
+[[nodiscard]] constexpr BiasCommutatorFault check(const BiasCommutatorConfig& c) noexcept {
+    if (!(c.half_ticks >= 1 && c.half_ticks <= (std::uint64_t{1} << 32))) return BiasCommutatorFault::half_ticks;
+    if (!(c.tolerance_ticks < c.half_ticks)) return BiasCommutatorFault::tolerance;
+    return BiasCommutatorFault::none;
+}
+
+struct BiasCommutatorState {
+    std::int8_t sign = 0;               // of the last half; 0 before the first
+    bool learnt = false;                // the sign rests on an echo
+    std::int32_t n_contradictions = 0;  // echoes in a row that were of the other sign
+    bool timer_known = false;
+    std::uint64_t stamp_ticks = 0;  // last stamp received
+    std::uint64_t n_halves = 0;     // since that stamp
+
+    friend constexpr bool operator==(const BiasCommutatorState&, const BiasCommutatorState&) = default;
+};
+
+struct BiasCommutatorInput {
+    bool received = false;  // false: the half passed, but nothing is known of it
+    std::int8_t bias_sign = 0;
+    std::uint64_t timer_ticks = 0;
+};
+
+struct BiasCommutatorOutput {
+    std::int8_t sign = 1;        // of the half just latched: the echo, or the prediction where the echo cannot be right
+    std::int8_t next_sign = -1;  // of the half to come
+    std::int32_t edge_offset_ticks = 0;  // of the reversal that ends the half to come: no dither of the edges, always 0
+    bool sign_error = false;             // the echo was not +1 or -1, or did not alternate
+    bool timer_error = false;            // the stamp did not advance by the nominal time, within the tolerance
+};
+
+// Advance by one half-period.
+//
+// Which sign comes first is learnt from the first echo. A single wrong echo is overruled by the alternation; four in a
+// row that contradict it, alternating themselves, are believed. Stamps are compared modulo 2^64; after an error, and
+// across halves that were not received, counting goes on from the last stamp received.
+//
+// config  passed `check`.
+[[nodiscard]] BiasCommutatorOutput step(const BiasCommutatorConfig& config, BiasCommutatorState& state,
+                                        const BiasCommutatorInput& input) noexcept;
+
+}  // namespace zlg::core

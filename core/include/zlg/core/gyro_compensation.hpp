@@ -1,0 +1,51 @@
+#pragma once
+// Compensation: makes angle of what control recorded, half by half.
+//
+// It obeys the recorded mode, bias sign and loop state and never commands, so a recorded log gives the same bits as the
+// live run. Two halves make a tick; a tick with an open loop or an invalid half belongs to a gap.
+
+#include <cstdint>
+
+#include <zlg/core/angle.hpp>
+#include <zlg/core/gap_bridge.hpp>
+#include <zlg/core/records.hpp>
+#include <zlg/core/relock_drift.hpp>
+#include <zlg/core/units.hpp>
+
+namespace zlg::core {
+
+struct GyroCompensationConfig {
+    RelockDriftConfig relock{};
+    GapBridgeConfig bridge{};  // its count is the scale
+    ArcsecPerRootSecond random_walk{0.14};  // for sigma, >= 0
+};
+
+enum class GyroCompensationFault : unsigned char { none, relock, bridge, random_walk };
+
+[[nodiscard]] GyroCompensationFault check(const GyroCompensationConfig& config) noexcept;
+
+struct GyroCompensationState {
+    bool has_first = false;
+    HalfRecord first{};     // the half that waits for the other one of its tick
+    bool first_waits = false;  // the last tick was tick 1 of `frequency`
+    RelockDriftState relock{};
+    GapBridgeState bridge{};
+    Angle angle{};          // sum of all dtheta delivered
+
+    friend bool operator==(const GyroCompensationState&, const GyroCompensationState&) = default;
+};
+
+struct CompensationOutput {
+    bool has_sample = false;  // at the end of every tick
+    AngleSample sample{};
+    double angle_arcsec = 0.0;  // accumulated
+};
+
+// Take one half-period. Counts beyond 2^52 are not believed: the half is taken as invalid.
+[[nodiscard]] CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
+                                      const HalfRecord& half) noexcept;
+
+// The log has ended: one more final row at each call until `has_row` is false. An odd last half is dropped.
+[[nodiscard]] DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept;
+
+}  // namespace zlg::core

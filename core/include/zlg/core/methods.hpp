@@ -1,0 +1,22 @@
+#pragma once
+// The methods of compensation that a configuration can name.
+
+namespace zlg::core {
+
+// Correction of the false drift after the perimeter loop is closed again.
+enum class RelockMethod : unsigned char {
+    none,
+    frequency,    // from the measured bias frequency, eq (11)
+    detuning,     // from the mean detuning of each half and an exponential loop, eqs (12)-(13)
+    mean_square,  // from the mean square of the detuning of each half, without a loop model
+};
+
+// What replaces the ticks of a gap.
+enum class BridgeMethod : unsigned char {
+    none,  // the ticks pass as read
+    constant,
+    linear,
+    quadratic,
+};
+
+}  // namespace zlg::core

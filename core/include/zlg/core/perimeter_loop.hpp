@@ -1,0 +1,94 @@
+#pragma once
+// The perimeter loop: hold the cavity on the centre of the mode that lases.
+//
+// digital  the processor integrates: a slow stage makes a target of the detuning of each half, a fast stage brings it
+//          to the high-voltage stage.
+// analog   electronics integrate; the processor gives the second input, which rules while the loop is open, and
+// watches.
+
+#include <zlg/core/piezo_range.hpp>
+#include <zlg/core/units.hpp>
+
+namespace zlg::core {
+
+enum class LoopKind : unsigned char { analog, digital };
+
+struct PerimeterLoopConfig {
+    LoopKind kind = LoopKind::analog;
+    PiezoRange range;
+    Volts half_wave{40.0};          // presumed; the loop's gain rests on it, not on the running estimate
+    Seconds half_period{0.0025};    // time between calls of `step`
+    Seconds time_constant{0.0065};  // of a small detuning's decay; at least `half_period`
+    Wavelengths error_limit{0.09};  // what the integrator is given at most
+    double slew_v_s = 4000.0;       // the most the set-point moves per second while the loop is closed
+    Wavelengths watch_limit{0.1};   // larger detuning in a closed loop is reported
+};
+
+enum class PerimeterLoopFault : unsigned char {
+    none,
+    range,
+    half_wave,
+    half_period,
+    time_constant,
+    error_limit,
+    slew,
+    watch_limit
+};
+
+[[nodiscard]] constexpr PerimeterLoopFault check(const PerimeterLoopConfig& c) noexcept {
+    if (check(c.range) != PiezoRangeFault::none) return PerimeterLoopFault::range;
+    if (!(c.half_wave >= Volts{1e-3} && c.half_wave <= Volts{1e6})) return PerimeterLoopFault::half_wave;
+    if (!(c.half_period > Seconds{0.0} && c.half_period <= Seconds{1e3})) return PerimeterLoopFault::half_period;
+    if (!(c.time_constant >= c.half_period && c.time_constant <= Seconds{1e6})) {
+        return PerimeterLoopFault::time_constant;
+    }
+    if (!(c.error_limit > Wavelengths{0.0} && c.error_limit <= Wavelengths{1e3})) {
+        return PerimeterLoopFault::error_limit;
+    }
+    if (!(c.slew_v_s > 0.0 && c.slew_v_s <= 1e12)) return PerimeterLoopFault::slew;
+    if (!(c.watch_limit > Wavelengths{0.0})) return PerimeterLoopFault::watch_limit;
+    return PerimeterLoopFault::none;
+}
+
+struct PerimeterLoopState {
+    double set_point_v = 0.0;
+
+    friend constexpr bool operator==(const PerimeterLoopState&, const PerimeterLoopState&) = default;
+};
+
+struct PerimeterLoopInput {
+    bool was_closed = true;   // the loop, in the half just latched
+    bool close = true;        // the loop, in the half to come
+    Volts second_input{0.0};  // set-point that rules while the loop is open
+    bool usable = false;      // `detuning` was measured
+    Wavelengths detuning;     // mean over the half just latched
+    Volts piezo;              // reading; NaN when there is none
+};
+
+struct PerimeterLoopOutput {
+    Volts set_point;
+    bool saturated = false;       // the set-point is held at an end of the range
+    bool over_limit = false;      // closed, and detuned by more than the watch limit
+    bool near_range_end = false;  // the piezo (the set-point, where there is no reading) is within the margin of an end
+};
+
+[[nodiscard]] constexpr PerimeterLoopState initial_state(const PerimeterLoopConfig& c, Volts set_point) noexcept {
+    return {.set_point_v = clamp(c.range, set_point).value()};
+}
+
+// Advance by one half-period.
+//
+//   closed, digital:  u <- u - clip((half_period/time_constant) clip(dl, error_limit) / kp, slew half_period)
+//   closed, analog:   u held                  kp = 0.5/half_wave, wavelengths per volt
+//   open:             u <- second_input       always: u within the range
+//
+// Clamping u itself is the anti-windup: it leaves the end with the first detuning of the other sign. Opening presets u,
+// so closing starts from the second input. A half whose detuning was not measured, or not in a closed loop, holds u.
+//
+// config   passed `check`.
+// state    from `initial_state`; finite and within the range.
+// latency  acts in the half after the one that was measured.
+[[nodiscard]] PerimeterLoopOutput step(const PerimeterLoopConfig& config, PerimeterLoopState& state,
+                                       const PerimeterLoopInput& input) noexcept;
+
+}  // namespace zlg::core

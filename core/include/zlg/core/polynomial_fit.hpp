@@ -1,0 +1,45 @@
+#pragma once
+// Least-squares polynomial through a few ticks, as exact weights.
+//
+//   P(j) = sum_k w_k(j) P_k,   w_k(j) = v(j)^T G^-1 v(x_k),   v(x) = (1, x, x^2)^T,   G = sum_k v(x_k) v(x_k)^T
+//
+// The positions are small integers, so G, its adjugate and every numerator are integers and a weight is rounded once.
+// With it eqs (14) and (15) of the paper are sums of at most 16 products.
+
+#include <array>
+#include <cstdint>
+
+namespace zlg::core {
+
+inline constexpr int max_fit_points = 16;
+inline constexpr int max_fit_order = 2;
+using FitWeights = std::array<double, max_fit_points>;
+
+class PolynomialFit {
+public:
+    PolynomialFit() = default;
+
+    // position  n distinct ticks of magnitude <= 64, 1 <= n <= 16.
+    // order     0, 1 or 2; lowered to n - 1 where there are too few points.
+    PolynomialFit(const std::array<std::int32_t, max_fit_points>& position, int n, int order) noexcept;
+
+    [[nodiscard]] int n() const noexcept { return n_; }
+    [[nodiscard]] int order() const noexcept { return order_; }
+    [[nodiscard]] std::int32_t position(int k) const noexcept { return position_[static_cast<unsigned>(k)]; }
+
+    // The n weights with which the points give the value at tick j, |j| <= 64; the rest are 0.
+    [[nodiscard]] FitWeights weights(std::int32_t j) const noexcept;
+
+    friend bool operator==(const PolynomialFit&, const PolynomialFit&) = default;
+
+private:
+    using Row = std::array<std::int64_t, max_fit_order + 1>;
+
+    int n_ = 0;
+    int order_ = 0;
+    std::int64_t determinant_ = 1;
+    std::array<std::int32_t, max_fit_points> position_{};
+    std::array<Row, max_fit_points> numerator_{};  // adj(G) v(x_k)
+};
+
+}  // namespace zlg::core

@@ -1,0 +1,60 @@
+#include <zlg/core/bias_commutator.hpp>
+
+namespace zlg::core {
+namespace {
+
+// Two wrong echoes in a row can be one disturbance that spans a latch; four cannot.
+constexpr std::int32_t contradictions_believed = 4;
+
+// The sign of this half; says whether the echo was at fault.
+bool track_sign(BiasCommutatorState& s, const BiasCommutatorInput& in) noexcept {
+    const std::int8_t predicted = s.sign == 0 ? std::int8_t{1} : static_cast<std::int8_t>(-s.sign);
+    s.sign = predicted;
+    if (!in.received) return false;
+
+    const bool is_sign = in.bias_sign == 1 || in.bias_sign == -1;
+    if (is_sign && !s.learnt) {
+        s.learnt = true;
+        s.sign = in.bias_sign;
+        return false;
+    }
+    if (is_sign && in.bias_sign == predicted) {
+        s.n_contradictions = 0;
+        return false;
+    }
+    s.n_contradictions = is_sign ? s.n_contradictions + 1 : 0;
+    if (s.n_contradictions >= contradictions_believed) {
+        s.n_contradictions = 0;
+        s.sign = in.bias_sign;
+    }
+    return true;
+}
+
+// Says whether the stamp is out of step.
+bool track_time(const BiasCommutatorConfig& c, BiasCommutatorState& s, const BiasCommutatorInput& in) noexcept {
+    ++s.n_halves;
+    if (!in.received) return false;
+
+    // Unsigned differences wrap, so the smaller of the two is the size of the deviation.
+    const std::uint64_t late = in.timer_ticks - (s.stamp_ticks + s.n_halves * c.half_ticks);
+    const std::uint64_t early = std::uint64_t{0} - late;
+    const bool error = s.timer_known && (late < early ? late : early) > c.tolerance_ticks;
+    s.timer_known = true;
+    s.stamp_ticks = in.timer_ticks;
+    s.n_halves = 0;
+    return error;
+}
+
+}  // namespace
+
+BiasCommutatorOutput step(const BiasCommutatorConfig& config, BiasCommutatorState& state,
+                          const BiasCommutatorInput& input) noexcept {
+    BiasCommutatorOutput out;
+    out.sign_error = track_sign(state, input);
+    out.timer_error = track_time(config, state, input);
+    out.sign = state.sign;
+    out.next_sign = static_cast<std::int8_t>(-state.sign);
+    return out;
+}
+
+}  // namespace zlg::core

@@ -1,0 +1,18 @@
+#pragma once
+// Small arithmetic that the sources of the control share.
+
+#include <cstdint>
+
+namespace zlg::core {
+
+[[nodiscard]] constexpr double limited(double x, double limit) noexcept {
+    if (x > limit) return limit;
+    return x < -limit ? -limit : x;
+}
+
+// A counter that stops at its end instead of wrapping.
+constexpr void count_up(std::int32_t& n) noexcept {
+    if (n < INT32_MAX) ++n;
+}
+
+}  // namespace zlg::core

@@ -1,0 +1,122 @@
+#include <zlg/core/gyro_compensation.hpp>
+
+#include <zlg/core/maths.hpp>
+
+namespace zlg::core {
+namespace {
+
+// Beyond this a sum of two halves could not be told from its neighbours as a double.
+constexpr std::int64_t max_counts = std::int64_t{1} << 52;
+
+HalfRecord believed(HalfRecord half) noexcept {
+    if (half.counts > max_counts || half.counts < -max_counts) {
+        half.counts = 0;
+        half.valid = false;
+    }
+    half.bias_sign = half.bias_sign < 0 ? std::int8_t{-1} : std::int8_t{1};
+    half.mode = half.mode < 0 ? std::int8_t{-1} : std::int8_t{1};
+    return half;
+}
+
+TickInput assemble(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second) noexcept {
+    const double count = config.relock.scale.value();
+    const double walk = config.random_walk.value();
+    TickInput tick;
+    tick.measured = first.loop_closed && second.loop_closed && first.valid && second.valid;
+    tick.value_arcsec = count * static_cast<double>(first.counts + second.counts);
+    // The difference of two counter readings, each rounded uniformly: count^2/6.
+    tick.variance_arcsec2 = count * count / 6.0 + walk * walk * config.relock.tick.value();
+    tick.mode = second.mode;
+    tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
+    if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
+    if (!(first.valid && second.valid)) tick.flags |= flag_invalid;
+    if (tick.measured && first.mode != second.mode) {
+        tick.flags |= flag_mode_mixed;
+        tick.variance_arcsec2 = infinity;
+    }
+    return tick;
+}
+
+RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second) noexcept {
+    return {.sign = sign,
+            .counts_first = first.counts,
+            .counts_second = second.counts,
+            .detuning_first_lambda = first.detuning_lambda,
+            .detuning_second_lambda = second.detuning_lambda,
+            .detuning_sq_first_lambda2 = first.detuning_sq_lambda2,
+            .detuning_sq_second_lambda2 = second.detuning_sq_lambda2,
+            // Sampled at the end of the first half: the middle of the tick.
+            .temperature_c = first.temperature_c};
+}
+
+void apply(const RelockDriftOutput& relock, TickInput& tick) noexcept {
+    if (relock.tick.known) {
+        tick.value_arcsec -= relock.tick.value_arcsec;
+        tick.relock_arcsec = relock.tick.value_arcsec;
+        tick.variance_arcsec2 += relock.tick.variance_arcsec2;
+        tick.flags |= flag_relock_corrected;
+    } else if (relock.due && !relock.waiting) {
+        tick.flags |= flag_relock_uncorrected;
+    }
+    if (!relock.first_due) return;
+    tick.amend_previous = true;
+    tick.amend_arcsec = -relock.first.value_arcsec;
+    tick.amend_variance_arcsec2 = relock.first.variance_arcsec2;
+    tick.amend_flags = relock.first.known ? flag_relock_corrected : flag_relock_uncorrected;
+}
+
+// Tick 1 of `frequency` whose tick 2 does not exist stays as it is.
+void give_up_first(TickInput& tick) noexcept {
+    tick.amend_previous = true;
+    tick.amend_flags = flag_relock_uncorrected;
+}
+
+}  // namespace
+
+GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
+    if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
+    if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
+    const double walk = config.random_walk.value();
+    if (!(walk >= 0.0 && is_finite(walk))) return GyroCompensationFault::random_walk;
+    return GyroCompensationFault::none;
+}
+
+CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
+                        const HalfRecord& half) noexcept {
+    if (!state.has_first) {
+        state.first = believed(half);
+        state.has_first = true;
+        return {};
+    }
+    const HalfRecord& first = state.first;
+    const HalfRecord second = believed(half);
+    state.has_first = false;
+
+    TickInput tick = assemble(config, first, second);
+    if (tick.measured) {
+        const auto relock = step(config.relock, state.relock, relock_tick(tick.sign, first, second));
+        apply(relock, tick);
+        state.first_waits = relock.waiting;
+    } else {
+        enter_gap(state.relock);
+        if (state.first_waits) give_up_first(tick);
+        state.first_waits = false;
+    }
+    CompensationOutput out{.has_sample = true, .sample = step(config.bridge, state.bridge, tick)};
+    const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
+    state.angle.add(counted, config.relock.scale.value(), out.sample.dtheta_arcsec);
+    out.angle_arcsec = state.angle.value_arcsec(config.relock.scale.value());
+    return out;
+}
+
+DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept {
+    if (state.first_waits) {
+        // No tick 2 will come: say so in the row of tick 1, which is still in the history.
+        const auto last = static_cast<std::uint64_t>(state.bridge.next_tick - 1);
+        state.bridge.history[last % history_ticks].row.flags |= flag_relock_uncorrected;
+        state.first_waits = false;
+    }
+    return drain(config.bridge, state.bridge);
+}
+
+}  // namespace zlg::core

@@ -1,0 +1,144 @@
+#include <zlg/core/relock_drift.hpp>
+
+#include <zlg/core/maths.hpp>
+
+namespace zlg::core {
+namespace {
+
+double square(double x) noexcept { return x * x; }
+
+double bias_at_hz(const RelockDriftConfig& c, double temperature_c) noexcept {
+    if (!is_finite(temperature_c)) return c.bias.value();
+    const double above_c = temperature_c - c.reference_temperature.value();
+    return c.bias.value() * (1.0 + c.temperature_coefficient_per_c * above_c);
+}
+
+// The false angle of one tick from its false rate, with the sign of the first half.
+FalseAngle false_angle(const RelockDriftConfig& c, int sign, double rate_hz, double variance_hz2) noexcept {
+    const double arcsec_per_hz = sign * c.scale.value() * c.tick.value();
+    const FalseAngle angle{true, arcsec_per_hz * rate_hz, square(arcsec_per_hz) * variance_hz2};
+    return is_finite(angle.value_arcsec) && is_finite(angle.variance_arcsec2) ? angle : FalseAngle{};
+}
+
+FalseAngle by_mean_square(const RelockDriftConfig& c, const RelockTick& t) noexcept {
+    const double first = t.detuning_sq_first_lambda2;
+    const double second = t.detuning_sq_second_lambda2;
+    if (!(first >= 0.0 && second >= 0.0 && first + second > 0.0)) return {};
+    const double half_chi_f0 = 0.5 * c.chi * bias_at_hz(c, t.temperature_c);
+    // Mean of n squares (dl + e)^2: variance (4 dl^2 s^2 + 2 s^4)/n; the measured mean holds dl^2 + s^2.
+    const double s2 = square(c.light_noise.value());
+    const double above = first + second - 2.0 * s2;
+    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 4.0 * s2 * s2) / c.light_samples;
+    return false_angle(c, t.sign, half_chi_f0 * (second - first), square(half_chi_f0) * variance);
+}
+
+FalseAngle by_detuning(const RelockDriftConfig& c, const RelockTick& t) noexcept {
+    const double first = t.detuning_first_lambda;
+    const double second = t.detuning_second_lambda;
+    const double rho = second / first;
+    if (!(rho > 0.0 && rho < 1.0)) return {};
+    const double quarter_chi_f0 = 0.25 * c.chi * bias_at_hz(c, t.temperature_c);
+    const double sum = first + second;
+    const double log_rho = natural_log(rho);
+    const double by_first = sum * (2.0 * log_rho - sum / first);
+    const double by_second = sum * (2.0 * log_rho + sum / second);
+    const double s2 = square(c.light_noise.value()) / c.light_samples;
+    return false_angle(c, t.sign, quarter_chi_f0 * log_rho * sum * sum,
+                       square(quarter_chi_f0) * (square(by_first) + square(by_second)) * s2);
+}
+
+double deficit_hz(const RelockDriftConfig& c, const RelockTick& t) noexcept {
+    const double difference = static_cast<double>(t.counts_first) - static_cast<double>(t.counts_second);
+    return t.sign * difference / c.tick.value() - bias_at_hz(c, t.temperature_c);
+}
+
+// deficit (1 - q)/(1 + q) with ln q = log_ratio / root, and its variance by counter rounding.
+FalseAngle by_decay(const RelockDriftConfig& c, int sign, double deficit, double log_ratio, double root,
+                    double d_own, double d_other) noexcept {
+    const double q = exponential(log_ratio / root);
+    // The rounding of c_first - c_second is 2 e1 - e0 - e2, each e uniform over a count: variance 1/2 count^2.
+    const double variance = (square(d_own) + square(d_other)) * 0.5 / square(c.tick.value());
+    return false_angle(c, sign, deficit * (1.0 - q) / (1.0 + q), variance);
+}
+
+struct Decay {
+    bool usable = false;
+    double log_ratio = 0.0;
+};
+
+Decay decay(double deficit, double first_deficit) noexcept {
+    const double ratio = deficit / first_deficit;
+    if (!(ratio > 0.0 && ratio < 1.0)) return {};
+    return {true, natural_log(ratio)};
+}
+
+// Tick i >= 2 from its own deficit and that of tick 1.
+FalseAngle by_frequency(const RelockDriftConfig& c, const RelockDriftState& s, const RelockTick& t) noexcept {
+    const double deficit = deficit_hz(c, t);
+    const Decay d = decay(deficit, s.first_deficit_hz);
+    if (!d.usable) return {};
+    const double root = 2.0 * static_cast<double>(s.since_gap - 1);
+    const double q = exponential(d.log_ratio / root);
+    const double slope = 2.0 * q / square(1.0 + q) / root;  // of (1 - q)/(1 + q) by -log_ratio
+    return by_decay(c, t.sign, deficit, d.log_ratio, root, (1.0 - q) / (1.0 + q) - slope,
+                    slope * deficit / s.first_deficit_hz);
+}
+
+// Tick 1 with the q of tick 2.
+FalseAngle first_by_frequency(const RelockDriftConfig& c, const RelockDriftState& s, const RelockTick& t) noexcept {
+    const double deficit = deficit_hz(c, t);
+    const Decay d = decay(deficit, s.first_deficit_hz);
+    if (!d.usable) return {};
+    const double q = exponential(0.5 * d.log_ratio);
+    const double slope = q / square(1.0 + q);
+    return by_decay(c, t.sign, s.first_deficit_hz, d.log_ratio, 2.0, (1.0 - q) / (1.0 + q) + slope,
+                    slope * s.first_deficit_hz / deficit);
+}
+
+RelockDriftOutput frequency_step(const RelockDriftConfig& c, RelockDriftState& s, const RelockTick& t) noexcept {
+    RelockDriftOutput out{.due = s.since_gap <= c.ticks};
+    if (s.since_gap == 1) {
+        s.first_deficit_hz = deficit_hz(c, t);
+        out.waiting = true;
+        return out;
+    }
+    if (out.due) out.tick = by_frequency(c, s, t);
+    if (s.since_gap == 2) {
+        out.first_due = true;
+        out.first = first_by_frequency(c, s, t);
+    }
+    return out;
+}
+
+}  // namespace
+
+RelockDriftFault check(const RelockDriftConfig& c) noexcept {
+    if (!(c.ticks >= 0)) return RelockDriftFault::ticks;
+    if (!(c.tick.value() > 0.0 && is_finite(c.tick.value()))) return RelockDriftFault::tick;
+    if (!(c.scale.value() > 0.0 && is_finite(c.scale.value()))) return RelockDriftFault::scale;
+    if (!(c.bias.value() > 0.0 && is_finite(c.bias.value()))) return RelockDriftFault::bias;
+    if (!(c.chi >= 0.0 && is_finite(c.chi))) return RelockDriftFault::chi;
+    if (!is_finite(c.temperature_coefficient_per_c) || !is_finite(c.reference_temperature.value()))
+        return RelockDriftFault::temperature;
+    if (!(c.light_noise.value() >= 0.0 && is_finite(c.light_noise.value()))) return RelockDriftFault::light_noise;
+    if (!(c.light_samples >= 1)) return RelockDriftFault::light_samples;
+    return RelockDriftFault::none;
+}
+
+void enter_gap(RelockDriftState& state) noexcept { state = RelockDriftState{.armed = true}; }
+
+RelockDriftOutput step(const RelockDriftConfig& config, RelockDriftState& state, const RelockTick& tick) noexcept {
+    // Tick 1 of `frequency` needs tick 2 even where only one tick is to be corrected.
+    const std::int64_t last = config.method == RelockMethod::frequency && config.ticks == 1 ? 2 : config.ticks;
+    if (config.method == RelockMethod::none || !state.armed || state.since_gap >= last) return {};
+    ++state.since_gap;
+    switch (config.method) {
+        case RelockMethod::frequency: return frequency_step(config, state, tick);
+        case RelockMethod::detuning: return {.due = true, .tick = by_detuning(config, tick)};
+        case RelockMethod::mean_square: return {.due = true, .tick = by_mean_square(config, tick)};
+        case RelockMethod::none: break;
+    }
+    return {};
+}
+
+}  // namespace zlg::core

@@ -1,0 +1,59 @@
+#pragma once
+// The raw log: one row per half-period, as CSV.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <zlg/core/records.hpp>
+#include <zlg/logs/table_file.hpp>
+
+namespace zlg::logs {
+
+// What stands above the rows.
+struct RawHeader {
+    std::vector<std::pair<std::string, std::string>> settings;  // lines `# key = value`, in their order
+    bool has_valid = false;
+    bool has_detuning = false;     // detuning_lambda
+    bool has_detuning_sq = false;  // detuning_sq_lambda2
+    bool has_piezo = false;
+    bool has_temperature = false;
+    std::vector<std::string> warnings;  // unknown columns that are ignored, one line each
+};
+
+// Reads rows in order and checks every one: half without holes from 0, bias_sign +1/-1 and alternating, mode +1/-1,
+// integer counts of magnitude at most 2^52, loop_closed and valid 0/1, finite numbers. Absent optional columns: NaN,
+// valid 1.
+class RawReader {
+public:
+    // errors  IoError, FormatError (an empty file, no header, a missing or misspelt column).
+    explicit RawReader(const std::string& path);
+    ~RawReader();
+    RawReader(RawReader&&) noexcept;
+
+    [[nodiscard]] const RawHeader& header() const;
+
+    // The next row; false at the end. errors FormatError: path, line, column, value, what is allowed.
+    bool next(core::HalfRecord& record);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+// Writes a raw log with every column. It appears under its name at `close`, whole, or not at all.
+class RawWriter {
+public:
+    // errors  IoError, FormatError (a setting with a line break).
+    RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings, bool force);
+
+    // errors  IoError; FormatError: a number that is not finite, which no reader would accept.
+    void write(const core::HalfRecord& record);
+    void close();
+
+private:
+    TableFile file_;
+};
+
+}  // namespace zlg::logs

@@ -1,0 +1,70 @@
+#include "column_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <zlg/logs/error.hpp>
+
+namespace zlg::logs {
+
+namespace {
+
+// A typing mistake in an optional column would otherwise drop it with no more than a warning.
+constexpr std::size_t misspelt_letters = 2;
+
+void refuse_misspelt(std::span<const Column> columns, const std::string& name, const std::string& place) {
+    const auto apart = [&](const Column& column) { return letters_apart(name, column.name); };
+    const Column& nearest = *std::ranges::min_element(columns, {}, apart);
+    if (apart(nearest) <= misspelt_letters) {
+        throw FormatError(fmt::format("{}: unknown column '{}'; did you mean '{}'?", place, name, nearest.name));
+    }
+}
+
+void refuse_missing(std::span<const Column> columns, const ColumnMap& map, const std::string& place) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (!columns[i].required || map.field_of[i]) continue;
+        throw FormatError(fmt::format("{}: the column '{}' is missing", place, columns[i].name));
+    }
+}
+
+}  // namespace
+
+std::size_t letters_apart(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+ColumnMap map_columns(std::span<const Column> columns, const std::vector<std::string>& names,
+                      const std::string& place) {
+    ColumnMap map;
+    map.field_of.resize(columns.size());
+    for (std::size_t field = 0; field < names.size(); ++field) {
+        const std::string& name = names[field];
+        if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(field), name) !=
+            names.begin() + static_cast<std::ptrdiff_t>(field)) {
+            throw FormatError(fmt::format("{}: the column '{}' stands there twice", place, name));
+        }
+        const auto known = std::ranges::find(columns, std::string_view{name}, &Column::name);
+        if (known != columns.end()) {
+            map.field_of[static_cast<std::size_t>(known - columns.begin())] = field;
+        } else {
+            refuse_misspelt(columns, name, place);
+            map.warnings.push_back(fmt::format("{}: the unknown column '{}' is ignored", place, name));
+        }
+    }
+    refuse_missing(columns, map, place);
+    return map;
+}
+
+}  // namespace zlg::logs

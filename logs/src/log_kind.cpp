@@ -1,0 +1,65 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <initializer_list>
+#include <string_view>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/log_kind.hpp>
+
+#include "csv_head.hpp"
+#include "file_descriptor.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
+
+void refuse_what_cannot_be_read_twice(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) {
+        throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
+    }
+    if (S_ISDIR(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is a folder", path));
+    if (!S_ISREG(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is no regular file", path));
+}
+
+bool has_hdf5_signature(const std::string& path) {
+    const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
+    std::array<char, hdf5_signature.size()> start{};
+    const ssize_t n = ::read(file.get(), start.data(), start.size());
+    if (n < 0) throw IoError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+    return std::string_view{start.data(), static_cast<std::size_t>(n)} == hdf5_signature;
+}
+
+std::ptrdiff_t hits(const CsvHead& head, std::initializer_list<std::string_view> known) {
+    return std::ranges::count_if(head.names, [&](const std::string& name) {
+        return std::ranges::find(known, std::string_view{name}) != known.end();
+    });
+}
+
+}  // namespace
+
+LogKind recognise(const std::string& path) {
+    refuse_what_cannot_be_read_twice(path);
+    if (has_hdf5_signature(path)) return LogKind::hdf5;
+    try {
+        LineReader lines{path};
+        const CsvHead head = read_head(lines);
+        const auto raw = hits(head, {"half", "bias_sign", "counts", "loop_closed"});
+        const auto angle = hits(head, {"tick", "t_s", "dtheta_arcsec", "dtheta_final_arcsec", "sigma_arcsec", "flags"});
+        if (raw >= 2 && raw > angle) return LogKind::raw_csv;
+        if (angle >= 2 && angle > raw) return LogKind::angle_csv;
+    } catch (const FormatError&) {
+        // Not the text of a log: that is the answer, not a failure.
+    }
+    return LogKind::unknown;
+}
+
+}  // namespace zlg::logs

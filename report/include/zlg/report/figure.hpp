@@ -1,0 +1,48 @@
+#pragma once
+// Figures as static SVG, from plain tables.
+
+#include <string>
+#include <vector>
+
+namespace zlg::report {
+
+enum class Mark { line, points, steps, bars };
+
+struct Series {
+    std::string name;
+    std::vector<double> x;
+    std::vector<double> y;
+    std::vector<double> y_error;  // empty, or one half-length of the error bar per point
+    Mark mark = Mark::line;
+    bool dashed = false;
+};
+
+// A shaded stretch of the x axis, such as the ticks of a gap.
+struct Band {
+    double x0 = 0.0;
+    double x1 = 0.0;
+    std::string name;
+};
+
+struct Figure {
+    std::string id;       // letters, digits and dashes
+    std::string title;
+    std::string caption;  // what the reader sees and what it means; plain text
+    std::string x_label;  // quantity, unit
+    std::string y_label;
+    std::vector<Series> series;
+    std::vector<Band> bands;
+    bool log_x = false;
+    bool log_y = false;
+};
+
+// The figure as an SVG element that scales with the page. Not-finite points break lines and are not drawn.
+[[nodiscard]] std::string svg(const Figure& figure);
+
+// Counts of `values` in `n_bins` equal bins over their range, as a bar series at the bins' centres.
+[[nodiscard]] Series histogram(std::string name, const std::vector<double>& values, int n_bins);
+
+// Thin a long series to at most `n_points`, keeping the extremes of each stretch.
+[[nodiscard]] Series thin(const Series& series, int n_points);
+
+}  // namespace zlg::report

@@ -1,0 +1,32 @@
+#pragma once
+// From one configuration to the parameters of each part, so that twin and core agree by construction.
+
+#include <cstdint>
+
+#include <zlg/config/config.hpp>
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/core/gyro_control.hpp>
+#include <zlg/twin/motion.hpp>
+#include <zlg/twin/twin.hpp>
+
+namespace zlg::rig {
+
+// errors  logs::IoError, logs::FormatError for a motion file.
+[[nodiscard]] twin::Motion motion(const config::Config& config);
+
+// Whole ticks of the run: duration_s where it is set, else 3600 s or the length of the motion file.
+//
+// errors  config::ConfigError where the run is longer than the motion file or shorter than a tick.
+[[nodiscard]] std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion);
+
+[[nodiscard]] twin::TwinConfig twin_config(const config::Config& config);
+
+// errors  config::ConfigError: the part of the core that refuses, and what its check says.
+[[nodiscard]] core::GyroControlConfig control_config(const config::Config& config);
+[[nodiscard]] core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
+                                                               core::BridgeMethod bridge);
+
+// A configuration whose gyro stays in its first mode.
+[[nodiscard]] config::Config without_switching(config::Config config);
+
+}  // namespace zlg::rig

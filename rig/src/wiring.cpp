@@ -1,0 +1,214 @@
+#include <zlg/rig/wiring.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+
+namespace zlg::rig {
+namespace {
+
+using config::ConfigError;
+
+constexpr double default_duration_s = 3600.0;
+
+twin::LoopKind twin_loop(config::Loop loop) {
+    switch (loop) {
+        case config::Loop::analog: return twin::LoopKind::analog;
+        case config::Loop::exponential: return twin::LoopKind::exponential;
+        case config::Loop::digital: return twin::LoopKind::external;
+    }
+    return twin::LoopKind::analog;
+}
+
+twin::Motion sines(const config::Motion& m) {
+    std::vector<twin::Sine> sines;
+    for (std::size_t k = 0; k < m.amplitude_arcsec_s.size(); ++k)
+        sines.push_back({m.amplitude_arcsec_s[k], m.frequency_hz[k], m.phase_deg[k]});
+    return twin::Motion::sines(m.rate_arcsec_s, std::move(sines));
+}
+
+twin::Motion from_file(const config::Motion& m) {
+    try {
+        return twin::Motion::from_file({.path = m.path,
+                                        .column = static_cast<int>(m.column),
+                                        .holds_rate = m.column_holds == config::ColumnHolds::rate,
+                                        .scale_arcsec = m.scale_arcsec,
+                                        .rate_hz = m.rate_hz,
+                                        .comment = m.comment,
+                                        .skip_lines = static_cast<int>(m.skip_lines)});
+    } catch (const std::runtime_error& error) {
+        throw logs::FormatError{error.what()};
+    }
+}
+
+// Whole ticks of a time, 1 at least.
+std::int64_t ticks_of(double time_s, double tick_s) {
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(time_s / tick_s)));
+}
+
+// A tenth of the range, at most the field's own: room for thermal drift until the next switch.
+core::PiezoRange range_of(const config::Config& config) {
+    const core::Volts min{config.piezo.range_min_v};
+    const core::Volts max{config.piezo.range_max_v};
+    return {.min = min, .max = max, .margin = core::Volts{std::min(10.0, 0.1 * (max - min).value())}};
+}
+
+core::BiasCommutatorConfig commutator_of(double tick_s) {
+    constexpr double timer_hz = 1e7;  // of the twin's latch
+    core::BiasCommutatorConfig made{.half_ticks = static_cast<std::uint64_t>(std::llround(0.5 * tick_s * timer_hz))};
+    made.tolerance_ticks = std::min(made.tolerance_ticks, made.half_ticks - 1);
+    return made;
+}
+
+// Counts of a half at the highest rate that such gyros are built for, 400 deg/s, with as much again for the bias.
+std::int64_t counts_limit(const config::Config& config) {
+    constexpr double highest_arcsec_s = 400.0 * 3600.0;
+    const double rate_hz = 2.0 * config.gyro.bias_hz + highest_arcsec_s / config.gyro.scale_arcsec;
+    return static_cast<std::int64_t>(0.5 * config.gyro.tick_s * rate_hz) + 1;
+}
+
+core::SwitchScheduleConfig schedule_of(const config::Config& config) {
+    return {.interval_ticks = ticks_of(config.switching.interval_s, config.gyro.tick_s),
+            .first_segment = config.switching.first_segment == config::FirstSegment::half ? core::FirstSegment::half
+                                                                                          : core::FirstSegment::full};
+}
+
+}  // namespace
+
+twin::Motion motion(const config::Config& config) {
+    const config::Motion& m = config.motion;
+    switch (m.kind) {
+        case config::MotionKind::rest: return twin::Motion::rest();
+        case config::MotionKind::constant: return twin::Motion::sines(m.rate_arcsec_s, {});
+        case config::MotionKind::sine:
+        case config::MotionKind::sum: return sines(m);
+        case config::MotionKind::file: return from_file(m);
+    }
+    return twin::Motion::rest();
+}
+
+std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion) {
+    const double tick_s = config.gyro.tick_s;
+    const double available_s = motion.duration_s();
+    const double asked_s = config.run.duration_s.value_or(std::isfinite(available_s) ? available_s : default_duration_s);
+    // A part of a tick in 1e9 is rounding, not a run that is too long.
+    if (asked_s > available_s + 1e-9 * tick_s + 1e-12 * available_s)
+        throw ConfigError{fmt::format("run.duration_s = {}: {} holds {} s of motion", asked_s, config.motion.path, available_s)};
+    const double ticks = std::floor(asked_s / tick_s * (1.0 + 1e-12) + 1e-9);
+    if (!(ticks >= 1.0)) throw ConfigError{fmt::format("run.duration_s = {}: allowed is at least one tick, {} s", asked_s, tick_s)};
+    return static_cast<std::int64_t>(ticks);
+}
+
+twin::TwinConfig twin_config(const config::Config& config) {
+    const config::Gyro& g = config.gyro;
+    const config::Drift& d = config.drift;
+    const config::Perimeter& p = config.perimeter;
+    const config::Piezo& z = config.piezo;
+    return {.seed = static_cast<std::uint64_t>(config.run.seed),
+            .tick_s = g.tick_s,
+            .scale_arcsec = g.scale_arcsec,
+            .bias_hz = g.bias_hz,
+            .bias_chi = g.bias_chi,
+            .bias_edge_s = g.bias_edge_s,
+            .first_bias_sign = static_cast<int>(g.first_bias_sign),
+            .bias_temperature_coefficient_per_c = g.bias_temperature_coefficient_per_c,
+            .reference_temperature_c = g.reference_temperature_c,
+            .temperature_rise_c = g.temperature_rise_c,
+            .light_samples = static_cast<int>(g.light_samples),
+            .light_noise_lambda = g.light_noise_lambda,
+            .discriminator_per_lambda = g.discriminator_per_lambda,
+            .magnetic_arcsec_s = d.magnetic_arcsec_s,
+            .magnetic_thermal_arcsec_s = d.magnetic_thermal_arcsec_s,
+            .thermal_time_s = d.thermal_time_s,
+            .nonmagnetic_arcsec_s = d.nonmagnetic_arcsec_s,
+            .random_walk_arcsec_sqrt_s = d.random_walk_arcsec_sqrt_s,
+            .loop = twin_loop(p.loop),
+            .loop_tau_s = p.tau_s,
+            .loop_limit_lambda = p.limit_lambda,
+            .miss_lambda = p.miss_lambda,
+            .expansion_lambda_per_c = p.expansion_lambda_per_c,
+            .half_wave_v = z.half_wave_v,
+            .high_voltage_rc_s = z.rc_s,
+            .slew_v_s = z.slew_v_s,
+            .piezo_min_v = z.range_min_v,
+            .piezo_max_v = z.range_max_v,
+            .dac_bits = static_cast<int>(z.dac_bits),
+            .adc_bits = static_cast<int>(z.adc_bits),
+            .adc_noise_v = z.adc_noise_v};
+}
+
+core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
+                                                 core::BridgeMethod bridge) {
+    const config::Gyro& g = config.gyro;
+    const config::Compensation& c = config.compensation;
+    const core::GyroCompensationConfig made{
+        .relock = {.method = relock,
+                   .ticks = c.relock_ticks,
+                   .tick = core::Seconds{g.tick_s},
+                   .scale = core::Arcsec{g.scale_arcsec},
+                   .bias = core::Hertz{g.bias_hz},
+                   .chi = g.bias_chi,
+                   .temperature_coefficient_per_c = g.bias_temperature_coefficient_per_c,
+                   .reference_temperature = core::Celsius{g.reference_temperature_c},
+                   .light_noise = core::Wavelengths{g.light_noise_lambda},
+                   .light_samples = static_cast<int>(g.light_samples)},
+        .bridge = {.method = bridge,
+                   .extrapolation_points = static_cast<int>(c.extrapolation_points),
+                   .points_before = static_cast<int>(c.points_before),
+                   .points_after = static_cast<int>(c.points_after),
+                   .count = core::Arcsec{g.scale_arcsec}},
+        .random_walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s}};
+    switch (check(made)) {
+        case core::GyroCompensationFault::none: return made;
+        case core::GyroCompensationFault::bridge:
+            throw ConfigError{fmt::format("compensation: a polynomial of order {} needs more points than its order; "
+                                          "extrapolation_points = {}, points_before + points_after = {}",
+                                          order_of(bridge), c.extrapolation_points, c.points_before + c.points_after)};
+        case core::GyroCompensationFault::relock: throw ConfigError{"[gyro] does not describe a gyro that can be compensated"};
+        case core::GyroCompensationFault::random_walk:
+            throw ConfigError{"drift.random_walk_arcsec_sqrt_s: allowed is 0 or more"};
+    }
+    return made;
+}
+
+core::GyroControlConfig control_config(const config::Config& config) {
+    const double tick_s = config.gyro.tick_s;
+    const core::PiezoRange range = range_of(config);
+    const core::Volts presumed{config.piezo.half_wave_v * (1.0 + config.piezo.half_wave_error)};
+    core::GyroControlConfig made;
+    made.detector.discriminator_per_lambda = config.gyro.discriminator_per_lambda;
+    made.loop = {.kind = config.perimeter.loop == config::Loop::digital ? core::LoopKind::digital : core::LoopKind::analog,
+                 .range = range,
+                 .half_wave = presumed,
+                 .half_period = core::Seconds{0.5 * tick_s},
+                 .time_constant = core::Seconds{std::max(config.perimeter.tau_s, 0.5 * tick_s)},
+                 .error_limit = core::Wavelengths{config.perimeter.limit_lambda},
+                 .slew_v_s = config.piezo.slew_v_s};
+    made.half_wave.presumed = presumed;
+    made.schedule = schedule_of(config);
+    made.mode_switch.range = range;
+    made.mode_switch.gap_ticks = static_cast<std::int32_t>(config.switching.gap_ticks);
+    // A slow loop needs longer before it may be said to have failed.
+    made.mode_switch.lock_timeout_ticks = static_cast<std::int32_t>(
+        std::max<std::int64_t>(60, made.mode_switch.settle_ticks + ticks_of(std::min(12.0 * config.perimeter.tau_s, 1e6 * tick_s), tick_s)));
+    made.mode_switch.start_set_point = 0.5 * (range.min + range.max);
+    made.commutator = commutator_of(tick_s);
+    made.health.counts_limit = counts_limit(config);
+    made.presumed_temperature = core::Celsius{config.gyro.reference_temperature_c};
+    if (check(made) != core::GyroControlFault::none)
+        throw ConfigError{fmt::format("the control refuses [perimeter], [piezo] or [switching]: fault {}", static_cast<int>(check(made)))};
+    return made;
+}
+
+config::Config without_switching(config::Config config) {
+    // Farther away than any run is long.
+    config.switching.interval_s = config.gyro.tick_s * 0x1p52;
+    return config;
+}
+
+}  // namespace zlg::rig

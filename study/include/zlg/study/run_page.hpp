@@ -1,0 +1,12 @@
+#pragma once
+// The report of a run, for an engineer who sees such a gyro for the first time.
+
+#include <zlg/config/config.hpp>
+#include <zlg/report/page.hpp>
+#include <zlg/study/run.hpp>
+
+namespace zlg::study {
+
+[[nodiscard]] report::Page run_page(const config::Config& config, const RunResult& result);
+
+}  // namespace zlg::study

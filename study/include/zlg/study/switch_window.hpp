@@ -1,0 +1,43 @@
+#pragma once
+// Where the switches of a run are: found from the records alone, as compensation finds them.
+
+#include <cstdint>
+#include <deque>
+
+#include <zlg/core/records.hpp>
+
+namespace zlg::study {
+
+// The ticks that one switch can have spoilt: its gap and the re-lock after it.
+struct SwitchWindow {
+    std::int64_t first_tick = 0;  // j = 1
+    std::int64_t n_ticks = 0;     // of the gap; 0 while it lasts
+    std::int64_t last_tick = 0;   // of the re-lock; cut short by the next gap
+    int sign_after = 1;           // bias_sign * mode in the first half after the gap
+    int mode_after = 1;
+
+    [[nodiscard]] bool gap_is_over() const { return n_ticks > 0; }
+};
+
+// Follows the records, tick by tick, and keeps the switches: gaps across which the helicity changes.
+class SwitchFinder {
+public:
+    explicit SwitchFinder(std::int64_t relock_ticks) : relock_ticks_{relock_ticks} {}
+
+    void take(std::int64_t tick, const core::HalfRecord& first, const core::HalfRecord& second);
+
+    // Oldest first. The caller drops those it has done with.
+    std::deque<SwitchWindow>& windows() { return windows_; }
+
+private:
+    void begin_gap(std::int64_t tick);
+    void end_gap(std::int64_t tick, const core::HalfRecord& first);
+
+    std::int64_t relock_ticks_;
+    std::deque<SwitchWindow> windows_;
+    bool in_gap_ = false;
+    bool measured_before_ = false;
+    int mode_before_ = 0;
+};
+
+}  // namespace zlg::study

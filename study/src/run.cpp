@@ -1,0 +1,246 @@
+#include <zlg/study/run.hpp>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <map>
+#include <thread>
+
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wiring.hpp>
+
+#include "magnifier.hpp"
+#include "relock_profile.hpp"
+
+namespace zlg::study {
+namespace {
+
+using core::BridgeMethod;
+using core::RelockMethod;
+
+constexpr std::int64_t curve_points = 2000;
+constexpr int profile_ticks = 8;
+
+std::int64_t curve_stride(std::int64_t ticks) { return std::max<std::int64_t>(1, ticks / curve_points); }
+
+// One compensation of the records, with its error meter.
+struct Variant {
+    std::string name;
+    core::GyroCompensationConfig config;
+    ErrorMeter meter;
+    core::GyroCompensationState state{};
+
+    [[nodiscard]] VariantResult result() const {
+        return {name, meter.drift_arcsec_s(), meter.angle_error_arcsec(), statistics(meter.switches()),
+                meter.switches(), meter.curve()};
+    }
+};
+
+std::vector<Variant> variants(const config::Config& config, std::int64_t stride) {
+    struct Choice {
+        const char* name;
+        RelockMethod relock;
+        BridgeMethod bridge;
+    };
+    const RelockMethod relock = config.compensation.relock.value_or(RelockMethod::mean_square);
+    const std::array choices{
+        Choice{"switching", RelockMethod::none, BridgeMethod::none},
+        Choice{"relock_frequency", RelockMethod::frequency, BridgeMethod::quadratic},
+        Choice{"relock_detuning", RelockMethod::detuning, BridgeMethod::quadratic},
+        Choice{"relock_mean_square", RelockMethod::mean_square, BridgeMethod::quadratic},
+        Choice{"bridge_constant", RelockMethod::detuning, BridgeMethod::constant},
+        Choice{"bridge_linear", RelockMethod::detuning, BridgeMethod::linear},
+        Choice{"bridge_quadratic", RelockMethod::detuning, BridgeMethod::quadratic},
+        Choice{"configured", relock, config.compensation.bridge},
+    };
+    // The named variants are the paper's, with its points; only the last takes those of the configuration.
+    config::Config paper = config;
+    const config::Compensation points;
+    paper.compensation.extrapolation_points = points.extrapolation_points;
+    paper.compensation.points_before = points.points_before;
+    paper.compensation.points_after = points.points_after;
+
+    std::vector<Variant> all;
+    for (const Choice& c : choices) {
+        const config::Config& of = &c == &choices.back() ? config : paper;
+        all.push_back({c.name, rig::compensation_config(of, c.relock, c.bridge), ErrorMeter{config.gyro.tick_s, stride}});
+    }
+    return all;
+}
+
+// A tick between its records and its final row.
+struct WaitingTick {
+    double true_arcsec = 0.0;
+    MagnifiedTick shown;
+};
+
+MagnifiedTick shown_tick(std::int64_t tick, double scale_arcsec, const rig::LoopHalf& first, const rig::LoopHalf& second) {
+    const auto counts = static_cast<double>(first.record.counts + second.record.counts);
+    return {.tick = tick,
+            .measured = first.record.loop_closed && second.record.loop_closed && first.record.valid && second.record.valid,
+            .read_arcsec = scale_arcsec * counts,
+            .true_arcsec = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
+            .detuning_lambda = {first.record.detuning_lambda, second.record.detuning_lambda},
+            .true_detuning_lambda = {first.truth.detuning_end_lambda, second.truth.detuning_end_lambda},
+            .piezo_v = {first.record.piezo_v, second.record.piezo_v}};
+}
+
+class Experiment {
+public:
+    Experiment(const RunTask& task, std::int64_t ticks)
+        : task_{task},
+          variants_{variants(task.config, curve_stride(ticks))},
+          finder_{task.config.compensation.relock_ticks} {}
+
+    void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second) {
+        finder_.take(tick, first.record, second.record);
+        forget_windows(tick);
+        profile_.take(first.record, second.record, first.truth.false_relock_arcsec + second.truth.false_relock_arcsec);
+        const MagnifiedTick shown = shown_tick(tick, task_.config.gyro.scale_arcsec, first, second);
+        waiting_[static_cast<std::size_t>(tick) % waiting_.size()] = {shown.true_arcsec, shown};
+        for (const rig::LoopHalf* half : {&first, &second}) {
+            if (task_.on_record) task_.on_record(half->record);
+            if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
+        }
+        for (Variant& v : variants_) {
+            (void)step(v.config, v.state, first.record);
+            const core::AngleSample sample = step(v.config, v.state, second.record).sample;
+            if (sample.has_final) take_row(v, sample.final_row);
+            if (sample.has_gap && is_configured(v)) gaps_[sample.gap.first_tick] = sample.gap;
+        }
+    }
+
+    void end() {
+        for (Variant& v : variants_) {
+            for (core::DrainOutput out = drain(v.config, v.state); out.has_row || out.has_gap; out = drain(v.config, v.state)) {
+                if (out.has_row) take_row(v, out.row);
+                if (out.has_gap && is_configured(v)) gaps_[out.gap.first_tick] = out.gap;
+            }
+        }
+    }
+
+    void report(RunResult& result) const {
+        for (const Variant& v : variants_) result.variants.push_back(v.result());
+        result.switches = switch_lines();
+        result.magnified = magnifier_.ticks();
+        result.relock_false_drift_deg_h = profile_.mean_deg_h(task_.config.gyro.tick_s);
+    }
+
+private:
+    [[nodiscard]] bool is_configured(const Variant& v) const { return &v == &variants_.back(); }
+
+    void take_row(Variant& v, const core::AngleRow& row) {
+        const WaitingTick& waiting = waiting_[static_cast<std::size_t>(row.tick) % waiting_.size()];
+        v.meter.take(row, waiting.true_arcsec, finder_.windows());
+        if (!is_configured(v)) return;
+        MagnifiedTick shown = waiting.shown;
+        shown.dtheta_arcsec = row.dtheta_arcsec;
+        shown.final_arcsec = row.dtheta_final_arcsec;
+        magnifier_.take(shown, finder_.windows());
+        if (task_.on_row) task_.on_row(row);
+    }
+
+    // A window is needed until every variant has given the final row of its last tick.
+    void forget_windows(std::int64_t tick) {
+        auto& windows = finder_.windows();
+        while (!windows.empty() && windows.front().gap_is_over() &&
+               windows.front().last_tick < tick - core::history_ticks)
+            windows.pop_front();
+    }
+
+    [[nodiscard]] std::vector<SwitchLine> switch_lines() const {
+        std::vector<SwitchLine> lines;
+        for (const SwitchError& e : variants_.back().meter.switches()) {
+            SwitchLine line{.tick = e.window.first_tick, .mode = e.window.mode_after, .gap_ticks = e.window.n_ticks,
+                            .relock_arcsec = e.relock_arcsec, .true_error_arcsec = e.error_arcsec};
+            if (const auto gap = gaps_.find(line.tick); gap != gaps_.end()) {
+                line.dp_arcsec = gap->second.dp_arcsec;
+                line.sigma_arcsec = gap->second.sigma_sum_arcsec;
+            }
+            if (const auto event = events_.find(line.tick); event != events_.end()) {
+                line.miss_lambda = event->second.control.event.miss_lambda;
+                line.half_wave_v = event->second.half_wave_v;
+                line.half_wave_sigma_v = event->second.half_wave_sigma_v;
+            }
+            lines.push_back(line);
+        }
+        return lines;
+    }
+
+    const RunTask& task_;
+    std::vector<Variant> variants_;
+    SwitchFinder finder_;
+    RelockProfile profile_{profile_ticks};
+    Magnifier magnifier_;
+    std::array<WaitingTick, core::history_ticks> waiting_{};
+    std::map<std::int64_t, core::GapReport> gaps_;
+    std::map<std::int64_t, rig::LoopHalf> events_;  // the half in which the lock that ends a switch was seen
+};
+
+// The same gyro without switching: its error is what the regime is for.
+VariantResult one_mode(const config::Config& config, const twin::Motion& motion, std::int64_t ticks) {
+    const config::Config still = rig::without_switching(config);
+    rig::ClosedLoop loop{still, motion};
+    Variant variant{"one_mode", rig::compensation_config(still, RelockMethod::none, still.compensation.bridge),
+                    ErrorMeter{still.gyro.tick_s, curve_stride(ticks)}};
+    std::array<double, core::history_ticks> truth{};
+    const std::deque<SwitchWindow> no_windows;
+    const auto take = [&](const core::AngleRow& row) {
+        variant.meter.take(row, truth[static_cast<std::size_t>(row.tick) % truth.size()], no_windows);
+    };
+    for (std::int64_t tick = 0; tick < ticks; ++tick) {
+        const rig::LoopHalf first = loop.advance();
+        const rig::LoopHalf second = loop.advance();
+        truth[static_cast<std::size_t>(tick) % truth.size()] = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec;
+        (void)step(variant.config, variant.state, first.record);
+        const core::AngleSample sample = step(variant.config, variant.state, second.record).sample;
+        if (sample.has_final) take(sample.final_row);
+    }
+    for (auto out = drain(variant.config, variant.state); out.has_row || out.has_gap; out = drain(variant.config, variant.state))
+        if (out.has_row) take(out.row);
+    return variant.result();
+}
+
+void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t ticks, RunResult& result) {
+    rig::ClosedLoop loop{task.config, motion};
+    Experiment experiment{task, ticks};
+    const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
+    for (std::int64_t tick = 0; tick < ticks; ++tick) {
+        const rig::LoopHalf first = loop.advance();
+        const rig::LoopHalf second = loop.advance();
+        experiment.tick(tick, first, second);
+        if (task.on_progress && tick % progress_stride == 0)
+            task.on_progress(static_cast<double>(tick) / static_cast<double>(ticks));
+    }
+    experiment.end();
+    experiment.report(result);
+}
+
+}  // namespace
+
+RunResult run(const RunTask& task) {
+    const twin::Motion motion = rig::motion(task.config);
+    const std::int64_t ticks = rig::run_ticks(task.config, motion);
+    RunResult result{.tick_s = task.config.gyro.tick_s, .ticks = ticks};
+    VariantResult still;
+    if (task.threads > 1) {
+        std::exception_ptr failure;
+        std::jthread beside{[&] {
+            try {
+                still = one_mode(task.config, motion, ticks);
+            } catch (...) {
+                failure = std::current_exception();
+            }
+        }};
+        switching_run(task, motion, ticks, result);
+        beside.join();
+        if (failure) std::rethrow_exception(failure);
+    } else {
+        switching_run(task, motion, ticks, result);
+        still = one_mode(task.config, motion, ticks);
+    }
+    result.variants.insert(result.variants.begin(), std::move(still));
+    return result;
+}
+
+}  // namespace zlg::study

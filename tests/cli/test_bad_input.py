@@ -1,0 +1,263 @@
+"""Every bad input is refused with the right exit code and one line, and leaves nothing behind."""
+
+import os
+import resource
+import signal
+import unittest
+
+from oracle import Settings
+from random_logs import random_log
+from support import CliTest, complaints, csv_text, quiet_log, run
+
+USAGE, INPUT = 2, 3
+
+
+class BadInputTest(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "angles.csv"
+
+    def assert_nothing_left(self, before):
+        after = {path.name for path in self.folder.iterdir()}
+        self.assertEqual(after - before, set(), "files were left behind")
+
+    def refuse_log(self, text, *says, options=(), codes=INPUT):
+        raw = self.write("raw.csv", text)
+        before = {path.name for path in self.folder.iterdir()}
+        result = self.refuse(codes, "process", raw, "--out", self.out, *options, says=says)
+        self.assert_nothing_left(before)
+        return result
+
+    def refuse_call(self, codes, *arguments, says=(), **options):
+        before = {path.name for path in self.folder.iterdir()}
+        self.refuse(codes, *arguments, says=says, cwd=self.folder, **options)
+        self.assert_nothing_left(before)
+
+    def spoil(self, half, **changes):
+        """A good log with other values in one row; a value may be any text."""
+        lines = csv_text(quiet_log(20)).splitlines()
+        names = lines[0].split(",")
+        fields = lines[1 + half].split(",")
+        for name, value in changes.items():
+            fields[names.index(name)] = str(value)
+        lines[1 + half] = ",".join(fields)
+        return "\n".join(lines) + "\n"
+
+
+class BadRows(BadInputTest):
+    def test_value_that_its_column_does_not_allow(self):
+        cases = [("counts", "12.5"), ("counts", "abc"), ("counts", "nan"), ("counts", "1e30"), ("counts", "99999999999999999999"),
+                 ("counts", "12 34"), ("counts", "0x10"), ("bias_sign", "0"), ("bias_sign", "2"), ("bias_sign", "1.5"),
+                 ("mode", "0"), ("mode", "-3"), ("loop_closed", "2"), ("loop_closed", "-1"), ("loop_closed", "yes")]
+        for column, value in cases:
+            with self.subTest(column=column, value=value):
+                result = self.refuse_log(self.spoil(12, **{column: value}), "raw.csv", column, value)
+                self.assertRegex(result.stderr, r"\d", "the message does not say which row")
+
+    def test_message_names_the_row(self):
+        result = self.refuse_log(self.spoil(12, counts="12.5"))
+        self.assertRegex(result.stderr, r"(?i)(row|line|half)\D{0,8}(12|13|14)\b", "half 12, row 13, line 14")
+
+    def test_empty_field(self):
+        self.refuse_log(self.spoil(12, counts=""), "raw.csv", "counts")
+
+    def test_hole_in_half(self):
+        lines = csv_text(quiet_log(20)).splitlines(True)
+        self.refuse_log("".join(lines[:9] + lines[10:]), "raw.csv", "half", "9")
+
+    def test_repeated_half(self):
+        lines = csv_text(quiet_log(20)).splitlines(True)
+        self.refuse_log("".join(lines[:10] + lines[9:]), "raw.csv", "half", "8")
+
+    def test_half_does_not_start_at_zero(self):
+        lines = csv_text(quiet_log(20)).splitlines(True)
+        self.refuse_log("".join(lines[:1] + lines[3:]), "raw.csv", "half")
+
+    def test_bias_that_does_not_alternate(self):
+        self.refuse_log(self.spoil(12, bias_sign=-1), "raw.csv", "bias_sign")
+
+    def test_too_few_and_too_many_fields(self):
+        lines = csv_text(quiet_log(20)).splitlines(True)
+        self.refuse_log("".join(lines[:12]) + "11,-1,1\n" + "".join(lines[13:]), "raw.csv")
+        self.refuse_log("".join(lines[:12]) + lines[12].rstrip("\n") + ",7\n" + "".join(lines[13:]), "raw.csv")
+
+    def test_detuning_that_is_not_a_number(self):
+        rows = random_log(self.random, Settings(), {5}, 20)
+        rows[7]["detuning_lambda"] = "far"
+        self.refuse_log(csv_text(rows).replace("'far'", "far"), "raw.csv", "detuning_lambda", "far")
+
+    def test_truncated_in_the_last_row(self):
+        text = csv_text(quiet_log(20))
+        self.refuse_log(text[: text.rstrip("\n").rfind(",1,")], "raw.csv")
+
+
+class BadHeaders(BadInputTest):
+    def test_missing_column(self):
+        for column in ("half", "bias_sign", "mode", "counts", "loop_closed"):
+            columns = [name for name in quiet_log(1)[0] if name != column]
+            with self.subTest(column=column):
+                self.refuse_log(csv_text(quiet_log(20), columns), "raw.csv", column)
+
+    def test_misspelt_column(self):
+        for wrong, meant in (("counst", "counts"), ("loop_close", "loop_closed"), ("bias_sgn", "bias_sign"), ("Mode", "mode")):
+            with self.subTest(column=wrong):
+                text = csv_text(quiet_log(20)).replace(meant, wrong, 1)
+                self.refuse_log(text, "raw.csv", wrong, meant)
+
+    def test_misspelt_optional_column(self):
+        rows = [dict(row, valld=1) for row in quiet_log(20)]
+        self.refuse_log(csv_text(rows, list(rows[0])), "raw.csv", "valld", "valid")
+
+    def test_column_given_twice(self):
+        columns = list(quiet_log(1)[0]) + ["counts"]
+        self.refuse_log(csv_text(quiet_log(20), columns), "raw.csv", "counts")
+
+
+class BadFiles(BadInputTest):
+    def test_file_without_rows(self):
+        for name, text in (("empty", ""), ("blank", "\n\n"), ("header only", csv_text(quiet_log(1)).splitlines()[0] + "\n"),
+                           ("comment only", "# gyro.tick_s = 0.005\n")):
+            with self.subTest(file=name):
+                self.refuse_log(text, "raw.csv")
+
+    def test_binary_garbage(self):
+        noise = self.random.randbytes(5000)
+        for name, data in (("noise", noise), ("zeros", bytes(4096)), ("false HDF5", b"\x89HDF\r\n\x1a\n" + noise), ("UTF-16", csv_text(quiet_log(9)).encode("utf-16"))):
+            with self.subTest(file=name):
+                self.refuse_log(data, "raw.csv")
+
+    def test_file_that_cannot_be_read(self):
+        self.refuse_call(INPUT, "process", "absent.csv", "--out", self.out, says=["absent.csv"])
+        self.refuse_call(INPUT, "inspect", "absent.csv", says=["absent.csv"])
+        (self.folder / "folder.csv").mkdir()
+        self.refuse_call(INPUT, "process", "folder.csv", "--out", self.out, says=["folder.csv"])
+
+    @unittest.skipIf(os.geteuid() == 0, "root can read everything")
+    def test_file_without_permission(self):
+        self.write("locked.csv", csv_text(quiet_log(20))).chmod(0)
+        self.refuse_call(INPUT, "process", "locked.csv", "--out", self.out, says=["locked.csv"])
+
+
+class BadUsage(BadInputTest):
+    def setUp(self):
+        super().setUp()
+        self.raw = self.write("raw.csv", csv_text(quiet_log(40, gap=range(10, 13))))
+        self.process_call = ["process", self.raw, "--out", self.out]
+
+    def test_verb_and_options(self):
+        self.refuse_call(USAGE, "proces", self.raw, says=["proces"])
+        self.assertEqual(run().returncode, USAGE, "a call without a verb")
+        self.refuse_call(USAGE, *self.process_call, "--fast", says=["--fast"])
+        self.refuse_call(USAGE, "process", "--out", self.out)
+        self.refuse_call(USAGE, "process", self.raw)
+        self.refuse_call(USAGE, *self.process_call, "--set")
+
+    def test_help_is_not_an_error(self):
+        self.assertIn("process", self.succeed("--help").stdout)
+
+    def test_unknown_suffix(self):
+        for name in ("angles.txt", "angles", "angles.csv.gz"):
+            with self.subTest(suffix=name):
+                self.refuse_call(USAGE, "process", self.raw, "--out", self.folder / name)
+
+    def test_unknown_key_names_the_nearest(self):
+        for key, nearest in (("compensation.bridg", "compensation.bridge"), ("gyro.tick", "tick_s"),
+                             ("compensaton.relock", "compensation"), ("gyro.scale_arcsecs", "scale_arcsec")):
+            with self.subTest(key=key):
+                self.refuse_call(USAGE, *self.process_call, "--set", f"{key}=1", says=[key.split(".")[1], nearest])
+        file = self.write("bad.toml", "[compensation]\nbrigde = \"linear\"\n")
+        self.refuse_call(USAGE, *self.process_call, "--config", file, says=["brigde", "bridge"])
+
+    def test_value_out_of_range(self):
+        cases = ["gyro.tick_s=nan", "gyro.tick_s=inf", "gyro.tick_s=0", "gyro.tick_s=-0.005", "gyro.scale_arcsec=nan", "gyro.bias_hz=nan",
+                 "gyro.scale_arcsec=0", "gyro.bias_chi=nan", "compensation.bridge=cubicle", "compensation.relock=1", "compensation.relock_ticks=-1",
+                 "compensation.extrapolation_points=2.5", "compensation.points_after=many", "gyro.tick_s=true", "gyro.tick_s=[1]"]
+        for case in cases:
+            with self.subTest(setting=case):
+                self.refuse_call(USAGE, *self.process_call, "--set", case, says=[case.split("=")[0].split(".")[1]])
+
+    def test_set_without_a_value(self):
+        for case in ("gyro.tick_s", "=5", "tick_s=0.005"):
+            with self.subTest(setting=case):
+                self.refuse_call(USAGE, *self.process_call, "--set", case)
+
+    def test_configuration_file(self):
+        self.refuse_call((USAGE, INPUT), *self.process_call, "--config", "absent.toml", says=["absent.toml"])
+        file = self.write("broken.toml", "[gyro\ntick_s = \n")
+        self.refuse_call(USAGE, *self.process_call, "--config", file, says=["broken.toml"])
+
+    def test_bare_word_is_a_string_and_an_integer_is_a_real(self):
+        self.succeed(*self.process_call, "--set", "compensation.relock=none", "--set", "gyro.bias_chi=4")
+
+    def test_conflict_of_log_and_setting(self):
+        for key, held, wanted in (("tick_s", "0.005", "0.01"), ("scale_arcsec", "3.263", "3.0")):
+            log = csv_text(quiet_log(20), lines=[f"gyro.{key} = {held}"])
+            with self.subTest(key=key):
+                self.refuse_log(log, key, options=["--set", f"gyro.{key}={wanted}"], codes=USAGE)
+                self.succeed(*self.process_call, "--set", f"gyro.{key}={held}", "--force")
+                self.out.unlink()
+
+    def test_relock_that_the_log_does_not_allow(self):
+        for method in ("detuning", "mean_square"):
+            with self.subTest(relock=method):
+                self.refuse_call((USAGE, INPUT), *self.process_call, "--set", f"compensation.relock={method}", says=["detuning"])
+
+    def test_run_durations(self):
+        for value in ("-1", "nan", "0", "long"):
+            with self.subTest(duration=value):
+                self.refuse_call(USAGE, "run", "--duration", value, "--out", self.folder / "run")
+
+
+class BadOutput(BadInputTest):
+    def setUp(self):
+        super().setUp()
+        self.raw = self.write("raw.csv", csv_text(quiet_log(4000)))
+
+    def test_existing_output_needs_force(self):
+        self.out.write_text("precious")
+        self.refuse_call((USAGE, INPUT), "process", self.raw, "--out", self.out, says=["angles.csv", "--force"])
+        self.assertEqual(self.out.read_text(), "precious")
+        self.succeed("process", self.raw, "--out", self.out, "--force")
+        self.assertNotEqual(self.out.read_text(), "precious")
+
+    def test_error_with_force_keeps_the_old_output(self):
+        self.out.write_text("precious")
+        bad = self.write("bad.csv", self.spoil(39, counts="x"))
+        self.refuse_call(INPUT, "process", bad, "--out", self.out, "--force")
+        self.assertEqual(self.out.read_text(), "precious")
+
+    def test_input_is_never_the_output(self):
+        before = self.raw.read_bytes()
+        self.refuse_call((USAGE, INPUT), "process", self.raw, "--out", self.raw)
+        self.assertEqual(self.raw.read_bytes(), before)
+
+    def test_missing_parent_folder(self):
+        self.refuse_call(INPUT, "process", self.raw, "--out", self.folder / "absent" / "a.csv", says=["absent"])
+        self.refuse_call(INPUT, "simulate", "--duration", "1", "--out", self.folder / "absent" / "raw.csv", says=["absent"])
+        self.refuse_call(INPUT, "run", "--duration", "1", "--out", self.folder / "absent" / "run", says=["absent"])
+
+    def test_output_that_is_a_folder(self):
+        self.out.mkdir()
+        self.refuse_call(INPUT, "process", self.raw, "--out", self.out, "--force", says=["angles.csv"])
+
+    def full_disk(self):
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+
+    def test_full_disk(self):
+        self.refuse_call(INPUT, "process", self.raw, "--out", self.out, says=["angles.csv"], preexec_fn=self.full_disk)
+
+    def test_full_disk_keeps_the_old_output(self):
+        self.out.write_text("precious")
+        self.refuse_call(INPUT, "process", self.raw, "--out", self.out, "--force", preexec_fn=self.full_disk)
+        self.assertEqual(self.out.read_text(), "precious")
+
+    def test_full_standard_output(self):
+        with open("/dev/full", "w") as full:
+            result = run("inspect", self.raw, "--json", stdout=full)
+        self.assertEqual(result.returncode, INPUT, "a result that cannot be written is an error")
+        self.assertEqual(len(complaints(result)), 1, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

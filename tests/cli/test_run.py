@@ -1,0 +1,204 @@
+"""`zlg run`, `simulate` and `inspect`: what they write, and that the same seed gives the same bytes."""
+
+import csv
+import json
+import math
+import re
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+from oracle import Settings, compensate, find_gaps
+from support import AngleLog, CliTest, body_of, run
+
+FILES = ["raw.csv", "angles.csv", "switches.csv", "summary.json", "report.html"]
+VARIANTS = ["one_mode", "switching", "relock_frequency", "relock_detuning", "relock_mean_square", "bridge_constant",
+            "bridge_linear", "bridge_quadratic", "configured"]
+NUMBERS = ["drift_arcsec_s", "angle_error_arcsec", "switch_error_mean_arcsec", "switch_error_rms_arcsec", "switch_error_max_arcsec"]
+DURATION_S, INTERVAL_S, TICK_S = 60, 5, 0.005
+SHORT = ["--duration", DURATION_S, "--set", f"switching.interval_s={INTERVAL_S}"]
+N_TICKS = round(DURATION_S / TICK_S)
+
+
+def raw_rows(path):
+    """Rows of a raw log with the types of the contract."""
+    body = body_of(path).decode().splitlines()
+    real = ("detuning_lambda", "detuning_sq_lambda2", "piezo_v", "temperature_c")
+    return [{name: float(text) if name in real else int(text) for name, text in row.items()} for row in csv.DictReader(body)]
+
+
+def values_of(path):
+    """The `# section.key = value` lines of a log."""
+    text = Path(path).read_text()
+    return dict(re.findall(r"^#\s*(\w+\.\w+)\s*=\s*(.*?)\s*$", text, re.MULTILINE))
+
+
+def settings_of(path):
+    """The oracle's settings as a log's own lines give them, defaults elsewhere."""
+    found = {}
+    for key, text in values_of(path).items():
+        name = key.split(".")[1]
+        default = getattr(Settings, name, None)
+        if key.split(".")[0] in ("gyro", "compensation") and default is not None:
+            found[name] = text.strip("\"'") if isinstance(default, str) else type(default)(float(text))
+    found.setdefault("relock", "mean_square")
+    return Settings(**found)
+
+
+SHARED = {}
+
+
+def setUpModule():
+    """One run serves every test here."""
+    folder = Path(tempfile.mkdtemp(prefix="zlg-run-"))
+    SHARED["folder"] = folder
+    unittest.addModuleCleanup(shutil.rmtree, folder)
+    CliTest.setUpClass()
+    SHARED["result"] = run("run", *SHORT, "--out", folder / "first", "--json")
+    if SHARED["result"].returncode != 0:
+        raise AssertionError(f"zlg run fails: exit {SHARED['result'].returncode}, {SHARED['result'].stderr}")
+
+
+class RunTest(CliTest):
+    """Has the shared run at hand."""
+
+    def setUp(self):
+        super().setUp()
+        self.out, self.result = SHARED["folder"] / "first", SHARED["result"]
+
+
+class Outputs(RunTest):
+    def test_files(self):
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()), sorted(FILES))
+
+    def test_json_is_one_object_and_names_the_variants_in_order(self):
+        result = json.loads(self.result.stdout)
+        summary = json.loads((self.out / "summary.json").read_text())
+        for name, table in (("--json", result), ("summary.json", summary)):
+            self.assertIsInstance(table, dict, name)
+            self.assertEqual([variant["name"] for variant in table["variants"]], VARIANTS, name)
+        self.assertEqual(result["variants"], summary["variants"], "--json and summary.json differ")
+
+    def test_variants_have_every_number(self):
+        for variant in json.loads(self.result.stdout)["variants"]:
+            for name in NUMBERS:
+                with self.subTest(variant=variant["name"], number=name):
+                    value = variant[name]
+                    if variant["name"] == "one_mode" and name.startswith("switch") and value is None:
+                        continue
+                    self.assertIsInstance(value, (int, float))
+                    self.assertTrue(math.isfinite(value), value)
+
+    def test_compensation_makes_the_switch_error_smaller(self):
+        rms = {v["name"]: v["switch_error_rms_arcsec"] for v in json.loads(self.result.stdout)["variants"]}
+        self.assertLess(rms["relock_mean_square"], rms["switching"] / 3.0, "mean_square hardly helps")
+        self.assertLess(rms["configured"], rms["switching"] / 3.0, "the configured compensation hardly helps")
+
+    def test_raw_log_is_whole_and_switches_as_configured(self):
+        rows = raw_rows(self.out / "raw.csv")
+        self.assertEqual([row["half"] for row in rows], list(range(2 * N_TICKS)))
+        signs = {row["bias_sign"] * (-1) ** (row["half"] % 2) for row in rows}
+        self.assertEqual(len(signs), 1, "the bias does not alternate")
+        gaps = find_gaps(compensate(rows, Settings(bridge="none")))
+        expected = DURATION_S // INTERVAL_S - 1
+        self.assertIn(len(gaps), (expected, expected + 1), f"gaps at {gaps}")
+        self.assertEqual({last - first + 1 for first, last in gaps}, {3}, "switching.gap_ticks is 3")
+        for first, last in gaps:
+            self.assertEqual(rows[2 * first - 1]["mode"], -rows[2 * last + 2]["mode"], f"helicity at the gap {first}..{last}")
+
+    def test_switches_has_one_row_per_gap(self):
+        rows = raw_rows(self.out / "raw.csv")
+        gaps = find_gaps(compensate(rows, Settings(bridge="none")))
+        switches = list(csv.DictReader(body_of(self.out / "switches.csv").decode().splitlines()))
+        self.assertEqual([int(row["tick"]) for row in switches], [first for first, _ in gaps])
+
+    def test_report_is_self_contained(self):
+        page = (self.out / "report.html").read_text()
+        self.assertNotRegex(page, r"(?i)(src|href)\s*=\s*[\"']?\s*(https?:)?//", "the report fetches something")
+        self.assertNotRegex(page, r"(?i)<script[^>]*\ssrc\b", "the report fetches a script")
+        self.assertNotRegex(page, r"(?i)@import|url\(\s*[\"']?https?:", "the report fetches a style")
+        self.assertRegex(page, r"(?i)<svg", "the report has no figure")
+        self.assertRegex(page.rstrip()[-10:].lower(), r"</html>$", "the report is cut off")
+
+    def test_angles_agree_with_the_oracle(self):
+        settings = settings_of(self.out / "raw.csv")
+        ticks = compensate(raw_rows(self.out / "raw.csv"), settings)
+        log = AngleLog(self.out / "angles.csv")
+        self.assertEqual(len(log.rows), len(ticks))
+        worst = max(max(abs(log.dtheta[k] - float(t.dtheta)), abs(log.final[k] - float(t.final))) for k, t in enumerate(ticks))
+        self.assertLess(worst, 1e-9, f"worst difference in arcsec, {settings}")
+
+
+class Replay(RunTest):
+    def test_processed_raw_log_gives_the_live_angles(self):
+        angles = self.folder / "angles.csv"
+        self.succeed("process", self.out / "raw.csv", "--out", angles)
+        self.assertEqual(body_of(angles), body_of(self.out / "angles.csv"), "live and replayed angles differ")
+
+    def test_simulate_writes_the_raw_log_of_run(self):
+        raw = self.folder / "raw.csv"
+        self.succeed("simulate", *SHORT, "--out", raw)
+        self.assertEqual(body_of(raw), body_of(self.out / "raw.csv"))
+        self.assertEqual(values_of(raw), values_of(self.out / "raw.csv"), "the configuration lines differ")
+
+    def test_same_seed_gives_the_same_bytes(self):
+        again = self.folder / "first"
+        self.succeed("run", *SHORT, "--out", again)
+        for name in FILES:
+            with self.subTest(file=name):
+                self.assertEqual((again / name).read_bytes(), (self.out / name).read_bytes())
+
+    def test_threads_change_nothing(self):
+        for threads in (1, 2):
+            out = self.folder / f"threads-{threads}"
+            self.succeed("run", *SHORT, "--out", out, "--threads", threads)
+            for name in FILES[:4]:
+                with self.subTest(file=name, threads=threads):
+                    self.assertEqual((out / name).read_bytes(), (self.out / name).read_bytes())
+
+    def test_other_seed_gives_another_run(self):
+        raw = self.folder / "raw.csv"
+        self.succeed("simulate", *SHORT, "--seed", 2, "--out", raw)
+        self.assertNotEqual(body_of(raw), body_of(self.out / "raw.csv"))
+
+    def test_default_seed_is_one(self):
+        raw = self.folder / "raw.csv"
+        self.succeed("simulate", *SHORT, "--seed", 1, "--out", raw)
+        self.assertEqual(body_of(raw), body_of(self.out / "raw.csv"))
+
+
+class Folders(RunTest):
+    def test_existing_folder_needs_force(self):
+        before = {path.name: path.read_bytes() for path in self.out.iterdir()}
+        self.refuse((2, 3), "run", "--duration", "1", "--out", self.out, says=["--force"])
+        self.assertEqual({path.name: path.read_bytes() for path in self.out.iterdir()}, before)
+
+    def test_force_replaces_the_files_of_a_run(self):
+        out = self.folder / "again"
+        self.succeed("run", "--duration", "2", "--out", out)
+        self.succeed("run", "--duration", "1", "--out", out, "--force")
+        self.assertEqual(len(raw_rows(out / "raw.csv")), 400)
+
+    def test_default_folder_is_new_each_time(self):
+        for _ in range(2):
+            self.succeed("run", "--duration", "1", cwd=self.folder)
+        names = sorted(path.name for path in self.folder.iterdir())
+        self.assertEqual(len(names), 2)
+        for name in names:
+            self.assertRegex(name, r"^zlg-run-\d{3}$")
+
+
+class Inspect(RunTest):
+    def test_inspect_tells_the_time_span(self):
+        result = json.loads(self.succeed("inspect", self.out / "raw.csv", "--json").stdout)
+        self.assertIsInstance(result, dict)
+        numbers = re.findall(r"-?\d+(?:\.\d+)?", json.dumps(result))
+        self.assertTrue({str(2 * N_TICKS), str(N_TICKS)} & set(numbers), f"neither halves nor ticks are told: {result}")
+
+    def test_inspect_reads_an_angle_log(self):
+        self.assertIsInstance(json.loads(self.succeed("inspect", self.out / "angles.csv", "--json").stdout), dict)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,108 @@
+#include <zlg/report/figure.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "example_figures.hpp"
+
+using example::infinity;
+using example::not_a_number;
+using example::series;
+using zlg::report::histogram;
+using zlg::report::Mark;
+using zlg::report::Series;
+using zlg::report::thin;
+
+TEST(Histogram, counts_every_finite_value_once) {
+    std::vector<double> values{not_a_number, infinity, -infinity};
+    for (int i = 0; i < 1000; ++i) values.push_back(std::sin(0.1 * i * i));
+    for (const int n_bins : {1, 7, 64}) {
+        const Series h = histogram("h", values, n_bins);
+        EXPECT_EQ(h.x.size(), static_cast<std::size_t>(n_bins));
+        EXPECT_EQ(std::accumulate(h.y.begin(), h.y.end(), 0.0), 1000.0);
+        EXPECT_EQ(h.mark, Mark::bars);
+    }
+}
+
+TEST(Histogram, bins_are_equal_and_a_value_on_a_border_counts_above_it) {
+    const Series h = histogram("h", {0, 1, 2, 3, 4, 4, 8}, 4);
+    EXPECT_EQ(h.x, (std::vector<double>{1, 3, 5, 7}));
+    EXPECT_EQ(h.y, (std::vector<double>{2, 2, 2, 1}));
+}
+
+TEST(Histogram, equal_values_fall_into_one_bin) {
+    const Series h = histogram("h", std::vector<double>(50, 2.5), 10);
+    EXPECT_EQ(h.x, std::vector<double>{2.5});
+    EXPECT_EQ(h.y, std::vector<double>{50.0});
+}
+
+TEST(Histogram, fewer_than_one_bin_is_one_bin) {
+    for (const int n_bins : {0, -3}) EXPECT_EQ(histogram("h", {1.0, 2.0}, n_bins).y, std::vector<double>{2.0});
+}
+
+TEST(Histogram, survives_no_value_and_the_largest_doubles) {
+    EXPECT_TRUE(histogram("h", {not_a_number}, 5).x.empty());
+    const double largest = std::numeric_limits<double>::max();
+    const Series h = histogram("h", {-largest, largest}, 2);
+    EXPECT_EQ(h.y, (std::vector<double>{1.0, 1.0}));
+    EXPECT_NEAR(h.x[0] / largest, -0.5, 1e-12);
+}
+
+TEST(Thin, keeps_ends_extremes_and_order) {
+    Series data = series({}, {});
+    for (int i = 0; i < 10000; ++i) {
+        data.x.push_back(i);
+        data.y.push_back(std::sin(0.01 * i));
+        data.y_error.push_back(0.5 * i);
+    }
+    data.y[4321] = 40.0;
+    data.y[8765] = -50.0;
+    const Series t = thin(data, 200);
+    EXPECT_LE(t.x.size(), 200U);
+    EXPECT_GE(t.x.size(), 150U);
+    EXPECT_EQ(t.x.front(), 0.0);
+    EXPECT_EQ(t.x.back(), 9999.0);
+    EXPECT_EQ(*std::max_element(t.y.begin(), t.y.end()), 40.0);
+    EXPECT_EQ(*std::min_element(t.y.begin(), t.y.end()), -50.0);
+    EXPECT_TRUE(std::is_sorted(t.x.begin(), t.x.end()));
+    ASSERT_EQ(t.y_error.size(), t.x.size());
+    for (std::size_t i = 0; i < t.x.size(); ++i) EXPECT_EQ(t.y_error[i], 0.5 * t.x[i]);
+}
+
+TEST(Thin, keeps_the_extremes_of_each_stretch) {
+    Series data = series({}, {});
+    for (int i = 0; i < 1002; ++i) {
+        data.x.push_back(i);
+        data.y.push_back(i % 100 == 50 ? 1.0 : i % 100 == 60 ? -1.0 : 0.0);
+    }
+    const Series t = thin(data, 22);
+    EXPECT_EQ(std::count(t.y.begin(), t.y.end(), 1.0), 10);
+    EXPECT_EQ(std::count(t.y.begin(), t.y.end(), -1.0), 10);
+}
+
+TEST(Thin, a_gap_stays_a_gap) {
+    Series data = series({}, {});
+    for (int i = 0; i < 3000; ++i) {
+        data.x.push_back(i);
+        data.y.push_back(i == 1500 ? not_a_number : 0.001 * i);
+    }
+    const Series t = thin(data, 100);
+    EXPECT_LE(t.x.size(), 100U);
+    EXPECT_EQ(std::count_if(t.y.begin(), t.y.end(), [](double y) { return std::isnan(y); }), 1);
+}
+
+TEST(Thin, leaves_a_short_series_as_it_is_and_bears_small_limits) {
+    const Series data = series({1, 2, 3, 4}, {5, 9, 7, 6});
+    EXPECT_EQ(thin(data, 4).y, data.y);
+    EXPECT_EQ(thin(data, 3).y, (std::vector<double>{5, 6}));
+    EXPECT_EQ(thin(data, 2).y, (std::vector<double>{5, 6}));
+    EXPECT_EQ(thin(data, 1).y, std::vector<double>{5});
+    EXPECT_TRUE(thin(data, 0).y.empty());
+    EXPECT_TRUE(thin(data, -1).y.empty());
+    EXPECT_EQ(thin(data, 2).name, "measured");
+}

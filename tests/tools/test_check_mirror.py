@@ -1,0 +1,44 @@
+"""Claims about tools/check_mirror."""
+
+import unittest
+
+from trees import TreeTest
+
+# The headers that the check excuses: without them it says so.
+EXCUSED = ("core/records", "core/methods", "config/config", "logs/error")
+
+
+class CheckMirror(TreeTest):
+    def setUp(self):
+        super().setUp()
+        for name in (*EXCUSED, "core/angle"):
+            folder = name.split("/")[0]
+            self.write(f"{folder}/include/zlg/{name}.hpp", "#pragma once\n")
+        self.write("tests/core/angle_test.cpp", "TEST(Angle, LosesNothing) {}\n")
+
+    def test_a_test_for_every_header_is_good(self):
+        self.assert_good(self.run_check("check_mirror"))
+
+    def test_a_missing_test_is_named(self):
+        self.write("twin/include/zlg/twin/motion.hpp", "#pragma once\n")
+        self.assert_refused(self.run_check("check_mirror"), "tests/twin/motion_test.cpp is missing")
+
+    def test_a_test_in_another_folder_does_not_count(self):
+        self.write("twin/include/zlg/twin/angle.hpp", "#pragma once\n")
+        self.assert_refused(self.run_check("check_mirror"), "tests/twin/angle_test.cpp is missing")
+
+    def test_a_file_without_a_test_does_not_count(self):
+        self.write("tests/core/angle_test.cpp", "// TEST(Angle, LosesNothing) {}\n")
+        self.assert_refused(self.run_check("check_mirror"), "tests/core/angle_test.cpp: holds no test")
+
+    def test_a_property_counts(self):
+        self.write("tests/core/angle_test.cpp", "RC_GTEST_PROP(Angle, LosesNothing, ()) {}\n")
+        self.assert_good(self.run_check("check_mirror"))
+
+    def test_an_excuse_without_its_header_is_named(self):
+        (self.root / "logs/include/zlg/logs/error.hpp").unlink()
+        self.assert_refused(self.run_check("check_mirror"), "logs/error.hpp is excused but does not exist")
+
+
+if __name__ == "__main__":
+    unittest.main()

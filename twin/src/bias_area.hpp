@@ -1,0 +1,52 @@
+#pragma once
+// What the alternating bias contributes to the fringe phase of one half-period.
+//
+//   cycles = sign p int helicity (1 - chi dl^2) shape dt
+//
+// The reversal is a trapezoid through zero, centred on the border of two halves: each end of a half loses the area
+// t_e/4 of the plateau, weighted with the detuning that the end has.
+
+#include "laser.hpp"
+
+namespace zlg::twin {
+
+class BiasArea {
+public:
+    // A stretch of time over which the detuning is smooth: its start, middle and end.
+    // return  false when the light was not two-way, or changed its mode, within the stretch: no count can be trusted.
+    bool add(const Mode& start, const Mode& middle, const Mode& end, double duration_s) {
+        const bool one_mode = start.centre_half_lambda == middle.centre_half_lambda &&
+                              middle.centre_half_lambda == end.centre_half_lambda;
+        if (!one_mode || !start.two_way() || !middle.two_way() || !end.two_way()) return false;
+        const double simpson = (square(start) + 4.0 * square(middle) + square(end)) / 6.0;
+        const double signed_s = middle.helicity() * duration_s;
+        lit_s_ += duration_s;
+        helicity_s_ += signed_s;
+        shaped_s_ += signed_s;
+        shaped_square_ += signed_s * simpson;
+        return true;
+    }
+
+    // Take away what a reversal at this end of the half costs.
+    void subtract_edge(const Mode& mode, double edge_s) {
+        if (!mode.two_way()) return;
+        const double lost_s = 0.25 * edge_s * mode.helicity();
+        shaped_s_ -= lost_s;
+        shaped_square_ -= lost_s * square(mode);
+    }
+
+    [[nodiscard]] double lit_s() const { return lit_s_; }
+    [[nodiscard]] double helicity_s() const { return helicity_s_; }        // int helicity dt
+    [[nodiscard]] double shaped_s() const { return shaped_s_; }            // int helicity shape dt
+    [[nodiscard]] double shaped_square() const { return shaped_square_; }  // int helicity dl^2 shape dt
+
+private:
+    static double square(const Mode& mode) { return mode.detuning_lambda * mode.detuning_lambda; }
+
+    double lit_s_ = 0.0;
+    double helicity_s_ = 0.0;
+    double shaped_s_ = 0.0;
+    double shaped_square_ = 0.0;
+};
+
+}  // namespace zlg::twin

@@ -1,0 +1,127 @@
+#include "perimeter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace zlg::twin {
+
+Perimeter::Perimeter(const TwinConfig& config, int n_steps)
+    : config_{config},
+      n_steps_{n_steps},
+      step_s_{0.5 * config.tick_s / n_steps},
+      stage_{config, step_s_},
+      dac_{config.piezo_min_v, config.piezo_max_v, config.dac_bits},
+      loop_{config, stage_, step_s_} {
+    set_points_.reserve(core::max_set_points);
+    for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.loop_tau_s));
+}
+
+double Perimeter::voltage_v() const { return std::clamp(stage_.volts(v_), config_.piezo_min_v, config_.piezo_max_v); }
+
+bool Perimeter::follows_set_points() const { return !closed_ || config_.loop == LoopKind::external; }
+
+double Perimeter::drift_at(int step) const { return drift_start_ + drift_step_ * step; }
+
+void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda) {
+    if (frame.polarity != 1 && frame.polarity != -1) {
+        throw std::invalid_argument(
+            fmt::format("actuator frame: polarity is {}, allowed are 1 and -1", frame.polarity));
+    }
+    drift_start_ = drift_ = drift_start_lambda;
+    drift_step_ = (drift_end_lambda - drift_start_lambda) / n_steps_;
+    steps_done_ = 0;
+
+    const bool closes = frame.loop_closed && !closed_;
+    const bool aims = !frame.loop_closed && (closed_ || frame.polarity != polarity_);
+    closed_ = frame.loop_closed;
+    polarity_ = frame.polarity;
+    if (follows_set_points()) take_set_points(frame);
+    if (aims) aim();
+    if (closes) close();
+    if (config_.loop == LoopKind::exponential && closed_) {
+        amplitude_ = miss_at_closing_ * std::exp(-halves_since_closing_ * (0.5 * config_.tick_s) / config_.loop_tau_s);
+        halves_since_closing_ += 1.0;
+    }
+    mode_ = lasing_mode(length_lambda());
+}
+
+void Perimeter::take_set_points(const core::ActuatorFrame& frame) {
+    if (frame.n_set_points < 1 || frame.n_set_points > core::max_set_points) {
+        throw std::invalid_argument(fmt::format("actuator frame: n_set_points is {}, allowed is 1..{}",
+                                                frame.n_set_points, core::max_set_points));
+    }
+    set_points_.clear();
+    for (std::size_t k = 0; k < frame.n_set_points; ++k) {
+        if (!std::isfinite(frame.set_point_v[k])) {
+            throw std::invalid_argument(fmt::format("actuator frame: set_point_v[{}] is {}, allowed are finite volts",
+                                                    k, frame.set_point_v[k]));
+        }
+        set_points_.push_back(stage_.lambda(dac_.quantised_v(frame.set_point_v[k])));
+    }
+}
+
+// Choose the error of the second input so that the move ends short of the centre by the miss that is asked for.
+void Perimeter::aim() {
+    injected_ = 0.0;
+    direction_ = set_points_.back() >= v_ ? 1.0 : -1.0;
+    if (!(config_.miss_lambda > 0.0)) return;
+    const double target = set_points_.back() + drift_;
+    injected_ = nearest_centre_lambda(polarity_, target) - direction_ * config_.miss_lambda - target;
+}
+
+// At closing the miss is put in place exactly. Where that voltage lies out of range, the next mode of this helicity
+// takes it: validation made sure that the range holds one.
+void Perimeter::close() {
+    if (config_.miss_lambda > 0.0) {
+        const double short_of = direction_ * config_.miss_lambda;
+        double pinned = nearest_centre_lambda(polarity_, length_lambda() + short_of) - short_of - drift_;
+        while (pinned > stage_.clamped(pinned)) pinned -= 1.0;
+        while (pinned < stage_.clamped(pinned)) pinned += 1.0;
+        pinned = stage_.clamped(pinned);
+        injected_ += pinned - v_;
+        v_ = pinned;
+    }
+    command_ = v_;
+    centre_ = nearest_centre_lambda(polarity_, length_lambda());
+    miss_at_closing_ = length_lambda() - centre_;
+    halves_since_closing_ = 0.0;
+}
+
+void Perimeter::step() {
+    ++steps_done_;
+    const double drift_before = drift_;
+    drift_ = drift_at(steps_done_);
+    if (follows_set_points()) {
+        follow_set_points();
+    } else if (config_.loop == LoopKind::analog) {
+        const AnalogLoop::State end = loop_.step({command_, v_}, mode_, polarity_, drift_before, drift_);
+        command_ = end.command_lambda;
+        v_ = end.v_lambda;
+    } else {
+        follow_exponential();
+    }
+    mode_ = lasing_mode(length_lambda());
+}
+
+// Set-point k holds over [k, k + 1)/n of the half; a change within a step splits it.
+void Perimeter::follow_set_points() {
+    const int n = static_cast<int>(set_points_.size());
+    int from = (steps_done_ - 1) * n;  // in steps / n, so that all borders are whole
+    const int to = steps_done_ * n;
+    while (from < to) {
+        const int k = from / n_steps_;
+        const int until = std::min(to, (k + 1) * n_steps_);
+        const double dt_s = until - from == n ? step_s_ : step_s_ * (until - from) / n;
+        v_ = stage_.followed(v_, set_points_[static_cast<std::size_t>(k)] + injected_, dt_s);
+        from = until;
+    }
+}
+
+void Perimeter::follow_exponential() {
+    v_ = stage_.clamped(centre_ + amplitude_ * decay_[static_cast<std::size_t>(steps_done_)] - drift_);
+}
+
+}  // namespace zlg::twin

@@ -1,0 +1,71 @@
+#pragma once
+// Length of the ring: the piezo's part and the block's own, under whoever holds it.
+
+#include <vector>
+
+#include <zlg/core/records.hpp>
+#include <zlg/twin/twin.hpp>
+
+#include "analog_loop.hpp"
+#include "converters.hpp"
+#include "high_voltage.hpp"
+#include "laser.hpp"
+
+namespace zlg::twin {
+
+class Perimeter {
+public:
+    // n_steps  equal steps in which a half-period is lived through.
+    Perimeter(const TwinConfig& config, int n_steps);
+
+    // Obey a frame from the start of a half on, while the block's own length moves evenly from start to end.
+    //
+    // errors  std::invalid_argument for a frame that no hardware could obey.
+    void begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda);
+    void step();
+
+    // The mode that lases now.
+    [[nodiscard]] const Mode& mode() const { return mode_; }
+    [[nodiscard]] double voltage_v() const;
+
+private:
+    [[nodiscard]] double length_lambda() const { return v_ + drift_; }
+    [[nodiscard]] bool follows_set_points() const;
+    [[nodiscard]] double drift_at(int step) const;
+    void take_set_points(const core::ActuatorFrame& frame);
+    void aim();
+    void close();
+    void follow_set_points();
+    void follow_exponential();
+
+    TwinConfig config_;
+    int n_steps_;
+    double step_s_;
+    HighVoltage stage_;
+    Converter dac_;
+    AnalogLoop loop_;
+
+    // All lengths in wavelengths; v and command count from the middle of the range.
+    double v_ = 0.0;
+    double command_ = 0.0;
+    double drift_ = 0.0;
+    double drift_start_ = 0.0;
+    double drift_step_ = 0.0;
+    int steps_done_ = 0;
+    Mode mode_;
+
+    bool closed_ = true;
+    int polarity_ = 1;
+    std::vector<double> set_points_;
+    double injected_ = 0.0;   // error of the second input
+    double direction_ = 1.0;  // of the last move in the open loop
+
+    // The exponential loop: dl = amplitude exp(-t/tau) about a centre.
+    double centre_ = 0.0;
+    double miss_at_closing_ = 0.0;
+    double amplitude_ = 0.0;  // at the start of the half
+    double halves_since_closing_ = 0.0;
+    std::vector<double> decay_;  // after each step of a half
+};
+
+}  // namespace zlg::twin

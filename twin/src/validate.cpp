@@ -1,0 +1,115 @@
+#include "validate.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <zlg/core/records.hpp>
+
+#include "laser.hpp"
+
+namespace zlg::twin {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(const char* member, double value, const std::string& allowed) {
+    throw std::invalid_argument(fmt::format("twin: {} is {}, allowed is {}", member, value, allowed));
+}
+
+void require_finite(const char* member, double value) {
+    if (!std::isfinite(value)) refuse(member, value, "a finite number");
+}
+
+void require_positive(const char* member, double value) {
+    if (!(value > 0.0 && value < infinity)) refuse(member, value, "finite and > 0");
+}
+
+void require_not_negative(const char* member, double value) {
+    if (!(value >= 0.0 && value < infinity)) refuse(member, value, "finite and >= 0");
+}
+
+void require_within(const char* member, double value, double min, double max) {
+    if (!(value >= min && value <= max)) refuse(member, value, fmt::format("{}..{}", min, max));
+}
+
+void validate_bias(const TwinConfig& c) {
+    // Half a microsecond is five ticks of the 10 MHz timer; beyond 1000 s the steps would be coarse.
+    require_within("tick_s", c.tick_s, 1e-6, 1000.0);
+    require_within("scale_arcsec", c.scale_arcsec, 1e-6, 1e6);
+    require_within("bias_hz", c.bias_hz, 0.0, 1e12);
+    require_not_negative("bias_chi", c.bias_chi);
+    if (!(c.bias_edge_s >= 0.0 && c.bias_edge_s < 0.5 * c.tick_s)) {
+        refuse("bias_edge_s", c.bias_edge_s, fmt::format("0 <= bias_edge_s < tick_s/2 = {}", 0.5 * c.tick_s));
+    }
+    if (c.first_bias_sign != 1 && c.first_bias_sign != -1) refuse("first_bias_sign", c.first_bias_sign, "1 or -1");
+    require_finite("bias_temperature_coefficient_per_c", c.bias_temperature_coefficient_per_c);
+    require_finite("reference_temperature_c", c.reference_temperature_c);
+    require_finite("temperature_rise_c", c.temperature_rise_c);
+}
+
+void validate_light_and_drift(const TwinConfig& c) {
+    require_within("light_samples", c.light_samples, 1, core::max_light_samples);
+    require_not_negative("light_noise_lambda", c.light_noise_lambda);
+    require_positive("discriminator_per_lambda", c.discriminator_per_lambda);
+    require_finite("magnetic_arcsec_s", c.magnetic_arcsec_s);
+    require_finite("magnetic_thermal_arcsec_s", c.magnetic_thermal_arcsec_s);
+    require_positive("thermal_time_s", c.thermal_time_s);
+    require_finite("nonmagnetic_arcsec_s", c.nonmagnetic_arcsec_s);
+    require_not_negative("random_walk_arcsec_sqrt_s", c.random_walk_arcsec_sqrt_s);
+}
+
+// A length of 1e6 wavelengths still resolves a detuning to 1e-10.
+constexpr double max_travel_lambda = 1e6;
+
+void validate_perimeter(const TwinConfig& c) {
+    // Shorter than a microsecond the loop would be stiff against its steps.
+    require_within("loop_tau_s", c.loop_tau_s, 1e-6, 1e9);
+    require_within("high_voltage_rc_s", c.high_voltage_rc_s, 1e-6, 1e9);
+    require_positive("loop_limit_lambda", c.loop_limit_lambda);
+    if (!(c.miss_lambda >= 0.0 && c.miss_lambda < two_way_limit_lambda)) {
+        refuse("miss_lambda", c.miss_lambda, fmt::format("0 <= miss_lambda < {}", two_way_limit_lambda));
+    }
+    require_finite("expansion_lambda_per_c", c.expansion_lambda_per_c);
+    require_within("expansion_lambda_per_c * temperature_rise_c", c.expansion_lambda_per_c * c.temperature_rise_c,
+                   -max_travel_lambda, max_travel_lambda);
+}
+
+void validate_piezo(const TwinConfig& c) {
+    require_finite("piezo_min_v", c.piezo_min_v);
+    require_finite("piezo_max_v", c.piezo_max_v);
+    const double range_v = c.piezo_max_v - c.piezo_min_v;
+    if (!(range_v > 0.0 && range_v < infinity)) {
+        refuse("piezo_max_v", c.piezo_max_v, fmt::format("finite and > piezo_min_v = {}", c.piezo_min_v));
+    }
+    require_within("half_wave_v", c.half_wave_v, 0.5 * range_v / max_travel_lambda, infinity);
+    require_positive("half_wave_v", c.half_wave_v);
+    // Only a range of two half-waves holds a place short of a mode of either helicity at any temperature.
+    if (c.miss_lambda > 0.0 && !(range_v >= 2.0 * c.half_wave_v)) {
+        refuse("half_wave_v", c.half_wave_v,
+               fmt::format("<= (piezo_max_v - piezo_min_v)/2 = {} where miss_lambda > 0", 0.5 * range_v));
+    }
+    require_positive("slew_v_s", c.slew_v_s);
+    require_within("dac_bits", c.dac_bits, 1, 24);
+    require_within("adc_bits", c.adc_bits, 1, 24);
+    require_not_negative("adc_noise_v", c.adc_noise_v);
+}
+
+void validate_loop(LoopKind loop) {
+    if (loop == LoopKind::analog || loop == LoopKind::exponential || loop == LoopKind::external) return;
+    refuse("loop", static_cast<int>(loop), "analog, exponential or external");
+}
+
+}  // namespace
+
+void validate(const TwinConfig& config) {
+    validate_bias(config);
+    validate_light_and_drift(config);
+    validate_loop(config.loop);
+    validate_perimeter(config);
+    validate_piezo(config);
+}
+
+}  // namespace zlg::twin

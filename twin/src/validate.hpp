@@ -1,0 +1,12 @@
+#pragma once
+
+#include <zlg/twin/twin.hpp>
+
+namespace zlg::twin {
+
+// Refuse what the arithmetic cannot carry.
+//
+// errors  std::invalid_argument: member, value, allowed.
+void validate(const TwinConfig& config);
+
+}  // namespace zlg::twin
