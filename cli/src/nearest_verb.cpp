@@ -10,7 +10,8 @@ namespace zlg::cli {
 
 std::string explain(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv) {
     std::vector<std::string> verbs;
-    for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+    for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
+        verbs.push_back(verb->get_name());
     const std::string first = argc > 1 ? argv[1] : "";
     const bool known = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
     if (!known && !first.empty() && first[0] != '-') {

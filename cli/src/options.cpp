@@ -51,7 +51,8 @@ config::Config load_config(const Options& options) {
     return config;
 }
 
-config::Config load_log_config(const Options& options, const config::Settings& log_settings, const std::string& log_path) {
+config::Config load_log_config(const Options& options, const config::Settings& log_settings,
+                               const std::string& log_path) {
     const config::Settings settings = with_full_keys(log_settings);
     config::Config config;
     try {
@@ -68,7 +69,8 @@ config::Config load_log_config(const Options& options, const config::Settings& l
 void check_table_path(const std::string& path) {
     if (path.empty()) throw UsageError{"--out is missing: name the file to write, with the suffix .csv"};
     const std::string suffix = std::filesystem::path{path}.extension();
-    if (suffix != ".csv") throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is .csv", path, suffix)};
+    if (suffix != ".csv")
+        throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is .csv", path, suffix)};
 }
 
 }  // namespace zlg::cli

@@ -25,7 +25,7 @@ struct Options {
 };
 
 void add_config_options(CLI::App& verb, Options& options);
-void add_run_options(CLI::App& verb, Options& options);   // seed, duration, threads
+void add_run_options(CLI::App& verb, Options& options);     // seed, duration, threads
 void add_output_options(CLI::App& verb, Options& options);  // out, force, json
 
 // --set over --config over the defaults.

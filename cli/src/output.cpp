@@ -17,9 +17,7 @@
 namespace zlg::cli {
 namespace {
 
-double now_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 constexpr double first_after_s = 1.0;
 constexpr double every_s = 0.1;

@@ -33,10 +33,12 @@ std::string make_new_folder() {
 
 std::string switch_table(const std::vector<study::SwitchLine>& switches) {
     std::string text =
-        "tick,mode,miss_lambda,half_wave_v,half_wave_sigma_v,gap_ticks,dp_arcsec,relock_arcsec,sigma_arcsec,true_error_arcsec\n";
+        "tick,mode,miss_lambda,half_wave_v,half_wave_sigma_v,gap_ticks,dp_arcsec,relock_arcsec,sigma_arcsec,true_error_"
+        "arcsec\n";
     for (const study::SwitchLine& s : switches)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.tick, s.mode, s.miss_lambda, s.half_wave_v, s.half_wave_sigma_v,
-                            s.gap_ticks, s.dp_arcsec, s.relock_arcsec, s.sigma_arcsec, s.true_error_arcsec);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.tick, s.mode, s.miss_lambda, s.half_wave_v,
+                            s.half_wave_sigma_v, s.gap_ticks, s.dp_arcsec, s.relock_arcsec, s.sigma_arcsec,
+                            s.true_error_arcsec);
     return text;
 }
 
@@ -52,9 +54,11 @@ RunFiles::RunFiles(const std::string& out, bool force, const config::Config& con
     for (const char* name : names)
         if (!force_ && fs::exists(path(name)))
             throw logs::IoError{fmt::format("{} exists; --force overwrites it", path(name))};
-    const auto settings = config::to_settings(config);
-    raw_.emplace(path("raw.csv"), settings, force_);
-    angles_.emplace(path("angles.csv"), config.gyro.tick_s, settings, force_);
+    raw_.emplace(path("raw.csv"), config::to_settings(config), force_);
+    // The raw log has the columns for it, so this is what an unset method means; the angle log says what was done.
+    config::Config done = config;
+    done.compensation.relock = config.compensation.relock.value_or(core::RelockMethod::mean_square);
+    angles_.emplace(path("angles.csv"), config.gyro.tick_s, config::to_settings(done), force_);
 }
 
 RunFiles::~RunFiles() {
@@ -66,7 +70,8 @@ RunFiles::~RunFiles() {
     if (made_folder_) fs::remove(folder_, ignored);
 }
 
-void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std::string& summary, const std::string& page) {
+void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std::string& summary,
+                      const std::string& page) {
     write_text("switches.csv", switch_table(switches));
     write_text("summary.json", summary);
     write_text("report.html", page);

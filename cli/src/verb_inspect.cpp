@@ -83,12 +83,21 @@ RawFindings read_raw(logs::RawReader& reader, logs::RawWriter* copy) {
     return found;
 }
 
-json raw_json(const InspectOptions& options, const logs::RawHeader& header, const config::Config& config, const RawFindings& f) {
-    return {{"file", options.file}, {"kind", "raw"}, {"halves", f.halves}, {"ticks", f.halves / 2},
-            {"tick_s", config.gyro.tick_s}, {"scale_arcsec", config.gyro.scale_arcsec},
+json raw_json(const InspectOptions& options, const logs::RawHeader& header, const config::Config& config,
+              const RawFindings& f) {
+    return {{"file", options.file},
+            {"kind", "raw"},
+            {"halves", f.halves},
+            {"ticks", f.halves / 2},
+            {"tick_s", config.gyro.tick_s},
+            {"scale_arcsec", config.gyro.scale_arcsec},
             {"duration_s", static_cast<double>(f.halves / 2) * config.gyro.tick_s},
-            {"optional_columns", optional_columns(header)}, {"settings", header.settings.size()}, {"gaps", f.gaps},
-            {"mode_changes", f.mode_changes}, {"open_halves", f.open_halves}, {"invalid_halves", f.invalid_halves},
+            {"optional_columns", optional_columns(header)},
+            {"settings", header.settings.size()},
+            {"gaps", f.gaps},
+            {"mode_changes", f.mode_changes},
+            {"open_halves", f.open_halves},
+            {"invalid_halves", f.invalid_halves},
             {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
@@ -102,8 +111,9 @@ struct AngleFindings {
 json angle_json(const InspectOptions& options, const AngleFindings& f) {
     json flags = json::object();
     for (std::size_t bit = 0; bit < f.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = f.flagged[bit];
-    return {{"file", options.file}, {"kind", "angles"}, {"ticks", f.ticks}, {"duration_s", f.end_s}, {"flagged_ticks", flags},
-            {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
+    return {{"file", options.file},   {"kind", "angles"},
+            {"ticks", f.ticks},       {"duration_s", f.end_s},
+            {"flagged_ticks", flags}, {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
 AngleFindings read_angles(logs::AngleReader& reader) {
@@ -154,7 +164,9 @@ json inspect_raw(const InspectOptions& options) {
 void inspect(const InspectOptions& options) {
     json findings;
     switch (logs::recognise(options.file)) {
-        case logs::LogKind::raw_csv: findings = inspect_raw(options); break;
+        case logs::LogKind::raw_csv:
+            findings = inspect_raw(options);
+            break;
         case logs::LogKind::angle_csv: {
             if (options.repair) throw UsageError{"--repair takes a raw log; an angle log is made anew by zlg process"};
             logs::AngleReader reader{options.file};
@@ -162,8 +174,8 @@ void inspect(const InspectOptions& options) {
             break;
         }
         default:
-            throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log: no line names the columns of one",
-                                                options.file)};
+            throw logs::FormatError{
+                fmt::format("{}: neither a raw log nor an angle log: no line names the columns of one", options.file)};
     }
     print(options.json ? findings.dump(2) + "\n" : as_text(findings));
     if (!findings["damage"].is_null() && !options.repair) throw CLI::RuntimeError{result_says_no};

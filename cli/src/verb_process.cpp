@@ -28,8 +28,10 @@ core::RelockMethod choose_relock(const config::Config& config, const logs::RawHe
     if (!config.compensation.relock) return header.has_detuning_sq ? RelockMethod::mean_square : RelockMethod::none;
     const RelockMethod asked = *config.compensation.relock;
     const auto refuse = [&](const char* method, const char* column) {
-        throw config::ConfigError{fmt::format("compensation.relock = \"{}\" needs the column {}, which {} lacks; "
-                                              "allowed without it: \"none\", \"frequency\"", method, column, path)};
+        throw config::ConfigError{
+            fmt::format("compensation.relock = \"{}\" needs the column {}, which {} lacks; "
+                        "allowed without it: \"none\", \"frequency\"",
+                        method, column, path)};
     };
     if (asked == RelockMethod::detuning && !header.has_detuning) refuse("detuning", "detuning_lambda");
     if (asked == RelockMethod::mean_square && !header.has_detuning_sq) refuse("mean_square", "detuning_sq_lambda2");
@@ -86,8 +88,9 @@ nlohmann::json json(const Summary& s, const ProcessOptions& options, const confi
     for (std::size_t bit = 0; bit < s.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = s.flagged[bit];
     nlohmann::json settings = nlohmann::json::object();
     for (const auto& [key, value] : config::to_settings(config)) settings[key] = value;
-    return {{"raw", options.raw}, {"angles", options.out}, {"ticks", s.ticks}, {"gaps", s.gaps},
-            {"angle_arcsec", s.angle_arcsec}, {"flagged_ticks", flags}, {"config", settings}};
+    return {{"raw", options.raw}, {"angles", options.out},          {"ticks", s.ticks},
+            {"gaps", s.gaps},     {"angle_arcsec", s.angle_arcsec}, {"flagged_ticks", flags},
+            {"config", settings}};
 }
 
 void process(const ProcessOptions& options) {
@@ -102,8 +105,11 @@ void process(const ProcessOptions& options) {
     logs::AngleWriter angles{options.out, config.gyro.tick_s, config::to_settings(config), options.force};
     const Summary summary = compensate(raw, compensation, angles);
     if (summary.halves % 2 != 0)
-        complain(fmt::format("warning: {}: the last half-period ({}) is the first of a tick whose other half is missing; dropped",
-                             options.raw, summary.halves - 1));
+        complain(fmt::format(
+            "warning: {}: the last half-period ({}) is the first of a tick whose other half is missing; dropped",
+            options.raw, summary.halves - 1));
+    if (!raw.line_is_ended())
+        complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.raw));
     angles.close();
     print(options.json ? json(summary, options, config).dump(2) + "\n" : text(summary, options));
 }

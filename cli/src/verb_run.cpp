@@ -53,21 +53,23 @@ std::string cell(const std::optional<study::SwitchStatistics>& s, double study::
 }
 
 std::string table(const study::RunResult& result) {
-    std::string text = fmt::format("{:<20}{:>12}{:>14}   error per switch, arcsec\n{:<20}{:>12}{:>14}{:>10}{:>10}{:>10}\n",
-                                   "", "drift", "angle error", "variant", "arcsec/s", "arcsec", "mean", "rms", "max");
+    std::string text =
+        fmt::format("{:<20}{:>12}{:>14}   error per switch, arcsec\n{:<20}{:>12}{:>14}{:>10}{:>10}{:>10}\n", "",
+                    "drift", "angle error", "variant", "arcsec/s", "arcsec", "mean", "rms", "max");
     for (const study::VariantResult& v : result.variants)
-        text += fmt::format("{:<20}{:>12.5f}{:>14.2f}{:>10}{:>10}{:>10}\n", v.name, v.drift_arcsec_s, v.angle_error_arcsec,
-                            cell(v.switch_error, &study::SwitchStatistics::mean_arcsec),
+        text += fmt::format("{:<20}{:>12.5f}{:>14.2f}{:>10}{:>10}{:>10}\n", v.name, v.drift_arcsec_s,
+                            v.angle_error_arcsec, cell(v.switch_error, &study::SwitchStatistics::mean_arcsec),
                             cell(v.switch_error, &study::SwitchStatistics::rms_arcsec),
                             cell(v.switch_error, &study::SwitchStatistics::max_arcsec));
     return text;
 }
 
 std::string text(const study::RunResult& result, const std::string& folder) {
-    return fmt::format("{} s, {} switches, all compensations of one run's records (one_mode: a run without switching)\n\n{}\n"
-                       "drift: slope of the angle error (final minus true); 1 arcsec/s is 1 deg/h\nwritten to {}: {}\n",
-                       static_cast<double>(result.ticks) * result.tick_s, result.switches.size(), table(result), folder,
-                       RunFiles::list());
+    return fmt::format(
+        "{} s, {} switches, all compensations of one run's records (one_mode: a run without switching)\n\n{}\n"
+        "drift: slope of the angle error (final minus true); 1 arcsec/s is 1 deg/h\nwritten to {}: {}\n",
+        static_cast<double>(result.ticks) * result.tick_s, result.switches.size(), table(result), folder,
+        RunFiles::list());
 }
 
 void run(const Options& options) {
@@ -75,7 +77,8 @@ void run(const Options& options) {
     const config::Config config = load_config(options);
     RunFiles files{options.out, options.force, config};
     Progress progress;
-    study::RunTask task{.config = config, .threads = options.threads,
+    study::RunTask task{.config = config,
+                        .threads = options.threads,
                         .on_record = [&](const core::HalfRecord& record) { files.raw().write(record); },
                         .on_row = [&](const core::AngleRow& row) { files.angles().write(row); },
                         .on_progress = [&](double fraction) { progress.show(fraction); }};
@@ -89,7 +92,8 @@ void run(const Options& options) {
 
 void add_run(CLI::App& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = program.add_subcommand("run", "twin and core in closed loop: logs, summary and report into a folder");
+    CLI::App* verb =
+        program.add_subcommand("run", "twin and core in closed loop: logs, summary and report into a folder");
     verb->add_option("CONFIG", options->config_path, "configuration, TOML; the paper's gyro without it");
     verb->add_option("--set", options->sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
     verb->add_option("--format", options->format, "of the logs: csv");

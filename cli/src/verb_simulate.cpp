@@ -42,7 +42,8 @@ void simulate(const Options& options) {
 
 void add_simulate(CLI::App& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = program.add_subcommand("simulate", "the same as run, writing only what the gyro's processor would have recorded");
+    CLI::App* verb = program.add_subcommand(
+        "simulate", "the same as run, writing only what the gyro's processor would have recorded");
     verb->add_option("CONFIG", options->config_path, "configuration, TOML; the paper's gyro without it");
     verb->add_option("--set", options->sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
     add_run_options(*verb, *options);

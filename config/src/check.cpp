@@ -42,10 +42,12 @@ void check_motion(const Motion& m) {
     }
     if (m.kind != MotionKind::sine && m.kind != MotionKind::sum) return;
     const std::size_t n = m.amplitude_arcsec_s.size();
-    if (m.frequency_hz.size() != n || m.phase_deg.size() != n) {
+    // One phase serves all sines.
+    const bool phases_fit = m.phase_deg.size() == n || m.phase_deg.size() == 1;
+    if (m.frequency_hz.size() != n || !phases_fit) {
         throw ConfigError(
             fmt::format("motion: {} amplitude_arcsec_s, {} frequency_hz and {} phase_deg; allowed is an "
-                        "equal number of each",
+                        "equal number of each, or one phase for all",
                         n, m.frequency_hz.size(), m.phase_deg.size()));
     }
     if (m.kind == MotionKind::sine && n != 1) {

@@ -22,7 +22,7 @@ constexpr std::int64_t int64_max = std::numeric_limits<std::int64_t>::max();
 const Key table[] = {
     {"run", "duration_s", "s", "length of the run; unset: 3600, or the length of the motion file",
      OptionalReal{at<&C::run, &Run::duration_s>, {.min = 0.0, .max = 1e9, .without_min = true}}},
-    {"run", "seed", "", "of all random numbers; the same seed gives the same run",
+    {"run", "seed", "", "seed of all random numbers; the same seed gives the same run",
      Integer{at<&C::run, &Run::seed>, 0, int64_max}},
 
     {"gyro", "tick_s", "s", "length of a tick: two half-periods of the bias",

@@ -47,7 +47,8 @@ double sigma_of(const GapBridgeConfig& config, const GapBridgeState& state, cons
     for (int k = 0; k < fit.n(); ++k) {
         const double wk = w[static_cast<unsigned>(k)];
         variance += wk * wk * at(state, origin + fit.position(k)).variance_arcsec2;
-        if (k > 0 && fit.position(k) == fit.position(k - 1) + 1) variance -= shared * wk * w[static_cast<unsigned>(k - 1)];
+        if (k > 0 && fit.position(k) == fit.position(k - 1) + 1)
+            variance -= shared * wk * w[static_cast<unsigned>(k - 1)];
     }
     return variance >= 0.0 ? square_root(variance) : infinity;
 }
@@ -153,10 +154,14 @@ double repair(const GapBridgeConfig& config, GapBridgeState& state, const OpenGa
 }
 
 // Give a gap its final values from the ticks before `end`, and its lump.
-GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingGap& pending, std::int64_t end) noexcept {
+GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingGap& pending,
+                  std::int64_t end) noexcept {
     const OpenGap& gap = pending.gap;
-    GapReport report{.first_tick = gap.first_tick, .n_ticks = gap.n, .sign_after = pending.sign_after,
-                     .mode_after = pending.mode_after, .mode_changed = pending.mode_after != gap.mode_before,
+    GapReport report{.first_tick = gap.first_tick,
+                     .n_ticks = gap.n,
+                     .sign_after = pending.sign_after,
+                     .mode_after = pending.mode_after,
+                     .mode_changed = pending.mode_after != gap.mode_before,
                      .sigma_sum_arcsec = infinity};
     pending.resolved = true;
     if (config.method == BridgeMethod::none) return report;
@@ -262,10 +267,14 @@ AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const Tic
     }
 
     HistoryTick& entry = at(state, tick);
-    entry = HistoryTick{.row = {.tick = tick, .relock_arcsec = input.relock_arcsec, .mode = input.mode, .flags = input.flags},
-                        .variance_arcsec2 = input.variance_arcsec2, .measured = input.measured};
-    if (input.measured) take_measured_tick(config, state, input, tick);
-    else take_gap_tick(config, state, input, tick);
+    entry = HistoryTick{
+        .row = {.tick = tick, .relock_arcsec = input.relock_arcsec, .mode = input.mode, .flags = input.flags},
+        .variance_arcsec2 = input.variance_arcsec2,
+        .measured = input.measured};
+    if (input.measured)
+        take_measured_tick(config, state, input, tick);
+    else
+        take_gap_tick(config, state, input, tick);
 
     sample.dtheta_arcsec = entry.row.dtheta_arcsec;
     sample.flags = entry.row.flags;

@@ -163,6 +163,7 @@ GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t co
     GyroControlState s;
     s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
     s.half_wave = initial_state(config.half_wave);
+    s.schedule = initial_state(config.schedule);
     s.mode_switch = initial_state(config.mode_switch);
     s.counter = counter;
     s.piezo_v = config.mode_switch.start_set_point.value();

@@ -53,8 +53,8 @@ double deficit_hz(const RelockDriftConfig& c, const RelockTick& t) noexcept {
 }
 
 // deficit (1 - q)/(1 + q) with ln q = log_ratio / root, and its variance by counter rounding.
-FalseAngle by_decay(const RelockDriftConfig& c, int sign, double deficit, double log_ratio, double root,
-                    double d_own, double d_other) noexcept {
+FalseAngle by_decay(const RelockDriftConfig& c, int sign, double deficit, double log_ratio, double root, double d_own,
+                    double d_other) noexcept {
     const double q = exponential(log_ratio / root);
     // The rounding of c_first - c_second is 2 e1 - e0 - e2, each e uniform over a count: variance 1/2 count^2.
     const double variance = (square(d_own) + square(d_other)) * 0.5 / square(c.tick.value());
@@ -133,10 +133,14 @@ RelockDriftOutput step(const RelockDriftConfig& config, RelockDriftState& state,
     if (config.method == RelockMethod::none || !state.armed || state.since_gap >= last) return {};
     ++state.since_gap;
     switch (config.method) {
-        case RelockMethod::frequency: return frequency_step(config, state, tick);
-        case RelockMethod::detuning: return {.due = true, .tick = by_detuning(config, tick)};
-        case RelockMethod::mean_square: return {.due = true, .tick = by_mean_square(config, tick)};
-        case RelockMethod::none: break;
+        case RelockMethod::frequency:
+            return frequency_step(config, state, tick);
+        case RelockMethod::detuning:
+            return {.due = true, .tick = by_detuning(config, tick)};
+        case RelockMethod::mean_square:
+            return {.due = true, .tick = by_mean_square(config, tick)};
+        case RelockMethod::none:
+            break;
     }
     return {};
 }

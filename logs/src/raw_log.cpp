@@ -103,6 +103,8 @@ bool RawReader::next(core::HalfRecord& record) {
     return true;
 }
 
+bool RawReader::line_is_ended() const { return state_->csv.line_is_ended(); }
+
 RawWriter::RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings,
                      bool force)
     : file_{path, force} {

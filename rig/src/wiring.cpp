@@ -18,9 +18,12 @@ constexpr double default_duration_s = 3600.0;
 
 twin::LoopKind twin_loop(config::Loop loop) {
     switch (loop) {
-        case config::Loop::analog: return twin::LoopKind::analog;
-        case config::Loop::exponential: return twin::LoopKind::exponential;
-        case config::Loop::digital: return twin::LoopKind::external;
+        case config::Loop::analog:
+            return twin::LoopKind::analog;
+        case config::Loop::exponential:
+            return twin::LoopKind::exponential;
+        case config::Loop::digital:
+            return twin::LoopKind::external;
     }
     return twin::LoopKind::analog;
 }
@@ -28,7 +31,7 @@ twin::LoopKind twin_loop(config::Loop loop) {
 twin::Motion sines(const config::Motion& m) {
     std::vector<twin::Sine> sines;
     for (std::size_t k = 0; k < m.amplitude_arcsec_s.size(); ++k)
-        sines.push_back({m.amplitude_arcsec_s[k], m.frequency_hz[k], m.phase_deg[k]});
+        sines.push_back({m.amplitude_arcsec_s[k], m.frequency_hz[k], m.phase_deg[m.phase_deg.size() == 1 ? 0 : k]});
     return twin::Motion::sines(m.rate_arcsec_s, std::move(sines));
 }
 
@@ -41,6 +44,8 @@ twin::Motion from_file(const config::Motion& m) {
                                         .rate_hz = m.rate_hz,
                                         .comment = m.comment,
                                         .skip_lines = static_cast<int>(m.skip_lines)});
+    } catch (const std::invalid_argument& error) {
+        throw ConfigError{error.what()};
     } catch (const std::runtime_error& error) {
         throw logs::FormatError{error.what()};
     }
@@ -73,6 +78,8 @@ std::int64_t counts_limit(const config::Config& config) {
 }
 
 core::SwitchScheduleConfig schedule_of(const config::Config& config) {
+    if (config.switching.interval_optimal)
+        throw ConfigError{"switching.interval_s = \"optimal\": not available yet; allowed is a number of seconds"};
     return {.interval_ticks = ticks_of(config.switching.interval_s, config.gyro.tick_s),
             .first_segment = config.switching.first_segment == config::FirstSegment::half ? core::FirstSegment::half
                                                                                           : core::FirstSegment::full};
@@ -83,11 +90,15 @@ core::SwitchScheduleConfig schedule_of(const config::Config& config) {
 twin::Motion motion(const config::Config& config) {
     const config::Motion& m = config.motion;
     switch (m.kind) {
-        case config::MotionKind::rest: return twin::Motion::rest();
-        case config::MotionKind::constant: return twin::Motion::sines(m.rate_arcsec_s, {});
+        case config::MotionKind::rest:
+            return twin::Motion::rest();
+        case config::MotionKind::constant:
+            return twin::Motion::sines(m.rate_arcsec_s, {});
         case config::MotionKind::sine:
-        case config::MotionKind::sum: return sines(m);
-        case config::MotionKind::file: return from_file(m);
+        case config::MotionKind::sum:
+            return sines(m);
+        case config::MotionKind::file:
+            return from_file(m);
     }
     return twin::Motion::rest();
 }
@@ -95,12 +106,15 @@ twin::Motion motion(const config::Config& config) {
 std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion) {
     const double tick_s = config.gyro.tick_s;
     const double available_s = motion.duration_s();
-    const double asked_s = config.run.duration_s.value_or(std::isfinite(available_s) ? available_s : default_duration_s);
+    const double asked_s =
+        config.run.duration_s.value_or(std::isfinite(available_s) ? available_s : default_duration_s);
     // A part of a tick in 1e9 is rounding, not a run that is too long.
     if (asked_s > available_s + 1e-9 * tick_s + 1e-12 * available_s)
-        throw ConfigError{fmt::format("run.duration_s = {}: {} holds {} s of motion", asked_s, config.motion.path, available_s)};
+        throw ConfigError{
+            fmt::format("run.duration_s = {}: {} holds {} s of motion", asked_s, config.motion.path, available_s)};
     const double ticks = std::floor(asked_s / tick_s * (1.0 + 1e-12) + 1e-9);
-    if (!(ticks >= 1.0)) throw ConfigError{fmt::format("run.duration_s = {}: allowed is at least one tick, {} s", asked_s, tick_s)};
+    if (!(ticks >= 1.0))
+        throw ConfigError{fmt::format("run.duration_s = {}: allowed is at least one tick, {} s", asked_s, tick_s)};
     return static_cast<std::int64_t>(ticks);
 }
 
@@ -164,12 +178,15 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
                    .count = core::Arcsec{g.scale_arcsec}},
         .random_walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s}};
     switch (check(made)) {
-        case core::GyroCompensationFault::none: return made;
+        case core::GyroCompensationFault::none:
+            return made;
         case core::GyroCompensationFault::bridge:
-            throw ConfigError{fmt::format("compensation: a polynomial of order {} needs more points than its order; "
-                                          "extrapolation_points = {}, points_before + points_after = {}",
-                                          order_of(bridge), c.extrapolation_points, c.points_before + c.points_after)};
-        case core::GyroCompensationFault::relock: throw ConfigError{"[gyro] does not describe a gyro that can be compensated"};
+            throw ConfigError{
+                fmt::format("compensation: a polynomial of order {} needs more points than its order; "
+                            "extrapolation_points = {}, points_before + points_after = {}",
+                            order_of(bridge), c.extrapolation_points, c.points_before + c.points_after)};
+        case core::GyroCompensationFault::relock:
+            throw ConfigError{"[gyro] does not describe a gyro that can be compensated"};
         case core::GyroCompensationFault::random_walk:
             throw ConfigError{"drift.random_walk_arcsec_sqrt_s: allowed is 0 or more"};
     }
@@ -182,26 +199,32 @@ core::GyroControlConfig control_config(const config::Config& config) {
     const core::Volts presumed{config.piezo.half_wave_v * (1.0 + config.piezo.half_wave_error)};
     core::GyroControlConfig made;
     made.detector.discriminator_per_lambda = config.gyro.discriminator_per_lambda;
-    made.loop = {.kind = config.perimeter.loop == config::Loop::digital ? core::LoopKind::digital : core::LoopKind::analog,
-                 .range = range,
-                 .half_wave = presumed,
-                 .half_period = core::Seconds{0.5 * tick_s},
-                 .time_constant = core::Seconds{std::max(config.perimeter.tau_s, 0.5 * tick_s)},
-                 .error_limit = core::Wavelengths{config.perimeter.limit_lambda},
-                 .slew_v_s = config.piezo.slew_v_s};
+    made.loop = {
+        .kind = config.perimeter.loop == config::Loop::digital ? core::LoopKind::digital : core::LoopKind::analog,
+        .range = range,
+        .half_wave = presumed,
+        .half_period = core::Seconds{0.5 * tick_s},
+        .time_constant = core::Seconds{std::max(config.perimeter.tau_s, 0.5 * tick_s)},
+        .error_limit = core::Wavelengths{config.perimeter.limit_lambda},
+        .slew_v_s = config.piezo.slew_v_s};
     made.half_wave.presumed = presumed;
     made.schedule = schedule_of(config);
     made.mode_switch.range = range;
     made.mode_switch.gap_ticks = static_cast<std::int32_t>(config.switching.gap_ticks);
     // A slow loop needs longer before it may be said to have failed.
-    made.mode_switch.lock_timeout_ticks = static_cast<std::int32_t>(
-        std::max<std::int64_t>(60, made.mode_switch.settle_ticks + ticks_of(std::min(12.0 * config.perimeter.tau_s, 1e6 * tick_s), tick_s)));
+    made.mode_switch.lock_timeout_ticks = static_cast<std::int32_t>(std::max<std::int64_t>(
+        60, made.mode_switch.settle_ticks + ticks_of(std::min(12.0 * config.perimeter.tau_s, 1e6 * tick_s), tick_s)));
+    // Nor may light noise alone look like a lost lock.
+    const double noise_lambda =
+        config.gyro.light_noise_lambda / std::sqrt(static_cast<double>(config.gyro.light_samples));
+    made.mode_switch.lock_tolerance = core::Wavelengths{std::clamp(1.2 * noise_lambda, 0.02, 0.25)};
     made.mode_switch.start_set_point = 0.5 * (range.min + range.max);
     made.commutator = commutator_of(tick_s);
     made.health.counts_limit = counts_limit(config);
     made.presumed_temperature = core::Celsius{config.gyro.reference_temperature_c};
     if (check(made) != core::GyroControlFault::none)
-        throw ConfigError{fmt::format("the control refuses [perimeter], [piezo] or [switching]: fault {}", static_cast<int>(check(made)))};
+        throw ConfigError{fmt::format("the control refuses [perimeter], [piezo] or [switching]: fault {}",
+                                      static_cast<int>(check(made)))};
     return made;
 }
 

@@ -31,8 +31,12 @@ struct Variant {
     core::GyroCompensationState state{};
 
     [[nodiscard]] VariantResult result() const {
-        return {name, meter.drift_arcsec_s(), meter.angle_error_arcsec(), statistics(meter.switches()),
-                meter.switches(), meter.curve()};
+        return {name,
+                meter.drift_arcsec_s(),
+                meter.angle_error_arcsec(),
+                statistics(meter.switches()),
+                meter.switches(),
+                meter.curve()};
     }
 };
 
@@ -63,7 +67,8 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride)
     std::vector<Variant> all;
     for (const Choice& c : choices) {
         const config::Config& of = &c == &choices.back() ? config : paper;
-        all.push_back({c.name, rig::compensation_config(of, c.relock, c.bridge), ErrorMeter{config.gyro.tick_s, stride}});
+        all.push_back(
+            {c.name, rig::compensation_config(of, c.relock, c.bridge), ErrorMeter{config.gyro.tick_s, stride}});
     }
     return all;
 }
@@ -74,15 +79,17 @@ struct WaitingTick {
     MagnifiedTick shown;
 };
 
-MagnifiedTick shown_tick(std::int64_t tick, double scale_arcsec, const rig::LoopHalf& first, const rig::LoopHalf& second) {
+MagnifiedTick shown_tick(std::int64_t tick, double scale_arcsec, const rig::LoopHalf& first,
+                         const rig::LoopHalf& second) {
     const auto counts = static_cast<double>(first.record.counts + second.record.counts);
-    return {.tick = tick,
-            .measured = first.record.loop_closed && second.record.loop_closed && first.record.valid && second.record.valid,
-            .read_arcsec = scale_arcsec * counts,
-            .true_arcsec = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
-            .detuning_lambda = {first.record.detuning_lambda, second.record.detuning_lambda},
-            .true_detuning_lambda = {first.truth.detuning_end_lambda, second.truth.detuning_end_lambda},
-            .piezo_v = {first.record.piezo_v, second.record.piezo_v}};
+    return {
+        .tick = tick,
+        .measured = first.record.loop_closed && second.record.loop_closed && first.record.valid && second.record.valid,
+        .read_arcsec = scale_arcsec * counts,
+        .true_arcsec = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
+        .detuning_lambda = {first.record.detuning_lambda, second.record.detuning_lambda},
+        .true_detuning_lambda = {first.truth.detuning_end_lambda, second.truth.detuning_end_lambda},
+        .piezo_v = {first.record.piezo_v, second.record.piezo_v}};
 }
 
 class Experiment {
@@ -112,7 +119,8 @@ public:
 
     void end() {
         for (Variant& v : variants_) {
-            for (core::DrainOutput out = drain(v.config, v.state); out.has_row || out.has_gap; out = drain(v.config, v.state)) {
+            for (core::DrainOutput out = drain(v.config, v.state); out.has_row || out.has_gap;
+                 out = drain(v.config, v.state)) {
                 if (out.has_row) take_row(v, out.row);
                 if (out.has_gap && is_configured(v)) gaps_[out.gap.first_tick] = out.gap;
             }
@@ -151,8 +159,11 @@ private:
     [[nodiscard]] std::vector<SwitchLine> switch_lines() const {
         std::vector<SwitchLine> lines;
         for (const SwitchError& e : variants_.back().meter.switches()) {
-            SwitchLine line{.tick = e.window.first_tick, .mode = e.window.mode_after, .gap_ticks = e.window.n_ticks,
-                            .relock_arcsec = e.relock_arcsec, .true_error_arcsec = e.error_arcsec};
+            SwitchLine line{.tick = e.window.first_tick,
+                            .mode = e.window.mode_after,
+                            .gap_ticks = e.window.n_ticks,
+                            .relock_arcsec = e.relock_arcsec,
+                            .true_error_arcsec = e.error_arcsec};
             if (const auto gap = gaps_.find(line.tick); gap != gaps_.end()) {
                 line.dp_arcsec = gap->second.dp_arcsec;
                 line.sigma_arcsec = gap->second.sigma_sum_arcsec;
@@ -196,7 +207,8 @@ VariantResult one_mode(const config::Config& config, const twin::Motion& motion,
         const core::AngleSample sample = step(variant.config, variant.state, second.record).sample;
         if (sample.has_final) take(sample.final_row);
     }
-    for (auto out = drain(variant.config, variant.state); out.has_row || out.has_gap; out = drain(variant.config, variant.state))
+    for (auto out = drain(variant.config, variant.state); out.has_row || out.has_gap;
+         out = drain(variant.config, variant.state))
         if (out.has_row) take(out.row);
     return variant.result();
 }

@@ -1,5 +1,6 @@
 #include <zlg/study/run_page.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,8 +14,11 @@ using report::Figure;
 using report::Mark;
 using report::Series;
 
-// Three significant digits are what a reader compares.
-std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "unknown"; }
+// Three or four significant digits are what a reader compares.
+std::string number(double x) {
+    if (!std::isfinite(x)) return "unknown";
+    return std::abs(x) >= 1000.0 && std::abs(x) < 1e9 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
+}
 
 const VariantResult* find(const RunResult& result, const std::string& name) {
     for (const VariantResult& v : result.variants)
@@ -35,9 +39,10 @@ const char* meaning(const std::string& name) {
 }
 
 report::Table variant_table(const RunResult& result) {
-    report::Table table{.caption = "Drift is the least-squares slope of the angle error. The error of a switch is final minus "
-                                   "true angle from the first blind tick to the end of the re-lock; its mean is taken with "
-                                   "the sign of the false drift, which alternates from switch to switch.",
+    report::Table table{.caption =
+                            "Drift is the least-squares slope of the angle error. The error of a switch is final minus "
+                            "true angle from the first blind tick to the end of the re-lock; its mean is taken with "
+                            "the sign of the false drift, which alternates from switch to switch.",
                         .header = {"variant", "what it is", "drift, \"/s", "angle error at the end, \"",
                                    "error per switch, mean, \"", "rms, \"", "max, \""},
                         .rows = {}};
@@ -68,22 +73,25 @@ Figure figure_of(std::string id, std::string title, std::string caption, std::st
 }
 
 Figure sawtooth_figure(const config::Config& config, const RunResult& result) {
-    Figure f = figure_of("angle-error", "Angle error against time",
-                         fmt::format("In one mode the magnetic drift adds up without end. Switched every {} s, its sign follows "
-                                     "the helicity of the mode: the error is a sawtooth of amplitude interval x magnetic drift, "
-                                     "on a slow slope that is the non-magnetic drift.",
-                                     number(config.switching.interval_s)),
-                         "time, s", "final minus true angle, arcsec");
+    Figure f = figure_of(
+        "angle-error", "Angle error against time",
+        fmt::format("In one mode the magnetic drift adds up without end. Switched every {} s, its sign follows "
+                    "the helicity of the mode: the error is a sawtooth of amplitude interval x magnetic drift, "
+                    "on a slow slope that is the non-magnetic drift.",
+                    number(config.switching.interval_s)),
+        "time, s", "final minus true angle, arcsec");
     if (const auto* v = find(result, "one_mode")) f.series.push_back(curve_of(*v, "one mode"));
-    if (const auto* v = find(result, "configured")) f.series.push_back(curve_of(*v, "switched, compensated as configured"));
+    if (const auto* v = find(result, "configured"))
+        f.series.push_back(curve_of(*v, "switched, compensated as configured"));
     return f;
 }
 
 Figure methods_figure(const RunResult& result) {
-    Figure f = figure_of("compensations", "The switched gyro under different compensations",
-                         "The same records, compensated in different ways. What a method leaves at each switch adds up like a "
-                         "random walk on top of the sawtooth, for the sign of the false drift alternates.",
-                         "time, s", "final minus true angle, arcsec");
+    Figure f =
+        figure_of("compensations", "The switched gyro under different compensations",
+                  "The same records, compensated in different ways. What a method leaves at each switch adds up like a "
+                  "random walk on top of the sawtooth, for the sign of the false drift alternates.",
+                  "time, s", "final minus true angle, arcsec");
     for (const char* name : {"relock_frequency", "relock_mean_square", "bridge_constant", "configured"})
         if (const auto* v = find(result, name)) f.series.push_back(curve_of(*v, name));
     return f;
@@ -102,12 +110,13 @@ report::Band gap_band(const RunResult& result, double ticks_to_x) {
 }
 
 Figure magnified_figure(const RunResult& result) {
-    Figure f = figure_of("one-switch", "One switch, tick by tick",
-                         "Each point is the angle of one tick. In the gap the counter reads nonsense; the gyro delivers an "
-                         "extrapolation in real time and an interpolation as soon as the other side is known. One tick then "
-                         "carries the difference, so that no angle is lost. After the gap the reading is still wrong while "
-                         "the perimeter settles: the final value is corrected for it.",
-                         "tick", "angle of the tick, arcsec");
+    Figure f =
+        figure_of("one-switch", "One switch, tick by tick",
+                  "Each point is the angle of one tick. In the gap the counter reads nonsense; the gyro delivers an "
+                  "extrapolation in real time and an interpolation as soon as the other side is known. One tick then "
+                  "carries the difference, so that no angle is lost. After the gap the reading is still wrong while "
+                  "the perimeter settles: the final value is corrected for it.",
+                  "tick", "angle of the tick, arcsec");
     Series read{.name = "as read", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
     Series delivered{.name = "delivered in real time", .x = {}, .y = {}, .y_error = {}, .dashed = true};
     Series final_value{.name = "final", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
@@ -127,11 +136,12 @@ Figure magnified_figure(const RunResult& result) {
 }
 
 Figure detuning_figure(const RunResult& result) {
-    Figure f = figure_of("detuning", "Detuning of the perimeter through the switch",
-                         "While the loop is open the perimeter travels half a wavelength, from the middle of one mode to that "
-                         "of the other. Closed again, the loop removes what is left; the bias, and with it the reading, is "
-                         "false by the square of the detuning until then.",
-                         "time, ms", "detuning, wavelengths");
+    Figure f =
+        figure_of("detuning", "Detuning of the perimeter through the switch",
+                  "While the loop is open the perimeter travels half a wavelength, from the middle of one mode to that "
+                  "of the other. Closed again, the loop removes what is left; the bias, and with it the reading, is "
+                  "false by the square of the detuning until then.",
+                  "time, ms", "detuning, wavelengths");
     Series truth{.name = "true, at the end of each half", .x = {}, .y = {}, .y_error = {}};
     Series seen{.name = "measured, mean of each half", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
     const double half_ms = 500.0 * result.tick_s;
@@ -154,10 +164,11 @@ Figure detuning_figure(const RunResult& result) {
 }
 
 Figure piezo_figure(const RunResult& result) {
-    Figure f = figure_of("piezo", "Piezo voltage through the switch",
-                         "The processor steps the high voltage by the half-wave voltage it has learnt from earlier switches; "
-                         "the amplifier follows at its slew rate; the loop does the rest.",
-                         "time, ms", "piezo voltage, V");
+    Figure f =
+        figure_of("piezo", "Piezo voltage through the switch",
+                  "The processor steps the high voltage by the half-wave voltage it has learnt from earlier switches; "
+                  "the amplifier follows at its slew rate; the loop does the rest.",
+                  "time, ms", "piezo voltage, V");
     Series volts{.name = "piezo, by ADC", .x = {}, .y = {}, .y_error = {}};
     const double half_ms = 500.0 * result.tick_s;
     std::size_t half = 0;
@@ -180,16 +191,37 @@ Figure histogram_figure(const RunResult& result) {
         if (!v) continue;
         std::vector<double> errors;
         for (const SwitchError& e : v->switches) errors.push_back(e.error_arcsec);
-        f.series.push_back(report::histogram(name, errors, 25));
+        const int n_bins = std::clamp(static_cast<int>(2.0 * std::sqrt(static_cast<double>(errors.size()))), 5, 40);
+        f.series.push_back(report::histogram(name, errors, n_bins));
     }
     return f;
 }
 
+Figure switch_error_figure(const RunResult& result) {
+    Figure f =
+        figure_of("errors-in-time", "Error of each switch, as configured",
+                  "Final minus true angle of every switch. The bars are the standard deviation that the compensation "
+                  "itself claims for the gap: rounding, light noise and random walk, with the motion taken as a "
+                  "polynomial of the bridge's order.",
+                  "time, s", "error of a switch, arcsec");
+    Series errors{
+        .name = "error, with the claimed standard deviation", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
+    for (const SwitchLine& line : result.switches) {
+        errors.x.push_back(static_cast<double>(line.tick) * result.tick_s);
+        errors.y.push_back(line.true_error_arcsec);
+        errors.y_error.push_back(line.sigma_arcsec);
+    }
+    f.series = {std::move(errors)};
+    return f;
+}
+
 report::Table relock_table(const RunResult& result) {
-    report::Table table{.caption = "True false drift on the ticks after the loop is closed, averaged over the switches, with the "
-                                   "sign that makes it positive.",
-                        .header = {"tick after the gap"},
-                        .rows = {{"false drift, deg/h"}}};
+    report::Table table{
+        .caption =
+            "True false drift on the ticks after the loop is closed, averaged over the switches, with the "
+            "sign that makes it positive.",
+        .header = {"tick after the gap"},
+        .rows = {{"false drift, deg/h"}}};
     for (std::size_t i = 0; i < result.relock_false_drift_deg_h.size(); ++i) {
         table.header.push_back(fmt::format("{}", i + 1));
         table.rows[0].push_back(fmt::format("{:.0f}", result.relock_false_drift_deg_h[i]));
@@ -198,12 +230,13 @@ report::Table relock_table(const RunResult& result) {
 }
 
 report::Section switch_section(const RunResult& result) {
-    report::Section section{.heading = "A switch, magnified",
-                            .paragraphs = {"Switching takes the perimeter from one longitudinal mode to the next, of opposite "
-                                           "circular polarisation. On the way there is no light in both directions and the gyro "
-                                           "is blind; just after it, the bias is not yet what it should be and the gyro lies."},
-                            .tables = {},
-                            .figures = {}};
+    report::Section section{
+        .heading = "A switch, magnified",
+        .paragraphs = {"Switching takes the perimeter from one longitudinal mode to the next, of opposite "
+                       "circular polarisation. On the way there is no light in both directions and the gyro "
+                       "is blind; just after it, the bias is not yet what it should be and the gyro lies."},
+        .tables = {},
+        .figures = {}};
     if (!result.relock_false_drift_deg_h.empty()) section.tables.push_back(relock_table(result));
     section.figures = {magnified_figure(result), detuning_figure(result), piezo_figure(result)};
     return section;
@@ -212,24 +245,27 @@ report::Section switch_section(const RunResult& result) {
 }  // namespace
 
 report::Page run_page(const config::Config& config, const RunResult& result) {
-    report::Page page{.title = "A Zeeman laser gyro in the quasi-four-frequency regime",
-                      .lead = fmt::format("{} s of simulated operation, ticks of {} ms, modes switched every {} s: {} switches. "
-                                          "1 \"/s is 1 deg/h.",
-                                          number(static_cast<double>(result.ticks) * result.tick_s), number(1e3 * result.tick_s),
-                                          number(config.switching.interval_s), result.switches.size()),
-                      .sections = {}};
-    page.sections.push_back({.heading = "Result",
-                             .paragraphs = {"Every row below compensates the records of one and the same run of the digital twin; "
-                                            "only one_mode is a run of its own."},
-                             .tables = {variant_table(result)},
-                             .figures = {sawtooth_figure(config, result), methods_figure(result)}});
+    report::Page page{
+        .title = "A Zeeman laser gyro in the quasi-four-frequency regime",
+        .lead = fmt::format("{} s of simulated operation, ticks of {} ms, modes switched every {} s: {} switches. "
+                            "1 \"/s is 1 deg/h.",
+                            number(static_cast<double>(result.ticks) * result.tick_s), number(1e3 * result.tick_s),
+                            number(config.switching.interval_s), result.switches.size()),
+        .sections = {}};
+    page.sections.push_back(
+        {.heading = "Result",
+         .paragraphs = {"Every row below compensates the records of one and the same run of the digital twin; "
+                        "only one_mode is a run of its own."},
+         .tables = {variant_table(result)},
+         .figures = {sawtooth_figure(config, result), methods_figure(result)}});
     if (!result.magnified.empty()) page.sections.push_back(switch_section(result));
     if (!result.switches.empty())
-        page.sections.push_back({.heading = "All switches",
-                                 .paragraphs = {"The histogram shows the spread of what is left after compensation. The file of "
-                                                "switches lists each of them with its claimed and its true error."},
-                                 .tables = {},
-                                 .figures = {histogram_figure(result)}});
+        page.sections.push_back(
+            {.heading = "All switches",
+             .paragraphs = {"The histogram shows the spread of what is left after compensation. The file of "
+                            "switches lists each of them with its claimed and its true error."},
+             .tables = {},
+             .figures = {histogram_figure(result), switch_error_figure(result)}});
     return page;
 }
 

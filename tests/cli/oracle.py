@@ -110,7 +110,7 @@ def deficit_hz(rows, tick, settings):
 def root_q(rows, one, i, settings):
     """q of eq (11) from tick i >= 2, where tick 1 is `one`; None where the data do not allow it."""
     begin, now = deficit_hz(rows, one, settings), deficit_hz(rows, one + i - 1, settings)
-    if not (begin < 0.0 and now < 0.0 and 0.0 < now / begin < 1.0):
+    if not (begin != 0.0 and 0.0 < now / begin < 1.0):
         return None
     return (now / begin) ** (1.0 / (2 * (i - 1)))
 

@@ -122,7 +122,8 @@ class BadFiles(BadInputTest):
 
     def test_binary_garbage(self):
         noise = self.random.randbytes(5000)
-        for name, data in (("noise", noise), ("zeros", bytes(4096)), ("false HDF5", b"\x89HDF\r\n\x1a\n" + noise), ("UTF-16", csv_text(quiet_log(9)).encode("utf-16"))):
+        for name, data in (("noise", noise), ("zeros", bytes(4096)), ("false HDF5", b"\x89HDF\r\n\x1a\n" + noise),
+                           ("UTF-16", csv_text(quiet_log(9)).encode("utf-16"))):
             with self.subTest(file=name):
                 self.refuse_log(data, "raw.csv")
 
@@ -161,17 +162,19 @@ class BadUsage(BadInputTest):
                 self.refuse_call(USAGE, "process", self.raw, "--out", self.folder / name)
 
     def test_unknown_key_names_the_nearest(self):
-        for key, nearest in (("compensation.bridg", "compensation.bridge"), ("gyro.tick", "tick_s"),
-                             ("compensaton.relock", "compensation"), ("gyro.scale_arcsecs", "scale_arcsec")):
-            with self.subTest(key=key):
-                self.refuse_call(USAGE, *self.process_call, "--set", f"{key}=1", says=[key.split(".")[1], nearest])
+        cases = [("compensation", "bridg", "bridge"), ("gyro", "tick", "tick_s"), ("gyro", "scale_arcsecs", "scale_arcsec")]
+        for section, name, nearest in cases:
+            with self.subTest(key=name):
+                self.refuse_call(USAGE, *self.process_call, "--set", f"{section}.{name}=1", says=[name, nearest])
+        self.refuse_call(USAGE, *self.process_call, "--set", "compensaton.relock=none", says=["compensaton", "compensation"])
         file = self.write("bad.toml", "[compensation]\nbrigde = \"linear\"\n")
         self.refuse_call(USAGE, *self.process_call, "--config", file, says=["brigde", "bridge"])
 
     def test_value_out_of_range(self):
-        cases = ["gyro.tick_s=nan", "gyro.tick_s=inf", "gyro.tick_s=0", "gyro.tick_s=-0.005", "gyro.scale_arcsec=nan", "gyro.bias_hz=nan",
-                 "gyro.scale_arcsec=0", "gyro.bias_chi=nan", "compensation.bridge=cubicle", "compensation.relock=1", "compensation.relock_ticks=-1",
-                 "compensation.extrapolation_points=2.5", "compensation.points_after=many", "gyro.tick_s=true", "gyro.tick_s=[1]"]
+        cases = ["gyro.tick_s=nan", "gyro.tick_s=inf", "gyro.tick_s=0", "gyro.tick_s=-0.005", "gyro.scale_arcsec=nan",
+                 "gyro.bias_hz=nan", "gyro.scale_arcsec=0", "gyro.bias_chi=nan", "compensation.bridge=cubicle", "compensation.relock=1",
+                 "compensation.relock_ticks=-1", "compensation.extrapolation_points=2.5", "compensation.points_after=many",
+                 "gyro.tick_s=true", "gyro.tick_s=[1]"]
         for case in cases:
             with self.subTest(setting=case):
                 self.refuse_call(USAGE, *self.process_call, "--set", case, says=[case.split("=")[0].split(".")[1]])

@@ -139,6 +139,15 @@ class LongAndEdgeGaps(OracleTest):
                 with self.subTest(distance=distance, relock=relock):
                     self.check(rows, settings, f"gaps {sorted(gaps)}, {relock}")
 
+    def test_a_gap_in_every_second_or_third_tick(self):
+        for step in (2, 3):
+            for first in (0, 5):
+                for relock in ("none", "frequency"):
+                    settings = Settings(relock=relock, bias_hz=60123.4, points_before=8, points_after=8, extrapolation_points=8)
+                    rows = random_log(self.random, settings, set(range(first, 60, step)), 100)
+                    with self.subTest(step=step, first=first, relock=relock):
+                        self.check(rows, settings, f"a gap every {step} ticks from {first}")
+
 
 class Polynomials(OracleTest):
     """Motion of the bridge's own order loses nothing, whatever the counter says inside the gap."""

@@ -113,7 +113,8 @@ TEST(Angle, WhatIsNotCountsIsKeptToTheLastBit) {
     EXPECT_EQ(angle.counts, counts);
     EXPECT_TRUE(magnitude(exact_value(angle.remainder_arcsec) - remainder) < 1e-20);
     const double exact = static_cast<double>(Quad{scale_arcsec} * static_cast<Quad>(counts) + remainder);
-    EXPECT_NEAR(angle.value_arcsec(scale_arcsec), exact, 3e-16 * (std::fabs(exact) + std::fabs(static_cast<double>(remainder))));
+    EXPECT_NEAR(angle.value_arcsec(scale_arcsec), exact,
+                3e-16 * (std::fabs(exact) + std::fabs(static_cast<double>(remainder))));
 }
 
 TEST(Angle, ABridgedTickEntersAsItWasDelivered) {

@@ -76,6 +76,14 @@ TEST(HalfWave, OutliersAreRejectedAndSaid) {
     EXPECT_EQ(s.n_accepted, 20);
 }
 
+TEST(HalfWave, AnotherModeIsNoNeighbourHoweverWideTheGate) {
+    const HalfWaveConfig unsure{.presumed_sigma_ratio = 0.9};
+    HalfWaveState s = initial_state(unsure);
+    EXPECT_TRUE(step(unsure, s, Volts{81.0}).rejected);
+    EXPECT_TRUE(step(unsure, s, Volts{19.0}).rejected);
+    EXPECT_FALSE(step(unsure, s, Volts{79.0}).rejected);
+}
+
 TEST(HalfWave, WithoutMeasurementsTheSigmaGrowsToThatOfThePresumedValue) {
     HalfWaveState s = initial_state(config);
     (void)step(config, s, Volts{40.0});

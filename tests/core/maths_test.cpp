@@ -37,7 +37,8 @@ TEST(NaturalLog, IsGoodToTwoUlpForAnyPositiveNumber) {
 
 TEST(NaturalLog, IsGoodToTwoUlpForSubnormals) {
     Random random{2};
-    for (int k = 0; k < 100'000; ++k) expect_log(std::bit_cast<double>((random.bits() >> 12 >> random.index(0, 51)) | 1));
+    for (int k = 0; k < 100'000; ++k)
+        expect_log(std::bit_cast<double>((random.bits() >> 12 >> random.index(0, 51)) | 1));
     expect_log(smallest_subnormal);
 }
 
@@ -123,7 +124,8 @@ TEST(SquareRoot, IsTheNearestDouble) {
 }
 
 TEST(IsFinite, IsFalseForInfinitiesAndNotANumberOnly) {
-    for (const double x : {0.0, -0.0, smallest_subnormal, 1.0, -1e300, largest, -largest}) EXPECT_TRUE(is_finite(x)) << x;
+    for (const double x : {0.0, -0.0, smallest_subnormal, 1.0, -1e300, largest, -largest})
+        EXPECT_TRUE(is_finite(x)) << x;
     for (const double x : {infinite, -infinite, not_a_number, -not_a_number}) EXPECT_FALSE(is_finite(x)) << x;
     static_assert(is_finite(3.263));
 }

@@ -299,6 +299,39 @@ TEST(ModeSwitchSearching, ADetunedPlaceIsLeftAfterTheTimeout) {
     EXPECT_EQ(q.state.polarity, -first_polarity);
 }
 
+TEST(ModeSwitchSettling, DarkHalvesMustBeInARowToCount) {
+    Sequence q;
+    q.to_settling();
+    for (int k = 0; k < 5; ++k) {
+        q.halves(3, Seen::dark);
+        q.halves(1, Seen::locked);
+    }
+    EXPECT_EQ(q.state.phase, SwitchPhase::settling);
+}
+
+TEST(ModeSwitchReturning, ALockIsJudgedAfreshAfterEveryClosing) {
+    Sequence q;
+    q.to_settling();
+    q.halves(24 + 6, Seen::detuned);
+    ASSERT_EQ(q.state.phase, SwitchPhase::returning);
+    q.halves(8, Seen::locked);
+    EXPECT_EQ(q.state.phase, SwitchPhase::tracking);
+}
+
+TEST(ModeSwitchSearching, ASecondSearchBeginsAnew) {
+    Sequence q;
+    q.to_searching();
+    const double first_v = q.state.set_point_v;
+    q.halves(30, Seen::dark);
+    ASSERT_NE(q.state.set_point_v, first_v);
+    q.halves(6, Seen::dark);
+    q.halves(8, Seen::locked);
+    ASSERT_EQ(q.state.phase, SwitchPhase::tracking);
+    q.halves(24 + 10, Seen::dark);  // lost, back, and searching again
+    ASSERT_EQ(q.state.phase, SwitchPhase::searching);
+    EXPECT_EQ(q.state.set_point_v, first_v);
+}
+
 // What a switch starts from and what it measures.
 
 TEST(ModeSwitch, HelicityAlternatesAndSoDoesTheStep) {
@@ -360,6 +393,27 @@ TEST(ModeSwitch, StaleReadingsAreGoodEnoughToSteerNotToMeasure) {
     EXPECT_EQ(q.state.set_point_v, 120.0);
     q.halves(6, Seen::missed);
     q.halves(8, Seen::locked);
+    EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
+    EXPECT_FALSE(q.event.has_half_wave);
+}
+
+TEST(ModeSwitch, ReadingsFromBeforeTheSwitchAreNotOnesFromAfterIt) {
+    Sequence q;
+    q.to_settling();
+    q.piezo_v = nan_value;
+    q.halves(8, Seen::locked);
+    EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
+    EXPECT_FALSE(q.event.has_half_wave);
+}
+
+TEST(ModeSwitch, AStaleReadingAfterTheSwitchMeasuresNothing) {
+    Sequence q;
+    q.to_settling();
+    q.piezo_v = 120.0;
+    (void)q.half(Seen::locked);
+    q.halves(10, Seen::missed);
+    q.piezo_v = nan_value;
+    q.halves(7, Seen::locked);
     EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
     EXPECT_FALSE(q.event.has_half_wave);
 }

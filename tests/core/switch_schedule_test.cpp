@@ -8,7 +8,7 @@ namespace zlg::core {
 namespace {
 
 static_assert(check(SwitchScheduleConfig{}) == SwitchScheduleFault::none);
-static_assert(check(SwitchScheduleConfig{.interval_ticks = 1}) == SwitchScheduleFault::interval);
+static_assert(check(SwitchScheduleConfig{.interval_ticks = 0}) == SwitchScheduleFault::interval);
 static_assert(check(SwitchScheduleConfig{.interval_ticks = -5}) == SwitchScheduleFault::interval);
 static_assert(check(SwitchScheduleConfig{.interval_ticks = std::numeric_limits<std::int64_t>::max()}) ==
               SwitchScheduleFault::interval);
@@ -16,7 +16,7 @@ static_assert(check(SwitchScheduleConfig{.interval_ticks = std::numeric_limits<s
 // Ticks at which the loop opens, when the gyro is ready at all ticks but those of [busy_from, busy_to).
 std::vector<std::int64_t> openings(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t busy_from = 0,
                                    std::int64_t busy_to = 0) {
-    SwitchScheduleState s;
+    SwitchScheduleState s = initial_state(c);
     std::vector<std::int64_t> result;
     for (std::int64_t tick = 1; tick < n_ticks; ++tick) {
         if (step(c, s, tick, !(tick >= busy_from && tick < busy_to)).open) result.push_back(tick);
@@ -42,8 +42,8 @@ TEST(SwitchSchedule, SeveralThatWaitAreOne) {
 }
 
 TEST(SwitchSchedule, ALateOpeningIsSaidToBeLate) {
-    SwitchScheduleState s;
     const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
     EXPECT_FALSE(step(c, s, 10, false).open);
     const SwitchScheduleOutput late = step(c, s, 11, true);
     EXPECT_TRUE(late.open);
@@ -53,14 +53,22 @@ TEST(SwitchSchedule, ALateOpeningIsSaidToBeLate) {
     EXPECT_FALSE(in_time.late);
 }
 
+TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnew) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    EXPECT_TRUE(step(c, s, 1003, true).open);
+    for (std::int64_t tick = 1004; tick < 1013; ++tick) EXPECT_FALSE(step(c, s, tick, true).open);
+    EXPECT_TRUE(step(c, s, 1013, true).open);
+}
+
 TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
-    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-    for (const std::int64_t interval : {std::int64_t{2}, std::int64_t{1} << 53}) {
-        SwitchScheduleState s;
+    using Limits = std::numeric_limits<std::int64_t>;
+    for (const std::int64_t interval : {std::int64_t{1}, std::int64_t{1} << 53}) {
         const SwitchScheduleConfig c{.interval_ticks = interval};
-        EXPECT_FALSE(step(c, s, std::numeric_limits<std::int64_t>::min(), true).open);
-        EXPECT_TRUE(step(c, s, most, true).open);
-        EXPECT_FALSE(step(c, s, most, true).open);
+        SwitchScheduleState s = initial_state(c);
+        EXPECT_FALSE(step(c, s, Limits::min(), true).open);
+        EXPECT_FALSE(step(c, s, Limits::max(), true).open);
+        EXPECT_TRUE(step(c, s, (std::int64_t{1} << 62) - 1, true).open);
         EXPECT_FALSE(step(c, s, 0, true).open);
     }
 }

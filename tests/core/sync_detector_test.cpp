@@ -210,6 +210,34 @@ TEST(SyncDetector, ASingleFlashIsNotALevel) {
     EXPECT_TRUE(both(s, light_of(steady(0.0), 1), 1).usable);
 }
 
+TEST(SyncDetector, OneWayLightIsKnownBeforeAnyLevelIs) {
+    SyncDetectorState s;
+    const Light one_way{std::vector<float>(16, 1000.0f), std::vector<float>(16, 1.0f)};
+    for (int half = 0; half < 10; ++half) EXPECT_FALSE(both(s, one_way, 1).two_way);
+    EXPECT_EQ(s.both.level, 0.0);
+}
+
+TEST(SyncDetector, FlickeringLightIsNotLearnt) {
+    SyncDetectorState s;
+    for (int half = 0; half < 100; ++half) {
+        (void)both(s, light_of(steady(0.0), 1, half % 2 == 0 ? 1000.0 : 3000.0), 1);
+    }
+    EXPECT_EQ(s.both.level, 0.0);
+}
+
+TEST(SyncDetector, OneBeamPairsNeighbouringHalvesOnly) {
+    SyncDetectorState s;
+    Light spoilt = light_of(steady(0.0), 1);
+    spoilt.a[0] = std::numeric_limits<float>::quiet_NaN();
+    for (int pair = 0; pair < 20; ++pair) {
+        (void)single(s, light_of(steady(0.0), 1), 1);
+        (void)single(s, spoilt, -1);
+        (void)single(s, light_of(steady(0.0), 1), -1);
+        (void)single(s, spoilt, 1);
+    }
+    EXPECT_EQ(s.single.level, 0.0);
+}
+
 TEST(SyncDetector, LightBelowTheFloorIsDarkFromTheStart) {
     const SyncDetectorConfig floor{.level_min = 10.0};
     const Light faint = light_of(steady(0.0), 1, 9.0);

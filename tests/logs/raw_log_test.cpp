@@ -180,7 +180,8 @@ TEST(RawReader, refuses_a_doubled_missing_or_nameless_column) {
 }
 
 TEST(RawReader, refuses_a_file_without_rows) {
-    for (const std::string& text : {std::string{}, std::string{"\n"}, std::string{"# a = b\n"}, names, names + "\n\n"}) {
+    for (const std::string& text :
+         {std::string{}, std::string{"\n"}, std::string{"# a = b\n"}, names, names + "\n\n"}) {
         expect_contains(complaint(text), "raw.csv is empty");
     }
 }
@@ -316,4 +317,15 @@ TEST(RawWriter, has_room_for_the_longest_row) {
     EXPECT_EQ(text.substr(text.find('\n') + 1),
               "-9223372036854775808,-1,-1,-9223372036854775808,1,1,-2.2250738585072014e-308,-2.2250738585072014e-308,"
               "-2.2250738585072014e-308,-2.2250738585072014e-308\n");
+}
+
+TEST(RawReader, tells_a_last_line_that_may_have_been_cut_off) {
+    const TemporaryFolder folder;
+    const std::string rows = names + "0,1,1,151,1\n1,-1,1,-149,1";
+    RawReader whole{folder.write("whole.csv", rows + "\n")};
+    RawReader cut{folder.write("cut.csv", rows)};
+    (void)rows_of(whole);
+    (void)rows_of(cut);
+    EXPECT_TRUE(whole.line_is_ended());
+    EXPECT_FALSE(cut.line_is_ended());
 }

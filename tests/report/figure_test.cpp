@@ -45,6 +45,7 @@ std::vector<Figure> odd_figures() {
         figure({series({1e12, 1e12 + 1e-3}, {1.0, 1.0 + 1e-15})}),
         figure({series({1.0, 1.0 + 1e-6}, {1.0, 1.0 + 1e-7})}, true, true),
         figure({series({1.0, 2.0, 3.0}, {1.0})}),
+        figure({series({1e-320, 3e-320}, {1e-310, 3e-310})}),
         figure({series({1.0, 2.0}, {-3.0, 2.0}, Mark::steps)}),
     };
     Figure full = out.back();
@@ -124,6 +125,13 @@ TEST(Svg, a_point_is_read_off_the_log_axes_as_its_value) {
         EXPECT_NEAR(x / data.x[i], 1.0, 2e-3);
         EXPECT_NEAR(y / data.y[i], 1.0, 2e-3);
     }
+}
+
+TEST(Svg, the_last_tick_label_stays_on_the_page) {
+    const auto elements = markup::read(svg(figure({series({1234551, 1234579.2}, {0, 1})})));
+    const auto last = markup::all(elements, "text", "x-ticks").back();
+    EXPECT_EQ(last.text, "1\u00A0234\u00A0580");
+    EXPECT_LE(markup::number(last, "x") + 0.5 * 9 * 0.55 * 16.0, 680.0);
 }
 
 TEST(Svg, decades_are_whole_powers_of_ten) {

@@ -32,7 +32,7 @@ BROKEN = {
     "config sees core only": ("config/src/schema.cpp", "#include <zlg/twin/twin.hpp>", "config may not include twin"),
     "rig below study": ("rig/src/rig.cpp", "#include <zlg/study/run.hpp>", "rig may not include study"),
     "report sees tables only": ("report/src/page.cpp", "#include <zlg/core/records.hpp>", "report may not include core"),
-    "study without report": ("study/src/run.cpp", "#include <zlg/report/page.hpp>", "study may not include report"),
+    "rig without report": ("rig/src/rig.cpp", "#include <zlg/report/page.hpp>", "rig may not include report"),
     "study below cli": ("study/src/run.cpp", "#include <zlg/cli/verbs.hpp>", "study may not include cli"),
     "firmware sees core only": ("firmware/main.cpp", "#include <zlg/twin/twin.hpp>", "firmware may not include twin"),
     "lab beside cli": ("lab/server.cpp", "#include <zlg/cli/verbs.hpp>", "lab may not include cli"),

@@ -7,6 +7,30 @@
 #include <fmt/format.h>
 
 namespace zlg::twin {
+namespace {
+
+bool uses_set_points(const core::ActuatorFrame& frame, LoopKind loop) {
+    return !frame.loop_closed || loop == LoopKind::external;
+}
+
+void check(const core::ActuatorFrame& frame, LoopKind loop) {
+    if (frame.polarity != 1 && frame.polarity != -1) {
+        throw std::invalid_argument(fmt::format("actuator frame: polarity is {}, allowed is 1 or -1", frame.polarity));
+    }
+    if (!uses_set_points(frame, loop)) return;
+    if (frame.n_set_points < 1 || frame.n_set_points > core::max_set_points) {
+        throw std::invalid_argument(fmt::format("actuator frame: n_set_points is {}, allowed is 1..{}",
+                                                frame.n_set_points, core::max_set_points));
+    }
+    for (std::size_t k = 0; k < frame.n_set_points; ++k) {
+        if (!std::isfinite(frame.set_point_v[k])) {
+            throw std::invalid_argument(
+                fmt::format("actuator frame: set_point_v[{}] is {}, allowed is finite", k, frame.set_point_v[k]));
+        }
+    }
+}
+
+}  // namespace
 
 Perimeter::Perimeter(const TwinConfig& config, int n_steps)
     : config_{config},
@@ -21,15 +45,10 @@ Perimeter::Perimeter(const TwinConfig& config, int n_steps)
 
 double Perimeter::voltage_v() const { return std::clamp(stage_.volts(v_), config_.piezo_min_v, config_.piezo_max_v); }
 
-bool Perimeter::follows_set_points() const { return !closed_ || config_.loop == LoopKind::external; }
-
 double Perimeter::drift_at(int step) const { return drift_start_ + drift_step_ * step; }
 
 void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda) {
-    if (frame.polarity != 1 && frame.polarity != -1) {
-        throw std::invalid_argument(
-            fmt::format("actuator frame: polarity is {}, allowed are 1 and -1", frame.polarity));
-    }
+    check(frame, config_.loop);
     drift_start_ = drift_ = drift_start_lambda;
     drift_step_ = (drift_end_lambda - drift_start_lambda) / n_steps_;
     steps_done_ = 0;
@@ -38,9 +57,9 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
     const bool aims = !frame.loop_closed && (closed_ || frame.polarity != polarity_);
     closed_ = frame.loop_closed;
     polarity_ = frame.polarity;
-    if (follows_set_points()) take_set_points(frame);
-    if (aims) aim();
     if (closes) close();
+    if (uses_set_points(frame, config_.loop)) take_set_points(frame);
+    if (aims) aim();
     if (config_.loop == LoopKind::exponential && closed_) {
         amplitude_ = miss_at_closing_ * std::exp(-halves_since_closing_ * (0.5 * config_.tick_s) / config_.loop_tau_s);
         halves_since_closing_ += 1.0;
@@ -49,16 +68,8 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
 }
 
 void Perimeter::take_set_points(const core::ActuatorFrame& frame) {
-    if (frame.n_set_points < 1 || frame.n_set_points > core::max_set_points) {
-        throw std::invalid_argument(fmt::format("actuator frame: n_set_points is {}, allowed is 1..{}",
-                                                frame.n_set_points, core::max_set_points));
-    }
     set_points_.clear();
     for (std::size_t k = 0; k < frame.n_set_points; ++k) {
-        if (!std::isfinite(frame.set_point_v[k])) {
-            throw std::invalid_argument(fmt::format("actuator frame: set_point_v[{}] is {}, allowed are finite volts",
-                                                    k, frame.set_point_v[k]));
-        }
         set_points_.push_back(stage_.lambda(dac_.quantised_v(frame.set_point_v[k])));
     }
 }
@@ -81,8 +92,9 @@ void Perimeter::close() {
         while (pinned > stage_.clamped(pinned)) pinned -= 1.0;
         while (pinned < stage_.clamped(pinned)) pinned += 1.0;
         pinned = stage_.clamped(pinned);
-        injected_ += pinned - v_;
         v_ = pinned;
+        // At the last set-point of the open loop the voltage stays there; what an outer loop adds from now on, acts.
+        injected_ = v_ - set_points_.back();
     }
     command_ = v_;
     centre_ = nearest_centre_lambda(polarity_, length_lambda());
@@ -94,7 +106,7 @@ void Perimeter::step() {
     ++steps_done_;
     const double drift_before = drift_;
     drift_ = drift_at(steps_done_);
-    if (follows_set_points()) {
+    if (!closed_ || config_.loop == LoopKind::external) {
         follow_set_points();
     } else if (config_.loop == LoopKind::analog) {
         const AnalogLoop::State end = loop_.step({command_, v_}, mode_, polarity_, drift_before, drift_);

@@ -20,7 +20,7 @@ public:
 
     // Obey a frame from the start of a half on, while the block's own length moves evenly from start to end.
     //
-    // errors  std::invalid_argument for a frame that no hardware could obey.
+    // errors  std::invalid_argument for a frame that no hardware could obey; nothing has changed then.
     void begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda);
     void step();
 
@@ -30,7 +30,6 @@ public:
 
 private:
     [[nodiscard]] double length_lambda() const { return v_ + drift_; }
-    [[nodiscard]] bool follows_set_points() const;
     [[nodiscard]] double drift_at(int step) const;
     void take_set_points(const core::ActuatorFrame& frame);
     void aim();

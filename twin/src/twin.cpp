@@ -45,7 +45,7 @@ struct Twin::State {
     void count(const BiasArea& area, int bias_sign, TwinHalf& half);
     void read_out(const core::ActuatorFrame& actuator, int bias_sign, TwinHalf& half);
 
-    [[nodiscard]] double warming_at(std::uint64_t index) const;
+    [[nodiscard]] double warming_at(std::uint64_t at_half) const;
     [[nodiscard]] double drift_lambda(double warming) const;
     [[nodiscard]] double bias_hz() const;
 
@@ -79,8 +79,8 @@ Twin::State::State(const TwinConfig& twin_config, Motion twin_motion)
       dark_noise{config.seed, NoiseCause::dark_counts},
       counter{NoiseStream{config.seed, NoiseCause::start_phase}.uniform()} {}
 
-double Twin::State::warming_at(std::uint64_t at) const {
-    return -std::expm1(-static_cast<double>(at) * half_s / config.thermal_time_s);
+double Twin::State::warming_at(std::uint64_t at_half) const {
+    return -std::expm1(-static_cast<double>(at_half) * half_s / config.thermal_time_s);
 }
 
 double Twin::State::drift_lambda(double warming) const {
@@ -94,9 +94,9 @@ double Twin::State::bias_hz() const {
 
 TwinHalf Twin::State::advance(const core::ActuatorFrame& actuator) {
     const int bias_sign = index % 2 == 0 ? config.first_bias_sign : -config.first_bias_sign;
-    warming_start = warming_end;
-    warming_end = warming_at(index + 1);
-    perimeter.begin_half(actuator, drift_lambda(warming_start), drift_lambda(warming_end));
+    const double warming_next = warming_at(index + 1);
+    perimeter.begin_half(actuator, drift_lambda(warming_end), drift_lambda(warming_next));
+    warming_start = std::exchange(warming_end, warming_next);
 
     TwinHalf half;
     const BiasArea area = live_through_half(bias_sign, half);

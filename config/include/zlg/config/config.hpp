@@ -84,16 +84,16 @@ struct Compensation {
 
 struct Motion {
     MotionKind kind = MotionKind::sine;
-    double rate_arcsec_s = 0.0;                            // a constant rate that is added to sine and sum
-    std::vector<double> amplitude_arcsec_s = {12000.0};    // one number for sine, one or more for sum
+    double rate_arcsec_s = 0.0;                          // a constant rate that is added to sine and sum
+    std::vector<double> amplitude_arcsec_s = {12000.0};  // one number for sine, one or more for sum
     std::vector<double> frequency_hz = {7.03};
     std::vector<double> phase_deg = {0.0};
     std::string path;
     std::int64_t column = 1;  // first column is 1
     ColumnHolds column_holds = ColumnHolds::increment;
-    double scale_arcsec = 1.0;  // arcsec (or arcsec/s) per unit of the column
-    double rate_hz = 100.0;     // rows per second
-    std::string comment = "#";  // lines that begin with this are skipped
+    double scale_arcsec = 1.0;    // arcsec (or arcsec/s) per unit of the column
+    double rate_hz = 100.0;       // rows per second
+    std::string comment = "#";    // lines that begin with this are skipped
     std::int64_t skip_lines = 0;  // numeric header lines to skip after comments and empty lines
 };
 

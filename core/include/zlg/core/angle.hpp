@@ -24,8 +24,9 @@ struct ExactSum {
     [[nodiscard]] constexpr double value() const noexcept { return high + low; }
 };
 
-// The angle since the start. A measured tick adds its counts; only what differs from scale * counts, such as a correction
-// or a bridged tick, enters the remainder. A gyro that measures for a month without a switch has a remainder of zero.
+// The angle since the start. A measured tick adds its counts; only what differs from scale * counts, such as a
+// correction or a bridged tick, enters the remainder. A gyro that measures for a month without a switch has a remainder
+// of zero.
 struct Angle {
     std::int64_t counts = 0;
     ExactSum remainder_arcsec{};
@@ -35,7 +36,8 @@ struct Angle {
     // Add the increment `dtheta_arcsec` of a tick, of which scale_arcsec * tick_counts comes from the counter.
     constexpr void add(std::int64_t tick_counts, double scale_arcsec, double dtheta_arcsec) noexcept {
         // Unsigned, so that even a wild sum of counts wraps instead of being undefined.
-        counts = static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) + static_cast<std::uint64_t>(tick_counts));
+        counts =
+            static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) + static_cast<std::uint64_t>(tick_counts));
         const double counted_arcsec = scale_arcsec * static_cast<double>(tick_counts);
         if (dtheta_arcsec == counted_arcsec) return;
         remainder_arcsec.add(dtheta_arcsec);

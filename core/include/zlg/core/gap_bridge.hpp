@@ -3,8 +3,9 @@
 //
 // A gap has ticks j = 1..n; j = 0 is the last tick before it, j = n + 1 the first after it.
 //   eq (14)  in the gap, dtheta_j = least-squares polynomial through the `extrapolation_points` ticks j <= 0
-//   eq (15)  final, dtheta_j = least-squares polynomial through `points_before` ticks j <= 0 and `points_after` ticks j > n
-//   eq (17)  the difference of the two is added in ONE tick, j = n + 1 + points_after, or in the first measured tick
+//   eq (15)  final, dtheta_j = least-squares polynomial through `points_before` ticks j <= 0 and `points_after` ticks j
+//   > n eq (17)  the difference of the two is added in ONE tick, j = n + 1 + points_after, or in the first measured
+//   tick
 //            after it where that one lies in the next gap
 // Only measured ticks take part, with their final values; where some of the standard positions are missing, the fit is
 // made with the others, of an order that they allow. At the start of a log eq (14) is used in reversed time.
@@ -21,9 +22,9 @@
 
 namespace zlg::core {
 
-inline constexpr int max_gap_ticks = 16;      // a longer gap is not repaired
-inline constexpr int max_points = 8;          // on each side
-inline constexpr int max_pending_gaps = 8;    // gaps that wait for the ticks after them
+inline constexpr int max_gap_ticks = 16;    // a longer gap is not repaired
+inline constexpr int max_points = 8;        // on each side
+inline constexpr int max_pending_gaps = 8;  // gaps that wait for the ticks after them
 inline constexpr int history_ticks = 64;
 
 struct GapBridgeConfig {
@@ -46,15 +47,15 @@ enum class GapBridgeFault : unsigned char { none, extrapolation_points, points_b
 
 // One tick as measured, or the place of one in a gap.
 struct TickInput {
-    bool measured = true;           // false: a tick of a gap
-    double value_arcsec = 0.0;      // with the re-lock correction; in a gap what the counter read
+    bool measured = true;       // false: a tick of a gap
+    double value_arcsec = 0.0;  // with the re-lock correction; in a gap what the counter read
     double variance_arcsec2 = 0.0;
-    double relock_arcsec = 0.0;     // the correction in it
+    double relock_arcsec = 0.0;  // the correction in it
     std::int8_t mode = 1;
-    std::int8_t sign = 1;           // bias_sign * mode in its first half
+    std::int8_t sign = 1;  // bias_sign * mode in its first half
     std::uint32_t flags = 0;
-    bool amend_previous = false;    // the previous, measured tick becomes final now
-    double amend_arcsec = 0.0;      // to be added to its final value
+    bool amend_previous = false;          // the previous, measured tick becomes final now
+    double amend_arcsec = 0.0;            // to be added to its final value
     double amend_variance_arcsec2 = 0.0;  // to be added to its variance
     std::uint32_t amend_flags = 0;
 };
@@ -70,12 +71,12 @@ struct HistoryTick {
 // The gap that lasts.
 struct OpenGap {
     bool open = false;
-    bool has_before = false;      // a measured tick precedes it
-    bool lower_order = false;     // of the extrapolation
+    bool has_before = false;   // a measured tick precedes it
+    bool lower_order = false;  // of the extrapolation
     std::int8_t mode_before = 1;
     std::int64_t first_tick = 0;
-    std::int64_t n = 0;           // ticks so far
-    PolynomialFit fit{};          // eq (14)
+    std::int64_t n = 0;   // ticks so far
+    PolynomialFit fit{};  // eq (14)
     std::array<double, max_points> value_arcsec{};
     double constant_arcsec = 0.0;  // mean of the extrapolation points, for a gap that is too long
 
@@ -110,7 +111,8 @@ struct GapBridgeState {
 //
 // return   dtheta of this tick; the final row of the tick `final_delay_ticks` ago, once there is one; the report of a
 //          gap that was resolved now.
-// cost     bounded: the weights of at most 16 ticks by 16 points where a gap is resolved, of one tick in a gap, else none.
+// cost     bounded: the weights of at most 16 ticks by 16 points where a gap is resolved, of one tick in a gap, else
+// none.
 [[nodiscard]] AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick) noexcept;
 
 struct DrainOutput {
@@ -120,7 +122,7 @@ struct DrainOutput {
     GapReport gap{};
 };
 
-// The log has ended: one more final row at each call, until `has_row` is false.
+// The log has ended: one more report of a gap or final row at each call, until there is neither.
 [[nodiscard]] DrainOutput drain(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
 
 }  // namespace zlg::core

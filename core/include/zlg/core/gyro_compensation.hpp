@@ -16,7 +16,7 @@ namespace zlg::core {
 
 struct GyroCompensationConfig {
     RelockDriftConfig relock{};
-    GapBridgeConfig bridge{};  // its count is the scale
+    GapBridgeConfig bridge{};               // its count is the scale
     ArcsecPerRootSecond random_walk{0.14};  // for sigma, >= 0
 };
 
@@ -26,11 +26,11 @@ enum class GyroCompensationFault : unsigned char { none, relock, bridge, random_
 
 struct GyroCompensationState {
     bool has_first = false;
-    HalfRecord first{};     // the half that waits for the other one of its tick
+    HalfRecord first{};        // the half that waits for the other one of its tick
     bool first_waits = false;  // the last tick was tick 1 of `frequency`
     RelockDriftState relock{};
     GapBridgeState bridge{};
-    Angle angle{};          // sum of all dtheta delivered
+    Angle angle{};  // sum of all dtheta delivered
 
     friend bool operator==(const GyroCompensationState&, const GyroCompensationState&) = default;
 };
@@ -45,7 +45,8 @@ struct CompensationOutput {
 [[nodiscard]] CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
                                       const HalfRecord& half) noexcept;
 
-// The log has ended: one more final row at each call until `has_row` is false. An odd last half is dropped.
+// The log has ended: one more report of a gap or final row at each call, until there is neither. An odd last half is
+// dropped.
 [[nodiscard]] DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept;
 
 }  // namespace zlg::core

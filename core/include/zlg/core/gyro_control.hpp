@@ -16,13 +16,13 @@
 namespace zlg::core {
 
 struct GyroControlConfig {
-    SyncDetectorConfig detector;
-    PerimeterLoopConfig loop;
-    HalfWaveConfig half_wave;
-    SwitchScheduleConfig schedule;
-    ModeSwitchConfig mode_switch;  // its range is that of `loop`
-    BiasCommutatorConfig commutator;
-    HealthConfig health;
+    SyncDetectorConfig detector{};
+    PerimeterLoopConfig loop{};
+    HalfWaveConfig half_wave{};
+    SwitchScheduleConfig schedule{};
+    ModeSwitchConfig mode_switch{};  // its range is that of `loop`
+    BiasCommutatorConfig commutator{};
+    HealthConfig health{};
     Celsius presumed_temperature{20.0};  // recorded until the first reading
 };
 
@@ -54,12 +54,12 @@ enum class GyroControlFault : unsigned char {
 }
 
 struct GyroControlState {
-    SyncDetectorState detector;
-    PerimeterLoopState loop;
-    HalfWaveState half_wave;
-    SwitchScheduleState schedule;
-    ModeSwitchState mode_switch;
-    BiasCommutatorState commutator;
+    SyncDetectorState detector{};
+    PerimeterLoopState loop{};
+    HalfWaveState half_wave{};
+    SwitchScheduleState schedule{};
+    ModeSwitchState mode_switch{};
+    BiasCommutatorState commutator{};
     std::int64_t half = 0;       // index of the half that is latched next; 2j and 2j + 1 make tick j
     std::uint64_t counter = 0;   // reading at the end of the last half
     bool counter_stale = false;  // no: at the end of an earlier one
@@ -72,11 +72,11 @@ struct GyroControlState {
 };
 
 struct GyroControlOutput {
-    ActuatorFrame actuator;    // in force from the start of the next half
-    HalfRecord record;         // of the half just latched; every number finite
+    ActuatorFrame actuator{};  // in force from the start of the next half
+    HalfRecord record{};       // of the half just latched; every number finite
     std::uint32_t health = 0;  // of the half just latched, a sum of HealthBit
     bool has_event = false;    // a switch, a return or a search ended in a lock
-    SwitchEvent event;
+    SwitchEvent event{};
 };
 
 // The state before the first half.

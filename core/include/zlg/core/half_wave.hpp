@@ -41,7 +41,7 @@ struct HalfWaveState {
 };
 
 struct HalfWaveOutput {
-    Volts half_wave;
+    Volts half_wave{};
     bool rejected = false;  // the measurement was not finite, or an outlier; the estimate is held
 };
 

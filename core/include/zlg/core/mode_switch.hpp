@@ -31,7 +31,7 @@ enum class SwitchPhase : unsigned char { tracking, open, settling, returning, se
 enum class SwitchOutcome : unsigned char { switched, returned, found };
 
 struct ModeSwitchConfig {
-    PiezoRange range;
+    PiezoRange range{};
     std::int32_t gap_ticks = 3;  // 1..2^24; so are the other ticks
     std::int32_t settle_ticks = 20;
     std::int32_t lock_timeout_ticks = 60;  // from closing; > settle_ticks, by five time constants of the loop or more
@@ -79,7 +79,7 @@ struct ModeSwitchState {
     std::int32_t n_dark = 0;       // dark
     double detuning_lambda = 0.0;  // smoothed
     bool smoothing = false;        // `detuning_lambda` has begun
-    PiezoReadings readings;        // since the loop was closed
+    PiezoReadings readings{};      // since the loop was closed
     double good_v = 0.0;           // U+, the place to return to
     std::int8_t good_polarity = 1;
     bool good_measured = false;  // U+ is a fresh mean of readings
@@ -100,10 +100,10 @@ struct ModeSwitchInput {
     bool light_known = false;    // frame received, samples finite
     bool two_way = false;
     bool usable = false;  // `detuning` was measured
-    Wavelengths detuning;
-    Volts piezo;      // reading; NaN when there is none
-    Volts set_point;  // the loop's present command: stands in for U+ when nothing was read
-    Volts half_wave;  // present estimate, > 0
+    Wavelengths detuning{};
+    Volts piezo{};      // reading; NaN when there is none
+    Volts set_point{};  // the loop's present command: stands in for U+ when nothing was read
+    Volts half_wave{};  // present estimate, > 0
 };
 
 struct SwitchEvent {
@@ -121,9 +121,9 @@ struct SwitchEvent {
 struct ModeSwitchOutput {
     bool loop_closed = true;
     std::int8_t polarity = 1;
-    Volts set_point;  // second input; rules while the loop is open
+    Volts set_point{};  // second input; rules while the loop is open
     bool has_event = false;
-    SwitchEvent event;
+    SwitchEvent event{};
 };
 
 [[nodiscard]] ModeSwitchState initial_state(const ModeSwitchConfig& config) noexcept;

@@ -15,7 +15,7 @@ enum class LoopKind : unsigned char { analog, digital };
 
 struct PerimeterLoopConfig {
     LoopKind kind = LoopKind::analog;
-    PiezoRange range;
+    PiezoRange range{};
     Volts half_wave{40.0};          // presumed; the loop's gain rests on it, not on the running estimate
     Seconds half_period{0.0025};    // time between calls of `step`
     Seconds time_constant{0.0065};  // of a small detuning's decay; at least `half_period`
@@ -61,12 +61,12 @@ struct PerimeterLoopInput {
     bool close = true;        // the loop, in the half to come
     Volts second_input{0.0};  // set-point that rules while the loop is open
     bool usable = false;      // `detuning` was measured
-    Wavelengths detuning;     // mean over the half just latched
-    Volts piezo;              // reading; NaN when there is none
+    Wavelengths detuning{};   // mean over the half just latched
+    Volts piezo{};            // reading; NaN when there is none
 };
 
 struct PerimeterLoopOutput {
-    Volts set_point;
+    Volts set_point{};
     bool saturated = false;       // the set-point is held at an end of the range
     bool over_limit = false;      // closed, and detuned by more than the watch limit
     bool near_range_end = false;  // the piezo (the set-point, where there is no reading) is within the margin of an end

@@ -1,7 +1,8 @@
 #pragma once
 // The records that pass between the parts: plant to control, control to plant, control to compensation, and out.
 //
-// Plain data with the unit in every name. These four and `units.hpp` are all that the twin and the logs know of the core.
+// Plain data with the unit in every name. These four and `units.hpp` are all that the twin and the logs know of the
+// core.
 
 #include <array>
 #include <cstdint>
@@ -13,20 +14,20 @@ inline constexpr int max_set_points = 16;
 
 // What the gyro's electronics latch at the end of half-period h.
 struct SensorFrame {
-    std::uint32_t sequence = 0;      // counts frames, wraps
-    std::uint64_t timer_ticks = 0;   // stamp of the latch, free-running
-    std::uint64_t counter = 0;       // fringe counter, free-running, wraps; absolute, never a difference
-    std::int8_t bias_sign = 1;       // echo of the bias sign in force during h: +1 or -1
-    std::int8_t polarity = 1;        // echo of the reference polarity in force during h: the helicity that is held
-    bool loop_closed = true;         // echo of the loop state in force during h
-    std::uint8_t n_light = 0;        // samples in light_a, and in light_b where present; 1..max_light_samples
+    std::uint32_t sequence = 0;     // counts frames, wraps
+    std::uint64_t timer_ticks = 0;  // stamp of the latch, free-running
+    std::uint64_t counter = 0;      // fringe counter, free-running, wraps; absolute, never a difference
+    std::int8_t bias_sign = 1;      // echo of the bias sign in force during h: +1 or -1
+    std::int8_t polarity = 1;       // echo of the reference polarity in force during h: the helicity that is held
+    bool loop_closed = true;        // echo of the loop state in force during h
+    std::uint8_t n_light = 0;       // samples in light_a, and in light_b where present; 1..max_light_samples
     bool has_light_b = false;
     std::array<float, max_light_samples> light_a{};  // photodiode of beam A, any unit proportional to its light
     std::array<float, max_light_samples> light_b{};  // photodiode of beam B, same unit
-    double piezo_v = 0.0;            // high voltage at the piezo mirrors, by ADC
+    double piezo_v = 0.0;                            // high voltage at the piezo mirrors, by ADC
     double coil_current_a = 0.0;
     double temperature_c = 0.0;
-    std::uint32_t status = 0;        // bits of SensorStatus
+    std::uint32_t status = 0;  // bits of SensorStatus
 };
 
 enum SensorStatus : std::uint32_t {
@@ -36,8 +37,8 @@ enum SensorStatus : std::uint32_t {
 // What the processor commands at the end of half-period h, in force from the start of h + 1.
 struct ActuatorFrame {
     bool loop_closed = true;
-    std::int8_t polarity = 1;        // reference of the synchronous detector: the helicity to hold
-    std::uint8_t n_set_points = 1;   // 1..max_set_points, equally spaced over the half
+    std::int8_t polarity = 1;                          // reference of the synchronous detector: the helicity to hold
+    std::uint8_t n_set_points = 1;                     // 1..max_set_points, equally spaced over the half
     std::array<double, max_set_points> set_point_v{};  // second input of the high-voltage stage
     std::int32_t edge_offset_ticks = 0;                // shift of the bias reversal that ends h + 1, timer ticks
 
@@ -49,15 +50,15 @@ struct ActuatorFrame {
 // Optional quantities that were not measured are NaN.
 struct HalfRecord {
     std::int64_t half = 0;
-    std::int64_t counts = 0;             // counter difference over the half, positive for positive rotation
-    double detuning_lambda = 0.0;        // mean over the half
-    double detuning_sq_lambda2 = 0.0;    // mean of the squared samples over the half
+    std::int64_t counts = 0;           // counter difference over the half, positive for positive rotation
+    double detuning_lambda = 0.0;      // mean over the half
+    double detuning_sq_lambda2 = 0.0;  // mean of the squared samples over the half
     double piezo_v = 0.0;
     double temperature_c = 0.0;
     std::int8_t bias_sign = 1;
-    std::int8_t mode = 1;                // helicity commanded
+    std::int8_t mode = 1;  // helicity commanded
     bool loop_closed = true;
-    bool valid = true;                   // light in both directions, frame received
+    bool valid = true;  // light in both directions, frame received
 
     friend bool operator==(const HalfRecord&, const HalfRecord&) = default;
 };
@@ -78,8 +79,8 @@ enum AngleFlag : std::uint32_t {
 };
 
 inline constexpr std::array<const char*, 11> angle_flag_names{
-    "switching",        "extrapolated", "interpolated", "correction",    "relock_corrected", "relock_uncorrected",
-    "lower_order",      "unrepaired",   "loop_unlocked", "invalid",      "mode_mixed"};
+    "switching",   "extrapolated", "interpolated",  "correction", "relock_corrected", "relock_uncorrected",
+    "lower_order", "unrepaired",   "loop_unlocked", "invalid",    "mode_mixed"};
 
 // One row of the angle log.
 struct AngleRow {
@@ -96,13 +97,13 @@ struct AngleRow {
 
 // How one gap was bridged.
 struct GapReport {
-    std::int64_t first_tick = 0;       // j = 1
+    std::int64_t first_tick = 0;  // j = 1
     std::int64_t n_ticks = 0;
-    std::int8_t sign_after = 1;        // bias_sign * mode in the first half after the gap: the sign of the false drift
+    std::int8_t sign_after = 1;  // bias_sign * mode in the first half after the gap: the sign of the false drift
     std::int8_t mode_after = 1;
     bool mode_changed = false;
-    double dp_arcsec = 0.0;            // eq (16): extrapolated minus final, over the gap
-    double sigma_sum_arcsec = 0.0;     // one standard deviation of the gap's final angle
+    double dp_arcsec = 0.0;         // eq (16): extrapolated minus final, over the gap
+    double sigma_sum_arcsec = 0.0;  // one standard deviation of the gap's final angle
 
     friend bool operator==(const GapReport&, const GapReport&) = default;
 };
@@ -113,9 +114,9 @@ struct AngleSample {
     double dtheta_arcsec = 0.0;  // causal increment of this tick
     std::uint32_t flags = 0;     // as far as known at delivery
     bool has_final = false;
-    AngleRow final_row{};        // of the tick `final_delay_ticks` ago
+    AngleRow final_row{};  // of the tick `final_delay_ticks` ago
     bool has_gap = false;
-    GapReport gap{};             // of a gap that was resolved in this tick
+    GapReport gap{};  // of a gap that was resolved in this tick
 };
 
 }  // namespace zlg::core

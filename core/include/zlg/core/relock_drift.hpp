@@ -21,18 +21,28 @@ namespace zlg::core {
 
 struct RelockDriftConfig {
     RelockMethod method = RelockMethod::none;
-    std::int64_t ticks = 20;              // ticks after a gap that are corrected, >= 0
-    Seconds tick{0.005};                  // > 0
-    Arcsec scale{3.263};                  // per count, > 0
-    Hertz bias{60e3};                     // f0 at the reference temperature, > 0
-    double chi = 3.6;                     // >= 0
+    std::int64_t ticks = 20;                     // ticks after a gap that are corrected, >= 0
+    Seconds tick{0.005};                         // > 0
+    Arcsec scale{3.263};                         // per count, > 0
+    Hertz bias{60e3};                            // f0 at the reference temperature, > 0
+    double chi = 3.6;                            // >= 0
     double temperature_coefficient_per_c = 0.0;  // finite
-    Celsius reference_temperature{20.0};  // finite
-    Wavelengths light_noise{0.0033};      // of one light sample, >= 0
-    int light_samples = 16;               // a half, >= 1
+    Celsius reference_temperature{20.0};         // finite
+    Wavelengths light_noise{0.0033};             // of one light sample, >= 0
+    int light_samples = 16;                      // a half, >= 1
 };
 
-enum class RelockDriftFault : unsigned char { none, ticks, tick, scale, bias, chi, temperature, light_noise, light_samples };
+enum class RelockDriftFault : unsigned char {
+    none,
+    ticks,
+    tick,
+    scale,
+    bias,
+    chi,
+    temperature,
+    light_noise,
+    light_samples
+};
 
 [[nodiscard]] RelockDriftFault check(const RelockDriftConfig& config) noexcept;
 
@@ -49,8 +59,8 @@ struct RelockTick {
 };
 
 struct RelockDriftState {
-    std::int64_t since_gap = 0;   // index i of the last tick after a gap; 0: no gap yet, or in one
-    bool armed = false;           // a gap has been seen and its ticks are not used up
+    std::int64_t since_gap = 0;     // index i of the last tick after a gap; 0: no gap yet, or in one
+    bool armed = false;             // a gap has been seen and its ticks are not used up
     double first_deficit_hz = 0.0;  // f_1 - f0
 
     friend bool operator==(const RelockDriftState&, const RelockDriftState&) = default;
@@ -64,11 +74,11 @@ struct FalseAngle {
 };
 
 struct RelockDriftOutput {
-    bool due = false;         // this tick is among those to be corrected
-    bool waiting = false;     // it is tick 1 of `frequency`, which the next tick decides
-    FalseAngle tick{};        // of this tick
-    bool first_due = false;   // tick 1 of `frequency` is decided now
-    FalseAngle first{};       // of the previous tick
+    bool due = false;        // this tick is among those to be corrected
+    bool waiting = false;    // it is tick 1 of `frequency`, which the next tick decides
+    FalseAngle tick{};       // of this tick
+    bool first_due = false;  // tick 1 of `frequency` is decided now
+    FalseAngle first{};      // of the previous tick
 };
 
 // A tick in a gap: the next measured tick is i = 1.

@@ -41,8 +41,8 @@ struct LightLevel {
 };
 
 struct SyncDetectorState {
-    LightLevel both;         // sum of both beams
-    LightLevel single;       // beam A over a whole tick, for a gyro with one photodiode
+    LightLevel both{};       // sum of both beams
+    LightLevel single{};     // beam A over a whole tick, for a gyro with one photodiode
     double mean_a = 0.0;     // beam A in the previous half, where `sign_a` is not 0
     std::int8_t sign_a = 0;  // sign of the modulation in that half
 
@@ -50,14 +50,14 @@ struct SyncDetectorState {
 };
 
 struct SyncDetectorInput {
-    std::span<const float> light_a;  // 1..64 samples of the half
-    std::span<const float> light_b;  // as many, or none: one beam only
-    int sign = 1;                    // bias_sign * polarity in force during the half: +1 or -1
-    bool settled = false;            // loop closed and settled: the level may follow the light
+    std::span<const float> light_a{};  // 1..64 samples of the half
+    std::span<const float> light_b{};  // as many, or none: one beam only
+    int sign = 1;                      // bias_sign * polarity in force during the half: +1 or -1
+    bool settled = false;              // loop closed and settled: the level may follow the light
 };
 
 struct SyncDetectorOutput {
-    Wavelengths detuning;          // mean over the half; 0 unless usable
+    Wavelengths detuning{};        // mean over the half; 0 unless usable
     double mean_sq_lambda2 = 0.0;  // mean of the squared samples; 0 unless usable
     double light = 0.0;            // mean over the half: the sum of both beams, or the one; 0 unless readable
     bool readable = false;         // there are samples, and all are finite

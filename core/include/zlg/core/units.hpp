@@ -29,8 +29,8 @@ using Seconds = Quantity<struct SecondUnit>;
 using Hertz = Quantity<struct HertzUnit>;
 using Volts = Quantity<struct VoltUnit>;
 using Celsius = Quantity<struct CelsiusUnit>;
-using Wavelengths = Quantity<struct WavelengthUnit>;        // perimeter detuning, fractions of the laser wavelength
-using Arcsec = Quantity<struct ArcsecUnit>;                 // 1 arcsec/s is 1 deg/h exactly
+using Wavelengths = Quantity<struct WavelengthUnit>;  // perimeter detuning, fractions of the laser wavelength
+using Arcsec = Quantity<struct ArcsecUnit>;           // 1 arcsec/s is 1 deg/h exactly
 using ArcsecPerRootSecond = Quantity<struct ArcsecPerRootSecondUnit>;  // angle random walk
 
 }  // namespace zlg::core

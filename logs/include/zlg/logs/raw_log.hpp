@@ -37,6 +37,9 @@ public:
     // The next row; false at the end. errors FormatError: path, line, column, value, what is allowed.
     bool next(core::HalfRecord& record);
 
+    // False where the row that was read last is the file's last line and has no end: it may have been cut off.
+    [[nodiscard]] bool line_is_ended() const;
+
 private:
     struct State;
     std::unique_ptr<State> state_;

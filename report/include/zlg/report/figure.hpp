@@ -6,6 +6,7 @@
 
 namespace zlg::report {
 
+// Steps hold the value of a point until the next x.
 enum class Mark { line, points, steps, bars };
 
 struct Series {
@@ -25,7 +26,7 @@ struct Band {
 };
 
 struct Figure {
-    std::string id;       // letters, digits and dashes
+    std::string id;  // letters, digits and dashes
     std::string title;
     std::string caption;  // what the reader sees and what it means; plain text
     std::string x_label;  // quantity, unit
@@ -36,13 +37,14 @@ struct Figure {
     bool log_y = false;
 };
 
-// The figure as an SVG element that scales with the page. Not-finite points break lines and are not drawn.
+// The figure as an SVG element for an HTML page, scaling with it. Not-finite points, and those a log axis cannot show,
+// break lines and are not drawn. Axes follow the data and its errors; bands are cut at the plot area.
 [[nodiscard]] std::string svg(const Figure& figure);
 
-// Counts of `values` in `n_bins` equal bins over their range, as a bar series at the bins' centres.
+// Counts of the finite `values` in `n_bins` equal bins over their range, as a bar series at the bins' centres.
 [[nodiscard]] Series histogram(std::string name, const std::vector<double>& values, int n_bins);
 
-// Thin a long series to at most `n_points`, keeping the extremes of each stretch.
+// Thin a long series to at most `n_points`, keeping its ends and, of each stretch, the extremes and the first gap.
 [[nodiscard]] Series thin(const Series& series, int n_points);
 
 }  // namespace zlg::report

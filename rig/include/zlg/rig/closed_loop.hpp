@@ -11,10 +11,10 @@
 namespace zlg::rig {
 
 struct LoopHalf {
-    core::HalfRecord record{};         // what the raw log holds
-    core::GyroControlOutput control{}; // health and switch events beside it
-    twin::TwinTruth truth{};           // what no gyro knows
-    double half_wave_v = 0.0;          // present estimate of U_lambda/2, and its standard deviation
+    core::HalfRecord record{};          // what the raw log holds
+    core::GyroControlOutput control{};  // health and switch events beside it
+    twin::TwinTruth truth{};            // what no gyro knows
+    double half_wave_v = 0.0;           // present estimate of U_lambda/2, and its standard deviation
     double half_wave_sigma_v = 0.0;
 };
 

@@ -27,15 +27,15 @@ struct VariantResult {
 
 // One line of the table of switches.
 struct SwitchLine {
-    std::int64_t tick = 0;      // first of the gap
-    int mode = 1;               // after the switch
-    double miss_lambda = 0.0;   // mean detuning of the first half with the loop closed
-    double half_wave_v = 0.0;   // estimate after this switch, and its standard deviation
+    std::int64_t tick = 0;     // first of the gap
+    int mode = 1;              // after the switch
+    double miss_lambda = 0.0;  // mean detuning of the first half with the loop closed
+    double half_wave_v = 0.0;  // estimate after this switch, and its standard deviation
     double half_wave_sigma_v = 0.0;
     std::int64_t gap_ticks = 0;
-    double dp_arcsec = 0.0;     // eq (16)
-    double relock_arcsec = 0.0; // false angle subtracted
-    double sigma_arcsec = 0.0;  // of the gap's final angle
+    double dp_arcsec = 0.0;      // eq (16)
+    double relock_arcsec = 0.0;  // false angle subtracted
+    double sigma_arcsec = 0.0;   // of the gap's final angle
     double true_error_arcsec = 0.0;
 };
 
