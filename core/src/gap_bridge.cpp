@@ -93,6 +93,25 @@ void extrapolate(const GapBridgeConfig& config, GapBridgeState& state, HistoryTi
     if (gap.lower_order) row.flags |= flag_lower_order;
 }
 
+// final minus delivered, over the first n ticks of a gap.
+ExactSum final_minus_delivered(const GapBridgeState& state, const OpenGap& gap, int n) noexcept {
+    ExactSum sum;
+    for (int k = 0; k < n; ++k) {
+        const AngleRow& row = at(state, gap.first_tick + k).row;
+        sum.add(row.dtheta_final_arcsec);
+        sum.add(-row.dtheta_arcsec);
+    }
+    return sum;
+}
+
+// The gap has become too long. Only its first ticks were delivered with something else than their final value, and the
+// history may have forgotten them when it ends.
+void give_up(GapBridgeState& state) noexcept {
+    OpenGap& gap = state.gap;
+    for (int k = 0; k < max_gap_ticks; ++k) set_unrepaired(gap, at(state, gap.first_tick + k).row);
+    gap.final_minus_delivered_arcsec = final_minus_delivered(state, gap, max_gap_ticks);
+}
+
 void take_gap_tick(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input,
                    std::int64_t tick) noexcept {
     if (!state.gap.open) begin_gap(config, state, tick);
@@ -107,8 +126,7 @@ void take_gap_tick(const GapBridgeConfig& config, GapBridgeState& state, const T
     }
     const auto j = static_cast<std::int32_t>(gap.n <= max_gap_ticks ? gap.n : max_gap_ticks + 1);
     extrapolate(config, state, entry, j);
-    if (gap.n == max_gap_ticks + 1)
-        for (int k = 0; k < max_gap_ticks; ++k) set_unrepaired(gap, at(state, gap.first_tick + k).row);
+    if (gap.n == max_gap_ticks + 1) give_up(state);
 }
 
 // The first tick after a gap: from here on the gap waits.
@@ -166,18 +184,11 @@ GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingG
     pending.resolved = true;
     if (config.method == BridgeMethod::none) return report;
     if (gap.n <= max_gap_ticks) report.sigma_sum_arcsec = repair(config, state, gap, end);
-
-    // Of a gap that is too long only the first ticks were delivered with something else than their final value.
-    ExactSum final_minus_delivered;
-    const std::int64_t n = gap.n <= max_gap_ticks ? gap.n : max_gap_ticks;
-    for (std::int64_t k = 0; k < n; ++k) {
-        const AngleRow& row = at(state, gap.first_tick + k).row;
-        final_minus_delivered.add(row.dtheta_final_arcsec);
-        final_minus_delivered.add(-row.dtheta_arcsec);
-    }
-    report.dp_arcsec = -final_minus_delivered.value();
-    pending.lump_arcsec.add(final_minus_delivered.high);
-    pending.lump_arcsec.add(final_minus_delivered.low);
+    const ExactSum difference = gap.n <= max_gap_ticks ? final_minus_delivered(state, gap, static_cast<int>(gap.n))
+                                                       : gap.final_minus_delivered_arcsec;
+    report.dp_arcsec = -difference.value();
+    pending.lump_arcsec.add(difference.high);
+    pending.lump_arcsec.add(difference.low);
     return report;
 }
 

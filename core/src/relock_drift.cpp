@@ -5,6 +5,9 @@
 namespace zlg::core {
 namespace {
 
+// No perimeter is detuned by a thousand wavelengths: such a number is damage, and would overflow further on.
+constexpr double max_detuning_lambda = 1e3;
+
 double square(double x) noexcept { return x * x; }
 
 double bias_at_hz(const RelockDriftConfig& c, double temperature_c) noexcept {
@@ -24,6 +27,7 @@ FalseAngle by_mean_square(const RelockDriftConfig& c, const RelockTick& t) noexc
     const double first = t.detuning_sq_first_lambda2;
     const double second = t.detuning_sq_second_lambda2;
     if (!(first >= 0.0 && second >= 0.0 && first + second > 0.0)) return {};
+    if (!(first + second < square(max_detuning_lambda))) return {};
     const double half_chi_f0 = 0.5 * c.chi * bias_at_hz(c, t.temperature_c);
     // Mean of n squares (dl + e)^2: variance (4 dl^2 s^2 + 2 s^4)/n; the measured mean holds dl^2 + s^2.
     const double s2 = square(c.light_noise.value());
@@ -36,7 +40,7 @@ FalseAngle by_detuning(const RelockDriftConfig& c, const RelockTick& t) noexcept
     const double first = t.detuning_first_lambda;
     const double second = t.detuning_second_lambda;
     const double rho = second / first;
-    if (!(rho > 0.0 && rho < 1.0)) return {};
+    if (!(rho > 0.0 && rho < 1.0 && first < max_detuning_lambda && first > -max_detuning_lambda)) return {};
     const double quarter_chi_f0 = 0.25 * c.chi * bias_at_hz(c, t.temperature_c);
     const double sum = first + second;
     const double log_rho = natural_log(rho);
@@ -52,13 +56,13 @@ double deficit_hz(const RelockDriftConfig& c, const RelockTick& t) noexcept {
     return t.sign * difference / c.tick.value() - bias_at_hz(c, t.temperature_c);
 }
 
-// deficit (1 - q)/(1 + q) with ln q = log_ratio / root, and its variance by counter rounding.
-FalseAngle by_decay(const RelockDriftConfig& c, int sign, double deficit, double log_ratio, double root, double d_own,
-                    double d_other) noexcept {
-    const double q = exponential(log_ratio / root);
-    // The rounding of c_first - c_second is 2 e1 - e0 - e2, each e uniform over a count: variance 1/2 count^2.
-    const double variance = (square(d_own) + square(d_other)) * 0.5 / square(c.tick.value());
-    return false_angle(c, sign, deficit * (1.0 - q) / (1.0 + q), variance);
+// Variance of a false rate by counter rounding, from its slopes by the two deficits that make it.
+//
+// The rounding of c_first - c_second is 2 e1 - e0 - e2, each e uniform over a count: variance 1/2 count^2. Neighbouring
+// ticks share a reading: covariance 1/12 count^2.
+double rounding_variance(const RelockDriftConfig& c, double by_own, double by_other, bool neighbours) noexcept {
+    const double shared = neighbours ? by_own * by_other / 6.0 : 0.0;
+    return (0.5 * (square(by_own) + square(by_other)) + shared) / square(c.tick.value());
 }
 
 struct Decay {
@@ -80,8 +84,9 @@ FalseAngle by_frequency(const RelockDriftConfig& c, const RelockDriftState& s, c
     const double root = 2.0 * static_cast<double>(s.since_gap - 1);
     const double q = exponential(d.log_ratio / root);
     const double slope = 2.0 * q / square(1.0 + q) / root;  // of (1 - q)/(1 + q) by -log_ratio
-    return by_decay(c, t.sign, deficit, d.log_ratio, root, (1.0 - q) / (1.0 + q) - slope,
-                    slope * deficit / s.first_deficit_hz);
+    const double part = (1.0 - q) / (1.0 + q);
+    const double by_first = slope * deficit / s.first_deficit_hz;
+    return false_angle(c, t.sign, deficit * part, rounding_variance(c, part - slope, by_first, s.since_gap == 2));
 }
 
 // Tick 1 with the q of tick 2.
@@ -91,8 +96,9 @@ FalseAngle first_by_frequency(const RelockDriftConfig& c, const RelockDriftState
     if (!d.usable) return {};
     const double q = exponential(0.5 * d.log_ratio);
     const double slope = q / square(1.0 + q);
-    return by_decay(c, t.sign, s.first_deficit_hz, d.log_ratio, 2.0, (1.0 - q) / (1.0 + q) + slope,
-                    slope * s.first_deficit_hz / deficit);
+    const double part = (1.0 - q) / (1.0 + q);
+    const double by_second = -slope * s.first_deficit_hz / deficit;
+    return false_angle(c, t.sign, s.first_deficit_hz * part, rounding_variance(c, part + slope, by_second, true));
 }
 
 RelockDriftOutput frequency_step(const RelockDriftConfig& c, RelockDriftState& s, const RelockTick& t) noexcept {

@@ -78,7 +78,9 @@ struct OpenGap {
     std::int64_t n = 0;   // ticks so far
     PolynomialFit fit{};  // eq (14)
     std::array<double, max_points> value_arcsec{};
-    double constant_arcsec = 0.0;  // mean of the extrapolation points, for a gap that is too long
+    // Of a gap that is too long: the mean of the extrapolation points, and how far its ticks are above the delivered.
+    double constant_arcsec = 0.0;
+    ExactSum final_minus_delivered_arcsec{};
 
     friend bool operator==(const OpenGap&, const OpenGap&) = default;
 };

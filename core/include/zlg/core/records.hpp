@@ -5,12 +5,18 @@
 // core.
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 namespace zlg::core {
 
 inline constexpr int max_light_samples = 64;
 inline constexpr int max_set_points = 16;
+
+// Also true of two NaN.
+[[nodiscard]] constexpr bool same_bits(double a, double b) noexcept {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 // What the gyro's electronics latch at the end of half-period h.
 struct SensorFrame {
@@ -60,7 +66,13 @@ struct HalfRecord {
     bool loop_closed = true;
     bool valid = true;  // light in both directions, frame received
 
-    friend bool operator==(const HalfRecord&, const HalfRecord&) = default;
+    // The same bits, so that a quantity that was not measured is equal to itself.
+    friend constexpr bool operator==(const HalfRecord& a, const HalfRecord& b) noexcept {
+        return a.half == b.half && a.counts == b.counts && same_bits(a.detuning_lambda, b.detuning_lambda) &&
+               same_bits(a.detuning_sq_lambda2, b.detuning_sq_lambda2) && same_bits(a.piezo_v, b.piezo_v) &&
+               same_bits(a.temperature_c, b.temperature_c) && a.bias_sign == b.bias_sign && a.mode == b.mode &&
+               a.loop_closed == b.loop_closed && a.valid == b.valid;
+    }
 };
 
 // Provenance of one tick of the angle log, a sum of bits.
