@@ -16,6 +16,11 @@ namespace {
 
 using namespace zlg;
 
+void print_keys() {
+    cli::print(config::reference_markdown());
+    throw CLI::Success{};
+}
+
 int parse_and_run(CLI::App& program, int argc, char** argv) {
     try {
         program.parse(argc, argv);
@@ -25,6 +30,8 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
         return cli::good;
     } catch (const CLI::CallForVersion&) {
         cli::print("zlg " ZLG_VERSION "\n");
+        return cli::good;
+    } catch (const CLI::Success&) {
         return cli::good;
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
@@ -61,6 +68,7 @@ int main(int argc, char** argv) {
     CLI::App program{"Software of a Zeeman laser gyro in the quasi-four-frequency regime", "zlg"};
     program.require_subcommand(1);
     program.set_version_flag("--version", "zlg " ZLG_VERSION);
+    program.add_flag_callback("--keys", print_keys, "every key of the configuration, as Markdown")->trigger_on_parse();
     cli::add_run(program);
     cli::add_simulate(program);
     cli::add_process(program);

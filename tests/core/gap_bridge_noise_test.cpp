@@ -135,4 +135,12 @@ TEST(GapBridgeNoise, AnUnknownSigmaOfAPointMakesThatOfTheGapUnknown) {
     EXPECT_TRUE(std::isinf(got.gaps.at(0).sigma_sum_arcsec));
 }
 
+// The straight line through four ticks gives the second of them no weight in the first tick of a gap.
+TEST(GapBridgeNoise, AnUnknownSigmaSpreadsEvenWhereItsWeightIsZero) {
+    Log log(30, measured_tick(1.0));
+    log[26].variance_arcsec2 = infinite;
+    log[29] = gap_tick();
+    EXPECT_TRUE(std::isinf(run({.method = BridgeMethod::linear}, log).rows[29].sigma_arcsec));
+}
+
 }  // namespace

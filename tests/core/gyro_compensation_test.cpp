@@ -214,6 +214,49 @@ TEST(GyroCompensation, TickOneOfFrequencyIsCorrectedInItsRowAndPaidBackByTheLump
     }
 }
 
+TEST(GyroCompensation, AHelicityThatChangesWithinATickOfAGapIsSaidInThatTick) {
+    Halves halves = plain_log(40);
+    open_loop(halves, 10, 3);
+    for (std::size_t k = 23; k < halves.size(); ++k) halves[k].mode = -1;
+    const Delivered got = run(config_of(RelockMethod::none), halves);
+    for (unsigned k = 0; k < 40; ++k) {
+        EXPECT_EQ(has(got.rows[k].flags, flag_switching), k == 11 || k == 12) << k;
+        EXPECT_EQ(got.rows[k].mode, k < 11 ? 1 : -1);
+    }
+}
+
+TEST(GyroCompensation, CountsOfAGapNeverEnterTheAngle) {
+    Halves halves = plain_log(40);
+    open_loop(halves, 10, 3);
+    for (unsigned k = 20; k < 26; ++k) halves[k].counts = 1'000'000'007;
+    GyroCompensationState state;
+    for (const HalfRecord& half : halves) (void)step(config_of(RelockMethod::none), state, half);
+    EXPECT_EQ(state.angle.counts, 37 * 18);
+    EXPECT_NEAR(state.angle.remainder_arcsec.value(), 3 * 18 * scale_arcsec, 1e-10);
+}
+
+// Detunings of 0.2 and 0.1 in the first tick after a gap, at a temperature that is known for its middle only.
+TEST(GyroCompensation, TheCorrectionTakesTheTemperatureOfTheMiddleAndAddsItsVariance) {
+    GyroCompensationConfig config = config_of(RelockMethod::mean_square);
+    config.relock.temperature_coefficient_per_c = -1e-3;
+    Halves halves = plain_log(40);
+    open_loop(halves, 10, 3);
+    halves[26].detuning_sq_lambda2 = 0.04;
+    halves[27].detuning_sq_lambda2 = 0.01;
+    halves[26].temperature_c = 50.0;
+    halves[27].temperature_c = -50.0;
+    const AngleRow row = run(config, halves).rows[13];
+    const double arcsec_by_square = scale_arcsec * 0.005 * 0.5 * 3.6 * 60e3 * (1.0 - 0.03);
+    EXPECT_NEAR(row.relock_arcsec, -0.03 * arcsec_by_square, 1e-10);
+    EXPECT_NEAR(row.dtheta_final_arcsec, 18.0 * scale_arcsec + 0.03 * arcsec_by_square, 1e-10);
+    // Both means hold the variance s^2 of a sample; 16 samples a half.
+    const double s2 = 0.0033 * 0.0033;
+    const double variance_of_squares = (4.0 * (0.05 - 2.0 * s2) * s2 + 4.0 * s2 * s2) / 16.0;
+    const double variance = scale_arcsec * scale_arcsec / 6.0 + 0.14 * 0.14 * 0.005 +
+                            arcsec_by_square * arcsec_by_square * variance_of_squares;
+    EXPECT_NEAR(row.sigma_arcsec, std::sqrt(variance), 1e-10);
+}
+
 TEST(GyroCompensation, CheckPassesOnWhatItsPartsRefuse) {
     EXPECT_EQ(check(GyroCompensationConfig{}), GyroCompensationFault::none);
     GyroCompensationConfig config;

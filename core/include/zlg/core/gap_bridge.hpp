@@ -2,11 +2,12 @@
 // Substitution of the ticks of a gap: extrapolated while it lasts, interpolated when its other side is known.
 //
 // A gap has ticks j = 1..n; j = 0 is the last tick before it, j = n + 1 the first after it.
-//   eq (14)  in the gap, dtheta_j = least-squares polynomial through the `extrapolation_points` ticks j <= 0
-//   eq (15)  final, dtheta_j = least-squares polynomial through `points_before` ticks j <= 0 and `points_after` ticks j
-//   > n eq (17)  the difference of the two is added in ONE tick, j = n + 1 + points_after, or in the first measured
-//   tick
-//            after it where that one lies in the next gap
+//
+//   eq (14)  in the gap: dtheta_j = least-squares polynomial through the `extrapolation_points` ticks j <= 0
+//   eq (15)  final: the same through `points_before` ticks j <= 0 and `points_after` ticks j > n
+//   eq (17)  their difference is added in ONE tick, j = n + 1 + points_after, or in the first measured tick after it
+//            where that one lies in the next gap
+//
 // Only measured ticks take part, with their final values; where some of the standard positions are missing, the fit is
 // made with the others, of an order that they allow. At the start of a log eq (14) is used in reversed time.
 // The sum of what is delivered and the sum of the final values are the same after each correction.
@@ -113,8 +114,7 @@ struct GapBridgeState {
 //
 // return   dtheta of this tick; the final row of the tick `final_delay_ticks` ago, once there is one; the report of a
 //          gap that was resolved now.
-// cost     bounded: the weights of at most 16 ticks by 16 points where a gap is resolved, of one tick in a gap, else
-// none.
+// cost     bounded: where a gap is resolved the weights of at most 16 ticks by 16 points, in a gap those of one tick.
 [[nodiscard]] AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick) noexcept;
 
 struct DrainOutput {

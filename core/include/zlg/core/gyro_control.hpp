@@ -98,8 +98,8 @@ struct GyroControlOutput {
 //
 // config   passed `check`.
 // state    from `initial_state`; every number in it stays finite, whatever the frames hold.
-// latency  a switch at the start of tick j is decided in half 2j - 1, so that halves 2j .. 2j + 2 gap_ticks - 1 are
-// open. cost     bounded by the number of light samples; no allocation.
+// latency  a switch at the start of tick j is decided in half 2j - 1: halves 2j .. 2j + 2 gap_ticks - 1 are open.
+// cost     bounded by the number of light samples; no allocation.
 [[nodiscard]] GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
                                      const SensorFrame& frame) noexcept;
 

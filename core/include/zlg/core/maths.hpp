@@ -4,7 +4,7 @@
 namespace zlg::core {
 
 // A NaN or an infinity is not finite.
-[[nodiscard]] constexpr bool is_finite(double x) noexcept { return x - x == 0.0; }
+[[nodiscard]] constexpr bool is_finite(double x) noexcept { return __builtin_isfinite(x); }
 
 inline constexpr double infinity = __builtin_huge_val();
 
