@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/design/error.hpp>
 #include <zlg/logs/error.hpp>
 
 #include "failure.hpp"
@@ -47,6 +48,9 @@ int guarded(CLI::App& program, int argc, char** argv) {
     } catch (const cli::UsageError& error) {
         cli::complain(error.what());
         return cli::wrong_usage;
+    } catch (const design::DesignError& error) {
+        cli::complain(error.what());
+        return cli::wrong_usage;
     } catch (const config::ConfigError& error) {
         cli::complain(error.what());
         return cli::wrong_usage;
@@ -72,6 +76,8 @@ int main(int argc, char** argv) {
     cli::add_run(program);
     cli::add_simulate(program);
     cli::add_process(program);
+    cli::add_design(program);
+    cli::add_paper(program);
     cli::add_inspect(program);
     return guarded(program, argc, argv);
 }

@@ -1,9 +1,12 @@
 #include "options.hpp"
 
+#include <cctype>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 
+#include <zlg/config/spelling.hpp>
 #include <zlg/logs/error.hpp>
 
 #include "failure.hpp"
@@ -11,11 +14,33 @@
 namespace zlg::cli {
 namespace {
 
+std::string lower_case(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
 void apply_options(config::Config& config, const Options& options) {
     if (!options.config_path.empty()) config::apply_file(config, options.config_path);
     for (const std::string& set : options.sets) config::apply_set(config, set);
-    if (options.seed) config::apply_set(config, fmt::format("run.seed={}", *options.seed));
-    if (options.duration_s) config::apply_set(config, fmt::format("run.duration_s={}", *options.duration_s));
+    if (options.seed) config::apply_pair(config, "run.seed", *options.seed, "--seed");
+    if (options.duration_s) config::apply_pair(config, "run.duration_s", *options.duration_s, "--duration");
+}
+
+// A key that stands twice with different values, or in a section that is nearly one of ours: which is meant?
+void refuse_doubtful(const config::Settings& settings, const std::string& path) {
+    std::map<std::string, std::string> seen;
+    for (const auto& [key, value] : settings) {
+        const auto [first, is_new] = seen.emplace(key, value);
+        if (!is_new && first->second != value)
+            throw logs::FormatError{fmt::format("{}: {} stands twice, as {} and as {}; allowed is one value", path, key,
+                                                first->second, value)};
+        const std::size_t dot = key.find('.');
+        if (dot == std::string::npos || config::is_known_section(key.substr(0, dot))) continue;
+        for (const config::KeyInfo& known : config::describe_keys())
+            if (config::letters_apart(lower_case(key.substr(0, dot)), known.section) <= 1)
+                throw logs::FormatError{fmt::format("{}: {}: unknown section [{}]; did you mean [{}]?", path, key,
+                                                    key.substr(0, dot), known.section)};
+    }
 }
 
 // A log may name its tick and scale without a section, as an HDF5 log does in its root.
@@ -54,6 +79,7 @@ config::Config load_config(const Options& options) {
 config::Config load_log_config(const Options& options, const config::Settings& log_settings,
                                const std::string& log_path) {
     const config::Settings settings = with_full_keys(log_settings);
+    refuse_doubtful(settings, log_path);
     config::Config config;
     try {
         config::apply_log(config, settings, log_path);
@@ -64,6 +90,28 @@ config::Config load_log_config(const Options& options, const config::Settings& l
     config::check_compensation(config);
     config::check_against_log(config, settings, log_path);
     return config;
+}
+
+void add_config_argument(CLI::App& verb, Options& options) {
+    auto* positional =
+        verb.add_option("CONFIG", options.config_path, "configuration, TOML; the paper's gyro without it");
+    verb.add_option("--config", options.config_path, "the same, as an option")->excludes(positional);
+    verb.add_option("--set", options.sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
+}
+
+void refuse_own_input(const std::string& input, const std::string& output) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(input, output, ignored))
+        throw UsageError{fmt::format("--out {}: is the input; name another file", output)};
+}
+
+config::Settings angle_settings(const config::Config& config) {
+    config::Settings settings;
+    for (const auto& setting : config::to_settings(config))
+        if (setting.first.starts_with("gyro.") || setting.first.starts_with("compensation.") ||
+            setting.first == "drift.random_walk_arcsec_sqrt_s")
+            settings.push_back(setting);
+    return settings;
 }
 
 void check_table_path(const std::string& path) {

@@ -15,8 +15,8 @@ namespace zlg::cli {
 struct Options {
     std::string config_path;
     std::vector<std::string> sets;
-    std::optional<std::int64_t> seed;
-    std::optional<double> duration_s;
+    std::optional<std::string> seed;  // read as the configuration reads them
+    std::optional<std::string> duration_s;
     int threads = 2;
     std::string out;
     std::string format = "csv";
@@ -25,8 +25,9 @@ struct Options {
 };
 
 void add_config_options(CLI::App& verb, Options& options);
-void add_run_options(CLI::App& verb, Options& options);     // seed, duration, threads
-void add_output_options(CLI::App& verb, Options& options);  // out, force, json
+void add_config_argument(CLI::App& verb, Options& options);  // CONFIG as an argument or an option, and --set
+void add_run_options(CLI::App& verb, Options& options);      // seed, duration, threads
+void add_output_options(CLI::App& verb, Options& options);   // out, force, json
 
 // --set over --config over the defaults.
 //
@@ -38,6 +39,12 @@ void add_output_options(CLI::App& verb, Options& options);  // out, force, json
 // errors  logs::FormatError for the log's settings; config::ConfigError, also where its tick or scale is contradicted.
 [[nodiscard]] config::Config load_log_config(const Options& options, const config::Settings& log_settings,
                                              const std::string& log_path);
+
+// errors  UsageError where both are the same file.
+void refuse_own_input(const std::string& input, const std::string& output);
+
+// What an angle log says of itself: the settings on which compensation rests.
+[[nodiscard]] config::Settings angle_settings(const config::Config& config);
 
 // The path of a table to be written: its suffix chooses the format.
 //

@@ -25,7 +25,10 @@ constexpr int width = 40;
 
 }  // namespace
 
-void complain(const std::string& line) { fmt::print(stderr, "zlg: {}\n", line); }
+void complain(const std::string& line) {
+    // A standard error that takes nothing must not turn a complaint into a crash.
+    (void)std::fputs(fmt::format("zlg: {}\n", line).c_str(), stderr);
+}
 
 void print(std::string_view text) {
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
@@ -35,7 +38,7 @@ void print(std::string_view text) {
 Progress::Progress() : terminal_{isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
 
 Progress::~Progress() {
-    if (drawn_) fmt::print(stderr, "\r{:{}}\r", "", width + 10);
+    if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", width + 10).c_str(), stderr);
 }
 
 void Progress::show(double fraction) {
@@ -45,8 +48,9 @@ void Progress::show(double fraction) {
     last_s_ = t_s;
     drawn_ = true;
     const int done = static_cast<int>(fraction * width);
-    fmt::print(stderr, "\r[{:=<{}}{:{}}] {:3.0f} %", "", done, "", width - done, 100.0 * fraction);
-    std::fflush(stderr);
+    (void)std::fputs(fmt::format("\r[{:=<{}}{:{}}] {:3.0f} %", "", done, "", width - done, 100.0 * fraction).c_str(),
+                     stderr);
+    (void)std::fflush(stderr);
 }
 
 }  // namespace zlg::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The files of a run, in a folder of their own.
+// The files of a run, in a folder of their own: all of them appear, or none.
 
 #include <optional>
 #include <string>
@@ -8,6 +8,7 @@
 #include <zlg/config/config.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/logs/table_file.hpp>
 #include <zlg/study/run.hpp>
 
 namespace zlg::cli {
@@ -19,26 +20,35 @@ public:
     // errors  logs::IoError: the folder holds one of the files and not `force`, or cannot be made.
     RunFiles(const std::string& out, bool force, const config::Config& config);
     ~RunFiles();
+    RunFiles(const RunFiles&) = delete;
+    RunFiles& operator=(const RunFiles&) = delete;
 
     logs::RawWriter& raw() { return *raw_; }
     logs::AngleWriter& angles() { return *angles_; }
+    void write_health(std::int64_t half, std::uint32_t bits);
     [[nodiscard]] const std::string& folder() const { return folder_; }
 
-    // All files appear under their names.
     void finish(const std::vector<study::SwitchLine>& switches, const std::string& summary, const std::string& page);
 
+    // Their names, for a reader.
     [[nodiscard]] static std::string list();
 
 private:
     [[nodiscard]] std::string path(const char* name) const;
-    void write_text(const char* name, const std::string& text) const;
+    void open(const config::Config& config);
 
     std::string folder_;
     bool force_;
+    double tick_s_;
     bool made_folder_ = false;
     bool finished_ = false;
+    std::vector<std::string> new_;  // names at which nothing stood before this run
     std::optional<logs::RawWriter> raw_;
     std::optional<logs::AngleWriter> angles_;
+    std::optional<logs::TableFile> health_;
+    std::optional<logs::TableFile> switches_;
+    std::optional<logs::TableFile> summary_;
+    std::optional<logs::TableFile> page_;
 };
 
 }  // namespace zlg::cli

@@ -10,6 +10,7 @@
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 
+#include "as_json.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -68,17 +69,22 @@ std::vector<std::string> optional_columns(const logs::RawHeader& header) {
     return columns;
 }
 
+bool next_undamaged(logs::RawReader& reader, core::HalfRecord& record, RawFindings& found) {
+    try {
+        return reader.next(record);
+    } catch (const logs::FormatError& error) {
+        found.damage = error.what();
+        return false;
+    }
+}
+
 // Read to the end or to the first damage; whole rows before it go to `copy`, if there is one.
 RawFindings read_raw(logs::RawReader& reader, logs::RawWriter* copy) {
     RawFindings found;
     core::HalfRecord record;
-    try {
-        while (reader.next(record)) {
-            found.take(record);
-            if (copy) copy->write(record);
-        }
-    } catch (const logs::FormatError& error) {
-        found.damage = error.what();
+    while (next_undamaged(reader, record, found)) {
+        found.take(record);
+        if (copy) copy->write(record);
     }
     return found;
 }
@@ -151,9 +157,16 @@ json inspect_raw(const InspectOptions& options) {
     logs::RawReader reader{options.file};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
     const config::Config config = load_log_config(options, reader.header().settings, options.file);
-    if (!options.repair) return raw_json(options, reader.header(), config, read_raw(reader, nullptr));
+    if (!options.repair) {
+        const RawFindings found = read_raw(reader, nullptr);
+        if (found.damage.empty() && !reader.line_is_ended())
+            complain(
+                fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
+        return raw_json(options, reader.header(), config, found);
+    }
     check_table_path(options.out);
-    logs::RawWriter copy{options.out, reader.header().settings, options.force};
+    refuse_own_input(options.file, options.out);
+    logs::RawWriter copy{options.out, reader.header().settings, options.force, reader.header()};
     const RawFindings found = read_raw(reader, &copy);
     copy.close();
     json findings = raw_json(options, reader.header(), config, found);
@@ -177,7 +190,7 @@ void inspect(const InspectOptions& options) {
             throw logs::FormatError{
                 fmt::format("{}: neither a raw log nor an angle log: no line names the columns of one", options.file)};
     }
-    print(options.json ? findings.dump(2) + "\n" : as_text(findings));
+    print(options.json ? pretty(findings) : as_text(findings));
     if (!findings["damage"].is_null() && !options.repair) throw CLI::RuntimeError{result_says_no};
 }
 

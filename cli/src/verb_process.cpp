@@ -7,9 +7,11 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/wiring.hpp>
 
+#include "as_json.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -44,9 +46,13 @@ struct Summary {
     std::int64_t gaps = 0;
     double angle_arcsec = 0.0;
     std::array<std::int64_t, core::angle_flag_names.size()> flagged{};
+    bool in_gap = false;
 
     void take(const core::AngleRow& row) {
         ++ticks;
+        const bool is_gap = (row.flags & (core::flag_loop_unlocked | core::flag_invalid)) != 0;
+        gaps += is_gap && !in_gap ? 1 : 0;
+        in_gap = is_gap;
         for (std::size_t bit = 0; bit < flagged.size(); ++bit)
             if (row.flags & (1u << bit)) ++flagged[bit];
     }
@@ -61,13 +67,11 @@ Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& con
         const core::CompensationOutput out = step(config, state, record);
         if (!out.has_sample) continue;
         summary.angle_arcsec = out.angle_arcsec;
-        if (out.sample.has_gap) ++summary.gaps;
         if (!out.sample.has_final) continue;
         summary.take(out.sample.final_row);
         angles.write(out.sample.final_row);
     }
     for (auto out = drain(config, state); out.has_row || out.has_gap; out = drain(config, state)) {
-        if (out.has_gap) ++summary.gaps;
         if (!out.has_row) continue;
         summary.take(out.row);
         angles.write(out.row);
@@ -79,22 +83,25 @@ std::string text(const Summary& s, const ProcessOptions& options) {
     std::string flags;
     for (std::size_t bit = 0; bit < s.flagged.size(); ++bit)
         if (s.flagged[bit] > 0) flags += fmt::format("  {:<18} {}\n", core::angle_flag_names[bit], s.flagged[bit]);
-    return fmt::format("{}: {} ticks, {} gaps bridged, accumulated angle {} arcsec\n{}", options.out, s.ticks, s.gaps,
+    return fmt::format("{}: {} ticks, {} gaps, accumulated angle {} arcsec\n{}", options.out, s.ticks, s.gaps,
                        s.angle_arcsec, flags.empty() ? "" : "ticks by flag:\n" + flags);
 }
 
 nlohmann::json json(const Summary& s, const ProcessOptions& options, const config::Config& config) {
     nlohmann::json flags = nlohmann::json::object();
     for (std::size_t bit = 0; bit < s.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = s.flagged[bit];
-    nlohmann::json settings = nlohmann::json::object();
-    for (const auto& [key, value] : config::to_settings(config)) settings[key] = value;
-    return {{"raw", options.raw}, {"angles", options.out},          {"ticks", s.ticks},
-            {"gaps", s.gaps},     {"angle_arcsec", s.angle_arcsec}, {"flagged_ticks", flags},
-            {"config", settings}};
+    return {{"raw", options.raw},
+            {"angles", options.out},
+            {"ticks", s.ticks},
+            {"gaps", s.gaps},
+            {"angle_arcsec", s.angle_arcsec},
+            {"flagged_ticks", flags},
+            {"config", config_json(config)}};
 }
 
 void process(const ProcessOptions& options) {
     check_table_path(options.out);
+    refuse_own_input(options.raw, options.out);
     logs::RawReader raw{options.raw};
     config::Config config = load_log_config(options, raw.header().settings, options.raw);
     const core::RelockMethod relock = choose_relock(config, raw.header(), options.raw);
@@ -102,8 +109,10 @@ void process(const ProcessOptions& options) {
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
     config.compensation.relock = relock;
-    logs::AngleWriter angles{options.out, config.gyro.tick_s, config::to_settings(config), options.force};
+    logs::AngleWriter angles{options.out, config.gyro.tick_s, angle_settings(config), options.force};
     const Summary summary = compensate(raw, compensation, angles);
+    if (summary.ticks == 0)
+        throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", options.raw)};
     if (summary.halves % 2 != 0)
         complain(fmt::format(
             "warning: {}: the last half-period ({}) is the first of a tick whose other half is missing; dropped",
@@ -111,7 +120,7 @@ void process(const ProcessOptions& options) {
     if (!raw.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.raw));
     angles.close();
-    print(options.json ? json(summary, options, config).dump(2) + "\n" : text(summary, options));
+    print(options.json ? pretty(json(summary, options, config)) : text(summary, options));
 }
 
 }  // namespace

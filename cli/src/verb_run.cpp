@@ -9,9 +9,11 @@
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/study/design_study.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
 
+#include "as_json.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -38,14 +40,12 @@ json variant_json(const study::VariantResult& v) {
 json summary_json(const config::Config& config, const study::RunResult& result) {
     json variants = json::array();
     for (const study::VariantResult& v : result.variants) variants.push_back(variant_json(v));
-    json settings = json::object();
-    for (const auto& [key, value] : config::to_settings(config)) settings[key] = value;
     return {{"duration_s", static_cast<double>(result.ticks) * result.tick_s},
             {"ticks", result.ticks},
             {"switches", result.switches.size()},
             {"relock_false_drift_deg_h", result.relock_false_drift_deg_h},
             {"variants", variants},
-            {"config", settings}};
+            {"config", config_json(config)}};
 }
 
 std::string cell(const std::optional<study::SwitchStatistics>& s, double study::SwitchStatistics::*member) {
@@ -74,16 +74,17 @@ std::string text(const study::RunResult& result, const std::string& folder) {
 
 void run(const Options& options) {
     if (options.format != "csv") throw UsageError{fmt::format("--format {}: allowed is csv", options.format)};
-    const config::Config config = load_config(options);
+    const config::Config config = study::with_interval(load_config(options));
     RunFiles files{options.out, options.force, config};
     Progress progress;
     study::RunTask task{.config = config,
                         .threads = options.threads,
                         .on_record = [&](const core::HalfRecord& record) { files.raw().write(record); },
                         .on_row = [&](const core::AngleRow& row) { files.angles().write(row); },
+                        .on_health = [&](std::int64_t half, std::uint32_t bits) { files.write_health(half, bits); },
                         .on_progress = [&](double fraction) { progress.show(fraction); }};
     const study::RunResult result = study::run(task);
-    const std::string summary = summary_json(config, result).dump(2) + "\n";
+    const std::string summary = pretty(summary_json(config, result));
     files.finish(result.switches, summary, report::html(study::run_page(config, result)));
     print(options.json ? summary : text(result, files.folder()));
 }
@@ -94,8 +95,7 @@ void add_run(CLI::App& program) {
     const auto options = std::make_shared<Options>();
     CLI::App* verb =
         program.add_subcommand("run", "twin and core in closed loop: logs, summary and report into a folder");
-    verb->add_option("CONFIG", options->config_path, "configuration, TOML; the paper's gyro without it");
-    verb->add_option("--set", options->sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
+    add_config_argument(*verb, *options);
     verb->add_option("--format", options->format, "of the logs: csv");
     add_run_options(*verb, *options);
     add_output_options(*verb, *options);

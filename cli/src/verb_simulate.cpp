@@ -7,7 +7,9 @@
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/study/design_study.hpp>
 
+#include "as_json.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -18,7 +20,7 @@ namespace {
 
 void simulate(const Options& options) {
     check_table_path(options.out);
-    const config::Config config = load_config(options);
+    const config::Config config = study::with_interval(load_config(options));
     const twin::Motion motion = rig::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};
@@ -33,7 +35,7 @@ void simulate(const Options& options) {
     raw.close();
     const double duration_s = static_cast<double>(ticks) * config.gyro.tick_s;
     if (options.json)
-        print(nlohmann::json{{"raw", options.out}, {"halves", 2 * ticks}, {"duration_s", duration_s}}.dump(2) + "\n");
+        print(pretty(nlohmann::json{{"raw", options.out}, {"halves", 2 * ticks}, {"duration_s", duration_s}}));
     else
         print(fmt::format("{}: {} half-periods, {} s\n", options.out, 2 * ticks, duration_s));
 }
@@ -44,8 +46,7 @@ void add_simulate(CLI::App& program) {
     const auto options = std::make_shared<Options>();
     CLI::App* verb = program.add_subcommand(
         "simulate", "the same as run, writing only what the gyro's processor would have recorded");
-    verb->add_option("CONFIG", options->config_path, "configuration, TOML; the paper's gyro without it");
-    verb->add_option("--set", options->sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
+    add_config_argument(*verb, *options);
     add_run_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { simulate(*options); });

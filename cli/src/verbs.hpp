@@ -8,6 +8,8 @@ namespace zlg::cli {
 void add_run(CLI::App& program);
 void add_simulate(CLI::App& program);
 void add_process(CLI::App& program);
+void add_design(CLI::App& program);
+void add_paper(CLI::App& program);
 void add_inspect(CLI::App& program);
 
 }  // namespace zlg::cli

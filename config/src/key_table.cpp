@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 5> motions{"rest", "constant", "sine", "s
 constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 
 constexpr std::int64_t int64_max = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t int32_max = std::numeric_limits<std::int32_t>::max();
 
 // Ranges are those in which the arithmetic has a meaning, not those of a typical gyro.
 const Key table[] = {
@@ -118,7 +119,7 @@ const Key table[] = {
      RealList{at<&C::motion, &Motion::phase_deg>, any_finite}},
     {"motion", "path", "", "the motion file, for kind file", Text{at<&C::motion, &Motion::path>}},
     {"motion", "column", "", "column of the file, the first is 1",
-     Integer{at<&C::motion, &Motion::column>, 1, int64_max}},
+     Integer{at<&C::motion, &Motion::column>, 1, int32_max}},
     {"motion", "column_holds", "", "whether the column holds angle increments or rates",
      choice<&C::motion, &Motion::column_holds>(column_holds)},
     {"motion", "scale_arcsec", "arcsec", "angle (or rate in arcsec/s) per unit of the column",
@@ -127,7 +128,7 @@ const Key table[] = {
     {"motion", "comment", "", "lines of the file that begin with this are skipped",
      Text{at<&C::motion, &Motion::comment>}},
     {"motion", "skip_lines", "", "lines of numbers to skip at the head of the file",
-     Integer{at<&C::motion, &Motion::skip_lines>, 0, int64_max}},
+     Integer{at<&C::motion, &Motion::skip_lines>, 0, int32_max}},
 
     {"design", "switch_error_arcsec", "arcsec", "error of the angle that one switch leaves",
      Real{at<&C::design, &Design::switch_error_arcsec>, non_negative}},

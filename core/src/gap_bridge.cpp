@@ -193,10 +193,12 @@ GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingG
 }
 
 // dtheta of a measured tick: its value, and the lumps that are due.
-double deliver(GapBridgeState& state, HistoryTick& entry, std::int64_t tick) noexcept {
+double deliver(const GapBridgeConfig& config, GapBridgeState& state, HistoryTick& entry, std::int64_t tick) noexcept {
     ExactSum sum = state.carry_arcsec;
     sum.add(entry.row.dtheta_final_arcsec);
     int kept = 0;
+    // Where nothing is bridged only a late re-lock correction can be owed.
+    bool owed = config.method != BridgeMethod::none;
     for (int k = 0; k < state.n_pending; ++k) {
         const PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.due_tick > tick) {
@@ -206,10 +208,12 @@ double deliver(GapBridgeState& state, HistoryTick& entry, std::int64_t tick) noe
         }
         sum.add(pending.lump_arcsec.high);
         sum.add(pending.lump_arcsec.low);
+        owed = owed || pending.lump_arcsec != ExactSum{};
     }
     if (kept == state.n_pending) return entry.row.dtheta_final_arcsec;
     for (int k = kept; k < state.n_pending; ++k) state.pending[static_cast<unsigned>(k)] = PendingGap{};
     state.n_pending = kept;
+    if (!owed) return entry.row.dtheta_final_arcsec;
     entry.row.flags |= flag_correction;
     const double delivered = sum.value();
     sum.add(-delivered);
@@ -238,31 +242,11 @@ void take_measured_tick(const GapBridgeConfig& config, GapBridgeState& state, co
     if (state.gap.open) end_gap(config, state, input, tick);
     HistoryTick& entry = at(state, tick);
     entry.row.dtheta_final_arcsec = input.value_arcsec;
-    entry.row.dtheta_arcsec = state.n_pending > 0 ? deliver(state, entry, tick) : input.value_arcsec;
+    entry.row.dtheta_arcsec = state.n_pending > 0 ? deliver(config, state, entry, tick) : input.value_arcsec;
     entry.row.sigma_arcsec = square_root(input.variance_arcsec2);
 }
 
 }  // namespace
-
-int order_of(BridgeMethod method) noexcept {
-    return method == BridgeMethod::quadratic ? 2 : method == BridgeMethod::linear ? 1 : 0;
-}
-
-int final_delay_ticks(const GapBridgeConfig& config) noexcept {
-    const bool extrapolation_is_longer = config.extrapolation_points > config.points_after;
-    return max_gap_ticks + (extrapolation_is_longer ? config.extrapolation_points : config.points_after);
-}
-
-GapBridgeFault check(const GapBridgeConfig& c) noexcept {
-    const auto bad = [](int points) { return points < 1 || points > max_points; };
-    if (bad(c.extrapolation_points)) return GapBridgeFault::extrapolation_points;
-    if (bad(c.points_before)) return GapBridgeFault::points_before;
-    if (bad(c.points_after)) return GapBridgeFault::points_after;
-    const int order = order_of(c.method);
-    if (c.extrapolation_points <= order || c.points_before + c.points_after <= order) return GapBridgeFault::order;
-    if (!(c.count.value() >= 0.0 && is_finite(c.count.value()))) return GapBridgeFault::count;
-    return GapBridgeFault::none;
-}
 
 AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input) noexcept {
     const std::int64_t tick = state.next_tick++;

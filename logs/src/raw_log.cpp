@@ -38,6 +38,23 @@ constexpr std::array<Column, 10> columns{{{"half", true},
                                           {"piezo_v", false},
                                           {"temperature_c", false}}};
 
+bool is_written(const RawColumns& written, std::size_t column) {
+    switch (column) {
+        case valid:
+            return written.has_valid;
+        case detuning_lambda:
+            return written.has_detuning;
+        case detuning_sq_lambda2:
+            return written.has_detuning_sq;
+        case piezo_v:
+            return written.has_piezo;
+        case temperature_c:
+            return written.has_temperature;
+        default:
+            return true;
+    }
+}
+
 // Counts up to here, and the sum of two of them, are exact in a double.
 constexpr std::int64_t max_counts = std::int64_t{1} << 52;
 
@@ -106,27 +123,35 @@ bool RawReader::next(core::HalfRecord& record) {
 bool RawReader::line_is_ended() const { return state_->csv.line_is_ended(); }
 
 RawWriter::RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings,
-                     bool force)
-    : file_{path, force} {
+                     bool force, const RawColumns& written)
+    : file_{path, force}, columns_{written} {
     write_settings(file_, settings);
     std::string names;
-    for (const Column& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ",", column.name);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        if (is_written(columns_, k)) names += fmt::format("{}{}", names.empty() ? "" : ",", columns[k].name);
+    }
     file_.append(names + "\n");
 }
 
 void RawWriter::write(const core::HalfRecord& r) {
-    if (!(std::isfinite(r.detuning_lambda) && std::isfinite(r.detuning_sq_lambda2) && std::isfinite(r.piezo_v) &&
-          std::isfinite(r.temperature_c))) {
-        throw FormatError(
-            fmt::format("half {} cannot be logged: detuning {} lambda, its square {}, piezo {} V, "
-                        "temperature {} C; allowed are finite numbers",
-                        r.half, r.detuning_lambda, r.detuning_sq_lambda2, r.piezo_v, r.temperature_c));
-    }
     // Two integers of at most 20 letters, four reals of at most 24, four of at most 2, and the commas.
     std::array<char, 192> row;
-    const char* end = fmt::format_to(row.data(), FMT_COMPILE("{},{},{},{},{:d},{:d},{},{},{},{}\n"), r.half,
-                                     r.bias_sign, r.mode, r.counts, r.loop_closed, r.valid, r.detuning_lambda,
-                                     r.detuning_sq_lambda2, r.piezo_v, r.temperature_c);
+    char* end = fmt::format_to(row.data(), FMT_COMPILE("{},{},{},{},{:d}"), r.half, r.bias_sign, r.mode, r.counts,
+                               r.loop_closed);
+    if (columns_.has_valid) end = fmt::format_to(end, FMT_COMPILE(",{:d}"), r.valid);
+    const auto append = [&](bool is_column, double value, std::string_view name) {
+        if (!is_column) return;
+        if (!std::isfinite(value)) {
+            throw FormatError(
+                fmt::format("half {} cannot be logged: {} is {}; allowed is a finite number", r.half, name, value));
+        }
+        end = fmt::format_to(end, FMT_COMPILE(",{}"), value);
+    };
+    append(columns_.has_detuning, r.detuning_lambda, "detuning_lambda");
+    append(columns_.has_detuning_sq, r.detuning_sq_lambda2, "detuning_sq_lambda2");
+    append(columns_.has_piezo, r.piezo_v, "piezo_v");
+    append(columns_.has_temperature, r.temperature_c, "temperature_c");
+    *end++ = '\n';
     file_.append({row.data(), static_cast<std::size_t>(end - row.data())});
 }
 

@@ -1,6 +1,11 @@
 #include <zlg/rig/closed_loop.hpp>
 
+#include <array>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -8,11 +13,36 @@
 namespace zlg::rig {
 namespace {
 
+// The twin names its own parameters; these have another name as a key.
+std::string with_keys(std::string message) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> names{
+        {{"loop_tau_s", "perimeter.tau_s"},
+         {"loop_limit_lambda", "perimeter.limit_lambda"},
+         {"high_voltage_rc_s", "piezo.rc_s"},
+         {"piezo_min_v", "piezo.range_min_v"},
+         {"piezo_max_v", "piezo.range_max_v"}}};
+    for (const auto& [parameter, key] : names) {
+        const std::size_t at = message.find(parameter);
+        if (at != std::string::npos) message.replace(at, parameter.size(), key);
+    }
+    return message;
+}
+
 twin::Twin make_twin(const config::Config& config, twin::Motion motion) {
     try {
         return twin::Twin{twin_config(config), std::move(motion)};
     } catch (const std::invalid_argument& error) {
-        throw config::ConfigError{error.what()};
+        throw config::ConfigError{with_keys(error.what())};
+    }
+}
+
+// Rates that a configuration allows and no counter can follow show only when it runs.
+twin::TwinHalf advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuator) {
+    try {
+        return twin.advance(actuator);
+    } catch (const std::overflow_error& error) {
+        throw config::ConfigError{
+            fmt::format("[gyro], [drift] or [motion] asks for a rate beyond any counter: {}", error.what())};
     }
 }
 
@@ -25,7 +55,7 @@ ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion)
       actuator_{initial_actuator(control_config_)} {}
 
 LoopHalf ClosedLoop::advance() {
-    const twin::TwinHalf half = twin_.advance(actuator_);
+    const twin::TwinHalf half = advance_twin(twin_, actuator_);
     LoopHalf out;
     out.control = step(control_config_, control_state_, half.sensor);
     out.record = out.control.record;

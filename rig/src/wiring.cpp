@@ -79,7 +79,7 @@ std::int64_t counts_limit(const config::Config& config) {
 
 core::SwitchScheduleConfig schedule_of(const config::Config& config) {
     if (config.switching.interval_optimal)
-        throw ConfigError{"switching.interval_s = \"optimal\": not available yet; allowed is a number of seconds"};
+        throw ConfigError{"switching.interval_s = \"optimal\" must be resolved into seconds before a gyro can run"};
     return {.interval_ticks = ticks_of(config.switching.interval_s, config.gyro.tick_s),
             .first_segment = config.switching.first_segment == config::FirstSegment::half ? core::FirstSegment::half
                                                                                           : core::FirstSegment::full};

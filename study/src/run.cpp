@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <limits>
 #include <map>
 #include <thread>
 
+#include <zlg/core/maths.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -102,11 +104,13 @@ public:
     void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second) {
         finder_.take(tick, first.record, second.record);
         forget_windows(tick);
+        remember_switch();
         profile_.take(first.record, second.record, first.truth.false_relock_arcsec + second.truth.false_relock_arcsec);
         const MagnifiedTick shown = shown_tick(tick, task_.config.gyro.scale_arcsec, first, second);
         waiting_[static_cast<std::size_t>(tick) % waiting_.size()] = {shown.true_arcsec, shown};
         for (const rig::LoopHalf* half : {&first, &second}) {
             if (task_.on_record) task_.on_record(half->record);
+            take_health(*half);
             if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
         }
         for (Variant& v : variants_) {
@@ -157,26 +161,46 @@ private:
     }
 
     [[nodiscard]] std::vector<SwitchLine> switch_lines() const {
+        std::map<std::int64_t, SwitchError> errors;
+        for (const SwitchError& e : variants_.back().meter.switches()) errors[e.window.first_tick] = e;
         std::vector<SwitchLine> lines;
-        for (const SwitchError& e : variants_.back().meter.switches()) {
-            SwitchLine line{.tick = e.window.first_tick,
-                            .mode = e.window.mode_after,
-                            .gap_ticks = e.window.n_ticks,
-                            .relock_arcsec = e.relock_arcsec,
-                            .true_error_arcsec = e.error_arcsec};
-            if (const auto gap = gaps_.find(line.tick); gap != gaps_.end()) {
-                line.dp_arcsec = gap->second.dp_arcsec;
-                line.sigma_arcsec = gap->second.sigma_sum_arcsec;
-            }
-            if (const auto event = events_.find(line.tick); event != events_.end()) {
-                line.miss_lambda = event->second.control.event.miss_lambda;
-                line.half_wave_v = event->second.half_wave_v;
-                line.half_wave_sigma_v = event->second.half_wave_sigma_v;
-            }
+        for (const auto& [tick, window] : switches_) {
+            SwitchLine line{.tick = tick, .mode = window.mode_after, .gap_ticks = window.n_ticks};
+            const auto error = errors.find(tick);
+            line.relock_arcsec = error != errors.end() ? error->second.relock_arcsec : unknown;
+            line.true_error_arcsec = error != errors.end() ? error->second.error_arcsec : unknown;
+            const auto gap = gaps_.find(tick);
+            line.dp_arcsec = gap != gaps_.end() ? gap->second.dp_arcsec : unknown;
+            line.sigma_arcsec = gap != gaps_.end() ? gap->second.sigma_sum_arcsec : core::infinity;
+            add_event(tick, line);
             lines.push_back(line);
         }
         return lines;
     }
+
+    void add_event(std::int64_t tick, SwitchLine& line) const {
+        const auto found = events_.find(tick);
+        const bool known = found != events_.end();
+        line.miss_lambda =
+            known && found->second.control.event.has_miss ? found->second.control.event.miss_lambda : unknown;
+        line.half_wave_v = known ? found->second.half_wave_v : unknown;
+        line.half_wave_sigma_v = known ? found->second.half_wave_sigma_v : core::infinity;
+    }
+
+    // Once its gap is over a switch is one, whatever of its re-lock the run still sees.
+    void remember_switch() {
+        if (finder_.windows().empty() || !finder_.windows().back().gap_is_over()) return;
+        const SwitchWindow& window = finder_.windows().back();
+        switches_[window.first_tick] = window;
+    }
+
+    void take_health(const rig::LoopHalf& half) {
+        if (!task_.on_health || (half.record.half > 0 && half.control.health == health_)) return;
+        health_ = half.control.health;
+        task_.on_health(half.record.half, health_);
+    }
+
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
     const RunTask& task_;
     std::vector<Variant> variants_;
@@ -184,7 +208,9 @@ private:
     RelockProfile profile_{profile_ticks};
     Magnifier magnifier_;
     std::array<WaitingTick, core::history_ticks> waiting_{};
+    std::map<std::int64_t, SwitchWindow> switches_;
     std::map<std::int64_t, core::GapReport> gaps_;
+    std::uint32_t health_ = 0;
     std::map<std::int64_t, rig::LoopHalf> events_;  // the half in which the lock that ends a switch was seen
 };
 

@@ -207,6 +207,7 @@ Figure switch_error_figure(const RunResult& result) {
     Series errors{
         .name = "error, with the claimed standard deviation", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
     for (const SwitchLine& line : result.switches) {
+        if (!std::isfinite(line.true_error_arcsec)) continue;
         errors.x.push_back(static_cast<double>(line.tick) * result.tick_s);
         errors.y.push_back(line.true_error_arcsec);
         errors.y_error.push_back(line.sigma_arcsec);

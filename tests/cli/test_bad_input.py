@@ -232,6 +232,7 @@ class BadOutput(BadInputTest):
     def test_input_is_never_the_output(self):
         before = self.raw.read_bytes()
         self.refuse_call((USAGE, INPUT), "process", self.raw, "--out", self.raw)
+        self.refuse_call(USAGE, "process", self.raw, "--out", self.raw, "--force")
         self.assertEqual(self.raw.read_bytes(), before)
 
     def test_missing_parent_folder(self):

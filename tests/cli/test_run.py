@@ -12,7 +12,7 @@ from pathlib import Path
 from oracle import Settings, compensate, find_gaps
 from support import AngleLog, CliTest, body_of, run
 
-FILES = ["raw.csv", "angles.csv", "switches.csv", "summary.json", "report.html"]
+FILES = ["raw.csv", "angles.csv", "health.csv", "switches.csv", "summary.json", "report.html"]
 VARIANTS = ["one_mode", "switching", "relock_frequency", "relock_detuning", "relock_mean_square", "bridge_constant",
             "bridge_linear", "bridge_quadratic", "configured"]
 NUMBERS = ["drift_arcsec_s", "angle_error_arcsec", "switch_error_mean_arcsec", "switch_error_rms_arcsec", "switch_error_max_arcsec"]

@@ -32,6 +32,13 @@ TEST(Wiring, control_presumes_the_half_wave_voltage_with_its_error) {
     EXPECT_DOUBLE_EQ(rig::control_config(c).half_wave.presumed.value(), 42.0);
 }
 
+TEST(Wiring, random_walk_enters_the_sigma_of_a_tick) {
+    config::Config c;
+    c.drift.random_walk_arcsec_sqrt_s = 2.0;
+    const auto made = rig::compensation_config(c, core::RelockMethod::none, core::BridgeMethod::constant);
+    EXPECT_EQ(made.random_walk.value(), 2.0);
+}
+
 TEST(Wiring, the_interval_is_counted_in_whole_ticks) {
     config::Config c;
     c.switching.interval_s = 7.0;

@@ -17,7 +17,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-bool is_separator(char c) { return c == ',' || c == ';'; }
+bool is_separator(char c) { return c == ',' || c == ';' || c == '|' || c == ':' || c == '/'; }
 
 std::string_view without_leading_blanks(std::string_view text) {
     std::size_t n = 0;
@@ -25,7 +25,7 @@ std::string_view without_leading_blanks(std::string_view text) {
     return text.substr(n);
 }
 
-// Split at blanks (a run of them is one border) or at a comma or semicolon with blanks about it.
+// Split at blanks (a run of them is one border) or at a separator with blanks about it.
 //
 // return  field `column`, first is 1; n_columns tells how far the line goes, at most to that column.
 struct Field {

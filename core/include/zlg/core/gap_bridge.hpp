@@ -10,7 +10,8 @@
 //
 // Only measured ticks take part, with their final values; where some of the standard positions are missing, the fit is
 // made with the others, of an order that they allow. At the start of a log eq (14) is used in reversed time.
-// The sum of what is delivered and the sum of the final values are the same after each correction.
+// The sum of what is delivered and the sum of the final values are the same after each correction, unless a later gap
+// still owes its own.
 
 #include <array>
 #include <cstdint>

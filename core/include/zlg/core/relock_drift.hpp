@@ -10,7 +10,7 @@
 // detuning     dOm = (chi f0 / 4) ln(rho) (dl_first + dl_second)^2,  rho = dl_second / dl_first  (mean detunings)
 // mean_square  the definition itself, without a model of the loop
 //
-// The first two assume an exponential loop, eqs (10)-(13) of the paper with its misprints corrected (docs/paper.md).
+// The first two assume an exponential loop, eqs (10)-(13) of the paper with its misprints corrected (docs/compensation.md).
 
 #include <cstdint>
 

@@ -11,15 +11,21 @@
 
 namespace zlg::logs {
 
-// What stands above the rows.
-struct RawHeader {
-    std::vector<std::pair<std::string, std::string>> settings;  // lines `# key = value`, in their order
+// Which of the optional columns there are.
+struct RawColumns {
     bool has_valid = false;
     bool has_detuning = false;     // detuning_lambda
     bool has_detuning_sq = false;  // detuning_sq_lambda2
     bool has_piezo = false;
     bool has_temperature = false;
-    std::vector<std::string> warnings;  // unknown columns that are ignored, one line each
+};
+
+inline constexpr RawColumns all_raw_columns{true, true, true, true, true};
+
+// What stands above the rows.
+struct RawHeader : RawColumns {
+    std::vector<std::pair<std::string, std::string>> settings;  // lines `# key = value`, in their order
+    std::vector<std::string> warnings;                          // unknown columns that are ignored, one line each
 };
 
 // Reads rows in order and checks every one: half without holes from 0, bias_sign +1/-1 and alternating, mode +1/-1,
@@ -45,18 +51,20 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Writes a raw log with every column. It appears under its name at `close`, whole, or not at all.
+// Writes a raw log with the required and the given columns. It appears under its name at `close`, whole, or not at all.
 class RawWriter {
 public:
     // errors  IoError, FormatError (a setting with a line break).
-    RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings, bool force);
+    RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings, bool force,
+              const RawColumns& columns = all_raw_columns);
 
-    // errors  IoError; FormatError: a number that is not finite, which no reader would accept.
+    // errors  IoError; FormatError: a number of a column that is not finite, which no reader would accept.
     void write(const core::HalfRecord& record);
     void close();
 
 private:
     TableFile file_;
+    RawColumns columns_;
 };
 
 }  // namespace zlg::logs

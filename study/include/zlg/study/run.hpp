@@ -29,14 +29,14 @@ struct VariantResult {
 struct SwitchLine {
     std::int64_t tick = 0;     // first of the gap
     int mode = 1;              // after the switch
-    double miss_lambda = 0.0;  // mean detuning of the first half with the loop closed
+    double miss_lambda = 0.0;  // mean detuning of the first half with the loop closed; NaN where unknown
     double half_wave_v = 0.0;  // estimate after this switch, and its standard deviation
     double half_wave_sigma_v = 0.0;
     std::int64_t gap_ticks = 0;
-    double dp_arcsec = 0.0;      // eq (16)
-    double relock_arcsec = 0.0;  // false angle subtracted
-    double sigma_arcsec = 0.0;   // of the gap's final angle
-    double true_error_arcsec = 0.0;
+    double dp_arcsec = 0.0;          // eq (16)
+    double relock_arcsec = 0.0;      // false angle subtracted
+    double sigma_arcsec = 0.0;       // of the gap's final angle
+    double true_error_arcsec = 0.0;  // NaN where the run ended before the re-lock did
 };
 
 // One tick of the switch that is shown magnified.
@@ -67,7 +67,8 @@ struct RunTask {
     int threads = 1;
     std::function<void(const core::HalfRecord&)> on_record;  // optional; called in order, from the calling thread
     std::function<void(const core::AngleRow&)> on_row;       // optional; the rows of `configured`
-    std::function<void(double)> on_progress;                 // optional; 0..1
+    std::function<void(std::int64_t half, std::uint32_t bits)> on_health;  // optional; when the health bits change
+    std::function<void(double)> on_progress;                               // optional; 0..1
 };
 
 // errors  config::ConfigError, logs::IoError, logs::FormatError; what the sinks throw.

@@ -1,0 +1,167 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <zlg/logs/table_file.hpp>
+#include <zlg/study/design_study.hpp>
+
+#include "as_json.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+using nlohmann::json;
+
+struct DesignOptions : Options {
+    std::string run_lengths;
+};
+
+json interval_json(const study::IntervalLine& l) {
+    json j{{"run_s", l.run_s},
+           {"method", design::name(l.method)},
+           {"interval_s", l.optimum.interval_s},
+           {"drift_arcsec_s", l.optimum.drift_arcsec_s},
+           {"status", design::sentence(l.optimum.status)},
+           {"rise_at_0_7_arcsec_s", l.sensitivity.shorter_arcsec_s}};
+    j["rise_at_1_3_arcsec_s"] = l.sensitivity.longer_arcsec_s ? json(*l.sensitivity.longer_arcsec_s) : json(nullptr);
+    return j;
+}
+
+json roots_json(const design::Roots& roots) {
+    return {{"status", design::sentence(roots.status)},
+            {"interval_s", roots.status == design::RootStatus::found ? json(roots.smaller_s) : json(nullptr)}};
+}
+
+json run_json(const study::RunLine& r) {
+    return {
+        {"run_s", r.run_s},
+        {"nonmagnetic_arcsec_s", r.terms.nonmagnetic_arcsec_s},
+        {"quasi_nonmagnetic_arcsec_s", r.terms.quasi_nonmagnetic_arcsec_s},
+        {"sawtooth_arcsec_s", r.terms.sawtooth_arcsec_s},
+        {"switch_errors_arcsec_s", r.terms.switch_errors_arcsec_s},
+        {"corrected_9", roots_json(r.corrected_roots)},
+        {"printed_9", roots_json(r.roots_as_printed)},
+        {"half_first_segment",
+         {{"interval_s", r.half_first_segment.interval_s}, {"drift_arcsec_s", r.half_first_segment.drift_arcsec_s}}},
+        {"growing", {{"interval_s", r.growing_interval_s}, {"drift_arcsec_s", r.growing_drift_arcsec_s}}}};
+}
+
+json substitution_json(const study::SubstitutionLine& l) {
+    return {{"order", l.order},
+            {"gap_ticks", l.gap_ticks},
+            {"frequency_hz", l.frequency_hz},
+            {"worst_arcsec", l.worst_arcsec},
+            {"rms_arcsec", l.rms_arcsec},
+            {"noise_gain", l.noise_gain},
+            {"counter_arcsec", l.counter_arcsec},
+            {"total_arcsec", l.total_arcsec}};
+}
+
+json loop_json(const study::LoopLine& l) {
+    json parts = json::object();
+    for (const design::MissPart& part : l.miss.part) parts[std::string{part.name}] = part.lambda;
+    return {{"phase_margin_deg", l.margins.phase_margin_deg},
+            {"gain_margin", l.margins.gain_margin},
+            {"crossover_rad_s", l.margins.crossover_rad_s},
+            {"stable", l.margins.stable},
+            {"tick_over_tau", l.tick_over_tau},
+            {"tick_over_tau_limit", l.stability_limit},
+            {"relock_s", l.relock_s},
+            {"relock_linear_s", l.relock_linear_s},
+            {"false_drift_arcsec_s", l.false_drift_arcsec_s},
+            {"false_angle_arcsec", l.false_angle_arcsec},
+            {"false_angle_law_arcsec", l.false_angle_law_arcsec},
+            {"capture_lambda", l.capture_lambda},
+            {"miss_lambda", parts},
+            {"miss_root_sum_square_lambda", l.miss.root_sum_square_lambda},
+            {"miss_worst_lambda", l.miss.worst_lambda}};
+}
+
+json result_json(const study::DesignResult& result) {
+    json j{{"optimum", json::array()},
+           {"runs", json::array()},
+           {"substitution", json::array()},
+           {"loop", loop_json(result.loop)}};
+    for (const auto& l : result.intervals) j["optimum"].push_back(interval_json(l));
+    for (const auto& r : result.runs) j["runs"].push_back(run_json(r));
+    for (const auto& l : result.substitution) j["substitution"].push_back(substitution_json(l));
+    return j;
+}
+
+std::string interval_text(const study::DesignResult& result) {
+    std::string text = fmt::format("best interval between switches\n{:>10}  {:<12}{:>12}{:>14}{:>12}{:>12}\n", "run, s",
+                                   "method", "interval, s", "drift, \"/s", "+ at 0.7 L", "+ at 1.3 L");
+    for (const auto& l : result.intervals) {
+        const std::string longer =
+            l.sensitivity.longer_arcsec_s ? fmt::format("{:.4f}", *l.sensitivity.longer_arcsec_s) : "-";
+        text += fmt::format("{:>10.6g}  {:<12}{:>12.1f}{:>14.4f}{:>12.4f}{:>12}", l.run_s, design::name(l.method),
+                            l.optimum.interval_s, l.optimum.drift_arcsec_s, l.sensitivity.shorter_arcsec_s, longer);
+        if (l.optimum.status != design::OptimumStatus::inside)
+            text += fmt::format("  {}", design::sentence(l.optimum.status));
+        text += '\n';
+    }
+    return text;
+}
+
+std::string substitution_text(const study::DesignResult& result) {
+    std::string text =
+        fmt::format("\nerror of the gap's angle after eq (15), arcsec\n{:>8}{:>6}{:>7}{:>10}{:>10}{:>12}{:>11}{:>11}\n",
+                    "Hz", "gap", "order", "worst", "rms", "noise gain", "rounding", "together");
+    for (const auto& l : result.substitution)
+        text += fmt::format("{:>8.4g}{:>6}{:>7}{:>10.3f}{:>10.3f}{:>12.3f}{:>11.3f}{:>11.3f}\n", l.frequency_hz,
+                            l.gap_ticks, l.order, l.worst_arcsec, l.rms_arcsec, l.noise_gain, l.counter_arcsec,
+                            l.total_arcsec);
+    return text;
+}
+
+std::string loop_text(const config::Config& config, const study::LoopLine& l) {
+    return fmt::format(
+        "\nperimeter loop\n  phase margin {:.1f} deg, gain margin {:.1f}; T/tau {:.2f} (sampled with one tick of "
+        "delay: stable "
+        "below {:.2f})\n  re-lock from {} to 0.01 wavelength in {:.1f} ms (linear {:.1f} ms), false angle {:.1f} "
+        "arcsec "
+        "((T/4) G(0+): {:.1f})\n  miss: root sum square {:.4f}, worst {:.4f} wavelength\n",
+        l.margins.phase_margin_deg, l.margins.gain_margin, l.tick_over_tau, l.stability_limit,
+        config.perimeter.miss_lambda, 1e3 * l.relock_s, 1e3 * l.relock_linear_s, l.false_angle_arcsec,
+        l.false_angle_law_arcsec, l.miss.root_sum_square_lambda, l.miss.worst_lambda);
+}
+
+void write_page(const DesignOptions& options, const config::Config& config, const study::DesignResult& result) {
+    const std::filesystem::path path{options.out};
+    if (path.extension() != ".html")
+        throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is .html", options.out,
+                                     path.extension().string())};
+    logs::TableFile file{options.out, options.force};
+    file.append(report::html(study::design_page(config, result)));
+    file.close();
+}
+
+void design_gyro(const DesignOptions& options) {
+    Options with_lengths = options;
+    if (!options.run_lengths.empty()) with_lengths.sets.push_back("design.run_lengths_s=[" + options.run_lengths + "]");
+    const config::Config config = load_config(with_lengths);
+    const study::DesignResult result = study::design_gyro(config);
+    if (!options.out.empty()) write_page(options, config, result);
+    print(options.json ? pretty(result_json(result))
+                       : interval_text(result) + substitution_text(result) + loop_text(config, result.loop));
+}
+
+}  // namespace
+
+void add_design(CLI::App& program) {
+    const auto options = std::make_shared<DesignOptions>();
+    CLI::App* verb = program.add_subcommand("design", "drift budget, best interval, substitution errors, loop margins");
+    add_config_argument(*verb, *options);
+    verb->add_option("--run-lengths", options->run_lengths, "lengths of run, s, separated by commas");
+    add_output_options(*verb, *options);
+    verb->callback([options] { design_gyro(*options); });
+}
+
+}  // namespace zlg::cli

@@ -1,0 +1,72 @@
+"""`zlg inspect`: what it finds, and that --repair loses nothing that was whole."""
+
+import json
+import unittest
+
+from support import CliTest, csv_text, quiet_log, run
+
+
+class Inspect(CliTest):
+    def findings(self, path, code=0):
+        result = run("inspect", path, "--json")
+        self.assertEqual(result.returncode, code, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_counts_ticks_gaps_and_halves(self):
+        rows = quiet_log(n_ticks=40, gap=range(10, 13))
+        found = self.findings(self.write("raw.csv", csv_text(rows)))
+        self.assertEqual((found["kind"], found["ticks"], found["gaps"], found["open_halves"]), ("raw", 40, 1, 6))
+        self.assertIsNone(found["damage"])
+
+    def test_gaps_at_both_ends_count_in_process_too(self):
+        rows = quiet_log(n_ticks=40, gap=[0, 1, 20, 38, 39])
+        raw = self.write("raw.csv", csv_text(rows))
+        processed = json.loads(self.succeed("process", raw, "--out", self.folder / "a.csv", "--json").stdout)
+        self.assertEqual(processed["gaps"], 3)
+        self.assertEqual(self.findings(raw)["gaps"], 3)
+
+    def test_damage_is_named_and_the_result_says_no(self):
+        text = csv_text(quiet_log(n_ticks=20)).replace("\n30,", "\n31,")
+        found = self.findings(self.write("raw.csv", text), code=1)
+        self.assertEqual(found["halves"], 30)
+        self.assertIn("hole", found["damage"])
+
+    def test_repair_keeps_every_whole_row_and_no_other_column(self):
+        for columns in (None, ["half", "bias_sign", "mode", "counts", "loop_closed", "valid", "temperature_c"]):
+            rows = quiet_log(n_ticks=20)
+            for row in rows:
+                row.update(valid=1, temperature_c=20.5)
+            names = columns or ["half", "bias_sign", "mode", "counts", "loop_closed"]
+            whole = csv_text(rows, names)
+            raw = self.write("raw.csv", whole + "40,1,1,2")
+            out = self.folder / "clean.csv"
+            self.succeed("inspect", raw, "--repair", "--out", out, "--force")
+            self.assertEqual(out.read_text(), whole)
+
+    def test_repair_never_writes_over_its_input(self):
+        raw = self.write("raw.csv", csv_text(quiet_log()) + "80,1")
+        before = raw.read_bytes()
+        self.assertEqual(run("inspect", raw, "--repair", "--out", raw, "--force").returncode, 2)
+        self.assertEqual(raw.read_bytes(), before)
+
+    def test_a_log_that_is_one_half_is_refused(self):
+        raw = self.write("raw.csv", csv_text(quiet_log()[:1]))
+        self.assertEqual(run("process", raw, "--out", self.folder / "a.csv").returncode, 3)
+        self.assertFalse((self.folder / "a.csv").exists())
+
+
+class DoubtfulSettings(CliTest):
+    def refused(self, *lines):
+        raw = self.write("raw.csv", csv_text(quiet_log(), lines=lines))
+        result = run("process", raw, "--out", self.folder / "a.csv", "--force")
+        return result.returncode == 3
+
+    def test_nearly_known_sections_and_contradictions(self):
+        self.assertTrue(self.refused("gyr.scale_arcsec = 1.5"))
+        self.assertTrue(self.refused("GYRO.scale_arcsec = 1.5"))
+        self.assertTrue(self.refused("scale_arcsec = 1.5", "gyro.scale_arcsec = 2"))
+        self.assertFalse(self.refused("laboratory = 12", "operator.name = x", "gyro.scale_arcsec = 1.5"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,160 @@
+#include <zlg/design/order_choice.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include <zlg/design/error.hpp>
+
+#include "substitution_support.hpp"
+
+namespace {
+
+using namespace zlg::design;
+using namespace substitution_test;
+
+constexpr OrderQuestion papers{};
+
+OrderQuestion up_to_four() {
+    OrderQuestion q;
+    q.substitution.points = {8, 4, 4};
+    q.highest_order = 4;
+    return q;
+}
+
+// rms over phases of the error of simulated ticks, with the noise of the exact weights.
+double simulated_rms(Substitution s, int order, double amplitude, double f, double sigma) {
+    s.order = order;
+    double square = 0.0;
+    for (int k = 0; k < 16; ++k) {
+        const double e = simulated_error(s, 1, s.n, amplitude, f, 2.0 * std::numbers::pi * k / 16);
+        square += e * e / 16;
+    }
+    for (const Rational& w : exact_weights(s, 1, s.n)) square += std::pow(w.convert_to<double>() * sigma, 2);
+    return std::sqrt(square);
+}
+
+// The paper's rows: amplitude 12 000 arcsec/s at 20 Hz, three ticks.
+TEST(OrderChoice, RmsErrorsOfAToneOfRandomPhase) {
+    const Tone tone{12000.0, 20.0};
+    const auto coarse = best_order(papers, tone, 1.6), fine = best_order(papers, tone, 0.53);
+    EXPECT_EQ(coarse.order, 2);
+    EXPECT_NEAR(coarse.rms_arcsec[0], 109, 0.5);
+    EXPECT_NEAR(fine.rms_arcsec[0], 109, 0.5);
+    EXPECT_NEAR(coarse.rms_arcsec[2], 19.9, 0.05);
+    EXPECT_NEAR(fine.rms_arcsec[2], 19.1, 0.05);
+    OrderQuestion quartic;
+    quartic.substitution.points = {4, 3, 3};
+    quartic.highest_order = 4;
+    EXPECT_NEAR(best_order(quartic, tone, 1.6).rms_arcsec[4], 9.6, 0.05);
+    EXPECT_NEAR(best_order(quartic, tone, 0.53).rms_arcsec[4], 4.8, 0.05);
+    EXPECT_EQ(best_order(quartic, tone, 1.6).order, 4);
+}
+
+RC_GTEST_PROP(OrderChoiceLaw, TheChoiceIsTheLeastRmsOfSimulatedTicks, ()) {
+    const OrderQuestion q = up_to_four();
+    const double f = real_between(0.5, 60.0);
+    const double amplitude = std::pow(10.0, real_between(0.0, 5.0));
+    const double sigma = real_between(0.01, 3.0);
+    const auto choice = best_order(q, {amplitude, f}, sigma);
+    double least = 1e300;
+    for (int order = 0; order <= 4; ++order) {
+        const double rms = simulated_rms(q.substitution, order, amplitude, f, sigma);
+        RC_ASSERT(std::abs(choice.rms_arcsec[static_cast<std::size_t>(order)] - rms) <= 1e-9 * (1.0 + rms));
+        least = std::min(least, rms);
+    }
+    RC_ASSERT(choice.rms_arcsec[static_cast<std::size_t>(choice.order)] <= least * (1.0 + 1e-8));
+    RC_ASSERT(choice.order % 2 == 0);  // symmetric points: the lower of two equals
+}
+
+TEST(OrderChoice, NoMotionAsksForTheConstantAndNoNoiseForTheHighestOrderAtLowFrequency) {
+    EXPECT_EQ(best_order(up_to_four(), {0.0, 20.0}, 1.0).order, 0);
+    EXPECT_EQ(best_order(up_to_four(), {1e4, 0.0}, 1.0).order, 0);
+    EXPECT_EQ(best_order(up_to_four(), {1e4, 0.0}, 0.0).order, 0);
+    EXPECT_EQ(best_order(up_to_four(), {1e4, 2.0}, 0.0).order, 4);
+    EXPECT_EQ(best_order(papers, {1e4, 2.0}, 0.0).order, 2);
+}
+
+TEST(OrderChoice, RoundingNeverDecidesBetweenEqualOrders) {
+    for (int n = 1; n <= 30; ++n) {
+        for (int side = 2; side <= 8; ++side) {
+            OrderQuestion q;
+            q.substitution = {Fit::interpolation, 0, n, {4, side, side}};
+            q.highest_order = 4;
+            EXPECT_EQ(best_order(q, {1e4, 0.0}, 0.0).order, 0);
+            for (const double f : {0.5, 3.0, 11.0}) EXPECT_EQ(best_order(q, {1e4, f}, 0.5).order % 2, 0);
+        }
+    }
+}
+
+TEST(OrderChoice, FewPointsAllowLowOrdersOnly) {
+    OrderQuestion q;
+    q.substitution.points = {4, 1, 1};
+    q.highest_order = 4;
+    const auto choice = best_order(q, {1e4, 2.0}, 0.0);
+    EXPECT_EQ(choice.highest_order, 1);
+    EXPECT_TRUE(std::isnan(choice.rms_arcsec[2]));
+}
+
+TEST(OrderChoice, TheOrdersChangePlacesAtTheCrossing) {
+    for (const double f : {1.0, 5.0, 10.0, 20.0}) {
+        const auto ratio = crossing_ratio(papers, 0, 2, f);
+        ASSERT_TRUE(ratio.has_value());
+        const double sigma = 1.6;
+        const auto rms = [&](int order, double factor) {
+            return simulated_rms({}, order, factor * *ratio * sigma / 0.005, f, sigma);
+        };
+        EXPECT_NEAR(rms(0, 1.0), rms(2, 1.0), 1e-9 * rms(0, 1.0));
+        EXPECT_EQ(best_order(papers, {0.999 * *ratio * sigma / 0.005, f}, sigma).order, 0);
+        EXPECT_EQ(best_order(papers, {1.001 * *ratio * sigma / 0.005, f}, sigma).order, 2);
+    }
+    EXPECT_FALSE(crossing_ratio(papers, 0, 1, 20.0).has_value());  // the same estimator
+    EXPECT_FALSE(crossing_ratio(papers, 2, 0, 20.0).has_value());
+}
+
+// Extrapolated over three ticks at 20 Hz the line is worse than the constant in motion, 312 to 259, and in noise.
+TEST(OrderChoice, AnOrderThatIsBetterInBothWinsFromTheStart) {
+    OrderQuestion q;
+    q.substitution.fit = Fit::extrapolation;
+    const auto ratio = crossing_ratio(q, 1, 0, 20.0);
+    ASSERT_TRUE(ratio.has_value());
+    EXPECT_EQ(*ratio, 0.0);
+}
+
+TEST(OrderChoice, TheMapIsTheChoiceAtEachPointAndRisesWithAmplitude) {
+    const std::vector<double> frequencies{1, 5, 10, 15, 20};
+    const std::vector<double> ratios{1, 10, 100, 1000, 10000};
+    const auto map = order_map(up_to_four(), frequencies, ratios);
+    ASSERT_EQ(map.size(), frequencies.size());
+    for (std::size_t i = 0; i < map.size(); ++i) {
+        for (std::size_t k = 0; k < ratios.size(); ++k) {
+            EXPECT_EQ(map[i][k], best_order(up_to_four(), {ratios[k] * 0.8 / 0.005, frequencies[i]}, 0.8).order);
+            if (k > 0) EXPECT_GE(map[i][k], map[i][k - 1]);
+        }
+    }
+    EXPECT_EQ(map[0][0], 0);
+    EXPECT_EQ(map[4][4], 4);
+}
+
+TEST(OrderChoice, CounterNoiseMovesTheCrossingByItsOwnGains) {
+    OrderQuestion q;
+    q.noise = TickNoise::counter;
+    // Squares of the gains: 1.125 for the constant, and edges -e_-2 (-1), 3.5, 2.5 on either side for the quadratic.
+    const double quadratic = (1.0 + 3.5 * 3.5 + 2.5 * 2.5);
+    const double white = (14.5 - 2.25);
+    EXPECT_NEAR(*crossing_ratio(q, 0, 2, 10.0) / *crossing_ratio(papers, 0, 2, 10.0),
+                std::sqrt((quadratic - 1.125) / white), 1e-12);
+}
+
+TEST(OrderChoice, RefusesWhatIsOutOfRange) {
+    OrderQuestion q;
+    q.highest_order = 5;
+    EXPECT_THROW((void)best_order(q, {1.0, 1.0}, 1.0), DesignError);
+    EXPECT_THROW((void)best_order(papers, {1.0, 1.0}, std::nan("")), DesignError);
+    EXPECT_THROW((void)best_order(papers, {std::nan(""), 1.0}, 1.0), DesignError);
+    EXPECT_THROW((void)order_map(papers, {1.0}, {0.0}), DesignError);
+    EXPECT_THROW((void)crossing_ratio(papers, 0, 4, 1.0), DesignError);
+}
+
+}  // namespace

@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <zlg/design/error.hpp>
+#include <zlg/study/design_study.hpp>
+
+namespace {
+
+using namespace zlg;
+using design::IntervalMethod;
+
+const study::IntervalLine& line(const study::DesignResult& r, double run_s, IntervalMethod method) {
+    for (const auto& l : r.intervals)
+        if (l.run_s == run_s && l.method == method) return l;
+    throw std::out_of_range{"no such line"};
+}
+
+const study::SubstitutionLine& line(const study::DesignResult& r, int order, int gap_ticks) {
+    for (const auto& l : r.substitution)
+        if (l.order == order && l.gap_ticks == gap_ticks) return l;
+    throw std::out_of_range{"no such line"};
+}
+
+// Optima of the paper's gyro (A = Om = 0.7 arcsec/s, tau = 3000 s, dP = 10 arcsec), computed apart from this code.
+TEST(DesignGyro, finds_the_intervals_of_the_papers_gyro) {
+    const auto r = study::design_gyro({});
+    EXPECT_NEAR(line(r, 600, IntervalMethod::corrected).optimum.interval_s, 88.7, 0.05);
+    EXPECT_NEAR(line(r, 3600, IntervalMethod::corrected).optimum.interval_s, 195.2, 0.05);
+    EXPECT_NEAR(line(r, 3600, IntervalMethod::corrected).optimum.drift_arcsec_s, 0.152, 5e-4);
+    EXPECT_NEAR(line(r, 36000, IntervalMethod::as_printed).optimum.interval_s, 294.8, 0.05);
+    EXPECT_NEAR(line(r, 36000, IntervalMethod::closed_form).optimum.interval_s, std::sqrt(10.0 * 36000 / 0.7), 0.05);
+    EXPECT_NEAR(line(r, 3600, IntervalMethod::random_sign).optimum.interval_s, std::cbrt(100.0 * 3600 / (2 * 0.49)),
+                0.05);
+}
+
+TEST(DesignGyro, gives_the_substitution_errors_of_the_configured_oscillation) {
+    config::Config c;
+    c.motion.frequency_hz = {20.0};
+    const auto r = study::design_gyro(c);
+    // Worst phase at 12 000 arcsec/s and 20 Hz, from direct integration of the ticks.
+    EXPECT_NEAR(line(r, 0, 3).worst_arcsec, 154.51, 0.005);
+    EXPECT_NEAR(line(r, 1, 3).worst_arcsec, 154.51, 0.005);
+    EXPECT_NEAR(line(r, 2, 3).worst_arcsec, 26.85, 0.005);
+    EXPECT_NEAR(line(r, 2, 1).worst_arcsec, 1.44, 0.005);
+    EXPECT_NEAR(line(r, 2, 3).rms_arcsec, 26.85 / std::sqrt(2.0), 0.005);
+    EXPECT_NEAR(line(r, 0, 3).noise_gain, 1.5, 1e-12);
+    EXPECT_NEAR(line(r, 2, 3).noise_gain, 3.808, 5e-4);
+}
+
+TEST(DesignGyro, every_sine_of_a_sum_has_its_lines) {
+    config::Config c;
+    c.motion.kind = config::MotionKind::sum;
+    c.motion.amplitude_arcsec_s = {100.0, 200.0};
+    c.motion.frequency_hz = {3.0, 9.0};
+    const auto r = study::design_gyro(c);
+    EXPECT_EQ(r.substitution.size(), 2u * 5u * 4u);
+}
+
+TEST(DesignGyro, judges_the_perimeter_loop) {
+    const auto r = study::design_gyro({});
+    EXPECT_TRUE(r.loop.margins.stable);
+    EXPECT_NEAR(r.loop.margins.phase_margin_deg, 82.0, 1.0) << "integrator of 6.5 ms and RC of 1 ms: 90 - atan(RC/tau)";
+    ASSERT_GE(r.loop.false_drift_arcsec_s.size(), 4u);
+    EXPECT_NEAR(r.loop.false_drift_arcsec_s[0], 4130.0, 0.03 * 4130);
+    EXPECT_NEAR(r.loop.false_angle_arcsec, 44.1, 1.0);
+    EXPECT_GT(r.loop.relock_s, r.loop.relock_linear_s) << "the limiter slows it down";
+}
+
+TEST(OptimalInterval, is_the_minimum_of_the_corrected_budget) {
+    EXPECT_NEAR(study::optimal_interval_s({}, 3600.0), 195.2, 0.05);
+}
+
+TEST(OptimalInterval, takes_the_place_of_the_word_for_the_length_of_the_run) {
+    config::Config c;
+    c.switching.interval_optimal = true;
+    c.run.duration_s = 600.0;
+    const config::Config resolved = study::with_interval(c);
+    EXPECT_FALSE(resolved.switching.interval_optimal);
+    EXPECT_NEAR(resolved.switching.interval_s, 88.7, 0.05);
+    EXPECT_EQ(study::with_interval({}).switching.interval_s, 90.0);
+}
+
+TEST(DesignGyro, refuses_a_gyro_whose_switches_cost_nothing) {
+    config::Config c;
+    c.design.switch_error_arcsec = 0.0;
+    EXPECT_THROW((void)study::design_gyro(c), design::DesignError);
+}
+
+TEST(DesignPage, has_a_section_for_each_question) {
+    const config::Config c;
+    const auto page = study::design_page(c, study::design_gyro(c));
+    ASSERT_EQ(page.sections.size(), 3u);
+    EXPECT_EQ(page.sections[0].figures.at(0).series.size(), 5u) << "four runs and their optima";
+}
+
+}  // namespace
