@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "drawing.hpp"
 #include "layout.hpp"
 #include "marks.hpp"
 #include "text.hpp"
@@ -12,20 +13,11 @@
 namespace zlg::report {
 namespace {
 
-std::string text_at(const Line& line, const char* anchor) {
-    return fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\">{}</text>\n", coordinate(line.x),
-                       coordinate(line.y), coordinate(line.font_size), anchor, escaped(line.text));
-}
-
-std::string opening(const Figure& figure, const std::string& id, double height) {
-    std::string described = figure.caption;
-    if (!figure.x_label.empty()) described += " Horizontal axis: " + figure.x_label + ".";
-    if (!figure.y_label.empty()) described += " Vertical axis: " + figure.y_label + ".";
-    return fmt::format(
-        "<svg id=\"{0}\" class=\"figure\" viewBox=\"0 0 {1} {2}\" width=\"100%\" role=\"img\" "
-        "aria-labelledby=\"{0}-title {0}-desc\" font-family=\"Helvetica, Arial, sans-serif\" fill=\"#111\">\n"
-        "<title id=\"{0}-title\">{3}</title>\n<desc id=\"{0}-desc\">{4}</desc>\n",
-        id, coordinate(figure_width), coordinate(height), escaped(figure.title), escaped(described));
+std::string described(const Figure& figure) {
+    std::string out = figure.caption;
+    if (!figure.x_label.empty()) out += " Horizontal axis: " + figure.x_label + ".";
+    if (!figure.y_label.empty()) out += " Vertical axis: " + figure.y_label + ".";
+    return out;
 }
 
 std::string plot_rectangle(const Layout& layout) {
@@ -109,7 +101,7 @@ std::string swatch(const Series& series, const LegendEntry& entry) {
     const double x = entry.line.x;
     switch (series.mark) {
         case Mark::points:
-            return marker(entry.series, x + 0.5 * swatch_width, middle, 4.2);
+            return marker(look_of(series, entry.series), x + 0.5 * swatch_width, middle, 4.2);
         case Mark::bars:
             return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"12\" fill-opacity=\"0.55\"/>\n",
                                coordinate(x), coordinate(middle - 6.0), coordinate(swatch_width));
@@ -126,7 +118,8 @@ std::string legend(const Figure& figure, const Layout& layout) {
     for (const LegendEntry& entry : layout.legend) {
         Line name = entry.line;
         name.x += swatch_width + 8.0;
-        out += fmt::format("<g stroke=\"{0}\" fill=\"{0}\">{1}</g>{2}", colour_of(entry.series),
+        out += fmt::format("<g stroke=\"{0}\" fill=\"{0}\">{1}</g>{2}",
+                           colour_of(look_of(figure.series[entry.series], entry.series)),
                            swatch(figure.series[entry.series], entry), text_at(name, "start"));
     }
     return out.empty() ? "" : "<g class=\"legend\">\n" + out + "</g>\n";
@@ -149,9 +142,9 @@ std::string data(const Figure& figure, const Layout& layout, const std::string& 
 std::string svg(const Figure& figure) {
     const Layout layout = layout_of(figure);
     const std::string id = clean_id(figure.id, "figure");
-    return opening(figure, id, layout.height) + bands(figure, layout) + grid(layout) + data(figure, layout, id) +
-           axes(layout) + band_names(layout) + text_at(layout.y_label, "start") + text_at(layout.x_label, "middle") +
-           legend(figure, layout) + "</svg>\n";
+    return opening(id, layout.height, figure.title, described(figure)) + bands(figure, layout) + grid(layout) +
+           data(figure, layout, id) + axes(layout) + band_names(layout) + text_at(layout.y_label, "start") +
+           text_at(layout.x_label, "middle") + legend(figure, layout) + "</svg>\n";
 }
 
 }  // namespace zlg::report

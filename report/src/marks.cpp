@@ -51,7 +51,7 @@ std::string lines(const Series& series, std::size_t index, const Layout& layout)
     std::string out;
     for (const Run& run : runs_of(series, layout)) {
         if (run.size() == 1) {
-            out += marker(index, run.front().first, run.front().second, 3.0);
+            out += marker(look_of(series, index), run.front().first, run.front().second, 3.0);
             continue;
         }
         out += fmt::format("<path d=\"{}\" fill=\"none\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
@@ -64,7 +64,7 @@ std::string points(const Series& series, std::size_t index, const Layout& layout
     const double radius = series.x.size() > 150 ? 2.6 : 4.2;
     std::string out;
     for (const Run& run : runs_of(series, layout)) {
-        for (const auto& [x, y] : run) out += marker(index, x, y, radius);
+        for (const auto& [x, y] : run) out += marker(look_of(series, index), x, y, radius);
     }
     return out;
 }
@@ -108,9 +108,13 @@ std::string error_bars(const Series& series, const Layout& layout) {
 
 const char* colour_of(std::size_t series) { return colours[series % std::size(colours)]; }
 
+std::size_t look_of(const Series& series, std::size_t index) {
+    return series.colour < 0 ? index : static_cast<std::size_t>(series.colour);
+}
+
 std::string dash_of(const Series& series, std::size_t index) {
     if (series.dashed) return " stroke-dasharray=\"9 5\"";
-    return index < std::size(colours) ? "" : " stroke-dasharray=\"2.5 3.5\"";
+    return look_of(series, index) < std::size(colours) ? "" : " stroke-dasharray=\"2.5 3.5\"";
 }
 
 std::string marker(std::size_t series, double x, double y, double radius) {
@@ -143,7 +147,8 @@ std::string marks_of(const Series& series, std::size_t index, const Layout& layo
             break;
     }
     if (marks.empty()) return "";
-    return fmt::format("<g class=\"series\" stroke=\"{0}\" fill=\"{0}\">\n{1}</g>\n", colour_of(index), marks);
+    return fmt::format("<g class=\"series\" stroke=\"{0}\" fill=\"{0}\">\n{1}</g>\n", colour_of(look_of(series, index)),
+                       marks);
 }
 
 }  // namespace zlg::report

@@ -11,6 +11,9 @@ namespace zlg::report {
 // Colours that readers with a colour vision deficiency tell apart (Okabe and Ito's set without its yellow).
 [[nodiscard]] const char* colour_of(std::size_t series);
 
+// The index whose colour and marker a series has.
+[[nodiscard]] std::size_t look_of(const Series& series, std::size_t index);
+
 // The stroke's dash attribute, empty for a full line. Past the last colour the lines go on dotted.
 [[nodiscard]] std::string dash_of(const Series& series, std::size_t index);
 

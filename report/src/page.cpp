@@ -19,6 +19,7 @@ struct Counters {
     int n_tables = 0;
     int n_figures = 0;
     std::set<std::string> ids;
+    bool shown = true;
 };
 
 std::string section_id(std::size_t index) { return fmt::format("section-{}", index + 1); }
@@ -55,25 +56,29 @@ std::string table_of(const Table& table, Counters& counters) {
     for (const auto& row : table.rows) n_columns = std::max(n_columns, row.size());
     if (n_columns == 0) return "";
     const std::string id = fmt::format("table-{}", ++counters.n_tables);
+    const std::string number = counters.shown ? fmt::format("<b>Table {}.</b> ", counters.n_tables) : "";
     std::string out = fmt::format(
-        "<figure class=\"table\">\n<figcaption id=\"{0}\"><b>Table {1}.</b> {2}</figcaption>\n"
+        "<figure class=\"table\">\n<figcaption id=\"{0}\">{1}{2}</figcaption>\n"
         "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-labelledby=\"{0}\">\n"
-        "<table aria-labelledby=\"{0}\">\n{3}<tbody>\n",
-        id, counters.n_tables, escaped(table.caption), header_row(table, n_columns));
+        "<table{4} aria-labelledby=\"{0}\">\n{3}<tbody>\n",
+        id, number, escaped(table.caption), header_row(table, n_columns), table.prose ? " class=\"prose\"" : "");
     for (const auto& row : table.rows) out += body_row(row, n_columns);
     return out + "</tbody>\n</table>\n</div>\n</figure>\n";
 }
 
-std::string figure_of(Figure figure, Counters& counters) {
+// A figure or a diagram.
+template <class Drawing>
+std::string drawing_of(Drawing drawing, Counters& counters) {
     const std::string numbered = fmt::format("figure-{}", ++counters.n_figures);
-    figure.id = clean_id(figure.id, numbered);
-    if (!counters.ids.insert(figure.id).second) {
-        figure.id = numbered + "-" + figure.id;
-        counters.ids.insert(figure.id);
+    drawing.id = clean_id(drawing.id, numbered);
+    if (!counters.ids.insert(drawing.id).second) {
+        drawing.id = numbered + "-" + drawing.id;
+        counters.ids.insert(drawing.id);
     }
-    return fmt::format("<figure class=\"drawing\">\n{}<figcaption><b>Figure {}. {}</b> {}</figcaption>\n</figure>\n",
-                       svg(figure), counters.n_figures, escaped(figure.title.empty() ? "" : figure.title + "."),
-                       escaped(figure.caption));
+    const std::string number = counters.shown ? fmt::format("Figure {}. ", counters.n_figures) : "";
+    return fmt::format("<figure class=\"drawing\">\n{}<figcaption><b>{}{}</b> {}</figcaption>\n</figure>\n",
+                       svg(drawing), number, escaped(drawing.title.empty() ? "" : drawing.title + "."),
+                       escaped(drawing.caption));
 }
 
 std::string section_of(const Section& section, std::size_t index, Counters& counters) {
@@ -81,7 +86,8 @@ std::string section_of(const Section& section, std::size_t index, Counters& coun
     if (!section.heading.empty()) out += fmt::format("<h2>{}</h2>\n", escaped(section.heading));
     for (const std::string& paragraph : section.paragraphs) out += fmt::format("<p>{}</p>\n", escaped(paragraph));
     for (const Table& table : section.tables) out += table_of(table, counters);
-    for (const Figure& figure : section.figures) out += figure_of(figure, counters);
+    for (const Diagram& diagram : section.diagrams) out += drawing_of(diagram, counters);
+    for (const Figure& figure : section.figures) out += drawing_of(figure, counters);
     return out + "</section>\n";
 }
 
@@ -89,6 +95,7 @@ std::string section_of(const Section& section, std::size_t index, Counters& coun
 
 std::string html(const Page& page) {
     Counters counters;
+    counters.shown = page.numbered;
     for (std::size_t i = 0; i < page.sections.size(); ++i) counters.ids.insert(section_id(i));
     std::string out = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

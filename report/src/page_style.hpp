@@ -31,6 +31,8 @@ th:first-child, td:first-child { padding-left: .2rem; text-align: left; white-sp
 thead th { border-bottom: 1px solid #111; }
 tbody tr + tr > * { border-top: 1px solid #ddd; }
 tbody th { font-weight: normal; }
+table.prose th, table.prose td { min-width: 5rem; text-align: left; vertical-align: top; white-space: normal; }
+table.prose td:last-child { min-width: 16rem; }
 @media (max-width: 600px) {
   body { padding: 1rem 10px 3rem; font-size: 16px; }
   h1 { font-size: 1.45rem; }

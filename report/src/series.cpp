@@ -31,7 +31,7 @@ void keep_extremes(const Series& series, std::size_t from, std::size_t to, std::
 }
 
 Series picked(const Series& series, const std::vector<std::size_t>& indices) {
-    Series out{series.name, {}, {}, {}, series.mark, series.dashed};
+    Series out{series.name, {}, {}, {}, series.mark, series.dashed, series.colour};
     for (const std::size_t i : indices) {
         out.x.push_back(series.x[i]);
         out.y.push_back(series.y[i]);

@@ -16,6 +16,7 @@ struct Series {
     std::vector<double> y_error;  // empty, or one half-length of the error bar per point
     Mark mark = Mark::line;
     bool dashed = false;
+    int colour = -1;  // that of the series with this index, and its marker; -1: its own
 };
 
 // A shaded stretch of the x axis, such as the ticks of a gap.

@@ -1,0 +1,177 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/table_file.hpp>
+#include <zlg/report/export.hpp>
+#include <zlg/study/paper.hpp>
+
+#include "as_json.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Outside of this the points measured on the twin and their theory do not belong together.
+constexpr double least_chi2_per_dof = 0.7;
+constexpr double most_chi2_per_dof = 1.4;
+
+constexpr const char* page_name = "paper.html";
+constexpr const char* claims_name = "claims.csv";
+
+bool agrees(const study::Paper& paper) {
+    return paper.chi2_per_dof >= least_chi2_per_dof && paper.chi2_per_dof <= most_chi2_per_dof;
+}
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string{c};
+    return out + "\"";
+}
+
+std::string claims_table(const std::vector<study::Claim>& claims) {
+    std::string text = "where,claim,verdict,finding\n";
+    for (const study::Claim& c : claims)
+        text += fmt::format("{},{},{},{}\n", quoted(c.where), quoted(c.claim), study::verdict_name(c.verdict),
+                            quoted(c.finding));
+    return text;
+}
+
+// Name and content of what is written beside the page.
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+Files files_of(const study::Paper& paper) {
+    Files files{{claims_name, claims_table(paper.claims)}};
+    for (const study::PaperItem& item : paper.items) {
+        for (const report::Diagram& d : item.section.diagrams) files.emplace_back(d.id + ".svg", report::svg_file(d));
+        for (const report::Figure& f : item.section.figures) {
+            files.emplace_back(f.id + ".svg", report::svg_file(f));
+            files.emplace_back(f.id + ".csv", report::csv(f));
+        }
+    }
+    return files;
+}
+
+// A folder, made if it is not there, and removed again if nothing came into it. That the page can be written there is
+// known before the work begins.
+class Folder {
+public:
+    Folder(std::string path, bool force) : path_{std::move(path)}, force_{force} {
+        std::error_code error;
+        made_ = fs::create_directory(path_, error);
+        if (error) throw logs::IoError{fmt::format("{}: cannot make the folder: {}", path_, error.message())};
+        try {
+            refuse_what_exists(page_name);
+            refuse_what_exists(claims_name);
+            page_.emplace(fs::path{path_} / page_name, force_);
+        } catch (...) {
+            remove_if_made();
+            throw;
+        }
+    }
+    ~Folder() {
+        page_.reset();
+        remove_if_made();
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    void write(const std::string& page, const Files& files) {
+        for (const auto& [name, text] : files) refuse_what_exists(name);
+        for (const auto& [name, text] : files) {
+            logs::TableFile file{fs::path{path_} / name, force_};
+            file.append(text);
+            file.close();
+        }
+        page_->append(page);
+        page_->close();
+    }
+
+private:
+    void remove_if_made() const {
+        std::error_code ignored;
+        if (made_) fs::remove(path_, ignored);
+    }
+    void refuse_what_exists(const std::string& name) const {
+        const fs::path path = fs::path{path_} / name;
+        if (!force_ && fs::exists(path))
+            throw logs::IoError{fmt::format("{} exists; --force overwrites it", path.string())};
+    }
+
+    std::string path_;
+    bool force_;
+    bool made_ = false;
+    std::optional<logs::TableFile> page_;
+};
+
+json result_json(const study::Paper& paper) {
+    json items = json::array();
+    for (const study::PaperItem& item : paper.items) {
+        json figures = json::array();
+        for (const report::Diagram& d : item.section.diagrams) figures.push_back(d.id);
+        for (const report::Figure& f : item.section.figures) figures.push_back(f.id);
+        items.push_back({{"number", item.number}, {"title", item.section.heading}, {"figures", figures}});
+    }
+    json claims = json::array();
+    for (const study::Claim& c : paper.claims)
+        claims.push_back({{"where", c.where},
+                          {"claim", c.claim},
+                          {"verdict", study::verdict_name(c.verdict)},
+                          {"finding", c.finding}});
+    return {{"items", items},
+            {"chi2_per_dof", paper.chi2_per_dof},
+            {"degrees_of_freedom", paper.degrees_of_freedom},
+            {"claims", claims}};
+}
+
+std::string text(const study::Paper& paper, const std::string& folder, std::size_t n_files) {
+    std::string lines;
+    for (const study::PaperItem& item : paper.items) lines += item.section.heading + "\n";
+    return fmt::format(
+        "{}\ntwin against theory: chi-square {:.3f} per degree of freedom, {} degrees, allowed {} to {}\n{} claims: "
+        "{}\nwritten to {}: {} and {} more files\n",
+        lines, paper.chi2_per_dof, paper.degrees_of_freedom, least_chi2_per_dof, most_chi2_per_dof, paper.claims.size(),
+        study::verdict_counts(paper.claims), folder, page_name, n_files);
+}
+
+void run(const Options& options) {
+    if (options.out.empty()) throw UsageError{"--out is missing: name the folder to write into"};
+    study::PaperTask task{.config = load_config(options), .threads = options.threads};
+    Folder folder{options.out, options.force};
+    Progress progress;
+    task.on_progress = [&](double fraction) { progress.show(fraction); };
+    const study::Paper paper = study::recompute_paper(task);
+    const Files files = files_of(paper);
+    folder.write(report::html(study::paper_page(paper)), files);
+    print(options.json ? pretty(result_json(paper)) : text(paper, options.out, files.size()));
+    if (agrees(paper)) return;
+    complain(
+        fmt::format("the twin does not agree with theory: chi-square {:.3f} per degree of freedom, allowed is {} to {}",
+                    paper.chi2_per_dof, least_chi2_per_dof, most_chi2_per_dof));
+    throw CLI::RuntimeError{result_says_no};
+}
+
+}  // namespace
+
+void add_paper(CLI::App& program) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* verb =
+        program.add_subcommand("paper", "every figure and table of the paper, recomputed, beside the printed values");
+    add_config_options(*verb, *options);
+    add_run_options(*verb, *options);
+    add_output_options(*verb, *options);
+    verb->callback([options] { run(*options); });
+}
+
+}  // namespace zlg::cli
