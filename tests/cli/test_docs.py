@@ -1,5 +1,6 @@
 """The documentation says what the program says."""
 
+import re
 import subprocess
 import tempfile
 import unittest
@@ -27,6 +28,16 @@ class Readme(unittest.TestCase):
             rows = [row for row in angles.read_text().splitlines() if not row.startswith("#")]
         column = rows[0].split(",").index("dtheta_arcsec")
         self.assertEqual([row.split(",")[column] for row in rows[1:]], ["6.526", "0", "3.263"])
+
+
+class Paper(unittest.TestCase):
+    def test_every_test_that_it_names_exists(self):
+        text = (ROOT / "docs" / "paper.md").read_text()
+        named = set(re.findall(r"`([A-Z]\w+)\.(\w+)`", text))
+        self.assertGreater(len(named), 10)
+        sources = "".join(path.read_text() for path in (ROOT / "tests").rglob("*_test.cpp"))
+        existing = set(re.findall(r"(?:TEST(?:_F|_P)?|RC_GTEST_PROP)\(\s*(\w+),\s*(\w+)", sources))
+        self.assertEqual(named - existing, set())
 
 
 if __name__ == "__main__":

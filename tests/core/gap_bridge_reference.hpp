@@ -142,7 +142,8 @@ private:
         for (std::int64_t k = gap.first; k < std::min(able, size()); ++k) at(k).settled = false;
         if (able >= size()) return;
         at(able).dtheta += gap.lump;
-        at(able).correction = true;
+        // Where nothing is bridged and nothing was amended, nothing is owed.
+        if (config_.method != zlg::core::BridgeMethod::none || gap.lump != 0.0L) at(able).correction = true;
     }
 };
 

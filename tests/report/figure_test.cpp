@@ -229,3 +229,23 @@ TEST(Svg, bars_stand_on_zero_and_touch) {
     EXPECT_NEAR(read_off(y, low(bars[1]), false), -2.0, 0.05);
     EXPECT_NEAR(markup::number(bars[0], "x") + markup::number(bars[0], "width"), markup::number(bars[1], "x"), 0.02);
 }
+
+TEST(Svg, a_series_can_have_the_colour_and_marker_of_another) {
+    Figure f = figure(
+        {series({0.0, 1.0}, {2.0, 3.0}), series({0.0, 1.0}, {1.0, 2.0}), series({0.0, 1.0}, {2.0, 3.0}, Mark::points)});
+    const auto strokes = [](const Figure& of) {
+        std::vector<std::string> out;
+        for (const auto& e : markup::read(svg(of))) {
+            const auto found = e.attributes.find("class");
+            if (found != e.attributes.end() && found->second == "series") out.push_back(e.attributes.at("stroke"));
+        }
+        return out;
+    };
+    const auto own = strokes(f);
+    EXPECT_NE(own.at(2), own.at(0));
+    f.series[2].colour = 0;
+    const auto shared = strokes(f);
+    EXPECT_EQ(shared.at(2), own.at(0));
+    EXPECT_EQ(shared.at(1), own.at(1));
+    EXPECT_NE(svg(f).find("<circle"), std::string::npos) << "the marker of the first series is a circle";
+}

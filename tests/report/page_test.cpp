@@ -132,3 +132,35 @@ TEST(Html, an_empty_table_is_left_out) {
     p.sections = {{"S", {}, {Table{}}, {}}};
     EXPECT_TRUE(markup::all(body_of(html(p)), "figure").empty());
 }
+
+TEST(Html, diagrams_stand_before_the_figures_and_share_their_numbers_and_ids) {
+    Page p = page(1);
+    zlg::report::Diagram diagram;
+    diagram.id = "drift";
+    diagram.title = "Blocks";
+    diagram.boxes.emplace_back();
+    p.sections[0].diagrams = {diagram};
+    const auto body = body_of(html(p));
+    const auto drawings = markup::all(body, "svg");
+    ASSERT_EQ(drawings.size(), 2U);
+    EXPECT_NE(drawings[0].attributes.at("id"), drawings[1].attributes.at("id"));
+    const auto bold = markup::all(body, "b");
+    EXPECT_EQ(bold.at(1).text, "Figure 1. Blocks.");
+    EXPECT_EQ(bold.at(2).text, "Figure 2. Drift.");
+}
+
+TEST(Html, leaves_the_numbers_to_titles_that_bring_their_own) {
+    Page p = page(1);
+    p.numbered = false;
+    const auto body = body_of(html(p));
+    EXPECT_EQ(markup::all(body, "b").at(0).text, "Drift.");
+    EXPECT_EQ(markup::all(body, "figcaption").at(0).text, "Drift per mode.");
+}
+
+TEST(Html, only_a_table_of_prose_is_marked_as_such) {
+    Page p = page(2);
+    p.sections[1].tables[0].prose = true;
+    const auto tables = markup::all(body_of(html(p)), "table");
+    EXPECT_EQ(tables.at(0).attributes.count("class"), 0U);
+    EXPECT_EQ(tables.at(1).attributes.at("class"), "prose");
+}
