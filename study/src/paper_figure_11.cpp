@@ -118,7 +118,7 @@ std::string range_of_ratio(const BridgePoints& points, Fit fit, int order) {
                        fixed_number(ratio(fit, order, x.back(), TickNoise::white), 2));
 }
 
-// --- the twin's points of figures 8 to 11 against theory ---------------------------------------------------------------
+// --- the twin's points of figures 8 to 11 against theory ------------------------------------------------------------
 
 std::vector<SubstitutionPoint> of_motion(const BridgePoints& points, Fit fit, int order) {
     std::vector<SubstitutionPoint> all;
@@ -210,7 +210,7 @@ PaperItem paper_figure_11(const PaperTask& task, const BridgePoints& points) {
             corrected(0, TickNoise::white), corrected(0, TickNoise::counter), corrected(2, TickNoise::white),
             corrected(2, TickNoise::counter)),
         fmt::format("Does not: print finds the straight line 1.8 to 2.5 times noisier than the constant, the parabola "
-                    "8 to 35 times. In the corrected sum the straight line IS the constant, and the parabola is {} "
+                    "8 to 35 times. In the corrected sum the straight line is the constant, and the parabola is {} "
                     "times noisier for 1 to {} ticks. Extrapolated, the line is {} and the parabola {} times noisier. "
                     "No single reading gives both of the printed ranges; near the first is the corrected parabola at "
                     "up to three ticks, near the second the extrapolated one.",

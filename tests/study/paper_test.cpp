@@ -137,8 +137,8 @@ TEST(Paper, series_as_printed_is_short_of_a_quarter_of_its_cubic_term) {
 }
 
 TEST(Paper, noise_has_the_gain_of_the_sum) {
-    // A tick of a count of 3.263 arcsec is off by 3.263/sqrt 6. Constant from 2 + 2 ticks for three: white 3/4 of each of
-    // four ticks, 1.5; roundings at four edges with 3/4 each, sqrt(4 (3/4)^2/2) of the tick's own.
+    // A tick of a count of 3.263 arcsec is off by 3.263/sqrt 6. Constant from 2 + 2 ticks for three: white, 3/4 of each
+    // of four ticks, 1.5; roundings at four edges with 3/4 each, sqrt(4 (3/4)^2/2) of the tick's own.
     const double three_sigma = 3.0 * 3.263 / std::sqrt(6.0);
     EXPECT_NEAR(at(series("figure-11", "constant = linear, white noise"), 3.0), 1.5 * three_sigma, 1e-9);
     EXPECT_NEAR(at(series("figure-11", "constant = linear, counter"), 3.0), std::sqrt(9.0 / 8.0) * three_sigma, 1e-9);

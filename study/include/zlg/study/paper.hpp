@@ -12,8 +12,9 @@ namespace zlg::study {
 
 // One figure or table of the paper.
 struct PaperItem {
-    std::string number;       // "figure 8a", "table 1"
-    report::Section section;  // our curves, the printed formula where it differs, points measured on the twin; what agrees
+    std::string number;  // "figure 8a", "table 1"
+    report::Section
+        section;  // our curves, the printed formula where it differs, points measured on the twin; what agrees
 };
 
 enum class Verdict { agrees, misprint, wrong, not_supported };
@@ -22,8 +23,8 @@ enum class Verdict { agrees, misprint, wrong, not_supported };
 
 // Something that the paper says, and what became of it.
 struct Claim {
-    std::string where;    // equation, figure or section
-    std::string claim;    // in our words
+    std::string where;  // equation, figure or section
+    std::string claim;  // in our words
     Verdict verdict = Verdict::agrees;
     std::string finding;  // with the numbers that decide
 };
@@ -31,7 +32,7 @@ struct Claim {
 struct PaperTask {
     config::Config config;  // the gyro; the paper's by default
     int threads = 1;
-    int switches_per_point = 2000;             // of the experiments on the twin
+    int switches_per_point = 2000;            // of the experiments on the twin
     std::function<void(double)> on_progress;  // optional; 0..1
 };
 
