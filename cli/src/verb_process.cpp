@@ -62,8 +62,9 @@ Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& con
     Summary summary;
     core::GyroCompensationState state;
     core::HalfRecord record;
+    Progress progress;
     while (raw.next(record)) {
-        ++summary.halves;
+        if (++summary.halves % 100'000 == 0) progress.show(raw.fraction_read());
         const core::CompensationOutput out = step(config, state, record);
         if (!out.has_sample) continue;
         summary.angle_arcsec = out.angle_arcsec;

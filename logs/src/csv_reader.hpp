@@ -31,6 +31,8 @@ public:
     // False where the row that was read last is the file's last line and has no end.
     [[nodiscard]] bool line_is_ended() const { return lines_.terminated(); }
 
+    [[nodiscard]] double fraction_read() const { return lines_.fraction_read(); }
+
     // Values of this row. errors FormatError.
     [[nodiscard]] std::int64_t integer(std::size_t column, std::int64_t min, std::int64_t max) const;
     [[nodiscard]] std::int8_t sign(std::size_t column) const;  // +1 or -1

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstring>
@@ -21,6 +22,8 @@ LineReader::LineReader(std::string path)
       file_{::open(path_.c_str(), O_RDONLY | O_CLOEXEC)},
       buffer_{std::make_unique_for_overwrite<char[]>(max_line_bytes)} {
     if (!file_.is_open()) throw IoError(fmt::format("cannot open {}: {}", path_, std::strerror(errno)));
+    struct stat status {};
+    if (::fstat(file_.get(), &status) == 0) size_bytes_ = status.st_size;
     refill();
     if (std::string_view{buffer_.get(), end_}.starts_with(byte_order_mark)) begin_ = byte_order_mark.size();
 }
@@ -35,7 +38,12 @@ void LineReader::refill() {
         if (n < 0) throw IoError(fmt::format("cannot read {}: {}", path_, std::strerror(errno)));
         end_of_file_ = n == 0;
         end_ += static_cast<std::size_t>(n);
+        read_bytes_ += n;
     }
+}
+
+double LineReader::fraction_read() const {
+    return size_bytes_ > 0 ? static_cast<double>(read_bytes_) / static_cast<double>(size_bytes_) : 0.0;
 }
 
 bool LineReader::at_end() {

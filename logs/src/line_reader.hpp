@@ -32,6 +32,9 @@ public:
     [[nodiscard]] std::int64_t line_number() const { return line_number_; }
     [[nodiscard]] const std::string& path() const { return path_; }
 
+    // Of the file's bytes, 0..1; 0 where a size is not known.
+    [[nodiscard]] double fraction_read() const;
+
 private:
     void refill();
     [[nodiscard]] std::string_view take(std::size_t length);
@@ -42,6 +45,8 @@ private:
     std::size_t begin_ = 0;  // first byte that was not handed out
     std::size_t end_ = 0;    // one past the last byte that was read
     bool end_of_file_ = false;
+    std::int64_t size_bytes_ = 0;
+    std::int64_t read_bytes_ = 0;
     bool terminated_ = true;
     std::int64_t line_number_ = 0;
 };

@@ -122,6 +122,8 @@ bool RawReader::next(core::HalfRecord& record) {
 
 bool RawReader::line_is_ended() const { return state_->csv.line_is_ended(); }
 
+double RawReader::fraction_read() const { return state_->csv.fraction_read(); }
+
 RawWriter::RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings,
                      bool force, const RawColumns& written)
     : file_{path, force}, columns_{written} {

@@ -319,6 +319,19 @@ TEST(RawWriter, has_room_for_the_longest_row) {
               "-2.2250738585072014e-308,-2.2250738585072014e-308\n");
 }
 
+TEST(RawReader, knows_how_much_of_the_file_it_has_read) {
+    const TemporaryFolder folder;
+    std::string text = names;
+    for (int half = 0; half < 200'000; ++half)
+        text += std::to_string(half) + (half % 2 == 0 ? ",1,1,151,1\n" : ",-1,1,-149,1\n");
+    RawReader reader{folder.write("raw.csv", text)};
+    const double before = reader.fraction_read();
+    EXPECT_GT(before, 0.0);
+    EXPECT_LT(before, 0.5) << "3 MB are read in pieces of 1 MiB";
+    (void)rows_of(reader);
+    EXPECT_EQ(reader.fraction_read(), 1.0);
+}
+
 TEST(RawReader, tells_a_last_line_that_may_have_been_cut_off) {
     const TemporaryFolder folder;
     const std::string rows = names + "0,1,1,151,1\n1,-1,1,-149,1";

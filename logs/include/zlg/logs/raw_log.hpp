@@ -46,6 +46,9 @@ public:
     // False where the row that was read last is the file's last line and has no end: it may have been cut off.
     [[nodiscard]] bool line_is_ended() const;
 
+    // Of the file, 0..1, a buffer ahead of the rows.
+    [[nodiscard]] double fraction_read() const;
+
 private:
     struct State;
     std::unique_ptr<State> state_;
