@@ -8,6 +8,7 @@
 
 #include <zlg/config/spelling.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/study/design_study.hpp>
 
 #include "failure.hpp"
 
@@ -97,6 +98,15 @@ void add_config_argument(CLI::App& verb, Options& options) {
         verb.add_option("CONFIG", options.config_path, "configuration, TOML; the paper's gyro without it");
     verb.add_option("--config", options.config_path, "the same, as an option")->excludes(positional);
     verb.add_option("--set", options.sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
+}
+
+config::Config with_interval(const config::Config& config) {
+    const config::Config resolved = study::with_interval(config);
+    if (config.switching.interval_optimal)
+        complain(fmt::format(
+            "switching.interval_s = \"optimal\" is {:.4g} s here, by design.switch_error_arcsec = {:.4g} and [drift]",
+            resolved.switching.interval_s, config.design.switch_error_arcsec));
+    return resolved;
 }
 
 void refuse_own_input(const std::string& input, const std::string& output) {

@@ -40,6 +40,9 @@ void add_output_options(CLI::App& verb, Options& options);   // out, force, json
 [[nodiscard]] config::Config load_log_config(const Options& options, const config::Settings& log_settings,
                                              const std::string& log_path);
 
+// With a number in place of interval_s = "optimal", and a message that says which.
+[[nodiscard]] config::Config with_interval(const config::Config& config);
+
 // errors  UsageError where both are the same file.
 void refuse_own_input(const std::string& input, const std::string& output);
 

@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 struct DesignOptions : Options {
-    std::string run_lengths;
+    std::optional<std::string> run_lengths;
 };
 
 json interval_json(const study::IntervalLine& l) {
@@ -61,6 +61,7 @@ json substitution_json(const study::SubstitutionLine& l) {
             {"rms_arcsec", l.rms_arcsec},
             {"noise_gain", l.noise_gain},
             {"counter_arcsec", l.counter_arcsec},
+            {"relock_arcsec", l.relock_arcsec},
             {"total_arcsec", l.total_arcsec}};
 }
 
@@ -73,6 +74,9 @@ json loop_json(const study::LoopLine& l) {
             {"stable", l.margins.stable},
             {"tick_over_tau", l.tick_over_tau},
             {"tick_over_tau_limit", l.stability_limit},
+            {"tick_over_tau_limit_if", l.stability_note},
+            {"relock_note", l.relock_note},
+            {"step", l.step},
             {"relock_s", l.relock_s},
             {"relock_linear_s", l.relock_linear_s},
             {"false_drift_arcsec_s", l.false_drift_arcsec_s},
@@ -111,26 +115,46 @@ std::string interval_text(const study::DesignResult& result) {
 }
 
 std::string substitution_text(const study::DesignResult& result) {
-    std::string text =
-        fmt::format("\nerror of the gap's angle after eq (15), arcsec\n{:>8}{:>6}{:>7}{:>10}{:>10}{:>12}{:>11}{:>11}\n",
-                    "Hz", "gap", "order", "worst", "rms", "noise gain", "rounding", "together");
-    for (const auto& l : result.substitution)
-        text += fmt::format("{:>8.4g}{:>6}{:>7}{:>10.3f}{:>10.3f}{:>12.3f}{:>11.3f}{:>11.3f}\n", l.frequency_hz,
-                            l.gap_ticks, l.order, l.worst_arcsec, l.rms_arcsec, l.noise_gain, l.counter_arcsec,
+    std::string text = fmt::format(
+        "\nerror of the gap's angle after eq (15), arcsec\n{:>8}{:>6}{:>7}{:>10}{:>10}{:>12}{:>11}{:>10}{:>11}\n", "Hz",
+        "gap", "order", "worst", "rms", "noise gain", "rounding", "re-lock", "together");
+    for (const auto& l : result.substitution) {
+        const std::string hz = std::isfinite(l.frequency_hz) ? fmt::format("{:.4g}", l.frequency_hz) : "all";
+        text += fmt::format("{:>8}{:>6}{:>7}{:>10.3f}{:>10.3f}{:>12.3f}{:>11.3f}{:>10.3f}{:>11.3f}\n", hz, l.gap_ticks,
+                            l.order, l.worst_arcsec, l.rms_arcsec, l.noise_gain, l.counter_arcsec, l.relock_arcsec,
                             l.total_arcsec);
+    }
+    return text;
+}
+
+std::string run_text(const study::DesignResult& result) {
+    std::string text = fmt::format(
+        "\nthe corrected budget at its best interval, and other policies, arcsec/s\n{:>10}{:>10}{:>10}{:>10}"
+        "{:>10}   half first segment     growing\n",
+        "run, s", "non-mag.", "quasi", "sawtooth", "switches");
+    for (const auto& r : result.runs)
+        text +=
+            fmt::format("{:>10.6g}{:>10.4f}{:>10.4f}{:>10.4f}{:>10.4f}   {:.4f} at {:<10.4g}{:.4f} to {:.4g} s\n",
+                        r.run_s, r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s,
+                        r.terms.sawtooth_arcsec_s, r.terms.switch_errors_arcsec_s, r.half_first_segment.drift_arcsec_s,
+                        r.half_first_segment.interval_s, r.growing_drift_arcsec_s, r.growing_interval_s);
     return text;
 }
 
 std::string loop_text(const config::Config& config, const study::LoopLine& l) {
-    return fmt::format(
-        "\nperimeter loop\n  phase margin {:.1f} deg, gain margin {:.1f}; T/tau {:.2f} (sampled with one tick of "
-        "delay: stable "
-        "below {:.2f})\n  re-lock from {} to 0.01 wavelength in {:.1f} ms (linear {:.1f} ms), false angle {:.1f} "
-        "arcsec "
-        "((T/4) G(0+): {:.1f})\n  miss: root sum square {:.4f}, worst {:.4f} wavelength\n",
-        l.margins.phase_margin_deg, l.margins.gain_margin, l.tick_over_tau, l.stability_limit,
-        config.perimeter.miss_lambda, 1e3 * l.relock_s, 1e3 * l.relock_linear_s, l.false_angle_arcsec,
-        l.false_angle_law_arcsec, l.miss.root_sum_square_lambda, l.miss.worst_lambda);
+    std::string text =
+        fmt::format("\nperimeter loop, {}\n  phase margin {:.1f} deg, gain margin {:.3g}\n",
+                    l.margins.stable ? "stable" : "UNSTABLE", l.margins.phase_margin_deg, l.margins.gain_margin);
+    text += fmt::format("  T/tau {:.2f}; {} it were stable below {:.2f}\n", l.tick_over_tau, l.stability_note,
+                        l.stability_limit);
+    const std::string time = std::isfinite(l.relock_s)
+                                 ? fmt::format("{:.1f} ms (linear {:.1f} ms), false angle {:.1f} arcsec",
+                                               1e3 * l.relock_s, 1e3 * l.relock_linear_s, l.false_angle_arcsec)
+                                 : l.relock_note;
+    text += fmt::format("  re-lock from {} to 0.01 wavelength: {}; (T/4) G(0+) {:.1f} arcsec\n",
+                        config.perimeter.miss_lambda, time, l.false_angle_law_arcsec);
+    return text + fmt::format("  miss: root sum square {:.4f}, worst {:.4f} wavelength\n",
+                              l.miss.root_sum_square_lambda, l.miss.worst_lambda);
 }
 
 void write_page(const DesignOptions& options, const config::Config& config, const study::DesignResult& result) {
@@ -144,13 +168,20 @@ void write_page(const DesignOptions& options, const config::Config& config, cons
 }
 
 void design_gyro(const DesignOptions& options) {
-    Options with_lengths = options;
-    if (!options.run_lengths.empty()) with_lengths.sets.push_back("design.run_lengths_s=[" + options.run_lengths + "]");
-    const config::Config config = load_config(with_lengths);
+    config::Config config = load_config(options);
+    if (options.run_lengths) {
+        // Only what a list of numbers is made of: nothing else may reach the configuration by this way.
+        if (options.run_lengths->find_first_not_of("0123456789.,eE+- ") != std::string::npos)
+            throw UsageError{fmt::format("--run-lengths {}: allowed are numbers of seconds, separated by commas",
+                                         *options.run_lengths)};
+        config::apply_pair(config, "design.run_lengths_s", "[" + *options.run_lengths + "]", "--run-lengths");
+        config::check(config);
+    }
     const study::DesignResult result = study::design_gyro(config);
     if (!options.out.empty()) write_page(options, config, result);
-    print(options.json ? pretty(result_json(result))
-                       : interval_text(result) + substitution_text(result) + loop_text(config, result.loop));
+    print(options.json
+              ? pretty(result_json(result))
+              : interval_text(result) + run_text(result) + substitution_text(result) + loop_text(config, result.loop));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -63,7 +64,7 @@ Files files_of(const study::Paper& paper) {
     return files;
 }
 
-// A folder, made if it is not there, and removed again if nothing came into it. That the page can be written there is
+// A folder, made if it is not there. What came into it of a run that failed is removed again. That it may be written is
 // known before the work begins.
 class Folder {
 public:
@@ -72,8 +73,9 @@ public:
         made_ = fs::create_directory(path_, error);
         if (error) throw logs::IoError{fmt::format("{}: cannot make the folder: {}", path_, error.message())};
         try {
-            refuse_what_exists(page_name);
-            refuse_what_exists(claims_name);
+            // Which files there will be shows only at the end, so all that is there counts.
+            if (!made_ && !force_ && !fs::is_empty(path_))
+                throw logs::IoError{fmt::format("{}: exists and is not empty; --force overwrites what is in it", path_)};
             page_.emplace(fs::path{path_} / page_name, force_);
         } catch (...) {
             remove_if_made();
@@ -82,20 +84,25 @@ public:
     }
     ~Folder() {
         page_.reset();
+        std::error_code ignored;
+        if (!finished_)
+            for (const fs::path& path : new_) fs::remove(path, ignored);
         remove_if_made();
     }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
 
     void write(const std::string& page, const Files& files) {
-        for (const auto& [name, text] : files) refuse_what_exists(name);
         for (const auto& [name, text] : files) {
-            logs::TableFile file{fs::path{path_} / name, force_};
+            const fs::path path = fs::path{path_} / name;
+            if (!fs::exists(path)) new_.push_back(path);
+            logs::TableFile file{path, force_};
             file.append(text);
             file.close();
         }
         page_->append(page);
         page_->close();
+        finished_ = true;
     }
 
 private:
@@ -103,15 +110,12 @@ private:
         std::error_code ignored;
         if (made_) fs::remove(path_, ignored);
     }
-    void refuse_what_exists(const std::string& name) const {
-        const fs::path path = fs::path{path_} / name;
-        if (!force_ && fs::exists(path))
-            throw logs::IoError{fmt::format("{} exists; --force overwrites it", path.string())};
-    }
 
     std::string path_;
     bool force_;
     bool made_ = false;
+    bool finished_ = false;
+    std::vector<fs::path> new_;  // where nothing stood before
     std::optional<logs::TableFile> page_;
 };
 
@@ -139,7 +143,8 @@ std::string text(const study::Paper& paper, const std::string& folder, std::size
     std::string lines;
     for (const study::PaperItem& item : paper.items) lines += item.section.heading + "\n";
     return fmt::format(
-        "{}\ntwin against theory: chi-square {:.3f} per degree of freedom, {} degrees, allowed {} to {}\n{} claims: "
+        "{}\ntwin against theory: chi-square {:.3f} per point, {} points (those of one experiment share its noise), "
+        "allowed {} to {}\n{} claims: "
         "{}\nwritten to {}: {} and {} more files\n",
         lines, paper.chi2_per_dof, paper.degrees_of_freedom, least_chi2_per_dof, most_chi2_per_dof, paper.claims.size(),
         study::verdict_counts(paper.claims), folder, page_name, n_files);

@@ -74,7 +74,7 @@ std::string text(const study::RunResult& result, const std::string& folder) {
 
 void run(const Options& options) {
     if (options.format != "csv") throw UsageError{fmt::format("--format {}: allowed is csv", options.format)};
-    const config::Config config = study::with_interval(load_config(options));
+    const config::Config config = with_interval(load_config(options));
     RunFiles files{options.out, options.force, config};
     Progress progress;
     study::RunTask task{.config = config,

@@ -20,7 +20,7 @@ namespace {
 
 void simulate(const Options& options) {
     check_table_path(options.out);
-    const config::Config config = study::with_interval(load_config(options));
+    const config::Config config = with_interval(load_config(options));
     const twin::Motion motion = rig::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};

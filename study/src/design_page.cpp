@@ -98,13 +98,15 @@ report::Table substitution_table(const DesignResult& result) {
     report::Table t{
         .caption =
             "Final error of the gap's angle by the order of the polynomial: from the motion at the worst phase and "
-            "over random phase, from rounding of the counter, and both together by eq (19).",
+            "over random phase, from rounding of the counter, from re-lock, and all together by eq (19) with the "
+            "residual of re-lock that it omits.",
         .header = {"frequency, Hz", "gap, ticks", "order", "worst, \"", "rms, \"", "white noise gain", "rounding, \"",
-                   "together, \""},
+                   "re-lock, \"", "together, \""},
         .rows = {}};
     for (const SubstitutionLine& l : result.substitution)
-        t.rows.push_back({number(l.frequency_hz), fmt::format("{}", l.gap_ticks), fmt::format("{}", l.order),
-                          number(l.worst_arcsec), number(l.rms_arcsec), number(l.noise_gain), number(l.counter_arcsec),
+        t.rows.push_back({std::isfinite(l.frequency_hz) ? number(l.frequency_hz) : "all",
+                          fmt::format("{}", l.gap_ticks), fmt::format("{}", l.order), number(l.worst_arcsec),
+                          number(l.rms_arcsec), number(l.noise_gain), number(l.counter_arcsec), number(l.relock_arcsec),
                           number(l.total_arcsec)});
     return t;
 }
@@ -138,10 +140,10 @@ report::Table loop_table(const config::Config& config, const LoopLine& l) {
                                                   number(l.margins.crossover_rad_s))},
                      {"gain margin",
                       fmt::format("{} at {} rad/s", number(l.margins.gain_margin), number(l.margins.limit_rad_s))},
-                     {"T/tau, and its stability limit when sampled with one tick of delay",
+                     {"T/tau, and its limit of stability if " + l.stability_note,
                       fmt::format("{}, {}", number(l.tick_over_tau), number(l.stability_limit))},
                      {fmt::format("re-lock to 0.01 wavelength from {}", number(config.perimeter.miss_lambda)),
-                      fmt::format("{} ms; without limiter and slew {} ms", number(1e3 * l.relock_s),
+                      fmt::format("{} ms {}; without limiter and slew {} ms", number(1e3 * l.relock_s), l.relock_note,
                                   number(1e3 * l.relock_linear_s))},
                      {"false angle of that re-lock",
                       fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", number(l.false_angle_arcsec),
@@ -203,9 +205,9 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
          .figures = {budget_figure(config)}});
     page.sections.push_back(
         {.heading = "Substitution",
-         .paragraphs =
-             {"Orders 0 and 1, and orders 2 and 3, give the same angle of the gap when the points lie "
-              "symmetrically. Eq (19) leaves out what the re-lock correction leaves in the points after the gap."},
+         .paragraphs = {"Orders 0 and 1, and orders 2 and 3, give the same angle of the gap when the points lie "
+                        "symmetrically. Re-lock: uncorrected its whole false angle, else the light noise of a "
+                        "mean-square correction, in the angle itself and through the points after the gap."},
          .tables = {substitution_table(result)},
          .figures = {order_figure(result)}});
     page.sections.push_back({.heading = "Perimeter loop",

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <string>
 
 #include <zlg/design/error.hpp>
 #include <zlg/study/design_study.hpp>
@@ -54,7 +57,71 @@ TEST(DesignGyro, every_sine_of_a_sum_has_its_lines) {
     c.motion.amplitude_arcsec_s = {100.0, 200.0};
     c.motion.frequency_hz = {3.0, 9.0};
     const auto r = study::design_gyro(c);
-    EXPECT_EQ(r.substitution.size(), 2u * 5u * 4u);
+    ASSERT_EQ(r.substitution.size(), 3u * 5u * 4u) << "each, and both together";
+    const auto& slow = r.substitution[0];
+    const auto& fast = r.substitution[1];
+    const auto& both = r.substitution[2];
+    EXPECT_TRUE(std::isnan(both.frequency_hz));
+    EXPECT_DOUBLE_EQ(both.worst_arcsec, slow.worst_arcsec + fast.worst_arcsec);
+    EXPECT_DOUBLE_EQ(both.rms_arcsec, std::hypot(slow.rms_arcsec, fast.rms_arcsec));
+}
+
+TEST(DesignGyro, lays_the_gap_at_every_place_of_a_recorded_motion) {
+    const std::string path = testing::TempDir() + "zlg-design-motion.txt";
+    // An angle of k^3/6 at the end of row k: every second difference of the increments is 1, and a parabola follows.
+    std::ofstream file{path};
+    for (int k = 0; k < 400; ++k) file << (k * k) / 2.0 + k / 2.0 << '\n';
+    file.close();
+    config::Config c;
+    c.gyro.tick_s = 0.01;
+    c.motion.kind = config::MotionKind::file;
+    c.motion.path = path;
+    const auto r = study::design_gyro(c);
+    EXPECT_NEAR(line(r, 2, 3).worst_arcsec, 0.0, 1e-6);
+    // A constant through 2 + 2 points misses the curvature 1: -n (n + 2)(n + 4)/12 in the sum.
+    EXPECT_NEAR(line(r, 0, 3).worst_arcsec, 3.0 * 5.0 * 7.0 / 12.0, 1e-6);
+    EXPECT_NEAR(line(r, 0, 3).rms_arcsec, 3.0 * 5.0 * 7.0 / 12.0, 1e-6);
+    std::remove(path.c_str());
+}
+
+TEST(DesignGyro, runs_the_digital_loop_itself_instead_of_a_model) {
+    config::Config c;
+    c.perimeter.loop = config::Loop::digital;
+    c.perimeter.miss_lambda = 0.05;
+    for (const double tau_s : {0.0065, 0.003, 0.0003}) {
+        c.perimeter.tau_s = tau_s;
+        const auto loop = study::design_gyro(c).loop;
+        EXPECT_TRUE(loop.margins.stable) << tau_s;
+        EXPECT_LT(loop.relock_s, 0.03) << tau_s;
+        // A faster loop does not make the false angle smaller: 2.2 arcsec by the law, up to 3.9 for the loops of the field.
+        EXPECT_GT(loop.false_angle_arcsec, 0.95 * loop.false_angle_law_arcsec) << tau_s;
+        EXPECT_LT(loop.false_angle_arcsec, 3.9) << tau_s;
+    }
+}
+
+TEST(DesignGyro, says_why_a_re_lock_has_no_time) {
+    config::Config c;
+    c.perimeter.tau_s = 1000.0;
+    const auto loop = study::design_gyro(c).loop;
+    EXPECT_FALSE(std::isfinite(loop.relock_s));
+    EXPECT_FALSE(loop.relock_note.empty());
+    c.perimeter.tau_s = 0.0065;
+    c.perimeter.limit_lambda = 0.005;
+    // A limiter of 0.005 wavelength in 6.5 ms needs 0.21/0.005 * 6.5 ms to come down from 0.22.
+    EXPECT_NEAR(study::design_gyro(c).loop.relock_s, 0.28, 0.01);
+}
+
+TEST(DesignGyro, adds_what_re_lock_leaves) {
+    config::Config c;
+    c.compensation.relock = core::RelockMethod::none;
+    const auto uncorrected = study::design_gyro(c);
+    EXPECT_GT(line(uncorrected, 0, 3).relock_arcsec, 44.0) << "the false angle itself, and its part in the fit";
+    const auto corrected = study::design_gyro({});
+    EXPECT_LT(line(corrected, 0, 3).relock_arcsec, 3.0);
+    EXPECT_NEAR(line(corrected, 2, 3).total_arcsec,
+                std::hypot(line(corrected, 2, 3).rms_arcsec, line(corrected, 2, 3).counter_arcsec,
+                           line(corrected, 2, 3).relock_arcsec),
+                1e-12);
 }
 
 TEST(DesignGyro, judges_the_perimeter_loop) {
@@ -78,6 +145,9 @@ TEST(OptimalInterval, takes_the_place_of_the_word_for_the_length_of_the_run) {
     const config::Config resolved = study::with_interval(c);
     EXPECT_FALSE(resolved.switching.interval_optimal);
     EXPECT_NEAR(resolved.switching.interval_s, 88.7, 0.05);
+    c.switching.first_segment = config::FirstSegment::half;
+    // Without warm-up longer by sqrt 2; with it by sqrt((Om(t) + Om(0))/Om(t)), Om(600 s) = 0.827 arcsec/s.
+    EXPECT_NEAR(study::with_interval(c).switching.interval_s, 88.7 * std::sqrt((0.827 + 0.7) / 0.827), 1.5);
     EXPECT_EQ(study::with_interval({}).switching.interval_s, 90.0);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The questions of a designer answered for one gyro: how long between switches, which substitution, which loop.
 
+#include <string>
 #include <vector>
 
 #include <zlg/config/config.hpp>
@@ -38,19 +39,22 @@ struct RunLine {
 struct SubstitutionLine {
     int order = 0;
     int gap_ticks = 0;
-    double frequency_hz = 0.0;
+    double frequency_hz = 0.0;    // NaN: all the configured motion together
     double worst_arcsec = 0.0;    // final error of the gap's angle, at the worst phase
     double rms_arcsec = 0.0;      // over random phase
     double noise_gain = 0.0;      // white noise: sigma of the gap's angle over that of a tick
     double counter_arcsec = 0.0;  // sigma of the gap's angle by rounding of the counter
-    double total_arcsec = 0.0;    // eq (19): rms and rounding together
+    double relock_arcsec = 0.0;   // what re-lock leaves in the angle, directly and through the points after the gap
+    double total_arcsec = 0.0;    // eq (19) with that residual: root sum square of rms, rounding and re-lock
 };
 
 struct LoopLine {
     design::PerimeterLoop loop;
     design::Margins margins;
     double tick_over_tau = 0.0;
-    double stability_limit = 0.0;              // of tick_over_tau, with one tick of delay
+    double stability_limit = 0.0;              // of tick_over_tau, for the detector that is sampled
+    std::string stability_note;                // which detector that is
+    std::string relock_note;                   // why there is no time of re-lock; empty where there is one
     double relock_s = 0.0;                     // from the configured miss to a hundredth of a wavelength
     double relock_linear_s = 0.0;              // without limiter and slew
     std::vector<double> step;                  // of the linear loop, per tick
@@ -74,7 +78,8 @@ struct DesignResult {
 // The gyro's drift as the theory sees it; the run is that of the configuration.
 [[nodiscard]] design::DriftCase drift_case(const config::Config& config, double run_s);
 
-// The interval that `interval_s = "optimal"` stands for: the minimum of (7c) for a run of run_s.
+// The interval that `interval_s = "optimal"` stands for in a run of run_s: the minimum of (7c), or, if the first segment
+// is half, of the worst case of such a sequence.
 [[nodiscard]] double optimal_interval_s(const config::Config& config, double run_s);
 
 // The same configuration with that number in place of "optimal", for its own length of run.
