@@ -75,7 +75,8 @@ public:
         try {
             // Which files there will be shows only at the end, so all that is there counts.
             if (!made_ && !force_ && !fs::is_empty(path_))
-                throw logs::IoError{fmt::format("{}: exists and is not empty; --force overwrites what is in it", path_)};
+                throw logs::IoError{
+                    fmt::format("{}: exists and is not empty; --force overwrites what is in it", path_)};
             page_.emplace(fs::path{path_} / page_name, force_);
         } catch (...) {
             remove_if_made();
