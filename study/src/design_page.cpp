@@ -5,6 +5,8 @@
 #include <zlg/design/substitution.hpp>
 #include <zlg/study/design_study.hpp>
 
+#include "page_text.hpp"
+
 namespace zlg::study {
 namespace {
 
@@ -12,35 +14,20 @@ using report::Figure;
 using report::Mark;
 using report::Series;
 
-std::string number(double x) {
-    if (!std::isfinite(x)) return "none";
-    return std::abs(x) >= 1000.0 && std::abs(x) < 1e7 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
-}
-
-Figure figure(std::string id, std::string title, std::string caption, std::string x_label, std::string y_label) {
-    Figure f;
-    f.id = std::move(id);
-    f.title = std::move(title);
-    f.caption = std::move(caption);
-    f.x_label = std::move(x_label);
-    f.y_label = std::move(y_label);
-    return f;
-}
-
 Series line(std::string name) { return {.name = std::move(name), .x = {}, .y = {}, .y_error = {}}; }
 
 Figure budget_figure(const config::Config& config) {
-    Figure f =
-        figure("budget", "Drift against the interval between switches",
-               "Long intervals let the magnetic drift pile up, short ones pay for many switches. Points: the optimum.",
-               "interval, s", "drift, arcsec/s");
+    Figure f = blank_figure(
+        "budget", "Drift against the interval between switches",
+        "Long intervals let the magnetic drift pile up, short ones pay for many switches. Points: the optimum.",
+        "interval, s", "drift, arcsec/s");
     f.log_x = true;
     Series best = line("optimum");
     best.mark = Mark::points;
     for (double run_s : config.design.run_lengths_s) {
         const design::DriftCase task = drift_case(config, run_s);
         const design::Optimum optimum = design::optimum(design::IntervalMethod::corrected, task);
-        Series s = line(fmt::format("run of {} s", number(run_s)));
+        Series s = line(fmt::format("run of {} s", short_number(run_s)));
         for (int k = -30; k <= 30; ++k) {
             const double interval_s = optimum.interval_s * std::pow(10.0, k / 30.0);
             if (interval_s > run_s) break;
@@ -64,14 +51,15 @@ report::Table interval_table(const DesignResult& result) {
                    "rise at 1.3 of it, \"/s"},
         .rows = {}};
     for (const IntervalLine& l : result.intervals)
-        t.rows.push_back({number(l.run_s), std::string{design::name(l.method)}, number(l.optimum.interval_s),
-                          number(l.optimum.drift_arcsec_s), number(l.sensitivity.shorter_arcsec_s),
-                          l.sensitivity.longer_arcsec_s ? number(*l.sensitivity.longer_arcsec_s) : "beyond the run"});
+        t.rows.push_back(
+            {short_number(l.run_s), std::string{design::name(l.method)}, short_number(l.optimum.interval_s),
+             short_number(l.optimum.drift_arcsec_s), short_number(l.sensitivity.shorter_arcsec_s),
+             l.sensitivity.longer_arcsec_s ? short_number(*l.sensitivity.longer_arcsec_s) : "beyond the run"});
     return t;
 }
 
 std::string root_text(const design::Roots& roots) {
-    return roots.status == design::RootStatus::found ? number(roots.smaller_s)
+    return roots.status == design::RootStatus::found ? short_number(roots.smaller_s)
                                                      : std::string{design::sentence(roots.status)};
 }
 
@@ -85,12 +73,12 @@ report::Table run_table(const DesignResult& result) {
                    "growing: interval at the end, s", "drift, \"/s"},
         .rows = {}};
     for (const RunLine& r : result.runs)
-        t.rows.push_back({number(r.run_s), number(r.terms.nonmagnetic_arcsec_s),
-                          number(r.terms.quasi_nonmagnetic_arcsec_s), number(r.terms.sawtooth_arcsec_s),
-                          number(r.terms.switch_errors_arcsec_s), root_text(r.corrected_roots),
-                          root_text(r.roots_as_printed), number(r.half_first_segment.interval_s),
-                          number(r.half_first_segment.drift_arcsec_s), number(r.growing_interval_s),
-                          number(r.growing_drift_arcsec_s)});
+        t.rows.push_back({short_number(r.run_s), short_number(r.terms.nonmagnetic_arcsec_s),
+                          short_number(r.terms.quasi_nonmagnetic_arcsec_s), short_number(r.terms.sawtooth_arcsec_s),
+                          short_number(r.terms.switch_errors_arcsec_s), root_text(r.corrected_roots),
+                          root_text(r.roots_as_printed), short_number(r.half_first_segment.interval_s),
+                          short_number(r.half_first_segment.drift_arcsec_s), short_number(r.growing_interval_s),
+                          short_number(r.growing_drift_arcsec_s)});
     return t;
 }
 
@@ -104,16 +92,16 @@ report::Table substitution_table(const DesignResult& result) {
                    "re-lock, \"", "together, \""},
         .rows = {}};
     for (const SubstitutionLine& l : result.substitution)
-        t.rows.push_back({std::isfinite(l.frequency_hz) ? number(l.frequency_hz) : "all",
-                          fmt::format("{}", l.gap_ticks), fmt::format("{}", l.order), number(l.worst_arcsec),
-                          number(l.rms_arcsec), number(l.noise_gain), number(l.counter_arcsec), number(l.relock_arcsec),
-                          number(l.total_arcsec)});
+        t.rows.push_back({std::isfinite(l.frequency_hz) ? short_number(l.frequency_hz) : "all",
+                          fmt::format("{}", l.gap_ticks), fmt::format("{}", l.order), short_number(l.worst_arcsec),
+                          short_number(l.rms_arcsec), short_number(l.noise_gain), short_number(l.counter_arcsec),
+                          short_number(l.relock_arcsec), short_number(l.total_arcsec)});
     return t;
 }
 
 // Where each order begins to win: the boundary of the map as one line per order.
 Figure order_figure(const DesignResult& result) {
-    Figure f = figure(
+    Figure f = blank_figure(
         "order-map", "Which order is best where",
         "Each mark is a motion (frequency, amplitude of the angle in a tick over the noise of a tick) at which that "
         "order leaves the smallest error.",
@@ -136,34 +124,36 @@ Figure order_figure(const DesignResult& result) {
 report::Table loop_table(const config::Config& config, const LoopLine& l) {
     return {.caption = "The perimeter loop.",
             .header = {"quantity", "value"},
-            .rows = {{"phase margin", fmt::format("{} deg at {} rad/s", number(l.margins.phase_margin_deg),
-                                                  number(l.margins.crossover_rad_s))},
-                     {"gain margin",
-                      fmt::format("{} at {} rad/s", number(l.margins.gain_margin), number(l.margins.limit_rad_s))},
+            .rows = {{"phase margin", fmt::format("{} deg at {} rad/s", short_number(l.margins.phase_margin_deg),
+                                                  short_number(l.margins.crossover_rad_s))},
+                     {"gain margin", fmt::format("{} at {} rad/s", short_number(l.margins.gain_margin),
+                                                 short_number(l.margins.limit_rad_s))},
                      {"T/tau, and its limit of stability if " + l.stability_note,
-                      fmt::format("{}, {}", number(l.tick_over_tau), number(l.stability_limit))},
-                     {fmt::format("re-lock to 0.01 wavelength from {}", number(config.perimeter.miss_lambda)),
-                      fmt::format("{} ms {}; without limiter and slew {} ms", number(1e3 * l.relock_s), l.relock_note,
-                                  number(1e3 * l.relock_linear_s))},
+                      fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
+                     {fmt::format("re-lock to 0.01 wavelength from {}", short_number(config.perimeter.miss_lambda)),
+                      fmt::format("{} ms {}; without limiter and slew {} ms", short_number(1e3 * l.relock_s),
+                                  l.relock_note, short_number(1e3 * l.relock_linear_s))},
                      {"false angle of that re-lock",
-                      fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", number(l.false_angle_arcsec),
-                                  number(l.false_angle_law_arcsec))},
-                     {"capture range of the detector", fmt::format("{} wavelength", number(l.capture_lambda))}}};
+                      fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", short_number(l.false_angle_arcsec),
+                                  short_number(l.false_angle_law_arcsec))},
+                     {"capture range of the detector", fmt::format("{} wavelength", short_number(l.capture_lambda))}}};
 }
 
 report::Table miss_table(const LoopLine& l) {
     report::Table t{.caption = "What the miss at closing is made of.", .header = {"cause", "wavelengths"}, .rows = {}};
-    for (const design::MissPart& part : l.miss.part) t.rows.push_back({std::string{part.name}, number(part.lambda)});
-    t.rows.push_back({"root sum square", number(l.miss.root_sum_square_lambda)});
-    t.rows.push_back({"all of one sign", number(l.miss.worst_lambda)});
+    for (const design::MissPart& part : l.miss.part)
+        t.rows.push_back({std::string{part.name}, short_number(part.lambda)});
+    t.rows.push_back({"root sum square", short_number(l.miss.root_sum_square_lambda)});
+    t.rows.push_back({"all of one sign", short_number(l.miss.worst_lambda)});
     return t;
 }
 
 Figure false_drift_figure(const LoopLine& l, double tick_s) {
-    Figure f = figure("relock", "False drift after the loop is closed",
-                      "The reading of the ticks after a switch, by simulation of the loop from the configured miss, "
-                      "before correction.",
-                      "tick after closing", "false drift, deg/h");
+    Figure f =
+        blank_figure("relock", "False drift after the loop is closed",
+                     "The reading of the ticks after a switch, by simulation of the loop from the configured miss, "
+                     "before correction.",
+                     "tick after closing", "false drift, deg/h");
     Series s = line("simulated");
     s.mark = Mark::points;
     for (std::size_t k = 0; k < l.false_drift_arcsec_s.size(); ++k) {
@@ -171,13 +161,13 @@ Figure false_drift_figure(const LoopLine& l, double tick_s) {
         s.y.push_back(l.false_drift_arcsec_s[k]);
     }
     f.series = {std::move(s)};
-    f.caption += fmt::format(" A tick is {} ms.", number(1e3 * tick_s));
+    f.caption += fmt::format(" A tick is {} ms.", short_number(1e3 * tick_s));
     return f;
 }
 
 Figure step_figure(const LoopLine& l, double tick_s) {
-    Figure f = figure("step", "Step response of the linear loop",
-                      "The part of a step of the perimeter that the loop has made up.", "time, ms", "made up");
+    Figure f = blank_figure("step", "Step response of the linear loop",
+                            "The part of a step of the perimeter that the loop has made up.", "time, ms", "made up");
     Series s = line("without limiter and slew");
     for (std::size_t k = 0; k < l.step.size(); ++k) {
         s.x.push_back(1e3 * tick_s * static_cast<double>(k + 1));

@@ -6,7 +6,7 @@
 
 #include <zlg/study/run.hpp>
 
-#include "paper_number.hpp"
+#include "page_text.hpp"
 #include "paper_parts.hpp"
 
 namespace zlg::study {

@@ -10,8 +10,8 @@
 
 #include <zlg/report/figure.hpp>
 
+#include "page_text.hpp"
 #include "paper_bridge.hpp"
-#include "paper_number.hpp"
 
 namespace zlg::study {
 

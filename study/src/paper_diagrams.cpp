@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "page_text.hpp"
 #include "paper_bridge.hpp"
-#include "paper_number.hpp"
 #include "paper_parts.hpp"
 
 namespace zlg::study {

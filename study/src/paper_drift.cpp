@@ -7,7 +7,7 @@
 #include <zlg/design/interval_formula.hpp>
 #include <zlg/design/switching_interval.hpp>
 
-#include "paper_number.hpp"
+#include "page_text.hpp"
 #include "paper_parts.hpp"
 #include "paper_readings.hpp"
 

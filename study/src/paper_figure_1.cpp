@@ -5,7 +5,7 @@
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/twin.hpp>
 
-#include "paper_number.hpp"
+#include "page_text.hpp"
 #include "paper_parts.hpp"
 
 namespace zlg::study {

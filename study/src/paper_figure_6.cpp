@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "paper_number.hpp"
+#include "page_text.hpp"
 #include "paper_parts.hpp"
 
 namespace zlg::study {

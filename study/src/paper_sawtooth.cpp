@@ -7,7 +7,7 @@
 #include <zlg/design/magnetic_angle.hpp>
 #include <zlg/study/design_study.hpp>
 
-#include "paper_number.hpp"
+#include "page_text.hpp"
 #include "paper_parts.hpp"
 
 namespace zlg::study {

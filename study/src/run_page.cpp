@@ -7,18 +7,14 @@
 
 #include <zlg/report/figure.hpp>
 
+#include "page_text.hpp"
+
 namespace zlg::study {
 namespace {
 
 using report::Figure;
 using report::Mark;
 using report::Series;
-
-// Three or four significant digits are what a reader compares.
-std::string number(double x) {
-    if (!std::isfinite(x)) return "unknown";
-    return std::abs(x) >= 1000.0 && std::abs(x) < 1e9 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
-}
 
 const VariantResult* find(const RunResult& result, const std::string& name) {
     for (const VariantResult& v : result.variants)
@@ -47,10 +43,11 @@ report::Table variant_table(const RunResult& result) {
                                    "error per switch, mean, \"", "rms, \"", "max, \""},
                         .rows = {}};
     for (const VariantResult& v : result.variants) {
-        std::vector<std::string> row{v.name, meaning(v.name), number(v.drift_arcsec_s), number(v.angle_error_arcsec)};
+        std::vector<std::string> row{v.name, meaning(v.name), short_number(v.drift_arcsec_s),
+                                     short_number(v.angle_error_arcsec)};
         if (v.switch_error)
             for (double x : {v.switch_error->mean_arcsec, v.switch_error->rms_arcsec, v.switch_error->max_arcsec})
-                row.push_back(number(x));
+                row.push_back(short_number(x));
         else
             row.insert(row.end(), 3, "-");
         table.rows.push_back(std::move(row));
@@ -62,23 +59,13 @@ Series curve_of(const VariantResult& v, std::string name) {
     return {.name = std::move(name), .x = v.curve.t_s, .y = v.curve.error_arcsec, .y_error = {}};
 }
 
-Figure figure_of(std::string id, std::string title, std::string caption, std::string x_label, std::string y_label) {
-    Figure figure;
-    figure.id = std::move(id);
-    figure.title = std::move(title);
-    figure.caption = std::move(caption);
-    figure.x_label = std::move(x_label);
-    figure.y_label = std::move(y_label);
-    return figure;
-}
-
 Figure sawtooth_figure(const config::Config& config, const RunResult& result) {
-    Figure f = figure_of(
+    Figure f = blank_figure(
         "angle-error", "Angle error against time",
         fmt::format("In one mode the magnetic drift adds up without end. Switched every {} s, its sign follows "
                     "the helicity of the mode: the error is a sawtooth of amplitude interval x magnetic drift, "
                     "on a slow slope that is the non-magnetic drift.",
-                    number(config.switching.interval_s)),
+                    short_number(config.switching.interval_s)),
         "time, s", "final minus true angle, arcsec");
     if (const auto* v = find(result, "one_mode")) f.series.push_back(curve_of(*v, "one mode"));
     if (const auto* v = find(result, "configured"))
@@ -87,11 +74,11 @@ Figure sawtooth_figure(const config::Config& config, const RunResult& result) {
 }
 
 Figure methods_figure(const RunResult& result) {
-    Figure f =
-        figure_of("compensations", "The switched gyro under different compensations",
-                  "The same records, compensated in different ways. What a method leaves at each switch adds up like a "
-                  "random walk on top of the sawtooth, for the sign of the false drift alternates.",
-                  "time, s", "final minus true angle, arcsec");
+    Figure f = blank_figure(
+        "compensations", "The switched gyro under different compensations",
+        "The same records, compensated in different ways. What a method leaves at each switch adds up like a "
+        "random walk on top of the sawtooth, for the sign of the false drift alternates.",
+        "time, s", "final minus true angle, arcsec");
     for (const char* name : {"relock_frequency", "relock_mean_square", "bridge_constant", "configured"})
         if (const auto* v = find(result, name)) f.series.push_back(curve_of(*v, name));
     return f;
@@ -110,13 +97,13 @@ report::Band gap_band(const RunResult& result, double ticks_to_x) {
 }
 
 Figure magnified_figure(const RunResult& result) {
-    Figure f =
-        figure_of("one-switch", "One switch, tick by tick",
-                  "Each point is the angle of one tick. In the gap the counter reads nonsense; the gyro delivers an "
-                  "extrapolation in real time and an interpolation as soon as the other side is known. One tick then "
-                  "carries the difference, so that no angle is lost. After the gap the reading is still wrong while "
-                  "the perimeter settles: the final value is corrected for it.",
-                  "tick", "angle of the tick, arcsec");
+    Figure f = blank_figure(
+        "one-switch", "One switch, tick by tick",
+        "Each point is the angle of one tick. In the gap the counter reads nonsense; the gyro delivers an "
+        "extrapolation in real time and an interpolation as soon as the other side is known. One tick then "
+        "carries the difference, so that no angle is lost. After the gap the reading is still wrong while "
+        "the perimeter settles: the final value is corrected for it.",
+        "tick", "angle of the tick, arcsec");
     Series read{.name = "as read", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
     Series delivered{.name = "delivered in real time", .x = {}, .y = {}, .y_error = {}, .dashed = true};
     Series final_value{.name = "final", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
@@ -136,12 +123,12 @@ Figure magnified_figure(const RunResult& result) {
 }
 
 Figure detuning_figure(const RunResult& result) {
-    Figure f =
-        figure_of("detuning", "Detuning of the perimeter through the switch",
-                  "While the loop is open the perimeter travels half a wavelength, from the middle of one mode to that "
-                  "of the other. Closed again, the loop removes what is left; the bias, and with it the reading, is "
-                  "false by the square of the detuning until then.",
-                  "time, ms", "detuning, wavelengths");
+    Figure f = blank_figure(
+        "detuning", "Detuning of the perimeter through the switch",
+        "While the loop is open the perimeter travels half a wavelength, from the middle of one mode to that "
+        "of the other. Closed again, the loop removes what is left; the bias, and with it the reading, is "
+        "false by the square of the detuning until then.",
+        "time, ms", "detuning, wavelengths");
     Series truth{.name = "true, at the end of each half", .x = {}, .y = {}, .y_error = {}};
     Series seen{.name = "measured, mean of each half", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
     const double half_ms = 500.0 * result.tick_s;
@@ -164,11 +151,11 @@ Figure detuning_figure(const RunResult& result) {
 }
 
 Figure piezo_figure(const RunResult& result) {
-    Figure f =
-        figure_of("piezo", "Piezo voltage through the switch",
-                  "The processor steps the high voltage by the half-wave voltage it has learnt from earlier switches; "
-                  "the amplifier follows at its slew rate; the loop does the rest.",
-                  "time, ms", "piezo voltage, V");
+    Figure f = blank_figure(
+        "piezo", "Piezo voltage through the switch",
+        "The processor steps the high voltage by the half-wave voltage it has learnt from earlier switches; "
+        "the amplifier follows at its slew rate; the loop does the rest.",
+        "time, ms", "piezo voltage, V");
     Series volts{.name = "piezo, by ADC", .x = {}, .y = {}, .y_error = {}};
     const double half_ms = 500.0 * result.tick_s;
     std::size_t half = 0;
@@ -183,9 +170,9 @@ Figure piezo_figure(const RunResult& result) {
 }
 
 Figure histogram_figure(const RunResult& result) {
-    Figure f = figure_of("switch-errors", "Errors per switch",
-                         "How often an error of a given size is left at a switch, by method of re-lock and bridge.",
-                         "error of a switch, arcsec", "switches");
+    Figure f = blank_figure("switch-errors", "Errors per switch",
+                            "How often an error of a given size is left at a switch, by method of re-lock and bridge.",
+                            "error of a switch, arcsec", "switches");
     for (const char* name : {"bridge_constant", "configured"}) {
         const VariantResult* v = find(result, name);
         if (!v) continue;
@@ -198,12 +185,12 @@ Figure histogram_figure(const RunResult& result) {
 }
 
 Figure switch_error_figure(const RunResult& result) {
-    Figure f =
-        figure_of("errors-in-time", "Error of each switch, as configured",
-                  "Final minus true angle of every switch. The bars are the standard deviation that the compensation "
-                  "itself claims for the gap: rounding, light noise and random walk, with the motion taken as a "
-                  "polynomial of the bridge's order.",
-                  "time, s", "error of a switch, arcsec");
+    Figure f = blank_figure(
+        "errors-in-time", "Error of each switch, as configured",
+        "Final minus true angle of every switch. The bars are the standard deviation that the compensation "
+        "itself claims for the gap: rounding, light noise and random walk, with the motion taken as a "
+        "polynomial of the bridge's order.",
+        "time, s", "error of a switch, arcsec");
     Series errors{
         .name = "error, with the claimed standard deviation", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
     for (const SwitchLine& line : result.switches) {
@@ -250,8 +237,9 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
         .title = "A Zeeman laser gyro in the quasi-four-frequency regime",
         .lead = fmt::format("{} s of simulated operation, ticks of {} ms, modes switched every {} s: {} switches. "
                             "1 \"/s is 1 deg/h.",
-                            number(static_cast<double>(result.ticks) * result.tick_s), number(1e3 * result.tick_s),
-                            number(config.switching.interval_s), result.switches.size()),
+                            short_number(static_cast<double>(result.ticks) * result.tick_s),
+                            short_number(1e3 * result.tick_s), short_number(config.switching.interval_s),
+                            result.switches.size()),
         .sections = {}};
     page.sections.push_back(
         {.heading = "Result",

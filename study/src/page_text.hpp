@@ -1,10 +1,13 @@
 #pragma once
-// Numbers in the text of the recomputed paper.
+// What the pages share: numbers in text, and a figure with its words and no curve yet.
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include <zlg/report/figure.hpp>
 
 namespace zlg::study {
 
@@ -22,6 +25,17 @@ inline constexpr const char* no_number = "none";
 [[nodiscard]] inline std::string short_number(double x) {
     if (!std::isfinite(x)) return no_number;
     return std::abs(x) >= 1000.0 && std::abs(x) < 1e9 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
+}
+
+[[nodiscard]] inline report::Figure blank_figure(std::string id, std::string title, std::string caption,
+                                                 std::string x_label, std::string y_label) {
+    report::Figure f;
+    f.id = std::move(id);
+    f.title = std::move(title);
+    f.caption = std::move(caption);
+    f.x_label = std::move(x_label);
+    f.y_label = std::move(y_label);
+    return f;
 }
 
 }  // namespace zlg::study
