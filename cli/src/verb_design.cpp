@@ -74,7 +74,7 @@ json loop_json(const study::LoopLine& l) {
             {"stable", l.margins.stable},
             {"tick_over_tau", l.tick_over_tau},
             {"tick_over_tau_limit", l.stability_limit},
-            {"tick_over_tau_limit_if", l.stability_note},
+            {"tick_over_tau_limit_for", l.stability_note},
             {"relock_note", l.relock_note},
             {"step", l.step},
             {"relock_s", l.relock_s},
@@ -145,8 +145,8 @@ std::string loop_text(const config::Config& config, const study::LoopLine& l) {
     std::string text =
         fmt::format("\nperimeter loop, {}\n  phase margin {:.1f} deg, gain margin {:.3g}\n",
                     l.margins.stable ? "stable" : "UNSTABLE", l.margins.phase_margin_deg, l.margins.gain_margin);
-    text += fmt::format("  T/tau {:.2f}; {} it were stable below {:.2f}\n", l.tick_over_tau, l.stability_note,
-                        l.stability_limit);
+    text += fmt::format("  T/tau {:.2f}; stable below {:.2f} for {}\n", l.tick_over_tau, l.stability_limit,
+                        l.stability_note);
     const std::string time = std::isfinite(l.relock_s)
                                  ? fmt::format("{:.1f} ms (linear {:.1f} ms), false angle {:.1f} arcsec",
                                                1e3 * l.relock_s, 1e3 * l.relock_linear_s, l.false_angle_arcsec)

@@ -1,5 +1,3 @@
-#include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -23,7 +21,6 @@
 namespace zlg::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 json variant_json(const study::VariantResult& v) {

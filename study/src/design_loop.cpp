@@ -178,8 +178,8 @@ LoopLine loop_line(const config::Config& config) {
     // Samples per tick: two of the digital loop, without delay beyond the mean; else one, that acts a tick later.
     line.stability_limit =
         is_digital(config) ? 2.0 * design::sampled_stability_limit(0) : design::sampled_stability_limit(1);
-    line.stability_note = is_digital(config) ? "sampled twice a tick, stage that follows at once"
-                                             : "were its detector sampled once a tick, acting one tick later";
+    line.stability_note = is_digital(config) ? "two samples a tick and a stage that follows at once"
+                                             : "a detector sampled once a tick that acts one tick later";
     line.miss = design::initial_miss(miss_causes(config));
     line.capture_lambda =
         design::capture_range_lambda(design::TwoModeDetector{.per_lambda = config.gyro.discriminator_per_lambda}, 0.0);

@@ -128,7 +128,7 @@ report::Table loop_table(const config::Config& config, const LoopLine& l) {
                                                   short_number(l.margins.crossover_rad_s))},
                      {"gain margin", fmt::format("{} at {} rad/s", short_number(l.margins.gain_margin),
                                                  short_number(l.margins.limit_rad_s))},
-                     {"T/tau, and its limit of stability if " + l.stability_note,
+                     {"T/tau, and its limit of stability for " + l.stability_note,
                       fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
                      {fmt::format("re-lock to 0.01 wavelength from {}", short_number(config.perimeter.miss_lambda)),
                       fmt::format("{} ms {}; without limiter and slew {} ms", short_number(1e3 * l.relock_s),

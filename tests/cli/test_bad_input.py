@@ -132,6 +132,9 @@ class BadFiles(BadInputTest):
         self.refuse_call(INPUT, "inspect", "absent.csv", says=["absent.csv"])
         (self.folder / "folder.csv").mkdir()
         self.refuse_call(INPUT, "process", "folder.csv", "--out", self.out, says=["folder.csv"])
+        # A link to itself: even root cannot open it.
+        (self.folder / "loop.csv").symlink_to("loop.csv")
+        self.refuse_call(INPUT, "process", "loop.csv", "--out", self.out, says=["loop.csv"])
 
     @unittest.skipIf(os.geteuid() == 0, "root can read everything")
     def test_file_without_permission(self):
