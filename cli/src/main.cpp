@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
     cli::add_process(program);
     cli::add_design(program);
     cli::add_paper(program);
+    cli::add_convert(program);
     cli::add_inspect(program);
     return guarded(program, argc, argv);
 }

@@ -70,6 +70,10 @@ void add_output_options(CLI::App& verb, Options& options) {
     verb.add_flag("--json", options.json, "the result as one JSON object on standard output");
 }
 
+void add_light_option(CLI::App& verb, Options& options) {
+    verb.add_flag("--light", options.light, "record every light sample too (HDF5 only)");
+}
+
 config::Config load_config(const Options& options) {
     config::Config config;
     apply_options(config, options);
@@ -113,6 +117,10 @@ void refuse_own_input(const std::string& input, const std::string& output) {
     std::error_code ignored;
     if (std::filesystem::equivalent(input, output, ignored))
         throw UsageError{fmt::format("--out {}: is the input; name another file", output)};
+    // The output grows under this name first.
+    if (std::filesystem::equivalent(input, output + ".part", ignored))
+        throw UsageError{
+            fmt::format("--out {}: would grow as {}, which is the input; name another file", output, input)};
 }
 
 config::Settings angle_settings(const config::Config& config) {
@@ -124,11 +132,44 @@ config::Settings angle_settings(const config::Config& config) {
     return settings;
 }
 
-void check_table_path(const std::string& path) {
-    if (path.empty()) throw UsageError{"--out is missing: name the file to write, with the suffix .csv"};
-    const std::string suffix = std::filesystem::path{path}.extension();
-    if (suffix != ".csv")
-        throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is .csv", path, suffix)};
+logs::LogFormat log_format(const std::string& path) {
+    if (path.empty()) throw UsageError{"--out is missing: name the file to write, with the suffix .csv, .h5 or .hdf5"};
+    try {
+        return logs::format_of(path);
+    } catch (const logs::IoError& error) {
+        throw UsageError{error.what()};
+    }
+}
+
+int logged_light_samples(const Options& options, const config::Config& config, logs::LogFormat format) {
+    if (!options.light) return 0;
+    if (format == logs::LogFormat::csv)
+        throw UsageError{"--light: a CSV log holds no light samples; allowed with .h5 or .hdf5"};
+    return static_cast<int>(config.gyro.light_samples);
+}
+
+int copied_light_samples(const logs::RawHeader& header, const std::string& path, logs::LogFormat format) {
+    if (format == logs::LogFormat::hdf5 || header.light_samples == 0) return header.light_samples;
+    complain(fmt::format("warning: {}: the light samples stay behind, a CSV log holds none", path));
+    return 0;
+}
+
+void rethrow_with(std::initializer_list<std::string> part_paths) {
+    std::string note;
+    std::error_code ignored;
+    for (const std::string& part : part_paths)
+        if (std::filesystem::exists(part, ignored)) note += fmt::format("{}{}", note.empty() ? "" : ", ", part);
+    if (note.empty()) throw;
+    note = "; recorded until then: " + note;
+    try {
+        throw;
+    } catch (const logs::IoError& error) {
+        throw logs::IoError{error.what() + note};
+    } catch (const logs::FormatError& error) {
+        throw logs::FormatError{error.what() + note};
+    } catch (const config::ConfigError& error) {
+        throw config::ConfigError{error.what() + note};
+    }
 }
 
 }  // namespace zlg::cli

@@ -2,6 +2,7 @@
 // The options that verbs share, and the configuration that follows from them.
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/logs/log_kind.hpp>
+#include <zlg/logs/raw_log.hpp>
 
 namespace zlg::cli {
 
@@ -19,7 +22,7 @@ struct Options {
     std::optional<std::string> duration_s;
     int threads = 2;
     std::string out;
-    std::string format = "csv";
+    bool light = false;  // the raw log holds every light sample
     bool force = false;
     bool json = false;
 };
@@ -28,6 +31,7 @@ void add_config_options(CLI::App& verb, Options& options);
 void add_config_argument(CLI::App& verb, Options& options);  // CONFIG as an argument or an option, and --set
 void add_run_options(CLI::App& verb, Options& options);      // seed, duration, threads
 void add_output_options(CLI::App& verb, Options& options);   // out, force, json
+void add_light_option(CLI::App& verb, Options& options);
 
 // --set over --config over the defaults.
 //
@@ -49,9 +53,20 @@ void refuse_own_input(const std::string& input, const std::string& output);
 // What an angle log says of itself: the settings on which compensation rests.
 [[nodiscard]] config::Settings angle_settings(const config::Config& config);
 
-// The path of a table to be written: its suffix chooses the format.
+// The path of a log to be written: its suffix chooses the format.
 //
 // errors  UsageError for no path or an unknown suffix.
-void check_table_path(const std::string& path);
+logs::LogFormat log_format(const std::string& path);
+
+// How many light samples of a half the raw log is to hold: all or none.
+//
+// errors  UsageError: they are asked for in a CSV log, which has no room for them.
+[[nodiscard]] int logged_light_samples(const Options& options, const config::Config& config, logs::LogFormat format);
+
+// How many light samples of a half go along into a copy: with a warning where a CSV log cannot take them.
+[[nodiscard]] int copied_light_samples(const logs::RawHeader& header, const std::string& path, logs::LogFormat format);
+
+// Throws the error that is being handled again, with the names of the recordings that it left unfinished.
+[[noreturn]] void rethrow_with(std::initializer_list<std::string> part_paths);
 
 }  // namespace zlg::cli

@@ -15,13 +15,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* raw_name = "raw.csv";
-constexpr const char* angles_name = "angles.csv";
-constexpr const char* health_name = "health.csv";
-constexpr const char* switches_name = "switches.csv";
-constexpr const char* summary_name = "summary.json";
-constexpr const char* page_name = "report.html";
-constexpr const char* names[] = {raw_name, angles_name, health_name, switches_name, summary_name, page_name};
+enum File : std::size_t { raw_file, angles_file, health_file, switches_file, summary_file, page_file };
+
+std::array<std::string, 6> file_names(logs::LogFormat format) {
+    const char* suffix = format == logs::LogFormat::csv ? ".csv" : ".h5";
+    return {fmt::format("raw{}", suffix),
+            fmt::format("angles{}", suffix),
+            "health.csv",
+            "switches.csv",
+            "summary.json",
+            "report.html"};
+}
 
 // True where the folder was made, false where it was there.
 bool make_folder(const std::string& folder) {
@@ -60,8 +64,9 @@ std::string health_head() {
 
 }  // namespace
 
-RunFiles::RunFiles(const std::string& out, bool force, const config::Config& config)
-    : folder_{out}, force_{force}, tick_s_{config.gyro.tick_s} {
+RunFiles::RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format,
+                   int light_samples)
+    : folder_{out}, force_{force}, tick_s_{config.gyro.tick_s}, names_{file_names(format)} {
     if (folder_.empty()) {
         folder_ = make_new_folder();
         made_folder_ = true;
@@ -69,7 +74,7 @@ RunFiles::RunFiles(const std::string& out, bool force, const config::Config& con
         made_folder_ = make_folder(folder_);
     }
     try {
-        open(config);
+        open(config, light_samples);
     } catch (...) {
         std::error_code ignored;
         if (made_folder_) fs::remove(folder_, ignored);
@@ -77,18 +82,20 @@ RunFiles::RunFiles(const std::string& out, bool force, const config::Config& con
     }
 }
 
-void RunFiles::open(const config::Config& config) {
-    raw_.emplace(path(raw_name), config::to_settings(config), force_);
+void RunFiles::open(const config::Config& config, int light_samples) {
+    raw_.emplace(path(names_[raw_file]), config::to_settings(config), force_, logs::all_raw_columns,
+                 logs::RawWriterOptions{.light_samples = light_samples, .keep_part = true});
     // The raw log has the columns for it, so this is what an unset method means; the angle log says what was done.
     config::Config done = config;
     done.compensation.relock = config.compensation.relock.value_or(core::RelockMethod::mean_square);
-    angles_.emplace(path(angles_name), config.gyro.tick_s, angle_settings(done), force_);
-    health_.emplace(path(health_name), force_);
+    angles_.emplace(path(names_[angles_file]), config.gyro.tick_s, angle_settings(done), force_,
+                    logs::AngleWriterOptions{.has_truth = true, .keep_part = true});
+    health_.emplace(path(names_[health_file]), force_);
     health_->append(health_head());
-    switches_.emplace(path(switches_name), force_);
-    summary_.emplace(path(summary_name), force_);
-    page_.emplace(path(page_name), force_);
-    for (const char* name : names)
+    switches_.emplace(path(names_[switches_file]), force_);
+    summary_.emplace(path(names_[summary_file]), force_);
+    page_.emplace(path(names_[page_file]), force_);
+    for (const std::string& name : names_)
         if (!fs::exists(path(name))) new_.push_back(path(name));
 }
 
@@ -117,8 +124,8 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
     finished_ = true;
 }
 
-std::string RunFiles::list() { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string RunFiles::list() const { return fmt::format("{}", fmt::join(names_, ", ")); }
 
-std::string RunFiles::path(const char* name) const { return fs::path{folder_} / name; }
+std::string RunFiles::path(const std::string& name) const { return fs::path{folder_} / name; }
 
 }  // namespace zlg::cli

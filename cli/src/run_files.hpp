@@ -1,12 +1,14 @@
 #pragma once
 // The files of a run, in a folder of their own: all of them appear, or none.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <zlg/config/config.hpp>
 #include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
 #include <zlg/study/run.hpp>
@@ -18,7 +20,9 @@ public:
     // out  the folder; empty: a new zlg-run-NNN here.
     //
     // errors  logs::IoError: the folder holds one of the files and not `force`, or cannot be made.
-    RunFiles(const std::string& out, bool force, const config::Config& config);
+    // An error later on leaves the HDF5 logs as they are then, NAME.part; nothing else.
+    RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format,
+             int light_samples);
     ~RunFiles();
     RunFiles(const RunFiles&) = delete;
     RunFiles& operator=(const RunFiles&) = delete;
@@ -31,15 +35,20 @@ public:
     void finish(const std::vector<study::SwitchLine>& switches, const std::string& summary, const std::string& page);
 
     // Their names, for a reader.
-    [[nodiscard]] static std::string list();
+    [[nodiscard]] std::string list() const;
+
+    // Where the logs grow.
+    [[nodiscard]] std::string raw_part() const { return raw_->part_path(); }
+    [[nodiscard]] std::string angles_part() const { return angles_->part_path(); }
 
 private:
-    [[nodiscard]] std::string path(const char* name) const;
-    void open(const config::Config& config);
+    [[nodiscard]] std::string path(const std::string& name) const;
+    void open(const config::Config& config, int light_samples);
 
     std::string folder_;
     bool force_;
     double tick_s_;
+    std::array<std::string, 6> names_;
     bool made_folder_ = false;
     bool finished_ = false;
     std::vector<std::string> new_;  // names at which nothing stood before this run

@@ -78,15 +78,30 @@ bool next_undamaged(logs::RawReader& reader, core::HalfRecord& record, RawFindin
     }
 }
 
+// Of a log whose rows are all good.
+std::string end_damage(const std::string& path, bool complete) {
+    if (complete) return "";
+    return fmt::format("{}: was not closed by its writer, which still writes or was interrupted", path);
+}
+
 // Read to the end or to the first damage; whole rows before it go to `copy`, if there is one.
-RawFindings read_raw(logs::RawReader& reader, logs::RawWriter* copy) {
+RawFindings read_raw(logs::RawReader& reader, const std::string& path, logs::RawWriter* copy, bool with_light) {
     RawFindings found;
     core::HalfRecord record;
     while (next_undamaged(reader, record, found)) {
         found.take(record);
-        if (copy) copy->write(record);
+        if (copy) copy->write(record, with_light ? reader.light() : std::span<const float>{});
     }
+    if (found.damage.empty()) found.damage = end_damage(path, reader.header().complete);
     return found;
+}
+
+// Where a repaired log goes when no name is given: x.h5 and x.h5.part become x.repaired.h5.
+std::string repaired_path(const InspectOptions& options) {
+    if (!options.out.empty()) return options.out;
+    std::filesystem::path file{options.file};
+    if (file.extension() == ".part") file.replace_extension();
+    return std::filesystem::path{file}.replace_extension(fmt::format(".repaired{}", file.extension().string()));
 }
 
 json raw_json(const InspectOptions& options, const logs::RawHeader& header, const config::Config& config,
@@ -100,6 +115,7 @@ json raw_json(const InspectOptions& options, const logs::RawHeader& header, cons
             {"duration_s", static_cast<double>(f.halves / 2) * config.gyro.tick_s},
             {"optional_columns", optional_columns(header)},
             {"settings", header.settings.size()},
+            {"light_samples", header.light_samples},
             {"gaps", f.gaps},
             {"mode_changes", f.mode_changes},
             {"open_halves", f.open_halves},
@@ -122,7 +138,7 @@ json angle_json(const InspectOptions& options, const AngleFindings& f) {
             {"flagged_ticks", flags}, {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
-AngleFindings read_angles(logs::AngleReader& reader) {
+AngleFindings read_angles(logs::AngleReader& reader, const std::string& path) {
     AngleFindings found;
     logs::TimedAngle angle;
     try {
@@ -135,6 +151,7 @@ AngleFindings read_angles(logs::AngleReader& reader) {
     } catch (const logs::FormatError& error) {
         found.damage = error.what();
     }
+    if (found.damage.empty()) found.damage = end_damage(path, reader.header().complete);
     return found;
 }
 
@@ -158,19 +175,21 @@ json inspect_raw(const InspectOptions& options) {
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
     const config::Config config = load_log_config(options, reader.header().settings, options.file);
     if (!options.repair) {
-        const RawFindings found = read_raw(reader, nullptr);
+        const RawFindings found = read_raw(reader, options.file, nullptr, false);
         if (found.damage.empty() && !reader.line_is_ended())
             complain(
                 fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
         return raw_json(options, reader.header(), config, found);
     }
-    check_table_path(options.out);
-    refuse_own_input(options.file, options.out);
-    logs::RawWriter copy{options.out, reader.header().settings, options.force, reader.header()};
-    const RawFindings found = read_raw(reader, &copy);
+    const std::string out = repaired_path(options);
+    const int light_samples = copied_light_samples(reader.header(), options.file, log_format(out));
+    refuse_own_input(options.file, out);
+    logs::RawWriter copy{
+        out, reader.header().settings, options.force, reader.header(), {.light_samples = light_samples}};
+    const RawFindings found = read_raw(reader, options.file, &copy, light_samples > 0);
     copy.close();
     json findings = raw_json(options, reader.header(), config, found);
-    findings["repaired"] = options.out;
+    findings["repaired"] = out;
     return findings;
 }
 
@@ -178,15 +197,17 @@ void inspect(const InspectOptions& options) {
     json findings;
     switch (logs::recognise(options.file)) {
         case logs::LogKind::raw_csv:
+        case logs::LogKind::raw_hdf5:
             findings = inspect_raw(options);
             break;
-        case logs::LogKind::angle_csv: {
+        case logs::LogKind::angle_csv:
+        case logs::LogKind::angle_hdf5: {
             if (options.repair) throw UsageError{"--repair takes a raw log; an angle log is made anew by zlg process"};
             logs::AngleReader reader{options.file};
-            findings = angle_json(options, read_angles(reader));
+            findings = angle_json(options, read_angles(reader, options.file));
             break;
         }
-        default:
+        case logs::LogKind::unknown:
             throw logs::FormatError{
                 fmt::format("{}: neither a raw log nor an angle log: no line names the columns of one", options.file)};
     }
@@ -200,7 +221,8 @@ void add_inspect(CLI::App& program) {
     const auto options = std::make_shared<InspectOptions>();
     CLI::App* verb = program.add_subcommand("inspect", "what is in a log: columns, time span, flags, damage");
     verb->add_option("FILE", options->file, "raw or angle log")->required();
-    verb->add_flag("--repair", options->repair, "write the whole rows before the first damage to --out");
+    verb->add_flag("--repair", options->repair,
+                   "write the whole rows before the first damage to --out, or beside it as NAME.repaired");
     add_output_options(*verb, *options);
     verb->callback([options] { inspect(*options); });
 }

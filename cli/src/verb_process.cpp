@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,6 +24,8 @@ namespace {
 
 struct ProcessOptions : Options {
     std::string raw;
+    bool follow = false;
+    double give_up_s = 10.0;
 };
 
 // mean_square where the log has what it needs, none where not; an explicit method is obeyed or refused.
@@ -58,12 +62,35 @@ struct Summary {
     }
 };
 
-Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& config, logs::AngleWriter& angles) {
+// Waits for rows that are still being written; false where the log is complete, or nothing came for too long.
+bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options) {
+    using Clock = std::chrono::steady_clock;
+    const auto until = Clock::now() + std::chrono::duration<double>{options.give_up_s};
+    while (!raw.refresh()) {
+        if (raw.header().complete) return false;
+        if (Clock::now() > until) {
+            complain(fmt::format("warning: {}: nothing was added for {} s; its writer may have been interrupted",
+                                 options.raw, options.give_up_s));
+            return false;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    }
+    return true;
+}
+
+// The next row of a log that grows. What is known by now is shown to those who follow the angles.
+bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& angles, const ProcessOptions& options) {
+    angles.flush();
+    return wait_for_rows(raw, options) && raw.next(record);
+}
+
+Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& config, logs::AngleWriter& angles,
+                   const ProcessOptions& options) {
     Summary summary;
     core::GyroCompensationState state;
     core::HalfRecord record;
     Progress progress;
-    while (raw.next(record)) {
+    while (raw.next(record) || (options.follow && follow(raw, record, angles, options))) {
         if (++summary.halves % 100'000 == 0) progress.show(raw.fraction_read());
         const core::CompensationOutput out = step(config, state, record);
         if (!out.has_sample) continue;
@@ -101,7 +128,7 @@ nlohmann::json json(const Summary& s, const ProcessOptions& options, const confi
 }
 
 void process(const ProcessOptions& options) {
-    check_table_path(options.out);
+    (void)log_format(options.out);
     refuse_own_input(options.raw, options.out);
     logs::RawReader raw{options.raw};
     config::Config config = load_log_config(options, raw.header().settings, options.raw);
@@ -111,13 +138,15 @@ void process(const ProcessOptions& options) {
 
     config.compensation.relock = relock;
     logs::AngleWriter angles{options.out, config.gyro.tick_s, angle_settings(config), options.force};
-    const Summary summary = compensate(raw, compensation, angles);
+    const Summary summary = compensate(raw, compensation, angles, options);
     if (summary.ticks == 0)
         throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", options.raw)};
     if (summary.halves % 2 != 0)
         complain(fmt::format(
             "warning: {}: the last half-period ({}) is the first of a tick whose other half is missing; dropped",
             options.raw, summary.halves - 1));
+    if (!raw.header().complete && !options.follow)
+        complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.raw));
     if (!raw.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.raw));
     angles.close();
@@ -130,6 +159,9 @@ void add_process(CLI::App& program) {
     const auto options = std::make_shared<ProcessOptions>();
     CLI::App* verb = program.add_subcommand("process", "a recorded raw log through the compensation");
     verb->add_option("RAW", options->raw, "raw log")->required();
+    verb->add_flag("--follow", options->follow, "go on while the log (HDF5) is being written, until it is complete");
+    verb->add_option("--give-up", options->give_up_s, "seconds without a new row after which following ends (10)")
+        ->check(CLI::Range(0.0, 1e6));
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { process(*options); });

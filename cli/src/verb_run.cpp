@@ -1,4 +1,5 @@
 #include <memory>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -61,39 +62,66 @@ std::string table(const study::RunResult& result) {
     return text;
 }
 
-std::string text(const study::RunResult& result, const std::string& folder) {
+std::string text(const study::RunResult& result, const RunFiles& files) {
     return fmt::format(
         "{} s, {} switches, all compensations of one run's records (one_mode: a run without switching)\n\n{}\n"
         "drift: slope of the angle error (final minus true); 1 arcsec/s is 1 deg/h\nwritten to {}: {}\n",
-        static_cast<double>(result.ticks) * result.tick_s, result.switches.size(), table(result), folder,
-        RunFiles::list());
+        static_cast<double>(result.ticks) * result.tick_s, result.switches.size(), table(result), files.folder(),
+        files.list());
 }
 
-void run(const Options& options) {
-    if (options.format != "csv") throw UsageError{fmt::format("--format {}: allowed is csv", options.format)};
-    const config::Config config = with_interval(load_config(options));
-    RunFiles files{options.out, options.force, config};
+struct RunOptions : Options {
+    std::string format = "h5";
+};
+
+logs::LogFormat format_named(const std::string& name) {
+    if (name == "csv") return logs::LogFormat::csv;
+    if (name == "h5") return logs::LogFormat::hdf5;
+    throw UsageError{fmt::format("--format {}: allowed are h5 and csv", name)};
+}
+
+study::RunResult run_into(RunFiles& files, const config::Config& config, const RunOptions& options) {
     Progress progress;
     study::RunTask task{.config = config,
                         .threads = options.threads,
-                        .on_record = [&](const core::HalfRecord& record) { files.raw().write(record); },
-                        .on_row = [&](const core::AngleRow& row) { files.angles().write(row); },
+                        .on_record =
+                            [&](const core::HalfRecord& record, std::span<const float> light) {
+                                files.raw().write(record, options.light ? light : std::span<const float>{});
+                            },
+                        .on_row = [&](const core::AngleRow& row, double truth) { files.angles().write(row, truth); },
                         .on_health = [&](std::int64_t half, std::uint32_t bits) { files.write_health(half, bits); },
                         .on_progress = [&](double fraction) { progress.show(fraction); }};
-    const study::RunResult result = study::run(task);
-    const std::string summary = pretty(summary_json(config, result));
-    files.finish(result.switches, summary, report::html(study::run_page(config, result)));
-    print(options.json ? summary : text(result, files.folder()));
+    return study::run(task);
+}
+
+// The files are gone when this returns by an exception, but for the logs that grew until then.
+void run(const RunOptions& options) {
+    const logs::LogFormat format = format_named(options.format);
+    const config::Config config = with_interval(load_config(options));
+    std::string raw_part;
+    std::string angles_part;
+    try {
+        RunFiles files{options.out, options.force, config, format, logged_light_samples(options, config, format)};
+        raw_part = files.raw_part();
+        angles_part = files.angles_part();
+        const study::RunResult result = run_into(files, config, options);
+        const std::string summary = pretty(summary_json(config, result));
+        files.finish(result.switches, summary, report::html(study::run_page(config, result)));
+        print(options.json ? summary : text(result, files));
+    } catch (...) {
+        rethrow_with({raw_part, angles_part});
+    }
 }
 
 }  // namespace
 
 void add_run(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<RunOptions>();
     CLI::App* verb =
         program.add_subcommand("run", "twin and core in closed loop: logs, summary and report into a folder");
     add_config_argument(*verb, *options);
-    verb->add_option("--format", options->format, "of the logs: csv");
+    verb->add_option("--format", options->format, "of the logs: h5 (default) or csv");
+    add_light_option(*verb, *options);
     add_run_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { run(*options); });

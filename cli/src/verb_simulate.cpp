@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,21 +19,37 @@
 namespace zlg::cli {
 namespace {
 
+void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw) {
+    Progress progress;
+    const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
+    for (std::int64_t half = 0; half < 2 * ticks; ++half) {
+        const core::HalfRecord record = loop.advance().record;
+        raw.write(record, with_light ? loop.light() : std::span<const float>{});
+        if (half % (2 * progress_stride) == 0)
+            progress.show(static_cast<double>(half) / static_cast<double>(2 * ticks));
+    }
+}
+
 void simulate(const Options& options) {
-    check_table_path(options.out);
+    const logs::LogFormat format = log_format(options.out);
     const config::Config config = with_interval(load_config(options));
+    const int light_samples = logged_light_samples(options, config, format);
     const twin::Motion motion = rig::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};
-    logs::RawWriter raw{options.out, config::to_settings(config), options.force};
-    Progress progress;
-    const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
-    for (std::int64_t tick = 0; tick < ticks; ++tick) {
-        raw.write(loop.advance().record);
-        raw.write(loop.advance().record);
-        if (tick % progress_stride == 0) progress.show(static_cast<double>(tick) / static_cast<double>(ticks));
+    std::string part;
+    try {
+        logs::RawWriter raw{options.out,
+                            config::to_settings(config),
+                            options.force,
+                            logs::all_raw_columns,
+                            {.light_samples = light_samples, .keep_part = true}};
+        part = raw.part_path();
+        record(loop, ticks, light_samples > 0, raw);
+        raw.close();
+    } catch (...) {
+        rethrow_with({part});
     }
-    raw.close();
     const double duration_s = static_cast<double>(ticks) * config.gyro.tick_s;
     if (options.json)
         print(pretty(nlohmann::json{{"raw", options.out}, {"halves", 2 * ticks}, {"duration_s", duration_s}}));
@@ -48,6 +65,7 @@ void add_simulate(CLI::App& program) {
         "simulate", "the same as run, writing only what the gyro's processor would have recorded");
     add_config_argument(*verb, *options);
     add_run_options(*verb, *options);
+    add_light_option(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { simulate(*options); });
 }

@@ -1,99 +1,63 @@
-#include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <limits>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/log_kind.hpp>
 
-#include "csv_reader.hpp"
-#include "settings_lines.hpp"
+#include "angle_columns.hpp"
+#include "angle_log_io.hpp"
+#include "signature.hpp"
 
 namespace zlg::logs {
 
-namespace {
-
-enum : std::size_t { tick, t_s, dtheta_arcsec, dtheta_final_arcsec, sigma_arcsec, mode, flags };
-
-constexpr std::array<Column, 7> columns{
-    {{"tick"}, {"t_s"}, {"dtheta_arcsec"}, {"dtheta_final_arcsec"}, {"sigma_arcsec"}, {"mode"}, {"flags"}}};
+namespace angles {
 
 std::string flag_legend() {
-    std::string text = "# flags =";
+    std::string text;
     for (std::size_t bit = 0; bit < core::angle_flag_names.size(); ++bit) {
-        text += fmt::format(" {}:{}", core::angle_flag_names[bit], 1u << bit);
+        text += fmt::format("{}{}:{}", text.empty() ? "" : " ", core::angle_flag_names[bit], 1u << bit);
     }
-    return text + "\n";
+    return text;
 }
 
-}  // namespace
+void require_loggable(const TimedAngle& angle) {
+    const core::AngleRow& r = angle.row;
+    if (std::isfinite(r.dtheta_arcsec) && std::isfinite(r.dtheta_final_arcsec) && r.sigma_arcsec >= 0.0) return;
+    throw FormatError(
+        fmt::format("tick {} cannot be logged: dtheta {}, final {}, sigma {} arcsec; allowed are "
+                    "finite angles and a sigma of 0 or more, or inf",
+                    r.tick, r.dtheta_arcsec, r.dtheta_final_arcsec, r.sigma_arcsec));
+}
 
-struct AngleReader::State {
-    explicit State(const std::string& path) : csv{path, columns} {
-        header.settings = csv.settings();
-        header.warnings = csv.warnings();
-    }
+}  // namespace angles
 
-    [[nodiscard]] std::int64_t next_tick() const {
-        const std::int64_t value = csv.integer(tick, 0, std::numeric_limits<std::int64_t>::max());
-        if (value == expected_tick) return value;
-        csv.fail(tick, fmt::format("{}; expected {}", value > expected_tick ? "leaves a hole" : "is a repetition",
-                                   expected_tick));
-    }
-
-    CsvReader csv;
-    AngleHeader header;
-    std::int64_t expected_tick = 0;
-};
-
-AngleReader::AngleReader(const std::string& path) : state_{std::make_unique<State>(path)} {}
+AngleReader::AngleReader(const std::string& path)
+    : source_{has_hdf5_signature(path) ? open_angle_hdf5(path) : open_angle_csv(path)} {}
 AngleReader::~AngleReader() = default;
 AngleReader::AngleReader(AngleReader&&) noexcept = default;
 
-const AngleHeader& AngleReader::header() const { return state_->header; }
-
-bool AngleReader::next(TimedAngle& angle) {
-    State& s = *state_;
-    if (!s.csv.next()) return false;
-    angle.row.tick = s.next_tick();
-    angle.t_s = s.csv.real(t_s);
-    angle.row.dtheta_arcsec = s.csv.real(dtheta_arcsec);
-    angle.row.dtheta_final_arcsec = s.csv.real(dtheta_final_arcsec);
-    angle.row.sigma_arcsec = s.csv.real_or_infinite(sigma_arcsec);
-    if (!(angle.row.sigma_arcsec >= 0.0)) s.csv.fail(sigma_arcsec, "is negative; allowed is 0 or more, or inf");
-    angle.row.mode = s.csv.sign(mode);
-    angle.row.flags = static_cast<std::uint32_t>(s.csv.integer(flags, 0, std::numeric_limits<std::uint32_t>::max()));
-    ++s.expected_tick;
-    return true;
-}
+const AngleHeader& AngleReader::header() const { return source_->header(); }
+bool AngleReader::next(TimedAngle& angle) { return source_->next(angle); }
+bool AngleReader::refresh() { return source_->refresh(); }
+double AngleReader::fraction_read() const { return source_->fraction_read(); }
 
 AngleWriter::AngleWriter(const std::string& path, double tick_s,
-                         const std::vector<std::pair<std::string, std::string>>& settings, bool force)
-    : file_{path, force}, tick_s_{tick_s} {
-    write_settings(file_, settings);
-    file_.append(flag_legend());
-    file_.append(fmt::format("# tick_s = {}\n", tick_s));
-    std::string names;
-    for (const Column& column : columns) names += fmt::format("{}{}", names.empty() ? "" : ",", column.name);
-    file_.append(names + "\n");
+                         const std::vector<std::pair<std::string, std::string>>& settings, bool force,
+                         const AngleWriterOptions& options)
+    : sink_{format_of(path) == LogFormat::hdf5 ? create_angle_hdf5(path, tick_s, settings, force, options)
+                                               : create_angle_csv(path, tick_s, settings, force)},
+      tick_s_{tick_s} {}
+AngleWriter::~AngleWriter() = default;
+AngleWriter::AngleWriter(AngleWriter&&) noexcept = default;
+
+void AngleWriter::write(const core::AngleRow& row, double truth_dtheta_arcsec) {
+    sink_->write({row, static_cast<double>(row.tick + 1) * tick_s_, truth_dtheta_arcsec});
 }
 
-void AngleWriter::write(const core::AngleRow& r) {
-    if (!(std::isfinite(r.dtheta_arcsec) && std::isfinite(r.dtheta_final_arcsec) && r.sigma_arcsec >= 0.0)) {
-        throw FormatError(
-            fmt::format("tick {} cannot be logged: dtheta {}, final {}, sigma {} arcsec; allowed are "
-                        "finite angles and a sigma of 0 or more, or inf",
-                        r.tick, r.dtheta_arcsec, r.dtheta_final_arcsec, r.sigma_arcsec));
-    }
-    // One integer of at most 20 letters, four reals of at most 24, the sign, at most 10 of flags, and the commas.
-    std::array<char, 160> row;
-    const double t_end_s = static_cast<double>(r.tick + 1) * tick_s_;
-    const char* end = fmt::format_to(row.data(), FMT_COMPILE("{},{},{},{},{},{},{}\n"), r.tick, t_end_s,
-                                     r.dtheta_arcsec, r.dtheta_final_arcsec, r.sigma_arcsec, r.mode, r.flags);
-    file_.append({row.data(), static_cast<std::size_t>(end - row.data())});
-}
-
-void AngleWriter::close() { file_.close(); }
+void AngleWriter::write_timed(const TimedAngle& angle) { sink_->write(angle); }
+void AngleWriter::flush() { sink_->flush(); }
+void AngleWriter::close() { sink_->close(); }
+const std::string& AngleWriter::part_path() const { return sink_->part_path(); }
 
 }  // namespace zlg::logs

@@ -13,6 +13,7 @@ namespace zlg::logs {
 struct Column {
     std::string_view name;
     bool required = true;
+    const char* unit = "1";  // attribute of the HDF5 data set
 };
 
 struct ColumnMap {

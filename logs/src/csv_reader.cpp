@@ -8,6 +8,8 @@
 #include <optional>
 #include <zlg/logs/error.hpp>
 
+#include "row_rules.hpp"
+
 namespace zlg::logs {
 
 namespace {
@@ -100,19 +102,19 @@ void CsvReader::fail_integer(std::size_t column, std::string_view allowed) const
 
 std::int64_t CsvReader::integer(std::size_t column, std::int64_t min, std::int64_t max) const {
     const auto value = parse_integer(field(column));
-    if (!value || *value < min || *value > max) fail_integer(column, fmt::format("{}..{}", min, max));
+    if (!value || *value < min || *value > max) fail_integer(column, range(min, max));
     return *value;
 }
 
 std::int8_t CsvReader::sign(std::size_t column) const {
     const auto value = parse_integer(field(column));
-    if (value != 1 && value != -1) fail_integer(column, "+1 or -1");
+    if (value != 1 && value != -1) fail_integer(column, allowed_sign);
     return static_cast<std::int8_t>(*value);
 }
 
 bool CsvReader::flag(std::size_t column) const {
     const auto value = parse_integer(field(column));
-    if (value != 0 && value != 1) fail_integer(column, "0 or 1");
+    if (value != 0 && value != 1) fail_integer(column, allowed_flag);
     return value == 1;
 }
 
@@ -128,13 +130,13 @@ double CsvReader::any_real(std::size_t column) const {
 
 double CsvReader::real(std::size_t column) const {
     const double value = any_real(column);
-    if (!std::isfinite(value)) fail(column, "is not finite; allowed is a finite number");
+    if (!std::isfinite(value)) fail(column, not_finite);
     return value;
 }
 
 double CsvReader::real_or_infinite(std::size_t column) const {
     const double value = any_real(column);
-    if (std::isnan(value)) fail(column, "is not a number; allowed is a number or inf");
+    if (std::isnan(value)) fail(column, not_a_number);
     return value;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <initializer_list>
 #include <string_view>
 #include <zlg/logs/error.hpp>
@@ -13,6 +14,8 @@
 
 #include "csv_head.hpp"
 #include "file_descriptor.hpp"
+#include "hdf5_source.hpp"
+#include "signature.hpp"
 
 namespace zlg::logs {
 
@@ -29,7 +32,24 @@ void refuse_what_cannot_be_read_twice(const std::string& path) {
     if (!S_ISREG(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is no regular file", path));
 }
 
+std::ptrdiff_t hits(const CsvHead& head, std::initializer_list<std::string_view> known) {
+    return std::ranges::count_if(head.names, [&](const std::string& name) {
+        return std::ranges::find(known, std::string_view{name}) != known.end();
+    });
+}
+
+LogKind kind_of_hdf5(const std::string& path) {
+    const hdf5::Source source{path};
+    if (source.has("/raw")) return LogKind::raw_hdf5;
+    if (source.has("/angles")) return LogKind::angle_hdf5;
+    return LogKind::unknown;
+}
+
+}  // namespace
+
 bool has_hdf5_signature(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return false;
     const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
     std::array<char, hdf5_signature.size()> start{};
@@ -38,17 +58,9 @@ bool has_hdf5_signature(const std::string& path) {
     return std::string_view{start.data(), static_cast<std::size_t>(n)} == hdf5_signature;
 }
 
-std::ptrdiff_t hits(const CsvHead& head, std::initializer_list<std::string_view> known) {
-    return std::ranges::count_if(head.names, [&](const std::string& name) {
-        return std::ranges::find(known, std::string_view{name}) != known.end();
-    });
-}
-
-}  // namespace
-
 LogKind recognise(const std::string& path) {
     refuse_what_cannot_be_read_twice(path);
-    if (has_hdf5_signature(path)) return LogKind::hdf5;
+    if (has_hdf5_signature(path)) return kind_of_hdf5(path);
     try {
         LineReader lines{path};
         const CsvHead head = read_head(lines);
@@ -60,6 +72,14 @@ LogKind recognise(const std::string& path) {
         // Not the text of a log: that is the answer, not a failure.
     }
     return LogKind::unknown;
+}
+
+LogFormat format_of(const std::string& path) {
+    const std::string suffix = std::filesystem::path{path}.extension();
+    if (suffix == ".csv") return LogFormat::csv;
+    if (suffix == ".h5" || suffix == ".hdf5") return LogFormat::hdf5;
+    throw IoError(
+        fmt::format("cannot create {}: the suffix '{}' names no format; allowed is .csv, .h5 or .hdf5", path, suffix));
 }
 
 }  // namespace zlg::logs

@@ -2,17 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <zlg/logs/error.hpp>
 
 namespace zlg::logs {
 
+void require_one_line(const std::string& key, const std::string& value) {
+    if ((key + value).find_first_of(std::string_view{"\n\r\0", 3}) == std::string::npos) return;
+    throw FormatError(fmt::format("the setting {} cannot be logged: it holds a line break or NUL", key));
+}
+
 void write_settings(TableFile& file, const std::vector<std::pair<std::string, std::string>>& settings) {
     for (const auto& [key, value] : settings) {
-        if ((key + value).find_first_of(std::string_view{"\n\r\0", 3}) != std::string::npos) {
-            throw FormatError(fmt::format("the setting {} cannot be logged: it holds a line break or NUL", key));
-        }
+        require_one_line(key, value);
         file.append(fmt::format("# {} = {}\n", key, value));
     }
+}
+
+const std::string* find_setting(const std::vector<std::pair<std::string, std::string>>& settings,
+                                const std::string& key) {
+    const auto found = std::find_if(settings.rbegin(), settings.rend(), [&](const auto& s) { return s.first == key; });
+    return found == settings.rend() ? nullptr : &found->second;
 }
 
 }  // namespace zlg::logs

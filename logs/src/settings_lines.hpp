@@ -8,7 +8,14 @@
 
 namespace zlg::logs {
 
+// errors  FormatError: a key or a value that does not stay on its line.
+void require_one_line(const std::string& key, const std::string& value);
+
 // errors  FormatError: a key or a value that does not stay on its line; IoError.
 void write_settings(TableFile& file, const std::vector<std::pair<std::string, std::string>>& settings);
+
+// The value of the last setting of that name; null: there is none.
+[[nodiscard]] const std::string* find_setting(const std::vector<std::pair<std::string, std::string>>& settings,
+                                              const std::string& key);
 
 }  // namespace zlg::logs

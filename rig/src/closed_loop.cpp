@@ -56,8 +56,9 @@ ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion)
 
 LoopHalf ClosedLoop::advance() {
     const twin::TwinHalf half = advance_twin(twin_, actuator_);
+    sensor_ = half.sensor;
     LoopHalf out;
-    out.control = step(control_config_, control_state_, half.sensor);
+    out.control = step(control_config_, control_state_, sensor_);
     out.record = out.control.record;
     out.truth = half.truth;
     out.half_wave_v = control_state_.half_wave.estimate_v;
@@ -65,5 +66,7 @@ LoopHalf ClosedLoop::advance() {
     actuator_ = out.control.actuator;
     return out;
 }
+
+std::span<const float> ClosedLoop::light() const { return {sensor_.light_a.data(), sensor_.n_light}; }
 
 }  // namespace zlg::rig

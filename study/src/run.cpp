@@ -109,7 +109,6 @@ public:
         const MagnifiedTick shown = shown_tick(tick, task_.config.gyro.scale_arcsec, first, second);
         waiting_[static_cast<std::size_t>(tick) % waiting_.size()] = {shown.true_arcsec, shown};
         for (const rig::LoopHalf* half : {&first, &second}) {
-            if (task_.on_record) task_.on_record(half->record);
             take_health(*half);
             if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
         }
@@ -149,7 +148,7 @@ private:
         shown.dtheta_arcsec = row.dtheta_arcsec;
         shown.final_arcsec = row.dtheta_final_arcsec;
         magnifier_.take(shown, finder_.windows());
-        if (task_.on_row) task_.on_row(row);
+        if (task_.on_row) task_.on_row(row, waiting.true_arcsec);
     }
 
     // A window is needed until every variant has given the final row of its last tick.
@@ -239,13 +238,19 @@ VariantResult one_mode(const config::Config& config, const twin::Motion& motion,
     return variant.result();
 }
 
+rig::LoopHalf advance(rig::ClosedLoop& loop, const RunTask& task) {
+    rig::LoopHalf half = loop.advance();
+    if (task.on_record) task.on_record(half.record, loop.light());
+    return half;
+}
+
 void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t ticks, RunResult& result) {
     rig::ClosedLoop loop{task.config, motion};
     Experiment experiment{task, ticks};
     const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
-        const rig::LoopHalf first = loop.advance();
-        const rig::LoopHalf second = loop.advance();
+        const rig::LoopHalf first = advance(loop, task);
+        const rig::LoopHalf second = advance(loop, task);
         experiment.tick(tick, first, second);
         if (task.on_progress && tick % progress_stride == 0)
             task.on_progress(static_cast<double>(tick) / static_cast<double>(ticks));

@@ -13,7 +13,7 @@ class DefaultRun(CliTest):
     def setUp(self):
         super().setUp()
         self.out = self.folder / "run"
-        self.result = json.loads(self.succeed("run", "--json", "--out", self.out).stdout)
+        self.result = json.loads(self.succeed("run", "--json", "--out", self.out, "--format", "csv").stdout)
         self.variant = {variant["name"]: variant for variant in self.result["variants"]}
 
     def rms(self, name):
@@ -88,7 +88,7 @@ class FailingOutput(CliTest):
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
 
-        result = run("run", "--duration", "20", "--out", self.folder / "run", preexec_fn=small_files)
+        result = run("run", "--duration", "20", "--format", "csv", "--out", self.folder / "run", preexec_fn=small_files)
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertFalse((self.folder / "run").exists())
 

@@ -55,7 +55,7 @@ def setUpModule():
     SHARED["folder"] = folder
     unittest.addModuleCleanup(shutil.rmtree, folder)
     CliTest.setUpClass()
-    SHARED["result"] = run("run", *SHORT, "--out", folder / "first", "--json")
+    SHARED["result"] = run("run", *SHORT, "--out", folder / "first", "--format", "csv", "--json")
     if SHARED["result"].returncode != 0:
         raise AssertionError(f"zlg run fails: exit {SHARED['result'].returncode}, {SHARED['result'].stderr}")
 
@@ -146,7 +146,7 @@ class Replay(RunTest):
 
     def test_same_seed_gives_the_same_bytes(self):
         again = self.folder / "first"
-        self.succeed("run", *SHORT, "--out", again)
+        self.succeed("run", *SHORT, "--out", again, "--format", "csv")
         for name in FILES:
             with self.subTest(file=name):
                 self.assertEqual((again / name).read_bytes(), (self.out / name).read_bytes())
@@ -154,7 +154,7 @@ class Replay(RunTest):
     def test_threads_change_nothing(self):
         for threads in (1, 2):
             out = self.folder / f"threads-{threads}"
-            self.succeed("run", *SHORT, "--out", out, "--threads", threads)
+            self.succeed("run", *SHORT, "--out", out, "--format", "csv", "--threads", threads)
             for name in FILES[:4]:
                 with self.subTest(file=name, threads=threads):
                     self.assertEqual((out / name).read_bytes(), (self.out / name).read_bytes())
@@ -178,8 +178,8 @@ class Folders(RunTest):
 
     def test_force_replaces_the_files_of_a_run(self):
         out = self.folder / "again"
-        self.succeed("run", "--duration", "2", "--out", out)
-        self.succeed("run", "--duration", "1", "--out", out, "--force")
+        self.succeed("run", "--duration", "2", "--out", out, "--format", "csv")
+        self.succeed("run", "--duration", "1", "--out", out, "--format", "csv", "--force")
         self.assertEqual(len(raw_rows(out / "raw.csv")), 400)
 
     def test_default_folder_is_new_each_time(self):

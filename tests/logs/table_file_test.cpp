@@ -189,3 +189,16 @@ TEST(TableFile, nothing_can_be_written_after_close) {
     EXPECT_THROW(file.append("late"), IoError);
     EXPECT_THROW(file.close(), IoError);
 }
+
+TEST(TableFile, flush_hands_over_what_was_buffered) {
+    const TemporaryFolder folder;
+    TableFile file{folder.file("a.csv"), false};
+    EXPECT_EQ(file.part_path(), folder.file("a.csv.part"));
+    file.append("one\n");
+    file.flush();
+    EXPECT_EQ(content_of(file.part_path()), "one\n");
+    file.append("two\n");
+    file.close();
+    EXPECT_EQ(content_of(folder.file("a.csv")), "one\ntwo\n");
+    EXPECT_THROW(file.flush(), IoError);
+}

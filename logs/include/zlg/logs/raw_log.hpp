@@ -1,13 +1,13 @@
 #pragma once
-// The raw log: one row per half-period, as CSV.
+// The raw log: one row per half-period, as CSV or HDF5.
 
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <zlg/core/records.hpp>
-#include <zlg/logs/table_file.hpp>
 
 namespace zlg::logs {
 
@@ -24,24 +24,37 @@ inline constexpr RawColumns all_raw_columns{true, true, true, true, true};
 
 // What stands above the rows.
 struct RawHeader : RawColumns {
-    std::vector<std::pair<std::string, std::string>> settings;  // lines `# key = value`, in their order
+    std::vector<std::pair<std::string, std::string>> settings;  // `# key = value` or /config, in their order
     std::vector<std::string> warnings;                          // unknown columns that are ignored, one line each
+    int light_samples = 0;                                      // N of /raw/light; 0: there is none
+    bool complete = true;  // false: an HDF5 log that is being written, or whose writer was interrupted
 };
+
+class RawSource;
+class RawSink;
 
 // Reads rows in order and checks every one: half without holes from 0, bias_sign +1/-1 and alternating, mode +1/-1,
 // integer counts of magnitude at most 2^52, loop_closed and valid 0/1, finite numbers. Absent optional columns: NaN,
-// valid 1.
+// valid 1. The format is told from the content.
 class RawReader {
 public:
-    // errors  IoError, FormatError (an empty file, no header, a missing or misspelt column).
+    // An HDF5 log may be open in a writer, or left behind by one that was killed: its whole rows are there.
+    //
+    // errors  IoError, FormatError (an empty file, no header, a missing or misspelt column, one of a wrong kind).
     explicit RawReader(const std::string& path);
     ~RawReader();
     RawReader(RawReader&&) noexcept;
 
     [[nodiscard]] const RawHeader& header() const;
 
-    // The next row; false at the end. errors FormatError: path, line, column, value, what is allowed.
+    // The next row; false at the end. errors FormatError: path, line or row, column, value, what is allowed.
     bool next(core::HalfRecord& record);
+
+    // The light samples of the row that was read last, until the next call; empty where the log has none.
+    [[nodiscard]] std::span<const float> light() const;
+
+    // Looks for rows that have been written since; true: `next` has more. Also renews header().complete.
+    bool refresh();
 
     // False where the row that was read last is the file's last line and has no end: it may have been cut off.
     [[nodiscard]] bool line_is_ended() const;
@@ -50,24 +63,38 @@ public:
     [[nodiscard]] double fraction_read() const;
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<RawSource> source_;
 };
 
-// Writes a raw log with the required and the given columns. It appears under its name at `close`, whole, or not at all.
+struct RawWriterOptions {
+    int light_samples = 0;   // of each half, 0..64; HDF5 only
+    bool keep_part = false;  // HDF5: destroyed before `close`, PATH.part stays, with all rows written so far
+};
+
+// Writes a raw log with the required and the given columns, in the format that the suffix says: .csv, .h5 or .hdf5.
+//
+// It appears under its name at `close`, whole, or not at all. As HDF5 it grows as PATH.part, which can be read meanwhile
+// and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
 class RawWriter {
 public:
-    // errors  IoError, FormatError (a setting with a line break).
+    // errors  IoError (another suffix included), FormatError (a setting with a line break, light samples in a CSV log).
     RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings, bool force,
-              const RawColumns& columns = all_raw_columns);
+              const RawColumns& columns = all_raw_columns, const RawWriterOptions& options = {});
+    ~RawWriter();
+    RawWriter(RawWriter&&) noexcept;
 
-    // errors  IoError; FormatError: a number of a column that is not finite, which no reader would accept.
-    void write(const core::HalfRecord& record);
+    // errors  IoError; FormatError: a number of a column that is not finite, which no reader would accept; another number
+    // of light samples than announced.
+    void write(const core::HalfRecord& record, std::span<const float> light = {});
+
+    // Makes all rows so far visible to readers of PATH.part. errors  IoError.
+    void flush();
     void close();
 
+    [[nodiscard]] const std::string& part_path() const;
+
 private:
-    TableFile file_;
-    RawColumns columns_;
+    std::unique_ptr<RawSink> sink_;
 };
 
 }  // namespace zlg::logs

@@ -20,10 +20,15 @@ public:
     // errors  IoError: the disk is full, or any other failure to write.
     void append(std::string_view text);
 
+    // Hands what was buffered to the file. errors  IoError.
+    void flush();
+
     // Renames PATH.part to PATH; nothing can be appended after it.
     //
     // errors  IoError: the last block could not be written, or PATH has appeared meanwhile and not `force`.
     void close();
+
+    [[nodiscard]] const std::string& part_path() const;  // PATH.part
 
 private:
     struct State;

@@ -2,6 +2,7 @@
 // The loop of twin and control, one half-period at a time.
 
 #include <cstdint>
+#include <span>
 
 #include <zlg/config/config.hpp>
 #include <zlg/core/gyro_control.hpp>
@@ -25,11 +26,15 @@ public:
 
     LoopHalf advance();
 
+    // The light samples of beam A in the half before, until the next `advance`.
+    [[nodiscard]] std::span<const float> light() const;
+
 private:
     twin::Twin twin_;
     core::GyroControlConfig control_config_;
     core::GyroControlState control_state_;
     core::ActuatorFrame actuator_;
+    core::SensorFrame sensor_{};
 };
 
 }  // namespace zlg::rig

@@ -1,0 +1,66 @@
+#pragma once
+// A block of rows of several columns, and the first row in it that is not good.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "hdf5_column.hpp"
+
+namespace zlg::logs::hdf5 {
+
+// The index of the first value that is not `good(value, index)`; n: all are. Looks for it only when there is one, so that
+// the loop over a good column is vectorised.
+template <class T, class Good>
+std::size_t first_bad(const T* values, std::size_t n, Good good) {
+    bool all_good = true;
+    for (std::size_t i = 0; i < n; ++i) all_good &= good(values[i], i);
+    if (all_good) return n;
+    std::size_t i = 0;
+    while (good(values[i], i)) ++i;
+    return i;
+}
+
+class Block {
+public:
+    explicit Block(const Source& source) : source_{&source} {}
+
+    void begin(hsize_t first, std::size_t n);
+
+    [[nodiscard]] hsize_t end() const { return first_ + n_; }
+    [[nodiscard]] std::size_t good_rows() const { return good_rows_; }
+    [[nodiscard]] bool is_damaged() const { return good_rows_ < n_; }
+
+    // Reads the block of a column and checks it; `complaint(value)` is what is wrong with a bad one.
+    template <class T, class Good, class Complaint>
+    void take(Column<T>& column, Good good, Complaint complaint) {
+        const std::size_t width = column.width();
+        const std::size_t readable = std::min(column.read_block(first_, n_), good_rows_) * width;
+        const std::size_t bad = first_bad(column.values(), readable, good) / width;
+        if (bad >= good_rows_) return;
+        good_rows_ = bad;
+        if constexpr (std::is_integral_v<T>) {
+            const std::int64_t value = column.integer(first_ + bad);
+            note(column.path(), fmt::format("{}", value), complaint(value));
+        } else {
+            std::size_t k = bad * width;
+            while (good(column.values()[k], k)) ++k;
+            note(column.path(), fmt::format("{}", column.values()[k]), complaint(column.values()[k]));
+        }
+    }
+
+    // Complains of the row behind the good ones. errors  FormatError, always.
+    [[noreturn]] void fail() const;
+
+private:
+    void note(const std::string& column, const std::string& value, const std::string& what);
+
+    const Source* source_;
+    hsize_t first_ = 0;
+    std::size_t n_ = 0;
+    std::size_t good_rows_ = 0;
+    std::string damage_;
+};
+
+}  // namespace zlg::logs::hdf5

@@ -1,0 +1,105 @@
+#pragma once
+// One column of an HDF5 log, read in blocks of rows.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "hdf5_source.hpp"
+
+namespace zlg::logs::hdf5 {
+
+// How a column must look.
+struct Shape {
+    bool is_integer = true;  // a column of reals may hold integers, one of integers no reals
+    int max_width = 0;       // two-dimensional, with so many values in a row at most; 0: one-dimensional
+};
+
+class DataSet {
+public:
+    DataSet() = default;
+
+    // errors  FormatError: no data set, another shape, numbers of more than 8 bytes, stored outside the file, chunks of
+    // more than 64 MiB.
+    DataSet(const Source& source, std::string path, Shape shape);
+
+    [[nodiscard]] bool is_open() const { return set_.is_open(); }
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] hsize_t rows() const { return rows_; }
+    [[nodiscard]] std::size_t width() const { return width_; }  // values in a row
+    [[nodiscard]] bool holds(hid_t type) const { return H5Tequal(type_.get(), type) > 0; }
+
+    // Looks how long the data set is by now.
+    void refresh();
+
+    // Rows first..first+n-1. errors  IoError, FormatError.
+    void read(hsize_t first, std::size_t n, hid_t type, void* values) const;
+
+private:
+    void measure();
+    void check_type(const Shape& shape) const;
+    [[nodiscard]] std::size_t check_storage() const;
+
+    const Source* source_ = nullptr;
+    std::string path_;
+    Handle set_;
+    Handle type_;
+    Handle space_;
+    int rank_ = 1;
+    hsize_t rows_ = 0;
+    std::size_t width_ = 1;
+};
+
+template <class T>
+hid_t memory_type() {
+    if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+    if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+    if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+    if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
+    if constexpr (std::is_same_v<T, std::int8_t>) return H5T_NATIVE_INT8;
+    if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
+}
+
+template <class T>
+class Column : public DataSet {
+public:
+    Column() = default;
+    Column(const Source& source, std::string path, int max_width = 0)
+        : DataSet{source, std::move(path), {!std::is_floating_point_v<T>, max_width}},
+          is_direct_{std::is_floating_point_v<T> || std::is_same_v<T, std::int64_t> || holds(memory_type<T>())} {}
+
+    // Of the block that was read last.
+    [[nodiscard]] const T* values() const { return values_.data(); }
+    [[nodiscard]] T operator[](std::size_t row) const { return values_[row]; }
+
+    // Reads rows first..first+n-1; returns how many of them from the first on hold integers that a T can hold.
+    std::size_t read_block(hsize_t first, std::size_t n) {
+        values_.resize(n * width());
+        if (is_direct_) {
+            read(first, n, memory_type<T>(), values_.data());
+            return n;
+        }
+        std::vector<std::int64_t> wide(n);
+        read(first, n, H5T_NATIVE_INT64, wide.data());
+        for (std::size_t i = 0; i < n; ++i) {
+            values_[i] = static_cast<T>(wide[i]);
+            if (static_cast<std::int64_t>(values_[i]) != wide[i]) return i;
+        }
+        return n;
+    }
+
+    // One integer as the file has it.
+    [[nodiscard]] std::int64_t integer(hsize_t row) const {
+        std::int64_t value = 0;
+        read(row, 1, H5T_NATIVE_INT64, &value);
+        return value;
+    }
+
+private:
+    bool is_direct_ = true;
+    std::vector<T> values_;
+};
+
+}  // namespace zlg::logs::hdf5

@@ -1,0 +1,200 @@
+#include "hdf5_storage.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <zlg/logs/error.hpp>
+
+namespace zlg::logs::hdf5 {
+
+namespace {
+
+constexpr haddr_t max_address = (haddr_t{1} << 62) - 1;
+
+// The superblock stands first in the file; without its signature nobody takes the file for a log.
+constexpr std::size_t superblock_bytes = 48;
+
+struct DriverInfo {
+    Storage* storage;
+};
+
+// What the library hands to every call of the driver; its own part comes first.
+struct File {
+    H5FD_t library_part;
+    Storage* storage;
+    haddr_t end_of_allocation;
+};
+
+File& of(H5FD_t* file) { return *reinterpret_cast<File*>(file); }
+const File& of(const H5FD_t* file) { return *reinterpret_cast<const File*>(file); }
+
+H5FD_t* open_storage(const char*, unsigned, hid_t access, haddr_t) {
+    const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(access));
+    if (info == nullptr) return nullptr;
+    File* file = new (std::nothrow) File{};
+    if (file != nullptr) file->storage = info->storage;
+    return reinterpret_cast<H5FD_t*>(file);
+}
+
+herr_t close_storage(H5FD_t* file) {
+    delete &of(file);
+    return 0;
+}
+
+herr_t query(const H5FD_t*, unsigned long* flags) {
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+             H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_SUPPORTS_SWMR_IO | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+    return 0;
+}
+
+haddr_t get_eoa(const H5FD_t* file, H5FD_mem_t) { return of(file).end_of_allocation; }
+haddr_t get_eof(const H5FD_t* file, H5FD_mem_t) { return of(file).storage->end(); }
+
+herr_t set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t address) {
+    of(file).end_of_allocation = address;
+    return 0;
+}
+
+herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, void* buffer) try {
+    return of(file).storage->read(address, size, buffer) ? 0 : -1;
+} catch (...) {
+    return -1;
+}
+
+herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, const void* buffer) try {
+    of(file).storage->write(address, size, buffer);
+    return 0;
+} catch (...) {
+    return -1;
+}
+
+herr_t truncate(H5FD_t* file, hid_t, hbool_t) try {
+    of(file).storage->resize(of(file).end_of_allocation);
+    return 0;
+} catch (...) {
+    return -1;
+}
+
+// PATH.part is made for one writer by O_EXCL, and readers of a SWMR file need no lock. But only for a driver that has
+// these calls does the library mark the file as open.
+herr_t lock(H5FD_t*, hbool_t) { return 0; }
+herr_t unlock(H5FD_t*) { return 0; }
+
+hid_t register_driver() {
+    static H5FD_class_t driver{};
+    driver.name = "zlg log";
+    driver.maxaddr = max_address;
+    driver.fc_degree = H5F_CLOSE_STRONG;
+    driver.fapl_size = sizeof(DriverInfo);
+    driver.open = &open_storage;
+    driver.close = &close_storage;
+    driver.query = &query;
+    driver.get_eoa = &get_eoa;
+    driver.set_eoa = &set_eoa;
+    driver.get_eof = &get_eof;
+    driver.read = &read;
+    driver.write = &write;
+    driver.truncate = &truncate;
+    driver.lock = &lock;
+    driver.unlock = &unlock;
+    constexpr H5FD_mem_t kinds[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
+    std::ranges::copy(kinds, driver.fl_map);
+    return H5FDregister(&driver);
+}
+
+// Number of bytes that were read before the end of the file, or -1.
+ssize_t read_from_file(int fd, haddr_t address, size_t size, char* buffer) {
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t n = ::pread(fd, buffer + done, size - done, static_cast<off_t>(address + done));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return -1;
+        if (n == 0) break;
+        done += static_cast<std::size_t>(n);
+    }
+    return static_cast<ssize_t>(done);
+}
+
+}  // namespace
+
+void Storage::publish() {
+    const std::size_t head = std::min(superblock_bytes, image_.size());
+    write_to_file(head, image_.size() - head, image_.data() + head);
+    write_to_file(0, head, image_.data());
+    staged_ = false;
+    image_ = {};
+}
+
+bool Storage::read(haddr_t address, size_t size, void* buffer) {
+    char* const bytes = static_cast<char*>(buffer);
+    std::memset(bytes, 0, size);
+    if (staged_) {
+        if (address < image_.size()) std::memcpy(bytes, &image_[address], std::min(size, image_.size() - address));
+        return true;
+    }
+    const bool good = read_from_file(fd_, address, size, bytes) >= 0;
+    for (const auto& [begin, lost] : lost_) {
+        const haddr_t from = std::max(begin, address);
+        const haddr_t to = std::min(begin + lost.size(), address + size);
+        if (from < to) std::memcpy(bytes + (from - address), lost.data() + (from - begin), to - from);
+    }
+    return good;
+}
+
+void Storage::write(haddr_t address, size_t size, const void* buffer) {
+    const char* const bytes = static_cast<const char*>(buffer);
+    end_ = std::max(end_, address + size);
+    if (staged_) {
+        if (image_.size() < address + size) image_.resize(address + size);
+        std::memcpy(&image_[address], bytes, size);
+        return;
+    }
+    if (error_ == 0) write_to_file(address, size, bytes);
+    if (error_ == 0) return;
+    // A later write to the same place is the valid one, whatever its size.
+    for (auto& [begin, lost] : lost_) {
+        const haddr_t from = std::max(begin, address);
+        const haddr_t to = std::min(begin + lost.size(), address + size);
+        if (from < to) std::memcpy(lost.data() + (from - begin), bytes + (from - address), to - from);
+    }
+    auto& lost = lost_[address];
+    if (lost.size() < size) lost.assign(bytes, bytes + size);
+}
+
+void Storage::resize(haddr_t size) {
+    end_ = size;
+    if (staged_) {
+        image_.resize(size);
+    } else if (error_ == 0 && ::ftruncate(fd_, static_cast<off_t>(size)) != 0) {
+        error_ = errno;
+    }
+}
+
+void Storage::write_to_file(haddr_t address, size_t size, const char* bytes) {
+    while (size > 0) {
+        const ssize_t n = ::pwrite(fd_, bytes, size, static_cast<off_t>(address));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) {
+            error_ = n < 0 ? errno : ENOSPC;
+            return;
+        }
+        bytes += n;
+        address += static_cast<haddr_t>(n);
+        size -= static_cast<std::size_t>(n);
+    }
+}
+
+Handle access_to(Storage& storage) {
+    static const hid_t driver = register_driver();
+    Handle access{H5Pcreate(H5P_FILE_ACCESS), &H5Pclose};
+    const DriverInfo info{&storage};
+    if (driver < 0 || H5Pset_driver(access.get(), driver, &info) < 0 ||
+        H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST) < 0) {
+        throw IoError("the HDF5 library refuses the driver of a growing log: " + last_failure().reason);
+    }
+    return access;
+}
+
+}  // namespace zlg::logs::hdf5

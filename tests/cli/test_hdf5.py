@@ -1,0 +1,292 @@
+"""HDF5 logs as a user meets them: other programs read them, they hold the same bits as CSV, they survive what happens."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy
+
+from support import ZLG, CliTest, body_of, csv_text, quiet_log, run
+
+INPUT, USAGE = 3, 2
+UNITS = {"half": "1", "bias_sign": "1", "mode": "1", "counts": "count", "loop_closed": "1", "valid": "1",
+         "detuning_lambda": "wavelength", "detuning_sq_lambda2": "wavelength^2", "piezo_v": "V", "temperature_c": "degC"}
+ANGLE_UNITS = {"tick": "1", "t_s": "s", "dtheta_arcsec": "arcsec", "dtheta_final_arcsec": "arcsec", "sigma_arcsec": "arcsec",
+               "mode": "1", "flags": "1"}
+SHORT = ["--duration", 20, "--set", "switching.interval_s=4"]
+
+
+def columns(path, group):
+    with h5py.File(path) as file:
+        return {name: data[()] for name, data in file[group].items()}
+
+
+def csv_columns(path):
+    table = numpy.genfromtxt(body_of(path).decode().splitlines(), delimiter=",", names=True)
+    return {name: table[name] for name in table.dtype.names}
+
+
+class OtherPrograms(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "run"
+        self.succeed("run", *SHORT, "--out", self.out, "--light")
+
+    def test_h5py_reads_columns_units_and_configuration(self):
+        import tomllib
+        with h5py.File(self.out / "raw.h5") as raw:
+            self.assertEqual({name: data.attrs["unit"] for name, data in raw["raw"].items() if name != "light"}, UNITS)
+            self.assertEqual((raw.attrs["tick_s"], raw.attrs["scale_arcsec"], raw.attrs["format_version"]), (0.005, 3.263, 1))
+            self.assertEqual(raw["raw/light"].shape, (8000, 16))
+            text = raw["config"][()].decode()
+        self.assertEqual(tomllib.loads(text)["switching"]["interval_s"], 4)
+        with h5py.File(self.out / "angles.h5") as angles:
+            self.assertEqual({name: data.attrs["unit"] for name, data in angles["angles"].items()}, ANGLE_UNITS)
+            self.assertEqual(angles["truth/dtheta_arcsec"].shape, (4000,))
+
+    def test_h5dump_reads_them(self):
+        for name, group in (("raw.h5", "/raw"), ("angles.h5", "/angles")):
+            dump = subprocess.run(["h5dump", "-g", group, self.out / name], capture_output=True, text=True)
+            self.assertEqual(dump.returncode, 0, dump.stderr)
+            self.assertIn('"unit"', dump.stdout)
+
+    def test_final_angles_are_near_the_truth_of_the_twin(self):
+        with h5py.File(self.out / "angles.h5") as angles:
+            error = angles["angles/dtheta_final_arcsec"][()] - angles["truth/dtheta_arcsec"][()]
+        self.assertLess(abs(error).max(), 60.0)
+        # Counter rounding, differenced: 3.263/sqrt(6) arcsec a tick.
+        self.assertAlmostEqual(error.std(), 1.33, delta=0.25)
+
+    def test_light_samples_hold_the_logged_detuning(self):
+        # What the processor demodulated it made of these samples: more light difference, more detuning.
+        raw = columns(self.out / "raw.h5", "raw")
+        sign = raw["bias_sign"].astype(float) * raw["mode"]
+        light = raw["light"].mean(axis=1)
+        closed = (raw["loop_closed"][1:] == 1) & (raw["loop_closed"][:-1] == 1)
+        difference = (sign[1:] * (light[1:] - light[:-1]))[closed]
+        far = abs(raw["detuning_lambda"][1:][closed]) > 0.02
+        self.assertGreater(far.sum(), 10)
+        self.assertGreater(abs(numpy.corrcoef(difference[far], raw["detuning_lambda"][1:][closed][far])[0, 1]), 0.5)
+
+
+class SameBits(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.csv, self.h5 = self.folder / "raw.csv", self.folder / "raw.h5"
+        self.succeed("simulate", *SHORT, "--out", self.csv)
+        self.succeed("simulate", *SHORT, "--out", self.h5)
+
+    def test_raw_logs(self):
+        ours, theirs = columns(self.h5, "raw"), csv_columns(self.csv)
+        self.assertEqual(set(ours), set(theirs))
+        for name in ours:
+            self.assertTrue((ours[name] == theirs[name]).all(), name)
+
+    def test_processed_from_either_to_either(self):
+        outs = []
+        for raw in (self.csv, self.h5):
+            for suffix in ("csv", "h5", "hdf5"):
+                out = self.folder / f"{raw.suffix[1:]}-to.{suffix}"
+                self.succeed("process", raw, "--out", out)
+                outs.append(csv_columns(out) if suffix == "csv" else columns(out, "angles"))
+        for other in outs[1:]:
+            for name in outs[0]:
+                self.assertTrue((outs[0][name] == other[name]).all(), name)
+
+    def test_live_and_replayed_with_truth_beside(self):
+        self.succeed("run", *SHORT, "--out", self.folder / "run")
+        live = columns(self.folder / "run" / "angles.h5", "angles")
+        self.succeed("process", self.h5, "--out", self.folder / "again.h5")
+        again = columns(self.folder / "again.h5", "angles")
+        for name in live:
+            self.assertTrue((live[name] == again[name]).all(), name)
+
+    def test_same_seed_gives_the_same_bytes(self):
+        again = self.folder / "again.h5"
+        self.succeed("simulate", *SHORT, "--out", again)
+        self.assertEqual(again.read_bytes(), self.h5.read_bytes())
+
+    def test_converted_there_and_back(self):
+        self.succeed("convert", self.csv, "--out", self.folder / "there.h5")
+        self.succeed("convert", self.folder / "there.h5", "--out", self.folder / "back.csv")
+        self.assertEqual((self.folder / "back.csv").read_bytes(), self.csv.read_bytes())
+        angles = self.folder / "angles.csv"
+        self.succeed("process", self.csv, "--out", angles)
+        self.succeed("convert", angles, "--out", self.folder / "angles.h5")
+        self.succeed("convert", self.folder / "angles.h5", "--out", self.folder / "angles-back.csv")
+        self.assertEqual((self.folder / "angles-back.csv").read_bytes(), angles.read_bytes())
+
+    def test_notes_of_the_laboratory_survive(self):
+        noted = self.write("noted.csv", csv_text(quiet_log(), lines=["operator = A. B.", "gyro.scale_arcsec = 1.5"]))
+        self.succeed("convert", noted, "--out", self.folder / "noted.h5")
+        self.succeed("convert", self.folder / "noted.h5", "--out", self.folder / "back.csv")
+        self.assertEqual((self.folder / "back.csv").read_text(), noted.read_text())
+
+    def test_a_log_by_another_program(self):
+        # Written with h5py, with other integer types, sections in the configuration and fixed-length strings.
+        mine = self.folder / "mine.h5"
+        with h5py.File(mine, "w") as file:
+            for name, values in columns(self.h5, "raw").items():
+                narrow = values.astype("i4") if values.dtype.kind in "iu" else values
+                file.create_dataset(f"raw/{name}", data=narrow).attrs["unit"] = UNITS[name]
+            file["config"] = numpy.bytes_("[gyro]\nbias_hz = 60e3\n[switching]\ninterval_s = 4\n")
+            file.attrs["tick_s"], file.attrs["scale_arcsec"], file.attrs["format_version"] = 0.005, 3.263, 1
+        self.succeed("process", mine, "--out", self.folder / "a.h5")
+        self.succeed("process", self.h5, "--out", self.folder / "b.h5")
+        a, b = columns(self.folder / "a.h5", "angles"), columns(self.folder / "b.h5", "angles")
+        for name in a:
+            self.assertTrue((a[name] == b[name]).all(), name)
+
+
+class Interrupted(CliTest):
+    HALVES = 400 * 3000
+
+    def kill_at_random(self, out):
+        """The recording, killed after a random time; its rows so far."""
+        writer = subprocess.Popen([ZLG, "simulate", "--duration", "3000", "--set", "switching.interval_s=4", "--out", out],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(self.random.uniform(0.0, 0.4))
+        writer.send_signal(signal.SIGKILL)
+        writer.wait()
+
+    def rows_seen_by_a_reader(self, part):
+        try:
+            with h5py.File(part, "r", libver="latest", swmr=True) as file:
+                return min(data.shape[0] for data in file["raw"].values())
+        except (OSError, KeyError):
+            return 0
+
+    def test_killed_fifty_times(self):
+        whole = self.folder / "whole.h5"
+        self.succeed("simulate", "--duration", "600", "--set", "switching.interval_s=4", "--out", whole)
+        expected = columns(whole, "raw")
+        survived = with_rows = 0
+        for k in range(50):
+            out = self.folder / f"killed-{k}.h5"
+            part = self.folder / f"killed-{k}.h5.part"
+            self.kill_at_random(out)
+            self.assertFalse(out.exists())
+            if not part.exists():
+                survived += 1
+                continue
+            before, seen = part.read_bytes(), self.rows_seen_by_a_reader(part)
+            if seen > 0:
+                with_rows += 1
+                self.check_repair(part, seen, expected)
+            else:
+                self.assertIn(run("inspect", part, "--repair").returncode, (0, INPUT))
+            self.assertEqual(part.read_bytes(), before, "the repair touched its input")
+            survived += 1
+            for path in self.folder.glob("killed-*"):
+                path.unlink()
+        self.assertEqual(survived, 50)
+        self.assertGreater(with_rows, 10)
+
+    def check_repair(self, part, seen, expected):
+        clean = self.folder / "killed-clean.h5"
+        found = json.loads(self.succeed("inspect", part, "--repair", "--out", clean, "--json").stdout)
+        self.assertGreaterEqual(found["halves"], seen)
+        self.assertIn("not closed", found["damage"])
+        rows = columns(clean, "raw")
+        n = min(len(expected["half"]), found["halves"])
+        for name in expected:
+            self.assertEqual(len(rows[name]), found["halves"], name)
+            self.assertTrue((rows[name][:n] == expected[name][:n]).all(), name)
+        self.assertEqual(run("inspect", clean).returncode, 0)
+        self.succeed("process", clean, "--out", self.folder / "killed-angles.h5", "--force")
+
+    def test_repair_finds_a_name_of_its_own(self):
+        out = self.folder / "killed.h5"
+        while not (self.folder / "killed.h5.part").exists() or not self.rows_seen_by_a_reader(self.folder / "killed.h5.part"):
+            (self.folder / "killed.h5.part").unlink(missing_ok=True)
+            self.kill_at_random(out)
+        self.succeed("inspect", self.folder / "killed.h5.part", "--repair")
+        self.assertEqual(run("inspect", self.folder / "killed.repaired.h5").returncode, 0)
+        self.refuse(USAGE, "inspect", self.folder / "killed.h5.part", "--repair", "--out", out, "--force", says=["killed.h5"])
+        self.assertTrue((self.folder / "killed.h5.part").exists())
+
+    def test_an_unfinished_recording_needs_force(self):
+        (self.folder / "raw.h5.part").write_bytes(b"precious")
+        self.refuse(INPUT, "simulate", "--duration", "1", "--out", self.folder / "raw.h5", says=["raw.h5.part", "--force"])
+        self.assertEqual((self.folder / "raw.h5.part").read_bytes(), b"precious")
+        self.succeed("simulate", "--duration", "1", "--out", self.folder / "raw.h5", "--force")
+        self.assertFalse((self.folder / "raw.h5.part").exists())
+
+
+class Followed(CliTest):
+    def test_angles_of_a_growing_log_are_those_of_the_complete_one(self):
+        raw, live = self.folder / "raw.h5", self.folder / "live.h5"
+        writer = subprocess.Popen([ZLG, "simulate", "--duration", "1500", "--out", raw], stdout=subprocess.DEVNULL)
+        part = self.folder / "raw.h5.part"
+        while not part.exists() and writer.poll() is None:
+            time.sleep(0.001)
+        time.sleep(0.1)
+        follower = run("process", part, "--follow", "--out", live)
+        self.assertEqual(writer.wait(), 0)
+        self.assertEqual(follower.returncode, 0, follower.stderr)
+        self.assertEqual(follower.stderr, "")
+        self.succeed("process", raw, "--out", self.folder / "after.h5")
+        ours, theirs = columns(live, "angles"), columns(self.folder / "after.h5", "angles")
+        for name in ours:
+            self.assertTrue(numpy.array_equal(ours[name], theirs[name]), name)
+
+    def test_it_gives_up_where_nothing_comes(self):
+        raw = self.folder / "raw.h5"
+        writer = subprocess.Popen([ZLG, "simulate", "--duration", "30000", "--out", raw], stdout=subprocess.DEVNULL)
+        time.sleep(0.7)
+        writer.kill()
+        writer.wait()
+        result = run("process", f"{raw}.part", "--follow", "--give-up", "0.2", "--out", self.folder / "a.h5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("nothing was added", result.stderr)
+
+
+class Failing(CliTest):
+    @staticmethod
+    def small_files():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1_500_000, 1_500_000))
+
+    def test_a_recording_that_cannot_go_on_is_left_and_named(self):
+        for verb, out, part in (("simulate", "raw.h5", "raw.h5.part"), ("run", "folder", "folder/raw.h5.part")):
+            result = self.refuse(INPUT, verb, "--duration", "600", "--out", self.folder / out, says=["raw.h5.part"],
+                                 preexec_fn=self.small_files)
+            self.assertIn("recorded until then", result.stderr)
+            found = json.loads(run("inspect", self.folder / part, "--json").stdout)
+            self.assertGreater(found["halves"], 1000)
+
+    def test_process_leaves_nothing(self):
+        self.succeed("simulate", "--duration", "600", "--out", self.folder / "raw.h5")
+        before = sorted(os.listdir(self.folder))
+        self.refuse(INPUT, "process", self.folder / "raw.h5", "--out", self.folder / "a.h5", says=["a.h5"],
+                    preexec_fn=self.small_files)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_light_has_no_room_in_csv(self):
+        self.refuse(USAGE, "simulate", "--light", "--out", self.folder / "raw.csv", says=["light"])
+
+    def test_damaged_files(self):
+        self.succeed("simulate", "--duration", "20", "--out", self.folder / "raw.h5")
+        whole = (self.folder / "raw.h5").read_bytes()
+        for keep in (0, 8, 100, 2000, len(whole) // 2):
+            cut = self.write("cut.h5", whole[:keep])
+            self.refuse(INPUT, "process", cut, "--out", self.folder / "a.h5", says=["cut.h5"])
+        self.assertFalse((self.folder / "a.h5").exists())
+
+    def test_a_bad_value_is_named_with_its_row_and_column(self):
+        self.succeed("simulate", "--duration", "20", "--out", self.folder / "raw.h5")
+        for name, row, value in (("mode", 4000, 3), ("bias_sign", 17, 0), ("detuning_lambda", 99, numpy.nan), ("half", 5, 9)):
+            bad = self.folder / "bad.h5"
+            bad.write_bytes((self.folder / "raw.h5").read_bytes())
+            with h5py.File(bad, "r+") as file:
+                file[f"raw/{name}"][row] = value
+            self.refuse(INPUT, "process", bad, "--out", self.folder / "a.h5", says=["bad.h5", name, f"row {row + 1},"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,276 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <stdlib.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <vector>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/raw_log.hpp>
+
+#include "hdf5_file.hpp"
+#include "temporary_folder.hpp"
+
+using namespace zlg::logs;
+using namespace zlg::test;
+using zlg::core::HalfRecord;
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+namespace {
+
+// Properties are tried on the same cases in every run.
+const int fixed_seed = ::setenv("RC_PARAMS", "seed=1", 0);
+
+std::vector<HalfRecord> rows_of(RawReader& reader) {
+    std::vector<HalfRecord> rows;
+    for (HalfRecord row; reader.next(row);) rows.push_back(row);
+    return rows;
+}
+
+std::vector<HalfRecord> rows_in(const std::string& path) {
+    RawReader reader{path};
+    return rows_of(reader);
+}
+
+// Recognisable in every column.
+HalfRecord row_of(std::int64_t half) {
+    const auto x = static_cast<double>(half);
+    return {.half = half,
+            .counts = 151 - 302 * (half % 2) + half % 17,
+            .detuning_lambda = 1e-3 * std::sin(x),
+            .detuning_sq_lambda2 = 1e-6 * x,
+            .piezo_v = 150.0 + x,
+            .temperature_c = 20.0 - 1e-4 * x,
+            .bias_sign = static_cast<std::int8_t>(half % 2 == 0 ? 1 : -1),
+            .mode = static_cast<std::int8_t>(half % 1000 < 500 ? 1 : -1),
+            .loop_closed = half % 500 > 3,
+            .valid = half % 777 != 0};
+}
+
+void copy(const std::string& from, const std::string& to) {
+    RawReader reader{from};
+    RawWriter writer{to, reader.header().settings, false, reader.header()};
+    for (HalfRecord row; reader.next(row);) writer.write(row);
+    writer.close();
+}
+
+rc::Gen<double> any_finite_double() {
+    return rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [](std::uint64_t bits) {
+        const auto value = std::bit_cast<double>(bits);
+        return std::isfinite(value) ? value : 0.1;
+    });
+}
+
+std::vector<HalfRecord> any_records() {
+    constexpr std::int64_t limit = std::int64_t{1} << 52;
+    std::vector<HalfRecord> rows(*rc::gen::inRange<std::size_t>(1, 40));
+    const bool first_positive = *rc::gen::arbitrary<bool>();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        HalfRecord& r = rows[i];
+        r.half = static_cast<std::int64_t>(i);
+        r.bias_sign = ((i % 2 == 0) == first_positive) ? 1 : -1;
+        r.mode = *rc::gen::element<std::int8_t>(-1, 1);
+        r.counts = *rc::gen::inRange<std::int64_t>(-limit, limit + 1);
+        r.loop_closed = *rc::gen::arbitrary<bool>();
+        r.valid = *rc::gen::arbitrary<bool>();
+        r.detuning_lambda = *any_finite_double();
+        r.detuning_sq_lambda2 = *any_finite_double();
+        r.piezo_v = *any_finite_double();
+        r.temperature_c = *any_finite_double();
+    }
+    return rows;
+}
+
+// Lines as they stand in CSV logs: words, numbers, strings, lists, nonsense.
+Settings any_settings() {
+    const std::string letters = "ab1.-_+eE'\"[]{}=#, \\\tz";
+    Settings settings(*rc::gen::inRange<std::size_t>(0, 8));
+    for (auto& [key, value] : settings) {
+        key = *rc::gen::element<std::string>("gyro.bias_hz", "gyro.bias_chi", "gyro.bias_hz.x", "motion.path", "note",
+                                             "a.b", "a..b", "a.b'c", "drift.magnetic_arcsec_s");
+        value = *rc::gen::oneOf(
+            rc::gen::element<std::string>("60e3", "6_0.0", "-0.0", "\"a # b\"", "'literal'", "'bare word'", "quadratic",
+                                          "[1, 2.50]", "[1, # 2", "{x = 1}", "inf", "nan", "2026-01-01", "0x1F", "",
+                                          "\"µ°\"", "10 µm", "true", "1 # one"),
+            rc::gen::container<std::string>(rc::gen::elementOf(letters)));
+        const auto first = value.find_first_not_of(" \t");
+        value = first == std::string::npos ? "" : value.substr(first, value.find_last_not_of(" \t") - first + 1);
+    }
+    return settings;
+}
+
+}  // namespace
+
+RC_GTEST_PROP(RawLogHdf5, csv_to_hdf5_to_csv_is_the_same_file, ()) {
+    const TemporaryFolder folder;
+    const std::string first = folder.file("first.csv");
+    RawColumns columns{*rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(),
+                       *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
+    RawWriter writer{first, any_settings(), false, columns};
+    for (const HalfRecord& row : any_records()) writer.write(row);
+    writer.close();
+    copy(first, folder.file("second.h5"));
+    copy(folder.file("second.h5"), folder.file("third.csv"));
+    RC_ASSERT(content_of(folder.file("third.csv")) == content_of(first));
+}
+
+RC_GTEST_PROP(RawLogHdf5, hdf5_reads_back_the_same_bits, ()) {
+    const TemporaryFolder folder;
+    const std::vector<HalfRecord> rows = any_records();
+    RawWriter writer{folder.file("raw.h5"), {}, false};
+    for (const HalfRecord& row : rows) writer.write(row);
+    writer.close();
+    RC_ASSERT(rows_in(folder.file("raw.h5")) == rows);
+}
+
+// A damaged file is refused with an error of ours, or it is still a log: never anything else.
+RC_GTEST_PROP(RawLogHdf5, a_cut_file_is_an_error, ()) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("raw.h5");
+    RawWriter writer{path, {{"gyro.tick_s", "0.005"}}, false};
+    for (int half = 0; half < 3; ++half) writer.write(row_of(half));
+    writer.close();
+    std::filesystem::resize_file(path, *rc::gen::inRange<std::uintmax_t>(0, std::filesystem::file_size(path)));
+    try {
+        static_cast<void>(rows_in(path));
+        RC_FAIL("a cut file was read");
+    } catch (const FormatError& error) {
+        RC_ASSERT(std::string{error.what()}.find('\n') == std::string::npos);
+    }
+}
+
+TEST(RawLogHdf5, of_many_blocks_is_read_whole) {
+    const TemporaryFolder folder;
+    constexpr int n = 50'000;
+    RawWriter writer{folder.file("raw.h5"), {}, false};
+    for (int half = 0; half < n; ++half) writer.write(row_of(half));
+    writer.close();
+    RawReader reader{folder.file("raw.h5")};
+    HalfRecord row;
+    for (int half = 0; half < n; ++half) {
+        ASSERT_TRUE(reader.next(row));
+        ASSERT_EQ(row, row_of(half));
+        if (half == 0) EXPECT_LT(reader.fraction_read(), 0.5);
+    }
+    EXPECT_FALSE(reader.next(row));
+    EXPECT_EQ(reader.fraction_read(), 1.0);
+    EXPECT_TRUE(reader.line_is_ended());
+    EXPECT_TRUE(reader.header().complete);
+    EXPECT_FALSE(reader.refresh());
+    EXPECT_FALSE(std::filesystem::exists(writer.part_path()));
+}
+
+TEST(RawLogHdf5, flushing_at_any_row_changes_no_bit) {
+    const TemporaryFolder folder;
+    constexpr int n = 40'000;
+    RawWriter writer{folder.file("raw.h5"), {}, false};
+    for (int half = 0; half < n; ++half) {
+        writer.write(row_of(half));
+        if (half % 4999 == 0 || half == 16'383) writer.flush();
+    }
+    writer.close();
+    const auto rows = rows_in(folder.file("raw.h5"));
+    ASSERT_EQ(rows.size(), static_cast<std::size_t>(n));
+    for (int half = 0; half < n; ++half) ASSERT_EQ(rows[static_cast<std::size_t>(half)], row_of(half));
+}
+
+TEST(RawLogHdf5, the_same_rows_make_the_same_file) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.h5", "b.hdf5"}) {
+        RawWriter writer{folder.file(name), {{"run.seed", "1"}}, false, all_raw_columns, {.light_samples = 2}};
+        const std::array<float, 2> light{0.25f, 0.75f};
+        for (int half = 0; half < 20'000; ++half) writer.write(row_of(half), light);
+        writer.close();
+    }
+    EXPECT_TRUE(content_of(folder.file("a.h5")) == content_of(folder.file("b.hdf5")));
+}
+
+TEST(RawLogHdf5, light_samples_come_back_with_their_row) {
+    const TemporaryFolder folder;
+    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 16}};
+    std::array<float, 16> light{};
+    const auto fill = [&](int half) {
+        for (int k = 0; k < 16; ++k) light[static_cast<std::size_t>(k)] = 0.001f * static_cast<float>(16 * half + k);
+    };
+    for (int half = 0; half < 20'000; ++half) {
+        fill(half);
+        writer.write(row_of(half), light);
+    }
+    writer.close();
+    RawReader reader{folder.file("raw.h5")};
+    EXPECT_EQ(reader.header().light_samples, 16);
+    EXPECT_TRUE(reader.light().empty());
+    HalfRecord row;
+    for (int half = 0; reader.next(row); ++half) {
+        fill(half);
+        ASSERT_TRUE(std::ranges::equal(reader.light(), light)) << half;
+    }
+    EXPECT_EQ(row.half, 19'999);
+    EXPECT_TRUE(std::ranges::equal(reader.light(), light)) << "of the row that was read last, also at the end";
+}
+
+TEST(RawLogHdf5, light_samples_are_as_many_as_announced_and_finite) {
+    const TemporaryFolder folder;
+    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 2}};
+    const std::array<float, 3> three{};
+    const std::array<float, 2> not_finite{0.0f, std::numeric_limits<float>::infinity()};
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), three); }), "3 light samples; allowed are 2");
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0)); }), "0 light samples");
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), not_finite); }), "light is inf");
+    const auto make = [&](const char* name, int n) {
+        return message_of<FormatError>(
+            [&] { RawWriter(folder.file(name), {}, false, all_raw_columns, {.light_samples = n}); });
+    };
+    expect_contains(make("b.csv", 1), "a CSV log holds no light samples");
+    expect_contains(make("b.h5", 65), "65 light samples in a half; allowed is 0..64");
+    EXPECT_FALSE(std::filesystem::exists(folder.file("b.h5.part")));
+}
+
+TEST(RawLogHdf5, has_units_and_the_facts_of_the_counts_in_its_root) {
+    const TemporaryFolder folder;
+    RawWriter writer{folder.file("raw.h5"), {{"gyro.tick_s", "5e-3"}, {"gyro.scale_arcsec", "3.263"}}, false};
+    writer.write(row_of(0));
+    writer.close();
+    const hid_t file = H5Fopen(folder.file("raw.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const auto real = [&](const char* name) {
+        double value = 0.0;
+        const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+        H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
+        H5Aclose(attribute);
+        return value;
+    };
+    EXPECT_EQ(real("tick_s"), 0.005);
+    EXPECT_EQ(real("scale_arcsec"), 3.263);
+    EXPECT_EQ(real("format_version"), 1.0);
+    const auto unit = [&](const char* column) {
+        const hid_t attribute = H5Aopen_by_name(file, column, "unit", H5P_DEFAULT, H5P_DEFAULT);
+        const hid_t type = H5Aget_type(attribute);
+        char* text = nullptr;
+        H5Aread(attribute, type, &text);
+        const std::string result = text == nullptr ? "" : text;
+        H5free_memory(text);
+        H5Tclose(type);
+        H5Aclose(attribute);
+        return result;
+    };
+    EXPECT_EQ(unit("/raw/half"), "1");
+    EXPECT_EQ(unit("/raw/counts"), "count");
+    EXPECT_EQ(unit("/raw/detuning_lambda"), "wavelength");
+    EXPECT_EQ(unit("/raw/detuning_sq_lambda2"), "wavelength^2");
+    EXPECT_EQ(unit("/raw/piezo_v"), "V");
+    EXPECT_EQ(unit("/raw/temperature_c"), "degC");
+    H5Fclose(file);
+}
+
+TEST(RawLogHdf5, is_left_as_it_is_by_its_readers) {
+    const TemporaryFolder folder;
+    RawWriter writer{folder.file("raw.h5"), {}, false};
+    for (int half = 0; half < 100; ++half) writer.write(row_of(half));
+    writer.flush();
+    const std::string before = content_of(writer.part_path());
+    EXPECT_EQ(rows_in(writer.part_path()).size(), 100u);
+    EXPECT_TRUE(content_of(writer.part_path()) == before);
+}
