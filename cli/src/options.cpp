@@ -169,6 +169,8 @@ void rethrow_with(std::initializer_list<std::string> part_paths) {
         throw logs::FormatError{error.what() + note};
     } catch (const config::ConfigError& error) {
         throw config::ConfigError{error.what() + note};
+    } catch (const std::exception& error) {
+        throw std::runtime_error{error.what() + note};
     }
 }
 

@@ -95,8 +95,6 @@ void RunFiles::open(const config::Config& config, int light_samples) {
     switches_.emplace(path(names_[switches_file]), force_);
     summary_.emplace(path(names_[summary_file]), force_);
     page_.emplace(path(names_[page_file]), force_);
-    for (const std::string& name : names_)
-        if (!fs::exists(path(name))) new_.push_back(path(name));
 }
 
 RunFiles::~RunFiles() {
@@ -105,7 +103,7 @@ RunFiles::~RunFiles() {
     raw_.reset();
     angles_.reset();
     std::error_code ignored;
-    for (const std::string& name : new_) fs::remove(name, ignored);
+    for (const std::string& name : completed_) fs::remove(name, ignored);
     if (made_folder_) fs::remove(folder_, ignored);
 }
 
@@ -118,9 +116,18 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
     switches_->append(switch_table(switches));
     summary_->append(summary);
     page_->append(page);
-    raw_->close();
-    angles_->close();
-    for (auto* file : {&health_, &switches_, &summary_, &page_}) (*file)->close();
+    // The logs last: what fails here leaves HDF5 logs as they are, and what else was completed is taken back.
+    const auto complete = [&](auto& file, File which) {
+        const bool is_new = !fs::exists(path(names_[which]));
+        file->close();
+        if (is_new && !names_[which].ends_with(".h5")) completed_.push_back(path(names_[which]));
+    };
+    complete(health_, health_file);
+    complete(switches_, switches_file);
+    complete(summary_, summary_file);
+    complete(page_, page_file);
+    complete(angles_, angles_file);
+    complete(raw_, raw_file);
     finished_ = true;
 }
 

@@ -51,7 +51,7 @@ private:
     std::array<std::string, 6> names_;
     bool made_folder_ = false;
     bool finished_ = false;
-    std::vector<std::string> new_;  // names at which nothing stood before this run
+    std::vector<std::string> completed_;  // by this run, where nothing stood before
     std::optional<logs::RawWriter> raw_;
     std::optional<logs::AngleWriter> angles_;
     std::optional<logs::TableFile> health_;

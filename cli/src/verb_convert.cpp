@@ -10,6 +10,7 @@
 
 #include "as_json.hpp"
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -28,6 +29,7 @@ void warn(const ConvertOptions& options, const std::vector<std::string>& warning
 }
 
 std::int64_t convert_raw(const ConvertOptions& options, logs::LogFormat format) {
+    const Interruptible interruptible;
     logs::RawReader raw{options.file};
     const logs::RawHeader& header = raw.header();
     warn(options, header.warnings, header.complete);
@@ -38,7 +40,10 @@ std::int64_t convert_raw(const ConvertOptions& options, logs::LogFormat format) 
     std::int64_t rows = 0;
     while (raw.next(record)) {
         copy.write(record, light_samples > 0 ? raw.light() : std::span<const float>{});
-        if (++rows % 100'000 == 0) progress.show(raw.fraction_read());
+        if (++rows % 100'000 == 0) {
+            interruptible.check();
+            progress.show(raw.fraction_read());
+        }
     }
     if (!raw.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
@@ -51,6 +56,7 @@ double logged_tick_s(const logs::AngleHeader& header, const ConvertOptions& opti
 }
 
 std::int64_t convert_angles(const ConvertOptions& options, logs::LogFormat format) {
+    const Interruptible interruptible;
     logs::AngleReader angles{options.file};
     const logs::AngleHeader& header = angles.header();
     warn(options, header.warnings, header.complete);
@@ -64,7 +70,10 @@ std::int64_t convert_angles(const ConvertOptions& options, logs::LogFormat forma
     std::int64_t rows = 0;
     while (angles.next(angle)) {
         copy.write_timed(angle);
-        if (++rows % 100'000 == 0) progress.show(angles.fraction_read());
+        if (++rows % 100'000 == 0) {
+            interruptible.check();
+            progress.show(angles.fraction_read());
+        }
     }
     copy.close();
     return rows;

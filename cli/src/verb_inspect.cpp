@@ -170,26 +170,52 @@ std::string as_text(const json& findings) {
     return text;
 }
 
+// What a log says of itself, as far as it can be understood; what cannot be is damage, and dropped from a repaired copy.
+struct LogSettings {
+    config::Settings good;
+    config::Config config;
+    std::string damage;
+};
+
+LogSettings understood(const InspectOptions& options, const config::Settings& settings) {
+    LogSettings found;
+    for (const auto& setting : settings) {
+        try {
+            (void)load_log_config(options, {setting}, options.file);
+            found.good.push_back(setting);
+        } catch (const logs::FormatError& error) {
+            if (found.damage.empty()) found.damage = error.what();
+        }
+    }
+    found.config = load_log_config(options, found.good, options.file);
+    return found;
+}
+
+void repair(const InspectOptions& options, logs::RawReader& reader, const config::Settings& settings,
+            RawFindings& found, const std::string& out) {
+    const int light_samples = copied_light_samples(reader.header(), options.file, log_format(out));
+    refuse_own_input(options.file, out);
+    logs::RawWriter copy{out, settings, options.force, reader.header(), {.light_samples = light_samples}};
+    found = read_raw(reader, options.file, &copy, light_samples > 0);
+    if (found.halves == 0) throw logs::FormatError{fmt::format("nothing to repair: {}", found.damage)};
+    copy.close();
+}
+
 json inspect_raw(const InspectOptions& options) {
     logs::RawReader reader{options.file};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
-    const config::Config config = load_log_config(options, reader.header().settings, options.file);
-    if (!options.repair) {
-        const RawFindings found = read_raw(reader, options.file, nullptr, false);
-        if (found.damage.empty() && !reader.line_is_ended())
-            complain(
-                fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
-        return raw_json(options, reader.header(), config, found);
-    }
-    const std::string out = repaired_path(options);
-    const int light_samples = copied_light_samples(reader.header(), options.file, log_format(out));
-    refuse_own_input(options.file, out);
-    logs::RawWriter copy{
-        out, reader.header().settings, options.force, reader.header(), {.light_samples = light_samples}};
-    const RawFindings found = read_raw(reader, options.file, &copy, light_samples > 0);
-    copy.close();
-    json findings = raw_json(options, reader.header(), config, found);
-    findings["repaired"] = out;
+    const LogSettings log = understood(options, reader.header().settings);
+    const std::string out = options.repair ? repaired_path(options) : "";
+    RawFindings found;
+    if (options.repair)
+        repair(options, reader, log.good, found, out);
+    else
+        found = read_raw(reader, options.file, nullptr, false);
+    if (found.damage.empty() && !reader.line_is_ended())
+        complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
+    if (found.damage.empty()) found.damage = log.damage;
+    json findings = raw_json(options, reader.header(), log.config, found);
+    if (options.repair) findings["repaired"] = out;
     return findings;
 }
 

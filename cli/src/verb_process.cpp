@@ -10,11 +10,13 @@
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -62,11 +64,15 @@ struct Summary {
     }
 };
 
+// Every so many halves a signal is looked for and the progress shown.
+constexpr std::int64_t stride_halves = 100'000;
+
 // Waits for rows that are still being written; false where the log is complete, or nothing came for too long.
-bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options) {
+bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options, const Interruptible& interruptible) {
     using Clock = std::chrono::steady_clock;
     const auto until = Clock::now() + std::chrono::duration<double>{options.give_up_s};
     while (!raw.refresh()) {
+        interruptible.check();
         if (raw.header().complete) return false;
         if (Clock::now() > until) {
             complain(fmt::format("warning: {}: nothing was added for {} s; its writer may have been interrupted",
@@ -79,19 +85,23 @@ bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options) {
 }
 
 // The next row of a log that grows. What is known by now is shown to those who follow the angles.
-bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& angles, const ProcessOptions& options) {
+bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& angles, const ProcessOptions& options,
+            const Interruptible& interruptible) {
     angles.flush();
-    return wait_for_rows(raw, options) && raw.next(record);
+    return wait_for_rows(raw, options, interruptible) && raw.next(record);
 }
 
 Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& config, logs::AngleWriter& angles,
-                   const ProcessOptions& options) {
+                   const ProcessOptions& options, const Interruptible& interruptible) {
     Summary summary;
     core::GyroCompensationState state;
     core::HalfRecord record;
     Progress progress;
-    while (raw.next(record) || (options.follow && follow(raw, record, angles, options))) {
-        if (++summary.halves % 100'000 == 0) progress.show(raw.fraction_read());
+    while (raw.next(record) || (options.follow && follow(raw, record, angles, options, interruptible))) {
+        if (++summary.halves % stride_halves == 0) {
+            interruptible.check();
+            progress.show(raw.fraction_read());
+        }
         const core::CompensationOutput out = step(config, state, record);
         if (!out.has_sample) continue;
         summary.angle_arcsec = out.angle_arcsec;
@@ -130,6 +140,9 @@ nlohmann::json json(const Summary& s, const ProcessOptions& options, const confi
 void process(const ProcessOptions& options) {
     (void)log_format(options.out);
     refuse_own_input(options.raw, options.out);
+    if (options.follow && logs::recognise(options.raw) == logs::LogKind::raw_csv)
+        throw UsageError{
+            fmt::format("--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.raw)};
     logs::RawReader raw{options.raw};
     config::Config config = load_log_config(options, raw.header().settings, options.raw);
     const core::RelockMethod relock = choose_relock(config, raw.header(), options.raw);
@@ -137,8 +150,9 @@ void process(const ProcessOptions& options) {
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
     config.compensation.relock = relock;
+    const Interruptible interruptible;
     logs::AngleWriter angles{options.out, config.gyro.tick_s, angle_settings(config), options.force};
-    const Summary summary = compensate(raw, compensation, angles, options);
+    const Summary summary = compensate(raw, compensation, angles, options, interruptible);
     if (summary.ticks == 0)
         throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", options.raw)};
     if (summary.halves % 2 != 0)
@@ -161,7 +175,11 @@ void add_process(CLI::App& program) {
     verb->add_option("RAW", options->raw, "raw log")->required();
     verb->add_flag("--follow", options->follow, "go on while the log (HDF5) is being written, until it is complete");
     verb->add_option("--give-up", options->give_up_s, "seconds without a new row after which following ends (10)")
-        ->check(CLI::Range(0.0, 1e6));
+        ->check([](const std::string& text) {
+            double seconds = -1.0;
+            const bool read = CLI::detail::lexical_cast(text, seconds);
+            return read && seconds >= 0.0 && seconds <= 1e6 ? "" : fmt::format("{}: allowed is 0..1e6 s", text);
+        });
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { process(*options); });

@@ -14,6 +14,7 @@
 
 #include "as_json.hpp"
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "run_files.hpp"
@@ -80,12 +81,14 @@ logs::LogFormat format_named(const std::string& name) {
     throw UsageError{fmt::format("--format {}: allowed are h5 and csv", name)};
 }
 
-study::RunResult run_into(RunFiles& files, const config::Config& config, const RunOptions& options) {
+study::RunResult run_into(RunFiles& files, const config::Config& config, const RunOptions& options,
+                          const Interruptible& interruptible) {
     Progress progress;
     study::RunTask task{.config = config,
                         .threads = options.threads,
                         .on_record =
                             [&](const core::HalfRecord& record, std::span<const float> light) {
+                                interruptible.check();
                                 files.raw().write(record, options.light ? light : std::span<const float>{});
                             },
                         .on_row = [&](const core::AngleRow& row, double truth) { files.angles().write(row, truth); },
@@ -98,13 +101,14 @@ study::RunResult run_into(RunFiles& files, const config::Config& config, const R
 void run(const RunOptions& options) {
     const logs::LogFormat format = format_named(options.format);
     const config::Config config = with_interval(load_config(options));
+    const Interruptible interruptible;
     std::string raw_part;
     std::string angles_part;
     try {
         RunFiles files{options.out, options.force, config, format, logged_light_samples(options, config, format)};
         raw_part = files.raw_part();
         angles_part = files.angles_part();
-        const study::RunResult result = run_into(files, config, options);
+        const study::RunResult result = run_into(files, config, options, interruptible);
         const std::string summary = pretty(summary_json(config, result));
         files.finish(result.switches, summary, report::html(study::run_page(config, result)));
         print(options.json ? summary : text(result, files));

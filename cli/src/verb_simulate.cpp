@@ -12,6 +12,7 @@
 
 #include "as_json.hpp"
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -19,10 +20,12 @@
 namespace zlg::cli {
 namespace {
 
-void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw) {
+void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw,
+            const Interruptible& interruptible) {
     Progress progress;
     const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
+        interruptible.check();
         const core::HalfRecord record = loop.advance().record;
         raw.write(record, with_light ? loop.light() : std::span<const float>{});
         if (half % (2 * progress_stride) == 0)
@@ -37,6 +40,7 @@ void simulate(const Options& options) {
     const twin::Motion motion = rig::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};
+    const Interruptible interruptible;
     std::string part;
     try {
         logs::RawWriter raw{options.out,
@@ -45,7 +49,7 @@ void simulate(const Options& options) {
                             logs::all_raw_columns,
                             {.light_samples = light_samples, .keep_part = true}};
         part = raw.part_path();
-        record(loop, ticks, light_samples > 0, raw);
+        record(loop, ticks, light_samples > 0, raw, interruptible);
         raw.close();
     } catch (...) {
         rethrow_with({part});

@@ -11,6 +11,7 @@ void add_process(CLI::App& program);
 void add_design(CLI::App& program);
 void add_paper(CLI::App& program);
 void add_convert(CLI::App& program);
+void add_calibrate(CLI::App& program);
 void add_inspect(CLI::App& program);
 
 }  // namespace zlg::cli

@@ -71,8 +71,12 @@ const Key table[] = {
     {"perimeter", "expansion_lambda_per_c", "lambda/C", "growth of the perimeter with temperature",
      Real{at<&C::perimeter, &Perimeter::expansion_lambda_per_c>, any_finite}},
 
-    {"piezo", "half_wave_v", "V", "voltage that moves the perimeter by half a wavelength",
+    {"piezo", "half_wave_v", "V",
+     "voltage that moves the perimeter by half a wavelength, at gyro.reference_temperature_c",
      Real{at<&C::piezo, &Piezo::half_wave_v>, positive}},
+    {"piezo", "half_wave_temperature_coefficient_per_c", "1/C",
+     "relative change of the half-wave voltage with temperature",
+     Real{at<&C::piezo, &Piezo::half_wave_temperature_coefficient_per_c>, any_finite}},
     {"piezo", "half_wave_error", "", "relative error of the half-wave voltage that control presumes at first",
      Real{at<&C::piezo, &Piezo::half_wave_error>, {.min = -0.9, .max = 0.9}}},
     {"piezo", "rc_s", "s", "time constant of the high-voltage stage", Real{at<&C::piezo, &Piezo::rc_s>, positive}},

@@ -11,6 +11,7 @@
 
 #include "assign.hpp"
 #include "nearest.hpp"
+#include "toml_text.hpp"
 
 namespace zlg::config {
 
@@ -64,15 +65,20 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// A document of one value. What is not valid TOML, or is more than one value, is a string as it stands.
-toml::table parse_value(std::string_view text) {
+// A document of one value. What is not valid TOML, or is more than one value, is a string as it stands; text that is not
+// UTF-8 is none, for it could not be written again.
+toml::table parse_value(const std::string& place, std::string_view text) {
     try {
         toml::table document = toml::parse(fmt::format("value = {}", text));
         if (document.size() == 1 && document.contains("value")) return document;
     } catch (const toml::parse_error&) {
         // A bare word such as quadratic, or a path.
     }
-    return toml::table{{"value", std::string{text}}};
+    try {
+        return toml::parse(fmt::format("value = {}", toml_string(text)));
+    } catch (const toml::parse_error& error) {
+        fail(place, fmt::format("a value cannot be read as text: {}", error.description()));
+    }
 }
 
 }  // namespace
@@ -114,7 +120,7 @@ void apply_pair(Config& config, std::string_view dotted_key, std::string_view va
     const std::string_view section = dotted_key.substr(0, dot);
     require_section(place, section);
     Config result = config;
-    const toml::table document = parse_value(trimmed(value));
+    const toml::table document = parse_value(place, trimmed(value));
     assign_at(place, section, dotted_key.substr(dot + 1), *document.get("value"), result);
     config = std::move(result);
 }

@@ -3,15 +3,6 @@
 
 namespace zlg::core {
 
-int order_of(BridgeMethod method) noexcept {
-    return method == BridgeMethod::quadratic ? 2 : method == BridgeMethod::linear ? 1 : 0;
-}
-
-int final_delay_ticks(const GapBridgeConfig& config) noexcept {
-    const bool extrapolation_is_longer = config.extrapolation_points > config.points_after;
-    return max_gap_ticks + (extrapolation_is_longer ? config.extrapolation_points : config.points_after);
-}
-
 GapBridgeFault check(const GapBridgeConfig& c) noexcept {
     const auto bad = [](int points) { return points < 1 || points > max_points; };
     if (bad(c.extrapolation_points)) return GapBridgeFault::extrapolation_points;

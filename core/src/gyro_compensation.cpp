@@ -71,25 +71,9 @@ void give_up_first(TickInput& tick) noexcept {
     tick.amend_flags = flag_relock_uncorrected;
 }
 
-}  // namespace
-
-GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
-    if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
-    if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
-    const double walk = config.random_walk.value();
-    if (!(walk >= 0.0 && is_finite(walk))) return GyroCompensationFault::random_walk;
-    return GyroCompensationFault::none;
-}
-
-CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
-                        const HalfRecord& half) noexcept {
-    if (!state.has_first) {
-        state.first = believed(half);
-        state.has_first = true;
-        return {};
-    }
+CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
+                                 const HalfRecord& second) noexcept {
     const HalfRecord& first = state.first;
-    const HalfRecord second = believed(half);
     state.has_first = false;
 
     TickInput tick = assemble(config, first, second);
@@ -107,6 +91,26 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
     state.angle.add(counted, config.relock.scale.value(), out.sample.dtheta_arcsec);
     out.angle_arcsec = state.angle.value_arcsec(config.relock.scale.value());
     return out;
+}
+
+}  // namespace
+
+GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
+    if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
+    if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
+    const double walk = config.random_walk.value();
+    if (!(walk >= 0.0 && is_finite(walk))) return GyroCompensationFault::random_walk;
+    return GyroCompensationFault::none;
+}
+
+CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
+                        const HalfRecord& half) noexcept {
+    if (state.has_first) return complete_tick(config, state, believed(half));
+    state.first = believed(half);
+    state.has_first = true;
+    // No angle is due in this half: it bears a part of what the other one would have to do.
+    if (state.bridge.n_pending > 0) prepare(config.bridge, state.bridge);
+    return {};
 }
 
 DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept {

@@ -147,14 +147,11 @@ HealthReport reported(const SensorFrame& frame, const Observation& o, SwitchPhas
     return r;
 }
 
-ActuatorFrame commanded(bool loop_closed, std::int8_t polarity, Volts set_point, std::int32_t edge_offset) noexcept {
-    ActuatorFrame a;
-    a.loop_closed = loop_closed;
-    a.polarity = polarity;
-    a.n_set_points = 1;
-    a.set_point_v[0] = set_point.value();
-    a.edge_offset_ticks = edge_offset;
-    return a;
+void command(bool loop_closed, std::int8_t polarity, Volts set_point, ActuatorFrame& actuator) noexcept {
+    actuator.loop_closed = loop_closed;
+    actuator.polarity = polarity;
+    actuator.n_set_points = 1;
+    actuator.set_point_v[0] = set_point.value();
 }
 
 }  // namespace
@@ -172,7 +169,9 @@ GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t co
 }
 
 ActuatorFrame initial_actuator(const GyroControlConfig& config) noexcept {
-    return commanded(true, config.mode_switch.start_polarity, config.mode_switch.start_set_point, 0);
+    ActuatorFrame actuator;
+    command(true, config.mode_switch.start_polarity, config.mode_switch.start_set_point, actuator);
+    return actuator;
 }
 
 GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame) noexcept {
@@ -188,8 +187,8 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     out.event = sequenced.event;
     const bool half_wave_rejected = learn_half_wave(config, state, sequenced);
     const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
-    out.actuator =
-        commanded(sequenced.loop_closed, sequenced.polarity, regulated.set_point, seen.bias.edge_offset_ticks);
+    command(sequenced.loop_closed, sequenced.polarity, regulated.set_point, out.actuator);
+    out.actuator.edge_offset_ticks = seen.bias.edge_offset_ticks;
 
     HealthReport report = reported(frame, seen, phase);
     report.detuning_over_limit = regulated.over_limit;

@@ -8,6 +8,17 @@ namespace {
 // No perimeter is detuned by a thousand wavelengths: such a number is damage, and would overflow further on.
 constexpr double max_detuning_lambda = 1e3;
 
+// No rotation is that large, whatever the scale; its square and any sum of such angles are still numbers.
+constexpr double max_false_angle_arcsec = 1e30;
+
+// Within these a tick's counts make an angle whose square is a number.
+constexpr double min_tick_s = 1e-9;
+constexpr double max_tick_s = 1e9;
+constexpr double max_scale_arcsec = 1e9;
+constexpr double max_bias_hz = 1e15;
+
+bool is_within(double x, double min, double max) noexcept { return x >= min && x <= max; }
+
 double square(double x) noexcept { return x * x; }
 
 double bias_at_hz(const RelockDriftConfig& c, double temperature_c) noexcept {
@@ -20,7 +31,8 @@ double bias_at_hz(const RelockDriftConfig& c, double temperature_c) noexcept {
 FalseAngle false_angle(const RelockDriftConfig& c, int sign, double rate_hz, double variance_hz2) noexcept {
     const double arcsec_per_hz = sign * c.scale.value() * c.tick.value();
     const FalseAngle angle{true, arcsec_per_hz * rate_hz, square(arcsec_per_hz) * variance_hz2};
-    return is_finite(angle.value_arcsec) && is_finite(angle.variance_arcsec2) ? angle : FalseAngle{};
+    const bool believed = is_within(angle.value_arcsec, -max_false_angle_arcsec, max_false_angle_arcsec);
+    return believed && is_finite(angle.variance_arcsec2) ? angle : FalseAngle{};
 }
 
 FalseAngle by_mean_square(const RelockDriftConfig& c, const RelockTick& t) noexcept {
@@ -67,34 +79,29 @@ double rounding_variance(const RelockDriftConfig& c, double by_own, double by_ot
 
 struct Decay {
     bool usable = false;
-    double log_ratio = 0.0;
+    double q = 0.0;  // from one half to the next
 };
 
-Decay decay(double deficit, double first_deficit) noexcept {
+// From the deficits of tick 1 and of tick i >= 2.
+Decay decay(double deficit, double first_deficit, double i) noexcept {
     const double ratio = deficit / first_deficit;
     if (!(ratio > 0.0 && ratio < 1.0)) return {};
-    return {true, natural_log(ratio)};
+    return {true, exponential(natural_log(ratio) / (2.0 * (i - 1.0)))};
 }
 
 // Tick i >= 2 from its own deficit and that of tick 1.
-FalseAngle by_frequency(const RelockDriftConfig& c, const RelockDriftState& s, const RelockTick& t) noexcept {
-    const double deficit = deficit_hz(c, t);
-    const Decay d = decay(deficit, s.first_deficit_hz);
-    if (!d.usable) return {};
+FalseAngle by_frequency(const RelockDriftConfig& c, const RelockDriftState& s, const RelockTick& t, double deficit,
+                        double q) noexcept {
     const double root = 2.0 * static_cast<double>(s.since_gap - 1);
-    const double q = exponential(d.log_ratio / root);
-    const double slope = 2.0 * q / square(1.0 + q) / root;  // of (1 - q)/(1 + q) by -log_ratio
+    const double slope = 2.0 * q / square(1.0 + q) / root;  // of (1 - q)/(1 + q) by minus the logarithm of the ratio
     const double part = (1.0 - q) / (1.0 + q);
     const double by_first = slope * deficit / s.first_deficit_hz;
     return false_angle(c, t.sign, deficit * part, rounding_variance(c, part - slope, by_first, s.since_gap == 2));
 }
 
 // Tick 1 with the q of tick 2.
-FalseAngle first_by_frequency(const RelockDriftConfig& c, const RelockDriftState& s, const RelockTick& t) noexcept {
-    const double deficit = deficit_hz(c, t);
-    const Decay d = decay(deficit, s.first_deficit_hz);
-    if (!d.usable) return {};
-    const double q = exponential(0.5 * d.log_ratio);
+FalseAngle first_by_frequency(const RelockDriftConfig& c, const RelockDriftState& s, const RelockTick& t,
+                              double deficit, double q) noexcept {
     const double slope = q / square(1.0 + q);
     const double part = (1.0 - q) / (1.0 + q);
     const double by_second = -slope * s.first_deficit_hz / deficit;
@@ -108,11 +115,12 @@ RelockDriftOutput frequency_step(const RelockDriftConfig& c, RelockDriftState& s
         out.waiting = true;
         return out;
     }
-    if (out.due) out.tick = by_frequency(c, s, t);
-    if (s.since_gap == 2) {
-        out.first_due = true;
-        out.first = first_by_frequency(c, s, t);
-    }
+    const double deficit = deficit_hz(c, t);
+    const Decay d = decay(deficit, s.first_deficit_hz, static_cast<double>(s.since_gap));
+    out.first_due = s.since_gap == 2;
+    if (!d.usable) return out;
+    if (out.due) out.tick = by_frequency(c, s, t, deficit, d.q);
+    if (out.first_due) out.first = first_by_frequency(c, s, t, deficit, d.q);
     return out;
 }
 
@@ -120,9 +128,9 @@ RelockDriftOutput frequency_step(const RelockDriftConfig& c, RelockDriftState& s
 
 RelockDriftFault check(const RelockDriftConfig& c) noexcept {
     if (!(c.ticks >= 0)) return RelockDriftFault::ticks;
-    if (!(c.tick.value() > 0.0 && is_finite(c.tick.value()))) return RelockDriftFault::tick;
-    if (!(c.scale.value() > 0.0 && is_finite(c.scale.value()))) return RelockDriftFault::scale;
-    if (!(c.bias.value() > 0.0 && is_finite(c.bias.value()))) return RelockDriftFault::bias;
+    if (!is_within(c.tick.value(), min_tick_s, max_tick_s)) return RelockDriftFault::tick;
+    if (!(c.scale.value() > 0.0 && c.scale.value() <= max_scale_arcsec)) return RelockDriftFault::scale;
+    if (!(c.bias.value() > 0.0 && c.bias.value() <= max_bias_hz)) return RelockDriftFault::bias;
     if (!(c.chi >= 0.0 && is_finite(c.chi))) return RelockDriftFault::chi;
     if (!is_finite(c.temperature_coefficient_per_c) || !is_finite(c.reference_temperature.value()))
         return RelockDriftFault::temperature;

@@ -33,7 +33,7 @@ public:
     AngleHdf5Sink(const std::string& path, double tick_s, const Settings& settings, bool force,
                   const AngleWriterOptions& options)
         : table_{path, force, options.keep_part}, has_truth_{options.has_truth} {
-        hdf5::add_settings(table_, settings, tick_s);
+        hdf5::add_angle_settings(table_, settings, tick_s);
         table_.add_group("/angles");
         add_columns();
         const std::string* legend = find_setting(settings, "flags");

@@ -70,7 +70,7 @@ private:
     // With the two lines that a CSV log has besides.
     [[nodiscard]] Settings settings() const {
         const hdf5::Source& source = table_.source();
-        Settings settings = hdf5::read_settings(source);
+        Settings settings = hdf5::read_settings(source, false);
         const auto legend = source.text_attribute("/angles/flags", "flags");
         const auto tick_s = source.real_attribute("tick_s");
         if (legend && !find_setting(settings, "flags")) settings.emplace_back("flags", *legend);

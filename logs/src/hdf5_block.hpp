@@ -36,8 +36,8 @@ public:
     template <class T, class Good, class Complaint>
     void take(Column<T>& column, Good good, Complaint complaint) {
         const std::size_t width = column.width();
-        const std::size_t readable = std::min(column.read_block(first_, n_), good_rows_) * width;
-        const std::size_t bad = first_bad(column.values(), readable, good) / width;
+        const std::size_t whole = read(column) * width;
+        const std::size_t bad = first_bad(column.values(), whole, good) / width;
         if (bad >= good_rows_) return;
         good_rows_ = bad;
         if constexpr (std::is_integral_v<T>) {
@@ -50,17 +50,46 @@ public:
         }
     }
 
-    // Complains of the row behind the good ones. errors  FormatError, always.
+    // Complains of the row behind the good ones. errors  FormatError or IoError, always.
     [[noreturn]] void fail() const;
 
 private:
+    // Reads the good rows, or those before the first that cannot be read; returns how many are integers of type T.
+    template <class T>
+    std::size_t read(Column<T>& column) {
+        if (good_rows_ == 0) return 0;
+        try {
+            return column.read_block(first_, good_rows_);
+        } catch (const std::runtime_error&) {
+            return read_before_damage(column);
+        }
+    }
+
+    // Halves the interval between rows that can be read and a first one that cannot.
+    template <class T>
+    std::size_t read_before_damage(Column<T>& column) {
+        std::size_t readable = 0;
+        for (std::size_t beyond = good_rows_; beyond - readable > 1;) {
+            const std::size_t middle = readable + (beyond - readable) / 2;
+            (can_read(column, middle) ? readable : beyond) = middle;
+        }
+        try {
+            T row[max_width];
+            column.read(first_ + readable, 1, memory_type<T>(), row);
+        } catch (const std::runtime_error&) {
+            damage_ = std::current_exception();
+        }
+        good_rows_ = readable;
+        return readable > 0 ? column.read_block(first_, readable) : 0;
+    }
+
     void note(const std::string& column, const std::string& value, const std::string& what);
 
     const Source* source_;
     hsize_t first_ = 0;
     std::size_t n_ = 0;
     std::size_t good_rows_ = 0;
-    std::string damage_;
+    std::exception_ptr damage_;
 };
 
 }  // namespace zlg::logs::hdf5

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace zlg::logs::hdf5 {
 
@@ -53,7 +52,7 @@ void DataSet::check_type(const Shape& shape) const {
 }
 
 // Returns how many bytes a packed chunk takes when it is unpacked; 0: nothing is packed.
-std::size_t DataSet::check_storage() const {
+std::size_t DataSet::check_storage() {
     const Handle creation{H5Dget_create_plist(set_.get()), &H5Pclose};
     const H5D_layout_t layout = H5Pget_layout(creation.get());
     if (H5Pget_external_count(creation.get()) != 0 || layout == H5D_VIRTUAL) {
@@ -69,6 +68,7 @@ std::size_t DataSet::check_storage() const {
         source_->fail(path_, fmt::format("chunks of {} x {} values; allowed are {} MiB", chunk[0], chunk[1],
                                          max_chunk_bytes >> 20));
     }
+    chunk_ = chunk;
     return H5Pget_nfilters(creation.get()) > 0 ? chunk[0] * chunk[1] * value_bytes : 0;
 }
 
@@ -85,13 +85,33 @@ void DataSet::refresh() {
     measure();
 }
 
+std::string DataSet::place(hsize_t first, std::size_t n) const {
+    return n == 1 ? fmt::format("{}, row {}", path_, first + 1)
+                  : fmt::format("{}, rows {}..{}", path_, first + 1, first + n);
+}
+
+// The library hands out zeros for a chunk that was never written. A complete log may mean them; an interrupted one has
+// lost the numbers.
+void DataSet::require_written(hsize_t first, std::size_t n) const {
+    if (chunk_[0] == 0 || source_->is_complete()) return;
+    std::array<hsize_t, 2> at{first - first % chunk_[0], 0};
+    for (; at[0] < first + n; at[0] += chunk_[0]) {
+        for (at[1] = 0; at[1] < width_; at[1] += chunk_[1]) {
+            hsize_t bytes = 0;
+            if (H5Dget_chunk_storage_size(set_.get(), at.data(), &bytes) < 0) source_->fail_to_read(place(first, n));
+            if (bytes == 0) source_->fail(place(first, n), "was never written; the log was interrupted");
+        }
+    }
+}
+
 void DataSet::read(hsize_t first, std::size_t n, hid_t type, void* values) const {
+    require_written(first, n);
     const std::array<hsize_t, 2> start{first, 0};
     const std::array<hsize_t, 2> count{n, width_};
     const Handle block{H5Screate_simple(rank_, count.data(), nullptr), &H5Sclose};
     if (H5Sselect_hyperslab(space_.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
         H5Dread(set_.get(), type, block.get(), space_.get(), H5P_DEFAULT, values) < 0) {
-        source_->fail_to_read(fmt::format("{}, rows {}..{}", path_, first + 1, first + n));
+        source_->fail_to_read(place(first, n));
     }
 }
 

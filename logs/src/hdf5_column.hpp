@@ -1,6 +1,7 @@
 #pragma once
 // One column of an HDF5 log, read in blocks of rows.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -34,13 +35,18 @@ public:
     // Looks how long the data set is by now.
     void refresh();
 
-    // Rows first..first+n-1. errors  IoError, FormatError.
+    // Rows first..first+n-1.
+    //
+    // errors  IoError, FormatError: damaged, behind the end of a file that was cut off, never written to a log that is
+    // not complete.
     void read(hsize_t first, std::size_t n, hid_t type, void* values) const;
 
 private:
     void measure();
     void check_type(const Shape& shape) const;
-    [[nodiscard]] std::size_t check_storage() const;
+    [[nodiscard]] std::size_t check_storage();
+    void require_written(hsize_t first, std::size_t n) const;
+    [[nodiscard]] std::string place(hsize_t first, std::size_t n) const;
 
     const Source* source_ = nullptr;
     std::string path_;
@@ -50,6 +56,7 @@ private:
     int rank_ = 1;
     hsize_t rows_ = 0;
     std::size_t width_ = 1;
+    std::array<hsize_t, 2> chunk_{0, 0};  // rows and values in a row of a chunk; 0: in one piece
 };
 
 template <class T>

@@ -39,12 +39,12 @@ void check_version(const Source& source) {
     throw FormatError(fmt::format("{}: format_version is {}; allowed is {}", source.path(), *version, format_version));
 }
 
-void merge_root(const Source& source, const char* name, Settings& settings) {
+void merge_root(const Source& source, const char* name, bool adds, Settings& settings) {
     const auto value = source.real_attribute(name);
     if (!value) return;
     const std::string* text = find_in_any_section(settings, name);
     if (text == nullptr) {
-        settings.emplace_back(in_section(name), fmt::format("{}", *value));
+        if (adds) settings.emplace_back(in_section(name), fmt::format("{}", *value));
         return;
     }
     const auto configured = number(*text);
@@ -53,8 +53,7 @@ void merge_root(const Source& source, const char* name, Settings& settings) {
                                   source.path(), name, *value, *text));
 }
 
-}  // namespace
-
+// A given tick_s goes before the settings' own.
 void add_settings(TableWriter& table, const Settings& settings, std::optional<double> tick_s) {
     table.add_text("/config", settings_to_toml(settings));
     table.set_integer("format_version", format_version);
@@ -67,11 +66,30 @@ void add_settings(TableWriter& table, const Settings& settings, std::optional<do
     }
 }
 
-Settings read_settings(const Source& source) {
+}  // namespace
+
+void add_settings(TableWriter& table, const Settings& settings) {
+    add_settings(table, settings, std::nullopt);
+}
+
+void add_angle_settings(TableWriter& table, const Settings& settings, double tick_s) {
+    if (const std::string* text = find_setting(settings, "tick_s")) {
+        const auto value = number(*text);
+        if (!value) throw FormatError(fmt::format("the setting tick_s is '{}'; allowed is a number", *text));
+        tick_s = *value;
+    }
+    Settings others = settings;
+    std::erase_if(others, [](const auto& setting) { return setting.first == "flags" || setting.first == "tick_s"; });
+    add_settings(table, others, tick_s);
+}
+
+Settings read_settings(const Source& source, bool adds_tick) {
     check_version(source);
     Settings settings;
     if (const auto text = source.text("/config")) settings = settings_from_toml(*text, source.path() + ", /config");
-    for (const char* name : root_reals) merge_root(source, name, settings);
+    for (const char* name : root_reals) {
+        merge_root(source, name, adds_tick || name != std::string_view{"tick_s"}, settings);
+    }
     return settings;
 }
 

@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <zlg/logs/error.hpp>
 
-#include "file_descriptor.hpp"
+#include "hdf5_input.hpp"
 
 namespace zlg::logs::hdf5 {
 
@@ -34,17 +35,21 @@ unsigned state_of(int fd) {
     return n == static_cast<ssize_t>(head.size()) && head[version] >= 2 ? head[flags] : 0u;
 }
 
-Handle open_file(const std::string& path) {
-    const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+FileDescriptor open_descriptor(const std::string& path) {
+    FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
-    const unsigned state = state_of(file.get());
+    return file;
+}
+
+Handle open_file(const std::string& path, int fd) {
+    const unsigned state = state_of(fd);
     if ((state & open_for_writing) != 0 && (state & open_for_readers) == 0) {
         throw FormatError(fmt::format(
             "{}: open in, or left unfinished by, a program that does not write for simultaneous readers (HDF5's SWMR)",
             path));
     }
     // Locks would keep readers from a file that is being written, and some file systems have none.
-    const Handle access{H5Pcreate(H5P_FILE_ACCESS), &H5Pclose};
+    const Handle access = access_to_read(fd);
     H5Pset_file_locking(access.get(), false, true);
     const bool grows = (state & open_for_readers) != 0;
     if (grows) H5Pset_metadata_read_attempts(access.get(), read_attempts);
@@ -52,7 +57,7 @@ Handle open_file(const std::string& path) {
     Handle opened{H5Fopen(path.c_str(), mode, access.get()), &H5Fclose};
     if (opened.is_open()) return opened;
     const Failure failure = last_failure();
-    if (state_of(file.get()) != state) {  // the writer has ended in between
+    if (state_of(fd) != state) {  // the writer has ended in between
         opened = {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), &H5Fclose};
         if (opened.is_open()) return opened;
     }
@@ -84,6 +89,14 @@ std::optional<std::string> read_text(const Handle& type, const Handle& space, Re
     return H5Tget_strpad(type.get()) == H5T_STR_SPACEPAD ? whole.substr(0, whole.find_last_not_of(' ') + 1) : whole;
 }
 
+// For a message of one line.
+std::string printable(std::string text) {
+    constexpr std::size_t longest = 40;
+    if (text.size() > longest) text.replace(longest, std::string::npos, "...");
+    std::ranges::replace_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+    return text;
+}
+
 struct Members {
     std::vector<std::string> names;
     bool leads_elsewhere = false;
@@ -102,13 +115,11 @@ herr_t collect(hid_t, const char* name, const H5L_info_t* link, void* client) no
 
 Source::Source(std::string path) : path_{std::move(path)} {
     keep_quiet();
-    file_ = open_file(path_);
-    void* descriptor = nullptr;
-    if (H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &descriptor) < 0) fail_to_read("/");
-    fd_ = *static_cast<int*>(descriptor);
+    descriptor_ = open_descriptor(path_);
+    file_ = open_file(path_, descriptor_.get());
 }
 
-bool Source::is_complete() const { return (state_of(fd_) & open_for_writing) == 0; }
+bool Source::is_complete() const { return (state_of(descriptor_.get()) & open_for_writing) == 0; }
 
 void Source::fail_to_read(const std::string& object) const {
     const Failure failure = last_failure();
@@ -180,11 +191,23 @@ std::optional<double> Source::real_attribute(const char* name) const {
     if (!attribute.is_open()) fail_to_read("/");
     const Handle type{H5Aget_type(attribute.get()), &H5Tclose};
     const Handle space{H5Aget_space(attribute.get()), &H5Sclose};
+    const auto refuse = [&](const std::string& what) {
+        fail("/", fmt::format("the attribute {} is {}; allowed is a finite number", name, what));
+    };
     const H5T_class_t kind = H5Tget_class(type.get());
+    if (kind == H5T_STRING) {
+        const auto text = read_text(type, space, [&](hid_t memory_type, void* buffer) {
+            return H5Aread(attribute.get(), memory_type, buffer);
+        });
+        refuse(text ? fmt::format("the text '{}'", printable(*text)) : "not one text");
+    }
+    if (kind != H5T_FLOAT && kind != H5T_INTEGER) refuse("of a type that holds no number");
+    if (!is_one_value(space.get())) {
+        refuse(fmt::format("a list of {} numbers", std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
+    }
     double value = NAN;
-    const bool is_number = (kind == H5T_FLOAT || kind == H5T_INTEGER) && is_one_value(space.get());
-    if (is_number && H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) fail_to_read("/");
-    if (!std::isfinite(value)) fail("/", fmt::format("the attribute {} is no finite number", name));
+    if (H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) fail_to_read("/");
+    if (!std::isfinite(value)) refuse(fmt::format("{}", value));
     return value;
 }
 

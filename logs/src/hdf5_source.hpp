@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "file_descriptor.hpp"
 #include "hdf5_handle.hpp"
 
 namespace zlg::logs::hdf5 {
@@ -33,7 +34,7 @@ public:
     [[nodiscard]] std::optional<std::string> text(const std::string& data_set) const;
     [[nodiscard]] std::optional<std::string> text_attribute(const std::string& object, const char* name) const;
 
-    // An attribute of the root. errors  FormatError: it is no finite number.
+    // An attribute of the root. errors  FormatError: it is no finite number; names what it is.
     [[nodiscard]] std::optional<double> real_attribute(const char* name) const;
 
     // errors  IoError where the system refused to read, FormatError otherwise: path, object, the library's reason.
@@ -42,8 +43,8 @@ public:
 
 private:
     std::string path_;
+    FileDescriptor descriptor_;
     Handle file_;
-    int fd_ = -1;  // the library's own, which it closes
 };
 
 }  // namespace zlg::logs::hdf5

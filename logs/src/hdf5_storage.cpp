@@ -127,6 +127,10 @@ void Storage::publish() {
     image_ = {};
 }
 
+void Storage::stop() {
+    if (error_ == 0) error_ = ECANCELED;
+}
+
 bool Storage::read(haddr_t address, size_t size, void* buffer) {
     char* const bytes = static_cast<char*>(buffer);
     std::memset(bytes, 0, size);

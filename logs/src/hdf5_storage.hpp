@@ -25,6 +25,9 @@ public:
     // Until here the file is made in memory, so that nobody ever sees or inherits half of its beginning.
     void publish();
 
+    // From here on nothing reaches the file: it stays as if the program had been killed now.
+    void stop();
+
     // What the driver calls.
     [[nodiscard]] bool read(haddr_t address, size_t size, void* buffer);
     void write(haddr_t address, size_t size, const void* buffer);

@@ -40,11 +40,13 @@ TableWriter::TableWriter(const std::string& path, bool force, bool keep_part)
     if (!file_.is_open()) fail("create");
 }
 
-// What was never opened for readers holds nothing worth keeping.
+// A log that was not closed must not look like one that was: the library's closing marks would make it complete. What
+// holds no row holds nothing worth keeping.
 TableWriter::~TableWriter() {
+    storage_.stop();
     columns_.clear();
     file_.close();
-    if (keeps_part()) part_.keep();
+    if (keeps_part() && rows_ > 0) part_.keep();
 }
 
 void TableWriter::fail(const char* what) const {
@@ -156,7 +158,7 @@ void TableWriter::close() {
         check_storage();
         if (!closed) fail("write");
     } catch (const IoError&) {
-        if (keep_part_) {
+        if (keep_part_ && rows_ > 0) {
             part_.keep();
         } else {
             part_.discard();

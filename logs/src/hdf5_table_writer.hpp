@@ -50,10 +50,10 @@ public:
     void require_open() const {
         if (!is_open()) refuse_closed();
     }
-    [[nodiscard]] bool keeps_part() const { return keep_part_ && is_started_; }
+    [[nodiscard]] bool keeps_part() const { return keep_part_ && is_started_; }  // once it has rows
     [[nodiscard]] const std::string& part_path() const { return part_.part(); }
 
-    // Closes the HDF5 file and gives it its name. errors  IoError.
+    // Closes the HDF5 file and gives it its name; without that it stays marked as not complete. errors  IoError.
     void close();
 
 private:

@@ -147,6 +147,7 @@ twin::TwinConfig twin_config(const config::Config& config) {
             .miss_lambda = p.miss_lambda,
             .expansion_lambda_per_c = p.expansion_lambda_per_c,
             .half_wave_v = z.half_wave_v,
+            .half_wave_temperature_coefficient_per_c = z.half_wave_temperature_coefficient_per_c,
             .high_voltage_rc_s = z.rc_s,
             .slew_v_s = z.slew_v_s,
             .piezo_min_v = z.range_min_v,

@@ -45,6 +45,12 @@ TEST(ExactSum, ItsTwoPartsDoNotOverlap) {
     }
 }
 
+// Below a power of two the doubles are twice as dense: what is half a step above it is a whole step below.
+TEST(ExactSum, ItsValueIsTheNearestDoubleOnBothSidesOfAPowerOfTwo) {
+    EXPECT_EQ(sum_of({1.0, 0x1.8p-54}).value(), 1.0);
+    EXPECT_EQ(sum_of({1.0, -0x1.8p-54}).value(), 1.0 - 0x1p-53);
+}
+
 // Integers of 63 bits, a hundred of them: the sum fits two doubles, so nothing at all may be lost.
 RC_GTEST_PROP(ExactSum, IntegersOfAnySizeAddExactly, (const std::vector<std::int64_t>& terms)) {
     ExactSum sum;
@@ -115,6 +121,14 @@ TEST(Angle, WhatIsNotCountsIsKeptToTheLastBit) {
     const double exact = static_cast<double>(Quad{scale_arcsec} * static_cast<Quad>(counts) + remainder);
     EXPECT_NEAR(angle.value_arcsec(scale_arcsec), exact,
                 3e-16 * (std::fabs(exact) + std::fabs(static_cast<double>(remainder))));
+}
+
+TEST(Angle, AMeasuredTickLeavesTheRemainderAloneHoweverMuchItCounts) {
+    Angle angle;
+    for (const double dtheta_arcsec : {1.0, 1e-20}) angle.add(0, 1.0, dtheta_arcsec);
+    const ExactSum before = angle.remainder_arcsec;
+    angle.add(std::int64_t{1} << 62, 0x1p30, 0x1p92);
+    EXPECT_EQ(angle.remainder_arcsec, before);
 }
 
 TEST(Angle, ABridgedTickEntersAsItWasDelivered) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <zlg/config/schema.hpp>
@@ -100,11 +101,21 @@ TEST(Run, its_sinks_get_every_half_and_every_tick_in_order) {
     task.config.run.duration_s = 12.0;
     std::int64_t halves = 0;
     std::int64_t ticks = 0;
-    task.on_record = [&](const core::HalfRecord& r) { EXPECT_EQ(r.half, halves++); };
-    task.on_row = [&](const core::AngleRow& row) { EXPECT_EQ(row.tick, ticks++); };
+    double true_arcsec = 0.0;
+    double final_arcsec = 0.0;
+    task.on_record = [&](const core::HalfRecord& r, std::span<const float> light) {
+        EXPECT_EQ(r.half, halves++);
+        EXPECT_EQ(light.size(), 16u);
+    };
+    task.on_row = [&](const core::AngleRow& row, double truth) {
+        EXPECT_EQ(row.tick, ticks++);
+        final_arcsec += row.dtheta_final_arcsec;
+        true_arcsec += truth;
+    };
     const auto r = study::run(task);
     EXPECT_EQ(halves, 4800);
     EXPECT_EQ(ticks, 2400);
+    EXPECT_NEAR(final_arcsec - true_arcsec, r.variants.back().angle_error_arcsec, 1e-6);
     ASSERT_EQ(r.switches.size(), 2u);
     EXPECT_EQ(r.switches[0].tick, 1000);
     EXPECT_EQ(r.switches[0].gap_ticks, 3);
@@ -118,7 +129,7 @@ TEST(Run, a_sink_that_fails_ends_the_run) {
     study::RunTask task;
     task.config = short_run();
     task.threads = 2;
-    task.on_record = [](const core::HalfRecord& r) {
+    task.on_record = [](const core::HalfRecord& r, std::span<const float>) {
         if (r.half == 100) throw logs::IoError{"disk full"};
     };
     EXPECT_THROW((void)study::run(task), logs::IoError);

@@ -32,6 +32,21 @@ TEST(TwinPerimeter, TheLagTakesOverWhereItsCurrentFallsBelowTheLimit) {
     EXPECT_NEAR(halves[5].truth.perimeter_v, 190.0 - 4.0 * std::exp(-6.0), 1e-4);
 }
 
+TEST(TwinPerimeter, TheHalfWaveVoltageFollowsTheTemperature) {
+    for (const double per_c : {0.0, 2e-3, -2e-3}) {
+        TwinConfig config = quiet_gyro();
+        config.miss_lambda = 0.0;
+        config.half_wave_temperature_coefficient_per_c = per_c;
+        config.thermal_time_s = 0.2;
+        Twin twin{config, Motion::rest()};
+        // Ten time constants: 20 C warmer, to 1e-3 C.
+        const double before_v = advance(twin, frame(true, 1), 800).back().truth.perimeter_v;
+        advance(twin, frame(false, -1, 190.0), 20);
+        const double after_v = advance(twin, frame(true, -1, 190.0), 100).back().truth.perimeter_v;
+        EXPECT_NEAR(after_v - before_v, 40.0 * (1.0 + per_c * 20.0), 0.003) << per_c;
+    }
+}
+
 TEST(TwinPerimeter, SetPointsHaveTheStepsAndTheRangeOfTheirConverter) {
     TwinConfig config = held_gyro();
     config.dac_bits = 8;

@@ -47,6 +47,7 @@ TEST(Twin, AConfigurationThatArithmeticCannotCarryIsRefusedByName) {
                                             ZLG_MEMBER(miss_lambda, nan, -0.1, 0.24),
                                             ZLG_MEMBER(expansion_lambda_per_c, nan),
                                             ZLG_MEMBER(half_wave_v, nan, 0.0, -40.0, 151.0),
+                                            ZLG_MEMBER(half_wave_temperature_coefficient_per_c, nan, -0.06, 0.15),
                                             ZLG_MEMBER(high_voltage_rc_s, nan, 0.0),
                                             ZLG_MEMBER(slew_v_s, nan, 0.0),
                                             ZLG_MEMBER(piezo_min_v, nan),

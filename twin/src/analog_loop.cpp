@@ -6,8 +6,6 @@
 namespace zlg::twin {
 namespace {
 
-double without_dust(double lambda) { return std::abs(lambda) < negligible_lambda ? 0.0 : lambda; }
-
 // exp(A t) of A = [[0, -1/tau], [1/rc, -1/rc]], by its eigenvalues.
 void exponential(double tau_s, double rc_s, double t_s, double (&result)[2][2]) {
     const double mean = -0.5 / rc_s;
@@ -46,30 +44,6 @@ AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, doubl
     const double fastest_s = std::min({tau_s_, stage_.rc_s(), std::sqrt(tau_s_ * stage_.rc_s())});
     n_substeps_ = static_cast<int>(std::ceil(step_s / std::min(10e-6, 0.25 * fastest_s)));
     exponential(tau_s_, stage_.rc_s(), step_s, propagator_);
-}
-
-bool AnalogLoop::is_linear(State state, double detuning_lambda) const {
-    return std::abs(detuning_lambda) <= limit_lambda_ && std::abs(detuning_lambda) < two_way_limit_lambda &&
-           stage_.is_linear(state.v_lambda, state.command_lambda);
-}
-
-// In x = (command + drift - centre, v + drift - centre) a drift that grows evenly is a constant push (r, r), which
-// shifts the state of rest to (tau - rc, tau) r.
-AnalogLoop::State AnalogLoop::step(State state, const Mode& mode, int polarity, double drift_start,
-                                   double drift_end) const {
-    if (mode.helicity() != polarity || !is_linear(state, mode.detuning_lambda)) {
-        return runge_kutta(state, polarity, drift_start, drift_end);
-    }
-    const double drift_lambda_s = (drift_end - drift_start) * steps_per_s_;
-    const double rest_v = tau_s_ * drift_lambda_s;
-    const double rest_command = rest_v - stage_.rc_s() * drift_lambda_s;
-    const double x_v = mode.detuning_lambda - rest_v;
-    const double x_command = mode.detuning_lambda + (state.command_lambda - state.v_lambda) - rest_command;
-    const double end_v = rest_v + without_dust(propagator_[1][0] * x_command + propagator_[1][1] * x_v);
-    const double end_command = rest_command + without_dust(propagator_[0][0] * x_command + propagator_[0][1] * x_v);
-    const double origin = 0.5 * static_cast<double>(mode.centre_half_lambda) - drift_end;
-    const State end{origin + end_command, origin + end_v};
-    return is_linear(end, end_v) ? end : runge_kutta(state, polarity, drift_start, drift_end);
 }
 
 AnalogLoop::State AnalogLoop::rates(State state, int polarity, double drift_lambda) const {

@@ -7,12 +7,16 @@
 // helicity and dl are those of the mode that lases: with the wrong mode the loop pushes away. Without two-way light the
 // integrator holds. Where nothing clips, one step is a matrix; elsewhere it is Runge-Kutta.
 
+#include <cmath>
+
 #include <zlg/twin/twin.hpp>
 
 #include "high_voltage.hpp"
 #include "laser.hpp"
 
 namespace zlg::twin {
+
+inline double without_dust(double lambda) { return std::abs(lambda) < negligible_lambda ? 0.0 : lambda; }
 
 class AnalogLoop {
 public:
@@ -28,6 +32,8 @@ public:
     [[nodiscard]] State step(State state, const Mode& mode, int polarity, double drift_start_lambda,
                              double drift_end_lambda) const;
 
+    void take_stage(const HighVoltage& stage) { stage_ = stage; }
+
 private:
     [[nodiscard]] bool is_linear(State state, double detuning_lambda) const;
     [[nodiscard]] State rates(State state, int polarity, double drift_lambda) const;
@@ -41,5 +47,29 @@ private:
     int n_substeps_;
     double propagator_[2][2];  // over (command, v), both relative to the steady state
 };
+
+inline bool AnalogLoop::is_linear(State state, double detuning_lambda) const {
+    return std::abs(detuning_lambda) <= limit_lambda_ && std::abs(detuning_lambda) < two_way_limit_lambda &&
+           stage_.is_linear(state.v_lambda, state.command_lambda);
+}
+
+// In x = (command + drift - centre, v + drift - centre) a drift that grows evenly is a constant push (r, r), which
+// shifts the state of rest to (tau - rc, tau) r.
+inline AnalogLoop::State AnalogLoop::step(State state, const Mode& mode, int polarity, double drift_start,
+                                          double drift_end) const {
+    if (mode.helicity() != polarity || !is_linear(state, mode.detuning_lambda)) {
+        return runge_kutta(state, polarity, drift_start, drift_end);
+    }
+    const double drift_lambda_s = (drift_end - drift_start) * steps_per_s_;
+    const double rest_v = tau_s_ * drift_lambda_s;
+    const double rest_command = rest_v - stage_.rc_s() * drift_lambda_s;
+    const double x_v = mode.detuning_lambda - rest_v;
+    const double x_command = mode.detuning_lambda + (state.command_lambda - state.v_lambda) - rest_command;
+    const double end_v = rest_v + without_dust(propagator_[1][0] * x_command + propagator_[1][1] * x_v);
+    const double end_command = rest_command + without_dust(propagator_[0][0] * x_command + propagator_[0][1] * x_v);
+    const double origin = 0.5 * static_cast<double>(mode.centre_half_lambda) - drift_end;
+    const State end{origin + end_command, origin + end_v};
+    return is_linear(end, end_v) ? end : runge_kutta(state, polarity, drift_start, drift_end);
+}
 
 }  // namespace zlg::twin

@@ -2,20 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "laser.hpp"
 
 namespace zlg::twin {
 
 HighVoltage::HighVoltage(const TwinConfig& config, double usual_step_s)
-    : lambda_per_v_{0.5 / config.half_wave_v},
-      middle_v_{0.5 * config.piezo_min_v + 0.5 * config.piezo_max_v},
-      half_range_lambda_{0.5 * lambda_per_v_ * (config.piezo_max_v - config.piezo_min_v)},
+    : middle_v_{0.5 * config.piezo_min_v + 0.5 * config.piezo_max_v},
+      half_range_v_{0.5 * (config.piezo_max_v - config.piezo_min_v)},
       rc_s_{config.high_voltage_rc_s},
-      slew_lambda_s_{lambda_per_v_ * config.slew_v_s},
-      slew_error_lambda_{slew_lambda_s_ * rc_s_},
+      slew_v_s_{config.slew_v_s},
       usual_step_s_{usual_step_s},
-      usual_decay_{std::exp(-usual_step_s / rc_s_)} {}
+      usual_decay_{std::exp(-usual_step_s / rc_s_)} {
+    take_half_wave(config.half_wave_v);
+}
+
+double HighVoltage::take_half_wave(double half_wave_v) {
+    const double before = std::exchange(lambda_per_v_, 0.5 / half_wave_v);
+    half_range_lambda_ = lambda_per_v_ * half_range_v_;
+    slew_lambda_s_ = lambda_per_v_ * slew_v_s_;
+    slew_error_lambda_ = slew_lambda_s_ * rc_s_;
+    return before > 0.0 ? lambda_per_v_ / before : 1.0;
+}
 
 double HighVoltage::followed(double v_lambda, double command_lambda, double dt_s) const {
     double error = command_lambda - v_lambda;
@@ -29,18 +38,6 @@ double HighVoltage::followed(double v_lambda, double command_lambda, double dt_s
     }
     const double decay = exponential_s == usual_step_s_ ? usual_decay_ : std::exp(-exponential_s / rc_s_);
     return clamped(command_lambda - error * decay);
-}
-
-double HighVoltage::rate_lambda_s(double v_lambda, double command_lambda) const {
-    return std::clamp((command_lambda - v_lambda) / rc_s_, -slew_lambda_s_, slew_lambda_s_);
-}
-
-double HighVoltage::clamped(double v_lambda) const {
-    return std::clamp(v_lambda, -half_range_lambda_, half_range_lambda_);
-}
-
-bool HighVoltage::is_linear(double v_lambda, double command_lambda) const {
-    return std::abs(command_lambda - v_lambda) <= slew_error_lambda_ && std::abs(command_lambda) <= half_range_lambda_;
 }
 
 double HighVoltage::volts(double v_lambda) const { return middle_v_ + v_lambda / lambda_per_v_; }

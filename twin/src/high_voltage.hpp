@@ -6,6 +6,9 @@
 // Voltages are expressed as the change of perimeter that they cause, in wavelengths, counted from the middle of the
 // range.
 
+#include <algorithm>
+#include <cmath>
+
 #include <zlg/twin/twin.hpp>
 
 namespace zlg::twin {
@@ -18,22 +21,34 @@ public:
     // Exact response to a command that holds over dt_s.
     [[nodiscard]] double followed(double v_lambda, double command_lambda, double dt_s) const;
 
-    [[nodiscard]] double rate_lambda_s(double v_lambda, double command_lambda) const;
-    [[nodiscard]] double clamped(double v_lambda) const;
+    [[nodiscard]] double rate_lambda_s(double v_lambda, double command_lambda) const {
+        return std::clamp((command_lambda - v_lambda) / rc_s_, -slew_lambda_s_, slew_lambda_s_);
+    }
+    [[nodiscard]] double clamped(double v_lambda) const {
+        return std::clamp(v_lambda, -half_range_lambda_, half_range_lambda_);
+    }
     // True where neither the current limit nor the range is felt.
-    [[nodiscard]] bool is_linear(double v_lambda, double command_lambda) const;
+    [[nodiscard]] bool is_linear(double v_lambda, double command_lambda) const {
+        return std::abs(command_lambda - v_lambda) <= slew_error_lambda_ &&
+               std::abs(command_lambda) <= half_range_lambda_;
+    }
+
+    // Let the half-wave voltage change. A voltage that stays has from now on `return` times its length in wavelengths.
+    double take_half_wave(double half_wave_v);
 
     [[nodiscard]] double volts(double v_lambda) const;
     [[nodiscard]] double lambda(double volts) const;
     [[nodiscard]] double rc_s() const { return rc_s_; }
 
 private:
-    double lambda_per_v_;
     double middle_v_;
-    double half_range_lambda_;
+    double half_range_v_;
     double rc_s_;
-    double slew_lambda_s_;
-    double slew_error_lambda_;  // lag at which the current limit begins
+    double slew_v_s_;
+    double lambda_per_v_ = 0.0;
+    double half_range_lambda_ = 0.0;
+    double slew_lambda_s_ = 0.0;
+    double slew_error_lambda_ = 0.0;  // lag at which the current limit begins
     double usual_step_s_;
     double usual_decay_;
 };

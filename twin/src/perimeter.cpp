@@ -45,8 +45,6 @@ Perimeter::Perimeter(const TwinConfig& config, int n_steps)
 
 double Perimeter::voltage_v() const { return std::clamp(stage_.volts(v_), config_.piezo_min_v, config_.piezo_max_v); }
 
-double Perimeter::drift_at(int step) const { return drift_start_ + drift_step_ * step; }
-
 void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda) {
     check(frame, config_.loop);
     drift_start_ = drift_ = drift_start_lambda;
@@ -65,6 +63,14 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
         halves_since_closing_ += 1.0;
     }
     mode_ = lasing_mode(length_lambda());
+}
+
+void Perimeter::take_half_wave(double half_wave_v) {
+    const double growth = stage_.take_half_wave(half_wave_v);
+    loop_.take_stage(stage_);
+    v_ *= growth;
+    command_ *= growth;
+    injected_ *= growth;
 }
 
 void Perimeter::take_set_points(const core::ActuatorFrame& frame) {
@@ -100,22 +106,6 @@ void Perimeter::close() {
     centre_ = nearest_centre_lambda(polarity_, length_lambda());
     miss_at_closing_ = length_lambda() - centre_;
     halves_since_closing_ = 0.0;
-}
-
-void Perimeter::step() {
-    ++steps_done_;
-    const double drift_before = drift_;
-    drift_ = drift_at(steps_done_);
-    if (!closed_ || config_.loop == LoopKind::external) {
-        follow_set_points();
-    } else if (config_.loop == LoopKind::analog) {
-        const AnalogLoop::State end = loop_.step({command_, v_}, mode_, polarity_, drift_before, drift_);
-        command_ = end.command_lambda;
-        v_ = end.v_lambda;
-    } else {
-        follow_exponential();
-    }
-    mode_ = lasing_mode(length_lambda());
 }
 
 // Set-point k holds over [k, k + 1)/n of the half; a change within a step splits it.

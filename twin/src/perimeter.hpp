@@ -22,6 +22,8 @@ public:
     //
     // errors  std::invalid_argument for a frame that no hardware could obey; nothing has changed then.
     void begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda);
+    // From here on half a wavelength takes another voltage; the voltage stays, the length follows.
+    void take_half_wave(double half_wave_v);
     void step();
 
     // The mode that lases now.
@@ -30,7 +32,7 @@ public:
 
 private:
     [[nodiscard]] double length_lambda() const { return v_ + drift_; }
-    [[nodiscard]] double drift_at(int step) const;
+    [[nodiscard]] double drift_at(int step) const { return drift_start_ + drift_step_ * step; }
     void take_set_points(const core::ActuatorFrame& frame);
     void aim();
     void close();
@@ -66,5 +68,22 @@ private:
     double halves_since_closing_ = 0.0;
     std::vector<double> decay_;  // after each step of a half
 };
+
+// Lived through dozens of times in a half-period: it belongs into its caller's loop.
+inline void Perimeter::step() {
+    ++steps_done_;
+    const double drift_before = drift_;
+    drift_ = drift_at(steps_done_);
+    if (!closed_ || config_.loop == LoopKind::external) {
+        follow_set_points();
+    } else if (config_.loop == LoopKind::analog) {
+        const AnalogLoop::State end = loop_.step({command_, v_}, mode_, polarity_, drift_before, drift_);
+        command_ = end.command_lambda;
+        v_ = end.v_lambda;
+    } else {
+        follow_exponential();
+    }
+    mode_ = lasing_mode(length_lambda());
+}
 
 }  // namespace zlg::twin

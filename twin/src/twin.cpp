@@ -48,6 +48,7 @@ struct Twin::State {
     [[nodiscard]] double warming_at(std::uint64_t at_half) const;
     [[nodiscard]] double drift_lambda(double warming) const;
     [[nodiscard]] double bias_hz() const;
+    [[nodiscard]] double half_wave_v() const;
 
     const TwinConfig config;
     const Motion motion;
@@ -92,9 +93,15 @@ double Twin::State::bias_hz() const {
     return config.bias_hz * (1.0 + config.bias_temperature_coefficient_per_c * above_reference_c);
 }
 
+double Twin::State::half_wave_v() const {
+    const double above_reference_c = config.temperature_rise_c * warming_end;
+    return config.half_wave_v * (1.0 + config.half_wave_temperature_coefficient_per_c * above_reference_c);
+}
+
 TwinHalf Twin::State::advance(const core::ActuatorFrame& actuator) {
     const int bias_sign = index % 2 == 0 ? config.first_bias_sign : -config.first_bias_sign;
     const double warming_next = warming_at(index + 1);
+    if (config.half_wave_temperature_coefficient_per_c != 0.0) perimeter.take_half_wave(half_wave_v());
     perimeter.begin_half(actuator, drift_lambda(warming_end), drift_lambda(warming_next));
     warming_start = std::exchange(warming_end, warming_next);
 

@@ -77,6 +77,16 @@ void validate_perimeter(const TwinConfig& c) {
                    -max_travel_lambda, max_travel_lambda);
 }
 
+// At either end of the warming.
+void validate_half_wave(const TwinConfig& c, const char* member, double half_wave_v, double range_v) {
+    require_within(member, half_wave_v, 0.5 * range_v / max_travel_lambda, infinity);
+    // Only a range of two half-waves holds a place short of a mode of either helicity at any temperature.
+    if (c.miss_lambda > 0.0 && !(range_v >= 2.0 * half_wave_v)) {
+        refuse(member, half_wave_v,
+               fmt::format("<= (piezo_max_v - piezo_min_v)/2 = {} where miss_lambda > 0", 0.5 * range_v));
+    }
+}
+
 void validate_piezo(const TwinConfig& c) {
     require_finite("piezo_min_v", c.piezo_min_v);
     require_finite("piezo_max_v", c.piezo_max_v);
@@ -84,13 +94,13 @@ void validate_piezo(const TwinConfig& c) {
     if (!(range_v > 0.0 && range_v < infinity)) {
         refuse("piezo_max_v", c.piezo_max_v, fmt::format("finite and > piezo_min_v = {}", c.piezo_min_v));
     }
-    require_within("half_wave_v", c.half_wave_v, 0.5 * range_v / max_travel_lambda, infinity);
     require_positive("half_wave_v", c.half_wave_v);
-    // Only a range of two half-waves holds a place short of a mode of either helicity at any temperature.
-    if (c.miss_lambda > 0.0 && !(range_v >= 2.0 * c.half_wave_v)) {
-        refuse("half_wave_v", c.half_wave_v,
-               fmt::format("<= (piezo_max_v - piezo_min_v)/2 = {} where miss_lambda > 0", 0.5 * range_v));
-    }
+    require_finite("half_wave_temperature_coefficient_per_c", c.half_wave_temperature_coefficient_per_c);
+    const double warm_half_wave_v =
+        c.half_wave_v * (1.0 + c.half_wave_temperature_coefficient_per_c * c.temperature_rise_c);
+    validate_half_wave(c, "half_wave_v", c.half_wave_v, range_v);
+    validate_half_wave(c, "half_wave_v * (1 + half_wave_temperature_coefficient_per_c * temperature_rise_c)",
+                       warm_half_wave_v, range_v);
     require_positive("slew_v_s", c.slew_v_s);
     require_within("dac_bits", c.dac_bits, 1, 24);
     require_within("adc_bits", c.adc_bits, 1, 24);

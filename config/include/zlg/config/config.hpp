@@ -55,7 +55,8 @@ struct Perimeter {
 };
 
 struct Piezo {
-    double half_wave_v = 40.0;
+    double half_wave_v = 40.0;  // at the reference temperature of [gyro]
+    double half_wave_temperature_coefficient_per_c = 0.0;
     double half_wave_error = 0.0;  // relative error of the U_lambda/2 that control presumes before it has measured it
     double rc_s = 0.001;
     double slew_v_s = 4000.0;

@@ -10,8 +10,7 @@
 //
 // Only measured ticks take part, with their final values; where some of the standard positions are missing, the fit is
 // made with the others, of an order that they allow. At the start of a log eq (14) is used in reversed time.
-// The sum of what is delivered and the sum of the final values are the same after each correction, unless a later gap
-// still owes its own.
+// What is delivered and what is final have the same sum after each correction, unless a later gap still owes its own.
 
 #include <array>
 #include <cstdint>
@@ -41,11 +40,10 @@ enum class GapBridgeFault : unsigned char { none, extrapolation_points, points_b
 
 [[nodiscard]] GapBridgeFault check(const GapBridgeConfig& config) noexcept;
 
-// The polynomial order of a method; 0 for `none`.
-[[nodiscard]] int order_of(BridgeMethod method) noexcept;
-
 // Ticks between a tick and its final value: nothing about it changes later. At most 24.
-[[nodiscard]] int final_delay_ticks(const GapBridgeConfig& config) noexcept;
+[[nodiscard]] constexpr int final_delay_ticks(const GapBridgeConfig& c) noexcept {
+    return max_gap_ticks + (c.extrapolation_points > c.points_after ? c.extrapolation_points : c.points_after);
+}
 
 // One tick as measured, or the place of one in a gap.
 struct TickInput {
@@ -70,42 +68,59 @@ struct HistoryTick {
     friend bool operator==(const HistoryTick&, const HistoryTick&) = default;
 };
 
-// The gap that lasts.
-struct OpenGap {
-    bool open = false;
-    bool has_before = false;   // a measured tick precedes it
-    bool lower_order = false;  // of the extrapolation
+// Where a gap lies.
+struct Gap {
+    bool has_before = false;  // a measured tick precedes it
     std::int8_t mode_before = 1;
-    std::int64_t first_tick = 0;
-    std::int64_t n = 0;   // ticks so far
+    std::int64_t first_tick = 0, n = 0;       // n: ticks so far
+    ExactSum final_minus_delivered_arcsec{};  // of one that is too long: what its first 16 ticks lack
+
+    friend bool operator==(const Gap&, const Gap&) = default;
+};
+
+// The gap that lasts, and its extrapolation.
+struct OpenGap {
+    bool open = false, lower_order = false;
+    Gap gap{};
     PolynomialFit fit{};  // eq (14)
     std::array<double, max_points> value_arcsec{};
-    // Of a gap that is too long: the mean of the extrapolation points, and how far its ticks are above the delivered.
-    double constant_arcsec = 0.0;
-    ExactSum final_minus_delivered_arcsec{};
+    std::array<double, max_points> variance_arcsec2{};
+    double constant_arcsec = 0.0;  // mean of the extrapolation points: all that a gap that is too long gets
 
     friend bool operator==(const OpenGap&, const OpenGap&) = default;
 };
 
 // A gap that is over and waits for the ticks after it, and then for a tick to carry its correction.
 struct PendingGap {
-    OpenGap gap{};
+    Gap gap{};
     std::int64_t due_tick = 0;
-    std::int8_t sign_after = 1;
-    std::int8_t mode_after = 1;
+    std::int8_t sign_after = 1, mode_after = 1;
     bool resolved = false;
     ExactSum lump_arcsec{};  // final minus delivered, of all that this gap made uncertain
 
     friend bool operator==(const PendingGap&, const PendingGap&) = default;
 };
 
+// The sums of eq (15) for each tick of one gap; they grow point by point.
+struct GapSums {
+    std::int64_t first_tick = -1;  // of the gap; -1: of none yet
+    PolynomialFit fit{};           // position 0 is the tick before the gap
+    int n_added = 0;               // points of the fit that are in the sums
+    std::array<double, max_gap_ticks> value_arcsec{};
+    std::array<double, max_gap_ticks> variance_arcsec2{};
+    std::array<double, max_gap_ticks> last_weight{};               // of the point that was added last
+    double angle_variance_arcsec2 = 0.0, last_angle_weight = 0.0;  // the same of the whole gap's angle
+
+    friend bool operator==(const GapSums& a, const GapSums& b) noexcept;
+};
+
 struct GapBridgeState {
-    std::int64_t next_tick = 0;
-    std::int64_t next_final = 0;
+    std::int64_t next_tick = 0, next_final = 0;
     OpenGap gap{};
     int n_pending = 0;
     std::array<PendingGap, max_pending_gaps> pending{};
-    ExactSum carry_arcsec{};  // what rounding left of the corrections so far
+    std::array<GapSums, 2> sums{};  // of gaps that were resolved last, or are in the next tick: no more than two
+    ExactSum carry_arcsec{};        // what rounding left of the corrections so far
     std::array<HistoryTick, history_ticks> history{};
 
     friend bool operator==(const GapBridgeState&, const GapBridgeState&) = default;
@@ -113,15 +128,18 @@ struct GapBridgeState {
 
 // Take one tick.
 //
-// return   dtheta of this tick; the final row of the tick `final_delay_ticks` ago, once there is one; the report of a
-//          gap that was resolved now.
-// cost     bounded: where a gap is resolved the weights of at most 16 ticks by 16 points, in a gap those of one tick.
+// return  dtheta of this tick; the final row of the tick `final_delay_ticks` ago, once there is one; the report of a gap
+//         that was resolved now.
+// cost    bounded: where a gap is resolved 16 ticks by 16 points, or by what `prepare` has left of them.
 [[nodiscard]] AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick) noexcept;
 
+// Do some of the next tick's work that depends on earlier ticks alone. To be called once between two ticks, or not: no
+// output depends on it.
+void prepare(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
+
 struct DrainOutput {
-    bool has_row = false;
+    bool has_row = false, has_gap = false;
     AngleRow row{};
-    bool has_gap = false;
     GapReport gap{};
 };
 

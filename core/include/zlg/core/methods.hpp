@@ -19,4 +19,9 @@ enum class BridgeMethod : unsigned char {
     quadratic,
 };
 
+// The polynomial order of a method; 0 for `none`.
+[[nodiscard]] constexpr int order_of(BridgeMethod method) noexcept {
+    return method == BridgeMethod::quadratic ? 2 : method == BridgeMethod::linear ? 1 : 0;
+}
+
 }  // namespace zlg::core

@@ -3,7 +3,8 @@
 //
 //   P(j) = sum_k w_k(j) P_k,   w_k(j) = v(j)^T G^-1 v(x_k),   v(x) = (1, x, x^2)^T,   G = sum_k v(x_k) v(x_k)^T
 //
-// The positions are small integers, so G, its adjugate and every numerator are integers and a weight is rounded once.
+// The positions are small integers, so G, its adjugate and every numerator are whole numbers below 2^53: exact as
+// doubles, which every processor multiplies faster than 64-bit integers. A weight is rounded once, by its division.
 // With it eqs (14) and (15) of the paper are sums of at most 16 products.
 
 #include <array>
@@ -14,6 +15,19 @@ namespace zlg::core {
 inline constexpr int max_fit_points = 16;
 inline constexpr int max_fit_order = 2;
 using FitWeights = std::array<double, max_fit_points>;
+
+// Weight of one point as a function of the whole number j, or of several of them side by side.
+struct PointWeight {
+    double by_1;
+    double by_j;
+    double by_j2;
+    double determinant;
+
+    template <class Number>
+    [[nodiscard]] Number at(Number j) const noexcept {
+        return ((by_j2 * j + by_j) * j + by_1) / determinant;
+    }
+};
 
 class PolynomialFit {
 public:
@@ -30,16 +44,19 @@ public:
     // The n weights with which the points give the value at tick j, |j| <= 64; the rest are 0.
     [[nodiscard]] FitWeights weights(std::int32_t j) const noexcept;
 
+    // The weight of point k < n as a function of j.
+    [[nodiscard]] PointWeight weight_of(unsigned k) const noexcept {
+        return {numerator_[0][k], numerator_[1][k], numerator_[2][k], determinant_};
+    }
+
     friend bool operator==(const PolynomialFit&, const PolynomialFit&) = default;
 
 private:
-    using Row = std::array<std::int64_t, max_fit_order + 1>;
-
     int n_ = 0;
     int order_ = 0;
-    std::int64_t determinant_ = 1;
+    double determinant_ = 1.0;
     std::array<std::int32_t, max_fit_points> position_{};
-    std::array<Row, max_fit_points> numerator_{};  // adj(G) v(x_k)
+    std::array<std::array<double, max_fit_points>, max_fit_order + 1> numerator_{};  // adj(G) v(x_k), by power of j
 };
 
 }  // namespace zlg::core

@@ -22,9 +22,9 @@ namespace zlg::core {
 struct RelockDriftConfig {
     RelockMethod method = RelockMethod::none;
     std::int64_t ticks = 20;                     // ticks after a gap that are corrected, >= 0
-    Seconds tick{0.005};                         // > 0
-    Arcsec scale{3.263};                         // per count, > 0
-    Hertz bias{60e3};                            // f0 at the reference temperature, > 0
+    Seconds tick{0.005};                         // 1e-9..1e9
+    Arcsec scale{3.263};                         // per count, > 0, up to 1e9
+    Hertz bias{60e3};                            // f0 at the reference temperature, > 0, up to 1e15
     double chi = 3.6;                            // >= 0
     double temperature_coefficient_per_c = 0.0;  // finite
     Celsius reference_temperature{20.0};         // finite

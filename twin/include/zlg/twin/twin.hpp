@@ -48,7 +48,8 @@ struct TwinConfig {
     double miss_lambda = 0.22;  // |detuning| at the moment of closing; 0: what comes of itself
     double expansion_lambda_per_c = 0.025;
 
-    double half_wave_v = 40.0;
+    double half_wave_v = 40.0;                             // at the reference temperature
+    double half_wave_temperature_coefficient_per_c = 0.0;  // relative; V = middle of the range is where nothing changes
     double high_voltage_rc_s = 0.001;
     double slew_v_s = 4000.0;
     double piezo_min_v = 0.0;

@@ -1,0 +1,169 @@
+#include <zlg/analysis/bias_loss.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+
+#include "relock_view.hpp"
+
+namespace zlg::analysis {
+namespace {
+
+constexpr double rounding_counts2 = 1.0 / 12.0;
+// So many clusters give a scatter to be relied on.
+constexpr std::int64_t least_clusters = 8;
+
+// The borders of one re-lock as observations: counts y against the loss z per unit of chi, and the parity o that an
+// error of f0 would show. Row k: border k; the last two rows: means over the even and the odd borders of the rest.
+struct Borders {
+    Eigen::VectorXd y;
+    Eigen::MatrixXd zo;    // columns z and o
+    double noise_z = 0.0;  // what light noise adds to the sum of squares of z about its mean
+
+    Borders(const RelockView& view, const BiasLaw& law, std::size_t transient);
+
+private:
+    void average_rest(const Eigen::VectorXd& y_all, const Eigen::MatrixXd& zo_all, Eigen::Index kept);
+    void centre();
+};
+
+Borders::Borders(const RelockView& view, const BiasLaw& law, std::size_t transient) {
+    const std::vector<core::HalfRecord>& halves = view.relock->halves;
+    // As long again as the transient for the rest: every half of it brings light noise.
+    const auto n = static_cast<Eigen::Index>(std::min(halves.size(), 2 * transient + 4));
+    const auto kept = static_cast<Eigen::Index>(transient + 1);
+    const LightNoise light{view.log->square};
+    Eigen::VectorXd y_all = Eigen::VectorXd::Zero(n + 1);
+    Eigen::MatrixXd zo_all = Eigen::MatrixXd::Zero(n + 1, 2);
+    const double first_sign = halves[0].bias_sign * halves[0].mode;
+    for (Eigen::Index h = 0; h < n; ++h) {
+        const core::HalfRecord& r = halves[static_cast<std::size_t>(h)];
+        const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c) * r.bias_sign * r.mode;
+        const double excess = r.detuning_sq_lambda2 - light.square_lambda2;
+        y_all[h + 1] = y_all[h] + static_cast<double>(r.counts) - cycles - view.counts_per_half;
+        zo_all(h + 1, 0) = zo_all(h, 0) - cycles * excess;
+        zo_all(h + 1, 1) = h % 2 == 0 ? first_sign : 0.0;
+        // This half stands in all observations behind it: in all rows k > h, and in the rest's means by their share.
+        const double rows = static_cast<double>(kept + 2);
+        const double behind = h < kept ? static_cast<double>(kept - 1 - h) + 2.0
+                                       : 2.0 * static_cast<double>(n - h) / static_cast<double>(n + 1 - kept);
+        const double behind_sq = h < kept ? behind : 0.5 * behind * behind;
+        noise_z += light.variance_of(excess) * cycles * cycles * (behind_sq - behind * behind / rows);
+    }
+    average_rest(y_all, zo_all, kept);
+    centre();
+}
+
+void Borders::average_rest(const Eigen::VectorXd& y_all, const Eigen::MatrixXd& zo_all, Eigen::Index kept) {
+    y = Eigen::VectorXd::Zero(kept + 2);
+    zo = Eigen::MatrixXd::Zero(kept + 2, 2);
+    y.head(kept) = y_all.head(kept);
+    zo.topRows(kept) = zo_all.topRows(kept);
+    std::array<double, 2> n{};
+    for (Eigen::Index k = kept; k < y_all.size(); ++k) n[static_cast<std::size_t>(k % 2)] += 1.0;
+    for (Eigen::Index k = kept; k < y_all.size(); ++k) {
+        const double share = 1.0 / n[static_cast<std::size_t>(k % 2)];
+        y[kept + k % 2] += share * y_all[k];
+        zo.row(kept + k % 2) += share * zo_all.row(k);
+    }
+}
+
+// The rounding at the first border is common to all: an offset of its own for each re-lock.
+void Borders::centre() {
+    y.array() -= y.mean();
+    zo.rowwise() -= zo.colwise().mean().eval();
+}
+
+struct Sums {
+    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();  // information, less what light noise adds
+    Eigen::Vector2d c = Eigen::Vector2d::Zero();
+};
+
+Sums sums_of(const Borders& b) {
+    Sums s{b.zo.transpose() * b.zo, b.zo.transpose() * b.y};
+    s.a(0, 0) -= b.noise_z;
+    return s;
+}
+
+// Scatter of the re-locks' own contributions: nothing is presumed of the noise within one of them.
+Eigen::Matrix2d scatter_covariance(const std::vector<Sums>& clusters, const Eigen::Matrix2d& inverse,
+                                   const Eigen::Vector2d& solution) {
+    Eigen::Matrix2d meat = Eigen::Matrix2d::Zero();
+    for (const Sums& s : clusters) {
+        const Eigen::Vector2d score = s.c - s.a * solution;
+        meat += score * score.transpose();
+    }
+    const auto n = static_cast<double>(clusters.size());
+    const double factor = widened(1.0, n - 2.0);
+    return factor * factor * n / (n - 2.0) * (inverse * meat * inverse);
+}
+
+// Of the residuals about what rounding and light noise make of them.
+double chi2_per_dof(const std::vector<Borders>& all, const Eigen::Vector2d& solution) {
+    double found = 0.0;
+    double expected = -2.0 * rounding_counts2;
+    for (const Borders& b : all) {
+        found += (b.y - b.zo * solution).squaredNorm();
+        expected += rounding_counts2 * static_cast<double>(b.y.size() - 1) + solution[0] * solution[0] * b.noise_z;
+    }
+    return found / expected;
+}
+
+Estimate judged(double chi, double sigma, const BiasLoss& loss) {
+    const Estimate e = estimated(chi, sigma);
+    constexpr double least_sigma = 0.1;
+    if (e.determined && chi < 0.0)
+        return refused(fmt::format("chi = {:.2g} +- {:.2g}: the bias does not fall with the detuning", chi, sigma));
+    if (!e.determined || !(sigma > 0.3 * std::abs(chi) && sigma > least_sigma)) return e;
+    return refused(
+        fmt::format("chi = {:.2g} +- {:.2g} from {} re-locks whose first half lacks {:.2g} counts; more "
+                    "switches or a larger miss would tell",
+                    chi, sigma, loss.n_relocks, loss.deficit_counts));
+}
+
+void solve(const std::vector<Borders>& all, BiasLoss& loss) {
+    std::vector<Sums> clusters;
+    Sums total;
+    for (const Borders& b : all) {
+        clusters.push_back(sums_of(b));
+        total.a += clusters.back().a;
+        total.c += clusters.back().c;
+    }
+    const Eigen::Matrix2d inverse = total.a.inverse();
+    const Eigen::Vector2d solution = inverse * total.c;
+    loss.chi2_per_dof = chi2_per_dof(all, solution);
+    const Eigen::Matrix2d covariance =
+        loss.n_relocks >= least_clusters
+            ? scatter_covariance(clusters, inverse, solution)
+            : Eigen::Matrix2d{std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * inverse};
+    loss.deficit_counts *= std::abs(solution[0]);
+    loss.chi = judged(solution[0], std::sqrt(covariance(0, 0)), loss);
+}
+
+}  // namespace
+
+BiasLoss find_bias_loss(std::span<const LabLog> logs, const BiasLaw& law) {
+    BiasLoss loss;
+    const Relocks relocks{logs};
+    loss.n_relocks = std::ssize(relocks.views);
+    if (!law.bias_hz.determined) {
+        loss.chi = refused("the bias frequency is not determined");
+    } else if (relocks.views.empty()) {
+        loss.chi = refused(fmt::format("no gap is followed by {} measured ticks with the column detuning_sq_lambda2",
+                                       settled_after_ticks + block_ticks));
+    } else {
+        std::vector<Borders> all;
+        for (const RelockView& view : relocks.views) {
+            all.emplace_back(view, law, relocks.transient_halves);
+            loss.deficit_counts += 0.5 * view.log->tick_s * law.bias_hz.value * relocks.first_square_lambda2 /
+                                   static_cast<double>(relocks.views.size());
+        }
+        solve(all, loss);
+    }
+    return loss;
+}
+
+}  // namespace zlg::analysis

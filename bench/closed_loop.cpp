@@ -1,0 +1,83 @@
+// The twin and the core in closed loop on one thread, in multiples of real time.
+//
+// The reference is the noise alone: as many normal deviates as the half-periods need, from the generator that the twin
+// uses. Nothing that draws them can be faster.
+
+#include <cstdint>
+
+#include <fmt/format.h>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <zlg/config/config.hpp>
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wiring.hpp>
+
+#include "paired.hpp"
+
+namespace {
+
+using namespace zlg;
+
+constexpr int n_halves = 400'000;
+volatile double sink = 0.0;  // what is computed must not be left out
+
+double halves_in_real_time(const config::Config& config) { return 2.0 / config.gyro.tick_s; }
+
+void draw_noise(const config::Config& config) {
+    boost::random::mt19937_64 engine{1};
+    boost::random::normal_distribution<double> normal;
+    const auto per_half = static_cast<std::int64_t>(2 * config.gyro.light_samples + 2);
+    double sum = 0.0;
+    for (std::int64_t k = 0; k < n_halves * per_half; ++k) sum += normal(engine);
+    sink = sum;
+}
+
+void run_twin(const config::Config& config) {
+    twin::Twin twin{rig::twin_config(config), rig::motion(config)};
+    const core::ActuatorFrame actuator = initial_actuator(rig::control_config(config));
+    double sum = 0.0;
+    for (int k = 0; k < n_halves; ++k) sum += twin.advance(actuator).truth.perimeter_v;
+    sink = sum;
+}
+
+void run_loop(const config::Config& config) {
+    rig::ClosedLoop loop{config, rig::motion(config)};
+    double sum = 0.0;
+    for (int k = 0; k < n_halves; ++k) sum += loop.advance().record.detuning_lambda;
+    sink = sum;
+}
+
+void run_loop_and_compensation(const config::Config& config) {
+    rig::ClosedLoop loop{config, rig::motion(config)};
+    const auto compensation =
+        rig::compensation_config(config, core::RelockMethod::mean_square, config.compensation.bridge);
+    core::GyroCompensationState state;
+    double sum = 0.0;
+    for (int k = 0; k < n_halves; ++k) sum += step(compensation, state, loop.advance().record).angle_arcsec;
+    sink = sum;
+}
+
+double times_real_time(const char* what, const config::Config& config, void (*work)(const config::Config&)) {
+    const auto result = bench::paired(
+        5, [&] { work(config); }, [&] { draw_noise(config); });
+    const double real_s = n_halves / halves_in_real_time(config);
+    const double times = real_s / result.work_s;
+    fmt::print("{:<44}{:>6.0f} times real time, {:>5.0f} ns a half-period, {:.2f} times its noise ({:.2f}..{:.2f})\n",
+               what, times, 1e9 * result.work_s / n_halves, result.ratio, result.least_ratio, result.most_ratio);
+    return times;
+}
+
+}  // namespace
+
+int main() {
+    config::Config config;
+    config.gyro.light_samples = 16;
+    times_real_time("twin, 16 light samples", config, run_twin);
+    const double loop = times_real_time("twin + control", config, run_loop);
+    const double all = times_real_time("twin + control + compensation", config, run_loop_and_compensation);
+    config.gyro.light_samples = 64;
+    times_real_time("twin + control + compensation, 64 samples", config, run_loop_and_compensation);
+    fmt::print("allowed: 1000 times real time with 16 samples\n");
+    return loop >= 1000.0 && all >= 1000.0 ? 0 : 1;
+}

@@ -1,0 +1,55 @@
+// Runs the scripts under callgrind: one dump for each half-period of control, and one for each of compensation.
+//
+// bench/count_instructions runs it and reads the dumps.
+
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+#include <valgrind/callgrind.h>
+
+#include "scripts.hpp"
+
+namespace {
+
+using namespace zlg;
+
+// Counts what `work` does, under a name.
+template <class Work>
+auto counted(const std::string& name, Work&& work) {
+    CALLGRIND_TOGGLE_COLLECT;
+    auto result = work();
+    CALLGRIND_TOGGLE_COLLECT;
+    CALLGRIND_DUMP_STATS_AT(name.c_str());
+    return result;
+}
+
+void run(const bench::Script& script) {
+    if (check(script.control) != core::GyroControlFault::none ||
+        check(script.compensation) != core::GyroCompensationFault::none)
+        throw std::logic_error{"the core refuses the script " + script.name};
+    bench::ScriptedGyro gyro{script};
+    core::GyroControlState control = initial_state(script.control);
+    core::GyroCompensationState compensation;
+    core::ActuatorFrame actuator = initial_actuator(script.control);
+    for (int half = 0; half < script.halves; ++half) {
+        const core::SensorFrame frame = gyro.advance(actuator);
+        const auto controlled = counted(fmt::format("{}|{}|control", script.name, half),
+                                        [&] { return step(script.control, control, frame); });
+        counted(fmt::format("{}|{}|compensation", script.name, half),
+                [&] { return step(script.compensation, compensation, controlled.record); });
+        actuator = controlled.actuator;
+    }
+}
+
+}  // namespace
+
+int main() {
+#ifdef __clang__
+    fmt::print("clang {}\n", __clang_version__);
+#else
+    fmt::print("g++ {}\n", __VERSION__);
+#endif
+    for (const auto& script : bench::usual_scripts()) run(script);
+    for (const auto& script : bench::worst_scripts()) run(script);
+}

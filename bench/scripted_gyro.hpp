@@ -1,0 +1,93 @@
+#pragma once
+// A gyro that does what a script says, to lead the core into each of its paths: no physics, only frames.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/core/gyro_control.hpp>
+
+namespace zlg::bench {
+
+// One tick of a script, the last of which goes on for ever.
+//
+//   '.'  light in both directions      'x'  dark in both halves      '-'  dark in the second half
+inline constexpr char lit = '.';
+inline constexpr char dark = 'x';
+inline constexpr char half_dark = '-';
+
+struct Script {
+    std::string name;
+    std::string ticks;
+    int halves = 0;
+    std::uint8_t light_samples = 16;
+    bool one_beam = false;
+    core::GyroControlConfig control{};
+    core::GyroCompensationConfig compensation{};
+};
+
+class ScriptedGyro {
+public:
+    explicit ScriptedGyro(const Script& script) : script_{script} {}
+
+    core::SensorFrame advance(const core::ActuatorFrame& actuator) {
+        if (actuator.loop_closed) {
+            detuning_lambda_ *= 0.98;  // slow: `frequency` finds a decay in each of its ticks
+            voltage_v_ += 0.1 * (actuator.set_point_v[0] - voltage_v_);
+        } else {
+            detuning_lambda_ = 0.2;
+            voltage_v_ = actuator.set_point_v[0];
+        }
+        const bool is_dark = darkness();
+        if (is_dark) detuning_lambda_ = 0.2;
+        core::SensorFrame frame = stamped(actuator);
+        shine(frame, is_dark);
+        ++half_;
+        return frame;
+    }
+
+private:
+    [[nodiscard]] bool darkness() const {
+        const auto tick = static_cast<std::size_t>(half_ / 2);
+        const char now = tick < script_.ticks.size() ? script_.ticks[tick] : script_.ticks.back();
+        return now == dark || (now == half_dark && half_ % 2 != 0);
+    }
+
+    core::SensorFrame stamped(const core::ActuatorFrame& actuator) {
+        core::SensorFrame frame;
+        frame.sequence = static_cast<std::uint32_t>(half_);
+        frame.timer_ticks = 25000 * static_cast<std::uint64_t>(half_ + 1);
+        frame.bias_sign = half_ % 2 == 0 ? std::int8_t{1} : std::int8_t{-1};
+        frame.polarity = actuator.polarity;
+        frame.loop_closed = actuator.loop_closed;
+        const double bias = 150.0 * (1.0 - 3.6 * detuning_lambda_ * detuning_lambda_);
+        counter_ += static_cast<std::uint64_t>(
+            static_cast<std::int64_t>(300.0 * std::sin(0.01 * half_) + frame.bias_sign * frame.polarity * bias));
+        frame.counter = counter_;
+        frame.piezo_v = voltage_v_;
+        frame.temperature_c = 20.0;
+        return frame;
+    }
+
+    void shine(core::SensorFrame& frame, bool is_dark) const {
+        const double level = is_dark ? 0.0 : 1000.0;
+        const double signal = frame.bias_sign * frame.polarity * 0.332 * 0.05 * detuning_lambda_;
+        frame.n_light = script_.light_samples;
+        frame.has_light_b = !script_.one_beam;
+        for (std::size_t k = 0; k < script_.light_samples; ++k) {
+            frame.light_a[k] = static_cast<float>(level * (1.0 + signal));
+            frame.light_b[k] = static_cast<float>(level * (1.0 - signal));
+        }
+    }
+
+    const Script& script_;
+    int half_ = 0;
+    double detuning_lambda_ = 0.2;
+    double voltage_v_ = 150.0;
+    std::uint64_t counter_ = 0;
+};
+
+}  // namespace zlg::bench

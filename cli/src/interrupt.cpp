@@ -1,0 +1,34 @@
+#include "interrupt.hpp"
+
+#include <csignal>
+
+#include <zlg/logs/error.hpp>
+
+namespace zlg::cli {
+namespace {
+
+volatile std::sig_atomic_t noted = 0;
+
+void note(int signal) {
+    noted = 1;
+    std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+Interruptible::Interruptible() {
+    noted = 0;
+    std::signal(SIGINT, note);
+    std::signal(SIGTERM, note);
+}
+
+Interruptible::~Interruptible() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
+void Interruptible::check() const {
+    if (noted) throw logs::IoError{"interrupted by a signal"};
+}
+
+}  // namespace zlg::cli

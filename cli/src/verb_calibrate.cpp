@@ -1,0 +1,157 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <zlg/analysis/lab_log.hpp>
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/raw_log.hpp>
+#include <zlg/logs/table_file.hpp>
+
+#include "as_json.hpp"
+#include "calibration_text.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+struct CalibrateOptions : Options {
+    std::vector<std::string> raws;
+    double rate_arcsec_s = 0.0;
+};
+
+struct Lab {
+    std::vector<analysis::LabLog> logs;
+    std::vector<config::Config> configs;  // of each log, with the options over it
+};
+
+analysis::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s) {
+    analysis::LabReader reader{path, tick_s};
+    Progress progress;
+    core::HalfRecord record;
+    std::int64_t halves = 0;
+    while (raw.next(record)) {
+        reader.take(record);
+        if (++halves % 100'000 == 0) progress.show(raw.fraction_read());
+    }
+    if (halves < 2) throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", path)};
+    if (!raw.line_is_ended())
+        complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", path));
+    return reader.finish();
+}
+
+Lab read_all(const CalibrateOptions& options) {
+    Lab lab;
+    for (const std::string& path : options.raws) {
+        logs::RawReader raw{path};
+        for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
+        lab.configs.push_back(load_log_config(options, raw.header().settings, path));
+        lab.logs.push_back(read(raw, path, lab.configs.back().gyro.tick_s));
+    }
+    return lab;
+}
+
+// Logs of one gyro, counted alike.
+void check_agreement(const CalibrateOptions& options, const Lab& lab) {
+    const config::Gyro& first = lab.configs.front().gyro;
+    for (std::size_t k = 1; k < lab.configs.size(); ++k) {
+        const config::Gyro& gyro = lab.configs[k].gyro;
+        const auto differ = [&](const char* key, double a, double b) {
+            return fmt::format("{} = {} in {}, {} in {}", key, a, options.raws.front(), b, options.raws[k]);
+        };
+        if (gyro.tick_s != first.tick_s)
+            throw logs::FormatError{differ("gyro.tick_s", first.tick_s, gyro.tick_s) + "; allowed is one value"};
+        if (gyro.scale_arcsec != first.scale_arcsec)
+            throw logs::FormatError{differ("gyro.scale_arcsec", first.scale_arcsec, gyro.scale_arcsec) +
+                                    "; allowed is one value"};
+        if (gyro.reference_temperature_c != first.reference_temperature_c)
+            throw config::ConfigError{
+                differ("gyro.reference_temperature_c", first.reference_temperature_c, gyro.reference_temperature_c) +
+                "; say with --set to which temperature the constants are to refer"};
+        if (lab.configs[k].perimeter.loop != lab.configs.front().perimeter.loop)
+            throw config::ConfigError{fmt::format("perimeter.loop differs between {} and {}; calibrate them apart",
+                                                  options.raws.front(), options.raws[k])};
+    }
+}
+
+// Of what is to be found, only what the user says is presumed, never what a log says of itself.
+analysis::Presumed presumed(const CalibrateOptions& options, const config::Config& of_logs) {
+    config::Config said;
+    if (!options.config_path.empty()) config::apply_file(said, options.config_path);
+    for (const std::string& set : options.sets) config::apply_set(said, set);
+    return {.scale_arcsec = of_logs.gyro.scale_arcsec,
+            .reference_temperature_c = of_logs.gyro.reference_temperature_c,
+            .rate_arcsec_s = options.rate_arcsec_s,
+            .stepped_voltage = of_logs.perimeter.loop == config::Loop::digital,
+            .bias_temperature_coefficient_per_c = said.gyro.bias_temperature_coefficient_per_c,
+            .half_wave_temperature_coefficient_per_c = said.piezo.half_wave_temperature_coefficient_per_c};
+}
+
+std::vector<CalibrationFile> files_of(const std::vector<analysis::LabLog>& logs) {
+    std::vector<CalibrationFile> files;
+    for (const analysis::LabLog& log : logs)
+        files.push_back({.path = log.name,
+                         .duration_s = static_cast<double>(log.n_ticks) * log.tick_s,
+                         .segments = std::ssize(log.segments),
+                         .relocks = std::ssize(log.relocks),
+                         .has_temperature = log.has_temperature(),
+                         .temperature_min_c = log.temperature_min_c,
+                         .temperature_max_c = log.temperature_max_c});
+    return files;
+}
+
+void check_usage(const CalibrateOptions& options) {
+    if (!std::isfinite(options.rate_arcsec_s))
+        throw UsageError{fmt::format("--rate-arcsec-s {}: allowed is a finite number", options.rate_arcsec_s)};
+    std::error_code ignored;
+    for (std::size_t k = 1; k < options.raws.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+            if (std::filesystem::equivalent(options.raws[j], options.raws[k], ignored))
+                throw UsageError{fmt::format("{}: is named twice; each log counts once", options.raws[k])};
+    if (options.out.empty()) return;
+    const std::string suffix = std::filesystem::path{options.out}.extension();
+    if (suffix != ".toml")
+        throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is .toml", options.out, suffix)};
+    for (const std::string& raw : options.raws) refuse_own_input(raw, options.out);
+}
+
+bool any_determined(const analysis::Calibration& calibration) {
+    for (const analysis::Constant& c : calibration.constants)
+        if (c.estimate.determined) return true;
+    return false;
+}
+
+void calibrate(const CalibrateOptions& options) {
+    check_usage(options);
+    const Lab lab = read_all(options);
+    check_agreement(options, lab);
+    CalibrationResult result{.files = files_of(lab.logs), .config = lab.configs.front()};
+    result.calibration = analysis::calibrate(lab.logs, presumed(options, result.config));
+    if (!options.out.empty()) {
+        logs::TableFile file{options.out, options.force};
+        file.append(calibration_toml(result));
+        file.close();
+    }
+    print(options.json ? pretty(calibration_json(result)) : calibration_text(result));
+    if (!any_determined(result.calibration)) throw CLI::RuntimeError{result_says_no};
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& program) {
+    const auto options = std::make_shared<CalibrateOptions>();
+    CLI::App* verb = program.add_subcommand(
+        "calibrate", "laboratory logs in, the constants that compensation presumes out, each with its sigma");
+    verb->add_option("RAW", options->raws, "raw logs of one gyro, at rest or at a known rate")->required();
+    verb->add_option("--rate-arcsec-s", options->rate_arcsec_s, "known rate of rotation, arcsec/s");
+    add_config_options(*verb, *options);
+    add_output_options(*verb, *options);
+    verb->callback([options] { calibrate(*options); });
+}
+
+}  // namespace zlg::cli

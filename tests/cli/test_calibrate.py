@@ -1,0 +1,167 @@
+"""`zlg calibrate`: constants of simulated gyros, what it refuses, and what its result is worth to `zlg process`."""
+
+import json
+import os
+import re
+import subprocess
+import unittest
+
+from support import CliTest, ROOT, ZLG, csv_text, quiet_log, run
+
+GYRO = {"gyro.bias_hz": 63e3, "gyro.bias_chi": 4.5, "gyro.bias_temperature_coefficient_per_c": -1e-3,
+        "piezo.half_wave_v": 43.0, "piezo.half_wave_temperature_coefficient_per_c": 1e-3,
+        "drift.magnetic_arcsec_s": 6.0, "drift.magnetic_thermal_arcsec_s": -12.0, "drift.thermal_time_s": 50.0,
+        "drift.nonmagnetic_arcsec_s": 3.0, "drift.random_walk_arcsec_sqrt_s": 1.5}
+REST = {"motion.kind": "rest", "switching.interval_s": 2.0, "gyro.light_samples": 8}
+
+
+def settings(values):
+    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
+
+
+class Simulated(CliTest):
+    def simulate(self, name="log.csv", duration=250, seed=1, **overrides):
+        path = self.folder / name
+        values = {**GYRO, **REST, **{key.replace("__", "."): value for key, value in overrides.items()}}
+        self.succeed("simulate", "--duration", duration, "--seed", seed, *settings(values), "--out", path, "--force")
+        return path
+
+    def found(self, *arguments):
+        return json.loads(self.succeed("calibrate", *arguments, "--json").stdout)
+
+    def assert_found(self, result, truth, sigmas=4.5):
+        for key, value in truth.items():
+            self.assertIn(key, result["constants"], result["not_determined"].get(key))
+            constant = result["constants"][key]
+            self.assertLess(abs(constant["value"] - value), sigmas * constant["sigma"], key)
+
+
+class Calibrate(Simulated):
+    def test_finds_the_constants_of_a_gyro_at_rest(self):
+        result = self.found(self.simulate())
+        self.assert_found(result, {**GYRO, "detuning_scale": 1.0})
+        self.assertLess(result["constants"]["gyro.bias_chi"]["sigma"], 0.05)
+        self.assertLess(result["constants"]["gyro.bias_hz"]["sigma"], 30.0)
+        self.assertEqual(result["constants"]["piezo.half_wave_v"]["unit"], "V")
+        self.assertEqual(result["files"][0]["relocks"], 124)
+        self.assertLess(result["goodness"]["chi_chi2_per_dof"]["value"], 2.0)
+
+    def test_digital_loop_and_a_known_rate(self):
+        log = self.simulate(perimeter__loop="digital", motion__kind="constant", motion__rate_arcsec_s=300.0)
+        self.assert_found(self.found(log, "--rate-arcsec-s", 300), {**GYRO, "detuning_scale": 1.0})
+
+    def test_what_a_log_says_of_the_constants_is_not_believed(self):
+        log = self.simulate(duration=100)
+        lines = log.read_text().splitlines(True)
+        keys = ("gyro.bias", "piezo.half", "drift.", "gyro.discriminator", "gyro.light_noise")
+        lies = "# gyro.bias_hz = 1\n# gyro.bias_chi = 9\n# drift.thermal_time_s = 7\n"
+        rest = "".join(line for line in lines if not line.startswith(tuple("# " + key for key in keys)))
+        told, silent = self.write("told.csv", lies + rest), self.write("silent.csv", rest)
+        self.assertNotEqual(told.read_text(), log.read_text())
+        results = [self.found(path) for path in (log, told, silent)]
+        for other in results[1:]:
+            self.assertEqual(other["constants"], results[0]["constants"])
+            self.assertEqual(other["not_determined"], results[0]["not_determined"])
+
+    def test_logs_of_several_temperatures_make_one_law(self):
+        logs = []
+        for k, temperature in enumerate((0.0, 20.0, 40.0)):
+            logs.append(self.simulate(f"{k}.csv", duration=60, seed=k + 1, gyro__temperature_rise_c=0.0,
+                                      gyro__reference_temperature_c=temperature, drift__magnetic_thermal_arcsec_s=0.0,
+                                      gyro__bias_hz=63e3 * (1.0 - 1e-3 * (temperature - 20.0)),
+                                      piezo__half_wave_v=43.0 * (1.0 + 1e-3 * (temperature - 20.0))))
+        self.refuse(2, "calibrate", *logs, says=("gyro.reference_temperature_c", "--set"))
+        law = {key: GYRO[key] for key in GYRO if key.startswith(("gyro.", "piezo."))}
+        self.assert_found(self.found(*logs, "--set", "gyro.reference_temperature_c=20"), law)
+        one = self.found(logs[1])
+        self.assertIn("span", one["not_determined"]["gyro.bias_temperature_coefficient_per_c"])
+        self.assertIn("gyro.bias_hz", one["constants"])
+
+    def test_missing_columns_leave_their_constants_open(self):
+        lines = self.simulate(duration=100).read_text().splitlines()
+        rows = [line.split(",") for line in lines if not line.startswith("#")]
+        kept = self.write("kept.csv", "\n".join(",".join(row[:6]) for row in rows) + "\n")
+        result = self.found(kept)
+        self.assertIn("gyro.bias_hz", result["constants"])
+        for key, column in (("gyro.bias_chi", "detuning_sq_lambda2"), ("piezo.half_wave_v", "piezo_v"),
+                            ("gyro.bias_temperature_coefficient_per_c", "temperature_c")):
+            self.assertIn(column, result["not_determined"][key])
+
+    def test_a_log_without_switches_and_one_that_was_moved(self):
+        unswitched = self.found(self.simulate(duration=60, switching__interval_s=1000.0))
+        self.assertIn("one mode", unswitched["not_determined"]["drift.magnetic_arcsec_s"])
+        self.assertIn("no gap", unswitched["not_determined"]["gyro.bias_chi"])
+        moved = self.found(self.simulate(duration=60, motion__kind="sine"))
+        self.assertIn("moved", moved["not_determined"]["drift.magnetic_arcsec_s"])
+        ratio = moved["goodness"]["rest_variance_ratio"]["value"]
+        self.assertFalse(0.25 <= ratio <= 4.0, ratio)
+
+    def test_text_names_every_constant_once(self):
+        text = self.succeed("calibrate", self.simulate(duration=60)).stdout
+        for key in (*GYRO, "detuning_scale"):
+            self.assertEqual(len(re.findall(rf"^{re.escape(key)}[ :]", text, re.MULTILINE)), 1, key)
+
+
+class Output(Simulated):
+    def test_toml_configures_process_and_run(self):
+        log, toml = self.simulate(duration=100), self.folder / "found.toml"
+        self.succeed("calibrate", log, "--out", toml)
+        text = toml.read_text()
+        self.assertRegex(text, r"(?m)^bias_hz = 6\d+\.\d+  # \+- [\d.]+ Hz$")
+        self.assertIn("tick_s = 0.005\n", text)
+        self.succeed("process", log, "--config", toml, "--out", self.folder / "angles.csv")
+        self.succeed("simulate", toml, "--duration", 1, "--out", self.folder / "again.csv")
+
+    def test_nothing_is_overwritten_without_force_and_only_toml_is_written(self):
+        log, toml = self.simulate(duration=10), self.folder / "found.toml"
+        toml.write_text("mine")
+        self.refuse(3, "calibrate", log, "--out", toml, says=("found.toml",))
+        self.assertEqual(toml.read_text(), "mine")
+        self.succeed("calibrate", log, "--out", toml, "--force")
+        self.refuse(2, "calibrate", log, "--out", self.folder / "found.csv", says=(".toml",))
+
+
+class Refusals(Simulated):
+    def test_logs_that_do_not_belong_together(self):
+        one = self.write("one.csv", csv_text(quiet_log(), lines=["gyro.scale_arcsec = 3"]))
+        two = self.write("two.csv", csv_text(quiet_log(), lines=["gyro.scale_arcsec = 2"]))
+        three = self.write("three.csv", csv_text(quiet_log(), lines=["gyro.scale_arcsec = 3", "gyro.tick_s = 0.004"]))
+        self.refuse(3, "calibrate", one, two, says=("scale_arcsec", "one.csv", "two.csv"))
+        self.refuse(3, "calibrate", one, three, says=("tick_s",))
+        self.refuse(2, "calibrate", one, one, says=("twice",))
+        self.refuse(2, "calibrate", one, "--set", "gyro.scale_arcsec=2", says=("scale_arcsec",))
+
+    def test_bad_input_and_usage(self):
+        self.refuse(3, "calibrate", self.folder / "none.csv", says=("none.csv",))
+        self.refuse(3, "calibrate", self.write("half.csv", csv_text(quiet_log()[:1])), says=("whole tick",))
+        self.refuse(3, "calibrate", self.write("hole.csv", csv_text(quiet_log()).replace("\n30,", "\n31,")))
+        self.refuse(2, "calibrate")
+        log = self.write("log.csv", csv_text(quiet_log()))
+        self.refuse(2, "calibrate", log, "--rate-arcsec-s", "nan", says=("--rate-arcsec-s",))
+
+    def test_a_log_that_determines_nothing_says_no(self):
+        result = run("calibrate", self.write("log.csv", csv_text(quiet_log())), "--json")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(json.loads(result.stdout)["constants"], {})
+
+
+class Documentation(CliTest):
+    def test_its_example_lowers_the_error_of_a_switch_as_it_says(self):
+        text = (ROOT / "docs" / "calibration.md").read_text()
+        script = re.search(r"```sh\n(.*?)```", text, re.DOTALL).group(1)
+        path = f"{ZLG.parent}{os.pathsep}{os.environ['PATH']}"
+        shown = subprocess.run(["bash", "-euc", script], cwd=self.folder, env={**os.environ, "PATH": path},
+                               capture_output=True, text=True, check=True).stdout
+        lines = re.findall(r"^(?:    )?(defaults|calibrated|true): +([\d.]+) arcsec$", shown, re.MULTILINE)
+        documented = re.findall(r"^    (defaults|calibrated|true): +([\d.]+) arcsec$", text, re.MULTILINE)
+        left = {name: float(value) for name, value in lines}
+        self.assertEqual(sorted(left), ["calibrated", "defaults", "true"])
+        for name, value in documented:
+            self.assertAlmostEqual(left[name] / float(value), 1.0, delta=0.05, msg=name)
+        self.assertEqual(len(documented), 3)
+        self.assertLess(left["calibrated"], 0.15 * left["defaults"])
+        self.assertLess(left["calibrated"], 1.05 * left["true"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,77 @@
+// A good HDF5 log in which some bytes were changed: what the disk, the network or another program does to a file.
+
+#include <fstream>
+#include <iterator>
+
+#include "bytes.hpp"
+#include "hdf5_objects.hpp"
+#include "recognised.hpp"
+
+namespace {
+
+using namespace zlg;
+
+std::vector<std::uint8_t> content(const std::string& path) {
+    std::ifstream file{path, std::ios::binary};
+    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
+}
+
+constexpr int n_rows = 12;
+
+std::vector<std::uint8_t> raw_file() {
+    const std::string path = fuzz::scratch().path("good_raw.h5");
+    logs::RawWriter writer{path,
+                           {{"gyro.tick_s", "0.005"}, {"note", "of the laboratory"}},
+                           true,
+                           logs::all_raw_columns,
+                           {.light_samples = 2}};
+    for (int k = 0; k < n_rows; ++k) {
+        const std::vector<float> light{1.0f, 0.25f * static_cast<float>(k)};
+        writer.write({.half = k,
+                      .counts = 150 - k,
+                      .detuning_lambda = 0.01 * k,
+                      .detuning_sq_lambda2 = 1e-4 * k,
+                      .piezo_v = 150.0,
+                      .temperature_c = 20.0,
+                      .bias_sign = k % 2 == 0 ? std::int8_t{1} : std::int8_t{-1}},
+                     light);
+    }
+    writer.close();
+    return content(path);
+}
+
+std::vector<std::uint8_t> angle_file() {
+    const std::string path = fuzz::scratch().path("good_angles.h5");
+    logs::AngleWriter writer{path, 0.005, {{"gyro.scale_arcsec", "3.263"}}, true, {.has_truth = true}};
+    for (int k = 0; k < n_rows; ++k) {
+        writer.write({.tick = k, .dtheta_arcsec = 3.0 * k, .dtheta_final_arcsec = 3.1 * k, .sigma_arcsec = 1.3}, 3.0);
+    }
+    writer.close();
+    return content(path);
+}
+
+// Of a byte: another value, a few of its bits, a short run of the same value, or an end of the file.
+void spoil(fuzz::Bytes& bytes, std::vector<std::uint8_t>& file) {
+    const auto what = bytes.index(8);
+    const std::size_t at = bytes.take<std::uint32_t>() % file.size();
+    const auto value = bytes.take<std::uint8_t>();
+    if (what < 4) file[at] = value;
+    if (what == 4 || what == 5) file[at] = static_cast<std::uint8_t>(file[at] ^ value);
+    if (what == 6)
+        std::fill_n(file.begin() + static_cast<std::ptrdiff_t>(at), std::min<std::size_t>(8, file.size() - at), value);
+    if (what == 7 && at > 0) file.resize(at);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::vector<std::uint8_t> good_raw = raw_file();
+    static const std::vector<std::uint8_t> good_angles = angle_file();
+    fuzz::claim_nothing_is_open();
+    fuzz::Bytes bytes{data, size};
+    std::vector<std::uint8_t> file = bytes.flag() ? good_angles : good_raw;
+    while (!bytes.empty()) spoil(bytes, file);
+    fuzz::claim_log(fuzz::scratch().write("spoilt.h5", file.data(), file.size()));
+    fuzz::claim_nothing_is_open();
+    return 0;
+}

@@ -1,0 +1,60 @@
+// A motion file of any bytes, read in any way, is refused with a reason or is a motion whose angle adds up.
+
+#include <cmath>
+#include <stdexcept>
+
+#include <zlg/twin/motion.hpp>
+
+#include "bytes.hpp"
+#include "claim.hpp"
+#include "scratch.hpp"
+
+namespace {
+
+using namespace zlg;
+using fuzz::claim;
+
+// The first bytes say how to read the rest.
+twin::MotionFile how_to_read(fuzz::Bytes& bytes) {
+    constexpr const char* comments[] = {"#", "", "//", " ", ";", "#"};
+    twin::MotionFile file;
+    file.column = static_cast<int>(bytes.index(8));
+    file.holds_rate = bytes.flag();
+    file.skip_lines = static_cast<int>(bytes.index(4)) - 1;
+    file.comment = comments[bytes.index(6)];
+    file.scale_arcsec = bytes.real(1.0);
+    file.rate_hz = bytes.real(100.0);
+    return file;
+}
+
+// As far as the sum of all increments is a number, so is every part of it.
+void claim_adds_up(const twin::Motion& motion) {
+    const double end_s = motion.duration_s();
+    claim(end_s > 0.0, "a motion has a length");
+    const double whole_arcsec = motion.increment_arcsec(0.0, end_s);
+    const double first_arcsec = motion.increment_arcsec(0.0, 0.5 * end_s);
+    const double second_arcsec = motion.increment_arcsec(0.5 * end_s, end_s);
+    const double size = std::fabs(first_arcsec) + std::fabs(second_arcsec) + std::fabs(whole_arcsec);
+    if (!(size < 1e300)) return;
+    claim(std::fabs(first_arcsec + second_arcsec - whole_arcsec) <= 1e-9 * size, "increments add up");
+    // The last row ends at rows/rate, which is rounded.
+    claim(motion.increment_arcsec(1.001 * end_s, 2.0 * end_s) == 0.0, "beyond the end the case rests");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    constexpr std::size_t head = 22;
+    fuzz::Bytes bytes{data, std::min(size, head)};
+    twin::MotionFile file = how_to_read(bytes);
+    const std::size_t used = std::min(size, head);
+    file.path = fuzz::scratch().write("motion.txt", data + used, size - used);
+    try {
+        claim_adds_up(twin::Motion::from_file(file));
+    } catch (const std::invalid_argument&) {
+        // A member of `file` is out of range.
+    } catch (const std::runtime_error&) {
+        // The text is no motion.
+    }
+    return 0;
+}

@@ -1,0 +1,158 @@
+"""Claims about tools/mutate: which faults it makes of a text, and what it says of tests that notice them or do not."""
+
+import shutil
+import subprocess
+import sys
+import unittest
+
+from trees import TOOLS, TreeTest
+
+sys.path.insert(0, str(TOOLS))
+from mutation_operators import mutants  # noqa: E402
+
+
+def changes(text):
+    return [(m.line, m.change) for m in mutants("f.cpp", text)]
+
+
+def in_function(statement):
+    return f"int f(int a, int b) {{\n    {statement}\n}}\n"
+
+
+class Operators(unittest.TestCase):
+    def assert_changes(self, statement, *expected):
+        found = {change for line, change in changes(in_function(statement)) if line == statement}
+        self.assertLessEqual(set(expected), found)
+
+    def assert_untouched(self, text):
+        self.assertEqual(changes(text), [])
+
+    def test_relations_move_their_boundary_and_turn_round(self):
+        self.assert_changes("if (a < b) return a;", "`<` -> `<=`", "`<` -> `>=`", "if (...) -> if (!(...))")
+        self.assert_changes("if (a == b) return a;", "`==` -> `!=`")
+
+    def test_arithmetic_logic_and_assignments_change(self):
+        self.assert_changes("a += b * 2;", "`+=` -> `-=`", "`+=` -> `=`", "`*` -> `/`", "`2` -> `1`", "`2` -> `3`")
+        self.assert_changes("if (a && !b) return 1;", "`&&` -> `||`", "`!` -> ``", "`1` -> `0`", "`1` -> `2`")
+        self.assert_changes("a |= b & 4u;", "`|=` -> `=`", "`&` -> `|`", "`4u` -> `5u`")
+        self.assert_changes("++a;", "`++` -> `--`", "the statement is left out")
+
+    def test_numbers_of_every_kind_get_one_more_and_one_less(self):
+        self.assert_changes("g(1.5, 0u, 1e3, 0x1p-3);", "`1.5` -> `2.5`", "`1.5` -> `(0.5)`", "`0u` -> `1u`", "`0u` -> `(0u - 1)`",
+                            "`1e3` -> `1001.0`")
+
+    def test_signs_are_lost(self):
+        self.assert_changes("a = -b;", "`-` -> ``", "the statement is left out")
+        self.assert_changes("return -a;", "`-` -> ``", "return ... -> return {}")
+
+    def test_a_choice_is_made_for_good(self):
+        self.assert_changes("return a > b ? a : b;", "`?` -> `&& false ?`", "`?` -> `|| true ?`")
+
+    def test_early_returns_and_jumps_are_left_out(self):
+        self.assert_changes("if (a) return b;", "the return is left out")
+        self.assert_changes("for (;;) break;", "the statement is left out")
+
+    def test_declarations_stay(self):
+        for statement in ("const int c = a;", "std::array<double, 4> x{};", "Row& row = rows[a];", "zlg::Sum sum;", "auto c = a;"):
+            with self.subTest(statement):
+                self.assertNotIn("the statement is left out", [change for _, change in changes(in_function(statement))])
+
+    def test_what_is_no_code_is_untouched(self):
+        self.assert_untouched("// a < b && 1\n/* a + 1\n   - 2 */\n")
+        self.assert_untouched('#include <array>\n#define N 3 \\\n    + 4\n')
+        self.assert_untouched('static_assert(sizeof(int) == 4 && 1 < 2);\n')
+        self.assertEqual(changes('const char* s = "a < 1 && b";\n'), [])
+
+    def test_brackets_of_templates_are_no_relations(self):
+        self.assert_untouched("std::array<std::array<double, 3>, 4> x;\n")
+        self.assertNotIn("`<` -> `<=`", [change for _, change in changes(in_function("a = static_cast<int>(b);"))])
+
+    def test_a_mutant_is_the_text_with_one_place_changed(self):
+        text = in_function("return a + b;")
+        texts = {m.change: m.text for m in mutants("f.cpp", text)}
+        self.assertEqual(texts["`+` -> `-`"], in_function("return a - b;"))
+        self.assertEqual(texts["return ... -> return {}"], in_function("return {};"))
+        text = in_function("if (a < 1) b = 2;")
+        texts = {m.change: m.text for m in mutants("f.cpp", text)}
+        self.assertEqual(texts["if (...) -> if (!(...))"], in_function("if (!(a < 1)) b = 2;"))
+
+    def test_the_key_outlives_a_move_and_is_its_own(self):
+        text = in_function("return a + b + b;")
+        before = [m.key for m in mutants("f.cpp", text)]
+        after = [m.key for m in mutants("f.cpp", "// A line more.\n\n" + text)]
+        self.assertEqual(before, after)
+        self.assertEqual(len(set(before)), len(before))
+        self.assertIn(("f.cpp", "f", "return a + b + b;", "`+` -> `-`", 2), before)
+
+
+    def test_the_key_names_the_function_or_the_struct(self):
+        text = "struct Decay {\n    double q = 0.0;\n};\n\nint f(int a) noexcept { return a; }\nint B::g(int a,\n         int b) {\n    return a;\n}\n"
+        self.assertEqual([m.function for m in mutants("f.cpp", text)], ["Decay", "Decay", "f", "g"])
+        text = "bool operator==(const A& a, const A& b) noexcept {\n    return f(a, b) ||\n           g(a, b);\n}\n"
+        self.assertEqual({m.function for m in mutants("f.cpp", text)}, {"operator=="})
+
+
+SOURCE = """#include "relock.hpp"
+int larger(int a, int b) noexcept {
+    return a > b ? a : b;
+}
+"""
+TEST = """#include <gtest/gtest.h>
+#include "relock.hpp"
+TEST(Larger, IsTheFirstWhereItIsLarger) { EXPECT_EQ(larger(2, 1), 2); }
+"""
+SECOND_TEST = "TEST(Larger, IsTheSecondWhereThatIsLarger) { EXPECT_EQ(larger(1, 2), 2); }\n"
+EQUIVALENT = """[[equivalent]]
+file = "core/src/relock_drift.cpp"
+function = "larger"
+line = "return a > b ? a : b;"
+change = "`>` -> `>=`"
+why = "of two equal numbers either is the larger"
+"""
+
+
+class Mutate(TreeTest):
+    def setUp(self):
+        super().setUp()
+        (self.root / "tools").mkdir()
+        for name in ("mutate", "mutation_operators.py"):
+            shutil.copy(TOOLS / name, self.root / "tools" / name)
+        (self.root / "core" / "include").mkdir(parents=True)
+        self.write("core/src/relock.hpp", "int larger(int a, int b) noexcept;\n")
+        self.write("core/src/relock_drift.cpp", SOURCE)
+        self.write("tests/core/relock_drift_test.cpp", TEST + SECOND_TEST)
+
+    def mutate(self, *arguments):
+        command = [sys.executable, self.root / "tools" / "mutate", *arguments]
+        return subprocess.run(command, capture_output=True, text=True, check=False)
+
+    def test_a_mutant_that_no_test_notices_is_named_unless_it_is_proved_equivalent(self):
+        answer = self.mutate("relock_drift")
+        self.assert_refused(answer, "survived: core/src/relock_drift.cpp:3: `>` -> `>=`   in larger")
+        self.assertEqual(answer.stdout.count("survived: "), 1, answer.stdout)
+        self.write("tests/mutants/equivalent.toml", EQUIVALENT)
+        self.assert_good(self.mutate("relock_drift"))
+
+    def test_a_weak_test_lets_more_survive(self):
+        self.write("tests/core/relock_drift_test.cpp", TEST)
+        self.assert_refused(self.mutate("relock_drift"), "`?` -> `|| true ?`")
+
+    def test_a_list_that_is_wrong_is_refused(self):
+        self.write("tests/mutants/equivalent.toml", EQUIVALENT + EQUIVALENT.replace("`>` -> `>=`", "`>` -> `<=`"))
+        self.assert_refused(self.mutate("relock_drift"), "listed as equivalent, but killed")
+        self.write("tests/mutants/equivalent.toml", EQUIVALENT + EQUIVALENT.replace("a > b", "a >> b"))
+        self.assert_refused(self.mutate(), "listed as equivalent, but no mutant")
+
+    def test_tests_that_fail_without_a_mutant_prove_nothing(self):
+        self.write("tests/core/relock_drift_test.cpp", TEST.replace("larger(2, 1), 2", "larger(2, 1), 1"))
+        answer = self.mutate("relock_drift")
+        self.assertEqual(answer.returncode, 1)
+        self.assertIn("fail on the core as it is", answer.stderr)
+
+    def test_a_sample_is_the_same_for_the_same_seed(self):
+        first, second = (self.mutate("--list", "--sample", "3", "--seed", "5").stdout for _ in range(2))
+        self.assertEqual((first, first.count("\n")), (second, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()
