@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
+#include <stdexcept>
 #include <string>
 
 #include "hdf5_column.hpp"
@@ -65,22 +67,33 @@ private:
         }
     }
 
-    // Halves the interval between rows that can be read and a first one that cannot.
+    // A read fails as a whole; ever smaller pieces lead to the first row that cannot be read.
     template <class T>
     std::size_t read_before_damage(Column<T>& column) {
         std::size_t readable = 0;
-        for (std::size_t beyond = good_rows_; beyond - readable > 1;) {
-            const std::size_t middle = readable + (beyond - readable) / 2;
-            (can_read(column, middle) ? readable : beyond) = middle;
-        }
-        try {
-            T row[max_width];
-            column.read(first_ + readable, 1, memory_type<T>(), row);
-        } catch (const std::runtime_error&) {
-            damage_ = std::current_exception();
+        for (std::size_t beyond = good_rows_; readable < beyond;) {
+            const std::size_t piece = std::max<std::size_t>((beyond - readable) / 2, 1);
+            if (can_read(column, first_ + readable, piece)) {
+                readable += piece;
+            } else if (piece > 1) {
+                beyond = readable + piece;
+            } else {
+                break;
+            }
         }
         good_rows_ = readable;
         return readable > 0 ? column.read_block(first_, readable) : 0;
+    }
+
+    template <class T>
+    bool can_read(Column<T>& column, hsize_t first, std::size_t n) {
+        try {
+            column.read_block(first, n);
+            return true;
+        } catch (const std::runtime_error&) {
+            damage_ = std::current_exception();
+            return false;
+        }
     }
 
     void note(const std::string& column, const std::string& value, const std::string& what);

@@ -68,9 +68,7 @@ void add_settings(TableWriter& table, const Settings& settings, std::optional<do
 
 }  // namespace
 
-void add_settings(TableWriter& table, const Settings& settings) {
-    add_settings(table, settings, std::nullopt);
-}
+void add_settings(TableWriter& table, const Settings& settings) { add_settings(table, settings, std::nullopt); }
 
 void add_angle_settings(TableWriter& table, const Settings& settings, double tick_s) {
     if (const std::string* text = find_setting(settings, "tick_s")) {

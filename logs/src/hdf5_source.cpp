@@ -93,7 +93,8 @@ std::optional<std::string> read_text(const Handle& type, const Handle& space, Re
 std::string printable(std::string text) {
     constexpr std::size_t longest = 40;
     if (text.size() > longest) text.replace(longest, std::string::npos, "...");
-    std::ranges::replace_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+    std::ranges::replace_if(
+        text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
     return text;
 }
 

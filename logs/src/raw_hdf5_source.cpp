@@ -125,7 +125,7 @@ private:
                 return ((v == 1) | (v == -1)) & (v == (is_odd ? -of_even : of_even));
             },
             [](std::int64_t v) { return v == 1 || v == -1 ? not_alternating(v) : out_of_range(allowed_sign); });
-        if (first == 0) first_bias_sign_ = bias_sign_[0];
+        if (first == 0 && block_.good_rows() > 0) first_bias_sign_ = bias_sign_[0];
     }
 
     template <class T>

@@ -69,6 +69,19 @@ std::string text_attribute(const std::string& path, const char* object, const ch
     return result;
 }
 
+// Our own /config, a text of fixed length.
+std::string config_of(const std::string& path) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t set = H5Dopen2(file, "/config", H5P_DEFAULT);
+    const hid_t type = H5Dget_type(set);
+    std::string text(H5Tget_size(type), '?');
+    H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
+    H5Tclose(type);
+    H5Dclose(set);
+    H5Fclose(file);
+    return text;
+}
+
 // What the reader says of three good rows that `change` has altered.
 template <class Change>
 std::string complaint(Change change) {
@@ -103,7 +116,7 @@ RC_GTEST_PROP(AngleLogHdf5, csv_to_hdf5_to_csv_is_the_same_file, ()) {
     const TemporaryFolder folder;
     const std::string first = folder.file("first.csv");
     Settings settings{{"gyro.tick_s", "5e-3"}, {"compensation.bridge", "quadratic"}, {"note", "a = b"}};
-    if (*rc::gen::arbitrary<bool>()) settings.insert(settings.begin(), {"flags", "of:1 another:2 version:4"});
+    if (*rc::gen::arbitrary<bool>()) settings.emplace_back("flags", "of:1 another:2 version:4");
     AngleWriter writer{first, 0.005, settings, false};
     for (const TimedAngle& angle : any_angles()) writer.write_timed(angle);
     writer.close();
@@ -173,9 +186,36 @@ TEST(AngleLogHdf5, has_units_the_legend_of_the_flags_and_the_tick) {
     EXPECT_EQ(legend,
               "switching:1 extrapolated:2 interpolated:4 correction:8 relock_corrected:16 relock_uncorrected:32 "
               "lower_order:64 unrepaired:128 loop_unlocked:256 invalid:512 mode_mixed:1024");
-    EXPECT_EQ(
-        AngleReader{path}.header().settings,
-        (Settings{{"gyro.scale_arcsec", "3.263"}, {"gyro.tick_s", "0.0025"}, {"flags", legend}, {"tick_s", "0.0025"}}));
+    EXPECT_EQ(AngleReader{path}.header().settings,
+              (Settings{{"gyro.scale_arcsec", "3.263"}, {"flags", legend}, {"tick_s", "0.0025"}}));
+}
+
+TEST(AngleLogHdf5, copies_have_the_same_configuration) {
+    for (const Settings& settings : {Settings{{"gyro.tick_s", "5e-3"}, {"note", "a b"}}, Settings{}}) {
+        const TemporaryFolder folder;
+        const std::string first = folder.file("a.h5");
+        AngleWriter writer{first, 0.005, settings, false};
+        writer.write({.tick = 0});
+        writer.close();
+        copy(first, folder.file("b.h5"));
+        copy(first, folder.file("c.csv"));
+        copy(folder.file("c.csv"), folder.file("d.h5"));
+        const std::string config = config_of(first);
+        EXPECT_EQ(config.find("flags"), std::string::npos) << config;
+        EXPECT_EQ(config_of(folder.file("b.h5")), config);
+        EXPECT_EQ(config_of(folder.file("d.h5")), config);
+        EXPECT_EQ(AngleReader{folder.file("d.h5")}.header().settings, AngleReader{first}.header().settings);
+        EXPECT_EQ(AngleReader{folder.file("d.h5")}.header().settings.back().second, "0.005");
+    }
+}
+
+TEST(AngleLogHdf5, a_setting_tick_s_stands_for_the_writers_own_and_is_a_number) {
+    const TemporaryFolder folder;
+    const auto make = [&](const char* tick_s) { AngleWriter(folder.file("a.h5"), 0.25, {{"tick_s", tick_s}}, false); };
+    expect_contains(message_of<FormatError>([&] { make("fast"); }),
+                    "the setting tick_s is 'fast'; allowed is a number");
+    AngleWriter writer{folder.file("a.h5"), 0.25, {{"tick_s", "0.005"}}, false};
+    EXPECT_EQ(AngleReader{writer.part_path()}.header().settings.back().second, "0.005");
 }
 
 TEST(AngleLogHdf5, a_csv_log_has_no_truth) {

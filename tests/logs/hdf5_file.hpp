@@ -67,11 +67,17 @@ public:
     }
 
     Hdf5File& attribute(const std::string& name, double value) {
-        const hid_t space = H5Screate(H5S_SCALAR);
-        const hid_t attribute = H5Acreate2(file_, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
-        H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
-        H5Aclose(attribute);
-        H5Sclose(space);
+        return attribute(name, H5T_NATIVE_DOUBLE, H5Screate(H5S_SCALAR), &value);
+    }
+    Hdf5File& attributes(const std::string& name, const std::vector<double>& values) {
+        const hsize_t size = values.size();
+        return attribute(name, H5T_NATIVE_DOUBLE, H5Screate_simple(1, &size, nullptr), values.data());
+    }
+    Hdf5File& text_attribute(const std::string& name, const std::string& text) {
+        const hid_t type = H5Tcopy(H5T_C_S1);
+        H5Tset_size(type, text.size());
+        attribute(name, type, H5Screate(H5S_SCALAR), text.c_str());
+        H5Tclose(type);
         return *this;
     }
 
@@ -81,6 +87,14 @@ public:
     }
 
 private:
+    Hdf5File& attribute(const std::string& name, hid_t type, hid_t space, const void* value) {
+        const hid_t attribute = H5Acreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT);
+        H5Awrite(attribute, type, value);
+        H5Aclose(attribute);
+        H5Sclose(space);
+        return *this;
+    }
+
     template <class T>
     static hid_t hdf5_type() {
         if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;

@@ -250,7 +250,16 @@ TEST(RawReader, refuses_a_configuration_that_contradicts_or_is_none) {
     expect_contains(complaint([](Hdf5File& f) { f.column<int>("/config", {1}); }), "/config: allowed is one text");
     expect_contains(complaint([](Hdf5File& f) { f.attribute("format_version", 2); }),
                     "format_version is 2; allowed is 1");
-    expect_contains(complaint([](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); }), "tick_s is no finite number");
+    expect_contains(complaint([](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); }),
+                    "the attribute tick_s is inf; allowed is a finite number");
+    expect_contains(complaint([](Hdf5File& f) { f.text_attribute("tick_s", "0.005"); }),
+                    "the attribute tick_s is the text '0.005'; allowed is a finite number");
+    expect_contains(complaint([](Hdf5File& f) { f.text_attribute("format_version", "1"); }),
+                    "the attribute format_version is the text '1'; allowed is a finite number");
+    expect_contains(complaint([](Hdf5File& f) {
+                        f.attributes("scale_arcsec", {3.2, 3.3});
+                    }),
+                    "the attribute scale_arcsec is a list of 2 numbers; allowed is a finite number");
 }
 
 TEST(RawReader, an_hdf5_log_without_rows_is_an_error_once_it_is_complete) {

@@ -57,7 +57,8 @@ private:
 
 struct AngleWriterOptions {
     bool has_truth = false;  // HDF5: the column /truth/dtheta_arcsec; a CSV log has none
-    bool keep_part = false;  // HDF5: destroyed before `close`, PATH.part stays, with all rows written so far
+    // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
+    bool keep_part = false;
 };
 
 // Columns tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags, in the format that the suffix says: .csv,
@@ -67,9 +68,10 @@ struct AngleWriterOptions {
 // meanwhile and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
 class AngleWriter {
 public:
-    // Settings `flags` and `tick_s`, as a reader hands them out, stand for the writer's own lines of that name.
+    // Settings `flags` and `tick_s`, as a reader hands them out, stand for the writer's own lines, or as HDF5 attributes, of
+    // that name.
     //
-    // errors  IoError (another suffix included), FormatError (a setting with a line break).
+    // errors  IoError (another suffix included), FormatError (a setting with a line break; HDF5: a tick_s of no number).
     AngleWriter(const std::string& path, double tick_s,
                 const std::vector<std::pair<std::string, std::string>>& settings, bool force,
                 const AngleWriterOptions& options = {});

@@ -67,8 +67,9 @@ private:
 };
 
 struct RawWriterOptions {
-    int light_samples = 0;   // of each half, 0..64; HDF5 only
-    bool keep_part = false;  // HDF5: destroyed before `close`, PATH.part stays, with all rows written so far
+    int light_samples = 0;  // of each half, 0..64; HDF5 only
+    // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
+    bool keep_part = false;
 };
 
 // Writes a raw log with the required and the given columns, in the format that the suffix says: .csv, .h5 or .hdf5.
