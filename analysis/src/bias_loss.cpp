@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -115,13 +117,41 @@ double chi2_per_dof(const std::vector<Borders>& all, const Eigen::Vector2d& solu
 Estimate judged(double chi, double sigma, const BiasLoss& loss) {
     const Estimate e = estimated(chi, sigma);
     constexpr double least_sigma = 0.1;
-    if (e.determined && chi < 0.0)
+    constexpr double within_sigmas = 2.0;
+    if (e.determined && std::abs(chi) < within_sigmas * sigma && sigma <= least_sigma)
+        return refused(fmt::format("chi = {:.2g} +- {:.2g}: within its error of 0", chi, sigma));
+    if (e.determined && chi < -within_sigmas * sigma)
         return refused(fmt::format("chi = {:.2g} +- {:.2g}: the bias does not fall with the detuning", chi, sigma));
-    if (!e.determined || !(sigma > 0.3 * std::abs(chi) && sigma > least_sigma)) return e;
+    if (!e.determined || (sigma <= least_sigma && chi > 0.0) || sigma <= 0.3 * chi) return e;
     return refused(
         fmt::format("chi = {:.2g} +- {:.2g} from {} re-locks whose first half lacks {:.2g} counts; more "
                     "switches or a larger miss would tell",
                     chi, sigma, loss.n_relocks, loss.deficit_counts));
+}
+
+// A counter that shows one and the same number after every re-lock tells the counts that the first half lacks to about
+// a count, over how often it could have shown another. Here the deficit is that of chi = 1.
+double resolution(const BiasLoss& loss) {
+    return std::sqrt(rounding_counts2) / (loss.deficit_counts * static_cast<double>(1 + loss.n_relocks));
+}
+
+// Why the column cannot tell chi; empty where it may.
+std::string why_useless(const Relocks& relocks) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const RelockView& view : relocks.views) {
+        for (const core::HalfRecord& r : view.relock->halves) {
+            least = std::fmin(least, r.detuning_sq_lambda2);
+            most = std::fmax(most, r.detuning_sq_lambda2);
+        }
+    }
+    constexpr double most_square_lambda2 = 1e6;
+    if (!(least >= 0.0 && most <= most_square_lambda2))
+        return fmt::format("the column detuning_sq_lambda2 reaches from {:.3g} to {:.3g}; allowed is 0..{:g} lambda^2",
+                           least, most, most_square_lambda2);
+    if (!(most - least > 1e-9 * most))
+        return fmt::format("the column detuning_sq_lambda2 is constant, {:.3g}: no re-lock shows in it", least);
+    return {};
 }
 
 void solve(const std::vector<Borders>& all, BiasLoss& loss) {
@@ -139,8 +169,9 @@ void solve(const std::vector<Borders>& all, BiasLoss& loss) {
         loss.n_relocks >= least_clusters
             ? scatter_covariance(clusters, inverse, solution)
             : Eigen::Matrix2d{std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * inverse};
+    const double sigma = std::fmax(std::sqrt(covariance(0, 0)), resolution(loss));
     loss.deficit_counts *= std::abs(solution[0]);
-    loss.chi = judged(solution[0], std::sqrt(covariance(0, 0)), loss);
+    loss.chi = judged(solution[0], sigma, loss);
 }
 
 }  // namespace
@@ -154,6 +185,9 @@ BiasLoss find_bias_loss(std::span<const LabLog> logs, const BiasLaw& law) {
     } else if (relocks.views.empty()) {
         loss.chi = refused(fmt::format("no gap is followed by {} measured ticks with the column detuning_sq_lambda2",
                                        settled_after_ticks + block_ticks));
+    } else if (const std::string useless = why_useless(relocks); !useless.empty()) {
+        loss.n_relocks = 0;
+        loss.chi = refused(useless);
     } else {
         std::vector<Borders> all;
         for (const RelockView& view : relocks.views) {

@@ -78,6 +78,8 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
         find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c);
     add(half_wave, find_detuning_scale(logs, half_wave, presumed.stepped_voltage), c);
     add(find_drift_law(logs, presumed.scale_arcsec, presumed.rate_arcsec_s, bias), c);
+    // What no number says, the refusal of its constant says in words.
+    std::erase_if(c.goodness, [](const Goodness& g) { return !std::isfinite(g.value); });
     return c;
 }
 

@@ -18,6 +18,9 @@ constexpr std::int64_t least_clusters = 4;
 constexpr double cubic_noise = 340.0 / 576.0;
 // Of what the cubic corrects the straight line by, this part may be missing to the true course.
 constexpr double cubic_doubt = 0.1;
+// Beyond this part of the scale even the cubic does not follow the course: an exponential that falls to 0.6 in a half is
+// corrected by 2 %, and by 1 part in 1000 wrongly.
+constexpr double most_correction = 0.025;
 
 // Logged mean detunings of one re-lock against columns of travel, as sums of products; less what the noise of the
 // readings adds.
@@ -158,8 +161,15 @@ DetuningScale find_detuning_scale(std::span<const LabLog> logs, const HalfWaveLa
         return result;
     }
     const double of_ruler = f.scale * law.half_wave_v.sigma / law.half_wave_v.value;
-    const double of_course =
-        stepped_voltage ? 0.0 : cubic_doubt * (f.scale - fit(relocks, law, 1, straight_cluster).scale);
+    const double corrected = stepped_voltage ? 0.0 : f.scale - fit(relocks, law, 1, straight_cluster).scale;
+    if (std::abs(corrected) > most_correction * std::abs(f.scale)) {
+        result.scale = refused(fmt::format(
+            "the re-lock is over within {} halves: its course within one is not seen (the cubic corrects by {:.2g} %, "
+            "allowed is {:g} %); a shorter tick would tell",
+            relocks.transient_halves, 100.0 * std::abs(corrected / f.scale), 100.0 * most_correction));
+        return result;
+    }
+    const double of_course = cubic_doubt * corrected;
     const double sigma = std::hypot(f.sigma, of_ruler, of_course);
     result.scatter_lambda = f.rms_lambda;
     result.scale =

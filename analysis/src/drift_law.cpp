@@ -168,7 +168,9 @@ void take(const Record& record, const IncrementFit& fit, DriftLaw& law) {
     law.dof = fit.dof;
     const double walk = std::sqrt(fit.walk_variance_per_s);
     const double walk_sigma = fit.walk_variance_sigma / (2.0 * walk);
-    if (walk_sigma < 0.3 * walk && walk_shows(record, fit.walk_variance_per_s))
+    // A walk that the rounding hides must not be claimed where its estimate happens to come out large.
+    const double surely = fit.walk_variance_per_s - 2.0 * fit.walk_variance_sigma;
+    if (walk_sigma < 0.3 * walk && walk_shows(record, surely))
         law.random_walk_arcsec_sqrt_s = estimated(walk, walk_sigma);
     else
         law.random_walk_arcsec_sqrt_s = refused(
@@ -200,18 +202,22 @@ IncrementFit mean_over_times(const Record& record, double walk) {
     }
     double best = fits.front().residual;
     for (const IncrementFit& f : fits) best = std::min(best, f.residual);
+    // The weights of warmings that do not fit vanish; that of the best is 1.
+    const auto weight = [best](const IncrementFit& f) { return std::exp(-0.5 * (f.residual - best)); };
     IncrementFit mean = fits.front();
-    mean.covariance.setZero();
     mean.residual = best;
+    mean.coefficient.setZero();
+    mean.covariance.setZero();
     double weights = 0.0;
     for (const IncrementFit& f : fits) {
-        const double weight = std::exp(-0.5 * (f.residual - best));
-        weights += weight;
-        const Eigen::VectorXd apart = f.coefficient - mean.coefficient;
-        mean.coefficient += apart * weight / weights;
-        mean.covariance += weight * (f.covariance + apart * (f.coefficient - mean.coefficient).transpose());
+        weights += weight(f);
+        mean.coefficient += weight(f) * f.coefficient;
     }
-    mean.covariance /= weights;
+    mean.coefficient /= weights;
+    for (const IncrementFit& f : fits) {
+        const Eigen::VectorXd apart = f.coefficient - mean.coefficient;
+        mean.covariance += weight(f) / weights * (f.covariance + apart * apart.transpose());
+    }
     return mean;
 }
 

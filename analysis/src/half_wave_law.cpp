@@ -24,7 +24,7 @@ struct Step {
     double drift_v = 0.0;  // within the segment before
 };
 
-bool has_windows(const Segment& s) { return s.n_settled >= window_ticks && s.at_start.n > 0 && s.at_end.n > 0; }
+bool has_windows(const Segment& s) { return s.at_start.n > 0 && s.at_end.n > 0; }
 
 void collect(const LabLog& log, std::size_t index, std::vector<Step>& steps) {
     for (std::size_t k = 1; k < log.segments.size(); ++k) {
@@ -46,6 +46,12 @@ double median_v(const std::vector<Step>& steps) {
     for (const Step& s : steps) v.push_back(s.voltage_v);
     std::nth_element(v.begin(), v.begin() + std::ssize(v) / 2, v.end());
     return v[v.size() / 2];
+}
+
+double longest_rest_ticks(std::span<const LabLog> logs) {
+    double ticks = 0.0;
+    for (const LabLog& log : logs) ticks = std::fmax(ticks, log.rest_after_ticks);
+    return ticks;
 }
 
 // A switch that ends in another mode of the same helicity has moved by 3, 5, ... half wavelengths.
@@ -154,8 +160,9 @@ HalfWaveLaw find_half_wave_law(std::span<const LabLog> logs, double reference_te
     law.n_switches = std::ssize(steps);
     if (law.n_switches < least_switches) {
         law.half_wave_v =
-            refused(fmt::format("{} switches with the column piezo_v, settled before and after; {} or more are needed",
-                                law.n_switches, least_switches));
+            refused(fmt::format("{} switches with the column piezo_v, at rest before and after ({:.4g} ticks after a "
+                                "re-lock); {} or more are needed",
+                                law.n_switches, longest_rest_ticks(logs), least_switches));
         law.temperature_coefficient_per_c = law.half_wave_v;
         return law;
     }

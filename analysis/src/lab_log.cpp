@@ -4,10 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "rest_start.hpp"
+
 namespace zlg::analysis {
 namespace {
 
 constexpr std::size_t window_halves = 2 * window_ticks;
+
+constexpr std::int64_t start_ticks(std::size_t k) { return settled_after_ticks << k; }
 
 int bias_and_mode(const core::HalfRecord& r) { return r.bias_sign * r.mode; }
 
@@ -25,7 +29,8 @@ void add_reading(PiezoLevel& level, const core::HalfRecord& r) {
 }  // namespace
 
 double slope_v_per_tick(const Segment& s) {
-    if (s.n_settled < 2 * window_ticks) return 0.0;
+    constexpr double apart_ticks = static_cast<double>(window_ticks) - 0.5;
+    if (!(s.at_start.n > 0 && s.at_end.middle_ticks - s.at_start.middle_ticks > apart_ticks)) return 0.0;
     return (s.at_end.voltage_v - s.at_start.voltage_v) / (s.at_end.middle_ticks - s.at_start.middle_ticks);
 }
 
@@ -60,7 +65,7 @@ void LabReader::take(const core::HalfRecord& record) {
 
 LabLog LabReader::finish() {
     end_segment();
-    log_.piezo_variance_v2 = window_variance_.mean;
+    choose_start();
     return std::move(log_);
 }
 
@@ -86,6 +91,7 @@ void LabReader::begin_segment(const core::HalfRecord& first) {
     in_segment_ = true;
     log_.segments.push_back({.mode = first.mode, .after_gap = gap_before_, .first_tick = first.half / 2});
     if (gap_before_) log_.relocks.push_back({.segment = std::ssize(log_.segments) - 1, .halves = {}});
+    starts_.emplace_back();
     gap_before_ = false;
     log_.scatter.interrupt();
 }
@@ -118,9 +124,13 @@ void LabReader::take_settled(const core::HalfRecord& first, const core::HalfReco
 }
 
 void LabReader::take_window(const core::HalfRecord& record) {
+    const std::int64_t tick = log_.segments.back().n_ticks - 1;
+    for (std::size_t k = 0; k < n_starts; ++k) {
+        if (tick < start_ticks(k) || tick >= start_ticks(k) + window_ticks) continue;
+        add_reading(starts_.back()[k], record);
+        if (std::isfinite(record.piezo_v)) start_voltage_[k].add(record.piezo_v);
+    }
     if (recent_.size() < window_halves) {
-        add_reading(log_.segments.back().at_start, record);
-        if (std::isfinite(record.piezo_v)) start_voltage_.add(record.piezo_v);
         recent_.push_back(record);
         return;
     }
@@ -128,10 +138,22 @@ void LabReader::take_window(const core::HalfRecord& record) {
     oldest_ = (oldest_ + 1) % window_halves;
 }
 
+void LabReader::choose_start() {
+    log_.rest_after_ticks = rest_after_ticks(log_.relocks);
+    std::size_t k = 0;
+    while (k < n_starts && static_cast<double>(start_ticks(k)) < log_.rest_after_ticks) ++k;
+    if (k == n_starts) return;
+    log_.rest_after_ticks = static_cast<double>(start_ticks(k));
+    log_.piezo_variance_v2 = window_variance_[k].mean;
+    for (std::size_t s = 0; s < log_.segments.size(); ++s)
+        if (log_.segments[s].n_ticks >= start_ticks(k) + window_ticks) log_.segments[s].at_start = starts_[s][k];
+}
+
 void LabReader::end_segment() {
     if (in_segment_)
         for (const core::HalfRecord& r : recent_) add_reading(log_.segments.back().at_end, r);
-    if (start_voltage_.n > 1) window_variance_.add(start_voltage_.variance());
+    for (std::size_t k = 0; k < n_starts; ++k)
+        if (start_voltage_[k].n > 1) window_variance_[k].add(start_voltage_[k].variance());
     start_voltage_ = {};
     recent_.clear();
     oldest_ = 0;

@@ -82,6 +82,7 @@ std::string calibration_toml(const CalibrationResult& result) {
     for (const char* name : {"tick_s", "scale_arcsec", "reference_temperature_c"})
         text += fmt::format("{} = {}\n", name, text_of(result.config, fmt::format("gyro.{}", name)));
     text += toml_section(result, "gyro");
+    if (!result.warning.empty()) text += fmt::format("# warning: {}\n", result.warning);
     for (const Constant& c : result.calibration.constants)
         if (c.key == scale_name) text += scale_comment(c);
     for (const char* section : {"piezo", "drift"})

@@ -26,6 +26,7 @@ struct CalibrationResult {
     analysis::Calibration calibration;
     std::vector<CalibrationFile> files;
     config::Config config;  // tick, scale and reference temperature are those of the logs
+    std::string warning;    // of the bias frequency; empty for none
 };
 
 [[nodiscard]] std::string calibration_text(const CalibrationResult& result);

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -19,6 +22,8 @@
 
 namespace zlg::cli {
 namespace {
+
+constexpr std::string_view bias_coefficient = "gyro.bias_temperature_coefficient_per_c";
 
 struct CalibrateOptions : Options {
     std::vector<std::string> raws;
@@ -105,6 +110,30 @@ std::vector<CalibrationFile> files_of(const std::vector<analysis::LabLog>& logs)
     return files;
 }
 
+// A bias frequency that was carried to the reference temperature from afar by a coefficient that nobody knows; empty
+// where it was not.
+std::string far_reference(const CalibrateOptions& options, const Lab& lab, const analysis::Calibration& calibration) {
+    constexpr double far_c = 5.0;
+    for (const analysis::Constant& c : calibration.constants) {
+        if (c.key == "gyro.bias_hz" && !c.estimate.determined) return {};
+        if (c.key == bias_coefficient && c.estimate.determined) return {};
+    }
+    if (presumed(options, lab.configs.front()).bias_temperature_coefficient_per_c != 0.0) return {};
+    for (const std::string& set : options.sets)
+        if (set.starts_with(bias_coefficient)) return {};
+    const double reference_c = lab.configs.front().gyro.reference_temperature_c;
+    double nearest_c = std::numeric_limits<double>::infinity();
+    for (const analysis::LabLog& log : lab.logs)
+        if (log.has_temperature())
+            nearest_c =
+                std::min(nearest_c, std::max(log.temperature_min_c - reference_c, reference_c - log.temperature_max_c));
+    if (!(nearest_c > far_c) || !std::isfinite(nearest_c)) return {};
+    return fmt::format(
+        "gyro.bias_hz is that of the logs, {:.3g} C or more from gyro.reference_temperature_c = {:g} C; "
+        "{} is neither determined nor given",
+        nearest_c, reference_c, bias_coefficient);
+}
+
 void check_usage(const CalibrateOptions& options) {
     if (!std::isfinite(options.rate_arcsec_s))
         throw UsageError{fmt::format("--rate-arcsec-s {}: allowed is a finite number", options.rate_arcsec_s)};
@@ -132,6 +161,8 @@ void calibrate(const CalibrateOptions& options) {
     check_agreement(options, lab);
     CalibrationResult result{.files = files_of(lab.logs), .config = lab.configs.front()};
     result.calibration = analysis::calibrate(lab.logs, presumed(options, result.config));
+    result.warning = far_reference(options, lab, result.calibration);
+    if (!result.warning.empty()) complain("warning: " + result.warning);
     if (!options.out.empty()) {
         logs::TableFile file{options.out, options.force};
         file.append(calibration_toml(result));

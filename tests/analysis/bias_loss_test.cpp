@@ -85,3 +85,21 @@ TEST(BiasLoss, refuses_what_the_logs_do_not_show) {
     EXPECT_FALSE(small.chi.determined);
     EXPECT_NE(small.chi.reason.find("larger miss"), std::string::npos);
 }
+
+TEST(BiasLoss, a_column_that_tells_nothing_is_named) {
+    for (const double square : {0.0, 1e-5, 1e200}) {
+        const std::vector<LabLog> logs{
+            log_of(SyntheticGyro{}, 60.0, [square](HalfRecord& r) { r.detuning_sq_lambda2 = square; })};
+        const BiasLoss loss = loss_of(logs);
+        EXPECT_FALSE(loss.chi.determined);
+        EXPECT_NE(loss.chi.reason.find("detuning_sq_lambda2"), std::string::npos) << loss.chi.reason;
+        EXPECT_TRUE(std::isfinite(loss.chi2_per_dof));
+    }
+}
+
+TEST(BiasLoss, no_loss_is_not_claimed_by_a_counter_that_stands) {
+    for (const double chi : {0.0, -4.0}) {
+        const BiasLoss loss = loss_of(one_log({.chi = chi, .rate_arcsec_s = 0.0}, 60.0));
+        EXPECT_FALSE(loss.chi.determined) << loss.chi.value << " +- " << loss.chi.sigma;
+    }
+}

@@ -40,3 +40,16 @@ TEST(DetuningScale, a_miss_within_noise_tells_nothing) {
     const DetuningScale found = scale_of(one_log({.miss_lambda = 1e-4}, 60.0));
     EXPECT_FALSE(found.scale.determined);
 }
+
+// Between 2.5 ms readings a fall by 1/e^(5/4) has a course that four of them do not show.
+TEST(DetuningScale, a_re_lock_that_is_quicker_than_the_readings_is_refused) {
+    const DetuningScale found = scale_of(one_log({.tau_s = 0.002}, 60.0));
+    EXPECT_FALSE(found.scale.determined);
+    EXPECT_NE(found.scale.reason.find("over within"), std::string::npos) << found.scale.reason;
+}
+
+TEST(DetuningScale, a_slow_loop_is_waited_for) {
+    const DetuningScale found = scale_of(one_log({.tau_s = 0.05, .segment_ticks = 2000}, 400.0));
+    ASSERT_TRUE(found.scale.determined) << found.scale.reason;
+    EXPECT_LT(std::abs(errors_off(found.scale, 1.0)), 4.0);
+}

@@ -110,3 +110,16 @@ TEST(DriftLaw, a_gyro_that_is_moved_is_refused) {
         EXPECT_NE(law.magnetic_arcsec_s.reason.find("moved"), std::string::npos);
     }
 }
+
+// Of the warmings over which the mean is taken the quickest fits so badly that its weight vanishes.
+TEST(DriftLaw, a_warming_that_cannot_be_does_not_spoil_the_mean) {
+    SyntheticGyro gyro = warming_gyro();
+    gyro.thermal_s = 30'000.0;
+    gyro.thermal_arcsec_s = 10'000.0;
+    gyro.walk_arcsec_sqrt_s = 0.05;
+    const DriftLaw law = drift_of(gyro, 200.0);
+    EXPECT_FALSE(law.thermal_time_s.determined);
+    ASSERT_TRUE(law.magnetic_arcsec_s.determined) << law.magnetic_arcsec_s.reason;
+    EXPECT_LT(std::abs(errors_off(law.magnetic_arcsec_s, 3.0)), 4.0);
+    EXPECT_LT(std::abs(errors_off(law.nonmagnetic_arcsec_s, 2.0)), 4.0);
+}

@@ -55,3 +55,14 @@ TEST(HalfWaveLaw, odd_multiples_are_divided) {
     EXPECT_EQ(law.n_switches, 29 + 9);
     EXPECT_LT(std::abs(errors_off(law.half_wave_v, 40.0)), 4.0);
 }
+
+// Forty ticks leave exp(-4) of the miss, 0.29 V of a voltage that is known to millivolts.
+TEST(HalfWaveLaw, a_slow_loop_is_waited_for) {
+    const auto logs = one_log({.tau_s = 0.05, .segment_ticks = 2000}, 400.0);
+    EXPECT_GT(logs[0].rest_after_ticks, 79.0);
+    const HalfWaveLaw law = find_half_wave_law(logs, 20.0, 0.0);
+    ASSERT_TRUE(law.half_wave_v.determined) << law.half_wave_v.reason;
+    EXPECT_LT(std::abs(errors_off(law.half_wave_v, 40.0)), 4.0);
+    const auto never = one_log({.tau_s = 5.0, .segment_ticks = 400}, 100.0);
+    EXPECT_FALSE(find_half_wave_law(never, 20.0, 0.0).half_wave_v.determined);
+}

@@ -145,6 +145,28 @@ TEST(GapBridgeEdges, BeforeTheFirstTickThereIsNothingToAmend) {
     for (unsigned k = 1; k < state.history.size(); ++k) EXPECT_EQ(state.history[k], HistoryTick{}) << k;
 }
 
+// Two gaps are open to question at the end of the log: their reports come first, one by one, then the rows.
+TEST(GapBridgeEdges, TheDrainGivesOneThingAtATimeAndTheRowsLast) {
+    const GapBridgeConfig config{.points_after = 8};
+    GapBridgeState state;
+    Delivered got;
+    for (const TickInput& tick : joined({measured(5), gap(1), measured(1), gap(1), measured(1)})) {
+        step_into(config, state, tick, got);
+    }
+    ASSERT_TRUE(got.gaps.empty() && got.rows.empty());
+    for (int k = 0; k < 2; ++k) {
+        const DrainOutput out = drain(config, state);
+        EXPECT_TRUE(out.has_gap);
+        EXPECT_FALSE(out.has_row);
+    }
+    for (int k = 0; k < 9; ++k) {
+        const DrainOutput out = drain(config, state);
+        EXPECT_FALSE(out.has_gap);
+        EXPECT_TRUE(out.has_row);
+        EXPECT_EQ(out.row.tick, k);
+    }
+}
+
 TEST(GapBridgeEdges, EqualGapsHaveEqualReportsHoweverManyCameBefore) {
     const Delivered got = run({}, joined({measured(8), gap(3), measured(8), gap(3), measured(8), gap(3), measured(8)}));
     ASSERT_EQ(got.gaps.size(), 3u);

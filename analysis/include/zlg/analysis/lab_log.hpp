@@ -2,6 +2,7 @@
 // What calibration keeps of one raw log: sums over settled ticks, the halves after every re-lock, and the voltages at
 // which the perimeter rested. A log of any length is read once, row by row.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace zlg::analysis {
 
-inline constexpr std::int64_t settled_after_ticks = 40;  // of a re-lock: six time constants of a loop of 33 ms
+inline constexpr std::int64_t settled_after_ticks = 40;  // of a re-lock: counts are at rest, to 1e-4 of the bias
 inline constexpr std::int64_t block_ticks = 50;
 inline constexpr std::int64_t window_ticks = 20;  // of the voltage at either end of a segment
 inline constexpr std::size_t relock_halves = 80;  // kept after a gap
@@ -46,7 +47,7 @@ struct Segment {
     std::int64_t first_tick = 0;
     std::int64_t n_ticks = 0;
     std::int64_t n_settled = 0;
-    PiezoLevel at_start;  // first settled window
+    PiezoLevel at_start;  // first window at rest; no readings where the segment ends before it
     PiezoLevel at_end;    // last settled window
 };
 
@@ -84,6 +85,7 @@ struct LabLog {
     std::vector<Relock> relocks;
     AngleScatter scatter;                                              // of settled ticks
     Moments square;                                                    // detuning_sq_lambda2 of settled halves
+    double rest_after_ticks = settled_after_ticks;                     // of a re-lock: what the voltage needs
     double piezo_variance_v2 = 0.0;                                    // of one reading in a settled window
     double piezo_quantum_v = std::numeric_limits<double>::infinity();  // least step between readings
     double temperature_min_c = std::numeric_limits<double>::infinity();
@@ -94,6 +96,7 @@ struct LabLog {
     [[nodiscard]] bool has_square() const { return square.n > 0; }
 };
 
+// Where the first window at rest begins is known when all re-locks are: 40, 80, ... 1280 ticks after them.
 class LabReader {
 public:
     LabReader(std::string name, double tick_s);
@@ -104,11 +107,14 @@ public:
     [[nodiscard]] LabLog finish();
 
 private:
+    static constexpr std::size_t n_starts = 6;
+
     void take_tick(const core::HalfRecord& first, const core::HalfRecord& second);
     void begin_segment(const core::HalfRecord& first);
     void take_settled(const core::HalfRecord& first, const core::HalfRecord& second);
     void take_window(const core::HalfRecord& record);
     void end_segment();
+    void choose_start();
 
     LabLog log_;
     bool in_segment_ = false;
@@ -118,8 +124,9 @@ private:
     double last_piezo_v_ = std::numeric_limits<double>::quiet_NaN();
     std::vector<core::HalfRecord> recent_;  // the last settled window, a ring
     std::size_t oldest_ = 0;
-    Moments start_voltage_;
-    Moments window_variance_;
+    std::array<Moments, n_starts> start_voltage_;
+    std::array<Moments, n_starts> window_variance_;
+    std::vector<std::array<PiezoLevel, n_starts>> starts_;  // of each segment
 };
 
 }  // namespace zlg::analysis
