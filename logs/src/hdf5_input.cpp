@@ -10,6 +10,8 @@
 #include <new>
 #include <zlg/logs/error.hpp>
 
+#include "hdf5_global_heap.hpp"
+
 namespace zlg::logs::hdf5 {
 
 namespace {
@@ -68,6 +70,10 @@ herr_t fail_with(const char* remark) {
 
 herr_t read(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t address, size_t size, void* buffer) try {
     if (address > max_address) return fail_with("an address that no file has");
+    // The library reads a heap of texts as it reads rows.
+    if (kind == H5FD_MEM_DRAW && is_damaged_heap_collection(of(file).fd, address)) {
+        return fail_with("damaged texts: a size in their heap leads nowhere");
+    }
     char* bytes = static_cast<char*>(buffer);
     while (size > 0) {
         const ssize_t n = ::pread(of(file).fd, bytes, size, static_cast<off_t>(address));

@@ -182,7 +182,7 @@ std::optional<std::string> Source::text_attribute(const std::string& object, con
     const Handle space{H5Aget_space(attribute.get()), &H5Sclose};
     const auto text = read_text(
         type, space, [&](hid_t memory_type, void* buffer) { return H5Aread(attribute.get(), memory_type, buffer); });
-    if (!text) fail(object, fmt::format("the attribute {} is no text", name));
+    if (!text) fail(object, fmt::format("the attribute {} holds no text that can be read", name));
     return text;
 }
 

@@ -4,7 +4,9 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <vector>
 #include <zlg/logs/angle_log.hpp>
@@ -267,4 +269,23 @@ TEST(AngleReader, refuses_rows_of_an_hdf5_log_that_no_compensation_writes) {
                         f.group("/truth").column<double>("/truth/dtheta_arcsec", {1, 2});
                     }),
                     "/truth/dtheta_arcsec has 2 rows, /angles/flags has 3");
+}
+
+TEST(AngleReader, refuses_texts_whose_heap_has_a_damaged_size) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("angles.h5");
+    AngleWriter writer{path, 0.005, {{"gyro.scale_arcsec", "3.263"}}, true, {}};
+    writer.write({.tick = 0, .sigma_arcsec = 1.0});
+    writer.close();
+    std::string file = content_of(path);
+    const std::size_t collection = file.find("GCOL");
+    ASSERT_NE(collection, std::string::npos);
+    constexpr std::size_t size_of_first_object = 16 + 8;
+    // The first makes a step of no bytes of the walk through the heap, which then never ends.
+    for (const std::uint64_t size : {~std::uint64_t{15}, std::uint64_t{1} << 40, std::uint64_t{5000}}) {
+        std::memcpy(&file[collection + size_of_first_object], &size, sizeof size);
+        std::ofstream{path, std::ios::binary} << file;
+        expect_contains(message_of<FormatError>([&] { AngleReader{path}; }),
+                        "the attribute flags holds no text that can be read");
+    }
 }
