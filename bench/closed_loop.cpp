@@ -76,6 +76,10 @@ int main() {
     times_real_time("twin, 16 light samples", config, run_twin);
     const double loop = times_real_time("twin + control", config, run_loop);
     const double all = times_real_time("twin + control + compensation", config, run_loop_and_compensation);
+    config.gyro.fidelity = config::Fidelity::laser;
+    times_real_time("laser with phases, 16 light samples", config, run_twin);
+    times_real_time("laser with phases + control", config, run_loop);
+    config.gyro.fidelity = config::Fidelity::averaged;
     config.gyro.light_samples = 64;
     times_real_time("twin + control + compensation, 64 samples", config, run_loop_and_compensation);
     fmt::print("allowed: 1000 times real time with 16 samples\n");

@@ -59,7 +59,7 @@ private:
     core::SensorFrame stamped(const core::ActuatorFrame& actuator) {
         core::SensorFrame frame;
         frame.sequence = static_cast<std::uint32_t>(half_);
-        frame.timer_ticks = 25000 * static_cast<std::uint64_t>(half_ + 1);
+        frame.timer_ticks = static_cast<std::uint64_t>(25000 * std::int64_t{half_ + 1} + actuator.edge_offset_ticks);
         frame.bias_sign = half_ % 2 == 0 ? std::int8_t{1} : std::int8_t{-1};
         frame.polarity = actuator.polarity;
         frame.loop_closed = actuator.loop_closed;
@@ -68,6 +68,7 @@ private:
             static_cast<std::int64_t>(300.0 * std::sin(0.01 * half_) + frame.bias_sign * frame.polarity * bias));
         frame.counter = counter_;
         frame.piezo_v = voltage_v_;
+        frame.coil_current_a = frame.bias_sign;
         frame.temperature_c = 20.0;
         return frame;
     }
@@ -78,8 +79,10 @@ private:
         frame.n_light = script_.light_samples;
         frame.has_light_b = !script_.one_beam;
         for (std::size_t k = 0; k < script_.light_samples; ++k) {
-            frame.light_a[k] = static_cast<float>(level * (1.0 + signal));
-            frame.light_b[k] = static_cast<float>(level * (1.0 - signal));
+            // Not quite still: a converter that is would be called stuck.
+            const double grain = 1e-6 * static_cast<double>((k + static_cast<std::size_t>(half_)) % 3);
+            frame.light_a[k] = static_cast<float>(level * (1.0 + signal + grain));
+            frame.light_b[k] = static_cast<float>(level * (1.0 - signal - grain));
         }
     }
 

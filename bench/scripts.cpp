@@ -27,6 +27,11 @@ Script script(std::string name, std::string ticks, int halves, int light_samples
     s.control.schedule.interval_ticks = 1'000'000;
     s.control.mode_switch.dark_ticks = 1'000;
     s.control.mode_switch.lock_timeout_ticks = 1'000;
+    s.control.bias_monitor.presumed_counts = 150.0;
+    s.control.coil_monitor.tolerance_ratio = 0.5 / 150.0;
+    s.control.counter_monitor.watches = true;
+    s.control.light_monitor = {.noise = core::Wavelengths{0.0033}, .bias_chi = 3.6};
+    s.control.detuning_monitor.most_change_lambda2 = 1.0 / 540.0;
     s.compensation.relock.method = RelockMethod::mean_square;
     return s;
 }
@@ -41,8 +46,18 @@ Script switching(std::string name, int gap_ticks, int settle_ticks, int light_sa
     return s;
 }
 
+// Edges that move with every reversal, by the dearer law, and a rate that is judged often.
+Script dithered(Script s) {
+    core::EdgeDitherConfig& dither = s.control.commutator.dither;
+    dither.method = core::DitherMethod::automatic;
+    dither.rate_periods = 4;
+    dither.random_above_arcsec_s = dither.paired_below_arcsec_s = 0.0;
+    return s;
+}
+
 // All the points there may be.
 Script with_most_points(Script s, int points_after = 8) {
+    s = dithered(s);
     s.compensation.bridge.extrapolation_points = 8;
     s.compensation.bridge.points_before = 8;
     s.compensation.bridge.points_after = points_after;
@@ -57,7 +72,7 @@ Script random(std::uint32_t seed) {
         x = 1664525u * x + 1013904223u;
         return static_cast<int>((x >> 8) % n);
     };
-    Script s = script(fmt::format("random {}", seed), "", 1000, 64);
+    Script s = dithered(script(fmt::format("random {}", seed), "", 1000, 64));
     while (s.ticks.size() < 500) {
         s.ticks += repeated(lit, 1 + below(below(2) == 0 ? 30 : 4));
         s.ticks += repeated(dark, below(2) == 0 ? 16 : 1 + below(20));
@@ -76,6 +91,7 @@ Script random(std::uint32_t seed) {
 std::vector<Script> usual_scripts() {
     std::vector<Script> all;
     for (const int n : {16, 64}) all.push_back(script(fmt::format("steady, {} samples", n), ".", 120, n));
+    all.push_back(dithered(script("steady, 16 samples, shifted edges", ".", 120, 16)));
     all.push_back(script("steady, 16 samples of one beam", ".", 120, 16));
     all.back().one_beam = true;
     for (const int n : {1, 3, 16, 40})
@@ -84,6 +100,7 @@ std::vector<Script> usual_scripts() {
     for (std::size_t k = 0; k < relock_names.size(); ++k)
         all.push_back(switching(fmt::format("switch, {}", relock_names[k]), 3, 20, 16, static_cast<RelockMethod>(k)));
     all.push_back(switching("switch, 64 samples", 3, 20, 64, RelockMethod::mean_square));
+    all.push_back(dithered(switching("switch, 64 samples, shifted edges", 3, 20, 64, RelockMethod::mean_square)));
     return all;
 }
 

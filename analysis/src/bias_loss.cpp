@@ -1,7 +1,6 @@
 #include <zlg/analysis/bias_loss.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -9,74 +8,39 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "relock_view.hpp"
+#include "relock_borders.hpp"
+#include "settled.hpp"
 
 namespace zlg::analysis {
 namespace {
 
-constexpr double rounding_counts2 = 1.0 / 12.0;
 // So many clusters give a scatter to be relied on.
 constexpr std::int64_t least_clusters = 8;
 
-// The borders of one re-lock as observations: counts y against the loss z per unit of chi, and the parity o that an
-// error of f0 would show. Row k: border k; the last two rows: means over the even and the odd borders of the rest.
-struct Borders {
-    Eigen::VectorXd y;
-    Eigen::MatrixXd zo;    // columns z and o
-    double noise_z = 0.0;  // what light noise adds to the sum of squares of z about its mean
+// The borders of one re-lock: columns of the loss per unit of chi and of parity.
+struct Borders : RelockBorders {
+    double noise_z = 0.0;  // what light noise adds to the sum of squares of the loss about its mean
 
     Borders(const RelockView& view, const BiasLaw& law, std::size_t transient);
-
-private:
-    void average_rest(const Eigen::VectorXd& y_all, const Eigen::MatrixXd& zo_all, Eigen::Index kept);
-    void centre();
 };
 
 Borders::Borders(const RelockView& view, const BiasLaw& law, std::size_t transient) {
-    const std::vector<core::HalfRecord>& halves = view.relock->halves;
-    // As long again as the transient for the rest: every half of it brings light noise.
-    const auto n = static_cast<Eigen::Index>(std::min(halves.size(), 2 * transient + 4));
-    const auto kept = static_cast<Eigen::Index>(transient + 1);
     const LightNoise light{view.log->square};
-    Eigen::VectorXd y_all = Eigen::VectorXd::Zero(n + 1);
-    Eigen::MatrixXd zo_all = Eigen::MatrixXd::Zero(n + 1, 2);
-    const double first_sign = halves[0].bias_sign * halves[0].mode;
-    for (Eigen::Index h = 0; h < n; ++h) {
-        const core::HalfRecord& r = halves[static_cast<std::size_t>(h)];
-        const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c) * r.bias_sign * r.mode;
-        const double excess = r.detuning_sq_lambda2 - light.square_lambda2;
-        y_all[h + 1] = y_all[h] + static_cast<double>(r.counts) - cycles - view.counts_per_half;
-        zo_all(h + 1, 0) = zo_all(h, 0) - cycles * excess;
-        zo_all(h + 1, 1) = h % 2 == 0 ? first_sign : 0.0;
+    const Eigen::Index n = halves_used(view, transient);
+    const auto kept = static_cast<Eigen::Index>(transient + 1);
+    Eigen::Index h = 0;
+    const auto loss_of = [&](const core::HalfRecord& r, Eigen::Ref<Eigen::RowVectorXd> loss) {
+        const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c);
+        loss[0] = r.detuning_sq_lambda2 - light.square_lambda2;
         // This half stands in all observations behind it: in all rows k > h, and in the rest's means by their share.
         const double rows = static_cast<double>(kept + 2);
         const double behind = h < kept ? static_cast<double>(kept - 1 - h) + 2.0
                                        : 2.0 * static_cast<double>(n - h) / static_cast<double>(n + 1 - kept);
         const double behind_sq = h < kept ? behind : 0.5 * behind * behind;
-        noise_z += light.variance_of(excess) * cycles * cycles * (behind_sq - behind * behind / rows);
-    }
-    average_rest(y_all, zo_all, kept);
-    centre();
-}
-
-void Borders::average_rest(const Eigen::VectorXd& y_all, const Eigen::MatrixXd& zo_all, Eigen::Index kept) {
-    y = Eigen::VectorXd::Zero(kept + 2);
-    zo = Eigen::MatrixXd::Zero(kept + 2, 2);
-    y.head(kept) = y_all.head(kept);
-    zo.topRows(kept) = zo_all.topRows(kept);
-    std::array<double, 2> n{};
-    for (Eigen::Index k = kept; k < y_all.size(); ++k) n[static_cast<std::size_t>(k % 2)] += 1.0;
-    for (Eigen::Index k = kept; k < y_all.size(); ++k) {
-        const double share = 1.0 / n[static_cast<std::size_t>(k % 2)];
-        y[kept + k % 2] += share * y_all[k];
-        zo.row(kept + k % 2) += share * zo_all.row(k);
-    }
-}
-
-// The rounding at the first border is common to all: an offset of its own for each re-lock.
-void Borders::centre() {
-    y.array() -= y.mean();
-    zo.rowwise() -= zo.colwise().mean().eval();
+        noise_z += light.variance_of(loss[0]) * cycles * cycles * (behind_sq - behind * behind / rows);
+        ++h;
+    };
+    RelockBorders::operator=(relock_borders(view, law, transient, 1, loss_of));
 }
 
 struct Sums {
@@ -85,7 +49,7 @@ struct Sums {
 };
 
 Sums sums_of(const Borders& b) {
-    Sums s{b.zo.transpose() * b.zo, b.zo.transpose() * b.y};
+    Sums s{b.x.transpose() * b.x, b.x.transpose() * b.y};
     s.a(0, 0) -= b.noise_z;
     return s;
 }
@@ -108,7 +72,7 @@ double chi2_per_dof(const std::vector<Borders>& all, const Eigen::Vector2d& solu
     double found = 0.0;
     double expected = -2.0 * rounding_counts2;
     for (const Borders& b : all) {
-        found += (b.y - b.zo * solution).squaredNorm();
+        found += (b.y - b.x * solution).squaredNorm();
         expected += rounding_counts2 * static_cast<double>(b.y.size() - 1) + solution[0] * solution[0] * b.noise_z;
     }
     return found / expected;
@@ -167,7 +131,8 @@ void solve(const std::vector<Borders>& all, BiasLoss& loss) {
     loss.chi2_per_dof = chi2_per_dof(all, solution);
     const Eigen::Matrix2d covariance =
         loss.n_relocks >= least_clusters
-            ? scatter_covariance(clusters, inverse, solution)
+            ? Eigen::Matrix2d{scatter_covariance(clusters, inverse, solution) +
+                              inverse * repeated_rounding({all.begin(), all.end()}, solution).covariance * inverse}
             : Eigen::Matrix2d{std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * inverse};
     const double sigma = std::fmax(std::sqrt(covariance(0, 0)), resolution(loss));
     loss.deficit_counts *= std::abs(solution[0]);

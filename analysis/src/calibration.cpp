@@ -24,6 +24,13 @@ void check(std::span<const LabLog> logs) {
                             logs.front().tick_s, log.name, log.tick_s));
 }
 
+LossCurve find_curve(std::span<const LabLog> logs, const BiasLaw& law, const Presumed& presumed) {
+    if (presumed.read_by_slope) return find_loss_curve(logs, law);
+    LossCurve none;
+    none.reason = "the detunings of the logs were not all read by one slope";
+    return none;
+}
+
 void add(const BiasLaw& law, const BiasLoss& loss, Calibration& c) {
     c.constants.push_back({"gyro.bias_hz", "Hz", law.bias_hz});
     c.constants.push_back({"gyro.bias_temperature_coefficient_per_c", "1/C", law.temperature_coefficient_per_c});
@@ -73,10 +80,16 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
     Calibration c;
     const double reference_c = presumed.reference_temperature_c;
     const BiasLaw bias = find_bias_law(logs, reference_c, presumed.bias_temperature_coefficient_per_c);
-    add(bias, find_bias_loss(logs, bias), c);
+    c.curve = find_curve(logs, bias, presumed);
+    const std::vector<LabLog> straight = c.curve.determined ? straightened(logs, c.curve) : std::vector<LabLog>{};
+    const std::span<const LabLog> seen = c.curve.determined ? std::span{straight} : logs;
+    add(bias, find_bias_loss(seen, bias), c);
+    if (c.curve.determined)
+        c.goodness.push_back({"curve_chi2_per_dof", c.curve.chi2_per_dof,
+                              fmt::format("residuals of {} re-locks over white rounding; about 1", c.curve.n_relocks)});
     const HalfWaveLaw half_wave =
         find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c);
-    add(half_wave, find_detuning_scale(logs, half_wave, presumed.stepped_voltage), c);
+    add(half_wave, find_detuning_scale(seen, half_wave, presumed.stepped_voltage), c);
     add(find_drift_law(logs, presumed.scale_arcsec, presumed.rate_arcsec_s, bias), c);
     // What no number says, the refusal of its constant says in words.
     std::erase_if(c.goodness, [](const Goodness& g) { return !std::isfinite(g.value); });

@@ -22,6 +22,10 @@ constexpr double cubic_doubt = 0.1;
 // corrected by 2 %, and by 1 part in 1000 wrongly.
 constexpr double most_correction = 0.025;
 
+// A digital loop that brings the mean square of the detuning down to less than this from one half to the next goes by
+// steps of which the readings at their ends tell too little.
+constexpr double least_stepped_fall = 0.13;
+
 // Logged mean detunings of one re-lock against columns of travel, as sums of products; less what the noise of the
 // readings adds.
 struct Cluster {
@@ -158,6 +162,14 @@ DetuningScale find_detuning_scale(std::span<const LabLog> logs, const HalfWaveLa
         result.scale =
             refused(fmt::format("{} re-locks with the columns detuning_lambda and piezo_v; {} or more are needed",
                                 result.n_relocks, least_clusters));
+        return result;
+    }
+    if (stepped_voltage && relocks.steepest_fall < least_stepped_fall) {
+        result.scale =
+            refused(fmt::format("the mean square of the detuning falls to {:.2g} of it from one half to the next, "
+                                "allowed is {:g} for a digital "
+                                "loop: its course within a half is not seen; a slower loop would tell",
+                                relocks.steepest_fall, least_stepped_fall));
         return result;
     }
     const double of_ruler = f.scale * law.half_wave_v.sigma / law.half_wave_v.value;

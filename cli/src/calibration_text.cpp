@@ -12,6 +12,7 @@ using nlohmann::json;
 
 // No key of a configuration: it says how to renew two of them.
 constexpr std::string_view scale_name = "detuning_scale";
+constexpr std::string_view curve_name = "perimeter.discriminator_signal";
 
 std::string with_unit(const std::string& text, const std::string& unit) {
     return unit.empty() ? text : text + " " + unit;
@@ -42,8 +43,14 @@ std::string toml_section(const CalibrationResult& result, const std::string& sec
     return text;
 }
 
-std::string scale_comment(const Constant& c) {
+std::string scale_comment(const Constant& c, bool has_curve) {
     if (!c.estimate.determined) return fmt::format("# {}: not determined: {}\n", c.key, c.estimate.reason);
+    if (has_curve)
+        return fmt::format(
+            "# {0} = {1:.6g} +- {2:.3g}: wavelengths of discriminator_detuning_lambda per true one. For true ones "
+            "divide "
+            "that list\n# by {1:.6g} and multiply bias_chi by {3:.6g}, both at once.\n",
+            c.key, c.estimate.value, c.estimate.sigma, c.estimate.value * c.estimate.value);
     return fmt::format(
         "# {0} = {1:.6g} +- {2:.3g}: logged wavelengths per true one. bias_chi above is in logged units, as process "
         "needs it\n"
@@ -53,7 +60,75 @@ std::string scale_comment(const Constant& c) {
         c.key, c.estimate.value, c.estimate.sigma, c.estimate.value * c.estimate.value);
 }
 
+std::string list_line(std::string_view name, const std::vector<double>& values, std::string_view equals = " =") {
+    std::string text = fmt::format("{}{} [", name, equals);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        text += fmt::format("{}{:.{}g}", k == 0 ? "" : ", ", values[k], equals.empty() ? 2 : 7);
+    return text + "]\n";
+}
+
+std::string curve_lines(const std::vector<double>& detuning_lambda, const std::vector<double>& signal) {
+    return list_line("discriminator_detuning_lambda", detuning_lambda) + list_line("discriminator_signal", signal);
+}
+
+std::vector<double> signals(const CalibrationResult& result) {
+    std::vector<double> signal = result.calibration.curve.logged_lambda;
+    for (double& x : signal) x *= result.slope_per_lambda;
+    return signal;
+}
+
+std::string curve_section(const CalibrationResult& result) {
+    const analysis::LossCurve& curve = result.calibration.curve;
+    if (!curve.determined)
+        return fmt::format("# {}: not determined: {}\n", name_of(std::string{curve_name}), curve.reason);
+    return "# The inverse discriminator; bias_chi above holds with it, in the wavelengths of "
+           "discriminator_detuning_lambda.\n" +
+           curve_lines(curve.detuning_lambda, signals(result)) +
+           list_line("# +- lambda, of discriminator_detuning_lambda:", curve.sigma_lambda, "");
+}
+
+std::string curve_text(const CalibrationResult& result) {
+    const analysis::LossCurve& curve = result.calibration.curve;
+    if (!curve.determined) return fmt::format("{}: not determined: {}\n", curve_name, curve.reason);
+    std::string text = fmt::format("\n{:<46}{:>16}{:>12}  lambda\n", "discriminator: signal", "detuning", "+-");
+    const std::vector<double> signal = signals(result);
+    for (std::size_t k = 2; k < signal.size(); k += 3)
+        text +=
+            fmt::format("{:<46.5f}{:>16.5f}{:>12.2g}\n", signal[k], curve.detuning_lambda[k], curve.sigma_lambda[k]);
+    return text;
+}
+
 }  // namespace
+
+std::string laser_toml(const rig::LaserCalibration& found) {
+    const config::Gyro& gyro = found.config.gyro;
+    std::string text = "# Derived by zlg calibrate from [laser].\n\n[gyro]\n";
+    text += fmt::format("bias_hz = {:.10g}\n", gyro.bias_hz);
+    text += fmt::format("bias_chi = {:.10g}  # the bias is within {:.2g} of its law up to 0.1 wavelength\n",
+                        gyro.bias_chi, found.chi_error_ratio);
+    text += fmt::format("discriminator_per_lambda = {:.10g}\n\n[perimeter]\n", gyro.discriminator_per_lambda);
+    const bool goes_beyond = found.curve_error_beyond_lambda > 0.0;
+    text += fmt::format("# Inverse discriminator: error {:.2g} wavelength up to {:.4g}{}.\n", found.curve_error_lambda,
+                        found.third_wave_lambda,
+                        goes_beyond ? fmt::format(", {:.2g} beyond", found.curve_error_beyond_lambda) : "");
+    return text + curve_lines(found.config.perimeter.discriminator_detuning_lambda,
+                              found.config.perimeter.discriminator_signal);
+}
+
+json laser_json(const rig::LaserCalibration& found) {
+    const config::Config& c = found.config;
+    return {{"constants",
+             {{"gyro.bias_hz", {{"value", c.gyro.bias_hz}, {"unit", "Hz"}}},
+              {"gyro.bias_chi", {{"value", c.gyro.bias_chi}, {"unit", ""}}},
+              {"gyro.discriminator_per_lambda", {{"value", c.gyro.discriminator_per_lambda}, {"unit", "1/lambda"}}}}},
+            {"discriminator",
+             {{"detuning_lambda", c.perimeter.discriminator_detuning_lambda},
+              {"signal", c.perimeter.discriminator_signal},
+              {"third_wave_lambda", found.third_wave_lambda},
+              {"error_lambda", found.curve_error_lambda},
+              {"error_beyond_lambda", found.curve_error_beyond_lambda}}},
+            {"chi_error_ratio", found.chi_error_ratio}};
+}
 
 std::string calibration_text(const CalibrationResult& result) {
     std::string text = fmt::format("{:<46}{:>16}{:>12}  unit\n", "constant", "value", "+-");
@@ -64,6 +139,7 @@ std::string calibration_text(const CalibrationResult& result) {
     }
     for (const Constant& c : result.calibration.constants)
         if (!c.estimate.determined) text += fmt::format("{}: not determined: {}\n", c.key, c.estimate.reason);
+    text += curve_text(result);
     text += "\ngoodness of fit\n";
     for (const analysis::Goodness& g : result.calibration.goodness)
         text += fmt::format("{:<46}{:>16.4g}  {}\n", g.name, g.value, g.meaning);
@@ -84,7 +160,8 @@ std::string calibration_toml(const CalibrationResult& result) {
     text += toml_section(result, "gyro");
     if (!result.warning.empty()) text += fmt::format("# warning: {}\n", result.warning);
     for (const Constant& c : result.calibration.constants)
-        if (c.key == scale_name) text += scale_comment(c);
+        if (c.key == scale_name) text += scale_comment(c, result.calibration.curve.determined);
+    text += "\n[perimeter]\n" + curve_section(result);
     for (const char* section : {"piezo", "drift"})
         text += fmt::format("\n[{}]\n{}", section, toml_section(result, section));
     return text;
@@ -99,6 +176,14 @@ json calibration_json(const CalibrationResult& result) {
         else
             not_determined[c.key] = c.estimate.reason;
     }
+    const analysis::LossCurve& curve = result.calibration.curve;
+    json discriminator = json::object();
+    if (curve.determined)
+        discriminator = {{"detuning_lambda", curve.detuning_lambda},
+                         {"signal", signals(result)},
+                         {"sigma_lambda", curve.sigma_lambda}};
+    else
+        not_determined[std::string{curve_name}] = curve.reason;
     json goodness = json::object();
     for (const analysis::Goodness& g : result.calibration.goodness)
         goodness[g.name] = {{"value", g.value}, {"meaning", g.meaning}};
@@ -110,6 +195,7 @@ json calibration_json(const CalibrationResult& result) {
     }
     return {{"constants", constants},
             {"not_determined", not_determined},
+            {"discriminator", discriminator},
             {"goodness", goodness},
             {"files", files},
             {"tick_s", result.config.gyro.tick_s},

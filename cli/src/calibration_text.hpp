@@ -8,6 +8,7 @@
 
 #include <zlg/analysis/calibration.hpp>
 #include <zlg/config/config.hpp>
+#include <zlg/rig/laser_calibration.hpp>
 
 namespace zlg::cli {
 
@@ -25,8 +26,9 @@ struct CalibrationFile {
 struct CalibrationResult {
     analysis::Calibration calibration;
     std::vector<CalibrationFile> files;
-    config::Config config;  // tick, scale and reference temperature are those of the logs
-    std::string warning;    // of the bias frequency; empty for none
+    config::Config config;          // tick, scale and reference temperature are those of the logs
+    double slope_per_lambda = 1.0;  // with which their detunings were read
+    std::string warning;            // of the bias frequency; empty for none
 };
 
 [[nodiscard]] std::string calibration_text(const CalibrationResult& result);
@@ -35,5 +37,9 @@ struct CalibrationResult {
 [[nodiscard]] std::string calibration_toml(const CalibrationResult& result);
 
 [[nodiscard]] nlohmann::json calibration_json(const CalibrationResult& result);
+
+// What follows from a laser instead of from logs.
+[[nodiscard]] std::string laser_toml(const rig::LaserCalibration& found);
+[[nodiscard]] nlohmann::json laser_json(const rig::LaserCalibration& found);
 
 }  // namespace zlg::cli

@@ -1,6 +1,7 @@
 #include "options.hpp"
 
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -8,6 +9,8 @@
 
 #include <zlg/config/spelling.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/rig/laser_calibration.hpp>
+#include <zlg/rig/wiring.hpp>
 #include <zlg/study/design_study.hpp>
 
 #include "failure.hpp"
@@ -97,11 +100,37 @@ config::Config load_log_config(const Options& options, const config::Settings& l
     return config;
 }
 
+config::Config as_recorded(config::Config config, const config::Settings& log_settings, const std::string& log_path) {
+    config.perimeter = {};
+    config::apply_log(config, with_full_keys(log_settings), log_path);
+    return config;
+}
+
 void add_config_argument(CLI::App& verb, Options& options) {
     auto* positional =
         verb.add_option("CONFIG", options.config_path, "configuration, TOML; the paper's gyro without it");
     verb.add_option("--config", options.config_path, "the same, as an option")->excludes(positional);
     verb.add_option("--set", options.sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
+}
+
+config::Config with_laser_curve(const config::Config& config) {
+    if (config.gyro.fidelity != config::Fidelity::laser) return config;
+    const config::Config calibrated = rig::calibrated_by_laser(config);
+    const double presumed_hz = config.gyro.bias_hz;
+    const double laser_hz = calibrated.gyro.bias_hz;
+    if (!(std::abs(presumed_hz - laser_hz) <= 0.05 * laser_hz))
+        complain(
+            fmt::format("warning: gyro.bias_hz = {:.6g} is presumed, [laser] makes {:.6g}: see zlg calibrate "
+                        "--from-laser",
+                        presumed_hz, laser_hz));
+    const bool slope_is_told = config.gyro.discriminator_per_lambda != config::Gyro{}.discriminator_per_lambda;
+    if (slope_is_told || !config.perimeter.discriminator_signal.empty()) return config;
+    config::Config told = config;
+    told.gyro.discriminator_per_lambda = calibrated.gyro.discriminator_per_lambda;
+    told.perimeter.discriminator_detuning_lambda = calibrated.perimeter.discriminator_detuning_lambda;
+    told.perimeter.discriminator_signal = calibrated.perimeter.discriminator_signal;
+    complain("gyro.fidelity = laser: perimeter.discriminator_signal is not given and taken from [laser]");
+    return told;
 }
 
 config::Config with_interval(const config::Config& config) {
@@ -127,7 +156,7 @@ config::Settings angle_settings(const config::Config& config) {
     config::Settings settings;
     for (const auto& setting : config::to_settings(config))
         if (setting.first.starts_with("gyro.") || setting.first.starts_with("compensation.") ||
-            setting.first == "drift.random_walk_arcsec_sqrt_s")
+            setting.first == "drift.random_walk_arcsec_sqrt_s" || setting.first.starts_with("perimeter.discriminator_"))
             settings.push_back(setting);
     return settings;
 }
@@ -146,6 +175,13 @@ int logged_light_samples(const Options& options, const config::Config& config, l
     if (format == logs::LogFormat::csv)
         throw UsageError{"--light: a CSV log holds no light samples; allowed with .h5 or .hdf5"};
     return static_cast<int>(config.gyro.light_samples);
+}
+
+logs::RawColumns raw_columns(const config::Config& config) {
+    logs::RawColumns columns = logs::all_raw_columns;
+    columns.has_edge_offset = config.gyro.dither != core::DitherMethod::none;
+    columns.timer_hz = rig::timer_hz;
+    return columns;
 }
 
 int copied_light_samples(const logs::RawHeader& header, const std::string& path, logs::LogFormat format) {

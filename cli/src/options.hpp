@@ -44,6 +44,16 @@ void add_light_option(CLI::App& verb, Options& options);
 [[nodiscard]] config::Config load_log_config(const Options& options, const config::Settings& log_settings,
                                              const std::string& log_path);
 
+// How the detunings of a log were read: the curve that it names, or none, and its slope, or that of the configuration.
+[[nodiscard]] config::Config as_recorded(config::Config config, const config::Settings& log_settings,
+                                         const std::string& log_path);
+
+// Of a gyro of fidelity laser: with the curve of its discriminator where neither it nor a slope is given, and a message that says so;
+// another message where the bias that is presumed is not that of the laser.
+//
+// errors  config::ConfigError where [laser] does not make a gyro.
+[[nodiscard]] config::Config with_laser_curve(const config::Config& config);
+
 // With a number in place of interval_s = "optimal", and a message that says which.
 [[nodiscard]] config::Config with_interval(const config::Config& config);
 
@@ -62,6 +72,9 @@ logs::LogFormat log_format(const std::string& path);
 //
 // errors  UsageError: they are asked for in a CSV log, which has no room for them.
 [[nodiscard]] int logged_light_samples(const Options& options, const config::Config& config, logs::LogFormat format);
+
+// What a raw log of this gyro holds: shifts of the bias edges only where there are any.
+[[nodiscard]] logs::RawColumns raw_columns(const config::Config& config);
 
 // How many light samples of a half go along into a copy: with a warning where a CSV log cannot take them.
 [[nodiscard]] int copied_light_samples(const logs::RawHeader& header, const std::string& path, logs::LogFormat format);

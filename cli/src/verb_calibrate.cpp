@@ -12,6 +12,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
+#include <zlg/rig/laser_calibration.hpp>
 
 #include "as_json.hpp"
 #include "calibration_text.hpp"
@@ -28,11 +29,13 @@ constexpr std::string_view bias_coefficient = "gyro.bias_temperature_coefficient
 struct CalibrateOptions : Options {
     std::vector<std::string> raws;
     double rate_arcsec_s = 0.0;
+    bool from_laser = false;
 };
 
 struct Lab {
     std::vector<analysis::LabLog> logs;
-    std::vector<config::Config> configs;  // of each log, with the options over it
+    std::vector<config::Config> configs;   // of each log, with the options over it
+    std::vector<config::Config> recorded;  // how its detunings were read
 };
 
 analysis::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s) {
@@ -55,7 +58,10 @@ Lab read_all(const CalibrateOptions& options) {
     for (const std::string& path : options.raws) {
         logs::RawReader raw{path};
         for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
+        if (raw.header().has_edge_offset)
+            complain(fmt::format("warning: {}: the shifts of the bias edges are left in its counts, as noise", path));
         lab.configs.push_back(load_log_config(options, raw.header().settings, path));
+        lab.recorded.push_back(as_recorded(lab.configs.back(), raw.header().settings, path));
         lab.logs.push_back(read(raw, path, lab.configs.back().gyro.tick_s));
     }
     return lab;
@@ -84,8 +90,16 @@ void check_agreement(const CalibrateOptions& options, const Lab& lab) {
     }
 }
 
+bool read_by_one_slope(const Lab& lab) {
+    return std::ranges::all_of(lab.recorded, [&lab](const config::Config& c) {
+        return c.perimeter.discriminator_signal.empty() &&
+               c.gyro.discriminator_per_lambda == lab.recorded.front().gyro.discriminator_per_lambda;
+    });
+}
+
 // Of what is to be found, only what the user says is presumed, never what a log says of itself.
-analysis::Presumed presumed(const CalibrateOptions& options, const config::Config& of_logs) {
+analysis::Presumed presumed(const CalibrateOptions& options, const Lab& lab) {
+    const config::Config& of_logs = lab.configs.front();
     config::Config said;
     if (!options.config_path.empty()) config::apply_file(said, options.config_path);
     for (const std::string& set : options.sets) config::apply_set(said, set);
@@ -93,6 +107,7 @@ analysis::Presumed presumed(const CalibrateOptions& options, const config::Confi
             .reference_temperature_c = of_logs.gyro.reference_temperature_c,
             .rate_arcsec_s = options.rate_arcsec_s,
             .stepped_voltage = of_logs.perimeter.loop == config::Loop::digital,
+            .read_by_slope = read_by_one_slope(lab),
             .bias_temperature_coefficient_per_c = said.gyro.bias_temperature_coefficient_per_c,
             .half_wave_temperature_coefficient_per_c = said.piezo.half_wave_temperature_coefficient_per_c};
 }
@@ -118,7 +133,7 @@ std::string far_reference(const CalibrateOptions& options, const Lab& lab, const
         if (c.key == "gyro.bias_hz" && !c.estimate.determined) return {};
         if (c.key == bias_coefficient && c.estimate.determined) return {};
     }
-    if (presumed(options, lab.configs.front()).bias_temperature_coefficient_per_c != 0.0) return {};
+    if (presumed(options, lab).bias_temperature_coefficient_per_c != 0.0) return {};
     for (const std::string& set : options.sets)
         if (set.starts_with(bias_coefficient)) return {};
     const double reference_c = lab.configs.front().gyro.reference_temperature_c;
@@ -137,6 +152,11 @@ std::string far_reference(const CalibrateOptions& options, const Lab& lab, const
 void check_usage(const CalibrateOptions& options) {
     if (!std::isfinite(options.rate_arcsec_s))
         throw UsageError{fmt::format("--rate-arcsec-s {}: allowed is a finite number", options.rate_arcsec_s)};
+    if (options.from_laser && !options.raws.empty())
+        throw UsageError{fmt::format("--from-laser: takes no log; {} is one. A configuration is named by --config",
+                                     options.raws.front())};
+    if (!options.from_laser && options.raws.empty())
+        throw UsageError{"RAW is missing: name the logs, or derive the constants by --from-laser"};
     std::error_code ignored;
     for (std::size_t k = 1; k < options.raws.size(); ++k)
         for (std::size_t j = 0; j < k; ++j)
@@ -155,19 +175,31 @@ bool any_determined(const analysis::Calibration& calibration) {
     return false;
 }
 
+void write_toml(const CalibrateOptions& options, const std::string& toml) {
+    if (options.out.empty()) return;
+    logs::TableFile file{options.out, options.force};
+    file.append(toml);
+    file.close();
+}
+
+void calibrate_from_laser(const CalibrateOptions& options) {
+    const rig::LaserCalibration found = rig::calibration_of_laser(load_config(options));
+    const std::string toml = laser_toml(found);
+    write_toml(options, toml);
+    print(options.json ? pretty(laser_json(found)) : toml);
+}
+
 void calibrate(const CalibrateOptions& options) {
     check_usage(options);
+    if (options.from_laser) return calibrate_from_laser(options);
     const Lab lab = read_all(options);
     check_agreement(options, lab);
     CalibrationResult result{.files = files_of(lab.logs), .config = lab.configs.front()};
-    result.calibration = analysis::calibrate(lab.logs, presumed(options, result.config));
+    result.slope_per_lambda = std::abs(lab.recorded.front().gyro.discriminator_per_lambda);
+    result.calibration = analysis::calibrate(lab.logs, presumed(options, lab));
     result.warning = far_reference(options, lab, result.calibration);
     if (!result.warning.empty()) complain("warning: " + result.warning);
-    if (!options.out.empty()) {
-        logs::TableFile file{options.out, options.force};
-        file.append(calibration_toml(result));
-        file.close();
-    }
+    write_toml(options, calibration_toml(result));
     print(options.json ? pretty(calibration_json(result)) : calibration_text(result));
     if (!any_determined(result.calibration)) throw CLI::RuntimeError{result_says_no};
 }
@@ -178,7 +210,8 @@ void add_calibrate(CLI::App& program) {
     const auto options = std::make_shared<CalibrateOptions>();
     CLI::App* verb = program.add_subcommand(
         "calibrate", "laboratory logs in, the constants that compensation presumes out, each with its sigma");
-    verb->add_option("RAW", options->raws, "raw logs of one gyro, at rest or at a known rate")->required();
+    verb->add_option("RAW", options->raws, "raw logs of one gyro, at rest or at a known rate");
+    verb->add_flag("--from-laser", options->from_laser, "derive bias, chi and discriminator from [laser] instead");
     verb->add_option("--rate-arcsec-s", options->rate_arcsec_s, "known rate of rotation, arcsec/s");
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);

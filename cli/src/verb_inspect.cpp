@@ -66,6 +66,7 @@ std::vector<std::string> optional_columns(const logs::RawHeader& header) {
     if (header.has_detuning_sq) columns.emplace_back("detuning_sq_lambda2");
     if (header.has_piezo) columns.emplace_back("piezo_v");
     if (header.has_temperature) columns.emplace_back("temperature_c");
+    if (header.has_edge_offset) columns.emplace_back("edge_offset_ticks");
     return columns;
 }
 

@@ -46,6 +46,40 @@ core::RelockMethod choose_relock(const config::Config& config, const logs::RawHe
     return asked;
 }
 
+// The inverse discriminator of [perimeter], for a log whose detunings were read by the slope alone.
+core::DiscriminatorCurve curve_of(const config::Config& config, const logs::RawHeader& header,
+                                  const std::string& path) {
+    if (config.perimeter.discriminator_signal.empty() && config.perimeter.discriminator_detuning_lambda.empty())
+        return {};
+    const config::Config recorded = as_recorded(config, header.settings, path);
+    const config::Perimeter& with = recorded.perimeter;
+    if (with.discriminator_signal.empty())
+        return rig::discriminator_curve(config, recorded.gyro.discriminator_per_lambda);
+    if (with.discriminator_signal != config.perimeter.discriminator_signal ||
+        with.discriminator_detuning_lambda != config.perimeter.discriminator_detuning_lambda)
+        complain(
+            fmt::format("warning: {}: its detunings were read through a discriminator curve of its own; the other "
+                        "one, of perimeter.discriminator_signal, is not applied to them",
+                        path));
+    return {};
+}
+
+core::GyroCompensationConfig compensation_of(const config::Config& config, core::RelockMethod relock,
+                                             const logs::RawHeader& header, const std::string& path) {
+    auto made = rig::compensation_config(config, relock, config.compensation.bridge);
+    made.relock.curve = curve_of(config, header, path);
+    if (!header.has_edge_offset) return made;
+    const config::Gyro& g = config.gyro;
+    if (!(g.bias_edge_s < 0.5 * g.tick_s)) {
+        throw config::ConfigError{
+            fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}, where "
+                        "edges are shifted",
+                        g.bias_edge_s, g.tick_s)};
+    }
+    made.timer = core::Hertz{header.timer_hz};
+    return made;
+}
+
 struct Summary {
     std::int64_t halves = 0;
     std::int64_t ticks = 0;
@@ -146,7 +180,7 @@ void process(const ProcessOptions& options) {
     logs::RawReader raw{options.raw};
     config::Config config = load_log_config(options, raw.header().settings, options.raw);
     const core::RelockMethod relock = choose_relock(config, raw.header(), options.raw);
-    const auto compensation = rig::compensation_config(config, relock, config.compensation.bridge);
+    const auto compensation = compensation_of(config, relock, raw.header(), options.raw);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
     config.compensation.relock = relock;

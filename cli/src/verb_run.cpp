@@ -100,7 +100,7 @@ study::RunResult run_into(RunFiles& files, const config::Config& config, const R
 // The files are gone when this returns by an exception, but for the logs that grew until then.
 void run(const RunOptions& options) {
     const logs::LogFormat format = format_named(options.format);
-    const config::Config config = with_interval(load_config(options));
+    const config::Config config = with_laser_curve(with_interval(load_config(options)));
     const Interruptible interruptible;
     std::string raw_part;
     std::string angles_part;

@@ -35,7 +35,7 @@ void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::Ra
 
 void simulate(const Options& options) {
     const logs::LogFormat format = log_format(options.out);
-    const config::Config config = with_interval(load_config(options));
+    const config::Config config = with_laser_curve(with_interval(load_config(options)));
     const int light_samples = logged_light_samples(options, config, format);
     const twin::Motion motion = rig::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);
@@ -46,7 +46,7 @@ void simulate(const Options& options) {
         logs::RawWriter raw{options.out,
                             config::to_settings(config),
                             options.force,
-                            logs::all_raw_columns,
+                            raw_columns(config),
                             {.light_samples = light_samples, .keep_part = true}};
         part = raw.part_path();
         record(loop, ticks, light_samples > 0, raw, interruptible);

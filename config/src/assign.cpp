@@ -50,9 +50,19 @@ struct Reader {
         return node.as_integer()->get();
     }
 
-    [[nodiscard]] std::string text() const {
-        if (!node.is_string()) refuse(node, "a string");
-        return node.as_string()->get();
+    [[nodiscard]] std::string text() const { return text(node); }
+
+    [[nodiscard]] std::string text(const toml::node& given) const {
+        if (!given.is_string()) refuse(given, "a string");
+        return given.as_string()->get();
+    }
+
+    [[nodiscard]] int choice(const toml::node& given, std::span<const std::string_view> names) const {
+        const auto found = std::ranges::find(names, std::string_view{text(given)});
+        if (found == names.end()) {
+            throw ConfigError(fmt::format("{} = {}: allowed is {}", dotted(key), node_text(given), allowed_text(key)));
+        }
+        return static_cast<int>(found - names.begin());
     }
 
     [[nodiscard]] std::vector<double> list() const {
@@ -80,13 +90,16 @@ struct Assign {
         if (!switching.interval_optimal) switching.interval_s = read.real(read.node);
     }
 
-    void operator()(const Choice& slot) const {
-        const auto found = std::ranges::find(slot.names, std::string_view{read.text()});
-        if (found == slot.names.end()) {
-            throw ConfigError(
-                fmt::format("{} = {}: allowed is {}", dotted(read.key), node_text(read.node), allowed_text(read.key)));
+    void operator()(const Choice& slot) const { slot.set(config, read.choice(read.node, slot.names)); }
+
+    void operator()(const ChoiceList& slot) const {
+        std::vector<int> indices;
+        if (!read.node.is_array()) {
+            indices.push_back(read.choice(read.node, slot.names));
+        } else {
+            for (const toml::node& element : *read.node.as_array()) indices.push_back(read.choice(element, slot.names));
         }
-        slot.set(config, static_cast<int>(found - slot.names.begin()));
+        slot.set(config, indices);
     }
 };
 

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <zlg/config/schema.hpp>
+#include <zlg/core/discriminator_curve.hpp>
 
 #include "key.hpp"
 #include "toml_text.hpp"
@@ -55,6 +58,41 @@ void check_motion(const Motion& m) {
     }
 }
 
+// A curve through the origin: as many of each, growing.
+void check_discriminator(const Perimeter& p) {
+    constexpr std::size_t most = core::max_curve_nodes - 1;
+    const std::size_t n = p.discriminator_detuning_lambda.size();
+    if (p.discriminator_signal.size() != n || n > most) {
+        throw ConfigError(fmt::format(
+            "perimeter: {} discriminator_detuning_lambda and {} discriminator_signal; allowed are as many of each, "
+            "{} at most",
+            n, p.discriminator_signal.size(), most));
+    }
+    const auto require_growth = [](std::string_view name, const std::vector<double>& values) {
+        const auto fallen = std::ranges::adjacent_find(values, std::greater_equal{});
+        if (fallen == values.end()) return;
+        throw ConfigError(fmt::format("perimeter.{}: {} after {}; allowed is growth", name, toml_real(fallen[1]),
+                                      toml_real(*fallen)));
+    };
+    require_growth("discriminator_detuning_lambda", p.discriminator_detuning_lambda);
+    require_growth("discriminator_signal", p.discriminator_signal);
+}
+
+void check_dither(const Config& config) {
+    const Gyro& gyro = config.gyro;
+    if (gyro.dither == core::DitherMethod::none || gyro.fidelity != Fidelity::averaged) return;
+    throw ConfigError(fmt::format(
+        "gyro.dither = {}: the averaged gyro reverses its bias evenly; allowed is gyro.fidelity = \"laser\"",
+        value_text(*find_key("gyro", "dither"), config)));
+}
+
+void check_faults(const Faults& f) {
+    const std::size_t n = f.kind.size();
+    if (f.at_s.size() == n && f.duration_s.size() == n && f.size.size() == n) return;
+    throw ConfigError(fmt::format("faults: {} kind, {} at_s, {} duration_s and {} size; allowed is as many of each", n,
+                                  f.at_s.size(), f.duration_s.size(), f.size.size()));
+}
+
 void check_times(const Gyro& gyro, const Switching& switching) {
     if (!(gyro.bias_edge_s < gyro.tick_s / 2.0)) {
         throw ConfigError(fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}",
@@ -82,7 +120,10 @@ void check(const Config& config) {
     for (const Key& key : all_keys()) check_range(key, config);
     check_bridge(config);
     check_times(config.gyro, config.switching);
+    check_discriminator(config.perimeter);
+    check_dither(config);
     check_motion(config.motion);
+    check_faults(config.faults);
     if (!(config.piezo.range_min_v < config.piezo.range_max_v)) {
         throw ConfigError(fmt::format("piezo.range_min_v = {}: allowed is below piezo.range_max_v = {}",
                                       toml_real(config.piezo.range_min_v), toml_real(config.piezo.range_max_v)));

@@ -47,10 +47,18 @@ struct Text {
     std::string& (*value)(Config&);
 };
 
-// One number or an array of at least one.
+// One number or an array of at least one; or of none, which is unset.
 struct RealList {
     std::vector<double>& (*value)(Config&);
     Range range;
+    bool may_be_empty = false;
+};
+
+// Any number of enumerators, by their names; one alone needs no array.
+struct ChoiceList {
+    std::span<const std::string_view> names;
+    std::vector<int> (*get)(const Config&);
+    void (*set)(Config&, std::span<const int>);
 };
 
 // [switching] interval_s: a number, or "optimal".
@@ -79,7 +87,22 @@ constexpr Choice optional_choice(std::span<const std::string_view> names) {
             [](Config& c, int index) { c.*Section.*Member = static_cast<Enum>(index); }};
 }
 
-using Slot = std::variant<Real, OptionalReal, Integer, Sign, Text, RealList, Interval, Choice>;
+template <auto Section, auto Member>
+constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
+    using Enum = typename std::remove_reference_t<decltype(std::declval<Config&>().*Section.*Member)>::value_type;
+    return {names,
+            [](const Config& c) {
+                std::vector<int> indices;
+                for (const Enum each : c.*Section.*Member) indices.push_back(static_cast<int>(each));
+                return indices;
+            },
+            [](Config& c, std::span<const int> indices) {
+                (c.*Section.*Member).clear();
+                for (const int index : indices) (c.*Section.*Member).push_back(static_cast<Enum>(index));
+            }};
+}
+
+using Slot = std::variant<Real, OptionalReal, Integer, Sign, Text, RealList, ChoiceList, Interval, Choice>;
 
 struct Key {
     std::string_view section;

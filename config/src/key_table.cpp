@@ -10,6 +10,9 @@ namespace {
 using C = Config;
 
 constexpr std::array<std::string_view, 3> loops{"analog", "exponential", "digital"};
+constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "random"};
+constexpr std::array<std::string_view, 2> fidelities{"averaged", "laser"};
+constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
 constexpr std::array<std::string_view, 4> relocks{"none", "frequency", "detuning", "mean_square"};
 constexpr std::array<std::string_view, 4> bridges{"none", "constant", "linear", "quadratic"};
@@ -19,6 +22,10 @@ constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 constexpr std::int64_t int64_max = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t int32_max = std::numeric_limits<std::int32_t>::max();
 
+constexpr Range fault_time{.min = 0.0, .max = 1e9};
+
+constexpr Range curve_node{.min = 0.0, .max = 1e3, .without_min = true};
+
 // Ranges are those in which the arithmetic has a meaning, not those of a typical gyro.
 const Key table[] = {
     {"run", "duration_s", "s", "length of the run; unset: 3600, or the length of the motion file",
@@ -26,6 +33,8 @@ const Key table[] = {
     {"run", "seed", "", "seed of all random numbers; the same seed gives the same run",
      Integer{at<&C::run, &Run::seed>, 0, int64_max}},
 
+    {"gyro", "fidelity", "", "physics of a simulated gyro: told by [gyro] and [drift], or following from [laser]",
+     choice<&C::gyro, &Gyro::fidelity>(fidelities)},
     {"gyro", "tick_s", "s", "length of a tick: two half-periods of the bias",
      Real{at<&C::gyro, &Gyro::tick_s>, {.min = 1e-6, .max = 10.0}}},
     {"gyro", "scale_arcsec", "arcsec", "angle per count",
@@ -49,6 +58,45 @@ const Key table[] = {
      Real{at<&C::gyro, &Gyro::light_noise_lambda>, non_negative}},
     {"gyro", "discriminator_per_lambda", "1/lambda", "(I1 - I2)/(I1 + I2) per wavelength of detuning",
      Real{at<&C::gyro, &Gyro::discriminator_per_lambda>, non_zero}},
+    {"gyro", "dither", "", "shifts of the bias edges against lock-in; auto: paired at low rates, random at high ones",
+     choice<&C::gyro, &Gyro::dither>(dithers)},
+    {"gyro", "counter_max_hz", "Hz",
+     "fringe rate above which the counter loses counts; unset: 1.01 times that of bias_hz and 400 deg/s",
+     OptionalReal{at<&C::gyro, &Gyro::counter_max_hz>, positive}},
+
+    {"laser", "perimeter_m", "m", "length of the ring",
+     Real{at<&C::laser, &Laser::perimeter_m>, {.min = 1e-3, .max = 1e3}}},
+    {"laser", "round_trip_loss_ratio", "", "light lost in one round trip",
+     Real{at<&C::laser, &Laser::round_trip_loss_ratio>, {.min = 1e-9, .max = 0.5}}},
+    {"laser", "gain_loss_ratio", "", "unsaturated gain over loss, at the centre without field",
+     Real{at<&C::laser, &Laser::gain_loss_ratio>, {.min = 1e-6, .max = 100.0}}},
+    {"laser", "doppler_half_width_hz", "Hz", "where the velocity distribution falls to 1/e",
+     Real{at<&C::laser, &Laser::doppler_half_width_hz>, {.min = 1e6, .max = 1e12}}},
+    {"laser", "homogeneous_half_width_hz", "Hz", "where the line of an atom at rest falls to 1/2",
+     Real{at<&C::laser, &Laser::homogeneous_half_width_hz>, {.min = 1e4, .max = 1e13}}},
+    {"laser", "isotope_shift_hz", "Hz", "distance of the centres of both neon isotopes",
+     Real{at<&C::laser, &Laser::isotope_shift_hz>, {.min = 0.0, .max = 1e13}}},
+    {"laser", "upper_isotope_ratio", "", "share of the isotope with the higher frequency, neon 22",
+     Real{at<&C::laser, &Laser::upper_isotope_ratio>, {.min = 0.0, .max = 1.0}}},
+    {"laser", "zeeman_hz_per_g", "Hz/G", "shift of one circular component of the line by the field",
+     Real{at<&C::laser, &Laser::zeeman_hz_per_g>, {.min = 0.0, .max = 1e12}}},
+    {"laser", "opposite_sigma_coupling", "",
+     "cross-saturation of waves on opposite components over that on the same one",
+     Real{at<&C::laser, &Laser::opposite_sigma_coupling>, {.min = 0.0, .max = 1.0}}},
+    {"laser", "bias_field_g", "G", "plateau of the bias field at gyro.reference_temperature_c",
+     Real{at<&C::laser, &Laser::bias_field_g>, {.min = 0.0, .max = 1e4, .without_min = true}}},
+    {"laser", "lock_in_left_hz", "Hz", "beat frequency below which equal waves of the left mode lock",
+     Real{at<&C::laser, &Laser::lock_in_left_hz>, {.min = 0.0, .max = 1e6}}},
+    {"laser", "lock_in_right_hz", "Hz", "beat frequency below which equal waves of the right mode lock",
+     Real{at<&C::laser, &Laser::lock_in_right_hz>, {.min = 0.0, .max = 1e6}}},
+    {"laser", "scatter_phase_deg", "deg", "phase by which the waves scattered back by the mirrors miss each other",
+     Real{at<&C::laser, &Laser::scatter_phase_deg>, {.min = -85.0, .max = 85.0}}},
+    {"laser", "comparator_threshold", "", "of the fringe comparators, over the amplitude of the beat at the centre",
+     Real{at<&C::laser, &Laser::comparator_threshold>, {.min = 0.0, .max = 0.5}}},
+    {"laser", "quadrature", "",
+     "counts a fringe; gyro.scale_arcsec and gyro.bias_hz are those of counts: x4 takes a quarter and four times of "
+     "x1's",
+     choice<&C::laser, &Laser::quadrature>(quadratures)},
 
     {"drift", "magnetic_arcsec_s", "arcsec/s", "drift that changes its sign with the mode, at the start",
      Real{at<&C::drift, &Drift::magnetic_arcsec_s>, any_finite}},
@@ -58,7 +106,8 @@ const Key table[] = {
      Real{at<&C::drift, &Drift::thermal_time_s>, positive}},
     {"drift", "nonmagnetic_arcsec_s", "arcsec/s", "drift that is the same in both modes",
      Real{at<&C::drift, &Drift::nonmagnetic_arcsec_s>, any_finite}},
-    {"drift", "random_walk_arcsec_sqrt_s", "arcsec/sqrt(s)", "random walk of the angle",
+    {"drift", "random_walk_arcsec_sqrt_s", "arcsec/sqrt(s)",
+     "random walk of the angle; what makes it in fidelity laser is lock-in, and this only what is presumed",
      Real{at<&C::drift, &Drift::random_walk_arcsec_sqrt_s>, non_negative}},
 
     {"perimeter", "loop", "", "control of the perimeter", choice<&C::perimeter, &Perimeter::loop>(loops)},
@@ -70,6 +119,20 @@ const Key table[] = {
      Real{at<&C::perimeter, &Perimeter::miss_lambda>, {.min = 0.0, .max = 0.24, .without_max = true}}},
     {"perimeter", "expansion_lambda_per_c", "lambda/C", "growth of the perimeter with temperature",
      Real{at<&C::perimeter, &Perimeter::expansion_lambda_per_c>, any_finite}},
+    {"perimeter", "relock_halves", "",
+     "digital loop: halves after closing in which it corrects nearly all it sees; 0: the plain integrator of tau_s",
+     Integer{at<&C::perimeter, &Perimeter::relock_halves>, 0, 1000000}},
+    {"perimeter", "sample_gain", "", "digital loop, in these halves: part of the detuning corrected per light sample",
+     Real{at<&C::perimeter, &Perimeter::sample_gain>, {.min = 0.0, .max = 1.0, .without_min = true}}},
+    {"perimeter", "settled_tau_s", "s", "digital loop, after these halves: its time constant",
+     Real{at<&C::perimeter, &Perimeter::settled_tau_s>, positive}},
+    {"perimeter", "set_points", "", "digital loop with relock_halves: set-points a half",
+     Integer{at<&C::perimeter, &Perimeter::set_points>, 1, 16}},
+    {"perimeter", "discriminator_detuning_lambda", "lambda",
+     "calibrated points of the discriminator besides 0, growing, 31 at most; none: gyro.discriminator_per_lambda alone",
+     RealList{at<&C::perimeter, &Perimeter::discriminator_detuning_lambda>, curve_node, true}},
+    {"perimeter", "discriminator_signal", "", "size of (I1 - I2)/(I1 + I2) at each of these detunings, growing",
+     RealList{at<&C::perimeter, &Perimeter::discriminator_signal>, curve_node, true}},
 
     {"piezo", "half_wave_v", "V",
      "voltage that moves the perimeter by half a wavelength, at gyro.reference_temperature_c",
@@ -85,6 +148,16 @@ const Key table[] = {
      Real{at<&C::piezo, &Piezo::range_min_v>, any_finite}},
     {"piezo", "range_max_v", "V", "upper end of the high voltage; above the lower",
      Real{at<&C::piezo, &Piezo::range_max_v>, any_finite}},
+    {"piezo", "hysteresis", "", "width of a voltage loop of piezo.hysteresis_stroke_v over its height; 0: none",
+     Real{at<&C::piezo, &Piezo::hysteresis>, {.min = 0.0, .max = 0.4}}},
+    {"piezo", "hysteresis_stroke_v", "V", "stroke of the loop to which piezo.hysteresis refers",
+     Real{at<&C::piezo, &Piezo::hysteresis_stroke_v>, positive}},
+    {"piezo", "creep_per_decade", "", "growth of a stroke per decade of time, from 10 ms to 10^4 s; 0: none",
+     Real{at<&C::piezo, &Piezo::creep_per_decade>, {.min = 0.0, .max = 0.05}}},
+    {"piezo", "mirror_hz", "Hz", "resonance of the mirror; 0: rigid, else 100 or more",
+     Real{at<&C::piezo, &Piezo::mirror_hz>, {.min = 0.0, .max = 1e6}}},
+    {"piezo", "mirror_damping", "", "damping of that resonance, as a part of the critical",
+     Real{at<&C::piezo, &Piezo::mirror_damping>, {.min = 1e-3, .max = 0.999}}},
     {"piezo", "dac_bits", "", "resolution of the set-point", Integer{at<&C::piezo, &Piezo::dac_bits>, 1, 24}},
     {"piezo", "adc_bits", "", "resolution of the voltage that is read back",
      Integer{at<&C::piezo, &Piezo::adc_bits>, 1, 24}},
@@ -133,6 +206,22 @@ const Key table[] = {
      Text{at<&C::motion, &Motion::comment>}},
     {"motion", "skip_lines", "", "lines of numbers to skip at the head of the file",
      Integer{at<&C::motion, &Motion::skip_lines>, 0, int32_max}},
+
+    {"faults", "kind", "", "what breaks in a simulated gyro, fault by fault",
+     choice_list<&C::faults, &Faults::kind>(fault_kind_names)},
+    {"faults", "at_s", "s", "when each begins", RealList{at<&C::faults, &Faults::at_s>, fault_time, true}},
+    {"faults", "duration_s", "s", "how long each lasts",
+     RealList{at<&C::faults, &Faults::duration_s>, fault_time, true}},
+    {"faults", "size", "", "how large each is, in the unit of its kind",
+     RealList{at<&C::faults, &Faults::size>, any_finite, true}},
+    {"faults", "vibration_hz", "Hz", "frequency of the kind vibration",
+     Real{at<&C::faults, &Faults::vibration_hz>, {.min = 1e-3, .max = 1e6}}},
+    {"faults", "random_per_hour", "1/h", "more of them at random moments",
+     Real{at<&C::faults, &Faults::random_per_hour>, {.min = 0.0, .max = 1e6}}},
+    {"faults", "random_seed", "", "seed of their moments, kinds, durations and sizes",
+     Integer{at<&C::faults, &Faults::random_seed>, 0, int64_max}},
+    {"faults", "random_kinds", "", "their kinds; none: all",
+     choice_list<&C::faults, &Faults::random_kinds>(fault_kind_names)},
 
     {"design", "switch_error_arcsec", "arcsec", "error of the angle that one switch leaves",
      Real{at<&C::design, &Design::switch_error_arcsec>, non_negative}},

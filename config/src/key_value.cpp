@@ -34,11 +34,20 @@ std::string choice_text(const Choice& slot, const Config& config) {
     return index < 0 ? std::string{} : toml_string(slot.names[static_cast<std::size_t>(index)]);
 }
 
+std::string choices_text(const ChoiceList& slot, const Config& config) {
+    const std::vector<int> indices = slot.get(config);
+    if (indices.empty()) return {};
+    std::string text;
+    for (const int index : indices)
+        text += (text.empty() ? "" : ", ") + toml_string(slot.names[static_cast<std::size_t>(index)]);
+    return indices.size() == 1 ? text : "[" + text + "]";
+}
+
 bool all_within(const Range& range, const std::vector<double>& values) {
     for (const double value : values) {
         if (!contains(range, value)) return false;
     }
-    return !values.empty();
+    return true;
 }
 
 bool is_within(const Slot& slot, Config& config) {
@@ -48,7 +57,15 @@ bool is_within(const Slot& slot, Config& config) {
                  [&](const Integer& s) { return s.value(config) >= s.min && s.value(config) <= s.max; },
                  [&](const Sign& s) { return s.value(config) == 1 || s.value(config) == -1; },
                  [&](const Text&) { return true; },
-                 [&](const RealList& s) { return all_within(s.range, s.value(config)); },
+                 [&](const RealList& s) {
+                     return (s.may_be_empty || !s.value(config).empty()) && all_within(s.range, s.value(config));
+                 },
+                 [&](const ChoiceList& s) {
+                     for (const int index : s.get(config)) {
+                         if (index < 0 || index >= static_cast<int>(s.names.size())) return false;
+                     }
+                     return true;
+                 },
                  [&](const Interval& s) {
                      return config.switching.interval_optimal || contains(s.range, config.switching.interval_s);
                  },
@@ -69,7 +86,10 @@ std::string value_text(const Key& key, const Config& config) {
                  [&](const Integer& s) { return fmt::format("{}", s.value(copy)); },
                  [&](const Sign& s) { return fmt::format("{}", s.value(copy)); },
                  [&](const Text& s) { return toml_string(s.value(copy)); },
-                 [&](const RealList& s) { return list_text(s.value(copy)); },
+                 [&](const RealList& s) {
+                     return s.may_be_empty && s.value(copy).empty() ? std::string{} : list_text(s.value(copy));
+                 },
+                 [&](const ChoiceList& s) { return choices_text(s, copy); },
                  [&](const Interval&) { return interval_text(copy.switching); },
                  [&](const Choice& s) { return choice_text(s, copy); }},
         key.slot);
@@ -84,7 +104,14 @@ std::string allowed_text(const Key& key) {
                                                                          : fmt::format("{}..{}", s.min, s.max);
             },
             [](const Sign&) { return std::string{"-1 or 1"}; }, [](const Text&) { return std::string{"any text"}; },
-            [](const RealList& s) { return fmt::format("one number or an array, each {}", in_words(s.range)); },
+            [](const RealList& s) {
+                return fmt::format("one number or an array{}, each {}", s.may_be_empty ? ", [] included" : "",
+                                   in_words(s.range));
+            },
+            [](const ChoiceList& s) {
+                return fmt::format("one or an array, [] included, of \"{}\"",
+                                   fmt::join(s.names.begin(), s.names.end(), "\", \""));
+            },
             [](const Interval& s) { return fmt::format("{}, or \"optimal\"", in_words(s.range)); },
             [](const Choice& s) { return fmt::format("\"{}\"", fmt::join(s.names.begin(), s.names.end(), "\", \"")); }},
         key.slot);

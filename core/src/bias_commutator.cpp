@@ -30,19 +30,21 @@ bool track_sign(BiasCommutatorState& s, const BiasCommutatorInput& in) noexcept 
     return true;
 }
 
-// Says whether the stamp is out of step.
-bool track_time(const BiasCommutatorConfig& c, BiasCommutatorState& s, const BiasCommutatorInput& in) noexcept {
+// How far the stamp is out of step. Every stamp is brought back to the even reversal first.
+std::uint64_t track_time(const BiasCommutatorConfig& c, BiasCommutatorState& s,
+                         const BiasCommutatorInput& in) noexcept {
     ++s.n_halves;
-    if (!in.received) return false;
+    if (!in.received) return 0;
 
     // Unsigned differences wrap, so the smaller of the two is the size of the deviation.
-    const std::uint64_t late = in.timer_ticks - (s.stamp_ticks + s.n_halves * c.half_ticks);
+    const std::uint64_t even_ticks = in.timer_ticks - static_cast<std::uint64_t>(s.dither.end_ticks);
+    const std::uint64_t late = even_ticks - (s.stamp_ticks + s.n_halves * c.half_ticks);
     const std::uint64_t early = std::uint64_t{0} - late;
-    const bool error = s.timer_known && (late < early ? late : early) > c.tolerance_ticks;
+    const std::uint64_t error_ticks = s.timer_known ? (late < early ? late : early) : 0;
     s.timer_known = true;
-    s.stamp_ticks = in.timer_ticks;
+    s.stamp_ticks = even_ticks;
     s.n_halves = 0;
-    return error;
+    return error_ticks;
 }
 
 }  // namespace
@@ -51,10 +53,21 @@ BiasCommutatorOutput step(const BiasCommutatorConfig& config, BiasCommutatorStat
                           const BiasCommutatorInput& input) noexcept {
     BiasCommutatorOutput out;
     out.sign_error = track_sign(state, input);
-    out.timer_error = track_time(config, state, input);
+    const std::uint64_t error_ticks = track_time(config, state, input);
+    out.timer_error = error_ticks > config.tolerance_ticks;
+    out.latch_error = error_ticks > config.latch_ticks;
     out.sign = state.sign;
     out.next_sign = static_cast<std::int8_t>(-state.sign);
+    out.edge_offset_ticks = state.dither.end_ticks;
     return out;
+}
+
+std::int32_t next_edge(const BiasCommutatorConfig& config, BiasCommutatorState& state,
+                       const RateReading& reading) noexcept {
+    if (config.dither.method == DitherMethod::none) return 0;
+    const auto next_sign = static_cast<std::int8_t>(-state.sign);
+    return step(config.dither, state.dither, {next_sign, reading.helicity, reading.counted, reading.counts})
+        .edge_offset_ticks;
 }
 
 }  // namespace zlg::core

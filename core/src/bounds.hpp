@@ -10,6 +10,8 @@ namespace zlg::core {
     return x < -limit ? -limit : x;
 }
 
+[[nodiscard]] constexpr double size(double x) noexcept { return x < 0.0 ? -x : x; }
+
 // A counter that stops at its end instead of wrapping.
 constexpr void count_up(std::int32_t& n) noexcept {
     if (n < INT32_MAX) ++n;

@@ -1,5 +1,7 @@
 #include <zlg/core/gap_bridge.hpp>
 
+#include <memory>
+
 #include <zlg/core/maths.hpp>
 
 #include "gap_interpolation.hpp"
@@ -16,7 +18,7 @@ void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_
     if (points.n == 0) return;
     open.gap.has_before = true;
     open.gap.mode_before = at(state, tick - 1).row.mode;
-    open.fit = PolynomialFit{points.position, points.n, order_of(config.method)};
+    std::construct_at(&open.fit, points.position, points.n, order_of(config.method));
     open.lower_order = open.fit.order() < order_of(config.method);
     const double n = points.n;
     for (unsigned k = 0; k < static_cast<unsigned>(points.n); ++k) {

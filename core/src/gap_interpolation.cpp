@@ -1,5 +1,7 @@
 #include "gap_interpolation.hpp"
 
+#include <memory>
+
 #include "pair.hpp"
 
 namespace zlg::core {
@@ -103,7 +105,7 @@ void begin_sums(const GapBridgeConfig& config, const GapBridgeState& state, cons
         points.collect(state, origin, n + 1, n + config.extrapolation_points, end);
     }
     sums.first_tick = gap.first_tick;
-    sums.fit = PolynomialFit{points.position, points.n, order_of(config.method)};
+    std::construct_at(&sums.fit, points.position, points.n, order_of(config.method));
     sums.n_added = 0;
     sums.value_arcsec = {};
     sums.variance_arcsec2 = {};

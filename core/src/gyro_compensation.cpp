@@ -8,22 +8,40 @@ namespace {
 // Beyond this a sum of two halves could not be told from its neighbours as a double.
 constexpr std::int64_t max_counts = std::int64_t{1} << 52;
 
-HalfRecord believed(HalfRecord half) noexcept {
+EdgeShiftConfig edges_of(const GyroCompensationConfig& c) noexcept {
+    return {.timer = c.timer, .plateau_ratio = c.plateau_ratio, .tick = c.relock.tick, .scale = c.relock.scale};
+}
+
+HalfRecord believed(const EdgeShiftConfig& edges, GyroCompensationState& state, HalfRecord half) noexcept {
     if (half.counts > max_counts || half.counts < -max_counts) {
         half.counts = 0;
         half.valid = false;
     }
+    const bool end_unknown = half.edge_offset_ticks != 0 && !is_possible(edges, half.edge_offset_ticks);
+    if (end_unknown) half.edge_offset_ticks = 0;
+    if (state.start_unknown || end_unknown) half.valid = false;
+    state.start_unknown = end_unknown;
     half.bias_sign = half.bias_sign < 0 ? std::int8_t{-1} : std::int8_t{1};
     half.mode = half.mode < 0 ? std::int8_t{-1} : std::int8_t{1};
     return half;
 }
 
-TickInput assemble(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second) noexcept {
+EdgeShiftInput edge_input(const RelockDriftConfig& config, const HalfRecord& first, const HalfRecord& second) noexcept {
+    return {.counts = first.counts + second.counts,
+            .sign_first = first.bias_sign * first.mode,
+            .sign_second = second.bias_sign * second.mode,
+            .offset_middle_ticks = first.edge_offset_ticks,
+            .offset_end_ticks = second.edge_offset_ticks,
+            .bias = bias_at(config, Celsius{first.temperature_c})};
+}
+
+TickInput assemble(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
+                   double value_arcsec) noexcept {
     const double count = config.relock.scale.value();
     const double walk = config.random_walk.value();
     TickInput tick;
     tick.measured = first.loop_closed && second.loop_closed && first.valid && second.valid;
-    tick.value_arcsec = count * static_cast<double>(first.counts + second.counts);
+    tick.value_arcsec = value_arcsec;
     // The difference of two counter readings, each rounded uniformly: count^2/6.
     tick.variance_arcsec2 = count * count / 6.0 + walk * walk * config.relock.tick.value();
     tick.mode = second.mode;
@@ -37,10 +55,12 @@ TickInput assemble(const GyroCompensationConfig& config, const HalfRecord& first
     return tick;
 }
 
-RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second) noexcept {
+RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second,
+                       double known_excess_counts) noexcept {
     return {.sign = sign,
             .counts_first = first.counts,
             .counts_second = second.counts,
+            .known_excess_counts = known_excess_counts,
             .detuning_first_lambda = first.detuning_lambda,
             .detuning_second_lambda = second.detuning_lambda,
             .detuning_sq_first_lambda2 = first.detuning_sq_lambda2,
@@ -71,18 +91,21 @@ void give_up_first(TickInput& tick) noexcept {
     tick.amend_flags = flag_relock_uncorrected;
 }
 
-CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
-                                 const HalfRecord& second) noexcept {
+CompensationOutput complete_tick(const GyroCompensationConfig& config, const EdgeShiftConfig& edges,
+                                 GyroCompensationState& state, const HalfRecord& second) noexcept {
     const HalfRecord& first = state.first;
     state.has_first = false;
 
-    TickInput tick = assemble(config, first, second);
+    const EdgeShiftOutput shifted = step(edges, state.edges, edge_input(config.relock, first, second));
+    TickInput tick = assemble(config, first, second, shifted.value_arcsec);
     if (tick.measured) {
-        const auto relock = step(config.relock, state.relock, relock_tick(tick.sign, first, second));
+        const auto relock =
+            step(config.relock, state.relock, relock_tick(tick.sign, first, second, shifted.known_excess_counts));
         apply(relock, tick);
         state.first_waits = relock.waiting;
     } else {
         enter_gap(state.relock);
+        if (config.bridge.method != BridgeMethod::none) break_off(state.edges);
         if (state.first_waits) give_up_first(tick);
         state.first_waits = false;
     }
@@ -97,6 +120,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
 
 GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
     if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
+    if (check(edges_of(config)) != EdgeShiftFault::none) return GyroCompensationFault::edges;
     if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
     const double walk = config.random_walk.value();
     if (!(walk >= 0.0 && is_finite(walk))) return GyroCompensationFault::random_walk;
@@ -105,8 +129,10 @@ GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
 
 CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
                         const HalfRecord& half) noexcept {
-    if (state.has_first) return complete_tick(config, state, believed(half));
-    state.first = believed(half);
+    const EdgeShiftConfig edges = edges_of(config);
+    const HalfRecord taken = believed(edges, state, half);
+    if (state.has_first) return complete_tick(config, edges, state, taken);
+    state.first = taken;
     state.has_first = true;
     // No angle is due in this half: it bears a part of what the other one would have to do.
     if (state.bridge.n_pending > 0) prepare(config.bridge, state.bridge);

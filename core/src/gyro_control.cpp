@@ -2,112 +2,76 @@
 
 #include <zlg/core/maths.hpp>
 
+#include "bounds.hpp"
+#include "gyro_observation.hpp"
+
 namespace zlg::core {
 namespace {
 
-constexpr bool is_sign(std::int8_t x) noexcept { return x == 1 || x == -1; }
+// Readings in a row near an end of the range that call for another mode, and after how many to try again.
+constexpr std::int32_t near_believed = 4;
+constexpr std::int32_t near_again = 512;
 
-// What one frame tells, before anything is decided.
-struct Observation {
-    bool received = false;
-    bool counted = false;  // `counts` are those of this half
-    bool sequence_error = false;
-    bool polarity_error = false;
-    bool echo_error = false;
-    std::int8_t polarity = 1;
-    bool loop_closed = true;
-    std::int64_t counts = 0;
-    BiasCommutatorOutput bias;
-    SyncDetectorOutput light;
-    bool detuning_usable = false;
-    Volts piezo{__builtin_nan("")};
-};
-
-void read_counter(GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    if (!o.received) {
-        s.counter_stale = true;
-        ++s.next_sequence;
-        return;
-    }
-    o.sequence_error = s.sequence_known && frame.sequence != s.next_sequence;
-    o.counted = !s.counter_stale && !o.sequence_error;
-    if (o.counted) o.counts = static_cast<std::int64_t>(frame.counter - s.counter);
-    s.counter = frame.counter;
-    s.counter_stale = false;
-    s.sequence_known = true;
-    s.next_sequence = frame.sequence + 1;
-}
-
-void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    o.polarity = s.mode_switch.polarity;
-    o.loop_closed = s.mode_switch.loop_closed;
-    if (!o.received) return;
-    o.polarity_error = !is_sign(frame.polarity);
-    o.echo_error = frame.polarity != o.polarity || frame.loop_closed != o.loop_closed;
-    if (!o.polarity_error) o.polarity = frame.polarity;
-    o.loop_closed = frame.loop_closed;
-}
-
-void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    if (!o.received) return;
-    const std::size_t n = frame.n_light <= max_light_samples ? frame.n_light : 0;
-    SyncDetectorInput in;
-    in.light_a = std::span{frame.light_a}.first(n);
-    if (frame.has_light_b) in.light_b = std::span{frame.light_b}.first(n);
-    in.sign = o.bias.sign * o.polarity;
-    in.settled = o.loop_closed && s.mode_switch.phase == SwitchPhase::tracking;
-    o.light = step(c.detector, s.detector, in);
-    o.detuning_usable = o.light.usable && !o.bias.sign_error && !o.polarity_error;
-}
-
-void read_slow(GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    if (!o.received) return;
-    o.piezo = Volts{frame.piezo_v};
-    if (is_finite(frame.piezo_v)) s.piezo_v = frame.piezo_v;
-    if (is_finite(frame.temperature_c)) s.temperature_c = frame.temperature_c;
-}
-
-Observation observe(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame) noexcept {
-    Observation o;
-    o.received = (frame.status & frame_missed) == 0;
-    o.bias = step(c.commutator, s.commutator,
-                  {.received = o.received, .bias_sign = frame.bias_sign, .timer_ticks = frame.timer_ticks});
-    read_counter(s, frame, o);
-    read_echoes(s, frame, o);
-    read_light(c, s, frame, o);
-    read_slow(s, frame, o);
-    return o;
-}
+// A temperature that has moved by more than this over the time in which it is followed, some ten thousand halves.
+constexpr double warming_c = 0.05;
+constexpr double temperature_followed = 1.0 / 8192.0;
 
 HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
-    HalfRecord r;
-    r.half = s.half;
-    r.counts = o.counts;
-    r.detuning_lambda = o.detuning_usable ? o.light.detuning.value() : 0.0;
-    r.detuning_sq_lambda2 = o.detuning_usable ? o.light.mean_sq_lambda2 : 0.0;
-    r.piezo_v = s.piezo_v;
-    r.temperature_c = s.temperature_c;
-    r.bias_sign = o.bias.sign;
-    r.mode = o.polarity;
-    r.loop_closed = o.loop_closed;
-    r.valid = o.counted && o.light.two_way && !o.bias.sign_error && !o.polarity_error;
-    return r;
+    return {.half = s.half,
+            .counts = o.counts,
+            .detuning_lambda = o.detuning_usable ? o.monitored.detuning.value() : 0.0,
+            .detuning_sq_lambda2 = o.has_mean_square ? o.monitored.mean_sq_lambda2 : 0.0,
+            .piezo_v = s.piezo_v,
+            .temperature_c = s.temperature_c,
+            .bias_sign = o.commuted.sign,
+            .mode = o.polarity,
+            .loop_closed = o.loop_closed,
+            .valid = o.valid,
+            .edge_offset_ticks = o.commuted.edge_offset_ticks};
+}
+
+// Whether to leave for the middle of the range before it ends. The reading must have come from there since the last try.
+bool wants_middle(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
+    const Volts now = is_finite(o.piezo.value()) ? o.piezo : Volts{s.loop.set_point_v};
+    if (!near_end(c.loop.range, now)) {
+        s.n_near_end = 0;
+        return false;
+    }
+    if (s.n_near_end < near_again) {
+        ++s.n_near_end;
+    } else {
+        s.n_near_end = near_believed;
+    }
+    const bool due = s.n_near_end >= near_believed && s.n_near_end <= near_believed + 1;
+    return due && !choose_direction(c.loop.range, now, Volts{s.half_wave.estimate_v}).out_of_range;
+}
+
+void time_switch(const GyroControlConfig& c, GyroControlState& s, const Observation& o, ModeSwitchInput& in) noexcept {
+    const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt;
+    if (in.tick_border) in.due = step(c.schedule, s.schedule, in.next_tick, ready).open;
+    // A gyro that is not in its mode looks for it instead.
+    if (s.mode_switch.phase != SwitchPhase::tracking) return;
+    in.recentre = wants_middle(c, s, o) && ready && in.tick_border;
+    if (in.recentre || in.due) s.recentring = in.recentre;
 }
 
 ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
     ModeSwitchInput in;
     in.tick_border = s.half % 2 != 0;
     in.next_tick = (s.half + 1) / 2;
-    if (in.tick_border) {
-        in.due = step(c.schedule, s.schedule, in.next_tick, s.mode_switch.phase == SwitchPhase::tracking).open;
-    }
-    in.light_known = o.received && o.light.readable;
-    in.two_way = o.light.two_way;
+    time_switch(c, s, o, in);
+    in.reversed = o.bias.reversed && o.lit;
+    in.light_known = o.fresh && (o.light.readable || o.lit);
+    in.two_way = o.lit;
     in.usable = o.detuning_usable;
-    in.detuning = o.light.detuning;
+    in.detuning = o.monitored.detuning;
     in.piezo = o.piezo;
     in.set_point = Volts{s.loop.set_point_v};
     in.half_wave = Volts{s.half_wave.estimate_v};
+    if (c.by_direction) {
+        in.half_wave = Volts{0.5 * (s.half_wave.estimate_v + s.half_wave_down.estimate_v)};
+        in.offset = Volts{0.5 * (s.half_wave.estimate_v - s.half_wave_down.estimate_v)};
+    }
     return step(c.mode_switch, s.mode_switch, in);
 }
 
@@ -115,7 +79,13 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
 bool learn_half_wave(const GyroControlConfig& c, GyroControlState& s, const ModeSwitchOutput& sequenced) noexcept {
     if (!sequenced.has_event || sequenced.event.outcome != SwitchOutcome::switched) return false;
     const double measured_v = sequenced.event.has_half_wave ? sequenced.event.half_wave_v : __builtin_nan("");
-    return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
+    if (!c.by_direction) return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
+    const bool up = sequenced.event.direction > 0;
+    HalfWaveState& moved = up ? s.half_wave : s.half_wave_down;
+    HalfWaveState& other = up ? s.half_wave_down : s.half_wave;
+    const bool rejected = step(c.half_wave, moved, Volts{measured_v}).rejected;
+    if (other.n_accepted == 0) other.estimate_v = moved.estimate_v;  // better than what was presumed
+    return rejected;
 }
 
 PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, const Observation& o, bool was_closed,
@@ -125,33 +95,62 @@ PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, co
                  .close = sequenced.loop_closed,
                  .second_input = sequenced.set_point,
                  .usable = o.detuning_usable,
-                 .detuning = o.light.detuning,
+                 .detuning = o.monitored.detuning,
                  .piezo = o.piezo});
 }
 
-HealthReport reported(const SensorFrame& frame, const Observation& o, SwitchPhase phase) noexcept {
-    HealthReport r;
-    r.frame_missed = !o.received;
-    r.sequence_error = o.sequence_error;
-    r.sign_error = o.bias.sign_error;
-    r.timer_error = o.bias.timer_error;
-    r.echo_error = o.echo_error;
-    r.light_lost = o.received && o.light.readable && !o.light.two_way;
-    r.light_unusable = o.received && !o.light.readable;
-    r.piezo_not_finite = o.received && !is_finite(frame.piezo_v);
-    r.temperature_not_finite = o.received && !is_finite(frame.temperature_c);
-    r.switching = phase == SwitchPhase::open || phase == SwitchPhase::settling;
-    r.relock_failed = phase == SwitchPhase::returning || phase == SwitchPhase::searching;
-    r.searching = phase == SwitchPhase::searching;
-    r.counts = o.counts;
-    return r;
+bool is_warming_up(GyroControlState& s) noexcept {
+    // A reading that is damage does not lead far away.
+    const double change_c = limited(s.temperature_c - s.temperature_before_c, 10.0);
+    s.temperature_before_c += temperature_followed * change_c;
+    return change_c > warming_c || change_c < -warming_c;
 }
 
-void command(bool loop_closed, std::int8_t polarity, Volts set_point, ActuatorFrame& actuator) noexcept {
+void report_frame(const SensorFrame& frame, const Observation& o, HealthWord& word) noexcept {
+    word.set(health_frame_missed, !o.received);
+    word.set(health_sequence_error, o.sequence_error);
+    word.set(health_sign_error, o.commuted.sign_error);
+    word.set(health_timer_error, o.commuted.timer_error);
+    word.set(health_echo_error, o.echo_error);
+    word.set(health_piezo_not_finite, o.fresh && !is_finite(frame.piezo_v));
+    word.set(health_temperature_not_finite, o.fresh && !is_finite(frame.temperature_c));
+}
+
+void report_light(const Observation& o, HealthWord& word) noexcept {
+    word.set(health_light_lost, o.fresh && o.light.readable && !o.light.two_way);
+    word.set(health_light_unusable, o.fresh && !o.light.readable);
+    word.set(health_light_stuck, o.monitored.stuck);
+    word.set(health_light_noisy, o.monitored.noisy);
+    word.set(health_light_unbalanced, o.monitored.unbalanced);
+    word.set(health_light_contradicted, o.monitored.contradicted);
+    word.set(health_detuning_unsteady, o.unsteady);
+}
+
+void report_counts(GyroControlState& s, const Observation& o, HealthWord& word) noexcept {
+    word.set(health_counter_jump, o.beyond);
+    word.set(health_rate_over_range, o.beyond && s.was_beyond);
+    s.was_beyond = o.beyond;
+    word.set(health_counter_bit_stuck, o.bit_stuck);
+    const bool lased = o.lit && o.loop_closed;
+    word.set(health_bias_lost, o.bias_wrong || (lased && o.bias.lost));
+    word.set(health_helicity_reversed, lased && o.bias.reversed);
+    word.set(health_rate_near_bias, lased && o.bias.near_rate);
+    word.set(health_coil_current, o.coil.off);
+}
+
+void report_phase(const GyroControlState& s, SwitchPhase phase, HealthWord& word) noexcept {
+    word.set(health_switching, phase == SwitchPhase::open || phase == SwitchPhase::settling);
+    word.set(health_relock_failed, phase == SwitchPhase::returning || phase == SwitchPhase::searching);
+    word.set(health_searching, phase == SwitchPhase::searching);
+    word.set(health_recentring, s.recentring);
+}
+
+void command(bool loop_closed, std::int8_t polarity, const PerimeterLoopOutput& regulated,
+             ActuatorFrame& actuator) noexcept {
     actuator.loop_closed = loop_closed;
     actuator.polarity = polarity;
-    actuator.n_set_points = 1;
-    actuator.set_point_v[0] = set_point.value();
+    actuator.n_set_points = static_cast<std::uint8_t>(regulated.n_set_points);
+    for (std::size_t k = 0; k < actuator.n_set_points; ++k) actuator.set_point_v[k] = regulated.set_point_v[k];
 }
 
 }  // namespace
@@ -160,6 +159,7 @@ GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t co
     GyroControlState s;
     s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
     s.half_wave = initial_state(config.half_wave);
+    s.half_wave_down = initial_state(config.half_wave);
     s.schedule = initial_state(config.schedule);
     s.mode_switch = initial_state(config.mode_switch);
     s.counter = counter;
@@ -170,7 +170,8 @@ GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t co
 
 ActuatorFrame initial_actuator(const GyroControlConfig& config) noexcept {
     ActuatorFrame actuator;
-    command(true, config.mode_switch.start_polarity, config.mode_switch.start_set_point, actuator);
+    const double start_v = config.mode_switch.start_set_point.value();
+    command(true, config.mode_switch.start_polarity, {.set_point_v = {start_v}}, actuator);
     return actuator;
 }
 
@@ -178,23 +179,28 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     const SwitchPhase phase = state.mode_switch.phase;
     const bool was_closed = state.mode_switch.loop_closed;
 
-    const Observation seen = observe(config, state, frame);
-    GyroControlOutput out;
-    out.record = recorded(state, seen);
-
+    Observation seen;
+    observe(config, state, frame, seen);
     const ModeSwitchOutput sequenced = sequence(config, state, seen);
-    out.has_event = sequenced.has_event;
-    out.event = sequenced.event;
     const bool half_wave_rejected = learn_half_wave(config, state, sequenced);
     const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
-    command(sequenced.loop_closed, sequenced.polarity, regulated.set_point, out.actuator);
-    out.actuator.edge_offset_ticks = seen.bias.edge_offset_ticks;
 
-    HealthReport report = reported(frame, seen, phase);
-    report.detuning_over_limit = regulated.over_limit;
-    report.piezo_near_range_end = regulated.near_range_end;
-    report.half_wave_rejected = half_wave_rejected;
-    out.health = health_bits(config.health, report);
+    GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.has_event, .event = sequenced.event};
+    command(sequenced.loop_closed, sequenced.polarity, regulated, out.actuator);
+    out.actuator.edge_offset_ticks =
+        next_edge(config.commutator, state.commutator, {seen.valid && seen.loop_closed, seen.counts, seen.polarity});
+
+    HealthWord word;
+    report_frame(frame, seen, word);
+    report_light(seen, word);
+    report_counts(state, seen, word);
+    report_phase(state, phase, word);
+    word.set(health_detuning_over_limit, regulated.over_limit);
+    word.set(health_piezo_near_range_end, regulated.near_range_end);
+    word.set(health_half_wave_rejected, half_wave_rejected);
+    word.set(health_warming_up, is_warming_up(state));
+    word.set(health_edges_shifted, config.commutator.dither.method != DitherMethod::none);
+    out.health = word.bits;
 
     ++state.half;
     return out;

@@ -1,5 +1,7 @@
 #include <zlg/core/half_wave.hpp>
 
+#include "bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
@@ -10,23 +12,34 @@ double grown_variance_v2(const HalfWaveConfig& c, double variance_v2) noexcept {
     return grown_v2 < ceiling_v2 ? grown_v2 : ceiling_v2;
 }
 
+void take_in(const HalfWaveConfig& c, HalfWaveState& s, double innovation_v, double prior_v2) noexcept {
+    const double gain = prior_v2 / (prior_v2 + c.measurement_sigma.value() * c.measurement_sigma.value());
+    s.estimate_v += gain * innovation_v;
+    s.variance_v2 = (1.0 - gain) * prior_v2;
+    s.outlier_side = 0;
+    count_up(s.n_accepted);
+}
+
 }  // namespace
 
 HalfWaveOutput step(const HalfWaveConfig& config, HalfWaveState& state, Volts measured) noexcept {
     const double prior_v2 = grown_variance_v2(config, state.variance_v2);
     const double spread_v2 = prior_v2 + config.measurement_sigma.value() * config.measurement_sigma.value();
     const double innovation_v = measured.value() - state.estimate_v;
+    const double innovation_v2 = innovation_v * innovation_v;
 
     const bool near_presumed = measured >= 0.5 * config.presumed && measured <= 2.0 * config.presumed;
-    const bool inside_gate = innovation_v * innovation_v <= config.gate * config.gate * spread_v2;
-    if (!(near_presumed && inside_gate)) {
+    const bool inside_gate = innovation_v2 <= config.gate * config.gate * spread_v2;
+    const std::int8_t side = innovation_v > 0.0 ? 1 : -1;
+    if (near_presumed && inside_gate) {
+        take_in(config, state, innovation_v, prior_v2);
+    } else if (near_presumed && state.outlier_side == side) {
+        take_in(config, state, innovation_v, innovation_v2);
+    } else {
         state.variance_v2 = prior_v2;
+        if (near_presumed) state.outlier_side = side;
         return {.half_wave = Volts{state.estimate_v}, .rejected = true};
     }
-    const double gain = prior_v2 / spread_v2;
-    state.estimate_v += gain * innovation_v;
-    state.variance_v2 = (1.0 - gain) * prior_v2;
-    if (state.n_accepted < INT32_MAX) ++state.n_accepted;
     return {.half_wave = Volts{state.estimate_v}};
 }
 

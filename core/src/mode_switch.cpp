@@ -101,9 +101,20 @@ void remember_good(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwit
 void begin_switch(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
     remember_good(c, s, in);
     const SwitchDirection direction = choose_direction(c.range, Volts{s.good_v}, in.half_wave);
-    const double target_v = s.good_v + direction.sign * in.half_wave.value();
+    const double target_v = s.good_v + direction.sign * in.half_wave.value() + in.offset.value();
     open_loop(c, s, SwitchPhase::open, inverse(s.polarity), target_v, in.next_tick);
     s.out_of_range = direction.out_of_range;
+    if (in.recentre) s.good_measured = false;
+}
+
+// Go on where the gyro is, with the helicity that it has.
+void adopt(ModeSwitchState& s) noexcept {
+    const SwitchPhase phase = s.phase == SwitchPhase::searching ? SwitchPhase::searching : SwitchPhase::returning;
+    close_loop(s);
+    s.phase = phase;
+    s.polarity = inverse(s.polarity);
+    s.good_polarity = s.polarity;
+    s.good_measured = false;
 }
 
 void begin_return(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
@@ -140,6 +151,7 @@ SwitchEvent completed(const ModeSwitchState& s) noexcept {
     if (!e.has_half_wave) return e;
     const double step_v = mean_v(s.readings) - s.good_v;
     e.half_wave_v = step_v < 0.0 ? -step_v : step_v;
+    e.direction = step_v < 0.0 ? -1 : 1;
     return e;
 }
 
@@ -163,7 +175,7 @@ void settle(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput
 
 void track(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
     if (!in.tick_border) return;
-    if (in.due) {
+    if (in.due || in.recentre) {
         begin_switch(c, s, in);
     } else if (s.n_lost >= 2 * c.lock_timeout_ticks) {
         remember_good(c, s, in);
@@ -189,7 +201,9 @@ ModeSwitchOutput step(const ModeSwitchConfig& config, ModeSwitchState& state, co
         if (state.n_halves >= 2 * config.gap_ticks) close_loop(state);
     } else {
         watch(config, state, input);
-        if (state.phase == SwitchPhase::tracking) {
+        if (input.reversed && input.tick_border) {
+            adopt(state);
+        } else if (state.phase == SwitchPhase::tracking) {
             track(config, state, input);
         } else {
             settle(config, state, input, out);

@@ -3,42 +3,80 @@
 #include <zlg/core/maths.hpp>
 
 #include "bounds.hpp"
+#include "stage_model.hpp"
 
 namespace zlg::core {
 namespace {
 
-// Slow stage: one step of the integrator, in volts.
-double correction_v(const PerimeterLoopConfig& c, Wavelengths detuning) noexcept {
+// So far from its place at the last open half, the light could still be that of the old mode.
+constexpr double most_in_flight_lambda = 0.1;
+
+double volts_per_lambda(const PerimeterLoopConfig& c) noexcept { return 2.0 * c.half_wave.value(); }
+
+// One step of the integrator, in volts.
+double correction_v(const PerimeterLoopConfig& c, double detuning_lambda) noexcept {
     const double kp_lambda_v = 0.5 / c.half_wave.value();
     const double gain = c.half_period.value() / c.time_constant.value();
-    return gain * limited(detuning.value(), c.error_limit.value()) / kp_lambda_v;
+    return gain * limited(detuning_lambda, c.error_limit.value()) / kp_lambda_v;
 }
 
-// Fast stage: what the high-voltage stage can follow within one half.
+// What the high-voltage stage can follow within one half.
 double slewed_v(const PerimeterLoopConfig& c, double move_v) noexcept {
     return limited(move_v, c.slew_v_s * c.half_period.value());
+}
+
+bool relocks(const PerimeterLoopConfig& c) noexcept { return c.kind == LoopKind::digital && c.relock_halves > 0; }
+
+// What a half tells the loop that corrects for what is in flight, in volts.
+double relocking_v(const PerimeterLoopConfig& c, const PerimeterLoopState& s, const PerimeterLoopInput& in) noexcept {
+    const double in_flight_lambda = (s.set_point_v - s.mean_v) / volts_per_lambda(c);
+    if (!in.was_closed && limited(in_flight_lambda, most_in_flight_lambda) != in_flight_lambda) return 0.0;
+    const double leads_to_lambda = in.detuning.value() + in_flight_lambda;
+    if (s.n_closed < c.relock_halves) return c.relock_gain * leads_to_lambda * volts_per_lambda(c);
+    return correction_v(c, leads_to_lambda);
+}
+
+double wanted_v(const PerimeterLoopConfig& c, const PerimeterLoopState& s, const PerimeterLoopInput& in) noexcept {
+    if (!in.close) return is_finite(in.second_input.value()) ? in.second_input.value() : s.set_point_v;
+    const bool seen = in.usable && is_finite(in.detuning.value());
+    if (!seen || c.kind != LoopKind::digital) return s.set_point_v;
+    if (relocks(c)) return s.set_point_v - relocking_v(c, s, in);
+    return in.was_closed ? s.set_point_v - slewed_v(c, correction_v(c, in.detuning.value())) : s.set_point_v;
+}
+
+void drive(const PerimeterLoopConfig& c, PerimeterLoopState& s, bool closed, PerimeterLoopOutput& out) noexcept {
+    const StageModel stage =
+        stage_model(c.stage_time_constant.value(), c.slew_v_s, c.half_period.value() / c.set_points);
+    const StageMove move = move_towards(stage, c.range, s.end_v, s.set_point_v, c.set_points);
+    s.mean_v = move.mean_v;
+    s.end_v = move.end_v;
+    if (closed) {
+        count_up(s.n_closed);
+    } else {
+        s.n_closed = 0;
+    }
+    out.n_set_points = c.set_points;
+    out.set_point_v = move.set_point_v;
 }
 
 }  // namespace
 
 PerimeterLoopOutput step(const PerimeterLoopConfig& config, PerimeterLoopState& state,
                          const PerimeterLoopInput& input) noexcept {
-    const bool measured = input.usable && is_finite(input.detuning.value()) && input.was_closed;
-
-    double wanted_v = state.set_point_v;
-    if (!input.close) {
-        if (is_finite(input.second_input.value())) wanted_v = input.second_input.value();
-    } else if (config.kind == LoopKind::digital && measured) {
-        wanted_v -= slewed_v(config, correction_v(config, input.detuning));
-    }
-    state.set_point_v = clamp(config.range, Volts{wanted_v}).value();
+    const double wanted = wanted_v(config, state, input);
+    state.set_point_v = clamp(config.range, Volts{wanted}).value();
 
     const Volts set_point{state.set_point_v};
+    const bool measured = input.usable && is_finite(input.detuning.value()) && input.was_closed;
     const double size_lambda = input.detuning.value() < 0.0 ? -input.detuning.value() : input.detuning.value();
-    return {.set_point = set_point,
-            .saturated = state.set_point_v != wanted_v,
-            .over_limit = measured && size_lambda > config.watch_limit.value(),
-            .near_range_end = near_end(config.range, is_finite(input.piezo.value()) ? input.piezo : set_point)};
+    PerimeterLoopOutput out;
+    out.set_point = set_point;
+    out.saturated = state.set_point_v != wanted;
+    out.over_limit = measured && size_lambda > config.watch_limit.value();
+    out.near_range_end = near_end(config.range, is_finite(input.piezo.value()) ? input.piezo : set_point);
+    out.set_point_v[0] = set_point.value();
+    if (relocks(config)) drive(config, state, input.close, out);
+    return out;
 }
 
 }  // namespace zlg::core

@@ -22,9 +22,7 @@ bool is_within(double x, double min, double max) noexcept { return x >= min && x
 double square(double x) noexcept { return x * x; }
 
 double bias_at_hz(const RelockDriftConfig& c, double temperature_c) noexcept {
-    if (!is_finite(temperature_c)) return c.bias.value();
-    const double above_c = temperature_c - c.reference_temperature.value();
-    return c.bias.value() * (1.0 + c.temperature_coefficient_per_c * above_c);
+    return bias_at(c, Celsius{temperature_c}).value();
 }
 
 // The false angle of one tick from its false rate, with the sign of the first half.
@@ -35,29 +33,43 @@ FalseAngle false_angle(const RelockDriftConfig& c, int sign, double rate_hz, dou
     return believed && is_finite(angle.variance_arcsec2) ? angle : FalseAngle{};
 }
 
+struct TrueTick {
+    TrueMoments first;
+    TrueMoments second;
+};
+
+// The tick as the curve sees it. `detuning` alone does not need the mean square: NaN then stands for no motion.
+TrueTick true_tick(const RelockDriftConfig& c, const RelockTick& t) noexcept {
+    const double s2 = square(c.light_noise.value());
+    return {true_moments(c.curve, t.detuning_first_lambda, t.detuning_sq_first_lambda2, s2),
+            true_moments(c.curve, t.detuning_second_lambda, t.detuning_sq_second_lambda2, s2)};
+}
+
 FalseAngle by_mean_square(const RelockDriftConfig& c, const RelockTick& t) noexcept {
-    const double first = t.detuning_sq_first_lambda2;
-    const double second = t.detuning_sq_second_lambda2;
+    const TrueTick seen = true_tick(c, t);
+    const double first = seen.first.mean_sq_lambda2;
+    const double second = seen.second.mean_sq_lambda2;
     if (!(first >= 0.0 && second >= 0.0 && first + second > 0.0)) return {};
     if (!(first + second < square(max_detuning_lambda))) return {};
     const double half_chi_f0 = 0.5 * c.chi * bias_at_hz(c, t.temperature_c);
     // Mean of n squares (dl + e)^2: variance (4 dl^2 s^2 + 2 s^4)/n; the measured mean holds dl^2 + s^2.
-    const double s2 = square(c.light_noise.value());
+    const double s2 = square(c.light_noise.value()) * 0.5 * (square(seen.first.slope) + square(seen.second.slope));
     const double above = first + second - 2.0 * s2;
     const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 4.0 * s2 * s2) / c.light_samples;
     return false_angle(c, t.sign, half_chi_f0 * (second - first), square(half_chi_f0) * variance);
 }
 
 FalseAngle by_detuning(const RelockDriftConfig& c, const RelockTick& t) noexcept {
-    const double first = t.detuning_first_lambda;
-    const double second = t.detuning_second_lambda;
+    const TrueTick seen = true_tick(c, t);
+    const double first = seen.first.mean_lambda;
+    const double second = seen.second.mean_lambda;
     const double rho = second / first;
     if (!(rho > 0.0 && rho < 1.0 && first < max_detuning_lambda && first > -max_detuning_lambda)) return {};
     const double quarter_chi_f0 = 0.25 * c.chi * bias_at_hz(c, t.temperature_c);
     const double sum = first + second;
     const double log_rho = natural_log(rho);
-    const double by_first = sum * (2.0 * log_rho - sum / first);
-    const double by_second = sum * (2.0 * log_rho + sum / second);
+    const double by_first = seen.first.slope * sum * (2.0 * log_rho - sum / first);
+    const double by_second = seen.second.slope * sum * (2.0 * log_rho + sum / second);
     const double s2 = square(c.light_noise.value()) / c.light_samples;
     return false_angle(c, t.sign, quarter_chi_f0 * log_rho * sum * sum,
                        square(quarter_chi_f0) * (square(by_first) + square(by_second)) * s2);
@@ -65,7 +77,7 @@ FalseAngle by_detuning(const RelockDriftConfig& c, const RelockTick& t) noexcept
 
 double deficit_hz(const RelockDriftConfig& c, const RelockTick& t) noexcept {
     const double difference = static_cast<double>(t.counts_first) - static_cast<double>(t.counts_second);
-    return t.sign * difference / c.tick.value() - bias_at_hz(c, t.temperature_c);
+    return t.sign * (difference - t.known_excess_counts) / c.tick.value() - bias_at_hz(c, t.temperature_c);
 }
 
 // Variance of a false rate by counter rounding, from its slopes by the two deficits that make it.
@@ -136,7 +148,14 @@ RelockDriftFault check(const RelockDriftConfig& c) noexcept {
         return RelockDriftFault::temperature;
     if (!(c.light_noise.value() >= 0.0 && is_finite(c.light_noise.value()))) return RelockDriftFault::light_noise;
     if (!(c.light_samples >= 1)) return RelockDriftFault::light_samples;
+    if (check(c.curve) != CurveFault::none) return RelockDriftFault::curve;
     return RelockDriftFault::none;
+}
+
+Hertz bias_at(const RelockDriftConfig& config, Celsius temperature) noexcept {
+    if (!is_finite(temperature.value())) return config.bias;
+    const double above_c = temperature.value() - config.reference_temperature.value();
+    return (1.0 + config.temperature_coefficient_per_c * above_c) * config.bias;
 }
 
 void enter_gap(RelockDriftState& state) noexcept { state = RelockDriftState{.armed = true}; }

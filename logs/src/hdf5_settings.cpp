@@ -1,6 +1,5 @@
 #include "hdf5_settings.hpp"
 
-#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -24,15 +23,6 @@ const std::string* find_in_any_section(const Settings& settings, const std::stri
     return value != nullptr ? value : find_setting(settings, name);
 }
 
-std::optional<double> number(std::string text) {
-    std::erase(text, '_');
-    if (text.starts_with('+')) text.erase(0, 1);
-    double value = 0.0;
-    const auto [stop, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 void check_version(const Source& source) {
     const auto version = source.real_attribute("format_version");
     if (!version || *version == static_cast<double>(format_version)) return;
@@ -47,7 +37,7 @@ void merge_root(const Source& source, const char* name, bool adds, Settings& set
         if (adds) settings.emplace_back(in_section(name), fmt::format("{}", *value));
         return;
     }
-    const auto configured = number(*text);
+    const auto configured = number_in(*text);
     if (configured && *configured == *value) return;
     throw FormatError(fmt::format("{}: the attribute {} is {}, but /config says {}; allowed is one value",
                                   source.path(), name, *value, *text));
@@ -61,7 +51,7 @@ void add_settings(TableWriter& table, const Settings& settings, std::optional<do
         if (tick_s && name == std::string_view{"tick_s"}) {
             table.set_real(name, *tick_s);
         } else if (const std::string* text = find_in_any_section(settings, name)) {
-            if (const auto value = number(*text)) table.set_real(name, *value);
+            if (const auto value = number_in(*text)) table.set_real(name, *value);
         }
     }
 }
@@ -72,7 +62,7 @@ void add_settings(TableWriter& table, const Settings& settings) { add_settings(t
 
 void add_angle_settings(TableWriter& table, const Settings& settings, double tick_s) {
     if (const std::string* text = find_setting(settings, "tick_s")) {
-        const auto value = number(*text);
+        const auto value = number_in(*text);
         if (!value) throw FormatError(fmt::format("the setting tick_s is '{}'; allowed is a number", *text));
         tick_s = *value;
     }

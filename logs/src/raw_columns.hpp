@@ -19,10 +19,11 @@ enum : std::size_t {
     detuning_sq_lambda2,
     piezo_v,
     temperature_c,
+    edge_offset_ticks,
     light,
 };
 
-inline constexpr std::array<Column, 10> csv_columns{{{"half", true},
+inline constexpr std::array<Column, 11> csv_columns{{{"half", true},
                                                      {"bias_sign", true},
                                                      {"mode", true},
                                                      {"counts", true, "count"},
@@ -31,11 +32,12 @@ inline constexpr std::array<Column, 10> csv_columns{{{"half", true},
                                                      {"detuning_lambda", false, "wavelength"},
                                                      {"detuning_sq_lambda2", false, "wavelength^2"},
                                                      {"piezo_v", false, "V"},
-                                                     {"temperature_c", false, "degC"}}};
+                                                     {"temperature_c", false, "degC"},
+                                                     {"edge_offset_ticks", false}}};
 
 // In HDF5 also the light samples, halves x N.
-inline constexpr std::array<Column, 11> hdf5_columns = [] {
-    std::array<Column, 11> all{};
+inline constexpr std::array<Column, 12> hdf5_columns = [] {
+    std::array<Column, 12> all{};
     for (std::size_t k = 0; k < csv_columns.size(); ++k) all[k] = csv_columns[k];
     all[light] = {"light", false, "1"};
     return all;
@@ -53,6 +55,8 @@ constexpr bool is_written(const RawColumns& written, std::size_t column) {
             return written.has_piezo;
         case temperature_c:
             return written.has_temperature;
+        case edge_offset_ticks:
+            return written.has_edge_offset;
         default:
             return true;
     }

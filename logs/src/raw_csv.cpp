@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <zlg/logs/error.hpp>
 
 #include "csv_reader.hpp"
 #include "raw_columns.hpp"
 #include "raw_log_io.hpp"
+#include "raw_timer.hpp"
 #include "row_rules.hpp"
 #include "settings_lines.hpp"
 
@@ -25,6 +27,8 @@ public:
         header_.has_detuning_sq = csv_.has(raw::detuning_sq_lambda2);
         header_.has_piezo = csv_.has(raw::piezo_v);
         header_.has_temperature = csv_.has(raw::temperature_c);
+        header_.has_edge_offset = csv_.has(raw::edge_offset_ticks);
+        if (header_.has_edge_offset) header_.timer_hz = take_timer_hz(header_.settings, std::nullopt, path);
         header_.warnings = csv_.warnings();
     }
 
@@ -40,6 +44,7 @@ public:
         record.detuning_sq_lambda2 = optional_real(raw::detuning_sq_lambda2);
         record.piezo_v = optional_real(raw::piezo_v);
         record.temperature_c = optional_real(raw::temperature_c);
+        record.edge_offset_ticks = next_edge_offset();
         expected_half_ = record.half + 1;
         previous_bias_sign_ = record.bias_sign;
         return true;
@@ -61,6 +66,12 @@ private:
         return value;
     }
 
+    [[nodiscard]] std::int32_t next_edge_offset() const {
+        if (!header_.has_edge_offset) return 0;
+        using Limits = std::numeric_limits<std::int32_t>;
+        return static_cast<std::int32_t>(csv_.integer(raw::edge_offset_ticks, Limits::min(), Limits::max()));
+    }
+
     [[nodiscard]] double optional_real(std::size_t column) const {
         return csv_.has(column) ? csv_.real(column) : std::numeric_limits<double>::quiet_NaN();
     }
@@ -75,6 +86,7 @@ public:
     RawCsvSink(const std::string& path, const Settings& settings, bool force, const RawColumns& columns)
         : file_{path, force}, columns_{columns} {
         write_settings(file_, settings);
+        if (columns_.has_edge_offset) write_settings(file_, {{timer_setting, fmt::format("{}", columns_.timer_hz)}});
         std::string names;
         for (std::size_t k = 0; k < raw::csv_columns.size(); ++k) {
             if (!raw::is_written(columns_, k)) continue;
@@ -84,7 +96,8 @@ public:
     }
 
     void write(const core::HalfRecord& r, std::span<const float>) override {
-        // Two integers of at most 20 letters, four reals of at most 24, four of at most 2, and the commas.
+        require_edge_column(columns_, r);
+        // Two integers of at most 20 letters, one of 11, four reals of at most 24, four of at most 2, and the commas.
         std::array<char, 192> row;
         char* end = fmt::format_to(row.data(), FMT_COMPILE("{},{},{},{},{:d}"), r.half, r.bias_sign, r.mode, r.counts,
                                    r.loop_closed);
@@ -98,6 +111,7 @@ public:
         append(columns_.has_detuning_sq, r.detuning_sq_lambda2, "detuning_sq_lambda2");
         append(columns_.has_piezo, r.piezo_v, "piezo_v");
         append(columns_.has_temperature, r.temperature_c, "temperature_c");
+        if (columns_.has_edge_offset) end = fmt::format_to(end, FMT_COMPILE(",{}"), r.edge_offset_ticks);
         *end++ = '\n';
         file_.append({row.data(), static_cast<std::size_t>(end - row.data())});
     }

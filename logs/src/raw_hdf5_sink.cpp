@@ -8,6 +8,7 @@
 #include "hdf5_table_writer.hpp"
 #include "raw_columns.hpp"
 #include "raw_log_io.hpp"
+#include "raw_timer.hpp"
 #include "row_rules.hpp"
 
 namespace zlg::logs {
@@ -25,6 +26,7 @@ struct RawBlock {
     Rows<double> detuning_sq_lambda2;
     Rows<double> piezo_v;
     Rows<double> temperature_c;
+    Rows<std::int32_t> edge_offset_ticks;
     Rows<std::int8_t> bias_sign;
     Rows<std::int8_t> mode;
     Rows<std::uint8_t> loop_closed;
@@ -40,6 +42,7 @@ public:
           light_samples_{static_cast<std::size_t>(options.light_samples)},
           light_(light_samples_ * hdf5::block_rows) {
         hdf5::add_settings(table_, settings);
+        if (columns_.has_edge_offset) table_.set_real(timer_setting, columns_.timer_hz);
         table_.add_group("/raw");
         add_columns();
         table_.start();
@@ -65,6 +68,7 @@ public:
         block_->detuning_sq_lambda2[i] = r.detuning_sq_lambda2;
         block_->piezo_v[i] = r.piezo_v;
         block_->temperature_c[i] = r.temperature_c;
+        block_->edge_offset_ticks[i] = r.edge_offset_ticks;
         block_->bias_sign[i] = r.bias_sign;
         block_->mode[i] = r.mode;
         block_->loop_closed[i] = r.loop_closed;
@@ -102,12 +106,14 @@ private:
         add(raw::detuning_sq_lambda2, H5T_NATIVE_DOUBLE, block_->detuning_sq_lambda2.data());
         add(raw::piezo_v, H5T_NATIVE_DOUBLE, block_->piezo_v.data());
         add(raw::temperature_c, H5T_NATIVE_DOUBLE, block_->temperature_c.data());
+        add(raw::edge_offset_ticks, H5T_NATIVE_INT32, block_->edge_offset_ticks.data());
         if (light_samples_ == 0) return;
         table_.add_column("/raw", {"light", H5T_NATIVE_FLOAT, raw::hdf5_columns[raw::light].unit, light_.data(),
                                    static_cast<int>(light_samples_)});
     }
 
     void check(const core::HalfRecord& r, std::span<const float> light) const {
+        require_edge_column(columns_, r);
         const auto require = [&](bool is_column, double value, std::string_view name) {
             if (is_column && !is_finite(value)) refuse_raw(r, name, value);
         };

@@ -7,6 +7,7 @@
 #include "hdf5_table_reader.hpp"
 #include "raw_columns.hpp"
 #include "raw_log_io.hpp"
+#include "raw_timer.hpp"
 #include "row_rules.hpp"
 
 namespace zlg::logs {
@@ -24,6 +25,10 @@ public:
         header_.has_detuning_sq = table_.has(raw::detuning_sq_lambda2);
         header_.has_piezo = table_.has(raw::piezo_v);
         header_.has_temperature = table_.has(raw::temperature_c);
+        header_.has_edge_offset = table_.has(raw::edge_offset_ticks);
+        if (header_.has_edge_offset) {
+            header_.timer_hz = take_timer_hz(header_.settings, table_.source().real_attribute(timer_setting), path);
+        }
         header_.light_samples = table_.has(raw::light) ? static_cast<int>(light_.width()) : 0;
         header_.complete = table_.is_complete();
     }
@@ -41,6 +46,7 @@ public:
         r.detuning_sq_lambda2 = header_.has_detuning_sq ? detuning_sq_lambda2_[i] : absent;
         r.piezo_v = header_.has_piezo ? piezo_v_[i] : absent;
         r.temperature_c = header_.has_temperature ? temperature_c_[i] : absent;
+        r.edge_offset_ticks = header_.has_edge_offset ? edge_offset_ticks_[i] : 0;
         return true;
     }
 
@@ -73,6 +79,7 @@ private:
         table_.open(raw::detuning_sq_lambda2, detuning_sq_lambda2_);
         table_.open(raw::piezo_v, piezo_v_);
         table_.open(raw::temperature_c, temperature_c_);
+        table_.open(raw::edge_offset_ticks, edge_offset_ticks_);
         table_.open(raw::light, light_, core::max_light_samples);
         table_.measure();
     }
@@ -107,6 +114,11 @@ private:
         if (valid_.is_open()) block_.take(valid_, is_flag, no_flag);
         for (auto* reals : {&detuning_lambda_, &detuning_sq_lambda2_, &piezo_v_, &temperature_c_}) take_reals(*reals);
         take_reals(light_);
+        if (!edge_offset_ticks_.is_open()) return;
+        using Limits = std::numeric_limits<std::int32_t>;
+        block_.take(
+            edge_offset_ticks_, [](std::int32_t, std::size_t) { return true; },
+            [](std::int64_t) { return out_of_range(range(Limits::min(), Limits::max())); });
     }
 
     void take_indices(std::int64_t first) {
@@ -146,6 +158,7 @@ private:
     hdf5::Column<double> detuning_sq_lambda2_;
     hdf5::Column<double> piezo_v_;
     hdf5::Column<double> temperature_c_;
+    hdf5::Column<std::int32_t> edge_offset_ticks_;
     hdf5::Column<float> light_;
     hdf5::Block block_;
     std::size_t next_row_ = 0;  // of the block

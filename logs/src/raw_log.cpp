@@ -5,6 +5,7 @@
 #include <zlg/logs/raw_log.hpp>
 
 #include "raw_log_io.hpp"
+#include "raw_timer.hpp"
 #include "signature.hpp"
 
 namespace zlg::logs {
@@ -17,6 +18,7 @@ std::unique_ptr<RawSink> create(const std::string& path, const Settings& setting
         throw FormatError(fmt::format("{}: {} light samples in a half; allowed is 0..{}", path, options.light_samples,
                                       core::max_light_samples));
     }
+    if (columns.has_edge_offset) check_timer_hz(columns.timer_hz, path);
     if (format_of(path) == LogFormat::hdf5) return create_raw_hdf5(path, settings, force, columns, options);
     if (options.light_samples > 0) {
         throw FormatError(
@@ -26,6 +28,11 @@ std::unique_ptr<RawSink> create(const std::string& path, const Settings& setting
 }
 
 }  // namespace
+
+void refuse_edge_offset(const core::HalfRecord& record) {
+    throw FormatError(fmt::format("half {} cannot be logged: edge_offset_ticks is {}, and the log has no column for it",
+                                  record.half, record.edge_offset_ticks));
+}
 
 void refuse_raw(const core::HalfRecord& record, std::string_view name, double value) {
     throw FormatError(

@@ -41,4 +41,11 @@ public:
 // A number of a row that no reader would accept. errors  FormatError, always.
 [[noreturn]] void refuse_raw(const core::HalfRecord& record, std::string_view name, double value);
 
+// A shift that no column takes. errors  FormatError, always.
+[[noreturn]] void refuse_edge_offset(const core::HalfRecord& record);
+
+inline void require_edge_column(const RawColumns& columns, const core::HalfRecord& record) {
+    if (!columns.has_edge_offset && record.edge_offset_ticks != 0) refuse_edge_offset(record);
+}
+
 }  // namespace zlg::logs

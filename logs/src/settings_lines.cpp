@@ -1,5 +1,6 @@
 #include "settings_lines.hpp"
 
+#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +24,15 @@ const std::string* find_setting(const std::vector<std::pair<std::string, std::st
                                 const std::string& key) {
     const auto found = std::find_if(settings.rbegin(), settings.rend(), [&](const auto& s) { return s.first == key; });
     return found == settings.rend() ? nullptr : &found->second;
+}
+
+std::optional<double> number_in(std::string text) {
+    std::erase(text, '_');
+    if (text.starts_with('+')) text.erase(0, 1);
+    double value = 0.0;
+    const auto [stop, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+    return value;
 }
 
 }  // namespace zlg::logs

@@ -1,6 +1,7 @@
 #pragma once
 // The lines `# key = value` above a table.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,5 +18,8 @@ void write_settings(TableFile& file, const std::vector<std::pair<std::string, st
 // The value of the last setting of that name; null: there is none.
 [[nodiscard]] const std::string* find_setting(const std::vector<std::pair<std::string, std::string>>& settings,
                                               const std::string& key);
+
+// A number as TOML writes it; empty where it is none.
+[[nodiscard]] std::optional<double> number_in(std::string text);
 
 }  // namespace zlg::logs

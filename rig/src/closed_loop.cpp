@@ -15,12 +15,19 @@ namespace {
 
 // The twin names its own parameters; these have another name as a key.
 std::string with_keys(std::string message) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> names{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> names{
         {{"loop_tau_s", "perimeter.tau_s"},
          {"loop_limit_lambda", "perimeter.limit_lambda"},
+         {"piezo_hysteresis_stroke_v", "piezo.hysteresis_stroke_v"},
+         {"piezo_hysteresis", "piezo.hysteresis"},
+         {"piezo_creep_per_decade", "piezo.creep_per_decade"},
+         {"mirror_hz", "piezo.mirror_hz"},
+         {"mirror_damping", "piezo.mirror_damping"},
          {"high_voltage_rc_s", "piezo.rc_s"},
          {"piezo_min_v", "piezo.range_min_v"},
-         {"piezo_max_v", "piezo.range_max_v"}}};
+         {"piezo_max_v", "piezo.range_max_v"},
+         {"counter_max_hz", "gyro.counter_max_hz"},
+         {"vibration_hz", "faults.vibration_hz"}}};
     for (const auto& [parameter, key] : names) {
         const std::size_t at = message.find(parameter);
         if (at != std::string::npos) message.replace(at, parameter.size(), key);
@@ -33,6 +40,9 @@ twin::Twin make_twin(const config::Config& config, twin::Motion motion) {
         return twin::Twin{twin_config(config), std::move(motion)};
     } catch (const std::invalid_argument& error) {
         throw config::ConfigError{with_keys(error.what())};
+    } catch (const std::runtime_error& error) {
+        // A laser without light, or one whose light no table can hold.
+        throw config::ConfigError{fmt::format("[laser] does not make a gyro: {}", error.what())};
     }
 }
 

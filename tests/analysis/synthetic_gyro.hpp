@@ -25,6 +25,7 @@ struct SyntheticGyro {
     double tau_s = 0.012;
     bool stepped = false;         // the detuning goes from border to border with a lag of 0.8 ms
     double detuning_scale = 1.0;  // logged over true
+    double pole_lambda = 0.0;     // logged is this times the tangent of the true over it; 0: proportional
     int light_samples = 16;
     double light_noise_lambda = 0.003;
     double half_wave_v = 40.0;
@@ -85,6 +86,10 @@ private:
         return to + (from - to) * std::exp(-within_s / 0.0008);
     }
 
+    [[nodiscard]] double logged(double dl) const {
+        return g_.pole_lambda > 0.0 ? g_.pole_lambda * std::tan(dl / g_.pole_lambda) : dl;
+    }
+
     void light(double miss, double since_s, HalfRecord& r) {
         const double half_s = 0.5 * g_.tick_s;
         true_square_ = 0.0;
@@ -94,7 +99,7 @@ private:
         }
         for (int k = 0; k < g_.light_samples; ++k) {
             const double dl = detuning(miss, since_s, half_s * (k + 0.5) / g_.light_samples);
-            const double sample = g_.detuning_scale * (dl + g_.light_noise_lambda * normal());
+            const double sample = g_.detuning_scale * (logged(dl) + g_.light_noise_lambda * normal());
             r.detuning_lambda += sample / g_.light_samples;
             r.detuning_sq_lambda2 += sample * sample / g_.light_samples;
         }

@@ -6,7 +6,7 @@ import re
 import subprocess
 import unittest
 
-from support import CliTest, ROOT, ZLG, csv_text, quiet_log, run
+from support import AngleLog, CliTest, ROOT, ZLG, csv_text, quiet_log, run
 
 GYRO = {"gyro.bias_hz": 63e3, "gyro.bias_chi": 4.5, "gyro.bias_temperature_coefficient_per_c": -1e-3,
         "piezo.half_wave_v": 43.0, "piezo.half_wave_temperature_coefficient_per_c": 1e-3,
@@ -100,6 +100,98 @@ class Calibrate(Simulated):
         text = self.succeed("calibrate", self.simulate(duration=60)).stdout
         for key in (*GYRO, "detuning_scale"):
             self.assertEqual(len(re.findall(rf"^{re.escape(key)}[ :]", text, re.MULTILINE)), 1, key)
+
+
+LASER = {"gyro.fidelity": "laser", "drift.magnetic_arcsec_s": 0.0, "drift.magnetic_thermal_arcsec_s": 0.0,
+         "drift.nonmagnetic_arcsec_s": 0.0, "drift.random_walk_arcsec_sqrt_s": 0.0}
+# A slope that is told stays the whole law of the detector: of the laser its own, to four digits.
+STRAIGHT = {"gyro.discriminator_per_lambda": 0.3315}
+
+
+class Discriminator(CliTest):
+    """The inverse curve, derived from the laser or found in logs, and what it does to a log read by the slope alone."""
+
+    def simulate(self, name, duration, **values):
+        path = self.folder / name
+        values = {**LASER, **STRAIGHT, **{key.replace("__", "."): value for key, value in values.items()}}
+        self.succeed("simulate", "--duration", duration, *settings(values), "--out", path, "--force")
+        return path
+
+    def over_a_switch(self, log, *options):
+        """Angle in the 60 ticks about each switch, less rotation, with the sign of the mode, mean over the switches."""
+        angles = self.folder / "angles.csv"
+        self.succeed("process", log, "--set", "compensation.bridge=constant", *options, "--out", angles, "--force")
+        angle = AngleLog(angles)
+        starts = range(200, len(angle.final) - 60, 200)
+        sums = [sum(angle.final[k - 10:k + 50]) - 60 * 0.005 * 1217.3 for k in starts]
+        return sum(total * -angle.mode[k + 20] for total, k in zip(sums, starts)) / len(sums)
+
+    def switching(self, name="switching.csv", miss=0.2, **values):
+        return self.simulate(name, 120, motion__kind="constant", motion__rate_arcsec_s=1217.3,
+                             switching__interval_s=1.0, perimeter__miss_lambda=miss, **values)
+
+    def test_from_the_laser(self):
+        toml = self.folder / "laser.toml"
+        shown = json.loads(self.succeed("calibrate", "--from-laser", "--out", toml, "--json").stdout)
+        self.assertAlmostEqual(shown["constants"]["gyro.discriminator_per_lambda"]["value"], 0.332, delta=0.003)
+        self.assertLess(shown["discriminator"]["error_lambda"], 1e-4)
+        at = dict(zip(shown["discriminator"]["detuning_lambda"], shown["discriminator"]["signal"]))
+        for detuning, signal in at.items():
+            if abs(detuning - 0.15) < 0.003:
+                self.assertAlmostEqual(signal / (0.332 * detuning), 1.78, delta=0.08)
+        log = self.switching()
+        false_arcsec = self.over_a_switch(log, "--set", "compensation.relock=none")
+        self.assertGreater(false_arcsec, 30.0)
+        self.assertLess(self.over_a_switch(log), -5.0 * false_arcsec)
+        for method in ("detuning", "mean_square"):
+            left = self.over_a_switch(log, "--config", toml, "--set", f"compensation.relock={method}")
+            self.assertLess(abs(left), 0.03 * false_arcsec, method)
+
+    def test_a_laser_without_a_curve_is_given_its_own(self):
+        log, angles = self.folder / "own.csv", self.folder / "own_angles.csv"
+        values = {**LASER, "switching.interval_s": 1.0, "motion.kind": "rest"}
+        told = self.succeed("simulate", "--duration", 20, *settings(values), "--out", log)
+        self.assertIn("taken from [laser]", told.stderr)
+        self.succeed("process", log, "--out", angles)
+        worst = max(abs(row) for row in AngleLog(angles).final)
+        self.assertLess(worst, 60.0)
+
+    def test_a_log_read_through_a_curve_is_not_bent_twice(self):
+        toml = self.folder / "laser.toml"
+        self.succeed("calibrate", "--from-laser", "--out", toml)
+        log = self.folder / "curved.csv"
+        self.succeed("simulate", toml, "--duration", 20, *settings({**LASER, "switching.interval_s": 1.0}), "--out", log)
+        one, other = self.folder / "one.csv", self.folder / "other.csv"
+        self.succeed("process", log, "--out", one)
+        self.succeed("process", log, "--config", toml, "--out", other)
+        self.assertEqual(AngleLog(one).final, AngleLog(other).final)
+        curve = settings({"perimeter.discriminator_signal": "[0.1]", "perimeter.discriminator_detuning_lambda": "[0.1]"})
+        result = self.succeed("process", log, *curve, "--out", other, "--force")
+        self.assertIn("curve of its own", result.stderr)
+        self.assertEqual(AngleLog(one).final, AngleLog(other).final)
+        self.assertIn("read by one slope", json.loads(self.succeed("calibrate", log, "--json").stdout)
+                      ["not_determined"]["perimeter.discriminator_signal"])
+
+    def test_from_logs(self):
+        log = self.simulate("lab.csv", 1200, motion__kind="constant", motion__rate_arcsec_s=50.0,
+                            switching__interval_s=2.0, perimeter__miss_lambda=0.2)
+        toml = self.folder / "found.toml"
+        found = json.loads(self.succeed("calibrate", log, "--rate-arcsec-s", 50, "--out", toml, "--json").stdout)
+        self.assertEqual(len(found["discriminator"]["signal"]), len(found["discriminator"]["sigma_lambda"]))
+        for sigma, detuning in zip(found["discriminator"]["sigma_lambda"], found["discriminator"]["detuning_lambda"]):
+            self.assertLess(sigma, 0.05 * detuning)
+        for miss in (0.10, 0.20):
+            log = self.switching(miss=miss)
+            false_arcsec = self.over_a_switch(log, "--set", "compensation.relock=none")
+            self.assertLess(abs(self.over_a_switch(log, "--config", toml)), 0.03 * false_arcsec, miss)
+        self.succeed("simulate", toml, "--duration", 1, "--out", self.folder / "again.csv")
+
+    def test_refusals(self):
+        log = self.write("log.csv", csv_text(quiet_log()))
+        self.refuse(2, "calibrate", "--from-laser", log, says=("--from-laser", "--config"))
+        self.refuse(2, "calibrate", "--from-laser", "--set", "laser.gain_loss_ratio=0.9", says=("[laser]",))
+        self.refuse(2, "process", log, "--set", "perimeter.discriminator_signal=[0.2,0.1]", "--set",
+                    "perimeter.discriminator_detuning_lambda=[0.1,0.2]", "--out", self.folder / "a.csv", says=("growing",))
 
 
 class Output(Simulated):

@@ -14,6 +14,7 @@
 
 using namespace zlg::config;
 using zlg::core::BridgeMethod;
+using zlg::core::DitherMethod;
 using zlg::core::RelockMethod;
 
 namespace {
@@ -81,6 +82,10 @@ Config any_config() {
     if (*rc::gen::arbitrary<bool>())
         c.compensation.relock = *rc::gen::element(RelockMethod::none, RelockMethod::detuning);
     c.motion.amplitude_arcsec_s = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(any_double(-1e6, 1e6)));
+    c.faults.kind = *rc::gen::container<std::vector<FaultKind>>(
+        rc::gen::element(FaultKind::laser_off, FaultKind::frame_late, FaultKind::overspeed));
+    c.faults.random_kinds = *rc::gen::container<std::vector<FaultKind>>(
+        rc::gen::element(FaultKind::beam_fades, FaultKind::counter_bit_stuck));
     c.motion.comment = *rc::gen::container<std::string>(rc::gen::inRange<char>(1, 127));
     c.motion.path = *rc::gen::element<std::string>("", "a b.txt", "\"quoted\"", "back\\slash", "\xCE\xA9.txt", "#");
     return c;
@@ -122,6 +127,8 @@ RC_GTEST_PROP(Schema, settings_and_toml_read_back_to_the_same_configuration, ())
         RC_ASSERT(read.motion.amplitude_arcsec_s == config.motion.amplitude_arcsec_s);
         RC_ASSERT(read.motion.comment == config.motion.comment);
         RC_ASSERT(read.motion.path == config.motion.path);
+        RC_ASSERT(read.faults.kind == config.faults.kind);
+        RC_ASSERT(read.faults.random_kinds == config.faults.random_kinds);
     }
 }
 
@@ -146,6 +153,7 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
         const std::set<std::string> choices{"run.duration_s = 12.5",
                                             "gyro.bias_edge_s = 0.000001",
                                             "gyro.first_bias_sign = -1",
+                                            "gyro.dither = auto",
                                             "perimeter.loop = digital",
                                             "switching.first_segment = half",
                                             "compensation.relock = detuning",
@@ -155,7 +163,21 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
                                             "motion.path = a.txt",
                                             "motion.comment = %",
                                             "perimeter.miss_lambda = 0.125",
-                                            "piezo.half_wave_error = 0.125"};
+                                            "piezo.half_wave_error = 0.125",
+                                            "perimeter.sample_gain = 0.5",
+                                            "piezo.hysteresis = 0.125",
+                                            "piezo.creep_per_decade = 0.01",
+                                            "piezo.mirror_damping = 0.5",
+                                            "gyro.fidelity = laser",
+                                            "laser.round_trip_loss_ratio = 0.25",
+                                            "laser.doppler_half_width_hz = 7e6",
+                                            "laser.homogeneous_half_width_hz = 7e6",
+                                            "laser.upper_isotope_ratio = 0.25",
+                                            "laser.opposite_sigma_coupling = 0.25",
+                                            "laser.comparator_threshold = 0.125",
+                                            "laser.quadrature = x4",
+                                            "faults.kind = laser_off",
+                                            "faults.random_kinds = shock"};
         std::string setting = dotted + " = 7";
         for (const std::string& choice : choices) {
             if (choice.starts_with(dotted + " ")) setting = choice;
@@ -173,8 +195,8 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
 }
 
 TEST(Schema, knows_every_key_of_the_sections) {
-    const std::set<std::string> sections{"run",    "gyro",      "drift",        "perimeter", "piezo",
-                                         "motion", "switching", "compensation", "design"};
+    const std::set<std::string> sections{"run",       "gyro",         "drift",  "perimeter", "piezo", "motion",
+                                         "switching", "compensation", "design", "laser",     "faults"};
     std::set<std::string> found;
     std::set<std::string> names;
     for (const KeyInfo& key : describe_keys()) {
@@ -184,8 +206,8 @@ TEST(Schema, knows_every_key_of_the_sections) {
         EXPECT_FALSE(key.allowed.empty()) << key.name;
     }
     EXPECT_EQ(found, sections);
-    // The members of the nine structs, interval_optimal apart: 2 + 12 + 5 + 5 + 9 + 3 + 6 + 12 + 2.
-    EXPECT_EQ(names.size(), 57u);
+    // The members of the eleven structs, interval_optimal apart: 2 + 15 + 15 + 5 + 11 + 15 + 3 + 6 + 12 + 8 + 2.
+    EXPECT_EQ(names.size(), 94u);
     EXPECT_TRUE(is_known_section("gyro"));
     EXPECT_FALSE(is_known_section("gyr"));
 }
@@ -244,6 +266,10 @@ TEST(Schema, every_name_of_an_enumeration_is_its_enumerator) {
     EXPECT_EQ(with({"compensation.bridge=none"}).compensation.bridge, BridgeMethod::none);
     EXPECT_EQ(with({"compensation.bridge=linear"}).compensation.bridge, BridgeMethod::linear);
     EXPECT_EQ(with({"compensation.bridge=quadratic"}).compensation.bridge, BridgeMethod::quadratic);
+    EXPECT_EQ(with({"gyro.dither=none"}).gyro.dither, DitherMethod::none);
+    EXPECT_EQ(with({"gyro.dither=auto"}).gyro.dither, DitherMethod::automatic);
+    EXPECT_EQ(with({"gyro.dither=paired"}).gyro.dither, DitherMethod::paired);
+    EXPECT_EQ(with({"gyro.dither=random"}).gyro.dither, DitherMethod::random);
     EXPECT_EQ(with({"motion.kind=rest"}).motion.kind, MotionKind::rest);
     EXPECT_EQ(with({"motion.kind=constant"}).motion.kind, MotionKind::constant);
     EXPECT_EQ(with({"motion.kind=sine"}).motion.kind, MotionKind::sine);
@@ -512,4 +538,66 @@ TEST(Schema, the_reference_documents_every_key_with_its_default) {
     expect_contains(text, "## [gyro]");
     expect_contains(text, "| `tick_s` | s | `0.005` | 1e-6..10 | length of a tick");
     expect_contains(text, "| `duration_s` | s | unset | above 0 up to 1e9 |");
+}
+
+TEST(Schema, a_discriminator_is_as_many_detunings_as_signals_and_both_grow) {
+    const Config c =
+        from_toml("[perimeter]\ndiscriminator_detuning_lambda = [0.1, 0.2]\ndiscriminator_signal = [0.04, 0.13]\n");
+    EXPECT_NO_THROW(check(c));
+    EXPECT_EQ(c.perimeter.discriminator_signal, (std::vector<double>{0.04, 0.13}));
+    Config again;
+    apply_toml(again, to_toml(c), "again.toml");
+    EXPECT_EQ(to_settings(again), to_settings(c));
+
+    EXPECT_NO_THROW(check(with({"perimeter.discriminator_signal=[]"})));
+    expect_contains(check_complaint({"perimeter.discriminator_signal=[0.1, 0.2]"}),
+                    "0 discriminator_detuning_lambda and 2 discriminator_signal");
+    expect_contains(check_complaint({"perimeter.discriminator_detuning_lambda=[0.1, 0.1]",
+                                     "perimeter.discriminator_signal=[0.1, 0.2]"}),
+                    "perimeter.discriminator_detuning_lambda: 0.1 after 0.1; allowed is growth");
+    expect_contains(check_complaint({"perimeter.discriminator_detuning_lambda=[0.1, 0.2]",
+                                     "perimeter.discriminator_signal=[0.2, 0.1]"}),
+                    "perimeter.discriminator_signal: 0.1 after 0.2");
+    expect_contains(set_complaint("perimeter.discriminator_signal=[0.1, 0]"), "[] included, each above 0 up to 1000");
+    std::string many = "[1";
+    for (int k = 2; k <= 32; ++k) many += ", " + std::to_string(k);
+    const std::string detunings = "perimeter.discriminator_detuning_lambda=" + many + "]";
+    const std::string signals = "perimeter.discriminator_signal=" + many + "]";
+    expect_contains(check_complaint({detunings, signals}), "31 at most");
+}
+
+TEST(Schema, an_unset_list_is_not_written) {
+    for (const auto& [key, value] : to_settings(Config{})) EXPECT_EQ(key.find("discriminator_s"), std::string::npos);
+}
+
+TEST(Schema, faults_are_lists_of_equal_length) {
+    const Config c = from_toml(
+        "[faults]\nkind = [\"laser_off\", \"frame_late\"]\nat_s = [1, 2.5]\nduration_s = [0.1, 0]\nsize = [0, 0]\n");
+    EXPECT_NO_THROW(check(c));
+    EXPECT_EQ(c.faults.kind, (std::vector<FaultKind>{FaultKind::laser_off, FaultKind::frame_late}));
+    EXPECT_EQ(c.faults.at_s, (std::vector<double>{1.0, 2.5}));
+    EXPECT_NO_THROW(check(with({"faults.kind=shock", "faults.at_s=1", "faults.duration_s=0.011", "faults.size=-0.2"})));
+    expect_contains(check_complaint({"faults.kind=[\"shock\", \"shock\"]", "faults.at_s=1"}),
+                    "faults: 2 kind, 1 at_s, 0 duration_s and 0 size; allowed is as many of each");
+    expect_contains(set_complaint("faults.kind=[\"shock\", \"quake\"]"), "faults.kind = 'quake': allowed is one or an");
+    expect_contains(set_complaint("faults.kind=[1]"), "a string is wanted, this is an integer");
+    expect_contains(set_complaint("faults.at_s=[1, -1]"), "faults.at_s = [1, -1]: allowed is");
+    expect_contains(set_complaint("faults.random_per_hour=-1"), "allowed is 0..1e6");
+    EXPECT_EQ(with({"faults.kind=[]"}).faults.kind.size(), 0u);
+}
+
+TEST(Schema, every_kind_of_fault_has_its_name) {
+    for (std::size_t k = 0; k < fault_kind_names.size(); ++k) {
+        const Config c = with({"faults.kind=" + std::string{fault_kind_names[k]}});
+        EXPECT_EQ(c.faults.kind, std::vector<FaultKind>{static_cast<FaultKind>(k)});
+    }
+    EXPECT_EQ(with({"faults.kind=overspeed"}).faults.kind.front(), FaultKind::overspeed);
+    EXPECT_EQ(with({"faults.kind=light_nan"}).faults.kind.front(), FaultKind::light_nan);
+}
+
+TEST(Schema, edges_are_shifted_only_in_a_gyro_that_obeys) {
+    expect_contains(check_complaint({"gyro.dither=auto"}), "gyro.dither = \"auto\": the averaged gyro");
+    EXPECT_NO_THROW(check(with({"gyro.dither=auto", "gyro.fidelity=laser"})));
+    // A log of a real gyro says nothing of fidelity.
+    EXPECT_NO_THROW(check_compensation(with({"gyro.dither=auto"})));
 }

@@ -99,5 +99,85 @@ TEST(BiasCommutator, TheTimerMayWrap) {
     EXPECT_TRUE(step(config, s, {true, 1, 0}).timer_error);
 }
 
+constexpr BiasCommutatorConfig dithered = [] {
+    BiasCommutatorConfig c;
+    c.dither.method = DitherMethod::random;
+    return c;
+}();
+static_assert(check(dithered) == BiasCommutatorFault::none);
+
+constexpr BiasCommutatorFault dither_fault(auto change) {
+    BiasCommutatorConfig c = dithered;
+    change(c);
+    return check(c);
+}
+static_assert(dither_fault([](auto& c) { c.half_ticks = 24000; }) == BiasCommutatorFault::dither);
+static_assert(dither_fault([](auto& c) { c.dither.cycle_ticks = 0.0; }) == BiasCommutatorFault::dither);
+static_assert(dither_fault([](auto& c) { c.dither = {.method = DitherMethod::none, .half_ticks = 1}; }) ==
+              BiasCommutatorFault::none);
+
+// A gyro that obeys: what is commanded after half h ends half h + 1, whose stamp says so.
+TEST(BiasCommutator, StampsFollowTheCommandedEdges) {
+    BiasCommutatorState s;
+    std::int32_t commanded = 0;
+    int n_moved = 0;
+    for (int half = 0; half < 1000; ++half) {
+        const auto stamp = static_cast<std::uint64_t>(half * 25000 + commanded);
+        const bool received = half % 7 != 3;
+        const BiasCommutatorOutput out = step(dithered, s, {received, alternating(half, 1), stamp});
+        EXPECT_EQ(out.edge_offset_ticks, commanded);
+        EXPECT_FALSE(out.timer_error) << half;
+        commanded = next_edge(dithered, s, {});
+        n_moved += commanded != 0 ? 1 : 0;
+    }
+    EXPECT_GT(n_moved, 900);
+}
+
+TEST(BiasCommutator, AGyroThatDoesNotObeyIsFound) {
+    BiasCommutatorState s;
+    int n_errors = 0;
+    for (int half = 0; half < 1000; ++half) {
+        const auto stamp = static_cast<std::uint64_t>(half) * 25000;
+        n_errors += step(dithered, s, {true, alternating(half, 1), stamp}).timer_error ? 1 : 0;
+        (void)next_edge(dithered, s, {});
+    }
+    EXPECT_GT(n_errors, 900);
+}
+
+TEST(BiasCommutator, WithoutALawNoEdgeMoves) {
+    BiasCommutatorState s;
+    for (int half = 0; half < 100; ++half) {
+        (void)step(config, s, {true, alternating(half, 1), static_cast<std::uint64_t>(half) * 25000});
+        EXPECT_EQ(next_edge(config, s, {true, 1000, 1}), 0);
+    }
+    EXPECT_EQ(s.dither, EdgeDitherState{});
+}
+
+// 10 counts more in each half: 13000 arcsec/s.
+TEST(BiasCommutator, TheRateChoosesTheLaw) {
+    for (const std::int64_t turn : {0, 10}) {
+        BiasCommutatorConfig c = dithered;
+        c.dither.method = DitherMethod::automatic;
+        BiasCommutatorState s;
+        for (int half = 0; half < 600; ++half) {
+            const std::int8_t sign = alternating(half, 1);
+            (void)step(c, s, {true, sign, 0});
+            (void)next_edge(c, s, {true, 150 * sign + turn, 1});
+        }
+        EXPECT_EQ(s.dither.law, turn == 0 ? DitherLaw::paired : DitherLaw::random);
+    }
+}
+
+TEST(BiasCommutator, AStampThatIsFarOffIsALatchAtAnotherTime) {
+    const BiasCommutatorConfig c{.latch_ticks = 167};
+    for (const std::uint64_t late : {std::uint64_t{0}, std::uint64_t{167}, std::uint64_t{168}}) {
+        BiasCommutatorState s;
+        (void)step(c, s, {.received = true, .bias_sign = 1, .timer_ticks = 25000});
+        const auto out = step(c, s, {.received = true, .bias_sign = -1, .timer_ticks = 50000 + late});
+        EXPECT_EQ(out.timer_error, late > 0);
+        EXPECT_EQ(out.latch_error, late > 167);
+    }
+}
+
 }  // namespace
 }  // namespace zlg::core

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <vector>
+#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 
 namespace zlg::core {
@@ -245,7 +246,7 @@ TEST_P(EitherLoop, FlagsNameWhatIsWrongWithAFrame) {
     EXPECT_EQ(bits([](SensorFrame& f) { f.piezo_v = nan_value; }), (Seen{health_piezo_not_finite, true}));
     EXPECT_EQ(bits([](SensorFrame& f) { f.piezo_v = 299.0; }), (Seen{health_piezo_near_range_end, true}));
     EXPECT_EQ(bits([](SensorFrame& f) { f.temperature_c = -1.0 / 0.0; }), (Seen{health_temperature_not_finite, true}));
-    EXPECT_EQ(bits([](SensorFrame& f) { f.counter += 1u << 20; }), (Seen{health_counter_jump, true}));
+    EXPECT_EQ(bits([](SensorFrame& f) { f.counter += 1u << 20; }), (Seen{health_counter_jump, false}));
     EXPECT_EQ(bits([](SensorFrame&) {}), (Seen{0u, true}));
 }
 
@@ -498,17 +499,29 @@ void expect_sane(const GyroControlOutput& out, const GyroControlState& s) {
     ASSERT_TRUE(std::isfinite(s.mode_switch.detuning_lambda) && std::isfinite(s.mode_switch.miss_lambda));
     ASSERT_TRUE(s.mode_switch.set_point_v >= 0.0 && s.mode_switch.set_point_v <= 300.0);
     ASSERT_TRUE(std::isfinite(s.mode_switch.good_v));
+    ASSERT_TRUE(std::isfinite(s.bias_monitor.bias_counts) && std::isfinite(s.light_monitor.last_lambda));
+    ASSERT_TRUE(std::isfinite(s.coil_monitor.odd) && std::isfinite(s.coil_monitor.even));
+    ASSERT_TRUE(std::isfinite(s.coil_monitor.spread) && std::isfinite(s.temperature_before_c));
     for (const double v : s.mode_switch.readings.voltage_v) ASSERT_TRUE(std::isfinite(v));
 }
 
 TEST_P(EitherLoop, AHundredThousandHalvesOfGarbageLeaveNoTraceOfThemselves) {
-    const GyroControlConfig c = config_of(GetParam());
-    GyroControlState s = initial_state(c);
-    Garbage garbage;
-    for (std::int64_t half = 0; half < 100000; ++half) {
-        const GyroControlOutput out = step(c, s, garbage.frame(half));
-        ASSERT_NO_FATAL_FAILURE(expect_sane(out, s)) << half;
-        ASSERT_EQ(out.record.half, half);
+    for (const bool monitored : {false, true}) {
+        GyroControlConfig c = config_of(GetParam());
+        if (monitored) {
+            c.bias_monitor.presumed_counts = 150.0;
+            c.coil_monitor.tolerance_ratio = 0.003;
+            c.counter_monitor.watches = true;
+            c.light_monitor = {.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
+            c.detuning_monitor.most_change_lambda2 = 0.002;
+        }
+        GyroControlState s = initial_state(c);
+        Garbage garbage;
+        for (std::int64_t half = 0; half < 100000; ++half) {
+            const GyroControlOutput out = step(c, s, garbage.frame(half));
+            ASSERT_NO_FATAL_FAILURE(expect_sane(out, s)) << half;
+            ASSERT_EQ(out.record.half, half);
+        }
     }
 }
 
@@ -521,8 +534,66 @@ TEST_P(EitherLoop, AfterABurstOfGarbageTheGyroFindsItselfAgain) {
     EXPECT_EQ(loop.state.mode_switch.phase, SwitchPhase::tracking);
     EXPECT_EQ(loop.plant.helicity(), loop.actuator.polarity);
     EXPECT_TRUE(loop.records.back().valid);
-    EXPECT_EQ(loop.health.back(), 0u);
+    EXPECT_EQ(loop.health.back() & ~health_warming_up, 0u);
     EXPECT_LT(std::abs(loop.records.back().detuning_lambda), 1e-3);
+}
+
+GyroControlConfig dithered(LoopKind kind, DitherMethod method) {
+    return config_with([&](GyroControlConfig& c) {
+        c.loop.kind = kind;
+        c.commutator.dither.method = method;
+    });
+}
+
+TEST_P(EitherLoop, EachRecordHoldsTheShiftThatWasCommandedForItsEnd) {
+    Loop loop{dithered(GetParam(), DitherMethod::random)};
+    std::int32_t commanded = loop.actuator.edge_offset_ticks;
+    EXPECT_EQ(commanded, 0);
+    for (int half = 0; half < 2200; ++half) {
+        const auto miss = [&](SensorFrame& f) {
+            if (half % 97 == 50) f.status = frame_missed;
+        };
+        const GyroControlOutput& out = loop.half(miss);
+        ASSERT_EQ(out.record.edge_offset_ticks, commanded);
+        commanded = out.actuator.edge_offset_ticks;
+        ASSERT_EQ(out.health & health_timer_error, 0u);
+    }
+    EXPECT_EQ(loop.open_runs().size(), 5u);
+}
+
+// Whatever the law, the angle is that of the rotation to a count at the end of every tick: nothing is left of the shifts.
+TEST_P(EitherLoop, ShiftedEdgesLeaveTheAngleAsItIs) {
+    for (const DitherMethod method :
+         {DitherMethod::none, DitherMethod::automatic, DitherMethod::paired, DitherMethod::random}) {
+        for (const double rate_counts : {0.0, 50.3, -700.0}) {
+            GyroControlConfig c = dithered(GetParam(), method);
+            c.schedule.interval_ticks = 100000;
+            Loop loop{c};
+            loop.plant.rate_counts = rate_counts;
+            GyroCompensationState state;
+            for (int half = 0; half < 2000; ++half) {
+                const CompensationOutput out = step(GyroCompensationConfig{}, state, loop.half().record);
+                if (!out.has_sample) continue;
+                ASSERT_NEAR(out.angle_arcsec / 3.263, rate_counts * (half + 1), 1.01) << half;
+            }
+        }
+    }
+}
+
+TEST(GyroControl, TheLawFollowsTheRate) {
+    for (const double rate_counts : {0.0, 1.0}) {
+        Loop loop{dithered(LoopKind::analog, DitherMethod::automatic)};
+        loop.plant.rate_counts = rate_counts;
+        loop.ticks(300);
+        EXPECT_EQ(loop.state.commutator.dither.law, rate_counts > 0.0 ? DitherLaw::random : DitherLaw::paired);
+    }
+}
+
+TEST(GyroControl, AnImpossibleDitherIsRefused) {
+    EXPECT_EQ(check(config_with([](GyroControlConfig& c) {
+                  c.commutator.dither = {.method = DitherMethod::paired, .half_ticks = 20000};
+              })),
+              GyroControlFault::commutator);
 }
 
 }  // namespace

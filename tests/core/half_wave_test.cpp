@@ -76,6 +76,19 @@ TEST(HalfWave, OutliersAreRejectedAndSaid) {
     EXPECT_EQ(s.n_accepted, 20);
 }
 
+TEST(HalfWave, ASecondOutlierOnTheSameSideIsBelieved) {
+    HalfWaveState s = initial_state(config);
+    for (int k = 0; k < 20; ++k) (void)step(config, s, Volts{34.0});
+    EXPECT_TRUE(step(config, s, Volts{38.0}).rejected);
+    EXPECT_TRUE(step(config, s, Volts{30.0}).rejected);  // the other side begins anew
+    EXPECT_TRUE(step(config, s, Volts{38.0}).rejected);
+    EXPECT_TRUE(step(config, s, Volts{100.0}).rejected);  // another mode is no second one
+    EXPECT_FALSE(step(config, s, Volts{38.5}).rejected);
+    // p = 4.5^2 against 0.3^2.
+    EXPECT_NEAR(s.estimate_v, 34.0 + 4.5 * 20.25 / 20.34, 1e-6);
+    EXPECT_NEAR(sigma(s).value(), std::sqrt(0.09 * 20.25 / 20.34), 1e-7);
+}
+
 TEST(HalfWave, AnotherModeIsNoNeighbourHoweverWideTheGate) {
     const HalfWaveConfig unsure{.presumed_sigma_ratio = 0.9};
     HalfWaveState s = initial_state(unsure);

@@ -13,48 +13,40 @@ constexpr HealthConfig config{.counts_limit = 1000};
 static_assert(check(config) == HealthFault::none);
 static_assert(check(HealthConfig{.counts_limit = 0}) == HealthFault::counts_limit);
 
-TEST(Health, AGoodHalfHasNoBit) { EXPECT_EQ(health_bits(config, {}), 0u); }
-
-TEST(Health, EveryReportSetsItsOwnBitAndNoOther) {
-    const auto bit = [](bool HealthReport::*member) {
-        HealthReport r;
-        r.*member = true;
-        return health_bits(config, r);
-    };
-    EXPECT_EQ(bit(&HealthReport::frame_missed), health_frame_missed);
-    EXPECT_EQ(bit(&HealthReport::sequence_error), health_sequence_error);
-    EXPECT_EQ(bit(&HealthReport::sign_error), health_sign_error);
-    EXPECT_EQ(bit(&HealthReport::timer_error), health_timer_error);
-    EXPECT_EQ(bit(&HealthReport::echo_error), health_echo_error);
-    EXPECT_EQ(bit(&HealthReport::light_lost), health_light_lost);
-    EXPECT_EQ(bit(&HealthReport::light_unusable), health_light_unusable);
-    EXPECT_EQ(bit(&HealthReport::detuning_over_limit), health_detuning_over_limit);
-    EXPECT_EQ(bit(&HealthReport::piezo_near_range_end), health_piezo_near_range_end);
-    EXPECT_EQ(bit(&HealthReport::piezo_not_finite), health_piezo_not_finite);
-    EXPECT_EQ(bit(&HealthReport::temperature_not_finite), health_temperature_not_finite);
-    EXPECT_EQ(bit(&HealthReport::switching), health_switching);
-    EXPECT_EQ(bit(&HealthReport::relock_failed), health_relock_failed);
-    EXPECT_EQ(bit(&HealthReport::searching), health_searching);
-    EXPECT_EQ(bit(&HealthReport::half_wave_rejected), health_half_wave_rejected);
+TEST(Health, AWordHoldsTheBitsThatWereSeenAndNoOther) {
+    HealthWord word;
+    EXPECT_EQ(word.bits, 0u);
+    word.set(health_light_lost, false);
+    EXPECT_EQ(word.bits, 0u);
+    word.set(health_light_lost, true);
+    word.set(health_searching, true);
+    word.set(health_light_lost, false);
+    EXPECT_EQ(word.bits, health_light_lost | health_searching);
 }
 
-TEST(Health, AJumpIsMoreCountsThanTheLimitInEitherDirection) {
-    const auto bits = [](std::int64_t counts) { return health_bits(config, {.counts = counts}); };
-    EXPECT_EQ(bits(1000), 0u);
-    EXPECT_EQ(bits(-1000), 0u);
-    EXPECT_EQ(bits(1001), health_counter_jump);
-    EXPECT_EQ(bits(-1001), health_counter_jump);
-    EXPECT_EQ(bits(std::numeric_limits<std::int64_t>::min()), health_counter_jump);
-    EXPECT_EQ(bits(std::numeric_limits<std::int64_t>::max()), health_counter_jump);
+TEST(Health, MoreCountsThanTheLimitAreBeyondItInEitherDirection) {
+    EXPECT_FALSE(is_beyond(config, 1000));
+    EXPECT_FALSE(is_beyond(config, -1000));
+    EXPECT_TRUE(is_beyond(config, 1001));
+    EXPECT_TRUE(is_beyond(config, -1001));
+    EXPECT_TRUE(is_beyond(config, std::numeric_limits<std::int64_t>::min()));
+    EXPECT_TRUE(is_beyond(config, std::numeric_limits<std::int64_t>::max()));
 }
 
 TEST(Health, BitsHaveDistinctNamesInTheirOrder) {
     const std::set<std::string> names(health_bit_names.begin(), health_bit_names.end());
     EXPECT_EQ(names.size(), health_bit_names.size());
-    EXPECT_STREQ(health_bit_names[std::countr_zero(std::uint32_t{health_light_lost})], "light_lost");
-    EXPECT_STREQ(health_bit_names[std::countr_zero(std::uint32_t{health_counter_jump})], "counter_jump");
-    EXPECT_STREQ(health_bit_names.back(), "half_wave_rejected");
-    EXPECT_EQ(std::uint32_t{1} << (health_bit_names.size() - 1), health_half_wave_rejected);
+    const auto name = [](HealthBit bit) {
+        return std::string{health_bit_names[static_cast<std::size_t>(std::countr_zero(std::uint32_t{bit}))]};
+    };
+    EXPECT_EQ(name(health_light_lost), "light_lost");
+    EXPECT_EQ(name(health_counter_jump), "counter_jump");
+    EXPECT_EQ(name(health_half_wave_rejected), "half_wave_rejected");
+    EXPECT_EQ(name(health_counter_bit_stuck), "counter_bit_stuck");
+    EXPECT_EQ(name(health_coil_current), "coil_current");
+    EXPECT_EQ(name(health_light_contradicted), "light_contradicted");
+    EXPECT_EQ(name(health_edges_shifted), "edges_shifted");
+    EXPECT_EQ(std::uint32_t{1} << (health_bit_names.size() - 1), health_edges_shifted);
 }
 
 }  // namespace

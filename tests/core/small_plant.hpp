@@ -1,6 +1,8 @@
 #pragma once
 // A gyro of a few lines, to close the loop in tests: perimeter, high-voltage stage, two beams, counter.
 //
+// It is reversed and latched when it is told.
+//
 //   y = kp U + drift,  centre m/2 nearest to y,  helicity (-1)^m,  dl = y - m/2,  kp = 0.5/half_wave
 
 #include <cmath>
@@ -34,22 +36,24 @@ public:
         SensorFrame f;
         f.n_light = n_samples;
         f.has_light_b = true;
-        double cycles = rate_counts;
+        const double length_s = half_s + (a.edge_offset_ticks - start_ticks_) / 1e7;
+        start_ticks_ = a.edge_offset_ticks;
+        double cycles = rate_counts * length_s / half_s;
         for (std::size_t k = 0; k < n_samples; ++k) {
-            for (int piece = 0; piece < 8; ++piece) follow(a.set_point_v[0], half_s / (8.0 * n_samples));
+            for (int piece = 0; piece < 8; ++piece) follow(a.set_point_v[0], length_s / (8.0 * n_samples));
             const double dl = detuning_lambda();
             const double signal = sign * helicity() * 0.332 * dl;
             const bool two_way = std::abs(dl) < 0.24;
             f.light_a[k] = static_cast<float>(!lamp_on ? 0.0 : two_way ? 1000.0 * (1.0 + signal) : 1000.0);
             f.light_b[k] = static_cast<float>(!lamp_on || !two_way ? 0.0 : 1000.0 * (1.0 - signal));
-            cycles += sign * helicity() * 60e3 * (1.0 - 3.6 * dl * dl) * half_s / n_samples;
+            cycles += sign * helicity() * 60e3 * (1.0 - 3.6 * dl * dl) * length_s / n_samples;
         }
         phase_ += cycles;
         const double whole = std::floor(phase_);
         phase_ -= whole;
         counter += static_cast<std::uint64_t>(static_cast<std::int64_t>(whole));
         f.sequence = static_cast<std::uint32_t>(half_);
-        f.timer_ticks = static_cast<std::uint64_t>(half_ + 1) * 25000;
+        f.timer_ticks = static_cast<std::uint64_t>((half_ + 1) * 25000 + a.edge_offset_ticks);
         f.counter = counter;
         f.bias_sign = static_cast<std::int8_t>(sign);
         f.polarity = a.polarity;
@@ -91,6 +95,7 @@ private:
     double command_v_ = 160.0;
     double phase_ = 0.0;
     std::int64_t half_ = 0;
+    std::int32_t start_ticks_ = 0;  // shift of the reversal that begins the next half
 };
 
 }  // namespace zlg::core::test

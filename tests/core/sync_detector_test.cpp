@@ -271,5 +271,23 @@ TEST(SyncDetector, WhatCannotBeReadIsSaidAndLeavesTheLevelAlone) {
     EXPECT_EQ(s, before);
 }
 
+TEST(SyncDetector, FaintLightIsLearntOnlyWhileThereIsABeat) {
+    for (const bool beats : {false, true}) {
+        SyncDetectorState s;
+        for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+        const Light faint = light_of(steady(0.0), 1, 300.0);
+        const SyncDetectorInput in{.light_a = faint.a, .light_b = faint.b, .beats = beats};
+        for (int half = 0; half < 64; ++half) EXPECT_FALSE(step(config, s, in).two_way) << half;
+        EXPECT_EQ(step(config, s, in).two_way, beats);
+    }
+}
+
+TEST(SyncDetector, ATenthOfTheLightIsDark) {
+    SyncDetectorState s;
+    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    EXPECT_FALSE(both(s, light_of(steady(0.0), 1, 110.0), 1).dark);
+    EXPECT_TRUE(both(s, light_of(steady(0.0), 1, 90.0), 1).dark);
+}
+
 }  // namespace
 }  // namespace zlg::core

@@ -42,6 +42,7 @@ GyroCompensationConfig config_from(Bytes& bytes) {
     c.bridge.points_before = static_cast<int>(bytes.index(10));
     c.bridge.points_after = static_cast<int>(bytes.index(10));
     c.bridge.count = c.relock.scale;
+    if (bytes.flag()) c.timer = Hertz{bytes.real(1e7)};
     if (bytes.flag()) c.random_walk = ArcsecPerRootSecond{bytes.real(0.14)};
     return c;
 }
@@ -65,6 +66,7 @@ HalfRecord half_from(Bytes& bytes, const HalfRecord& previous) {
     if (!bytes.flag()) return half;
     half.counts = bytes.take<std::int64_t>() >> bytes.index(64);
     half.temperature_c = bytes.real(20.0);
+    half.edge_offset_ticks = bytes.take<std::int32_t>() >> bytes.index(32);
     half.bias_sign = bytes.take<std::int8_t>();
     half.mode = bytes.take<std::int8_t>();
     return half;

@@ -48,6 +48,14 @@ void half_wave_from(Bytes& bytes, HalfWaveConfig& c) {
     c.gate = bytes.real(4.0);
 }
 
+void monitors_on(GyroControlConfig& c) {
+    c.bias_monitor.presumed_counts = 150.0;
+    c.coil_monitor.tolerance_ratio = 0.003;
+    c.counter_monitor.watches = true;
+    c.light_monitor = {.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
+    c.detuning_monitor.most_change_lambda2 = 0.002;
+}
+
 GyroControlConfig config_from(Bytes& bytes) {
     GyroControlConfig c;
     c.loop.kind = bytes.flag() ? LoopKind::digital : LoopKind::analog;
@@ -59,6 +67,8 @@ GyroControlConfig config_from(Bytes& bytes) {
     c.mode_switch.lock_timeout_ticks = c.mode_switch.settle_ticks + 1 + static_cast<std::int32_t>(bytes.index(8));
     c.mode_switch.dark_ticks = 1 + static_cast<std::int32_t>(bytes.index(3));
     c.mode_switch.start_polarity = bytes.sign();
+    c.commutator.dither.method = static_cast<DitherMethod>(bytes.index(4));
+    if (bytes.flag()) monitors_on(c);
     if (bytes.flag()) return c;
     c.loop.range = c.mode_switch.range = range_from(bytes);
     c.mode_switch.start_set_point = Volts{bytes.real(150.0)};
@@ -68,6 +78,8 @@ GyroControlConfig config_from(Bytes& bytes) {
     half_wave_from(bytes, c.half_wave);
     c.commutator.half_ticks = bytes.take<std::uint64_t>() >> bytes.index(64);
     c.commutator.tolerance_ticks = bytes.take<std::uint8_t>();
+    c.commutator.dither.half_ticks = c.commutator.half_ticks;
+    c.commutator.dither.cycle_ticks = bytes.real(1e7 / 60e3);
     c.presumed_temperature = Celsius{bytes.real(20.0)};
     return c;
 }

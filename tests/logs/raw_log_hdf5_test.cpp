@@ -64,7 +64,7 @@ rc::Gen<double> any_finite_double() {
     });
 }
 
-std::vector<HalfRecord> any_records() {
+std::vector<HalfRecord> any_records(bool with_edges = false) {
     constexpr std::int64_t limit = std::int64_t{1} << 52;
     std::vector<HalfRecord> rows(*rc::gen::inRange<std::size_t>(1, 40));
     const bool first_positive = *rc::gen::arbitrary<bool>();
@@ -80,6 +80,7 @@ std::vector<HalfRecord> any_records() {
         r.detuning_sq_lambda2 = *any_finite_double();
         r.piezo_v = *any_finite_double();
         r.temperature_c = *any_finite_double();
+        if (with_edges) r.edge_offset_ticks = *rc::gen::arbitrary<std::int32_t>();
     }
     return rows;
 }
@@ -108,9 +109,10 @@ RC_GTEST_PROP(RawLogHdf5, csv_to_hdf5_to_csv_is_the_same_file, ()) {
     const TemporaryFolder folder;
     const std::string first = folder.file("first.csv");
     RawColumns columns{*rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(),
-                       *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
+                       *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<bool>()};
+    columns.timer_hz = *rc::gen::element(1e7, 12345.678, 1.0, 1e15);
     RawWriter writer{first, any_settings(), false, columns};
-    for (const HalfRecord& row : any_records()) writer.write(row);
+    for (const HalfRecord& row : any_records(columns.has_edge_offset)) writer.write(row);
     writer.close();
     copy(first, folder.file("second.h5"));
     copy(folder.file("second.h5"), folder.file("third.csv"));
@@ -124,6 +126,24 @@ RC_GTEST_PROP(RawLogHdf5, hdf5_reads_back_the_same_bits, ()) {
     for (const HalfRecord& row : rows) writer.write(row);
     writer.close();
     RC_ASSERT(rows_in(folder.file("raw.h5")) == rows);
+}
+
+RC_GTEST_PROP(RawLogHdf5, shifts_of_edges_read_back_the_same_in_both_formats, ()) {
+    const TemporaryFolder folder;
+    const std::vector<HalfRecord> rows = any_records(true);
+    RawColumns columns = all_raw_columns;
+    columns.has_edge_offset = true;
+    columns.timer_hz = 1e7 / 3.0;
+    for (const char* name : {"raw.h5", "raw.csv"}) {
+        RawWriter writer{folder.file(name), {{"gyro.tick_s", "0.005"}}, false, columns};
+        for (const HalfRecord& row : rows) writer.write(row);
+        writer.close();
+        RawReader reader{folder.file(name)};
+        RC_ASSERT(reader.header().has_edge_offset);
+        RC_ASSERT(reader.header().timer_hz == 1e7 / 3.0);
+        RC_ASSERT(reader.header().settings.size() == 1u);
+        RC_ASSERT(rows_of(reader) == rows);
+    }
 }
 
 // A damaged file is refused with an error of ours, or it is still a log: never anything else.

@@ -342,3 +342,58 @@ TEST(RawReader, tells_a_last_line_that_may_have_been_cut_off) {
     EXPECT_TRUE(whole.line_is_ended());
     EXPECT_FALSE(cut.line_is_ended());
 }
+
+TEST(RawLog, without_shifts_has_no_column_for_them) {
+    const TemporaryFolder folder;
+    RawWriter writer{folder.file("raw.csv"), {}, false};
+    writer.write({.detuning_lambda = 0.0});
+    EXPECT_EQ(message_of<FormatError>([&] { writer.write({.half = 1, .bias_sign = -1, .edge_offset_ticks = -3}); }),
+              "half 1 cannot be logged: edge_offset_ticks is -3, and the log has no column for it");
+    writer.close();
+    EXPECT_EQ(content_of(folder.file("raw.csv")).find("edge"), std::string::npos);
+    EXPECT_FALSE(RawReader{folder.file("raw.csv")}.header().has_edge_offset);
+}
+
+TEST(RawLog, with_shifts_says_how_fast_the_timer_runs) {
+    const TemporaryFolder folder;
+    RawColumns columns;
+    columns.has_edge_offset = true;
+    for (const double bad : {0.0, 0.5, 1e16, std::numeric_limits<double>::quiet_NaN()}) {
+        columns.timer_hz = bad;
+        const std::string message = message_of<FormatError>([&] {
+            RawWriter{folder.file("raw.csv"), {}, false, columns};
+        });
+        EXPECT_NE(message.find("timer_hz"), std::string::npos) << message;
+    }
+    columns.timer_hz = 1e7;
+    RawWriter writer{folder.file("raw.csv"), {{"note", "x"}}, false, columns};
+    writer.write({.counts = 151, .edge_offset_ticks = -83});
+    writer.write({.half = 1, .counts = -150, .bias_sign = -1, .edge_offset_ticks = 41});
+    writer.close();
+    EXPECT_EQ(content_of(folder.file("raw.csv")),
+              "# note = x\n# timer_hz = 10000000\nhalf,bias_sign,mode,counts,loop_closed,edge_offset_ticks\n"
+              "0,1,1,151,1,-83\n1,-1,1,-150,1,41\n");
+}
+
+TEST(RawReader, takes_shifts_only_with_the_timer_that_they_count) {
+    const std::string table = "half,bias_sign,mode,counts,loop_closed,edge_offset_ticks\n0,1,1,150,1,-7\n";
+    const auto rows = read_text("# timer_hz = 1e7\n" + table);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].edge_offset_ticks, -7);
+    EXPECT_EQ(header_of("# timer_hz = 1e7\n# timer_hz = 10000000\n" + table).timer_hz, 1e7);
+    EXPECT_NE(complaint(table).find("timer_hz is missing"), std::string::npos);
+    for (const char* bad : {"0", "-1", "1e16", "fast", "nan"}) {
+        EXPECT_NE(complaint(std::string{"# timer_hz = "} + bad + "\n" + table).find("allowed is"), std::string::npos);
+    }
+    EXPECT_NE(complaint("# timer_hz = 1e7\n# timer_hz = 1e6\n" + table).find("timer_hz = 1e6"), std::string::npos);
+    // Without the column it is a note like any other.
+    EXPECT_EQ(header_of("# timer_hz = fast\n" + names + "0,1,1,150,1\n").settings.size(), 1u);
+}
+
+TEST(RawReader, a_shift_is_an_integer_of_32_bits) {
+    const std::string head = "# timer_hz = 1e7\nhalf,bias_sign,mode,counts,loop_closed,edge_offset_ticks\n0,1,1,150,1,";
+    EXPECT_EQ(read_text(head + "-2147483648\n")[0].edge_offset_ticks, std::numeric_limits<std::int32_t>::min());
+    for (const char* bad : {"2147483648", "0.5", "", "x"}) {
+        EXPECT_NE(complaint(head + bad + "\n").find("edge_offset_ticks"), std::string::npos) << bad;
+    }
+}

@@ -25,6 +25,54 @@ TEST(Wiring, twin_and_compensation_share_the_gyro) {
     EXPECT_EQ(twin.bias_temperature_coefficient_per_c, relock.temperature_coefficient_per_c);
 }
 
+TEST(Wiring, the_laser_of_the_twin_is_that_of_the_configuration) {
+    config::Config c;
+    EXPECT_EQ(rig::twin_config(c).fidelity, twin::Fidelity::averaged);
+    c.gyro.fidelity = config::Fidelity::laser;
+    c.laser = {.perimeter_m = 0.2,
+               .round_trip_loss_ratio = 0.006,
+               .gain_loss_ratio = 1.3,
+               .doppler_half_width_hz = 900e6,
+               .homogeneous_half_width_hz = 150e6,
+               .isotope_shift_hz = 880e6,
+               .upper_isotope_ratio = 0.48,
+               .zeeman_hz_per_g = 1.8e6,
+               .opposite_sigma_coupling = 0.7,
+               .bias_field_g = 12.0,
+               .lock_in_left_hz = 200.0,
+               .lock_in_right_hz = 210.0,
+               .scatter_phase_deg = 90.0 / 3.14159265358979323846,
+               .comparator_threshold = 0.2,
+               .quadrature = config::Quadrature::x4};
+    const auto made = rig::twin_config(c);
+    EXPECT_EQ(made.fidelity, twin::Fidelity::laser);
+    EXPECT_EQ(made.laser.perimeter_m, 0.2);
+    EXPECT_EQ(made.laser.round_trip_loss_ratio, 0.006);
+    EXPECT_EQ(made.laser.gain_loss_ratio, 1.3);
+    EXPECT_EQ(made.laser.doppler_half_width_hz, 900e6);
+    EXPECT_EQ(made.laser.homogeneous_half_width_hz, 150e6);
+    EXPECT_EQ(made.laser.isotope_shift_hz, 880e6);
+    EXPECT_EQ(made.laser.upper_isotope_ratio, 0.48);
+    EXPECT_EQ(made.laser.zeeman_hz_per_g, 1.8e6);
+    EXPECT_EQ(made.laser.opposite_sigma_coupling, 0.7);
+    EXPECT_EQ(made.laser.bias_field_g, 12.0);
+    EXPECT_EQ(made.beats.lock_left_hz, 200.0);
+    EXPECT_EQ(made.beats.lock_right_hz, 210.0);
+    EXPECT_NEAR(made.beats.scatter_phase_rad, 0.5, 1e-15);
+    EXPECT_EQ(made.beats.comparator_threshold, 0.2);
+    EXPECT_EQ(made.beats.counts_per_turn, 4);
+}
+
+// A key's default is the member's own: nobody has to write [laser] to get the default gas.
+TEST(Wiring, the_default_laser_is_the_same_on_both_sides) {
+    const auto made = rig::twin_config({}).laser;
+    const twin::LaserConfig own;
+    EXPECT_EQ(made.perimeter_m, own.perimeter_m);
+    EXPECT_EQ(made.gain_loss_ratio, own.gain_loss_ratio);
+    EXPECT_EQ(made.bias_field_g, own.bias_field_g);
+    EXPECT_EQ(made.opposite_sigma_coupling, own.opposite_sigma_coupling);
+}
+
 TEST(Wiring, control_presumes_the_half_wave_voltage_with_its_error) {
     config::Config c;
     c.piezo.half_wave_error = 0.05;
@@ -85,6 +133,47 @@ TEST(Wiring, one_phase_serves_all_sines_of_a_sum) {
     // Cosines: over a quarter of the slow period, A/(2 pi f) sin of the phase run through.
     constexpr double pi = 3.14159265358979323846;
     EXPECT_NEAR(rig::motion(c).increment_arcsec(0.0, 0.25), 100.0 / (2.0 * pi), 1e-9);
+}
+
+TEST(Wiring, control_and_compensation_share_the_timer_and_the_plateau) {
+    config::Config c;
+    EXPECT_EQ(rig::control_config(c).commutator.dither.method, core::DitherMethod::none);
+    c.gyro.dither = core::DitherMethod::automatic;
+    c.gyro.bias_hz = 45e3;
+    c.gyro.bias_edge_s = 50e-6;
+    c.run.seed = 7;
+    const core::EdgeDitherConfig dither = rig::control_config(c).commutator.dither;
+    const auto made = rig::compensation_config(c, core::RelockMethod::none, core::BridgeMethod::constant);
+    EXPECT_EQ(dither.method, core::DitherMethod::automatic);
+    EXPECT_EQ(dither.seed, 7u);
+    EXPECT_EQ(made.timer.value(), 1e7);
+    // 50 us of 5 ms are edges; the rest is a plateau of 45e3/0.99 Hz.
+    EXPECT_DOUBLE_EQ(made.plateau_ratio, 1.0 / 0.99);
+    EXPECT_DOUBLE_EQ(dither.cycle_ticks, 1e7 * 0.99 / 45e3);
+}
+
+TEST(Wiring, a_bias_that_the_timer_cannot_resolve_is_not_dithered) {
+    config::Config c;
+    c.gyro.dither = core::DitherMethod::paired;
+    c.gyro.bias_hz = 1e8;
+    EXPECT_THROW((void)rig::control_config(c), config::ConfigError);
+    c.gyro.dither = core::DitherMethod::none;
+    EXPECT_NO_THROW((void)rig::control_config(c));
+}
+
+TEST(Wiring, the_detector_reads_through_the_calibrated_curve) {
+    config::Config c;
+    EXPECT_EQ(rig::control_config(c).detector.curve.n_nodes, 0);
+    for (const double sign : {1.0, -1.0}) {
+        c.gyro.discriminator_per_lambda = 0.5 * sign;
+        c.perimeter.discriminator_detuning_lambda = {0.1, 0.2};
+        c.perimeter.discriminator_signal = {0.05, 0.2};
+        const core::DiscriminatorCurve curve = rig::control_config(c).detector.curve;
+        EXPECT_NEAR(core::true_detuning(curve, 0.05 / 0.5).detuning_lambda, 0.1, 1e-15);
+        EXPECT_NEAR(core::true_detuning(curve, -0.2 / 0.5).detuning_lambda, -0.2, 1e-15);
+    }
+    c.perimeter.discriminator_signal = {0.05, 900.0};
+    EXPECT_THROW((void)rig::control_config(c), config::ConfigError);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ inline TwinConfig quiet_gyro() {
     config.nonmagnetic_arcsec_s = 0.0;
     config.random_walk_arcsec_sqrt_s = 0.0;
     config.adc_noise_v = 0.0;
+    config.coil_noise_a = 0.0;
     config.expansion_lambda_per_c = 0.0;
     return config;
 }

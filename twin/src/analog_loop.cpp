@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace zlg::twin {
 namespace {
@@ -32,13 +33,17 @@ void exponential(double tau_s, double rc_s, double t_s, double (&result)[2][2]) 
 
 }  // namespace
 
-AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s)
+AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s,
+                       std::shared_ptr<const ErrorSignal> signal)
     : stage_{stage},
       tau_s_{config.loop_tau_s},
       limit_lambda_{config.loop_limit_lambda},
       step_s_{step_s},
       steps_per_s_{1.0 / step_s},
-      n_substeps_{1} {
+      n_substeps_{1},
+      signal_{std::move(signal)},
+      settled_lambda_{signal_ ? signal_->settled_lambda() : 0.0},
+      straight_lambda_{signal_ ? signal_->straight_lambda() : two_way_limit_lambda} {
     // A quarter of the fastest time constant leaves the fourth-order rule 1e-6 of error; 10 us does the same where the
     // limiter or the current limit bends the motion.
     const double fastest_s = std::min({tau_s_, stage_.rc_s(), std::sqrt(tau_s_ * stage_.rc_s())});
@@ -46,9 +51,14 @@ AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, doubl
     exponential(tau_s_, stage_.rc_s(), step_s, propagator_);
 }
 
+double AnalogLoop::signal_at(double perimeter_lambda) const {
+    if (signal_) return signal_->at(perimeter_lambda);
+    const Mode mode = lasing_mode(perimeter_lambda);
+    return mode.two_way() ? mode.helicity() * mode.detuning_lambda : 0.0;
+}
+
 AnalogLoop::State AnalogLoop::rates(State state, int polarity, double drift_lambda) const {
-    const Mode mode = lasing_mode(state.v_lambda + drift_lambda);
-    const double signal = mode.two_way() ? polarity * mode.helicity() * mode.detuning_lambda : 0.0;
+    const double signal = polarity * signal_at(state.v_lambda + drift_lambda);
     return {-std::clamp(signal, -limit_lambda_, limit_lambda_) / tau_s_,
             stage_.rate_lambda_s(state.v_lambda, state.command_lambda)};
 }

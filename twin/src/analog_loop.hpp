@@ -5,12 +5,15 @@
 //   dv/dt         = clip((command - v)/rc, +-slew)
 //
 // helicity and dl are those of the mode that lases: with the wrong mode the loop pushes away. Without two-way light the
-// integrator holds. Where nothing clips, one step is a matrix; elsewhere it is Runge-Kutta.
+// integrator holds. With the light of a laser, its own signal takes the place of helicity dl, whatever is lit. Where
+// nothing clips or bends, one step is a matrix; elsewhere it is Runge-Kutta.
 
 #include <cmath>
+#include <memory>
 
 #include <zlg/twin/twin.hpp>
 
+#include "error_signal.hpp"
 #include "high_voltage.hpp"
 #include "laser.hpp"
 
@@ -25,7 +28,9 @@ public:
         double v_lambda;
     };
 
-    AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s);
+    // signal  of a laser; null: the linear law.
+    AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s,
+               std::shared_ptr<const ErrorSignal> signal);
 
     // One step from `state`, in which `mode` lases, while the perimeter's own length moves evenly from drift_start to
     // drift_end.
@@ -36,6 +41,7 @@ public:
 
 private:
     [[nodiscard]] bool is_linear(State state, double detuning_lambda) const;
+    [[nodiscard]] double signal_at(double perimeter_lambda) const;
     [[nodiscard]] State rates(State state, int polarity, double drift_lambda) const;
     [[nodiscard]] State runge_kutta(State state, int polarity, double drift_start, double drift_end) const;
 
@@ -46,10 +52,14 @@ private:
     double steps_per_s_;
     int n_substeps_;
     double propagator_[2][2];  // over (command, v), both relative to the steady state
+    std::shared_ptr<const ErrorSignal> signal_;
+    double settled_lambda_;   // detuning at which the signal is zero
+    double straight_lambda_;  // and how far from there it is straight
 };
 
+// detuning_lambda  from where the loop settles.
 inline bool AnalogLoop::is_linear(State state, double detuning_lambda) const {
-    return std::abs(detuning_lambda) <= limit_lambda_ && std::abs(detuning_lambda) < two_way_limit_lambda &&
+    return std::abs(detuning_lambda) <= limit_lambda_ && std::abs(detuning_lambda) < straight_lambda_ &&
            stage_.is_linear(state.v_lambda, state.command_lambda);
 }
 
@@ -57,17 +67,18 @@ inline bool AnalogLoop::is_linear(State state, double detuning_lambda) const {
 // shifts the state of rest to (tau - rc, tau) r.
 inline AnalogLoop::State AnalogLoop::step(State state, const Mode& mode, int polarity, double drift_start,
                                           double drift_end) const {
-    if (mode.helicity() != polarity || !is_linear(state, mode.detuning_lambda)) {
+    const double detuning = mode.detuning_lambda - settled_lambda_;
+    if (mode.helicity() != polarity || !is_linear(state, detuning)) {
         return runge_kutta(state, polarity, drift_start, drift_end);
     }
     const double drift_lambda_s = (drift_end - drift_start) * steps_per_s_;
     const double rest_v = tau_s_ * drift_lambda_s;
     const double rest_command = rest_v - stage_.rc_s() * drift_lambda_s;
-    const double x_v = mode.detuning_lambda - rest_v;
-    const double x_command = mode.detuning_lambda + (state.command_lambda - state.v_lambda) - rest_command;
+    const double x_v = detuning - rest_v;
+    const double x_command = detuning + (state.command_lambda - state.v_lambda) - rest_command;
     const double end_v = rest_v + without_dust(propagator_[1][0] * x_command + propagator_[1][1] * x_v);
     const double end_command = rest_command + without_dust(propagator_[0][0] * x_command + propagator_[0][1] * x_v);
-    const double origin = 0.5 * static_cast<double>(mode.centre_half_lambda) - drift_end;
+    const double origin = 0.5 * static_cast<double>(mode.centre_half_lambda) + settled_lambda_ - drift_end;
     const State end{origin + end_command, origin + end_v};
     return is_linear(end, end_v) ? end : runge_kutta(state, polarity, drift_start, drift_end);
 }

@@ -11,7 +11,17 @@
 
 namespace zlg::twin {
 
-enum class NoiseCause : std::uint64_t { light = 1, random_walk, adc, dark_counts, start_phase };
+enum class NoiseCause : std::uint64_t {
+    light = 1,
+    random_walk,
+    adc,
+    dark_counts,
+    start_phase,
+    faults,
+    fault_times,
+    faulty_light,
+    coil,
+};
 
 // Seeds that differ in one bit become unrelated (SplitMix64's output function).
 inline std::uint64_t scrambled(std::uint64_t x) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,24 +33,28 @@ void check(const core::ActuatorFrame& frame, LoopKind loop) {
 
 }  // namespace
 
-Perimeter::Perimeter(const TwinConfig& config, int n_steps)
+Perimeter::Perimeter(const TwinConfig& config, int n_steps, std::shared_ptr<const ErrorSignal> signal)
     : config_{config},
       n_steps_{n_steps},
       step_s_{0.5 * config.tick_s / n_steps},
       stage_{config, step_s_},
       dac_{config.piezo_min_v, config.piezo_max_v, config.dac_bits},
-      loop_{config, stage_, step_s_} {
+      loop_{config, stage_, step_s_, std::move(signal)},
+      piezo_{config, step_s_} {
     set_points_.reserve(core::max_set_points);
     for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.loop_tau_s));
 }
 
 double Perimeter::voltage_v() const { return std::clamp(stage_.volts(v_), config_.piezo_min_v, config_.piezo_max_v); }
 
-void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda) {
+void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda,
+                           const FaultyHalf* faulty) {
     check(frame, config_.loop);
-    drift_start_ = drift_ = drift_start_lambda;
+    faulty_ = faulty;
+    drift_start_ = drift_start_lambda;
     drift_step_ = (drift_end_lambda - drift_start_lambda) / n_steps_;
     steps_done_ = 0;
+    drift_ = drift_at(0);
 
     const bool closes = frame.loop_closed && !closed_;
     const bool aims = !frame.loop_closed && (closed_ || frame.polarity != polarity_);
@@ -71,6 +76,9 @@ void Perimeter::take_half_wave(double half_wave_v) {
     v_ *= growth;
     command_ *= growth;
     injected_ *= growth;
+    if (piezo_.is_ideal()) return;
+    piezo_.scale(growth);
+    excess_ *= growth;
 }
 
 void Perimeter::take_set_points(const core::ActuatorFrame& frame) {
@@ -80,25 +88,41 @@ void Perimeter::take_set_points(const core::ActuatorFrame& frame) {
     }
 }
 
-// Choose the error of the second input so that the move ends short of the centre by the miss that is asked for.
+// Choose the error of the second input so that the move ends short of the centre by the miss that is asked for, and off
+// that by what a fault adds.
 void Perimeter::aim() {
-    injected_ = 0.0;
+    switch_error_ = faulty_ ? faulty_->switch_error_lambda : 0.0;
+    injected_ = switch_error_;
     direction_ = set_points_.back() >= v_ ? 1.0 : -1.0;
     if (!(config_.miss_lambda > 0.0)) return;
-    const double target = set_points_.back() + drift_;
-    injected_ = nearest_centre_lambda(polarity_, target) - direction_ * config_.miss_lambda - target;
+    const double target = piezo_.length_at(set_points_.back()) + drift_;
+    const double short_of = direction_ * config_.miss_lambda;
+    const double wanted = nearest_centre_lambda(polarity_, target) - short_of;
+    injected_ = piezo_.is_ideal() ? wanted - target : piezo_.voltage_for(wanted - drift_) - set_points_.back();
+    injected_ += switch_error_;
 }
 
-// At closing the miss is put in place exactly. Where that voltage lies out of range, the next mode of this helicity
-// takes it: validation made sure that the range holds one.
+// The voltage for a length of the piezo. Where it lies out of range, the next mode of this helicity takes it:
+// validation made sure that the range holds one.
+double Perimeter::pinned_at(double piezo_length_lambda) const {
+    double v = piezo_.voltage_for(piezo_length_lambda);
+    for (int turn = 0; turn < 4 && v != stage_.clamped(v); ++turn) {
+        piezo_length_lambda += v > stage_.clamped(v) ? -1.0 : 1.0;
+        v = piezo_.voltage_for(piezo_length_lambda);
+    }
+    return stage_.clamped(v);
+}
+
+// At closing the miss is put in place exactly.
 void Perimeter::close() {
     if (config_.miss_lambda > 0.0) {
         const double short_of = direction_ * config_.miss_lambda;
-        double pinned = nearest_centre_lambda(polarity_, length_lambda() + short_of) - short_of - drift_;
-        while (pinned > stage_.clamped(pinned)) pinned -= 1.0;
-        while (pinned < stage_.clamped(pinned)) pinned += 1.0;
-        pinned = stage_.clamped(pinned);
-        v_ = pinned;
+        const double centre = nearest_centre_lambda(polarity_, length_lambda() - switch_error_ + short_of);
+        v_ = pinned_at(centre - short_of - drift_ + switch_error_);
+        if (!piezo_.is_ideal()) {
+            piezo_.jump(v_);
+            excess_ = piezo_.length_at(v_) - v_;
+        }
         // At the last set-point of the open loop the voltage stays there; what an outer loop adds from now on, acts.
         injected_ = v_ - set_points_.back();
     }

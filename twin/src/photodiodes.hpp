@@ -9,6 +9,7 @@
 
 #include <zlg/twin/twin.hpp>
 
+#include "fault_light.hpp"
 #include "laser.hpp"
 #include "noise.hpp"
 
@@ -27,15 +28,17 @@ public:
           noise_{std::sqrt(2.0) * level * config.discriminator_per_lambda * config.light_noise_lambda},
           stream_{config.seed, NoiseCause::light} {}
 
-    Beams sample(const Mode& mode, int bias_sign) {
+    static constexpr double level = 1000.0;  // of each beam at the centre; any unit, only ratios of light mean anything
+
+    Beams sample(const Mode& mode, int bias_sign, const LightParts& left = {}) {
         const double signal = bias_sign * mode.helicity() * slope_per_lambda_ * mode.detuning_lambda;
-        if (mode.two_way()) return noisy(level * (1.0 + signal), level * (1.0 - signal));
-        return signal > 0.0 ? noisy(level, 0.0) : noisy(0.0, level);
+        const double a = level * left.a;
+        const double b = level * left.b;
+        if (mode.two_way()) return noisy(a * (1.0 + signal), b * (1.0 - signal));
+        return signal > 0.0 ? noisy(a, 0.0) : noisy(0.0, b);
     }
 
 private:
-    static constexpr double level = 1000.0;  // any unit: only ratios of light mean anything
-
     Beams noisy(double a, double b) {
         if (noise_ > 0.0) {
             a += noise_ * stream_.gauss();

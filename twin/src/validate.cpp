@@ -1,6 +1,7 @@
 #include "validate.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
 
@@ -61,6 +62,34 @@ void validate_light_and_drift(const TwinConfig& c) {
     require_not_negative("random_walk_arcsec_sqrt_s", c.random_walk_arcsec_sqrt_s);
 }
 
+// Beyond these the play operators could not give the loop asked for, or creep would rival the stroke itself.
+constexpr double max_hysteresis = 0.4;
+constexpr double max_creep_per_decade = 0.05;
+
+bool has_ideal_piezo(const TwinConfig& c) {
+    return c.piezo_hysteresis == 0.0 && c.piezo_creep_per_decade == 0.0 && c.mirror_hz == 0.0;
+}
+
+void validate_piezo_mirror(const TwinConfig& c) {
+    require_within("piezo_hysteresis", c.piezo_hysteresis, 0.0, max_hysteresis);
+    require_within("piezo_hysteresis_stroke_v", c.piezo_hysteresis_stroke_v, 1e-3 * c.half_wave_v, 1e3 * c.half_wave_v);
+    require_within("piezo_creep_per_decade", c.piezo_creep_per_decade, 0.0, max_creep_per_decade);
+    if (!(c.mirror_hz == 0.0)) require_within("mirror_hz", c.mirror_hz, 100.0, 1e6);
+    require_within("mirror_damping", c.mirror_damping, 1e-3, 0.999);
+    if (has_ideal_piezo(c)) return;
+    if (c.loop == LoopKind::exponential) {
+        throw std::invalid_argument(
+            "twin: the exponential loop presumes an ideal piezo: allowed is piezo_hysteresis, piezo_creep_per_decade "
+            "and mirror_hz = 0");
+    }
+    // A third half-wave is room for what hysteresis and creep take away.
+    if (c.miss_lambda > 0.0 && !(c.piezo_max_v - c.piezo_min_v >= 3.0 * c.half_wave_v)) {
+        refuse("half_wave_v", c.half_wave_v,
+               fmt::format("<= (piezo_max_v - piezo_min_v)/3 = {} where miss_lambda > 0 and the piezo is not ideal",
+                           (c.piezo_max_v - c.piezo_min_v) / 3.0));
+    }
+}
+
 // A length of 1e6 wavelengths still resolves a detuning to 1e-10.
 constexpr double max_travel_lambda = 1e6;
 
@@ -107,6 +136,45 @@ void validate_piezo(const TwinConfig& c) {
     require_not_negative("adc_noise_v", c.adc_noise_v);
 }
 
+// The members of the others do nothing in the averaged model.
+void validate_laser(const TwinConfig& c) {
+    if (c.fidelity == Fidelity::averaged) return;
+    if (c.fidelity != Fidelity::laser) refuse("fidelity", static_cast<int>(c.fidelity), "averaged or laser");
+    validate(c.laser);
+    validate(c.beats);
+    require_positive("laser.bias_field_g", c.laser.bias_field_g);
+    const double warm = 1.0 + c.bias_temperature_coefficient_per_c * c.temperature_rise_c;
+    require_within("1 + bias_temperature_coefficient_per_c * temperature_rise_c", warm, 1e-3, 1e3);
+}
+
+bool needs_real_loop(FaultKind kind) {
+    return kind <= FaultKind::piezo_step || kind == FaultKind::thermal_shock || kind == FaultKind::vibration ||
+           kind == FaultKind::shock;
+}
+
+void validate_fault(const Fault& fault, LoopKind loop) {
+    if (static_cast<std::size_t>(fault.kind) >= n_fault_kinds) {
+        refuse("fault kind", static_cast<double>(fault.kind), fmt::format("0..{}", n_fault_kinds - 1));
+    }
+    const FaultFacts& known = facts(fault.kind);
+    const auto member = [&](const char* name) { return fmt::format("fault {}: {}", known.name, name); };
+    require_within(member("at_s").c_str(), fault.at_s, 0.0, 1e9);
+    require_within(member("duration_s").c_str(), fault.duration_s, 0.0, 1e9);
+    require_within(member("size").c_str(), fault.size, known.min_size, known.max_size);
+    if (loop != LoopKind::exponential || !needs_real_loop(fault.kind)) return;
+    throw std::invalid_argument(fmt::format(
+        "twin: fault {}: the exponential loop is a formula that no light or length moves: allowed is loop analog or "
+        "external",
+        known.name));
+}
+
+void validate_faults(const TwinConfig& c) {
+    require_not_negative("coil_noise_a", c.coil_noise_a);
+    if (!(c.counter_max_hz > 0.0)) refuse("counter_max_hz", c.counter_max_hz, "> 0");
+    require_within("vibration_hz", c.vibration_hz, 1e-3, 1e6);
+    for (const Fault& fault : c.faults) validate_fault(fault, c.loop);
+}
+
 void validate_loop(LoopKind loop) {
     if (loop == LoopKind::analog || loop == LoopKind::exponential || loop == LoopKind::external) return;
     refuse("loop", static_cast<int>(loop), "analog, exponential or external");
@@ -120,6 +188,9 @@ void validate(const TwinConfig& config) {
     validate_loop(config.loop);
     validate_perimeter(config);
     validate_piezo(config);
+    validate_piezo_mirror(config);
+    validate_laser(config);
+    validate_faults(config);
 }
 
 }  // namespace zlg::twin

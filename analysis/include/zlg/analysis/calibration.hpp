@@ -7,6 +7,7 @@
 
 #include <zlg/analysis/estimate.hpp>
 #include <zlg/analysis/lab_log.hpp>
+#include <zlg/analysis/loss_curve.hpp>
 
 namespace zlg::analysis {
 
@@ -16,6 +17,7 @@ struct Presumed {
     double reference_temperature_c = 20.0;
     double rate_arcsec_s = 0.0;                       // at which the gyro was turned
     bool stepped_voltage = false;                     // the perimeter loop is digital
+    bool read_by_slope = true;                        // all detunings, by one and the same
     double bias_temperature_coefficient_per_c = 0.0;  // used where a single temperature was met; so is the next
     double half_wave_temperature_coefficient_per_c = 0.0;
 };
@@ -36,6 +38,7 @@ struct Goodness {
 struct Calibration {
     std::vector<Constant> constants;
     std::vector<Goodness> goodness;
+    LossCurve curve;  // through which bias_chi and detuning_scale see the logs, where it is determined
 };
 
 // logs    one or more of one gyro, of equal tick; otherwise std::invalid_argument.

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <zlg/config/faults.hpp>
+#include <zlg/config/laser.hpp>
 #include <zlg/core/methods.hpp>
 
 namespace zlg::config {
@@ -17,6 +19,7 @@ enum class Loop { analog, exponential, digital };
 enum class FirstSegment { full, half };
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
+enum class Fidelity { averaged, laser };
 
 struct Run {
     std::optional<double> duration_s;  // unset: 3600, or the length of the motion file
@@ -24,6 +27,7 @@ struct Run {
 };
 
 struct Gyro {
+    Fidelity fidelity = Fidelity::averaged;
     double tick_s = 0.005;
     double scale_arcsec = 3.263;
     double bias_hz = 60e3;  // mean over a half, edges included, at zero detuning and reference temperature
@@ -36,6 +40,8 @@ struct Gyro {
     std::int64_t light_samples = 16;
     double light_noise_lambda = 0.0033;
     double discriminator_per_lambda = 0.332;  // (I1 - I2)/(I1 + I2) per wavelength of detuning
+    core::DitherMethod dither = core::DitherMethod::none;
+    std::optional<double> counter_max_hz;  // unset: 1.01 times that of 400 deg/s and the bias
 };
 
 struct Drift {
@@ -52,6 +58,12 @@ struct Perimeter {
     double limit_lambda = 0.09;
     double miss_lambda = 0.22;
     double expansion_lambda_per_c = 0.025;
+    std::int64_t relock_halves = 0;  // digital loop: halves after closing in which it corrects all it sees; 0: none
+    double sample_gain = 0.12;       // in these halves, of one light sample
+    double settled_tau_s = 0.025;    // of the digital loop afterwards
+    std::int64_t set_points = 16;    // a half, of the digital loop
+    std::vector<double> discriminator_detuning_lambda;  // calibrated points of the discriminator; none: it is linear
+    std::vector<double> discriminator_signal;           // (I1 - I2)/(I1 + I2) there
 };
 
 struct Piezo {
@@ -62,6 +74,11 @@ struct Piezo {
     double slew_v_s = 4000.0;
     double range_min_v = 0.0;
     double range_max_v = 300.0;
+    double hysteresis = 0.0;  // width of a loop of stroke hysteresis_stroke_v over its height; 0: none
+    double hysteresis_stroke_v = 300.0;
+    double creep_per_decade = 0.0;  // growth of a stroke per decade of time; 0: none
+    double mirror_hz = 0.0;         // resonance of the mirror; 0: rigid
+    double mirror_damping = 0.05;
     std::int64_t dac_bits = 12;
     std::int64_t adc_bits = 12;
     double adc_noise_v = 0.02;
@@ -106,12 +123,14 @@ struct Design {
 struct Config {
     Run run;
     Gyro gyro;
+    Laser laser;
     Drift drift;
     Perimeter perimeter;
     Piezo piezo;
     Switching switching;
     Compensation compensation;
     Motion motion;
+    Faults faults;
     Design design;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include <zlg/core/angle.hpp>
+#include <zlg/core/edge_shift.hpp>
 #include <zlg/core/gap_bridge.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/core/relock_drift.hpp>
@@ -16,18 +17,22 @@ namespace zlg::core {
 
 struct GyroCompensationConfig {
     RelockDriftConfig relock{};
+    Hertz timer{1e7};                       // ticks of the timer per second, of shifted edges; 1..1e15
+    double plateau_ratio = 1.0;             // plateau of the bias over its mean in an even half, 1..2
     GapBridgeConfig bridge{};               // its count is the scale
     ArcsecPerRootSecond random_walk{0.14};  // for sigma, >= 0
 };
 
-enum class GyroCompensationFault : unsigned char { none, relock, bridge, random_walk };
+enum class GyroCompensationFault : unsigned char { none, relock, edges, bridge, random_walk };
 
 [[nodiscard]] GyroCompensationFault check(const GyroCompensationConfig& config) noexcept;
 
 struct GyroCompensationState {
     bool has_first = false;
-    HalfRecord first{};        // the half that waits for the other one of its tick
-    bool first_waits = false;  // the last tick was tick 1 of `frequency`
+    HalfRecord first{};          // the half that waits for the other one of its tick
+    bool first_waits = false;    // the last tick was tick 1 of `frequency`
+    bool start_unknown = false;  // the reversal that begins the next half is recorded where none can have been
+    EdgeShiftState edges{};
     RelockDriftState relock{};
     GapBridgeState bridge{};
     Angle angle{};  // sum of all dtheta delivered
@@ -41,7 +46,8 @@ struct CompensationOutput {
     double angle_arcsec = 0.0;  // accumulated
 };
 
-// Take one half-period. Counts beyond 2^52 are not believed: the half is taken as invalid.
+// Take one half-period. Counts beyond 2^52 are not believed: the half is taken as invalid. Nor is a shift of an edge by a
+// quarter of a tick or more: both halves beside it are.
 [[nodiscard]] CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
                                       const HalfRecord& half) noexcept;
 

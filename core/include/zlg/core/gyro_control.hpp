@@ -4,8 +4,14 @@
 #include <cstdint>
 
 #include <zlg/core/bias_commutator.hpp>
+#include <zlg/core/bias_monitor.hpp>
+#include <zlg/core/coil_monitor.hpp>
+#include <zlg/core/counter_monitor.hpp>
+#include <zlg/core/detuning_monitor.hpp>
+#include <zlg/core/frame_order.hpp>
 #include <zlg/core/half_wave.hpp>
 #include <zlg/core/health.hpp>
+#include <zlg/core/light_monitor.hpp>
 #include <zlg/core/mode_switch.hpp>
 #include <zlg/core/perimeter_loop.hpp>
 #include <zlg/core/records.hpp>
@@ -19,10 +25,16 @@ struct GyroControlConfig {
     SyncDetectorConfig detector{};
     PerimeterLoopConfig loop{};
     HalfWaveConfig half_wave{};
+    bool by_direction = false;  // moves up and down are learnt apart: a piezo that creeps has loops that do not close
     SwitchScheduleConfig schedule{};
     ModeSwitchConfig mode_switch{};  // its range is that of `loop`
     BiasCommutatorConfig commutator{};
     HealthConfig health{};
+    BiasMonitorConfig bias_monitor{};
+    CoilMonitorConfig coil_monitor{};
+    CounterMonitorConfig counter_monitor{};
+    LightMonitorConfig light_monitor{};
+    DetuningMonitorConfig detuning_monitor{};
     Celsius presumed_temperature{20.0};  // recorded until the first reading
 };
 
@@ -35,6 +47,7 @@ enum class GyroControlFault : unsigned char {
     mode_switch,
     commutator,
     health,
+    monitors,
     temperature,
     ranges_differ
 };
@@ -48,6 +61,10 @@ enum class GyroControlFault : unsigned char {
     if (check(c.mode_switch) != ModeSwitchFault::none) return GyroControlFault::mode_switch;
     if (check(c.commutator) != BiasCommutatorFault::none) return GyroControlFault::commutator;
     if (check(c.health) != HealthFault::none) return GyroControlFault::health;
+    if (check(c.bias_monitor) != BiasMonitorFault::none || check(c.coil_monitor) != CoilMonitorFault::none ||
+        check(c.light_monitor) != LightMonitorFault::none || check(c.detuning_monitor) != DetuningMonitorFault::none) {
+        return GyroControlFault::monitors;
+    }
     if (!(temperature_c > -1e6 && temperature_c < 1e6)) return GyroControlFault::temperature;
     if (!(c.loop.range == c.mode_switch.range)) return GyroControlFault::ranges_differ;
     return GyroControlFault::none;
@@ -56,16 +73,30 @@ enum class GyroControlFault : unsigned char {
 struct GyroControlState {
     SyncDetectorState detector{};
     PerimeterLoopState loop{};
-    HalfWaveState half_wave{};
+    HalfWaveState half_wave{};  // of moves upwards, or of all
+    HalfWaveState half_wave_down{};
     SwitchScheduleState schedule{};
     ModeSwitchState mode_switch{};
     BiasCommutatorState commutator{};
     std::int64_t half = 0;       // index of the half that is latched next; 2j and 2j + 1 make tick j
     std::uint64_t counter = 0;   // reading at the end of the last half
     bool counter_stale = false;  // no: at the end of an earlier one
-    bool sequence_known = false;
-    std::uint32_t next_sequence = 0;
-    double piezo_v = 0.0;  // last finite reading; so is the next
+    FrameOrderState order{};
+    BiasMonitorState bias_monitor{};
+    CoilMonitorState coil_monitor{};
+    CounterMonitorState counter_monitor{};
+    LightMonitorState light_monitor{};
+    DetuningMonitorState detuning_monitor{};
+    bool was_lit = false;          // the last half was counted, closed and lit
+    bool first_was_blind = false;  // the first half of the tick was valid, without a mean square of the detuning;
+    bool first_was_seen = false;   // with one
+    bool was_beyond = false;       // its counts were more than the gyro can make
+    bool light_spoilt = false;     // its light was not to be trusted
+    bool recentring = false;       // the last switch led away from an end of the range
+    std::int32_t n_near_end = 0;   // halves in a row with the piezo near an end of its range
+    bool temperature_known = false;
+    double temperature_before_c = 0.0;  // followed slowly
+    double piezo_v = 0.0;               // last finite reading; so is the next
     double temperature_c = 0.0;
 
     friend constexpr bool operator==(const GyroControlState&, const GyroControlState&) = default;
@@ -91,10 +122,14 @@ struct GyroControlOutput {
 //
 // Counts are the difference of two counter readings modulo 2^64, as a signed number. The record takes bias sign, mode
 // and loop state from the echoes; where there is none, or it is no sign, from the alternation and the last command.
-// Valid is a half with light in both directions, whose frame was received and follows its predecessor, with good signs.
-// Counts are 0 where the difference spans more than this half: in a missed frame, in the next one, and where the
-// frame's number does not follow. What was not measured is recorded as 0; voltage and temperature keep their last
-// finite value.
+// Valid is a half with light in both directions, whose frame was received and follows its predecessor, with good signs,
+// and to whose counts no monitor objects. Where the light says no and the bias beats on, the beat is believed after some
+// halves. Counts are 0 where the difference spans more than this half: in a missed frame, in the next one, and where the
+// frame's number does not follow: nothing in such a frame is used. What was not measured is recorded as 0; voltage and
+// temperature keep their last finite value.
+//
+// A mode of the other helicity than was commanded is kept, and the command follows it. Near an end of its range the piezo
+// is led away by a switch of its own time.
 //
 // config   passed `check`.
 // state    from `initial_state`; every number in it stays finite, whatever the frames hold.

@@ -36,6 +36,7 @@ struct HalfWaveState {
     double estimate_v = 0.0;
     double variance_v2 = 0.0;
     std::int32_t n_accepted = 0;
+    std::int8_t outlier_side = 0;  // of the last measurement: +1 above the gate, -1 below; 0: inside
 
     friend constexpr bool operator==(const HalfWaveState&, const HalfWaveState&) = default;
 };
@@ -57,6 +58,9 @@ struct HalfWaveOutput {
 //
 //   p = variance + process_sigma^2,  K = p / (p + measurement_sigma^2)
 //   estimate += K (measured - estimate),  variance = (1 - K) p
+//
+// A second outlier in a row on the same side is no accident: the first loops of a piezo with hysteresis are unlike its
+// later ones. It is believed, with p = (measured - estimate)^2.
 //
 // config    passed `check`.
 // state     from `initial_state`; the estimate stays between half and twice the presumed voltage.

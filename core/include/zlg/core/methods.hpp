@@ -1,5 +1,5 @@
 #pragma once
-// The methods of compensation that a configuration can name.
+// The methods that a configuration can name.
 
 namespace zlg::core {
 
@@ -9,6 +9,14 @@ enum class RelockMethod : unsigned char {
     frequency,    // from the measured bias frequency, eq (11)
     detuning,     // from the mean detuning of each half and an exponential loop, eqs (12)-(13)
     mean_square,  // from the mean square of the detuning of each half, without a loop model
+};
+
+// How the reversals of the bias are shifted against lock-in.
+enum class DitherMethod : unsigned char {
+    none,
+    automatic,  // paired at low rates, random at high ones
+    paired,
+    random,
 };
 
 // What replaces the ticks of a gap.

@@ -15,6 +15,9 @@
 //   returning  | ignored       | closes, stays       | -> tracking, `returned`  | -> searching, first place
 //   searching  | ignored       | closes, stays       | -> tracking, `found`     | stays, next place
 //
+// A mode of the other helicity than was commanded is kept, and the command follows it: its place is as good, and a
+// reference of the wrong sign would drive it away. What remains is a lock to be seen, as after a return.
+//
 // The gyro starts in `settling`, loop closed; the lock that ends the start is no event. Searching goes through the
 // range in steps of half a half-wave voltage, each with both helicities, round and round until a mode is held.
 
@@ -95,6 +98,8 @@ struct ModeSwitchState {
 
 struct ModeSwitchInput {
     bool due = false;            // open at the next tick border
+    bool recentre = false;       // the same, because the range ends: the move teaches nothing
+    bool reversed = false;       // the other helicity lases than was commanded
     bool tick_border = false;    // the half to come is the first of a tick
     std::int64_t next_tick = 0;  // that tick
     bool light_known = false;    // frame received, samples finite
@@ -104,6 +109,7 @@ struct ModeSwitchInput {
     Volts piezo{};      // reading; NaN when there is none
     Volts set_point{};  // the loop's present command: stands in for U+ when nothing was read
     Volts half_wave{};  // present estimate, > 0
+    Volts offset{};     // of a move in either direction
 };
 
 struct SwitchEvent {
@@ -113,6 +119,7 @@ struct SwitchEvent {
     double miss_lambda = 0.0;    // mean detuning of the first closed half
     bool has_half_wave = false;  // only of `switched`, with fresh readings before and after
     double half_wave_v = 0.0;    // |U- - U+|
+    std::int8_t direction = 1;   // sign of U- - U+
     bool out_of_range = false;   // no neighbour kept the margin of the range
 
     friend constexpr bool operator==(const SwitchEvent&, const SwitchEvent&) = default;
@@ -130,7 +137,7 @@ struct ModeSwitchOutput {
 
 // Advance by one half-period: what was seen of it in, what to command for the next out.
 //
-// A switch: U+ is the mean of the last readings, polarity is inverted, U- = U+ + sign U_lambda/2 goes to the second
+// A switch: U+ is the mean of the last readings, polarity is inverted, U- = U+ + sign U_lambda/2 + offset goes to the second
 // input, and the loop stays open for gap_ticks. The lock that ends it measures |U- - U+|.
 //
 // config  passed `check`.

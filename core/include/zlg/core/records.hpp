@@ -65,13 +65,15 @@ struct HalfRecord {
     std::int8_t mode = 1;  // helicity commanded
     bool loop_closed = true;
     bool valid = true;  // light in both directions, frame received
+    std::int32_t edge_offset_ticks =
+        0;  // shift of the reversal that ends this half, ticks of the timer; positive is later
 
     // The same bits, so that a quantity that was not measured is equal to itself.
     friend constexpr bool operator==(const HalfRecord& a, const HalfRecord& b) noexcept {
         return a.half == b.half && a.counts == b.counts && same_bits(a.detuning_lambda, b.detuning_lambda) &&
                same_bits(a.detuning_sq_lambda2, b.detuning_sq_lambda2) && same_bits(a.piezo_v, b.piezo_v) &&
                same_bits(a.temperature_c, b.temperature_c) && a.bias_sign == b.bias_sign && a.mode == b.mode &&
-               a.loop_closed == b.loop_closed && a.valid == b.valid;
+               a.loop_closed == b.loop_closed && a.valid == b.valid && a.edge_offset_ticks == b.edge_offset_ticks;
     }
 };
 

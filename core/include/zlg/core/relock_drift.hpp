@@ -14,6 +14,7 @@
 
 #include <cstdint>
 
+#include <zlg/core/discriminator_curve.hpp>
 #include <zlg/core/methods.hpp>
 #include <zlg/core/units.hpp>
 
@@ -30,6 +31,7 @@ struct RelockDriftConfig {
     Celsius reference_temperature{20.0};         // finite
     Wavelengths light_noise{0.0033};             // of one light sample, >= 0
     int light_samples = 16;                      // a half, >= 1
+    DiscriminatorCurve curve{};                  // for detunings that the linear law has read; none: they are right
 };
 
 enum class RelockDriftFault : unsigned char {
@@ -41,16 +43,21 @@ enum class RelockDriftFault : unsigned char {
     chi,
     temperature,
     light_noise,
-    light_samples
+    light_samples,
+    curve
 };
 
 [[nodiscard]] RelockDriftFault check(const RelockDriftConfig& config) noexcept;
+
+// f0 at a temperature; NaN: at the reference temperature.
+[[nodiscard]] Hertz bias_at(const RelockDriftConfig& config, Celsius temperature) noexcept;
 
 // One measured tick, its halves in order of time.
 struct RelockTick {
     int sign = 1;  // bias_sign * mode in the first half
     std::int64_t counts_first = 0;
     std::int64_t counts_second = 0;
+    double known_excess_counts = 0.0;    // of the first over the second, by shifted edges: not the bias's deficit
     double detuning_first_lambda = 0.0;  // NaN where not measured
     double detuning_second_lambda = 0.0;
     double detuning_sq_first_lambda2 = 0.0;

@@ -18,6 +18,8 @@ struct RawColumns {
     bool has_detuning_sq = false;  // detuning_sq_lambda2
     bool has_piezo = false;
     bool has_temperature = false;
+    bool has_edge_offset = false;  // edge_offset_ticks, whose timer makes so many ticks per second:
+    double timer_hz = 0.0;         // 1..1e15 where there are shifts, else not used
 };
 
 inline constexpr RawColumns all_raw_columns{true, true, true, true, true};
@@ -34,13 +36,14 @@ class RawSource;
 class RawSink;
 
 // Reads rows in order and checks every one: half without holes from 0, bias_sign +1/-1 and alternating, mode +1/-1,
-// integer counts of magnitude at most 2^52, loop_closed and valid 0/1, finite numbers. Absent optional columns: NaN,
-// valid 1. The format is told from the content.
+// integer counts of magnitude at most 2^52, loop_closed and valid 0/1, finite numbers, edge offsets of 32 bits. Absent
+// optional columns: NaN, valid 1, edge offset 0. The format is told from the content.
 class RawReader {
 public:
     // An HDF5 log may be open in a writer, or left behind by one that was killed: its whole rows are there.
     //
-    // errors  IoError, FormatError (an empty file, no header, a missing or misspelt column, one of a wrong kind).
+    // errors  IoError, FormatError (an empty file, no header, a missing or misspelt column, one of a wrong kind, edge
+    // offsets without timer_hz).
     explicit RawReader(const std::string& path);
     ~RawReader();
     RawReader(RawReader&&) noexcept;
@@ -78,14 +81,15 @@ struct RawWriterOptions {
 // and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
 class RawWriter {
 public:
-    // errors  IoError (another suffix included), FormatError (a setting with a line break, light samples in a CSV log).
+    // errors  IoError (another suffix included), FormatError (a setting with a line break, light samples in a CSV log, edge
+    // offsets without timer_hz).
     RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings, bool force,
               const RawColumns& columns = all_raw_columns, const RawWriterOptions& options = {});
     ~RawWriter();
     RawWriter(RawWriter&&) noexcept;
 
-    // errors  IoError; FormatError: a number of a column that is not finite, which no reader would accept; another number
-    // of light samples than announced.
+    // errors  IoError; FormatError: a number of a column that is not finite, which no reader would accept; a shifted edge
+    // without the column for it; another number of light samples than announced.
     void write(const core::HalfRecord& record, std::span<const float> light = {});
 
     // Makes all rows so far visible to readers of PATH.part. errors  IoError.

@@ -4,12 +4,15 @@
 #include <cstdint>
 
 #include <zlg/config/config.hpp>
+#include <zlg/core/discriminator_curve.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/twin/motion.hpp>
 #include <zlg/twin/twin.hpp>
 
 namespace zlg::rig {
+
+inline constexpr double timer_hz = 1e7;  // of the gyro's timer
 
 // errors  logs::IoError, logs::FormatError for a motion file.
 [[nodiscard]] twin::Motion motion(const config::Config& config);
@@ -20,6 +23,13 @@ namespace zlg::rig {
 [[nodiscard]] std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion);
 
 [[nodiscard]] twin::TwinConfig twin_config(const config::Config& config);
+
+// From what a slope alone has read of a signal to the detuning at which [perimeter] says that the signal was found; the
+// linear law where it says nothing.
+//
+// slope_per_lambda  with which the signal was read; not 0.
+// errors            config::ConfigError where the points make no curve.
+[[nodiscard]] core::DiscriminatorCurve discriminator_curve(const config::Config& config, double slope_per_lambda);
 
 // errors  config::ConfigError: the part of the core that refuses, and what its check says.
 [[nodiscard]] core::GyroControlConfig control_config(const config::Config& config);

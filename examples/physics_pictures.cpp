@@ -1,0 +1,50 @@
+// The pictures and the numbers of docs/physics.md.
+//
+// usage: zlg_physics_pictures OUT_DIR
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include <zlg/study/physics_pictures.hpp>
+
+namespace {
+
+// Whole or not at all.
+void write(const std::filesystem::path& path, const std::string& text) {
+    const std::filesystem::path part = path.string() + ".part";
+    {
+        std::ofstream out{part, std::ios::binary};
+        out.exceptions(std::ios::badbit | std::ios::failbit);
+        out << text;
+        out.close();
+    }
+    std::filesystem::rename(part, path);
+}
+
+void write_all(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    const zlg::study::PhysicsPictures made = zlg::study::physics_pictures();
+    for (const zlg::study::Picture& picture : made.pictures) {
+        write(folder / (picture.name + ".svg"), zlg::study::svg_file(picture));
+    }
+    write(folder / "numbers.md", zlg::study::markdown(made.readings));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::cerr << "usage: zlg_physics_pictures OUT_DIR\n";
+        return 2;
+    }
+    try {
+        write_all(argv[1]);
+    } catch (const std::exception& error) {
+        std::cerr << "zlg_physics_pictures: " << argv[1] << ": " << error.what() << "\n";
+        return 3;
+    }
+    return 0;
+}

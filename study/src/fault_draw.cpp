@@ -1,0 +1,76 @@
+#include <cmath>
+#include <cstddef>
+#include <random>
+
+#include <zlg/rig/laser_calibration.hpp>
+#include <zlg/study/fault_campaign.hpp>
+
+namespace zlg::study {
+namespace {
+
+constexpr double grace_s = 1.0;  // after a fault, in which a gyro may still be about to recover
+
+// Numbers of a trial, one for each thing that is drawn.
+class Draw {
+public:
+    explicit Draw(std::uint64_t seed) : engine_{seed} {}
+    double within(double least, double most) {
+        return least + (most - least) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
+    }
+    double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
+    std::size_t below(std::size_t n) { return engine_() % n; }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+// Slow enough for the polynomial of a gap.
+void set_motion(Draw& draw, config::Motion& motion) {
+    const std::size_t kind = draw.below(3);
+    motion.kind =
+        kind == 0 ? config::MotionKind::rest : (kind == 1 ? config::MotionKind::constant : config::MotionKind::sine);
+    motion.rate_arcsec_s = kind == 1 ? draw.sign() * std::pow(10.0, draw.within(1.0, 5.0)) : 0.0;
+    motion.amplitude_arcsec_s = {draw.within(100.0, 3000.0)};
+    motion.frequency_hz = {draw.within(0.05, 0.3)};
+    motion.phase_deg = {draw.within(0.0, 360.0)};
+}
+
+config::Config random_gyro(Draw& draw) {
+    config::Config c;
+    c.run.seed = static_cast<std::int64_t>(draw.below(1'000'000'000));
+    c.switching.interval_s = 2.0;
+    c.perimeter.miss_lambda = 0.0;
+    c.perimeter.loop = draw.below(2) == 0 ? config::Loop::analog : config::Loop::digital;
+    c.perimeter.relock_halves = 4;
+    c.piezo.hysteresis = 0.12;
+    c.piezo.creep_per_decade = 0.015;
+    c.piezo.half_wave_error = draw.within(-0.02, 0.02);
+    set_motion(draw, c.motion);
+    return c;
+}
+
+bool concerns_a_switch(twin::FaultKind kind) {
+    return kind == twin::FaultKind::switch_wrong_mode || kind == twin::FaultKind::switch_no_mode;
+}
+
+}  // namespace
+
+FaultTrial random_trial(std::optional<twin::FaultKind> kind, std::uint64_t seed, config::Fidelity fidelity) {
+    Draw draw{seed};
+    FaultTrial trial{.config = random_gyro(draw), .watched_s = 4.0, .end_s = 7.5};
+    trial.config.gyro.fidelity = fidelity;
+    if (fidelity == config::Fidelity::laser) trial.config = rig::calibrated_by_laser(trial.config);
+    if (!kind) return trial;
+    twin::Fault fault = twin::random_fault(*kind, draw.within(2.5, 4.5), seed);
+    if (concerns_a_switch(*kind)) {
+        fault.at_s = 3.99;
+        fault.duration_s = 0.02;
+    }
+    trial.fault = fault;
+    trial.watched_s = fault.at_s + fault.duration_s + grace_s;
+    // Ends half-way between two switches.
+    trial.end_s = 2.0 * std::ceil(0.5 * (trial.watched_s + 1.0)) + 1.5;
+    return trial;
+}
+
+}  // namespace zlg::study

@@ -1,0 +1,101 @@
+"""docs/physics.md, its pictures and its numbers are what the program computes."""
+
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from support import ROOT, ZLG
+
+PROGRAM = ZLG.parent / "zlg_physics_pictures"
+PICTURES = ROOT / "docs" / "pictures"
+PAGE = ROOT / "docs" / "physics.md"
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def last_digit(number):
+    """What one more in the last digit is worth."""
+    mantissa, _, exponent = number.partition("e")
+    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+
+
+class Pictures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="zlg-physics-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.made = Path(folder.name)
+        subprocess.run([PROGRAM, cls.made], check=True, timeout=600)
+
+    def assert_same(self, name, allowed):
+        """The same text; numbers differ by no more than another compiler's rounding: `allowed(number)`."""
+        committed = (PICTURES / name).read_text()
+        made = (self.made / name).read_text()
+        renew = f"docs/pictures/{name}: renew with zlg_physics_pictures docs/pictures"
+        self.assertEqual(NUMBER.split(committed), NUMBER.split(made), renew)
+        for a, b in zip(NUMBER.findall(committed), NUMBER.findall(made)):
+            self.assertLessEqual(abs(float(a) - float(b)), allowed(a), f"{a} and {b}; {renew}")
+
+    def test_the_folder_holds_what_the_program_makes(self):
+        self.assertEqual({p.name for p in PICTURES.iterdir()}, {p.name for p in self.made.iterdir()})
+
+    def test_every_committed_picture_is_what_the_program_draws(self):
+        pictures = sorted(p.name for p in self.made.glob("*.svg"))
+        self.assertEqual(len(pictures), 9)
+        for name in pictures:
+            with self.subTest(name):
+                self.assert_same(name, lambda _: 0.5)  # of 680 units of width
+
+    def test_every_committed_number_is_what_the_program_computes(self):
+        self.assert_same("numbers.md", lambda a: max(1.001 * last_digit(a), 0.02 * abs(float(a))))
+
+    def test_a_wrong_call_and_a_folder_that_cannot_be_are_refused(self):
+        self.assertEqual(subprocess.run([PROGRAM], stderr=subprocess.DEVNULL).returncode, 2)
+        inside_a_file = PAGE / "pictures"
+        self.assertEqual(subprocess.run([PROGRAM, inside_a_file], stderr=subprocess.DEVNULL).returncode, 3)
+
+
+class Page(unittest.TestCase):
+    def setUp(self):
+        self.text = PAGE.read_text()
+
+    def test_it_holds_the_table_of_numbers(self):
+        self.assertIn((PICTURES / "numbers.md").read_text(), self.text, "copy docs/pictures/numbers.md into the page")
+
+    def test_every_number_that_links_to_the_table_is_in_it(self):
+        table = set(NUMBER.findall((PICTURES / "numbers.md").read_text()))
+        quoted = re.findall(r"\[([\d.e-]+)(?:\s[^\]]*)?\]\(#numbers\)", self.text)
+        self.assertGreater(len(quoted), 10)
+        self.assertEqual(set(quoted) - table, set())
+
+    def test_it_shows_every_picture(self):
+        shown = set(re.findall(r"\(pictures/(\w+\.svg)\)", self.text))
+        self.assertEqual(shown, {p.name for p in PICTURES.glob("*.svg")})
+
+    def test_every_test_that_it_names_exists(self):
+        named = set(re.findall(r"`([A-Z]\w+)\.(\w+)`", self.text))
+        self.assertGreater(len(named), 20)
+        sources = "".join(path.read_text() for path in (ROOT / "tests").rglob("*_test.cpp"))
+        existing = set(re.findall(r"(?:TEST(?:_F|_P)?|RC_GTEST_PROP)\(\s*(\w+),\s*(\w+)", sources))
+        self.assertEqual(named - existing, set())
+
+    def test_every_default_that_it_lists_is_that_of_the_program(self):
+        listed = subprocess.run([ZLG, "--keys"], capture_output=True, text=True, check=True).stdout
+        section, defaults = "", {}
+        for line in listed.splitlines():
+            if found := re.match(r"#+ `?\[?(\w+)\]?`?", line):
+                section = found.group(1)
+            elif found := re.match(r"\| `(\w+)` \|", line):
+                defaults[f"{section}.{found.group(1)}"] = [cell.strip() for cell in line.split("|")][2:4]
+        rows = re.findall(r"^\| `(\w+\.\w+)` \| ([^|]*) \| ([^|]*) \|", self.text, re.MULTILINE)
+        self.assertGreater(len(rows), 25)
+        for key, value, unit in rows:
+            with self.subTest(key):
+                self.assertIn(key, defaults)
+                self.assertEqual([unit.strip(), f"`{value.strip()}`"], defaults[key])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,108 @@
+// What the paper reports, out of the four-wave laser in the loop with the control.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/laser_calibration.hpp>
+#include <zlg/rig/wiring.hpp>
+
+namespace {
+
+using namespace zlg;
+
+config::Config laser_gyro() {
+    config::Config c;
+    c.gyro.fidelity = config::Fidelity::laser;
+    c.motion.kind = config::MotionKind::rest;
+    c.switching.interval_s = 1.0;
+    return c;
+}
+
+// Halves from the opening of the loop on.
+std::vector<rig::LoopHalf> first_switch(const config::Config& c, int n) {
+    rig::ClosedLoop loop{c, rig::motion(c)};
+    rig::LoopHalf half = loop.advance();
+    while (half.record.loop_closed) half = loop.advance();
+    std::vector<rig::LoopHalf> halves{half};
+    while (static_cast<int>(halves.size()) < n) halves.push_back(loop.advance());
+    return halves;
+}
+
+TEST(LaserLoop, a_usable_pair_is_back_within_five_to_fifteen_milliseconds_of_the_opening) {
+    for (const double half_wave_error : {-0.03, 0.0, 0.03}) {
+        config::Config c = laser_gyro();
+        c.perimeter.miss_lambda = 0.0;
+        c.piezo.half_wave_error = half_wave_error;
+        const auto halves = first_switch(c, 12);
+        int usable = 12;
+        while (usable > 0 && halves[static_cast<std::size_t>(usable - 1)].record.valid) --usable;
+        const double back_ms = 2.5 * usable;
+        EXPECT_GE(back_ms, 5.0) << half_wave_error;
+        EXPECT_LE(back_ms, 15.0) << half_wave_error;
+        EXPECT_TRUE(halves[6].record.loop_closed);
+        EXPECT_FALSE(halves[5].record.loop_closed);
+    }
+}
+
+// Table 1 of the paper, uncorrected: 4056, 2956, 1306, 207 deg/h.
+TEST(LaserLoop, the_false_drift_after_a_miss_of_0_22_is_that_of_table_1) {
+    config::Config c = laser_gyro();
+    c.perimeter.miss_lambda = 0.22;
+    const auto halves = first_switch(c, 20);
+    constexpr std::array<double, 4> printed{4056.0, 2956.0, 1306.0, 207.0};
+    double sum = 0.0;
+    for (std::size_t tick = 0; tick < printed.size(); ++tick) {
+        const rig::LoopHalf& a = halves[6 + 2 * tick];
+        const rig::LoopHalf& b = halves[7 + 2 * tick];
+        EXPECT_TRUE(a.record.valid && b.record.valid) << tick;
+        // arcsec/s are deg/h; the sign is that of the mode's bias in the second half, which has more of it
+        const double drift = std::abs(a.truth.false_relock_arcsec + b.truth.false_relock_arcsec) / c.gyro.tick_s;
+        EXPECT_NEAR(drift, printed[tick], tick < 3 ? 0.15 * printed[tick] : 75.0) << tick;
+        sum += drift;
+    }
+    EXPECT_NEAR(sum, 8525.0, 0.08 * 8525.0);
+}
+
+// Rate of the counts in the middle of segments of either mode, rotation subtracted.
+TEST(LaserLoop, the_angle_is_a_saw_of_the_magnetic_drift_on_the_slope_of_the_other) {
+    config::Config c = laser_gyro();
+    c.motion.kind = config::MotionKind::constant;
+    c.motion.rate_arcsec_s = 3000.0;  // away from zones
+    c.laser.lock_in_left_hz = 0.0;
+    c.laser.lock_in_right_hz = 0.0;
+    c.drift.magnetic_arcsec_s = 20.0;
+    c.drift.magnetic_thermal_arcsec_s = 0.0;
+    c.drift.nonmagnetic_arcsec_s = 3.0;
+    c.switching.interval_s = 10.0;
+    rig::ClosedLoop loop{c, rig::motion(c)};
+    std::array<double, 4> rate{};
+    for (int h = 0; h < 16000; ++h) {
+        const rig::LoopHalf half = loop.advance();
+        const int in_segment = h % 4000;
+        if (in_segment < 400 || in_segment >= 3600) continue;
+        const double turned = c.gyro.scale_arcsec * static_cast<double>(half.record.counts);
+        rate[static_cast<std::size_t>(h / 4000)] += (turned - 3000.0 * 0.0025) / (3200 * 0.0025);
+    }
+    for (std::size_t k = 0; k < rate.size(); ++k) EXPECT_NEAR(rate[k], k % 2 == 0 ? 23.0 : -17.0, 0.9) << k;
+}
+
+TEST(LaserLoop, the_digital_loop_sees_the_light_of_the_laser_too) {
+    config::Config c = rig::calibrated_by_laser(laser_gyro());
+    c.perimeter.loop = config::Loop::digital;
+    c.perimeter.relock_halves = 4;
+    c.perimeter.miss_lambda = 0.1;
+    const auto halves = first_switch(c, 20);
+    EXPECT_GT(std::abs(halves[6].record.detuning_lambda), 0.02);
+    for (std::size_t h = 10; h < halves.size(); ++h) {
+        EXPECT_NEAR(halves[h].record.detuning_lambda, 0.0, 0.006) << h;
+        EXPECT_EQ(halves[h].record.mode, -1);
+        EXPECT_TRUE(halves[h].record.valid);
+    }
+}
+
+}  // namespace

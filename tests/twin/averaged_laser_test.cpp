@@ -1,0 +1,75 @@
+#include <zlg/twin/averaged_laser.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace zlg::twin {
+namespace {
+
+TEST(AveragedLaser, HasThePublishedFiguresOfTheDefaultGyro) {
+    const AveragedLaser a = averaged_laser(FourWave{LaserConfig{}}, 15.0);
+    EXPECT_NEAR(a.bias_hz, 60430.0, 5.0);
+    EXPECT_NEAR(a.bias_chi, 3.59, 0.005);
+    EXPECT_NEAR(a.discriminator_per_lambda, 0.332, 0.02 * 0.332);
+    EXPECT_NEAR(a.third_wave_lambda, 0.201, 0.002);
+    EXPECT_EQ(a.two_way_lambda, 0.25);
+    EXPECT_EQ(a.settled_lambda, 0.0);
+}
+
+TEST(AveragedLaser, FarFitsTakeTheQuarticTermIntoChi) {
+    const AveragedLaser a = averaged_laser(FourWave{LaserConfig{}}, 15.0, 0.2);
+    EXPECT_GT(a.bias_chi, 3.555);
+    EXPECT_LT(a.bias_chi, 3.587);
+    EXPECT_LT(a.bias_residual_ratio, 0.001);
+}
+
+// The two fidelities where both are valid: eq (2) and a straight discriminator against the laser's own.
+TEST(AveragedLaser, AgreesWithTheLaserWithinAHundredthUpToAFifthOfAWavelength) {
+    const FourWave laser{LaserConfig{}};
+    const AveragedLaser a = averaged_laser(laser, 15.0);
+    for (double dl = -0.2; dl <= 0.2; dl += 0.01) {
+        EXPECT_NEAR(a.bias_hz * (1.0 - a.bias_chi * dl * dl) / laser.at(dl, 15.0).left.bias_hz, 1.0, 0.01) << dl;
+    }
+    for (double dl = -0.02; dl <= 0.02; dl += 0.001) {
+        EXPECT_NEAR(laser.at(dl, 15.0).discriminator(), a.discriminator_per_lambda * dl, 0.01 * 0.332 * 0.02) << dl;
+    }
+}
+
+TEST(AveragedLaser, KnowsHowFarTheLightRunsBothWays) {
+    EXPECT_NEAR(averaged_laser(FourWave{LaserConfig{}}, 20.0).two_way_lambda, 0.243, 0.002);
+    EXPECT_NEAR(averaged_laser(FourWave{LaserConfig{.gain_loss_ratio = 1.1}}, 15.0).two_way_lambda, 0.189, 0.002);
+}
+
+// At the place where the loop settles the beams are equal, and the slope is that of the light there.
+TEST(AveragedLaser, UnequalIsotopesMoveThePlaceWhereTheLoopSettles) {
+    const FourWave laser{LaserConfig{.upper_isotope_ratio = 0.465}};
+    const AveragedLaser a = averaged_laser(laser, 15.0);
+    EXPECT_LT(a.settled_lambda, -0.01);
+    EXPECT_NEAR(laser.at(a.settled_lambda, 15.0).discriminator(), 0.0, 1e-12);
+    EXPECT_NEAR(laser.at(a.settled_lambda + 1e-4, 15.0).discriminator(), 1e-4 * a.discriminator_per_lambda, 1e-7);
+}
+
+TEST(AveragedLaser, TheTwinIsToldTheMeanOfAHalfWithItsEdges) {
+    TwinConfig config;
+    config.tick_s = 0.005;
+    config.bias_edge_s = 50e-6;
+    const AveragedLaser a{.bias_hz = 60000.0, .bias_chi = 3.5, .discriminator_per_lambda = 0.3};
+    const TwinConfig told = with_laser(config, a);
+    // A half of 2500 us loses a quarter of the 50 us at each of its ends.
+    EXPECT_NEAR(told.bias_hz, 60000.0 * (2500.0 - 25.0) / 2500.0, 1e-9);
+    EXPECT_EQ(told.bias_chi, 3.5);
+    EXPECT_EQ(told.discriminator_per_lambda, 0.3);
+    EXPECT_EQ(told.half_wave_v, config.half_wave_v);
+}
+
+TEST(AveragedLaser, RefusesWhatHasNoAverage) {
+    const FourWave laser{LaserConfig{}};
+    EXPECT_THROW((void)averaged_laser(laser, 0.0), std::invalid_argument);
+    EXPECT_THROW((void)averaged_laser(laser, 15.0, 0.3), std::invalid_argument);
+    EXPECT_THROW((void)averaged_laser(FourWave{LaserConfig{.gain_loss_ratio = 0.99}}, 15.0), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace zlg::twin

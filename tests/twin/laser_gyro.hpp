@@ -1,0 +1,15 @@
+#pragma once
+// Gyros of fidelity `laser` without noise or drift.
+
+#include "quiet_gyro.hpp"
+
+namespace zlg::twin {
+
+inline TwinConfig as_laser(TwinConfig config, double lock_hz = 0.0) {
+    config.fidelity = Fidelity::laser;
+    config.beats.lock_left_hz = lock_hz;
+    config.beats.lock_right_hz = lock_hz;
+    return config;
+}
+
+}  // namespace zlg::twin

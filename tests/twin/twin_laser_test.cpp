@@ -1,0 +1,155 @@
+// The twin as a laser: what it shows of its light, counts and reversals.
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include <zlg/twin/four_wave.hpp>
+#include <zlg/twin/twin.hpp>
+
+#include "laser_gyro.hpp"
+
+namespace zlg::twin {
+namespace {
+
+constexpr double plateau_hz = 60430.0;  // of the four-wave equations for the default gas, at 15 G
+
+TEST(TwinLaser, TheBeamsAreTheLightOfBothModesAtTheFieldOfTheHalf) {
+    const FourWave laser{LaserConfig{}};
+    for (const double dl : {0.0, 0.05, 0.19, 0.22, 0.25}) {
+        Twin twin{as_laser(held_gyro()), Motion::rest()};
+        for (int h = 0; h < 12; ++h) {
+            const TwinHalf half = twin.advance(frame(true, 1, 150.0 + 80.0 * dl));
+            if (h < 10) continue;  // the high voltage is still on its way
+            const LaserLight light = laser.at(dl, h % 2 == 0 ? 15.0 : -15.0);
+            // A DAC of 24 bits leaves 1e-5 of light.
+            EXPECT_NEAR(half.sensor.light_a[5] / (1000.0 * light.cw() / laser.centre_intensity()), 1.0, 3e-4) << dl;
+            EXPECT_NEAR(half.sensor.light_b[5] / (1000.0 * light.ccw() / laser.centre_intensity()), 1.0, 3e-4) << dl;
+        }
+    }
+}
+
+TEST(TwinLaser, AHalfCountsTheBiasOfItsPlateauLessItsEdges) {
+    Twin twin{as_laser(held_gyro()), Motion::rest()};
+    const TwinHalf first = twin.advance(frame(true, 1));
+    const double expected = plateau_hz * (2500e-6 - 25e-6);
+    EXPECT_NEAR(static_cast<double>(static_cast<std::int64_t>(first.sensor.counter)), expected, 1.1);
+    EXPECT_NEAR(static_cast<double>(count_between(first, twin.advance(frame(true, 1)))), -expected, 1.1);
+}
+
+// Half a wavelength further the other helicity has the opposite beat and the opposite discriminator.
+TEST(TwinLaser, TheOtherModeHasTheOtherSign) {
+    Twin twin{as_laser(held_gyro()), Motion::rest()};
+    const TwinHalf before = advance(twin, frame(true, -1, 190.8), 20).back();
+    const TwinHalf half = twin.advance(frame(true, -1, 190.8));
+    EXPECT_NEAR(static_cast<double>(count_between(before, half)), -plateau_hz * 2475e-6, 1.1);
+    const double a = half.sensor.light_a[8];
+    const double b = half.sensor.light_b[8];
+    EXPECT_NEAR((a - b) / (a + b), -0.332 * 0.01, 0.02 * 0.332 * 0.01);
+}
+
+TEST(TwinLaser, QuartersAreCountedFourTimes) {
+    TwinConfig whole = as_laser(quiet_gyro(), 150.0);
+    TwinConfig quarters = whole;
+    quarters.beats.counts_per_turn = 4;
+    quarters.scale_arcsec = whole.scale_arcsec / 4.0;
+    Twin by_turns{whole, Motion::sines(7000.0, {})};
+    Twin by_quarters{quarters, Motion::sines(7000.0, {})};
+    for (int h = 0; h < 400; ++h) {
+        const auto turns = static_cast<std::int64_t>(by_turns.advance(frame(true, 1)).sensor.counter);
+        const auto fourth = static_cast<std::int64_t>(by_quarters.advance(frame(true, 1)).sensor.counter);
+        ASSERT_EQ(turns, fourth >> 2) << h;
+    }
+}
+
+// Ends of the halves at +250, -100, +40 ticks in turn: each counts the bias between its own reversals.
+TEST(TwinLaser, TheCounterIsLatchedAtTheShiftedReversal) {
+    TwinConfig config = as_laser(quiet_gyro());
+    config.beats.counts_per_turn = 4;
+    Twin twin{config, Motion::rest()};
+    const std::int32_t offsets[] = {250, -100, 40};
+    TwinHalf before = twin.advance(frame(true, 1));
+    std::int32_t start = 0;
+    for (std::uint64_t h = 1; h < 30; ++h) {
+        core::ActuatorFrame shifted = frame(true, 1);
+        shifted.edge_offset_ticks = offsets[h % 3];
+        const TwinHalf half = twin.advance(shifted);
+        const double length_s = 2500e-6 + 1e-7 * (shifted.edge_offset_ticks - start);
+        const double turns = half.sensor.bias_sign * plateau_hz * (length_s - 25e-6);
+        EXPECT_NEAR(static_cast<double>(count_between(before, half)), 4.0 * turns, 1.1) << h;
+        EXPECT_EQ(half.sensor.timer_ticks, 25000 * (h + 1) + static_cast<std::uint64_t>(offsets[h % 3])) << h;
+        start = shifted.edge_offset_ticks;
+        before = half;
+    }
+}
+
+TEST(TwinLaser, RefusesAReversalThatWouldMeetItsNeighbour) {
+    Twin twin{as_laser(quiet_gyro()), Motion::rest()};
+    core::ActuatorFrame shifted = frame(true, 1);
+    shifted.edge_offset_ticks = 12250;  // half of 2500 us less 50 us
+    EXPECT_NO_THROW(twin.advance(shifted));
+    shifted.edge_offset_ticks = -12251;
+    EXPECT_THROW(twin.advance(shifted), std::invalid_argument);
+}
+
+// Warming weakens the field; the bias follows it within a twentieth.
+TEST(TwinLaser, TheBiasFollowsTheFieldThatWarmingWeakens) {
+    TwinConfig config = as_laser(quiet_gyro());
+    config.bias_temperature_coefficient_per_c = -5e-3;
+    config.thermal_time_s = 0.1;
+    config.beats.counts_per_turn = 4;
+    Twin twin{config, Motion::rest()};
+    const TwinHalf before = advance(twin, frame(true, 1), 1000).back();
+    const double warm = std::abs(static_cast<double>(count_between(before, twin.advance(frame(true, 1)))));
+    EXPECT_NEAR(1.0 - warm / (4.0 * plateau_hz * 2475e-6), 0.1, 0.05 * 0.1);
+}
+
+TEST(TwinLaser, WithTheWrongReferenceTheLoopPushesAway) {
+    TwinConfig config = as_laser(quiet_gyro());
+    config.miss_lambda = 0.0;
+    config.dac_bits = 24;
+    Twin right{config, Motion::rest()};
+    Twin wrong{config, Motion::rest()};
+    advance(right, frame(false, 1, 150.8), 20);
+    advance(wrong, frame(false, 1, 150.8), 20);
+    EXPECT_LT(advance(right, frame(true, 1), 2).back().truth.detuning_end_lambda, 0.006);
+    EXPECT_GT(advance(wrong, frame(true, -1), 2).back().truth.detuning_end_lambda, 0.016);
+}
+
+// The light of both modes tells which way to go: there is no place between them where the loop rests.
+TEST(TwinLaser, TheLoopPullsInFromBetweenTheModes) {
+    TwinConfig config = as_laser(quiet_gyro());
+    config.miss_lambda = 0.0;
+    Twin twin{config, Motion::rest()};
+    advance(twin, frame(false, 1, 150.0 + 0.25 * 80.0), 40);
+    EXPECT_NEAR(advance(twin, frame(true, 1), 60).back().truth.detuning_end_lambda, 0.0, 1e-4);
+}
+
+// Isotopes of unequal share: the loop settles where the beams are equal, off the centre.
+TEST(TwinLaser, UnequalIsotopesMoveThePlaceWhereTheLoopSettles) {
+    TwinConfig config = as_laser(quiet_gyro());
+    config.laser.upper_isotope_ratio = 0.48;
+    Twin twin{config, Motion::rest()};
+    const TwinHalf half = advance(twin, frame(true, 1), 100).back();
+    EXPECT_LT(half.truth.detuning_end_lambda, -0.005);
+    EXPECT_NEAR(half.sensor.light_a[8] / half.sensor.light_b[8], 1.0, 1e-5);
+}
+
+TEST(TwinLaser, RefusesALaserWithoutLight) {
+    TwinConfig config = as_laser(quiet_gyro());
+    config.laser.gain_loss_ratio = 0.99;
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::runtime_error);
+    config.laser.gain_loss_ratio = -1.0;
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+    config = as_laser(quiet_gyro());
+    config.beats.counts_per_turn = 2;
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+    config = as_laser(quiet_gyro());
+    config.beats.scatter_phase_rad = 1.6;
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace zlg::twin

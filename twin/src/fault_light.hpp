@@ -1,0 +1,25 @@
+#pragma once
+// Faults of the light itself: both photodiodes and the beat see them.
+
+#include <span>
+
+#include <zlg/twin/faults.hpp>
+
+namespace zlg::twin {
+
+// What is left of each beam.
+struct LightParts {
+    double a = 1.0;
+    double b = 1.0;
+
+    // A wave below a hundredth of its intensity makes no beat that a counter could follow.
+    [[nodiscard]] bool is_dark() const { return !(a > 0.01 && b > 0.01); }
+};
+
+[[nodiscard]] inline bool dims(const Fault& fault) {
+    return fault.kind == FaultKind::laser_off || fault.kind == FaultKind::beam_fades;
+}
+
+[[nodiscard]] LightParts light_parts(std::span<const Fault> active, double time_s);
+
+}  // namespace zlg::twin

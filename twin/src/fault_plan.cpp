@@ -1,0 +1,39 @@
+#include "fault_plan.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fault_light.hpp"
+#include "fault_perimeter.hpp"
+
+namespace zlg::twin {
+
+FaultPlan::FaultPlan(std::vector<Fault> faults) : faults_{std::move(faults)} {
+    std::ranges::stable_sort(faults_, {}, &Fault::at_s);
+    active_.reserve(faults_.size());
+}
+
+void FaultPlan::enter(double start_s, double end_s) {
+    while (next_ < faults_.size() && faults_[next_].at_s <= end_s) active_.push_back(faults_[next_++]);
+    std::erase_if(active_, [&](const Fault& fault) {
+        const bool over = fault.at_s + fault.duration_s <= start_s;
+        if (over) settle(fault);
+        return over;
+    });
+    moves_perimeter_ = settled_lambda_ != 0.0 || std::ranges::any_of(active_, moves);
+    dims_light_ = std::ranges::any_of(active_, dims);
+}
+
+void FaultPlan::settle(const Fault& fault) {
+    const double end_s = fault.at_s + fault.duration_s;
+    if (moves(fault)) settled_lambda_ += length_lambda(fault, end_s, 0.0);
+    if (fault.kind == FaultKind::thermal_shock) settled_c_ += fault.size;
+}
+
+double share(const Fault& fault, double start_s, double end_s) {
+    const double from_s = std::max(start_s, fault.at_s);
+    const double to_s = std::min(end_s, fault.at_s + fault.duration_s);
+    return to_s > from_s ? (to_s - from_s) / (end_s - start_s) : 0.0;
+}
+
+}  // namespace zlg::twin

@@ -1,0 +1,17 @@
+#pragma once
+// What every fidelity of the twin answers to.
+
+#include <zlg/twin/twin.hpp>
+
+namespace zlg::twin {
+
+class Gyro {
+public:
+    Gyro() = default;
+    Gyro(const Gyro&) = delete;
+    Gyro& operator=(const Gyro&) = delete;
+    virtual ~Gyro() = default;
+    virtual TwinHalf advance(const core::ActuatorFrame& actuator) = 0;
+};
+
+}  // namespace zlg::twin

@@ -1,0 +1,83 @@
+#include "laser_beats.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "noise.hpp"
+
+namespace zlg::twin {
+namespace {
+
+// A wave below this part of the centre's intensity makes no beat: what is scattered into it from the other is no
+// longer small against it.
+constexpr double faint_ratio = 0.01;
+
+// Equal mirrors whose coupling locks equal waves below lock_hz.
+Backscatter scatter(double lock_hz, double phase_rad) {
+    const double each_hz = 0.5 * lock_hz / std::cos(phase_rad);
+    return {each_hz, each_hz, phase_rad, 0.0};
+}
+
+OpticalBeats beats_of(const TwinConfig& config, double threshold) {
+    NoiseStream start{config.seed, NoiseCause::start_phase};
+    Turns left;
+    left.part = start.uniform();
+    Turns right;
+    right.part = start.uniform();
+    return OpticalBeats{threshold, left, right};
+}
+
+}  // namespace
+
+LaserBeats::LaserBeats(const TwinConfig& config, const LaserTable& table)
+    : table_{table},
+      left_{scatter(config.beats.lock_left_hz, config.beats.scatter_phase_rad)},
+      right_{scatter(config.beats.lock_right_hz, config.beats.scatter_phase_rad)},
+      threshold_{2.0 * config.beats.comparator_threshold * table.exact().centre_intensity()},
+      least_light_{faint_ratio * table.exact().centre_intensity()},
+      counts_quarters_{config.beats.counts_per_turn == 4},
+      beats_{beats_of(config, threshold_)},
+      end_light_{table_.at(0.0, 0.0)} {}
+
+LaserBeats::Lights LaserBeats::lights(const Stretch& s) {
+    Lights made;
+    const bool goes_on = s.perimeter_lambda[0] == end_perimeter_ && s.field_g[0] == end_field_;
+    made.start = goes_on ? end_light_ : table_.at(s.perimeter_lambda[0], s.field_g[0]);
+    made.middle = table_.at(s.perimeter_lambda[1], s.field_g[1]);
+    made.end = table_.at(s.perimeter_lambda[2], s.field_g[2]);
+    end_perimeter_ = s.perimeter_lambda[2];
+    end_field_ = s.field_g[2];
+    end_light_ = made.end;
+    return made;
+}
+
+// slant  1: the drive follows the bias from start to end; 0: it keeps its mean.
+Beat LaserBeats::beat(const Stretch& s, const Lights& lights, int helicity, double slant) const {
+    WavePair pair = lights.middle.of(helicity);
+    pair.cw *= s.cw_part;
+    pair.ccw *= s.ccw_part;
+    if (!(std::min(pair.cw, pair.ccw) > least_light_)) return {};
+    const Course bias{lights.start.of(helicity).bias_hz, pair.bias_hz, lights.end.of(helicity).bias_hz};
+    const double mean_hz = s.common_hz + helicity * s.helicity_hz + mean_of(bias);
+    const double half_change_hz = 0.5 * slant * (bias[2] - bias[0]);
+    return {mean_hz - half_change_hz, mean_hz + half_change_hz,
+            (helicity > 0 ? left_ : right_).coupling(pair.cw, pair.ccw), 2.0 * std::sqrt(pair.cw * pair.ccw)};
+}
+
+Followed LaserBeats::live(const Stretch& s, double slant) {
+    const Lights seen = lights(s);
+    const Beat left = beat(s, seen, 1, slant);
+    const Beat right = beat(s, seen, -1, slant);
+    beats_.advance(left, right, s.duration_s);
+    if (!(std::abs(left.amplitude - right.amplitude) > 1.5 * threshold_)) return {};
+    const int helicity = left.amplitude > right.amplitude ? 1 : -1;
+    const double drive_hz = 0.5 * ((helicity > 0 ? left : right).start_hz + (helicity > 0 ? left : right).end_hz);
+    return {helicity, drive_hz - s.common_hz - helicity * s.helicity_hz};
+}
+
+Followed LaserBeats::plateau(const Stretch& stretch) { return live(stretch, 0.0); }
+Followed LaserBeats::edge(const Stretch& stretch) { return live(stretch, 1.0); }
+
+std::uint64_t LaserBeats::latch() const { return counts_quarters_ ? beats_.latch_quarters() : beats_.latch_turns(); }
+
+}  // namespace zlg::twin

@@ -1,0 +1,87 @@
+#include <zlg/twin/slip_phase.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace zlg::twin {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double free_ratio = 8.0;  // |f|/f_L from which the ripple is small and regular
+constexpr double max_turns = 1e17;  // the exact stepper refuses what is beyond
+
+// psi - smooth [turns], to first order.
+double ripple(const Turns& phase, double drive_hz, Coupling c) {
+    if (!(std::abs(drive_hz) > free_ratio * std::abs(c))) return 0.0;
+    const double angle = phase.part_rad();
+    return (c.real() * std::cos(angle) - c.imag() * std::sin(angle)) / (2.0 * pi * drive_hz);
+}
+
+// The slip that the endless ramp would have beyond its end [rad], expanded to second order in 1/(f t_e):
+// K sin(psi + phi) - Q cos(psi + phi), K = omega_L w'/w^3, Q = 3 omega_L w'^2/w^5.
+double missing(const Turns& phase, double drive_hz, double slope_hz_s, Coupling c) {
+    const double k = slope_hz_s / (2.0 * pi * drive_hz * drive_hz * drive_hz);
+    const double q = 3.0 * k * slope_hz_s / (2.0 * pi * drive_hz * drive_hz);
+    const double cosine = std::cos(phase.part_rad());
+    const double sine = std::sin(phase.part_rad());
+    const double re = c.real() * cosine - c.imag() * sine;
+    const double im = c.real() * sine + c.imag() * cosine;
+    return k * im - q * re;
+}
+
+}  // namespace
+
+bool slip_formula_holds(double start_hz, double end_hz, double lock_hz, double duration_s) {
+    const double smaller = std::min(std::abs(start_hz), std::abs(end_hz));
+    const double slope = std::abs(end_hz - start_hz) / duration_s;
+    return start_hz * end_hz < 0.0 && smaller > free_ratio * lock_hz && smaller * smaller > 0.5 * slope &&
+           slope * duration_s * duration_s < max_turns;
+}
+
+void SlipPhase::plateau(double drive_hz, Coupling coupling, double duration_s) {
+    const double lock_hz = std::sqrt(std::norm(coupling));
+    if (std::abs(drive_hz) > free_ratio * lock_hz && std::abs(drive_hz * duration_s) < max_turns) {
+        const double beat_hz = std::sqrt((drive_hz - lock_hz) * (drive_hz + lock_hz));
+        smooth_.add(std::copysign(beat_hz, drive_hz) * duration_s);
+        return;
+    }
+    BeatPhase exact{smooth_};
+    exact.plateau(drive_hz, coupling, duration_s);
+    smooth_ = exact.value();
+}
+
+Turns SlipPhase::reversal(double start_hz, double end_hz, Coupling coupling, double duration_s) {
+    const double lock_hz = std::sqrt(std::norm(coupling));
+    if (!slip_formula_holds(start_hz, end_hz, lock_hz, duration_s)) {
+        Turns psi = smooth_;
+        psi.add(ripple(smooth_, start_hz, coupling));
+        BeatPhase exact{psi};
+        exact.ramp(start_hz, 0.5 * (start_hz + end_hz), coupling, 0.5 * duration_s);
+        const Turns middle = exact.value();
+        exact.ramp(0.5 * (start_hz + end_hz), end_hz, coupling, 0.5 * duration_s);
+        smooth_ = exact.value();
+        smooth_.add(-ripple(smooth_, end_hz, coupling));
+        return middle;
+    }
+    const double slope = (end_hz - start_hz) / duration_s;
+    Turns at_zero = smooth_;
+    at_zero.add(-0.5 * start_hz * start_hz / slope);
+    const double depth = 2.0 * pi * lock_hz / std::sqrt(std::abs(slope));
+    const double b = std::sqrt(-std::expm1(-0.25 * depth * depth));
+    const double q = at_zero.part_rad() + std::arg(coupling) + std::copysign(0.25 * pi, slope);
+    const double slip = -2.0 * std::atan2(b * std::sin(q), 1.0 + b * std::cos(q)) / (2.0 * pi);
+
+    Turns middle = smooth_;
+    middle.add(0.125 * (3.0 * start_hz + end_hz) * duration_s + 0.5 * slip);
+    Turns after = smooth_;
+    after.add(0.5 * (start_hz + end_hz) * duration_s + slip);
+    // Between unequal ends the mean pull -f_L^2/(2 f) of the beat does not cancel.
+    const double pulled = -0.5 * lock_hz * lock_hz / slope * std::log(std::abs(end_hz / start_hz));
+    const double ends = missing(after, end_hz, slope, coupling) - missing(smooth_, start_hz, slope, coupling);
+    after.add(pulled + ends / (2.0 * pi));
+    smooth_ = after;
+    return middle;
+}
+
+}  // namespace zlg::twin
