@@ -18,6 +18,13 @@ void count_changes(CounterMonitorState& s, std::uint64_t bits) noexcept {
     s.changed_two ^= carry;
 }
 
+// Of ways: beyond the limit they are long enough for every bit.
+std::int64_t limited_sum(std::int64_t a, std::int64_t b) noexcept {
+    if (b > most_unevenness || a > most_unevenness) return most_unevenness;
+    if (b < -most_unevenness || a < -most_unevenness) return -most_unevenness;
+    return a + b;
+}
+
 // Second difference of the steps in halves of the same bias sign: the bias drops out, and so does an even acceleration.
 std::int64_t unevenness(const CounterMonitorState& s, std::int64_t step) noexcept {
     const auto wrapped =
@@ -42,6 +49,27 @@ std::uint64_t bits_below(std::int64_t unevenness) noexcept {
 // A bit whose error is no longer seen for a second may be right again, or at rest: what it holds does no harm.
 constexpr std::int32_t calm_windows = 12;
 
+// A swing that takes a multiple of a few halves has no longer row of windows that go the same way.
+constexpr std::int32_t windows_believed = 6;
+
+// Bits that looked stuck all the way, which was so long that they should have changed several times.
+std::uint64_t still_all_the_way(CounterMonitorState& s, std::uint64_t still) noexcept {
+    const auto net = static_cast<std::int64_t>(s.reading - s.window_reading);
+    s.window_reading = s.reading;
+    const bool same_way = (net > 0 && s.way > 0) || (net < 0 && s.way < 0);
+    const bool goes_on = s.n_same_way > 0 && same_way && (s.still & still) != 0;
+    s.still = goes_on ? s.still & still : still;
+    s.n_same_way = goes_on ? s.n_same_way + (s.n_same_way < windows_believed) : 1;
+    s.way = goes_on ? limited_sum(s.way, net) : net;
+    if (s.n_same_way < windows_believed || s.still == 0) return 0;
+    std::uint64_t passed = 0;
+    const std::int64_t way = s.way < 0 ? -s.way : s.way;
+    for (int k = 1; k < 31; ++k) {
+        if (way >= std::int64_t{1} << (k + 3)) passed |= std::uint64_t{1} << k;
+    }
+    return s.still & passed;
+}
+
 void begin_window(CounterMonitorState& s) noexcept {
     s.changed = s.changed_odd = s.changed_two = s.changed_often = 0;
     s.unevenness = 0;
@@ -57,7 +85,7 @@ void end_window(CounterMonitorState& s) noexcept {
         s.stuck = 0;
         s.n_calm = 0;
     }
-    s.stuck |= still;
+    s.stuck |= still_all_the_way(s, still);
     begin_window(s);
 }
 
@@ -68,6 +96,8 @@ bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool c
     if (!config.watches) return false;
     if (!counted) {
         state.n_known = 0;
+        state.n_same_way = 0;
+        state.window_reading = reading;
         begin_window(state);
     }
     const auto step = static_cast<std::int64_t>(reading - state.reading);

@@ -115,7 +115,16 @@ private:
         errors_[order].extrapolation[static_cast<std::size_t>(k - 1)] += row.dtheta_arcsec;
     }
 
+    // No bridge of a switch rests on such ticks.
+    [[nodiscard]] bool is_away_from_switches(const core::GapReport& gap) const {
+        const std::int64_t since_opening = gap.first_tick % grid_.interval_ticks;
+        return since_opening > grid_.n + core::max_fit_points &&
+               since_opening + gap.n_ticks < grid_.interval_ticks - core::max_fit_points;
+    }
+
     void check_gap(const core::GapReport& gap) {
+        // Between two switches the phase jumps to that of the next one, which the control may take for a fault.
+        if (!gap.mode_changed && is_away_from_switches(gap)) return;
         ++switched_;
         const std::int64_t due = switched_ * grid_.interval_ticks;
         if (gap.first_tick == due && gap.n_ticks == grid_.n && gap.mode_changed) return;
