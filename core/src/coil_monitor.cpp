@@ -12,8 +12,8 @@ constexpr std::int32_t new_level_halves = 400;
 constexpr double smoothed = 0.125;
 constexpr double coil_followed = 1.0 / 1024.0;
 
-// Mean size of a normal deviation is 0.8 of its standard one; smoothing leaves a quarter of that.
-constexpr double eight_deviations = 10.0;
+// Mean size of a normal deviation is 0.8 of its standard one; two halves differ by sqrt 2 of that, smoothing leaves a quarter.
+constexpr double eight_differences = 14.2;
 constexpr double two_deviations = 2.5;
 
 // Beyond, a current is damage; below, it is none.
@@ -66,7 +66,7 @@ CoilMonitorOutput step(const CoilMonitorConfig& config, CoilMonitorState& state,
     }
     const double deviation = now_a / state.level_a[place] - 1.0;
     const double change = deviation - state.deviation;
-    const double usual = eight_deviations * state.spread;
+    const double usual = eight_differences * state.spread;
     const double limit = larger(config.tolerance_ratio, usual);
     const bool jump = size(change) > limit;
     // A step of both signs alike is no difference of the signs: a difference of that size jumps in every half.

@@ -39,7 +39,7 @@ struct CoilMonitorOutput {
 
 // Advance by one half-period that was received.
 //
-// Two halves in a row may differ by the tolerance, or by eight standard deviations of a half where that is more; half
+// Two halves in a row may differ by the tolerance, or by eight standard deviations of such a difference where that is more; half
 // their difference, smoothed over eight halves, by half the tolerance, or two deviations. A change that is the same in both
 // signs for a second is the new level: it leaves nothing in the angle.
 //
