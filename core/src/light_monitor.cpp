@@ -1,5 +1,7 @@
 #include <zlg/core/light_monitor.hpp>
 
+#include <zlg/core/maths.hpp>
+
 namespace zlg::core {
 namespace {
 
@@ -31,12 +33,15 @@ bool is_still(std::span<const float> x, float last) noexcept {
     return first == last && first == x[x.size() / 2] && first == x.back() && first != 0.0f;
 }
 
+// No number is like no other: 0 stands for it, which is never still.
+float remembered(float sample) noexcept { return is_finite(static_cast<double>(sample)) ? sample : 0.0f; }
+
 bool sees_still(LightMonitorState& s, const LightMonitorInput& in) noexcept {
     bool still = is_still(in.light_a, s.last_a);
-    s.last_a = in.light_a.front();
+    s.last_a = remembered(in.light_a.front());
     if (!in.light_b.empty()) {
         still = is_still(in.light_b, s.last_b) || still;
-        s.last_b = in.light_b.front();
+        s.last_b = remembered(in.light_b.front());
     }
     return still;
 }

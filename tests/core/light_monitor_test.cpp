@@ -206,5 +206,15 @@ TEST(LightMonitor, NoDetuningIsBeyondTheNextMode) {
     EXPECT_FALSE(light.halves(3).usable);
 }
 
+TEST(LightMonitor, WhatItRemembersOfDamagedLightAreNumbers) {
+    LightMonitorState state;
+    const std::array<float, 4> damaged{std::numeric_limits<float>::quiet_NaN(), 1.0f, 1.0f, 1.0f};
+    const std::array<float, 4> endless{std::numeric_limits<float>::infinity(), 1.0f, 1.0f, 1.0f};
+    (void)step(config, state, {.light_a = damaged, .light_b = endless});
+    EXPECT_EQ(state, LightMonitorState{state});
+    EXPECT_EQ(state.last_a, 0.0f);
+    EXPECT_EQ(state.last_b, 0.0f);
+}
+
 }  // namespace
 }  // namespace zlg::core
