@@ -2,6 +2,7 @@
 //
 // bench/count_instructions runs it and reads the dumps.
 
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -36,8 +37,10 @@ void run(const bench::Script& script) {
         const core::SensorFrame frame = gyro.advance(actuator);
         const auto controlled = counted(fmt::format("{}|{}|control", script.name, half),
                                         [&] { return step(script.control, control, frame); });
+        const core::LightSamples light{std::span{frame.light_a}.first(frame.n_light),
+                                       std::span{frame.light_b}.first(frame.has_light_b ? frame.n_light : 0)};
         counted(fmt::format("{}|{}|compensation", script.name, half),
-                [&] { return step(script.compensation, compensation, controlled.record); });
+                [&] { return step(script.compensation, compensation, controlled.record, light); });
         actuator = controlled.actuator;
     }
 }
@@ -52,4 +55,5 @@ int main() {
 #endif
     for (const auto& script : bench::usual_scripts()) run(script);
     for (const auto& script : bench::worst_scripts()) run(script);
+    for (const auto& script : bench::estimating_scripts()) run(script);
 }

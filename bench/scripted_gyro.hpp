@@ -25,6 +25,7 @@ struct Script {
     int halves = 0;
     std::uint8_t light_samples = 16;
     bool one_beam = false;
+    double light_per_detuning = 0.05;  // what the light shows of it: little, so that the loop stays locked
     core::GyroControlConfig control{};
     core::GyroCompensationConfig compensation{};
 };
@@ -73,16 +74,24 @@ private:
         return frame;
     }
 
-    void shine(core::SensorFrame& frame, bool is_dark) const {
+    // Uniform, of unit variance.
+    double noise() {
+        random_ = 1664525u * random_ + 1013904223u;
+        return std::sqrt(12.0) * (static_cast<double>(random_ >> 8) / 16777216.0 - 0.5);
+    }
+
+    void shine(core::SensorFrame& frame, bool is_dark) {
         const double level = is_dark ? 0.0 : 1000.0;
-        const double signal = frame.bias_sign * frame.polarity * 0.332 * 0.05 * detuning_lambda_;
+        const int sign = frame.bias_sign * frame.polarity;
         frame.n_light = script_.light_samples;
         frame.has_light_b = !script_.one_beam;
         for (std::size_t k = 0; k < script_.light_samples; ++k) {
-            // Not quite still: a converter that is would be called stuck.
-            const double grain = 1e-6 * static_cast<double>((k + static_cast<std::size_t>(half_)) % 3);
-            frame.light_a[k] = static_cast<float>(level * (1.0 + signal + grain));
-            frame.light_b[k] = static_cast<float>(level * (1.0 - signal - grain));
+            // Decays on within the half, with noise of the size that the core presumes.
+            const double gone = 0.02 * (static_cast<double>(k) + 0.5) / script_.light_samples;
+            const double detuning_lambda = script_.light_per_detuning * detuning_lambda_ * (1.0 - gone);
+            const double signal = 0.332 * (sign * detuning_lambda + 0.0033 * noise());
+            frame.light_a[k] = static_cast<float>(level * (1.0 + signal));
+            frame.light_b[k] = static_cast<float>(level * (1.0 - signal));
         }
     }
 
@@ -91,6 +100,7 @@ private:
     double detuning_lambda_ = 0.2;
     double voltage_v_ = 150.0;
     std::uint64_t counter_ = 0;
+    std::uint32_t random_ = 1;
 };
 
 }  // namespace zlg::bench

@@ -86,7 +86,42 @@ Script random(std::uint32_t seed) {
     return s;
 }
 
+// Gaps of a gyro that has learnt its motion in the hundreds of ticks before.
+Script estimated(std::string name, int gap_ticks, int light_samples, RelockMethod relock) {
+    Script s = switching(std::move(name), gap_ticks, 20, light_samples, relock);
+    s.halves = 2000;
+    s.control.schedule.interval_ticks = 310;
+    s.light_per_detuning = 1.0;
+    s.control.mode_switch.lock_tolerance = core::Wavelengths{0.25};
+    s.compensation.bridge.method = BridgeMethod::automatic;
+    s.compensation.bridge.optimal.halves = relock == RelockMethod::joint;
+    return s;
+}
+
+// The second gap begins before the first one is resolved; the sensor is dark in both.
+Script crowded(int ticks_between, RelockMethod relock) {
+    const char* name = relock == RelockMethod::joint ? "joint" : "auto";
+    Script s = estimated(fmt::format("{}, two gaps, {} apart", name, ticks_between), 3, 64, relock);
+    s.control.schedule.interval_ticks = 1'000'000;
+    s.control.mode_switch.dark_ticks = s.control.mode_switch.lock_timeout_ticks = 1'000;
+    s.ticks = repeated(lit, 700) + repeated(dark, 3) + repeated(lit, ticks_between) + repeated(dark, 3) + lit;
+    s.halves = 1600;
+    return s;
+}
+
 }  // namespace
+
+std::vector<Script> estimating_scripts() {
+    std::vector<Script> all;
+    for (const int n : {2, 3, 8, 15})
+        all.push_back(estimated(fmt::format("auto, gap of {}", n), n, 16, RelockMethod::mean_square));
+    for (const int n : {2, 3, 8})
+        all.push_back(estimated(fmt::format("joint, gap of {}", n), n, 16, RelockMethod::joint));
+    all.push_back(dithered(estimated("joint, 64 samples, shifted edges", 3, 64, RelockMethod::joint)));
+    for (const RelockMethod relock : {RelockMethod::mean_square, RelockMethod::joint})
+        for (const int ticks_between : {2, 5, 10}) all.push_back(dithered(crowded(ticks_between, relock)));
+    return all;
+}
 
 std::vector<Script> usual_scripts() {
     std::vector<Script> all;

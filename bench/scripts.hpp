@@ -10,4 +10,7 @@ namespace zlg::bench {
 [[nodiscard]] std::vector<Script> usual_scripts();
 [[nodiscard]] std::vector<Script> worst_scripts();
 
+// With the optimal bridge and the joint re-lock, whose halves are dearer.
+[[nodiscard]] std::vector<Script> estimating_scripts();
+
 }  // namespace zlg::bench

@@ -184,10 +184,11 @@ logs::RawColumns raw_columns(const config::Config& config) {
     return columns;
 }
 
-int copied_light_samples(const logs::RawHeader& header, const std::string& path, logs::LogFormat format) {
-    if (format == logs::LogFormat::hdf5 || header.light_samples == 0) return header.light_samples;
+logs::RawWriterOptions copied_light(const logs::RawHeader& header, const std::string& path, logs::LogFormat format) {
+    if (header.light_samples == 0) return {};
+    if (format == logs::LogFormat::hdf5) return {.light_samples = header.light_samples, .light_b = header.has_light_b};
     complain(fmt::format("warning: {}: the light samples stay behind, a CSV log holds none", path));
-    return 0;
+    return {};
 }
 
 void rethrow_with(std::initializer_list<std::string> part_paths) {

@@ -76,8 +76,9 @@ logs::LogFormat log_format(const std::string& path);
 // What a raw log of this gyro holds: shifts of the bias edges only where there are any.
 [[nodiscard]] logs::RawColumns raw_columns(const config::Config& config);
 
-// How many light samples of a half go along into a copy: with a warning where a CSV log cannot take them.
-[[nodiscard]] int copied_light_samples(const logs::RawHeader& header, const std::string& path, logs::LogFormat format);
+// The light samples that go along into a copy: with a warning where a CSV log cannot take them.
+[[nodiscard]] logs::RawWriterOptions copied_light(const logs::RawHeader& header, const std::string& path,
+                                                  logs::LogFormat format);
 
 // Throws the error that is being handled again, with the names of the recordings that it left unfinished.
 [[noreturn]] void rethrow_with(std::initializer_list<std::string> part_paths);

@@ -83,8 +83,9 @@ RunFiles::RunFiles(const std::string& out, bool force, const config::Config& con
 }
 
 void RunFiles::open(const config::Config& config, int light_samples) {
-    raw_.emplace(path(names_[raw_file]), config::to_settings(config), force_, raw_columns(config),
-                 logs::RawWriterOptions{.light_samples = light_samples, .keep_part = true});
+    raw_.emplace(
+        path(names_[raw_file]), config::to_settings(config), force_, raw_columns(config),
+        logs::RawWriterOptions{.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true});
     // The raw log has the columns for it, so this is what an unset method means; the angle log says what was done.
     config::Config done = config;
     done.compensation.relock = config.compensation.relock.value_or(core::RelockMethod::mean_square);

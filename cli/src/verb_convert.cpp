@@ -33,13 +33,13 @@ std::int64_t convert_raw(const ConvertOptions& options, logs::LogFormat format) 
     logs::RawReader raw{options.file};
     const logs::RawHeader& header = raw.header();
     warn(options, header.warnings, header.complete);
-    const int light_samples = copied_light_samples(header, options.file, format);
-    logs::RawWriter copy{options.out, header.settings, options.force, header, {.light_samples = light_samples}};
+    const logs::RawWriterOptions copied = copied_light(header, options.file, format);
+    logs::RawWriter copy{options.out, header.settings, options.force, header, copied};
     Progress progress;
     core::HalfRecord record;
     std::int64_t rows = 0;
     while (raw.next(record)) {
-        copy.write(record, light_samples > 0 ? raw.light() : std::span<const float>{});
+        copy.write(record, raw.light());
         if (++rows % 100'000 == 0) {
             interruptible.check();
             progress.show(raw.fraction_read());

@@ -86,12 +86,12 @@ std::string end_damage(const std::string& path, bool complete) {
 }
 
 // Read to the end or to the first damage; whole rows before it go to `copy`, if there is one.
-RawFindings read_raw(logs::RawReader& reader, const std::string& path, logs::RawWriter* copy, bool with_light) {
+RawFindings read_raw(logs::RawReader& reader, const std::string& path, logs::RawWriter* copy) {
     RawFindings found;
     core::HalfRecord record;
     while (next_undamaged(reader, record, found)) {
         found.take(record);
-        if (copy) copy->write(record, with_light ? reader.light() : std::span<const float>{});
+        if (copy) copy->write(record, reader.light());
     }
     if (found.damage.empty()) found.damage = end_damage(path, reader.header().complete);
     return found;
@@ -117,6 +117,9 @@ json raw_json(const InspectOptions& options, const logs::RawHeader& header, cons
             {"optional_columns", optional_columns(header)},
             {"settings", header.settings.size()},
             {"light_samples", header.light_samples},
+            {"light_beams", header.light_samples == 0 ? 0
+                            : header.has_light_b      ? 2
+                                                      : 1},
             {"gaps", f.gaps},
             {"mode_changes", f.mode_changes},
             {"open_halves", f.open_halves},
@@ -194,10 +197,10 @@ LogSettings understood(const InspectOptions& options, const config::Settings& se
 
 void repair(const InspectOptions& options, logs::RawReader& reader, const config::Settings& settings,
             RawFindings& found, const std::string& out) {
-    const int light_samples = copied_light_samples(reader.header(), options.file, log_format(out));
+    const logs::RawWriterOptions copied = copied_light(reader.header(), options.file, log_format(out));
     refuse_own_input(options.file, out);
-    logs::RawWriter copy{out, settings, options.force, reader.header(), {.light_samples = light_samples}};
-    found = read_raw(reader, options.file, &copy, light_samples > 0);
+    logs::RawWriter copy{out, settings, options.force, reader.header(), copied};
+    found = read_raw(reader, options.file, &copy);
     if (found.halves == 0) throw logs::FormatError{fmt::format("nothing to repair: {}", found.damage)};
     copy.close();
 }
@@ -211,7 +214,7 @@ json inspect_raw(const InspectOptions& options) {
     if (options.repair)
         repair(options, reader, log.good, found, out);
     else
-        found = read_raw(reader, options.file, nullptr, false);
+        found = read_raw(reader, options.file, nullptr);
     if (found.damage.empty() && !reader.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
     if (found.damage.empty()) found.damage = log.damage;

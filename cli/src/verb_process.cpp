@@ -43,6 +43,14 @@ core::RelockMethod choose_relock(const config::Config& config, const logs::RawHe
     };
     if (asked == RelockMethod::detuning && !header.has_detuning) refuse("detuning", "detuning_lambda");
     if (asked == RelockMethod::mean_square && !header.has_detuning_sq) refuse("mean_square", "detuning_sq_lambda2");
+    if (asked == RelockMethod::joint) {
+        if (!header.has_detuning_sq) refuse("joint", "detuning_sq_lambda2");
+        if (header.light_samples == 0)
+            complain(
+                fmt::format("note: {}: holds no light samples; compensation.relock = \"joint\" takes the mean "
+                            "squares of the detuning instead",
+                            path));
+    }
     return asked;
 }
 
@@ -68,6 +76,7 @@ core::GyroCompensationConfig compensation_of(const config::Config& config, core:
                                              const logs::RawHeader& header, const std::string& path) {
     auto made = rig::compensation_config(config, relock, config.compensation.bridge);
     made.relock.curve = curve_of(config, header, path);
+    made.profile.record_curve = made.relock.curve;
     if (!header.has_edge_offset) return made;
     const config::Gyro& g = config.gyro;
     if (!(g.bias_edge_s < 0.5 * g.tick_s)) {
@@ -136,7 +145,7 @@ Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& con
             interruptible.check();
             progress.show(raw.fraction_read());
         }
-        const core::CompensationOutput out = step(config, state, record);
+        const core::CompensationOutput out = step(config, state, record, raw.light());
         if (!out.has_sample) continue;
         summary.angle_arcsec = out.angle_arcsec;
         if (!out.sample.has_final) continue;

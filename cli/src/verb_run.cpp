@@ -1,5 +1,4 @@
 #include <memory>
-#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -87,9 +86,9 @@ study::RunResult run_into(RunFiles& files, const config::Config& config, const R
     study::RunTask task{.config = config,
                         .threads = options.threads,
                         .on_record =
-                            [&](const core::HalfRecord& record, std::span<const float> light) {
+                            [&](const core::HalfRecord& record, const core::LightSamples& light) {
                                 interruptible.check();
-                                files.raw().write(record, options.light ? light : std::span<const float>{});
+                                files.raw().write(record, options.light ? light : core::LightSamples{});
                             },
                         .on_row = [&](const core::AngleRow& row, double truth) { files.angles().write(row, truth); },
                         .on_health = [&](std::int64_t half, std::uint32_t bits) { files.write_health(half, bits); },

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,7 +26,7 @@ void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::Ra
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
         interruptible.check();
         const core::HalfRecord record = loop.advance().record;
-        raw.write(record, with_light ? loop.light() : std::span<const float>{});
+        raw.write(record, with_light ? loop.light() : core::LightSamples{});
         if (half % (2 * progress_stride) == 0)
             progress.show(static_cast<double>(half) / static_cast<double>(2 * ticks));
     }
@@ -47,7 +46,7 @@ void simulate(const Options& options) {
                             config::to_settings(config),
                             options.force,
                             raw_columns(config),
-                            {.light_samples = light_samples, .keep_part = true}};
+                            {.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true}};
         part = raw.part_path();
         record(loop, ticks, light_samples > 0, raw, interruptible);
         raw.close();

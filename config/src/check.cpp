@@ -18,6 +18,8 @@ int bridge_order(core::BridgeMethod bridge) {
         case core::BridgeMethod::linear:
             return 1;
         case core::BridgeMethod::quadratic:
+        case core::BridgeMethod::optimal:  // where the motion is not known
+        case core::BridgeMethod::automatic:
             return 2;
         case core::BridgeMethod::none:
         case core::BridgeMethod::constant:
@@ -37,6 +39,11 @@ void check_bridge(const Config& config) {
     if (order > c.extrapolation_points - 1) complain("compensation.extrapolation_points", c.extrapolation_points);
     const std::int64_t both_sides = c.points_before + c.points_after;
     if (order > both_sides - 1) complain("compensation.points_before + points_after", both_sides);
+    if (c.prior_line_hz.empty() || c.prior_line_hz.size() != c.prior_line_arcsec_s.size()) {
+        throw ConfigError(fmt::format(
+            "compensation: {} prior_line_hz and {} prior_line_arcsec_s; allowed are as many of each, one at least",
+            c.prior_line_hz.size(), c.prior_line_arcsec_s.size()));
+    }
 }
 
 void check_motion(const Motion& m) {
@@ -98,12 +105,29 @@ void check_times(const Gyro& gyro, const Switching& switching) {
         throw ConfigError(fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}",
                                       toml_real(gyro.bias_edge_s), toml_real(gyro.tick_s)));
     }
+    if (switching.gap_min_ticks > switching.gap_ticks) {
+        throw ConfigError(fmt::format("switching.gap_min_ticks = {}: allowed is up to switching.gap_ticks = {}",
+                                      switching.gap_min_ticks, switching.gap_ticks));
+    }
     const auto least_ticks = static_cast<double>(switching.gap_ticks + 2);
     if (!switching.interval_optimal && !(switching.interval_s >= least_ticks * gyro.tick_s)) {
         throw ConfigError(
             fmt::format("switching.interval_s = {}: allowed is from gap_ticks + 2 = {} ticks of {} s = {} s",
                         toml_real(switching.interval_s), least_ticks, toml_real(gyro.tick_s),
                         toml_real(least_ticks * gyro.tick_s)));
+    }
+}
+
+void check_interval_limits(const Gyro& gyro, const Switching& s) {
+    const double least_s = static_cast<double>(s.gap_ticks + 2) * gyro.tick_s;
+    if (s.schedule != Schedule::fixed && !(s.interval_min_s >= least_s)) {
+        throw ConfigError(
+            fmt::format("switching.interval_min_s = {}: allowed is from gap_ticks + 2 ticks of {} s = {} s",
+                        toml_real(s.interval_min_s), toml_real(gyro.tick_s), toml_real(least_s)));
+    }
+    if (!(s.interval_min_s <= s.interval_max_s)) {
+        throw ConfigError(fmt::format("switching.interval_min_s = {}: allowed is up to switching.interval_max_s = {}",
+                                      toml_real(s.interval_min_s), toml_real(s.interval_max_s)));
     }
 }
 
@@ -120,6 +144,7 @@ void check(const Config& config) {
     for (const Key& key : all_keys()) check_range(key, config);
     check_bridge(config);
     check_times(config.gyro, config.switching);
+    check_interval_limits(config.gyro, config.switching);
     check_discriminator(config.perimeter);
     check_dither(config);
     check_motion(config.motion);

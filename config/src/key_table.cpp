@@ -14,8 +14,12 @@ constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "ran
 constexpr std::array<std::string_view, 2> fidelities{"averaged", "laser"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
-constexpr std::array<std::string_view, 4> relocks{"none", "frequency", "detuning", "mean_square"};
-constexpr std::array<std::string_view, 4> bridges{"none", "constant", "linear", "quadratic"};
+constexpr std::array<std::string_view, 2> last_segments{"any", "half"};
+constexpr std::array<std::string_view, 3> schedules{"fixed", "growing", "measured"};
+constexpr std::array<std::string_view, 3> magnetics{"none", "watch", "estimate"};
+constexpr std::array<std::string_view, 5> relocks{"none", "frequency", "detuning", "mean_square", "joint"};
+constexpr std::array<std::string_view, 6> bridges{"none", "constant", "linear", "quadratic", "optimal", "auto"};
+constexpr std::array<std::string_view, 3> priors{"learnt", "flat", "lines"};
 constexpr std::array<std::string_view, 5> motions{"rest", "constant", "sine", "sum", "file"};
 constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 
@@ -23,6 +27,14 @@ constexpr std::int64_t int64_max = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t int32_max = std::numeric_limits<std::int32_t>::max();
 
 constexpr Range fault_time{.min = 0.0, .max = 1e9};
+
+constexpr Range long_interval{.min = 0.0, .max = 1e9, .without_min = true};
+constexpr Range schedule_number{.min = 0.0, .max = 1e12, .without_min = true};
+
+constexpr Range prior_size{.min = 0.0, .max = 1e9, .without_min = true};
+
+constexpr Range drift_sigma{.min = 0.0, .max = 1e6};
+constexpr Range presumed_drift{.min = -1e6, .max = 1e6};
 
 constexpr Range curve_node{.min = 0.0, .max = 1e3, .without_min = true};
 
@@ -126,7 +138,7 @@ const Key table[] = {
      Real{at<&C::perimeter, &Perimeter::sample_gain>, {.min = 0.0, .max = 1.0, .without_min = true}}},
     {"perimeter", "settled_tau_s", "s", "digital loop, after these halves: its time constant",
      Real{at<&C::perimeter, &Perimeter::settled_tau_s>, positive}},
-    {"perimeter", "set_points", "", "digital loop with relock_halves: set-points a half",
+    {"perimeter", "set_points", "", "set-points a half, of an open loop and of a digital one with relock_halves",
      Integer{at<&C::perimeter, &Perimeter::set_points>, 1, 16}},
     {"perimeter", "discriminator_detuning_lambda", "lambda",
      "calibrated points of the discriminator besides 0, growing, 31 at most; none: gyro.discriminator_per_lambda alone",
@@ -168,8 +180,28 @@ const Key table[] = {
      Interval{positive}},
     {"switching", "first_segment", "", "length of the first segment: an interval or half of one",
      choice<&C::switching, &Switching::first_segment>(first_segments)},
+    {"switching", "last_segment", "",
+     "half: the last switch before the end of the run comes where the times in both modes are equal at the end",
+     choice<&C::switching, &Switching::last_segment>(last_segments)},
+    {"switching", "schedule", "",
+     "fixed: a grid of interval_s; growing: with the cube root of time; measured: by the errors of the switches and "
+     "the "
+     "drift that compensation finds",
+     choice<&C::switching, &Switching::schedule>(schedules)},
+    {"switching", "interval_min_s", "s", "shortest interval of a schedule that is not fixed",
+     Real{at<&C::switching, &Switching::interval_min_s>, long_interval}},
+    {"switching", "interval_max_s", "s", "longest interval of a schedule that is not fixed",
+     Real{at<&C::switching, &Switching::interval_max_s>, long_interval}},
+    {"switching", "switch_error_arcsec", "arcsec",
+     "rms error of one switch, presumed by a schedule that is not fixed until it is measured",
+     Real{at<&C::switching, &Switching::switch_error_arcsec>, schedule_number}},
+    {"switching", "magnetic_arcsec_s", "arcsec/s", "drift that changes its sign with the mode, presumed likewise",
+     Real{at<&C::switching, &Switching::magnetic_arcsec_s>, schedule_number}},
     {"switching", "gap_ticks", "", "ticks for which the loop stays open at a switch",
      Integer{at<&C::switching, &Switching::gap_ticks>, 1, 16}},
+    {"switching", "gap_min_ticks", "",
+     "from so many ticks on the loop closes as soon as light and piezo have arrived; up to gap_ticks, 0: gap_ticks",
+     Integer{at<&C::switching, &Switching::gap_min_ticks>, 0, 16}},
 
     {"compensation", "relock", "",
      "correction of the false drift after closing; unset: mean_square where the log has detuning, none where not",
@@ -184,6 +216,32 @@ const Key table[] = {
      Integer{at<&C::compensation, &Compensation::points_before>, 1, 8}},
     {"compensation", "points_after", "", "measured ticks after a gap from which it is interpolated",
      Integer{at<&C::compensation, &Compensation::points_after>, 1, 8}},
+    {"compensation", "prior", "",
+     "what bridge = optimal presumes of the motion: what it learnt between gaps, a flat band of rates, or known lines",
+     choice<&C::compensation, &Compensation::prior>(priors)},
+    {"compensation", "prior_band_hz", "Hz", "upper edge of the flat band; a little above the motion's",
+     Real{at<&C::compensation, &Compensation::prior_band_hz>, prior_size}},
+    {"compensation", "prior_rate_arcsec_s", "arcsec/s", "rms rate in the flat band",
+     Real{at<&C::compensation, &Compensation::prior_rate_arcsec_s>, prior_size}},
+    {"compensation", "prior_line_hz", "Hz", "frequencies of the known lines",
+     RealList{at<&C::compensation, &Compensation::prior_line_hz>, prior_size}},
+    {"compensation", "prior_line_arcsec_s", "arcsec/s", "their amplitudes, as many as frequencies",
+     RealList{at<&C::compensation, &Compensation::prior_line_arcsec_s>, prior_size}},
+    {"compensation", "magnetic", "",
+     "drift that changes its sign with the mode: left in the angle, estimated only, or estimated and taken out",
+     choice<&C::compensation, &Compensation::magnetic>(magnetics)},
+    {"compensation", "magnetic_arcsec_s", "arcsec/s", "that drift at the start, by calibration",
+     Real{at<&C::compensation, &Compensation::magnetic_arcsec_s>, presumed_drift}},
+    {"compensation", "magnetic_sigma_arcsec_s", "arcsec/s",
+     "standard deviation of magnetic_arcsec_s; the default is that of no calibration",
+     Real{at<&C::compensation, &Compensation::magnetic_sigma_arcsec_s>, drift_sigma}},
+    {"compensation", "magnetic_thermal_arcsec_s", "arcsec/s", "growth of that drift by warming, by calibration",
+     Real{at<&C::compensation, &Compensation::magnetic_thermal_arcsec_s>, presumed_drift}},
+    {"compensation", "magnetic_thermal_sigma_arcsec_s", "arcsec/s",
+     "standard deviation of magnetic_thermal_arcsec_s; the default is that of no calibration",
+     Real{at<&C::compensation, &Compensation::magnetic_thermal_sigma_arcsec_s>, drift_sigma}},
+    {"compensation", "magnetic_thermal_time_s", "s", "time constant of the warming, presumed",
+     Real{at<&C::compensation, &Compensation::magnetic_thermal_time_s>, {.min = 1e-9, .max = 1e12}}},
 
     {"motion", "kind", "", "how the gyro is turned", choice<&C::motion, &Motion::kind>(motions)},
     {"motion", "rate_arcsec_s", "arcsec/s", "constant rate; added to sine and sum",

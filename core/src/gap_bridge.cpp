@@ -4,6 +4,7 @@
 
 #include <zlg/core/maths.hpp>
 
+#include "gap_estimate.hpp"
 #include "gap_interpolation.hpp"
 
 namespace zlg::core {
@@ -18,8 +19,9 @@ void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_
     if (points.n == 0) return;
     open.gap.has_before = true;
     open.gap.mode_before = at(state, tick - 1).row.mode;
-    std::construct_at(&open.fit, points.position, points.n, order_of(config.method));
-    open.lower_order = open.fit.order() < order_of(config.method);
+    const int order = is_estimated(config) ? order_in_place(config, state) : order_of(config.method);
+    std::construct_at(&open.fit, points.position, points.n, order);
+    open.lower_order = open.fit.order() < order;
     const double n = points.n;
     for (unsigned k = 0; k < static_cast<unsigned>(points.n); ++k) {
         const HistoryTick& point = at(state, tick - 1 + points.position[k]);
@@ -36,6 +38,13 @@ void set_unrepaired(const OpenGap& open, AngleRow& row) noexcept {
     row.flags |= flag_unrepaired;
 }
 
+// A row of a gap that is known from the ticks before it.
+void set_known(AngleRow& row, double value_arcsec, double variance_arcsec2) noexcept {
+    row.dtheta_arcsec = value_arcsec;
+    row.dtheta_final_arcsec = value_arcsec;
+    row.sigma_arcsec = deviation(variance_arcsec2);
+}
+
 // dtheta of the gap's tick j, and what its final value is if the log ends here.
 void extrapolate(const GapBridgeConfig& config, const GapBridgeState& state, HistoryTick& entry,
                  std::int32_t j) noexcept {
@@ -46,6 +55,11 @@ void extrapolate(const GapBridgeConfig& config, const GapBridgeState& state, His
         row.dtheta_arcsec = open.constant_arcsec;
         return set_unrepaired(open, row);
     }
+    const GapPrediction& predicted = state.prediction;
+    if (predicted.first_tick == open.gap.first_tick) {
+        const auto k = static_cast<unsigned>(j - 1);
+        return set_known(row, predicted.value_arcsec[k], predicted.variance_arcsec2[k]);
+    }
     const double shared = shared_rounding(config);
     const FitWeights w = open.fit.weights(j);
     double sum = 0.0;
@@ -55,9 +69,7 @@ void extrapolate(const GapBridgeConfig& config, const GapBridgeState& state, His
         variance += w[k] * w[k] * open.variance_arcsec2[k];
         if (neighbours(open.fit, static_cast<int>(k))) variance -= shared * w[k] * w[k - 1];
     }
-    row.dtheta_arcsec = sum;
-    row.dtheta_final_arcsec = sum;
-    row.sigma_arcsec = deviation(variance);
+    set_known(row, sum, variance);
     if (open.lower_order) row.flags |= flag_lower_order;
 }
 
@@ -77,7 +89,10 @@ void give_up(GapBridgeState& state) noexcept {
 
 void take_gap_tick(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input,
                    std::int64_t tick) noexcept {
-    if (!state.gap.open) begin_gap(config, state, tick);
+    if (!state.gap.open) {
+        begin_gap(config, state, tick);
+        if (is_estimated(config) && state.gap.gap.has_before) predict_gap(config, state, tick);
+    }
     Gap& gap = state.gap.gap;
     ++gap.n;
     HistoryTick& entry = at(state, tick);
@@ -94,8 +109,8 @@ void take_gap_tick(const GapBridgeConfig& config, GapBridgeState& state, const T
 
 // The first tick after a gap: from here on the gap waits.
 void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input, std::int64_t tick) noexcept {
-    const bool at_start = !state.gap.gap.has_before && config.extrapolation_points > config.points_after;
-    const int wait = at_start ? config.extrapolation_points : config.points_after;
+    const bool at_start = !state.gap.gap.has_before && config.extrapolation_points > ticks_to_correction(config);
+    const int wait = at_start ? config.extrapolation_points : ticks_to_correction(config);
     if (state.n_pending < max_pending_gaps) {
         state.pending[static_cast<unsigned>(state.n_pending++)] = PendingGap{
             .gap = state.gap.gap, .due_tick = tick + wait, .sign_after = input.sign, .mode_after = input.mode};
@@ -104,26 +119,27 @@ void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInp
 }
 
 // The whole sums of a gap: what `prepare` has left to do of them is done here.
-const GapSums& completed_sums(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
-                              std::int64_t end) noexcept {
+const GapSums& completed_sums(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
+                              int order) noexcept {
     GapSums& sums = state.sums[state.sums[1].first_tick == gap.first_tick ? 1 : 0];
-    if (sums.first_tick != gap.first_tick) begin_sums(config, state, gap, end, sums);
+    if (sums.first_tick != gap.first_tick) begin_sums(config, state, gap, end, order, sums);
     add_points(config, state, gap, sums.fit.n(), sums);
     return sums;
 }
 
 // Give a gap its final rows.
 //
-// return  final minus delivered.
-ExactSum interpolate(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
-                     const GapSums& sums) noexcept {
+// more_arcsec2  variance of each that the fit does not know of.
+// return        final minus delivered.
+ExactSum interpolate(GapBridgeState& state, const Gap& gap, const GapSums& sums, bool lower_order,
+                     double more_arcsec2) noexcept {
     std::uint32_t gained = gap.has_before ? std::uint32_t{flag_interpolated} : 0u;
-    if (sums.fit.order() < order_of(config.method)) gained |= flag_lower_order;
+    if (lower_order) gained |= flag_lower_order;
     ExactSum difference;
     for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j) {
         AngleRow& row = at(state, gap.first_tick + j).row;
         row.dtheta_final_arcsec = sums.value_arcsec[j];
-        row.sigma_arcsec = deviation(sums.variance_arcsec2[j]);
+        row.sigma_arcsec = deviation(sums.variance_arcsec2[j] + more_arcsec2);
         row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | gained;
         difference.add(row.dtheta_final_arcsec);
         difference.add(-row.dtheta_arcsec);
@@ -131,9 +147,28 @@ ExactSum interpolate(const GapBridgeConfig& config, GapBridgeState& state, const
     return difference;
 }
 
+// Give a gap its final rows by a polynomial, and its report their deviation.
+//
+// return  final minus delivered.
+ExactSum fit(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
+             const EstimatedAngle& found, GapReport& report) noexcept {
+    const GapSums& sums = completed_sums(config, state, gap, end, found.order);
+    const bool in_place = is_estimated(config) && !found.has_history;
+    const double least = found.polynomial_variance_arcsec2;
+    const double variance = sums.angle_variance_arcsec2;
+    report.sigma_sum_arcsec = deviation(variance < least ? least : variance);
+    const auto n = static_cast<double>(gap.n);
+    const double more = variance < least ? (least - variance) / (n * n) : 0.0;
+    return interpolate(state, gap, sums, in_place || sums.fit.order() < found.order, more);
+}
+
+// In the tick that needs it, of what an estimate has left to do; and at the end of a log, where time does not matter.
+constexpr int last_work = 10;
+constexpr int all_work = 1000;
+
 // Give a gap its final values from the ticks before `end`, and its lump.
-GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingGap& pending,
-                  std::int64_t end) noexcept {
+GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingGap& pending, std::int64_t end,
+                  int work) noexcept {
     const Gap& gap = pending.gap;
     GapReport report{.first_tick = gap.first_tick,
                      .n_ticks = gap.n,
@@ -145,9 +180,12 @@ GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingG
     if (config.method == BridgeMethod::none) return report;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     if (gap.n <= max_gap_ticks) {
-        const GapSums& sums = completed_sums(config, state, gap, end);
-        difference = interpolate(config, state, gap, sums);
-        report.sigma_sum_arcsec = deviation(sums.angle_variance_arcsec2);
+        const EstimatedAngle found = is_estimated(config) ? estimate(config, state, gap, end, work)
+                                                          : EstimatedAngle{.order = order_of(config.method)};
+        difference = found.known ? found.gap_arcsec : fit(config, state, gap, end, found, report);
+        if (found.known) report.sigma_sum_arcsec = found.sigma_sum_arcsec;
+        pending.lump_arcsec.add(found.after_arcsec.high);
+        pending.lump_arcsec.add(found.after_arcsec.low);
     }
     report.dp_arcsec = -difference.value();
     pending.lump_arcsec.add(difference.high);
@@ -190,6 +228,7 @@ void amend_previous(GapBridgeState& state, const TickInput& input, std::int64_t 
     entry.row.dtheta_final_arcsec += input.amend_arcsec;
     entry.row.relock_arcsec -= input.amend_arcsec;
     entry.variance_arcsec2 += input.amend_variance_arcsec2;
+    entry.relock_variance_arcsec2 += input.amend_variance_arcsec2;
     entry.row.sigma_arcsec = square_root(entry.variance_arcsec2);
     entry.row.flags |= input.amend_flags;
     // The tick was the first after the gap that ended last.
@@ -217,7 +256,7 @@ bool resolve_due(const GapBridgeConfig& config, GapBridgeState& state, std::int6
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.resolved || pending.due_tick > tick) continue;
         any = true;
-        const GapReport report = resolve(config, state, pending, tick);
+        const GapReport report = resolve(config, state, pending, tick, last_work);
         if (!pending.gap.has_before) continue;
         sample.has_gap = true;
         sample.gap = report;
@@ -237,6 +276,8 @@ AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const Tic
     entry = HistoryTick{
         .row = {.tick = tick, .relock_arcsec = input.relock_arcsec, .mode = input.mode, .flags = input.flags},
         .variance_arcsec2 = input.variance_arcsec2,
+        .relock_variance_arcsec2 = input.relock_variance_arcsec2,
+        .half_excess_arcsec = input.half_excess_arcsec,
         .measured = input.measured};
     if (input.measured)
         take_measured_tick(config, state, input, tick);
@@ -249,6 +290,7 @@ AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const Tic
         sample.has_final = true;
         sample.final_row = at(state, state.next_final++).row;
     }
+    if (is_estimated(config)) learn(config, state, input);
     if (state.n_pending > 0 && !resolved) prepare_after(config, state, input.measured);
     return sample;
 }
@@ -258,7 +300,7 @@ DrainOutput drain(const GapBridgeConfig& config, GapBridgeState& state) noexcept
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.resolved) continue;
-        out.gap = resolve(config, state, pending, state.next_tick);
+        out.gap = resolve(config, state, pending, state.next_tick, all_work);
         out.has_gap = pending.gap.has_before;
     }
     // Every gap must be resolved before a row may leave.

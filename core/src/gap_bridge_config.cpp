@@ -11,6 +11,7 @@ GapBridgeFault check(const GapBridgeConfig& c) noexcept {
     const int order = order_of(c.method);
     if (c.extrapolation_points <= order || c.points_before + c.points_after <= order) return GapBridgeFault::order;
     if (!(c.count.value() >= 0.0 && is_finite(c.count.value()))) return GapBridgeFault::count;
+    if (is_estimated(c) && check(c.optimal) != OptimalBridgeFault::none) return GapBridgeFault::optimal;
     return GapBridgeFault::none;
 }
 

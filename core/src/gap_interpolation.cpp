@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "gap_estimate.hpp"
 #include "pair.hpp"
 
 namespace zlg::core {
@@ -93,7 +94,7 @@ void Points::collect(const GapBridgeState& state, std::int64_t origin, int from,
     }
 }
 
-void begin_sums(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end,
+void begin_sums(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end, int order,
                 GapSums& sums) noexcept {
     const int n = static_cast<int>(gap.n);
     const std::int64_t origin = gap.first_tick - 1;
@@ -105,7 +106,7 @@ void begin_sums(const GapBridgeConfig& config, const GapBridgeState& state, cons
         points.collect(state, origin, n + 1, n + config.extrapolation_points, end);
     }
     sums.first_tick = gap.first_tick;
-    std::construct_at(&sums.fit, points.position, points.n, order_of(config.method));
+    std::construct_at(&sums.fit, points.position, points.n, order);
     sums.n_added = 0;
     sums.value_arcsec = {};
     sums.variance_arcsec2 = {};
@@ -138,6 +139,16 @@ constexpr int work_after_measured = 7;
 constexpr int work_after_gap = 5;
 constexpr int work_between = 10;
 
+// The same of an optimal estimate; between two ticks the points and the solution of whole ticks have room.
+constexpr int estimate_work = 2;
+constexpr int estimate_between = 5;
+
+// Ticks before this one will not be amended any more: the first after a gap may be by the next.
+std::int64_t end_of_amended(const GapBridgeState& state) noexcept {
+    const std::int64_t last = state.next_tick - 1;
+    return last > 0 && at(state, last - 1).measured ? last + 1 : last;
+}
+
 // A portion of the sums of a gap that is due in the next tick. The last point is left for that tick, which may still
 // amend it.
 //
@@ -147,7 +158,7 @@ int advance_sums(const GapBridgeConfig& config, const GapBridgeState& state, con
     constexpr int work_to_begin = 3;
     if (sums.first_tick != gap.first_tick) {
         if (work < work_to_begin) return 0;
-        begin_sums(config, state, gap, state.next_tick, sums);
+        begin_sums(config, state, gap, state.next_tick, order_of(config.method), sums);
         work -= work_to_begin;
     }
     const int missing = sums.fit.n() - 1 - sums.n_added;
@@ -158,6 +169,10 @@ int advance_sums(const GapBridgeConfig& config, const GapBridgeState& state, con
 
 void advance(const GapBridgeConfig& config, GapBridgeState& state, int work) noexcept {
     if (config.method == BridgeMethod::none) return;
+    if (is_estimated(config)) {
+        const bool between = work == work_between && !config.optimal.halves;
+        return advance_estimate(config, state, between ? estimate_between : estimate_work, end_of_amended(state));
+    }
     std::size_t n_due = 0;
     for (int k = 0; k < state.n_pending && n_due < state.sums.size(); ++k) {
         const PendingGap& pending = state.pending[static_cast<unsigned>(k)];

@@ -42,7 +42,7 @@ struct Points {
 
 // Make `sums`, of `state`, empty ones of a gap of at most 16 ticks, with its fit through the ticks before `end`, of which
 // one at least was measured.
-void begin_sums(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end,
+void begin_sums(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end, int order,
                 GapSums& sums) noexcept;
 
 // Let the sums of a gap grow to the first `n_points` points of their fit.

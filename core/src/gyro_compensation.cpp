@@ -70,10 +70,12 @@ RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& seco
 }
 
 void apply(const RelockDriftOutput& relock, TickInput& tick) noexcept {
+    tick.settled = !relock.due;
     if (relock.tick.known) {
         tick.value_arcsec -= relock.tick.value_arcsec;
         tick.relock_arcsec = relock.tick.value_arcsec;
         tick.variance_arcsec2 += relock.tick.variance_arcsec2;
+        tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
         tick.flags |= flag_relock_corrected;
     } else if (relock.due && !relock.waiting) {
         tick.flags |= flag_relock_uncorrected;
@@ -91,17 +93,57 @@ void give_up_first(TickInput& tick) noexcept {
     tick.amend_flags = flag_relock_uncorrected;
 }
 
+bool is_joint(const GyroCompensationConfig& config) noexcept {
+    return config.relock.method == RelockMethod::joint && is_estimated(config.bridge) && config.bridge.optimal.halves;
+}
+
+// Ticks over which the bias is averaged: it changes with the temperature.
+constexpr double bias_ticks = 256.0;
+
+// The first half over the second, less the bias: the sign of its first half, and the slow mean of what it adds.
+void take_excess(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
+                 const HalfRecord& second, double known_excess_counts, TickInput& tick) noexcept {
+    const double difference = static_cast<double>(first.counts - second.counts) - known_excess_counts;
+    const double excess = config.relock.scale.value() * difference;
+    if (tick.settled) {
+        const double bias = 0.5 * tick.sign * excess;
+        state.bias_arcsec += state.bias_arcsec == 0.0 ? bias : (bias - state.bias_arcsec) / bias_ticks;
+    }
+    tick.half_excess_arcsec = excess - 2.0 * tick.sign * state.bias_arcsec;
+}
+
+void take_profile(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half) noexcept {
+    if (!is_due(state.joint) || needs_profile(state.bridge)) return;
+    const Celsius temperature{half.temperature_c};
+    take_profile(state.bridge, tell(config.relock, state.joint, temperature));
+}
+
+// Switches over which their errors are averaged.
+constexpr std::int32_t remembered_switches = 8;
+
+void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
+    const double sq = sample.gap.sigma_sum_arcsec * sample.gap.sigma_sum_arcsec;
+    if (!(sample.has_gap && sample.gap.mode_changed && is_finite(sq))) return;
+    if (errors.n < remembered_switches) ++errors.n;
+    errors.mean_sq_arcsec2 += (sq - errors.mean_sq_arcsec2) / static_cast<double>(errors.n);
+}
+
 CompensationOutput complete_tick(const GyroCompensationConfig& config, const EdgeShiftConfig& edges,
-                                 GyroCompensationState& state, const HalfRecord& second) noexcept {
+                                 GyroCompensationState& state, const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
     state.has_first = false;
 
     const EdgeShiftOutput shifted = step(edges, state.edges, edge_input(config.relock, first, second));
     TickInput tick = assemble(config, first, second, shifted.value_arcsec);
+    if (is_joint(config)) {
+        take(config.profile, state.joint, second, light, tick.measured, state.bridge.next_tick);
+        take_profile(config, state, second);
+    }
     if (tick.measured) {
         const auto relock =
             step(config.relock, state.relock, relock_tick(tick.sign, first, second, shifted.known_excess_counts));
         apply(relock, tick);
+        if (is_joint(config)) take_excess(config, state, first, second, shifted.known_excess_counts, tick);
         state.first_waits = relock.waiting;
     } else {
         enter_gap(state.relock);
@@ -109,7 +151,9 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, const Edg
         if (state.first_waits) give_up_first(tick);
         state.first_waits = false;
     }
+    tick.value_arcsec -= step(config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
     CompensationOutput out{.has_sample = true, .sample = step(config.bridge, state.bridge, tick)};
+    remember(state.switch_errors, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
     state.angle.add(counted, config.relock.scale.value(), out.sample.dtheta_arcsec);
     out.angle_arcsec = state.angle.value_arcsec(config.relock.scale.value());
@@ -124,16 +168,27 @@ GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
     if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
     const double walk = config.random_walk.value();
     if (!(walk >= 0.0 && is_finite(walk))) return GyroCompensationFault::random_walk;
+    if (check(config.profile) != RelockProfileFault::none) return GyroCompensationFault::profile;
+    if (check(config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
     return GyroCompensationFault::none;
 }
 
-CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
-                        const HalfRecord& half) noexcept {
+SwitchAdvice advice(const GyroCompensationConfig& config, const GyroCompensationState& state) noexcept {
+    return {.switch_error_arcsec = square_root(state.switch_errors.mean_sq_arcsec2),
+            .magnetic_arcsec_s = remaining_arcsec_s(config.magnetic, state.magnetic)};
+}
+
+CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
+                        LightSamples light) noexcept {
     const EdgeShiftConfig edges = edges_of(config);
     const HalfRecord taken = believed(edges, state, half);
-    if (state.has_first) return complete_tick(config, edges, state, taken);
+    if (state.has_first) return complete_tick(config, edges, state, taken, light);
     state.first = taken;
     state.has_first = true;
+    if (is_joint(config)) {
+        take(config.profile, state.joint, taken, light, taken.loop_closed && taken.valid, state.bridge.next_tick);
+        take_profile(config, state, taken);
+    }
     // No angle is due in this half: it bears a part of what the other one would have to do.
     if (state.bridge.n_pending > 0) prepare(config.bridge, state.bridge);
     return {};

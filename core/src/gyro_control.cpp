@@ -14,6 +14,8 @@ constexpr std::int32_t near_again = 512;
 
 // A temperature that has moved by more than this over the time in which it is followed, some ten thousand halves.
 constexpr double warming_c = 0.05;
+// A piezo that is so near to its set-point is there; the reading's error is a part of it.
+constexpr double rest_lambda = 0.006;
 constexpr double temperature_followed = 1.0 / 8192.0;
 
 HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
@@ -46,20 +48,44 @@ bool wants_middle(const GyroControlConfig& c, GyroControlState& s, const Observa
     return due && !choose_direction(c.loop.range, now, Volts{s.half_wave.estimate_v}).out_of_range;
 }
 
-void time_switch(const GyroControlConfig& c, GyroControlState& s, const Observation& o, ModeSwitchInput& in) noexcept {
+void time_switch(const GyroControlConfig& c, GyroControlState& s, const Observation& o, const SwitchAdvice& advice,
+                 ModeSwitchInput& in) noexcept {
     const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt;
-    if (in.tick_border) in.due = step(c.schedule, s.schedule, in.next_tick, ready).open;
+    if (in.tick_border) {
+        in.due =
+            step(c.schedule, s.schedule, {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice})
+                .open;
+    }
     // A gyro that is not in its mode looks for it instead.
     if (s.mode_switch.phase != SwitchPhase::tracking) return;
     in.recentre = wants_middle(c, s, o) && ready && in.tick_border;
     if (in.recentre || in.due) s.recentring = in.recentre;
 }
 
-ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
+// Both moves from here, in turn, in halves that end no tick: the next opening finds them ready, two ticks old at most.
+void predict_moves(const GyroControlConfig& c, GyroControlState& s) noexcept {
+    if (s.half % 2 != 0 || s.mode_switch.phase != SwitchPhase::tracking) return;
+    const bool up = s.half % 4 == 0;
+    const Volts move = predicted_move(c.stroke, s.stroke, up ? 1 : -1, Volts{s.piezo_v}, Celsius{s.temperature_c});
+    (up ? s.move_up_v : s.move_down_v) = move.value();
+}
+
+// Where the stage has brought the piezo by the end of an open half, and whether the reading agrees.
+void read_flight(const GyroControlConfig& c, const GyroControlState& s, const Observation& o,
+                 ModeSwitchInput& in) noexcept {
+    const double lambda_per_v = 0.5 / c.loop.half_wave.value();
+    const double to_come = lambda_per_v * (s.loop.set_point_v - s.loop.end_v);
+    const double off = lambda_per_v * (s.loop.set_point_v - o.piezo.value());
+    in.in_flight = Wavelengths{lambda_per_v * (s.loop.set_point_v - s.loop.mean_v)};
+    in.at_rest = limited(to_come, rest_lambda) == to_come && limited(off, rest_lambda) == off;
+}
+
+ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const Observation& o,
+                          const SwitchAdvice& advice) noexcept {
     ModeSwitchInput in;
     in.tick_border = s.half % 2 != 0;
     in.next_tick = (s.half + 1) / 2;
-    time_switch(c, s, o, in);
+    time_switch(c, s, o, advice, in);
     in.reversed = o.bias.reversed && o.lit;
     in.light_known = o.fresh && (o.light.readable || o.lit);
     in.two_way = o.lit;
@@ -67,11 +93,9 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
     in.detuning = o.monitored.detuning;
     in.piezo = o.piezo;
     in.set_point = Volts{s.loop.set_point_v};
-    in.half_wave = Volts{s.half_wave.estimate_v};
-    if (c.by_direction) {
-        in.half_wave = Volts{0.5 * (s.half_wave.estimate_v + s.half_wave_down.estimate_v)};
-        in.offset = Volts{0.5 * (s.half_wave.estimate_v - s.half_wave_down.estimate_v)};
-    }
+    in.half_wave = Volts{0.5 * (s.move_up_v - s.move_down_v)};
+    in.offset = Volts{0.5 * (s.move_up_v + s.move_down_v)};
+    if (!s.mode_switch.loop_closed) read_flight(c, s, o, in);
     return step(c.mode_switch, s.mode_switch, in);
 }
 
@@ -79,13 +103,43 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
 bool learn_half_wave(const GyroControlConfig& c, GyroControlState& s, const ModeSwitchOutput& sequenced) noexcept {
     if (!sequenced.has_event || sequenced.event.outcome != SwitchOutcome::switched) return false;
     const double measured_v = sequenced.event.has_half_wave ? sequenced.event.half_wave_v : __builtin_nan("");
-    if (!c.by_direction) return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
-    const bool up = sequenced.event.direction > 0;
-    HalfWaveState& moved = up ? s.half_wave : s.half_wave_down;
-    HalfWaveState& other = up ? s.half_wave_down : s.half_wave;
-    const bool rejected = step(c.half_wave, moved, Volts{measured_v}).rejected;
-    if (other.n_accepted == 0) other.estimate_v = moved.estimate_v;  // better than what was presumed
-    return rejected;
+    return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
+}
+
+// What the move of a switch has come to, as the first closed half shows: mean detuning over a known voltage.
+//
+// At the closing itself it was dl + kp (v at closing - mean v of the half).
+void read_arrival(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
+    const bool follows = c.loop.kind == LoopKind::digital && c.loop.relock_halves > 0;
+    const double mean_v =
+        follows ? o.piezo.value() + (s.loop.mean_v - s.loop.end_v) : 0.5 * (s.closed_at_v + o.piezo.value());
+    const double beyond_v = s.closed_at_v - mean_v;
+    if (!s.closed_read || !o.detuning_usable || !o.loop_closed || !is_finite(beyond_v)) return;
+    const double moved_v = s.closed_at_v - s.mode_switch.good_v;
+    arrive(c.stroke, s.stroke,
+           {.sign = static_cast<std::int8_t>(moved_v > 0.0 ? 1 : -1),
+            .piezo = Volts{s.closed_at_v},
+            .detuning = Wavelengths{o.monitored.detuning.value() + 0.5 * beyond_v / c.stroke.half_wave.value()},
+            .temperature = Celsius{s.temperature_c}});
+}
+
+// Follow the piezo through a switch: its start, its arrival, its lock.
+void learn_stroke(const GyroControlConfig& c, GyroControlState& s, const Observation& o, bool was_closed,
+                  const ModeSwitchOutput& sequenced) noexcept {
+    const ModeSwitchState& m = s.mode_switch;
+    const bool arrived = was_closed && m.phase == SwitchPhase::settling && m.switching && m.n_halves == 1;
+    // The plays must not yet know what the closed loop did.
+    if (arrived) read_arrival(c, s, o);
+    follow(c.stroke, s.stroke, o.piezo);
+    if (!was_closed && sequenced.loop_closed) {
+        s.closed_read = plausible(c.loop.range, o.piezo);
+        if (s.closed_read) s.closed_at_v = o.piezo.value();
+    }
+    const bool opens = was_closed && !sequenced.loop_closed && m.phase == SwitchPhase::open;
+    if (opens) begin_move(c.stroke, s.stroke, Volts{m.good_v});
+    if (!sequenced.has_event) return;
+    (void)confirm(c.stroke, s.stroke,
+                  sequenced.event.outcome == SwitchOutcome::switched && sequenced.event.has_half_wave);
 }
 
 PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, const Observation& o, bool was_closed,
@@ -159,7 +213,9 @@ GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t co
     GyroControlState s;
     s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
     s.half_wave = initial_state(config.half_wave);
-    s.half_wave_down = initial_state(config.half_wave);
+    s.stroke = initial_state(config.stroke, config.mode_switch.start_set_point);
+    s.move_up_v = config.stroke.half_wave.value();
+    s.move_down_v = -s.move_up_v;
     s.schedule = initial_state(config.schedule);
     s.mode_switch = initial_state(config.mode_switch);
     s.counter = counter;
@@ -175,14 +231,17 @@ ActuatorFrame initial_actuator(const GyroControlConfig& config) noexcept {
     return actuator;
 }
 
-GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame) noexcept {
+GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,
+                       const SwitchAdvice& advice) noexcept {
     const SwitchPhase phase = state.mode_switch.phase;
     const bool was_closed = state.mode_switch.loop_closed;
 
     Observation seen;
     observe(config, state, frame, seen);
-    const ModeSwitchOutput sequenced = sequence(config, state, seen);
+    predict_moves(config, state);
+    const ModeSwitchOutput sequenced = sequence(config, state, seen, advice);
     const bool half_wave_rejected = learn_half_wave(config, state, sequenced);
+    learn_stroke(config, state, seen, was_closed, sequenced);
     const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
 
     GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.has_event, .event = sequenced.event};

@@ -92,6 +92,15 @@ void close_loop(ModeSwitchState& s) noexcept {
     s.readings = PiezoReadings{};
 }
 
+// Whether the light of the last open half is that of the new mode, near its centre.
+bool has_arrived(const ModeSwitchConfig& c, const ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    if (c.gap_min_ticks == 0 || s.phase != SwitchPhase::open) return false;
+    if (!in.tick_border || s.n_halves < 2 * c.gap_min_ticks) return false;
+    if (!(in.light_known && in.two_way && in.usable && in.at_rest)) return false;
+    const Wavelengths leads_to = in.detuning + in.in_flight;
+    return leads_to >= -1.0 * c.arrival_tolerance && leads_to <= c.arrival_tolerance;
+}
+
 void remember_good(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
     s.good_measured = fresh(s.readings);
     s.good_v = s.readings.n > 0 ? mean_v(s.readings) : clamp(c.range, in.set_point).value();
@@ -198,7 +207,7 @@ ModeSwitchOutput step(const ModeSwitchConfig& config, ModeSwitchState& state, co
     ModeSwitchOutput out;
     count_up(state.n_halves);
     if (!state.loop_closed) {
-        if (state.n_halves >= 2 * config.gap_ticks) close_loop(state);
+        if (state.n_halves >= 2 * config.gap_ticks || has_arrived(config, state, input)) close_loop(state);
     } else {
         watch(config, state, input);
         if (input.reversed && input.tick_border) {

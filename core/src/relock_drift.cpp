@@ -171,6 +171,7 @@ RelockDriftOutput step(const RelockDriftConfig& config, RelockDriftState& state,
         case RelockMethod::detuning:
             return {.due = true, .tick = by_detuning(config, tick)};
         case RelockMethod::mean_square:
+        case RelockMethod::joint:  // what is known before the halves around the gap are weighed together
             return {.due = true, .tick = by_mean_square(config, tick)};
         case RelockMethod::none:
             break;

@@ -7,6 +7,9 @@
 namespace zlg::core {
 namespace {
 
+// Far below what any converter can tell.
+constexpr double negligible_v = 1e-6;
+
 struct Piece {
     double end_v;
     double integral_vs;
@@ -32,12 +35,17 @@ Piece followed(const StageModel& m, double v, double command_v) noexcept {
     return {corner_at_v + gone_v, slewed_vs + command_v * rest_s - m.rc_s * gone_v};
 }
 
-// Farther away than the current can move it in a piece, the target itself will do.
+// From farther away than this the limit of the current is felt throughout a piece, and the target itself is the command.
+double slewing_from_v(const StageModel& m) noexcept { return m.slew_v_s * (m.rc_s + m.piece_s); }
+
+// The command that brings a voltage within a piece's reach to the target.
 double leading_v(const StageModel& m, double v, double target_v) noexcept {
-    const double most_v = m.slew_v_s * (m.rc_s + m.piece_s);
-    const double error_v = target_v - v;
-    if (error_v > most_v || error_v < -most_v) return target_v;
-    return v + limited(error_v / (1.0 - m.decay), most_v);
+    return v + limited((target_v - v) / (1.0 - m.decay), slewing_from_v(m));
+}
+
+Piece slewed(const StageModel& m, double v, double target_v) noexcept {
+    const double end_v = v + (target_v > v ? m.slew_v_s : -m.slew_v_s) * m.piece_s;
+    return {end_v, 0.5 * (v + end_v) * m.piece_s};
 }
 
 }  // namespace
@@ -49,12 +57,18 @@ StageModel stage_model(double rc_s, double slew_v_s, double piece_s) noexcept {
 StageMove move_towards(const StageModel& stage, const PiezoRange& range, double from_v, double target_v,
                        std::int32_t n) noexcept {
     StageMove move{.end_v = from_v};
+    const double last_v = clamp(range, Volts{target_v}).value();
+    const double far_v = slewing_from_v(stage);
     double integral_vs = 0.0;
     for (std::int32_t k = 0; k < n; ++k) {
+        const bool is_far = size(last_v - move.end_v) > far_v;
         // The last set-point stays if the processor falls silent: it is the target.
-        const double wanted_v = k + 1 < n ? leading_v(stage, move.end_v, target_v) : target_v;
-        const double command_v = clamp(range, Volts{wanted_v}).value();
-        const Piece piece = followed(stage, move.end_v, command_v);
+        const bool leads = !is_far && k + 1 < n;
+        const double command_v = leads ? clamp(range, Volts{leading_v(stage, move.end_v, last_v)}).value() : last_v;
+        const bool rests = size(command_v - move.end_v) < negligible_v;
+        const Piece piece = is_far  ? slewed(stage, move.end_v, last_v)
+                            : rests ? Piece{move.end_v, move.end_v * stage.piece_s}
+                                    : followed(stage, move.end_v, command_v);
         move.set_point_v[static_cast<std::size_t>(k)] = command_v;
         move.end_v = piece.end_v;
         integral_vs += piece.integral_vs;

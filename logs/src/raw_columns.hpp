@@ -21,6 +21,7 @@ enum : std::size_t {
     temperature_c,
     edge_offset_ticks,
     light,
+    light_b,
 };
 
 inline constexpr std::array<Column, 11> csv_columns{{{"half", true},
@@ -35,11 +36,12 @@ inline constexpr std::array<Column, 11> csv_columns{{{"half", true},
                                                      {"temperature_c", false, "degC"},
                                                      {"edge_offset_ticks", false}}};
 
-// In HDF5 also the light samples, halves x N.
-inline constexpr std::array<Column, 12> hdf5_columns = [] {
-    std::array<Column, 12> all{};
+// In HDF5 also the light samples of both beams, halves x N.
+inline constexpr std::array<Column, 13> hdf5_columns = [] {
+    std::array<Column, 13> all{};
     for (std::size_t k = 0; k < csv_columns.size(); ++k) all[k] = csv_columns[k];
     all[light] = {"light", false, "1"};
+    all[light_b] = {"light_b", false, "1"};
     return all;
 }();
 

@@ -95,7 +95,7 @@ public:
         file_.append(names + "\n");
     }
 
-    void write(const core::HalfRecord& r, std::span<const float>) override {
+    void write(const core::HalfRecord& r, const core::LightSamples&) override {
         require_edge_column(columns_, r);
         // Two integers of at most 20 letters, one of 11, four reals of at most 24, four of at most 2, and the commas.
         std::array<char, 192> row;

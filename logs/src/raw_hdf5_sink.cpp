@@ -40,7 +40,8 @@ public:
         : table_{path, force, options.keep_part},
           columns_{columns},
           light_samples_{static_cast<std::size_t>(options.light_samples)},
-          light_(light_samples_ * hdf5::block_rows) {
+          light_(light_samples_ * hdf5::block_rows),
+          light_b_(options.light_b ? light_.size() : 0) {
         hdf5::add_settings(table_, settings);
         if (columns_.has_edge_offset) table_.set_real(timer_setting, columns_.timer_hz);
         table_.add_group("/raw");
@@ -58,7 +59,7 @@ public:
         }
     }
 
-    void write(const core::HalfRecord& r, std::span<const float> light) override {
+    void write(const core::HalfRecord& r, const core::LightSamples& light) override {
         table_.require_open();
         check(r, light);
         const std::size_t i = n_;
@@ -73,7 +74,8 @@ public:
         block_->mode[i] = r.mode;
         block_->loop_closed[i] = r.loop_closed;
         block_->valid[i] = r.valid;
-        if (light_samples_ > 0) std::ranges::copy(light, &light_[i * light_samples_]);
+        if (light_samples_ > 0) std::ranges::copy(light.a, &light_[i * light_samples_]);
+        if (!light_b_.empty()) std::ranges::copy(light.b, &light_b_[i * light_samples_]);
         if (++n_ == room_) append();
     }
 
@@ -107,12 +109,17 @@ private:
         add(raw::piezo_v, H5T_NATIVE_DOUBLE, block_->piezo_v.data());
         add(raw::temperature_c, H5T_NATIVE_DOUBLE, block_->temperature_c.data());
         add(raw::edge_offset_ticks, H5T_NATIVE_INT32, block_->edge_offset_ticks.data());
-        if (light_samples_ == 0) return;
-        table_.add_column("/raw", {"light", H5T_NATIVE_FLOAT, raw::hdf5_columns[raw::light].unit, light_.data(),
-                                   static_cast<int>(light_samples_)});
+        if (light_samples_ > 0) add_light(raw::light, light_);
+        if (!light_b_.empty()) add_light(raw::light_b, light_b_);
     }
 
-    void check(const core::HalfRecord& r, std::span<const float> light) const {
+    void add_light(std::size_t column, const std::vector<float>& rows) {
+        const Column& c = raw::hdf5_columns[column];
+        table_.add_column(
+            "/raw", {std::string{c.name}, H5T_NATIVE_FLOAT, c.unit, rows.data(), static_cast<int>(light_samples_)});
+    }
+
+    void check(const core::HalfRecord& r, const core::LightSamples& light) const {
         require_edge_column(columns_, r);
         const auto require = [&](bool is_column, double value, std::string_view name) {
             if (is_column && !is_finite(value)) refuse_raw(r, name, value);
@@ -121,12 +128,17 @@ private:
         require(columns_.has_detuning_sq, r.detuning_sq_lambda2, "detuning_sq_lambda2");
         require(columns_.has_piezo, r.piezo_v, "piezo_v");
         require(columns_.has_temperature, r.temperature_c, "temperature_c");
-        if (light_samples_ == 0) return;
+        if (light_samples_ > 0) check_light(r, light.a, "light");
+        if (!light_b_.empty()) check_light(r, light.b, "light_b");
+    }
+
+    void check_light(const core::HalfRecord& r, std::span<const float> light, std::string_view name) const {
         if (light.size() != light_samples_) {
-            throw FormatError(fmt::format("half {} cannot be logged: {} light samples; allowed are {}", r.half,
-                                          light.size(), light_samples_));
+            throw FormatError(fmt::format("half {} cannot be logged: {} samples of {}; allowed are {}", r.half,
+                                          light.size(), name, light_samples_));
         }
-        for (const float value : light) require(true, static_cast<double>(value), "light");
+        for (const float value : light)
+            if (!is_finite(value)) refuse_raw(r, name, static_cast<double>(value));
     }
 
     // Rows that could not be written are lost; a later call fails for the same reason.
@@ -141,6 +153,7 @@ private:
     RawColumns columns_;
     std::size_t light_samples_;
     std::vector<float> light_;
+    std::vector<float> light_b_;
     std::size_t n_ = 0;     // rows in the block
     std::size_t room_ = 0;  // for so many
 };

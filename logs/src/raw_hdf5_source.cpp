@@ -30,6 +30,8 @@ public:
             header_.timer_hz = take_timer_hz(header_.settings, table_.source().real_attribute(timer_setting), path);
         }
         header_.light_samples = table_.has(raw::light) ? static_cast<int>(light_.width()) : 0;
+        header_.has_light_b = table_.has(raw::light_b);
+        require_matching_beams(path);
         header_.complete = table_.is_complete();
     }
 
@@ -56,9 +58,9 @@ public:
         return grown;
     }
 
-    [[nodiscard]] std::span<const float> light() const override {
-        if (header_.light_samples == 0 || next_row_ == 0) return {};
-        return {light_.values() + (next_row_ - 1) * light_.width(), light_.width()};
+    [[nodiscard]] core::LightSamples light() const override {
+        if (next_row_ == 0) return {};
+        return {samples_of(light_), samples_of(light_b_)};
     }
 
     [[nodiscard]] double fraction_read() const override {
@@ -67,6 +69,18 @@ public:
 
 private:
     static constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+
+    // Of the row that was read last.
+    [[nodiscard]] std::span<const float> samples_of(const hdf5::Column<float>& beam) const {
+        if (!beam.is_open()) return {};
+        return {beam.values() + (next_row_ - 1) * beam.width(), beam.width()};
+    }
+
+    void require_matching_beams(const std::string& path) const {
+        if (!header_.has_light_b || static_cast<int>(light_b_.width()) == header_.light_samples) return;
+        throw FormatError(fmt::format("{}: /raw/light_b has {} samples in a half; allowed are the {} of /raw/light",
+                                      path, light_b_.width(), header_.light_samples));
+    }
 
     void open_columns() {
         table_.open(raw::half, half_);
@@ -81,6 +95,7 @@ private:
         table_.open(raw::temperature_c, temperature_c_);
         table_.open(raw::edge_offset_ticks, edge_offset_ticks_);
         table_.open(raw::light, light_, core::max_light_samples);
+        table_.open(raw::light_b, light_b_, core::max_light_samples);
         table_.measure();
     }
 
@@ -114,6 +129,7 @@ private:
         if (valid_.is_open()) block_.take(valid_, is_flag, no_flag);
         for (auto* reals : {&detuning_lambda_, &detuning_sq_lambda2_, &piezo_v_, &temperature_c_}) take_reals(*reals);
         take_reals(light_);
+        take_reals(light_b_);
         if (!edge_offset_ticks_.is_open()) return;
         using Limits = std::numeric_limits<std::int32_t>;
         block_.take(
@@ -160,6 +176,7 @@ private:
     hdf5::Column<double> temperature_c_;
     hdf5::Column<std::int32_t> edge_offset_ticks_;
     hdf5::Column<float> light_;
+    hdf5::Column<float> light_b_;
     hdf5::Block block_;
     std::size_t next_row_ = 0;  // of the block
     hsize_t block_end_ = 0;     // row behind the block

@@ -18,6 +18,8 @@ std::unique_ptr<RawSink> create(const std::string& path, const Settings& setting
         throw FormatError(fmt::format("{}: {} light samples in a half; allowed is 0..{}", path, options.light_samples,
                                       core::max_light_samples));
     }
+    if (options.light_b && options.light_samples == 0)
+        throw FormatError(fmt::format("{}: light samples of beam B; allowed is with those of beam A", path));
     if (columns.has_edge_offset) check_timer_hz(columns.timer_hz, path);
     if (format_of(path) == LogFormat::hdf5) return create_raw_hdf5(path, settings, force, columns, options);
     if (options.light_samples > 0) {
@@ -46,7 +48,7 @@ RawReader::RawReader(RawReader&&) noexcept = default;
 
 const RawHeader& RawReader::header() const { return source_->header(); }
 bool RawReader::next(core::HalfRecord& record) { return source_->next(record); }
-std::span<const float> RawReader::light() const { return source_->light(); }
+core::LightSamples RawReader::light() const { return source_->light(); }
 bool RawReader::refresh() { return source_->refresh(); }
 bool RawReader::line_is_ended() const { return source_->line_is_ended(); }
 double RawReader::fraction_read() const { return source_->fraction_read(); }
@@ -57,7 +59,7 @@ RawWriter::RawWriter(const std::string& path, const std::vector<std::pair<std::s
 RawWriter::~RawWriter() = default;
 RawWriter::RawWriter(RawWriter&&) noexcept = default;
 
-void RawWriter::write(const core::HalfRecord& record, std::span<const float> light) { sink_->write(record, light); }
+void RawWriter::write(const core::HalfRecord& record, const core::LightSamples& light) { sink_->write(record, light); }
 void RawWriter::flush() { sink_->flush(); }
 void RawWriter::close() { sink_->close(); }
 const std::string& RawWriter::part_path() const { return sink_->part_path(); }

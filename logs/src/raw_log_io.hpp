@@ -13,7 +13,7 @@ public:
     virtual ~RawSource() = default;
     virtual bool next(core::HalfRecord& record) = 0;
     virtual bool refresh() { return false; }
-    [[nodiscard]] virtual std::span<const float> light() const { return {}; }
+    [[nodiscard]] virtual core::LightSamples light() const { return {}; }
     [[nodiscard]] virtual bool line_is_ended() const { return true; }
     [[nodiscard]] virtual double fraction_read() const = 0;
     [[nodiscard]] const RawHeader& header() const { return header_; }
@@ -25,7 +25,7 @@ protected:
 class RawSink {
 public:
     virtual ~RawSink() = default;
-    virtual void write(const core::HalfRecord& record, std::span<const float> light) = 0;
+    virtual void write(const core::HalfRecord& record, const core::LightSamples& light) = 0;
     virtual void flush() = 0;
     virtual void close() = 0;
     [[nodiscard]] virtual const std::string& part_path() const = 0;

@@ -1,6 +1,7 @@
 #include <zlg/rig/closed_loop.hpp>
 
 #include <array>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -56,20 +57,42 @@ twin::TwinHalf advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuato
     }
 }
 
+// The compensation as it is configured, but always with an eye on the magnetic drift.
+core::GyroCompensationConfig adviser_config(const config::Config& config) {
+    config::Config watching = config;
+    if (watching.compensation.magnetic == core::MagneticMethod::none)
+        watching.compensation.magnetic = core::MagneticMethod::watch;
+    return compensation_config(watching, config.compensation.relock.value_or(core::RelockMethod::mean_square),
+                               config.compensation.bridge);
+}
+
+// Of a run whose last segment is to balance the modes; else 0.
+std::int64_t balanced_end(const config::Config& config, const twin::Motion& motion) {
+    return config.switching.last_segment == config::LastSegment::half ? run_ticks(config, motion) : 0;
+}
+
 }  // namespace
 
 ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion)
+    : ClosedLoop{config, balanced_end(config, motion), std::move(motion)} {}
+
+ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion)
     : twin_{make_twin(config, std::move(motion))},
       control_config_{control_config(config)},
       control_state_{initial_state(control_config_)},
-      actuator_{initial_actuator(control_config_)} {}
+      actuator_{initial_actuator(control_config_)} {
+    control_config_.schedule.end_tick = end_tick;
+    if (config.switching.schedule == config::Schedule::measured) adviser_.emplace(Adviser{adviser_config(config)});
+}
 
 LoopHalf ClosedLoop::advance() {
     const twin::TwinHalf half = advance_twin(twin_, actuator_);
     sensor_ = half.sensor;
+    const core::SwitchAdvice advice = adviser_ ? core::advice(adviser_->config, adviser_->state) : core::SwitchAdvice{};
     LoopHalf out;
-    out.control = step(control_config_, control_state_, sensor_);
+    out.control = step(control_config_, control_state_, sensor_, advice);
     out.record = out.control.record;
+    if (adviser_) (void)step(adviser_->config, adviser_->state, out.record, light());
     out.truth = half.truth;
     out.half_wave_v = control_state_.half_wave.estimate_v;
     out.half_wave_sigma_v = sigma(control_state_.half_wave).value();
@@ -77,6 +100,10 @@ LoopHalf ClosedLoop::advance() {
     return out;
 }
 
-std::span<const float> ClosedLoop::light() const { return {sensor_.light_a.data(), sensor_.n_light}; }
+core::LightSamples ClosedLoop::light() const {
+    const std::span a{sensor_.light_a};
+    const std::span b{sensor_.light_b};
+    return {a.first(sensor_.n_light), b.first(sensor_.has_light_b ? sensor_.n_light : 0u)};
+}
 
 }  // namespace zlg::rig

@@ -12,6 +12,8 @@
 #include "bias_wiring.hpp"
 #include "fault_wiring.hpp"
 #include "laser_wiring.hpp"
+#include "motion_prior.hpp"
+#include "switching_wiring.hpp"
 
 namespace zlg::rig {
 namespace {
@@ -55,11 +57,6 @@ twin::Motion from_file(const config::Motion& m) {
     }
 }
 
-// Whole ticks of a time, 1 at least.
-std::int64_t ticks_of(double time_s, double tick_s) {
-    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(time_s / tick_s)));
-}
-
 // A tenth of the range, at most the field's own: room for thermal drift until the next switch.
 core::PiezoRange range_of(const config::Config& config) {
     const core::Volts min{config.piezo.range_min_v};
@@ -74,8 +71,6 @@ void add_relock(const config::Config& config, core::PerimeterLoopConfig& loop) {
     loop.relock_halves = static_cast<std::int32_t>(p.relock_halves);
     loop.relock_gain = 1.0 - std::pow(1.0 - p.sample_gain, static_cast<double>(config.gyro.light_samples));
     loop.time_constant = core::Seconds{std::max(p.settled_tau_s, 0.5 * config.gyro.tick_s)};
-    loop.stage_time_constant = core::Seconds{config.piezo.rc_s};
-    loop.set_points = static_cast<std::int32_t>(p.set_points);
 }
 
 bool has_ideal_piezo(const config::Config& config) {
@@ -87,18 +82,9 @@ bool has_ideal_piezo(const config::Config& config) {
 // voltage is no outlier.
 void learn_piezo(core::GyroControlConfig& made) {
     made.mode_switch.settle_ticks = 10;
-    made.by_direction = true;
     made.half_wave.measurement_sigma = 0.02 * made.half_wave.presumed;
     made.half_wave.process_sigma = std::sqrt(4.0 / 3.0) * made.half_wave.measurement_sigma;
     made.half_wave.gate = 10.0;
-}
-
-core::SwitchScheduleConfig schedule_of(const config::Config& config) {
-    if (config.switching.interval_optimal)
-        throw ConfigError{"switching.interval_s = \"optimal\" must be resolved into seconds before a gyro can run"};
-    return {.interval_ticks = ticks_of(config.switching.interval_s, config.gyro.tick_s),
-            .first_segment = config.switching.first_segment == config::FirstSegment::half ? core::FirstSegment::half
-                                                                                          : core::FirstSegment::full};
 }
 
 }  // namespace
@@ -198,6 +184,32 @@ core::DiscriminatorCurve discriminator_curve(const config::Config& config, doubl
     return curve;
 }
 
+namespace {
+
+core::OptimalBridgeConfig optimal_config(const config::Config& config, core::RelockMethod relock,
+                                         core::BridgeMethod bridge) {
+    const double walk = config.drift.random_walk_arcsec_sqrt_s;
+    core::OptimalBridgeConfig made{
+        .learns = bridge != core::BridgeMethod::optimal || config.compensation.prior == config::MotionPrior::learnt,
+        .halves = relock == core::RelockMethod::joint,
+        .counter_step = core::Arcsec{config.gyro.scale_arcsec},
+        .walk_arcsec2 = walk * walk * config.gyro.tick_s};
+    if (!made.learns) made.prior_arcsec2 = motion_prior(config.compensation, config.gyro.tick_s);
+    return made;
+}
+
+// The samples of the light, as the control reads them.
+core::RelockProfileConfig profile_of(const config::Config& config, core::RelockMethod relock) {
+    if (relock != core::RelockMethod::joint) return {};
+    const config::Gyro& g = config.gyro;
+    return {.discriminator_per_lambda = g.discriminator_per_lambda,
+            .curve = discriminator_curve(config, g.discriminator_per_lambda),
+            .light_noise = core::Wavelengths{std::min(g.light_noise_lambda, 1e3)},
+            .light_samples = static_cast<int>(g.light_samples)};
+}
+
+}  // namespace
+
 core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
                                                  core::BridgeMethod bridge) {
     const config::Gyro& g = config.gyro;
@@ -213,18 +225,26 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
                    .reference_temperature = core::Celsius{g.reference_temperature_c},
                    .light_noise = core::Wavelengths{g.light_noise_lambda},
                    .light_samples = static_cast<int>(g.light_samples)},
+        .profile = profile_of(config, relock),
         .timer = core::Hertz{timer_hz},
         .plateau_ratio = plateau_ratio(g),
         .bridge = {.method = bridge,
                    .extrapolation_points = static_cast<int>(c.extrapolation_points),
                    .points_before = static_cast<int>(c.points_before),
                    .points_after = static_cast<int>(c.points_after),
-                   .count = core::Arcsec{g.scale_arcsec}},
-        .random_walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s}};
+                   .count = core::Arcsec{g.scale_arcsec},
+                   .optimal = optimal_config(config, relock, bridge)},
+        .random_walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s},
+        .magnetic = magnetic_of(config)};
     switch (check(made)) {
         case core::GyroCompensationFault::none:
             return made;
         case core::GyroCompensationFault::bridge:
+            if (check(made.bridge) == core::GapBridgeFault::optimal)
+                throw ConfigError{
+                    "compensation.prior: the prior motion gives no covariance; allowed are a band of 0 Hz or more, "
+                    "lines with "
+                    "rates whose squares are numbers, and rates that are not all 0"};
             throw ConfigError{
                 fmt::format("compensation: a polynomial of order {} needs more points than its order; "
                             "extrapolation_points = {}, points_before + points_after = {}",
@@ -234,6 +254,15 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
             throw ConfigError{"[gyro] does not describe a gyro that can be compensated"};
         case core::GyroCompensationFault::random_walk:
             throw ConfigError{"drift.random_walk_arcsec_sqrt_s: allowed is 0 or more"};
+        case core::GyroCompensationFault::profile:
+            throw ConfigError{
+                fmt::format("gyro.discriminator_per_lambda = {}: compensation.relock = \"joint\" reads the light; "
+                            "allowed are sizes 1e-6..1e6",
+                            g.discriminator_per_lambda)};
+        case core::GyroCompensationFault::magnetic:
+            throw ConfigError{
+                fmt::format("compensation.magnetic: needs drift.random_walk_arcsec_sqrt_s = {} of up to 1e6",
+                            config.drift.random_walk_arcsec_sqrt_s)};
     }
     return made;
 }
@@ -253,12 +282,18 @@ core::GyroControlConfig control_config(const config::Config& config) {
         .half_period = core::Seconds{0.5 * tick_s},
         .time_constant = core::Seconds{std::max(config.perimeter.tau_s, 0.5 * tick_s)},
         .error_limit = core::Wavelengths{config.perimeter.limit_lambda},
-        .slew_v_s = config.piezo.slew_v_s};
+        .slew_v_s = config.piezo.slew_v_s,
+        .stage_time_constant = core::Seconds{config.piezo.rc_s},
+        .set_points = static_cast<std::int32_t>(config.perimeter.set_points)};
     add_relock(config, made.loop);
     made.half_wave.presumed = presumed;
+    made.stroke.range = range;
+    made.stroke.half_wave = presumed;
+    made.stroke.reference = core::Celsius{config.gyro.reference_temperature_c};
     made.schedule = schedule_of(config);
     made.mode_switch.range = range;
     made.mode_switch.gap_ticks = static_cast<std::int32_t>(config.switching.gap_ticks);
+    made.mode_switch.gap_min_ticks = static_cast<std::int32_t>(config.switching.gap_min_ticks);
     if (!has_ideal_piezo(config)) learn_piezo(made);
     // A slow loop needs longer before it may be said to have failed.
     made.mode_switch.lock_timeout_ticks = static_cast<std::int32_t>(std::max<std::int64_t>(
@@ -279,6 +314,8 @@ core::GyroControlConfig control_config(const config::Config& config) {
 
 config::Config without_switching(config::Config config) {
     // Farther away than any run is long.
+    config.switching.schedule = config::Schedule::fixed;
+    config.switching.last_segment = config::LastSegment::any;
     config.switching.interval_s = config.gyro.tick_s * 0x1p52;
     return config;
 }

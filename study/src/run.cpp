@@ -101,7 +101,13 @@ public:
           variants_{variants(task.config, curve_stride(ticks))},
           finder_{task.config.compensation.relock_ticks} {}
 
-    void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second) {
+    // The first half of a tick, while its light is there.
+    void first_half(const rig::LoopHalf& first, const core::LightSamples& light) {
+        for (Variant& v : variants_) (void)step(v.config, v.state, first.record, light);
+    }
+
+    void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second,
+              const core::LightSamples& light_second) {
         finder_.take(tick, first.record, second.record);
         forget_windows(tick);
         remember_switch();
@@ -113,8 +119,7 @@ public:
             if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
         }
         for (Variant& v : variants_) {
-            (void)step(v.config, v.state, first.record);
-            const core::AngleSample sample = step(v.config, v.state, second.record).sample;
+            const core::AngleSample sample = step(v.config, v.state, second.record, light_second).sample;
             if (sample.has_final) take_row(v, sample.final_row);
             if (sample.has_gap && is_configured(v)) gaps_[sample.gap.first_tick] = sample.gap;
         }
@@ -250,8 +255,9 @@ void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t
     const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
         const rig::LoopHalf first = advance(loop, task);
+        experiment.first_half(first, loop.light());
         const rig::LoopHalf second = advance(loop, task);
-        experiment.tick(tick, first, second);
+        experiment.tick(tick, first, second, loop.light());
         if (task.on_progress && tick % progress_stride == 0)
             task.on_progress(static_cast<double>(tick) / static_cast<double>(ticks));
     }

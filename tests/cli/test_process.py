@@ -189,7 +189,7 @@ class SettingsAndForms(OracleTest):
         rows = random_log(self.random, settings, {20, 21, 22}, 60)
         for method in ("mean_square", "none"):
             raw, out = self.write("log.csv", csv_text(rows)), self.folder / f"{method}.csv"
-            self.succeed("process", raw, "--out", out, "--set", "gyro.bias_hz=60123.4")
+            self.succeed("process", raw, "--out", out, "--set", "gyro.bias_hz=60123.4", "--set", "compensation.bridge=quadratic")
             ticks = compensate(rows, Settings(bias_hz=60123.4, relock=method))
             self.assert_angles(AngleLog(out), ticks, f"default of relock, expected {method}")
             for row in rows:

@@ -35,11 +35,11 @@ TEST(Config, the_defaults_are_the_published_gyro) {
     EXPECT_EQ(c.design.switch_error_arcsec, 10.0);
 }
 
-TEST(Config, the_default_compensation_is_quadratic_over_four_and_two_and_two_points) {
+TEST(Config, the_default_compensation_is_automatic_over_four_and_two_and_two_points) {
     const Config c;
     EXPECT_FALSE(c.compensation.relock.has_value());
     EXPECT_EQ(c.compensation.relock_ticks, 20);
-    EXPECT_EQ(c.compensation.bridge, BridgeMethod::quadratic);
+    EXPECT_EQ(c.compensation.bridge, BridgeMethod::automatic);
     EXPECT_EQ(c.compensation.extrapolation_points, 4);
     EXPECT_EQ(c.compensation.points_before, 2);
     EXPECT_EQ(c.compensation.points_after, 2);

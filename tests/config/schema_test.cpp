@@ -156,8 +156,12 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
                                             "gyro.dither = auto",
                                             "perimeter.loop = digital",
                                             "switching.first_segment = half",
+                                            "switching.last_segment = half",
+                                            "switching.schedule = growing",
+                                            "compensation.magnetic = estimate",
                                             "compensation.relock = detuning",
                                             "compensation.bridge = linear",
+                                            "compensation.prior = flat",
                                             "motion.kind = file",
                                             "motion.column_holds = rate",
                                             "motion.path = a.txt",
@@ -206,8 +210,8 @@ TEST(Schema, knows_every_key_of_the_sections) {
         EXPECT_FALSE(key.allowed.empty()) << key.name;
     }
     EXPECT_EQ(found, sections);
-    // The members of the eleven structs, interval_optimal apart: 2 + 15 + 15 + 5 + 11 + 15 + 3 + 6 + 12 + 8 + 2.
-    EXPECT_EQ(names.size(), 94u);
+    // The members of the eleven structs, interval_optimal apart: 2 + 15 + 15 + 5 + 11 + 15 + 10 + 17 + 12 + 8 + 2.
+    EXPECT_EQ(names.size(), 112u);
     EXPECT_TRUE(is_known_section("gyro"));
     EXPECT_FALSE(is_known_section("gyr"));
 }
@@ -422,9 +426,12 @@ TEST(Schema, no_key_takes_nan_or_infinity) {
 }
 
 TEST(Schema, a_bridge_needs_one_point_more_than_its_order) {
-    EXPECT_EQ(check_complaint({"compensation.extrapolation_points=2"}),
+    EXPECT_EQ(check_complaint({"compensation.bridge=quadratic", "compensation.extrapolation_points=2"}),
               "compensation.bridge = \"quadratic\": a bridge of order 2 needs 3 points, but "
               "compensation.extrapolation_points is 2");
+    // Where nothing is known of the motion yet, "auto" is quadratic too.
+    expect_contains(check_complaint({"compensation.bridge=auto", "compensation.extrapolation_points=2"}),
+                    "compensation.bridge = \"auto\": a bridge of order 2 needs 3 points");
     expect_contains(check_complaint({"compensation.points_before=1", "compensation.points_after=1"}),
                     "order 2 needs 3 points, but compensation.points_before + points_after is 2");
     expect_contains(check_complaint({"compensation.bridge=linear", "compensation.extrapolation_points=1"}),

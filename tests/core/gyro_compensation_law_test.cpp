@@ -17,12 +17,15 @@ using namespace compensation_test;
 using namespace gyro_compensation_support;
 
 constexpr RelockMethod all_methods[] = {RelockMethod::none, RelockMethod::frequency, RelockMethod::detuning,
-                                        RelockMethod::mean_square};
+                                        RelockMethod::mean_square, RelockMethod::joint};
+constexpr BridgeMethod all_bridges[] = {BridgeMethod::none,      BridgeMethod::constant, BridgeMethod::linear,
+                                        BridgeMethod::quadratic, BridgeMethod::optimal,  BridgeMethod::automatic};
 
 GyroCompensationConfig config_of(RelockMethod relock, BridgeMethod bridge = BridgeMethod::quadratic) {
     GyroCompensationConfig config;
     config.relock.method = relock;
     config.bridge.method = bridge;
+    config.bridge.optimal.halves = relock == RelockMethod::joint;
     return config;
 }
 
@@ -143,11 +146,10 @@ TEST(GyroCompensationLaw, TheAccumulatedAngleIsTheSumOfWhatWasDelivered) {
 
 TEST(GyroCompensationLaw, DeliveredAndFinalSumsAgreeWhenNothingIsOutstanding) {
     for (const RelockMethod method : all_methods)
-        for (const auto bridge :
-             {BridgeMethod::none, BridgeMethod::constant, BridgeMethod::linear, BridgeMethod::quadratic}) {
+        for (const BridgeMethod bridge : all_bridges) {
             Random random{2};
             const GyroCompensationConfig config = config_of(method, bridge);
-            Halves halves = switching_log(config, -1, 50, 20'020, 0.15, -33.3);
+            Halves halves = switching_log(config, -1, 50, 20'040, 0.15, -33.3);
             for (std::size_t k = 0; k + 60 < halves.size(); ++k) halves[k].valid = !random.chance(0.02);
             const Delivered got = run(config, halves);
             Quad difference = 0;
@@ -196,14 +198,15 @@ TEST(GyroCompensationLaw, ACopiedStateIsEqualToItself) {
 
 TEST(GyroCompensationLaw, GarbageNeverGivesNotANumber) {
     for (const RelockMethod method : all_methods)
-        for (const auto bridge : {BridgeMethod::none, BridgeMethod::constant, BridgeMethod::quadratic}) {
+        for (const BridgeMethod bridge : all_bridges) {
             Random random{4};
             const GyroCompensationConfig config = config_of(method, bridge);
+            const std::size_t n_ticks = is_estimated(config.bridge) ? 10'000 : 50'000;
             GyroCompensationState state;
             Delivered got;
-            for (int k = 0; k < 100'000; ++k) step_into(config, state, wild_half(random), got);
+            for (std::size_t k = 0; k < 2 * n_ticks; ++k) step_into(config, state, wild_half(random), got);
             drain_into(config, state, got);
-            ASSERT_EQ(got.rows.size(), 50'000u);
+            ASSERT_EQ(got.rows.size(), n_ticks);
             int bad = 0;
             for (std::size_t k = 0; k < got.rows.size(); ++k) {
                 const AngleRow& row = got.rows[k];
@@ -240,6 +243,25 @@ TEST(GyroCompensationLaw, AfterGarbageGoodRecordsGiveGoodRowsAgain) {
             expect_same(row, alone.rows[k]);
         }
     }
+}
+
+// What learns has learnt of garbage; it must find back to a rate that does not change.
+TEST(GyroCompensationLaw, WhatHasLearntOfGarbageFindsBack) {
+    for (const RelockMethod method : {RelockMethod::mean_square, RelockMethod::joint})
+        for (const BridgeMethod bridge : {BridgeMethod::optimal, BridgeMethod::automatic}) {
+            Random random{6};
+            const GyroCompensationConfig config = config_of(method, bridge);
+            GyroCompensationState state;
+            Delivered got;
+            for (int k = 0; k < 2'000; ++k) step_into(config, state, wild_half(random), got);
+            const Halves halves = switching_log(config, 1, 100, 12'000, 0.22, 32.63);
+            for (const HalfRecord& half : halves) step_into(config, state, half, got);
+            drain_into(config, state, got);
+            double worst = 0.0;
+            for (std::size_t k = 1'000 + 10'000; k < got.rows.size(); ++k)
+                worst = std::fmax(worst, std::fabs(got.rows[k].dtheta_final_arcsec - 32.63));
+            EXPECT_LT(worst, 2.0 * 3.263) << static_cast<int>(method) << ' ' << static_cast<int>(bridge);
+        }
 }
 
 // A mean square of the detuning that is finite, and whose false angle is too, but no sum of such angles.

@@ -83,10 +83,11 @@ void spread_detuning(Halves& halves) {
 
 GyroCompensationConfig any_config(BridgeMethod bridge, bool with_relock) {
     GyroCompensationConfig c;
-    c.relock.method = with_relock ? static_cast<RelockMethod>(any(0, 3)) : RelockMethod::none;
+    c.relock.method = with_relock ? static_cast<RelockMethod>(any(0, 4)) : RelockMethod::none;
     c.relock.ticks = any(0, 30);
     c.relock.bias = Hertz{2e3};
     c.bridge.method = bridge;
+    c.bridge.optimal.halves = c.relock.method == RelockMethod::joint;
     const int order = order_of(bridge);
     c.bridge.extrapolation_points = any(order + 1, 8);
     c.bridge.points_before = any(1, 8);
@@ -95,7 +96,9 @@ GyroCompensationConfig any_config(BridgeMethod bridge, bool with_relock) {
     return c;
 }
 
-BridgeMethod any_bridge() { return static_cast<BridgeMethod>(any(0, 3)); }
+BridgeMethod any_bridge() { return static_cast<BridgeMethod>(any(0, 5)); }
+// That remembers no motion.
+BridgeMethod any_fixed_bridge() { return static_cast<BridgeMethod>(any(0, 3)); }
 BridgeMethod any_polynomial() { return static_cast<BridgeMethod>(any(1, 3)); }
 
 // Rows scaled by a factor; sigma is not, because it speaks of the counter.
@@ -106,7 +109,7 @@ bool is_scaled(const AngleRow& scaled, const AngleRow& row, double factor) {
 }
 
 RC_GTEST_PROP(GyroCompensationProperty, CountsTimesAPowerOfTwoOrNegatedScaleEveryBit, ()) {
-    const GyroCompensationConfig config = any_config(any_bridge(), false);
+    const GyroCompensationConfig config = any_config(any_fixed_bridge(), false);
     Halves halves = any_log(20, 3);
     const Delivered plain = run(config, halves);
     const int factor = (1 << any(0, 20)) * *rc::gen::element(1, -1);
@@ -118,7 +121,7 @@ RC_GTEST_PROP(GyroCompensationProperty, CountsTimesAPowerOfTwoOrNegatedScaleEver
 
 // Weights far ahead of few points go up to some hundreds; the counts are 1000 at most.
 RC_GTEST_PROP(GyroCompensationProperty, RotationsAddUp, ()) {
-    const GyroCompensationConfig config = any_config(any_bridge(), false);
+    const GyroCompensationConfig config = any_config(any_fixed_bridge(), false);
     const Plan plan = any_plan(20);
     const std::size_t n_halves = 2 * (n_ticks_of(plan) + 6);
     const std::vector<int> a = any_counts(n_halves);
@@ -177,7 +180,7 @@ RC_GTEST_PROP(GyroCompensationProperty, ALogPlayedBackwardsHasItsFinalAnglesBack
 
 // Eight measured ticks stand before the first gap, so that no fit reaches what is put before them.
 RC_GTEST_PROP(GyroCompensationProperty, AnEarlierStartOfTheLogChangesNoBitOfWhatFollows, ()) {
-    const GyroCompensationConfig config = any_config(any_bridge(), true);
+    const GyroCompensationConfig config = any_config(any_fixed_bridge(), true);
     Halves halves = any_log(20, 8);
     spread_detuning(halves);
     const Delivered plain = run(config, halves);
@@ -233,7 +236,7 @@ Quad missing_arcsec(const GyroCompensationConfig& config, GyroCompensationState 
 
 RC_GTEST_PROP(GyroCompensationProperty, AfterEveryCorrectionNothingOfTheAngleIsMissing, ()) {
     const GyroCompensationConfig config = any_config(any_bridge(), true);
-    Halves halves = any_log(40, 10);
+    Halves halves = any_log(40, 24);
     spread_detuning(halves);
     GyroCompensationState state;
     Delivered so_far;

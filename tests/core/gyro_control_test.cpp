@@ -127,7 +127,7 @@ TEST_P(EitherLoop, HelicityAlternatesWithTheOpeningAndTheLaserFollows) {
 
 TEST_P(EitherLoop, TheHalfWaveVoltageIsLearntFromAFivePercentError) {
     GyroControlConfig c = config_of(GetParam());
-    c.half_wave.presumed = Volts{38.0};
+    c.half_wave.presumed = c.stroke.half_wave = Volts{38.0};
     Loop loop{c};
     loop.ticks(210);
     EXPECT_NEAR(std::abs(loop.plant.miss_lambda), 0.025, 0.003);  // 2 V of 80 V per wavelength
@@ -140,7 +140,7 @@ TEST_P(EitherLoop, TheHalfWaveVoltageIsLearntFromAFivePercentError) {
 
 TEST_P(EitherLoop, DetuningDecaysToNothingBetweenSwitches) {
     GyroControlConfig c = config_of(GetParam());
-    c.half_wave.presumed = Volts{36.0};
+    c.half_wave.presumed = c.stroke.half_wave = Volts{36.0};
     Loop loop{c};
     loop.ticks(230);
     EXPECT_LT(std::abs(loop.records.back().detuning_lambda), 1e-3);
@@ -485,8 +485,13 @@ private:
 void expect_sane(const GyroControlOutput& out, const GyroControlState& s) {
     ASSERT_TRUE(all_finite(out.record));
     ASSERT_TRUE(out.actuator.polarity == 1 || out.actuator.polarity == -1);
-    ASSERT_EQ(out.actuator.n_set_points, 1);
-    ASSERT_TRUE(out.actuator.set_point_v[0] >= 0.0 && out.actuator.set_point_v[0] <= 300.0);
+    ASSERT_TRUE(out.actuator.n_set_points == 1 || out.actuator.n_set_points == 16);
+    for (std::size_t k = 0; k < out.actuator.n_set_points; ++k) {
+        ASSERT_TRUE(out.actuator.set_point_v[k] >= 0.0 && out.actuator.set_point_v[k] <= 300.0);
+    }
+    for (const double weight : s.stroke.weight) ASSERT_TRUE(std::isfinite(weight));
+    for (const double play : s.stroke.play) ASSERT_TRUE(std::isfinite(play));
+    ASSERT_TRUE(s.loop.slew_ratio >= 0.25 && s.loop.slew_ratio <= 4.0);
     ASSERT_TRUE(out.record.mode == 1 || out.record.mode == -1);
     ASSERT_TRUE(out.record.bias_sign == 1 || out.record.bias_sign == -1);
     ASSERT_TRUE(std::isfinite(out.event.half_wave_v) && std::isfinite(out.event.miss_lambda));

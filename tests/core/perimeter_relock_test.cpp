@@ -128,6 +128,55 @@ TEST(PerimeterRelock, ThePlainIntegratorAndTheAnalogLoopGiveOneSetPoint) {
     }
 }
 
+// A gap of three ticks, 40 V, by a stage whose slew is another than presumed: what is learnt of it.
+double learnt_slew_v_s(const PerimeterLoopConfig& c, double true_slew_v_s, int switches, double injected_v = 0.0) {
+    PerimeterLoopState s = initial_state(c, Volts{150.0});
+    double v = 150.0;
+    for (int n = 0; n < switches; ++n) {
+        const double target_v = n % 2 == 0 ? 190.0 : 150.0;
+        for (int h = 0; h < 10; ++h) {
+            const bool closes = h >= 6;
+            const PerimeterLoopOutput o = step(
+                c, s,
+                {.was_closed = h == 0 || h > 6, .close = closes, .second_input = Volts{target_v}, .piezo = Volts{v}});
+            for (int k = 0; k < 1600; ++k) {
+                const double command_v = o.set_point_v[static_cast<std::size_t>(k * o.n_set_points / 1600)];
+                const double rate_v_s = std::clamp((command_v + injected_v - v) / 0.001, -true_slew_v_s, true_slew_v_s);
+                if (!closes) v += 0.0025 / 1600 * rate_v_s;
+            }
+        }
+    }
+    return s.slew_ratio * c.slew_v_s;
+}
+
+TEST(PerimeterRelock, TheSpeedOfTheStageIsLearntFromSwitchToSwitch) {
+    PerimeterLoopConfig analog;
+    for (const double slew_v_s : {3000.0, 4000.0, 5500.0}) {
+        EXPECT_NEAR(learnt_slew_v_s(analog, slew_v_s, 14), slew_v_s, 0.03 * slew_v_s);
+        EXPECT_NEAR(learnt_slew_v_s(relocking, slew_v_s, 14), slew_v_s, 0.03 * slew_v_s);
+    }
+}
+
+TEST(PerimeterRelock, AVoltageThatIsLedAwayByOthersTeachesNothingOfTheStage) {
+    EXPECT_EQ(learnt_slew_v_s(PerimeterLoopConfig{}, 4000.0, 6, -17.0), 4000.0);
+}
+
+TEST(PerimeterRelock, AnOpenLoopArrivesAsSoonAsTheCurrentAllowsAndStays) {
+    PerimeterLoopConfig analog;
+    PerimeterLoopState s = initial_state(analog, Volts{150.0});
+    Plant plant;
+    PerimeterLoopInput in{.close = false, .second_input = Volts{190.0}, .piezo = Volts{150.0}};
+    // 40 V at 4 V/ms: four halves.
+    for (int h = 0; h < 4; ++h) {
+        (void)plant.advance(step(analog, s, in));
+        in = {.was_closed = false, .close = false, .second_input = Volts{190.0}, .piezo = Volts{plant.v}};
+    }
+    // Only the last piece of a half is not led, 0.156 ms.
+    EXPECT_NEAR(plant.v, 190.0, 0.625);
+    (void)plant.advance(step(analog, s, in));
+    EXPECT_NEAR(plant.v, 190.0, 0.05);
+}
+
 TEST(PerimeterRelock, NothingButFiniteSetPointsWithinTheRangeComesOut) {
     PerimeterLoopState s = initial_state(relocking, Volts{150.0});
     const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -40,7 +40,8 @@ public:
         start_ticks_ = a.edge_offset_ticks;
         double cycles = rate_counts * length_s / half_s;
         for (std::size_t k = 0; k < n_samples; ++k) {
-            for (int piece = 0; piece < 8; ++piece) follow(a.set_point_v[0], length_s / (8.0 * n_samples));
+            const double set_point_v = a.set_point_v[k * a.n_set_points / n_samples];
+            for (int piece = 0; piece < 8; ++piece) follow(set_point_v, length_s / (8.0 * n_samples));
             const double dl = detuning_lambda();
             const double signal = sign * helicity() * 0.332 * dl;
             const bool two_way = std::abs(dl) < 0.24;

@@ -1,10 +1,12 @@
 // Compensation of any records with any configuration that passed `check`: nothing that comes out is not a number, every
 // tick gets its final row in time, no angle is lost, and a copy of the state goes on like the original.
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include <zlg/core/gyro_compensation.hpp>
 
@@ -17,9 +19,11 @@ using namespace zlg::core;
 using zlg::fuzz::Bytes;
 using zlg::fuzz::claim;
 
+constexpr int most_delay_ticks = 36;  // of `joint`
+
 RelockDriftConfig relock_config(Bytes& bytes) {
     RelockDriftConfig c;
-    c.method = static_cast<RelockMethod>(bytes.index(4));
+    c.method = static_cast<RelockMethod>(bytes.index(5));
     c.ticks = bytes.flag() ? 20 : bytes.take<std::int8_t>();
     // The rest is as it is mostly, so that most inputs are about the records.
     if (bytes.flag()) return c;
@@ -37,13 +41,19 @@ RelockDriftConfig relock_config(Bytes& bytes) {
 GyroCompensationConfig config_from(Bytes& bytes) {
     GyroCompensationConfig c;
     c.relock = relock_config(bytes);
-    c.bridge.method = static_cast<BridgeMethod>(bytes.index(4));
+    c.bridge.method = static_cast<BridgeMethod>(bytes.index(6));
     c.bridge.extrapolation_points = static_cast<int>(bytes.index(10));
     c.bridge.points_before = static_cast<int>(bytes.index(10));
     c.bridge.points_after = static_cast<int>(bytes.index(10));
     c.bridge.count = c.relock.scale;
+    c.bridge.optimal.counter_step = c.relock.scale;
+    c.bridge.optimal.halves = c.relock.method == RelockMethod::joint;
     if (bytes.flag()) c.timer = Hertz{bytes.real(1e7)};
     if (bytes.flag()) c.random_walk = ArcsecPerRootSecond{bytes.real(0.14)};
+    c.magnetic = {.method = static_cast<MagneticMethod>(bytes.index(3)),
+                  .tick = c.relock.tick,
+                  .walk = c.random_walk,
+                  .count = c.relock.scale};
     return c;
 }
 
@@ -71,6 +81,29 @@ HalfRecord half_from(Bytes& bytes, const HalfRecord& previous) {
     half.mode = bytes.take<std::int8_t>();
     return half;
 }
+
+// The light of a half whose detuning falls, as the linear law reads it; some samples are of any bits.
+class Light {
+public:
+    explicit Light(Bytes& bytes) : n_{bytes.index(80) - 8}, has_b_{bytes.flag()} {}
+
+    LightSamples of(Bytes& bytes, double detuning_lambda) {
+        if (n_ > a_.size()) return {};
+        for (std::size_t k = 0; k < n_; ++k) {
+            const double fallen = detuning_lambda * (1.0 - 0.1 * static_cast<double>(k) / static_cast<double>(n_));
+            a_[k] = static_cast<float>(0.5 + fallen);
+            b_[k] = static_cast<float>(0.5 - fallen);
+        }
+        if (detuning_lambda > 0.2 && bytes.flag()) a_[bytes.index(64)] = static_cast<float>(bytes.real(0.5));
+        return {std::span{a_}.first(n_), std::span{b_}.first(has_b_ ? n_ : 0)};
+    }
+
+private:
+    std::size_t n_;  // beyond 64: no light
+    bool has_b_;
+    std::array<float, 64> a_{};
+    std::array<float, 64> b_{};
+};
 
 // What came out so far.
 struct Ledger {
@@ -109,7 +142,7 @@ struct Ledger {
         claim(std::isfinite(sample.dtheta_arcsec), "what is delivered is a number");
         claim(std::isfinite(out.angle_arcsec), "the angle is a number");
         const int delay = final_delay_ticks(config.bridge);
-        claim(delay >= 0 && delay <= 24, "the delay is bounded");
+        claim(delay >= 0 && delay <= most_delay_ticks, "the delay is bounded");
         claim(sample.has_final == (sample.tick >= delay), "a tick is final after the delay");
         note(sample.dtheta_arcsec);
         delivered_arcsec.add(sample.dtheta_arcsec);
@@ -126,7 +159,7 @@ struct Ledger {
 
 // To the end of the log; the state is a copy.
 void drain_all(const GyroCompensationConfig& config, GyroCompensationState state, Ledger& ledger) {
-    constexpr int most = 24 + max_pending_gaps;
+    constexpr int most = most_delay_ticks + max_pending_gaps;
     for (int n = 0;; ++n) {
         const DrainOutput out = drain(config, state);
         if (out.has_gap) ledger.take(out.gap);
@@ -153,14 +186,16 @@ void run(const GyroCompensationConfig& config, Bytes& bytes) {
     GyroCompensationState state;
     std::optional<GyroCompensationState> snapshot;
     const unsigned snapshot_at = bytes.take<std::uint8_t>();
+    Light lights{bytes};
     Ledger ledger;
     HalfRecord half{.half = -1, .detuning_lambda = 0.22, .detuning_sq_lambda2 = 0.0484, .temperature_c = 20.0};
     for (unsigned k = 0; !bytes.empty(); ++k) {
         half = half_from(bytes, half);
         if (k == snapshot_at) snapshot = state;
-        const CompensationOutput out = step(config, state, half);
+        const LightSamples light = lights.of(bytes, half.detuning_lambda);
+        const CompensationOutput out = step(config, state, half, light);
         if (snapshot) {
-            claim(same(step(config, *snapshot, half), out), "a copy gives the same bits");
+            claim(same(step(config, *snapshot, half, light), out), "a copy gives the same bits");
             claim(*snapshot == state, "a copy stays equal");
         }
         if (!out.has_sample) continue;

@@ -63,6 +63,7 @@ GyroControlConfig config_from(Bytes& bytes) {
     // Short, so that an input of some hundred bytes meets every phase.
     c.schedule.interval_ticks = 1 + bytes.take<std::uint8_t>() % 64;
     c.mode_switch.gap_ticks = 1 + static_cast<std::int32_t>(bytes.index(4));
+    c.mode_switch.gap_min_ticks = c.mode_switch.gap_ticks / 2;
     c.mode_switch.settle_ticks = 1 + static_cast<std::int32_t>(bytes.index(8));
     c.mode_switch.lock_timeout_ticks = c.mode_switch.settle_ticks + 1 + static_cast<std::int32_t>(bytes.index(8));
     c.mode_switch.dark_ticks = 1 + static_cast<std::int32_t>(bytes.index(3));
@@ -70,7 +71,7 @@ GyroControlConfig config_from(Bytes& bytes) {
     c.commutator.dither.method = static_cast<DitherMethod>(bytes.index(4));
     if (bytes.flag()) monitors_on(c);
     if (bytes.flag()) return c;
-    c.loop.range = c.mode_switch.range = range_from(bytes);
+    c.loop.range = c.mode_switch.range = c.stroke.range = range_from(bytes);
     c.mode_switch.start_set_point = Volts{bytes.real(150.0)};
     c.mode_switch.lock_tolerance = Wavelengths{bytes.real(0.02)};
     loop_from(bytes, c.loop);

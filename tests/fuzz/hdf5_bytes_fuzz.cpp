@@ -24,7 +24,7 @@ std::vector<std::uint8_t> raw_file() {
                            {{"gyro.tick_s", "0.005"}, {"note", "of the laboratory"}},
                            true,
                            logs::all_raw_columns,
-                           {.light_samples = 2}};
+                           {.light_samples = 2, .light_b = true}};
     for (int k = 0; k < n_rows; ++k) {
         const std::vector<float> light{1.0f, 0.25f * static_cast<float>(k)};
         writer.write({.half = k,
@@ -34,7 +34,7 @@ std::vector<std::uint8_t> raw_file() {
                       .piezo_v = 150.0,
                       .temperature_c = 20.0,
                       .bias_sign = k % 2 == 0 ? std::int8_t{1} : std::int8_t{-1}},
-                     light);
+                     {.a = light, .b = light});
     }
     writer.close();
     return content(path);

@@ -164,7 +164,7 @@ struct Table {
 void add_column(Bytes& bytes, const Table& table, const std::string& name, bool is_real) {
     const unsigned what = bytes.index(32);
     const bool is_good = what < 24;
-    const int rank = name == "light" ? 2 : is_good || what % 4 != 0 ? 1 : static_cast<int>(bytes.index(4));
+    const int rank = name.starts_with("light") ? 2 : is_good || what % 4 != 0 ? 1 : static_cast<int>(bytes.index(4));
     const std::size_t n_rows = is_good || what % 4 != 1 ? table.n_rows : bytes.index(64);
     const std::size_t width = rank >= 2 ? 2 : 1;
     const std::array<hsize_t, 3> size{n_rows, width, 1};
@@ -246,8 +246,8 @@ constexpr std::array raw_columns{Column{"half", false},           Column{"bias_s
                                  Column{"loop_closed", false},    Column{"valid", false},
                                  Column{"detuning_lambda", true}, Column{"detuning_sq_lambda2", true},
                                  Column{"piezo_v", true},         Column{"temperature_c", true},
-                                 Column{"light", true},           Column{"count", false},
-                                 Column{"remark", true}};
+                                 Column{"light", true},           Column{"light_b", true},
+                                 Column{"count", false},          Column{"remark", true}};
 constexpr std::array angle_columns{Column{"tick", false},         Column{"t_s", true},
                                    Column{"dtheta_arcsec", true}, Column{"dtheta_final_arcsec", true},
                                    Column{"sigma_arcsec", true},  Column{"mode", false},

@@ -22,7 +22,8 @@ namespace zlg::fuzz {
 struct RawLog {
     logs::RawHeader header;
     std::vector<core::HalfRecord> rows;
-    std::vector<std::vector<float>> light;
+    std::vector<std::vector<float>> light_a;
+    std::vector<std::vector<float>> light_b;
 };
 
 inline void claim_raw_row(const logs::RawHeader& header, const core::HalfRecord& row,
@@ -41,6 +42,14 @@ inline void claim_raw_row(const logs::RawHeader& header, const core::HalfRecord&
     claim(as_promised(header.has_temperature, row.temperature_c), "temperature is finite, or absent");
 }
 
+inline void claim_light(const logs::RawHeader& header, const core::LightSamples& light) {
+    const auto n = static_cast<std::size_t>(header.light_samples);
+    claim(light.a.size() == n, "light as announced");
+    claim(light.b.size() == (header.has_light_b ? n : 0), "light of beam B as announced");
+    for (const float sample : light.a) claim(std::isfinite(sample), "light is finite");
+    for (const float sample : light.b) claim(std::isfinite(sample), "light of beam B is finite");
+}
+
 // Nothing where it is refused; what throws anything else than the readers' own errors ends the process.
 inline std::optional<RawLog> read_raw(const std::string& path) {
     try {
@@ -51,10 +60,10 @@ inline std::optional<RawLog> read_raw(const std::string& path) {
               "0..64 light samples");
         for (core::HalfRecord row; reader.next(row);) {
             claim_raw_row(log.header, row, log.rows);
-            claim(reader.light().size() == static_cast<std::size_t>(log.header.light_samples), "light as announced");
-            for (const float sample : reader.light()) claim(std::isfinite(sample), "light is finite");
+            claim_light(log.header, reader.light());
             log.rows.push_back(row);
-            log.light.emplace_back(reader.light().begin(), reader.light().end());
+            log.light_a.emplace_back(reader.light().a.begin(), reader.light().a.end());
+            log.light_b.emplace_back(reader.light().b.begin(), reader.light().b.end());
         }
         claim(!log.rows.empty() || !log.header.complete, "a log without rows is refused");
         return log;
@@ -65,11 +74,9 @@ inline std::optional<RawLog> read_raw(const std::string& path) {
     }
 }
 
-inline void write_raw(const std::string& path, const RawLog& log, int light_samples) {
-    logs::RawWriter writer{path, log.header.settings, true, log.header, {.light_samples = light_samples}};
-    for (std::size_t k = 0; k < log.rows.size(); ++k) {
-        writer.write(log.rows[k], light_samples > 0 ? log.light[k] : std::vector<float>{});
-    }
+inline void write_raw(const std::string& path, const RawLog& log, const logs::RawWriterOptions& light) {
+    logs::RawWriter writer{path, log.header.settings, true, log.header, light};
+    for (std::size_t k = 0; k < log.rows.size(); ++k) writer.write(log.rows[k], {log.light_a[k], log.light_b[k]});
     writer.close();
 }
 
@@ -78,14 +85,17 @@ inline void claim_raw_survives(const RawLog& log) {
         const std::string path = scratch().path(name);
         const bool is_csv = logs::format_of(path) == logs::LogFormat::csv;
         if (!can_be_written(log.header.settings, !is_csv)) continue;
-        write_raw(path, log, is_csv ? 0 : log.header.light_samples);
+        const logs::RawWriterOptions light{.light_samples = log.header.light_samples,
+                                           .light_b = log.header.has_light_b};
+        write_raw(path, log, is_csv ? logs::RawWriterOptions{} : light);
         const std::optional<RawLog> again = read_raw(path);
         claim(again.has_value() || log.rows.empty(), "what was written is read");
         if (!again) continue;
         claim(again->header.warnings.empty(), "what was written is read without a warning");
         claim(again->header.settings == log.header.settings, "settings survive");
         claim(again->rows == log.rows, "rows survive to the last bit");
-        claim(is_csv || again->light == log.light, "light survives to the last bit");
+        claim(is_csv || (again->light_a == log.light_a && again->light_b == log.light_b),
+              "light survives to the last bit");
     }
 }
 

@@ -52,13 +52,13 @@ std::array<float, 4> light_of(std::int64_t half) {
     return {x, x + 0.25f, x + 0.5f, x + 0.75f};
 }
 
-void write_row(RawWriter& writer, std::int64_t half) { writer.write(row_of(half), light_of(half)); }
+void write_row(RawWriter& writer, std::int64_t half) { writer.write(row_of(half), {light_of(half)}); }
 
 // How many rows there are; a failure when one of them is not the one that was written.
 std::int64_t good_rows(RawReader& reader, std::int64_t expected = 0) {
     HalfRecord row;
     while (reader.next(row)) {
-        const bool same_light = std::ranges::equal(reader.light(), light_of(expected));
+        const bool same_light = std::ranges::equal(reader.light().a, light_of(expected));
         if (!(row == row_of(expected) && same_light)) {
             ADD_FAILURE() << "row " << expected << " is another";
             return expected;

@@ -46,7 +46,7 @@ std::array<float, 4> light_of(std::int64_t half) {
 }
 
 void write_rows(RawWriter& writer, std::int64_t n) {
-    for (std::int64_t half = 0; half < n; ++half) writer.write(row_of(half), light_of(half));
+    for (std::int64_t half = 0; half < n; ++half) writer.write(row_of(half), {light_of(half)});
 }
 
 struct Found {
@@ -63,7 +63,7 @@ Found read_all(const std::string& path) {
         found.complete = reader.header().complete;
         for (HalfRecord row; reader.next(row); ++found.rows) {
             const auto light = light_of(found.rows);
-            if (row == row_of(found.rows) && std::ranges::equal(reader.light(), light)) continue;
+            if (row == row_of(found.rows) && std::ranges::equal(reader.light().a, light)) continue;
             ADD_FAILURE() << path << ": row " << found.rows << " is another";
             return found;
         }
@@ -217,7 +217,7 @@ TEST(InterruptedLog, a_recording_that_was_given_up_is_not_complete_and_has_all_r
         write_rows(writer, 20'000);
         HalfRecord bad = row_of(20'000);
         bad.piezo_v = std::numeric_limits<double>::quiet_NaN();
-        writer.write(bad, light_of(20'000));
+        writer.write(bad, {light_of(20'000)});
         FAIL() << "such a row cannot be logged";
     } catch (const FormatError&) {
     }

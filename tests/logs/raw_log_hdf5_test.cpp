@@ -202,7 +202,7 @@ TEST(RawLogHdf5, the_same_rows_make_the_same_file) {
     for (const char* name : {"a.h5", "b.hdf5"}) {
         RawWriter writer{folder.file(name), {{"run.seed", "1"}}, false, all_raw_columns, {.light_samples = 2}};
         const std::array<float, 2> light{0.25f, 0.75f};
-        for (int half = 0; half < 20'000; ++half) writer.write(row_of(half), light);
+        for (int half = 0; half < 20'000; ++half) writer.write(row_of(half), {light});
         writer.close();
     }
     EXPECT_TRUE(content_of(folder.file("a.h5")) == content_of(folder.file("b.hdf5")));
@@ -210,42 +210,70 @@ TEST(RawLogHdf5, the_same_rows_make_the_same_file) {
 
 TEST(RawLogHdf5, light_samples_come_back_with_their_row) {
     const TemporaryFolder folder;
-    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 16}};
+    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 16, .light_b = true}};
     std::array<float, 16> light{};
+    std::array<float, 16> other{};
     const auto fill = [&](int half) {
-        for (int k = 0; k < 16; ++k) light[static_cast<std::size_t>(k)] = 0.001f * static_cast<float>(16 * half + k);
+        for (std::size_t k = 0; k < 16; ++k) {
+            light[k] = 0.001f * static_cast<float>(16 * half + static_cast<int>(k));
+            other[k] = 1.0f - light[k];
+        }
     };
     for (int half = 0; half < 20'000; ++half) {
         fill(half);
-        writer.write(row_of(half), light);
+        writer.write(row_of(half), {light, other});
     }
     writer.close();
     RawReader reader{folder.file("raw.h5")};
     EXPECT_EQ(reader.header().light_samples, 16);
-    EXPECT_TRUE(reader.light().empty());
+    EXPECT_TRUE(reader.header().has_light_b);
+    EXPECT_TRUE(reader.light().a.empty());
+    EXPECT_TRUE(reader.light().b.empty());
     HalfRecord row;
     for (int half = 0; reader.next(row); ++half) {
         fill(half);
-        ASSERT_TRUE(std::ranges::equal(reader.light(), light)) << half;
+        ASSERT_TRUE(std::ranges::equal(reader.light().a, light)) << half;
+        ASSERT_TRUE(std::ranges::equal(reader.light().b, other)) << half;
     }
     EXPECT_EQ(row.half, 19'999);
-    EXPECT_TRUE(std::ranges::equal(reader.light(), light)) << "of the row that was read last, also at the end";
+    EXPECT_TRUE(std::ranges::equal(reader.light().a, light)) << "of the row that was read last, also at the end";
+}
+
+TEST(RawLogHdf5, a_log_of_one_beam_has_no_other) {
+    const TemporaryFolder folder;
+    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 2}};
+    const std::array<float, 2> light{0.25f, 0.75f};
+    writer.write(row_of(0), {light, light});
+    writer.close();
+    RawReader reader{folder.file("raw.h5")};
+    EXPECT_FALSE(reader.header().has_light_b);
+    HalfRecord row;
+    ASSERT_TRUE(reader.next(row));
+    EXPECT_TRUE(std::ranges::equal(reader.light().a, light));
+    EXPECT_TRUE(reader.light().b.empty());
 }
 
 TEST(RawLogHdf5, light_samples_are_as_many_as_announced_and_finite) {
     const TemporaryFolder folder;
-    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 2}};
+    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 2, .light_b = true}};
+    const std::array<float, 2> good{};
     const std::array<float, 3> three{};
     const std::array<float, 2> not_finite{0.0f, std::numeric_limits<float>::infinity()};
-    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), three); }), "3 light samples; allowed are 2");
-    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0)); }), "0 light samples");
-    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), not_finite); }), "light is inf");
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), {three}); }),
+                    "3 samples of light; allowed are 2");
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0)); }), "0 samples of light");
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), {not_finite}); }), "light is inf");
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), {good}); }), "0 samples of light_b");
+    expect_contains(message_of<FormatError>([&] { writer.write(row_of(0), {good, not_finite}); }), "light_b is inf");
     const auto make = [&](const char* name, int n) {
         return message_of<FormatError>(
             [&] { RawWriter(folder.file(name), {}, false, all_raw_columns, {.light_samples = n}); });
     };
     expect_contains(make("b.csv", 1), "a CSV log holds no light samples");
     expect_contains(make("b.h5", 65), "65 light samples in a half; allowed is 0..64");
+    expect_contains(
+        message_of<FormatError>([&] { RawWriter(folder.file("b.h5"), {}, false, all_raw_columns, {.light_b = true}); }),
+        "allowed is with those of beam A");
     EXPECT_FALSE(std::filesystem::exists(folder.file("b.h5.part")));
 }
 

@@ -175,6 +175,10 @@ TEST(RawReader, refuses_data_sets_that_are_no_columns) {
                         f.table<float>("/raw/light", std::vector<float>(195), {3, 65});
                     }),
                     "has 65 values in a row; allowed is 1..64");
+    expect_contains(complaint([](Hdf5File& f) {
+                        f.table<float>("/raw/light_b", {1, 2, 3, 4, 5, 6}, {3, 2});
+                    }),
+                    "/raw/light_b has 2 samples in a half; allowed are the 0 of /raw/light");
     expect_contains(complaint_of<int>("mode", {1, 1}),
                     "/raw/mode has 2 rows, /raw/loop_closed has 3; allowed is one length");
     expect_contains(complaint([](Hdf5File& f) { f.remove("/raw/counts"); }), "/raw: the column 'counts' is missing");

@@ -70,6 +70,26 @@ TEST(ClosedLoop, learns_the_half_wave_voltage_from_its_switches) {
     EXPECT_LT(halves.back().half_wave_sigma_v, 0.3);
 }
 
+// The recorded detuning is the mean of what both beams' samples say.
+TEST(ClosedLoop, gives_the_samples_of_both_beams_that_the_control_saw) {
+    const config::Config c = every_second();
+    rig::ClosedLoop loop{c, rig::motion(c)};
+    for (int h = 0; h < 1000; ++h) {
+        const core::HalfRecord record = loop.advance().record;
+        const core::LightSamples light = loop.light();
+        ASSERT_EQ(light.a.size(), 16u);
+        ASSERT_EQ(light.b.size(), 16u);
+        if (!record.valid || !record.loop_closed) continue;
+        double mean = 0.0;
+        for (std::size_t k = 0; k < 16; ++k) {
+            const double a = static_cast<double>(light.a[k]);
+            const double b = static_cast<double>(light.b[k]);
+            mean += (a - b) / (a + b) / c.gyro.discriminator_per_lambda / 16.0;
+        }
+        ASSERT_NEAR(record.bias_sign * record.mode * mean, record.detuning_lambda, 1e-12) << "half " << h;
+    }
+}
+
 TEST(ClosedLoop, counts_follow_rotation_and_bias) {
     config::Config c;
     c.motion.kind = config::MotionKind::constant;
@@ -83,6 +103,38 @@ TEST(ClosedLoop, refuses_a_gyro_that_cannot_be) {
     config::Config c;
     c.piezo.range_max_v = c.piezo.range_min_v;
     EXPECT_THROW((rig::ClosedLoop{c, rig::motion(c)}), config::ConfigError);
+}
+
+TEST(ClosedLoop, a_half_last_segment_gives_both_modes_the_same_time) {
+    for (const auto schedule : {config::Schedule::fixed, config::Schedule::growing, config::Schedule::measured}) {
+        config::Config c = every_second();
+        c.switching.schedule = schedule;
+        c.switching.interval_min_s = 1.0;
+        c.switching.last_segment = config::LastSegment::half;
+        c.run.duration_s = 7.77;
+        int imbalance = 0;
+        for (const rig::LoopHalf& half : advance(c, 2 * 1554)) imbalance += half.record.mode;
+        EXPECT_LE(std::abs(imbalance), 2);
+    }
+}
+
+TEST(ClosedLoop, a_growing_schedule_switches_at_ever_longer_intervals) {
+    config::Config c;
+    c.motion.kind = config::MotionKind::rest;
+    c.switching.schedule = config::Schedule::growing;
+    c.switching.interval_min_s = 0.5;
+    c.switching.switch_error_arcsec = 0.1;
+    std::vector<int> openings;
+    const auto halves = advance(c, 2 * 12000);
+    for (int h = 2; h < 2 * 12000; ++h) {
+        const auto at = static_cast<std::size_t>(h);
+        if (!halves[at].record.loop_closed && halves[at - 1].record.loop_closed) openings.push_back(h / 2);
+    }
+    ASSERT_GT(openings.size(), 12u);
+    // Of 6 s^2 t/Om^2 the cube root: 1.4 s after 20 s, 2 s after 60 s.
+    const auto last = openings.size() - 1;
+    EXPECT_NEAR((openings[last] - openings[last - 4]) / 4.0 * 0.005, 1.9, 0.15);
+    EXPECT_NEAR((openings[6] - openings[2]) / 4.0 * 0.005, std::cbrt(6.0 / 49.0 * openings[4] * 0.005), 0.1);
 }
 
 }  // namespace

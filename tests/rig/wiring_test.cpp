@@ -96,6 +96,43 @@ TEST(Wiring, the_interval_is_counted_in_whole_ticks) {
     EXPECT_EQ(first_tick(schedule), 700);
 }
 
+TEST(Wiring, a_schedule_is_told_its_limits_and_what_is_presumed) {
+    config::Config c;
+    c.switching.schedule = config::Schedule::measured;
+    c.switching.interval_min_s = 12.0;
+    c.switching.interval_max_s = 345.0;
+    c.switching.switch_error_arcsec = 1.5;
+    c.switching.magnetic_arcsec_s = 0.9;
+    const auto schedule = rig::control_config(c).schedule;
+    EXPECT_EQ(schedule.kind, core::ScheduleKind::measured);
+    EXPECT_EQ(schedule.min_ticks, 2400);
+    EXPECT_EQ(schedule.max_ticks, 69000);
+    EXPECT_EQ(schedule.tick_s, 0.005);
+    EXPECT_EQ(schedule.presumed.switch_error_arcsec, 1.5);
+    EXPECT_EQ(schedule.presumed.magnetic_arcsec_s, 0.9);
+    EXPECT_EQ(rig::control_config(rig::without_switching(c)).schedule.kind, core::ScheduleKind::fixed);
+}
+
+TEST(Wiring, the_magnetic_estimate_is_told_gyro_and_calibration) {
+    config::Config c;
+    c.compensation.magnetic = core::MagneticMethod::estimate;
+    c.compensation.magnetic_arcsec_s = 0.6;
+    c.compensation.magnetic_sigma_arcsec_s = 0.05;
+    c.compensation.magnetic_thermal_arcsec_s = 0.5;
+    c.compensation.magnetic_thermal_sigma_arcsec_s = 0.1;
+    c.compensation.magnetic_thermal_time_s = 2500.0;
+    const auto made = rig::compensation_config(c, core::RelockMethod::none, core::BridgeMethod::constant).magnetic;
+    EXPECT_EQ(made.method, core::MagneticMethod::estimate);
+    EXPECT_EQ(made.tick.value(), 0.005);
+    EXPECT_EQ(made.walk.value(), 0.14);
+    EXPECT_EQ(made.count.value(), 3.263);
+    EXPECT_EQ(made.presumed_arcsec_s, 0.6);
+    EXPECT_EQ(made.presumed_sigma_arcsec_s, 0.05);
+    EXPECT_EQ(made.warming_arcsec_s, 0.5);
+    EXPECT_EQ(made.warming_sigma_arcsec_s, 0.1);
+    EXPECT_EQ(made.thermal_time.value(), 2500.0);
+}
+
 TEST(Wiring, a_run_lasts_an_hour_or_as_long_as_it_is_told) {
     config::Config c;
     const auto motion = rig::motion(c);
@@ -174,6 +211,22 @@ TEST(Wiring, the_detector_reads_through_the_calibrated_curve) {
     }
     c.perimeter.discriminator_signal = {0.05, 900.0};
     EXPECT_THROW((void)rig::control_config(c), config::ConfigError);
+}
+
+// Joint estimation reads the light as the control does.
+TEST(Wiring, light_samples_of_joint_are_read_through_the_discriminator_of_the_control) {
+    config::Config c;
+    c.gyro.discriminator_per_lambda = -0.4;
+    c.gyro.light_noise_lambda = 0.002;
+    c.gyro.light_samples = 25;
+    c.perimeter.discriminator_detuning_lambda = {0.1, 0.2};
+    c.perimeter.discriminator_signal = {0.05, 0.2};
+    const auto made = rig::compensation_config(c, core::RelockMethod::joint, core::BridgeMethod::constant).profile;
+    EXPECT_EQ(made.discriminator_per_lambda, -0.4);
+    EXPECT_EQ(made.light_noise.value(), 0.002);
+    EXPECT_EQ(made.light_samples, 25);
+    EXPECT_EQ(made.curve, rig::control_config(c).detector.curve);
+    EXPECT_EQ(made.record_curve.n_nodes, 0) << "the control has been through the curve";
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(LaserBehaviour, the_angle_is_a_saw_on_the_slope_of_the_nonmagnetic_drift) {
     c.switching.interval_s = 10.0;
     rig::ClosedLoop loop{c, rig::motion(c)};
     const auto compensation =
-        rig::compensation_config(c, core::RelockMethod::mean_square, core::BridgeMethod::quadratic);
+        rig::compensation_config(c, core::RelockMethod::mean_square, core::BridgeMethod::automatic);
     core::GyroCompensationState state;
     std::vector<double> end_arcsec;
     double angle_arcsec = 0.0;
@@ -155,7 +155,7 @@ TEST(LaserBehaviour, the_angle_is_a_saw_on_the_slope_of_the_nonmagnetic_drift) {
         if (++tick % 2000 == 0) end_arcsec.push_back(angle_arcsec);
     }
     for (std::size_t k = 0; k + 1 < end_arcsec.size(); ++k)
-        EXPECT_NEAR(end_arcsec[k + 1] - end_arcsec[k], k % 2 == 0 ? -170.0 : 230.0, 15.0) << k;
+        EXPECT_NEAR(end_arcsec[k + 1] - end_arcsec[k], k % 2 == 0 ? -170.0 : 230.0, 10.0) << k;
     EXPECT_NEAR((end_arcsec[7] - end_arcsec[1]) / 60.0, 3.0, 0.2);
 }
 

@@ -103,9 +103,10 @@ TEST(Run, its_sinks_get_every_half_and_every_tick_in_order) {
     std::int64_t ticks = 0;
     double true_arcsec = 0.0;
     double final_arcsec = 0.0;
-    task.on_record = [&](const core::HalfRecord& r, std::span<const float> light) {
+    task.on_record = [&](const core::HalfRecord& r, const core::LightSamples& light) {
         EXPECT_EQ(r.half, halves++);
-        EXPECT_EQ(light.size(), 16u);
+        EXPECT_EQ(light.a.size(), 16u);
+        EXPECT_EQ(light.b.size(), 16u);
     };
     task.on_row = [&](const core::AngleRow& row, double truth) {
         EXPECT_EQ(row.tick, ticks++);
@@ -129,7 +130,7 @@ TEST(Run, a_sink_that_fails_ends_the_run) {
     study::RunTask task;
     task.config = short_run();
     task.threads = 2;
-    task.on_record = [](const core::HalfRecord& r, std::span<const float>) {
+    task.on_record = [](const core::HalfRecord& r, const core::LightSamples&) {
         if (r.half == 100) throw logs::IoError{"disk full"};
     };
     EXPECT_THROW((void)study::run(task), logs::IoError);

@@ -11,12 +11,16 @@
 
 #include <zlg/config/faults.hpp>
 #include <zlg/config/laser.hpp>
+#include <zlg/core/magnetic_drift.hpp>
 #include <zlg/core/methods.hpp>
 
 namespace zlg::config {
 
 enum class Loop { analog, exponential, digital };
 enum class FirstSegment { full, half };
+enum class LastSegment { any, half };
+enum class Schedule { fixed, growing, measured };
+enum class MotionPrior { learnt, flat, lines };
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
 enum class Fidelity { averaged, laser };
@@ -88,16 +92,34 @@ struct Switching {
     double interval_s = 90.0;
     bool interval_optimal = false;  // interval_s = "optimal"
     FirstSegment first_segment = FirstSegment::full;
+    LastSegment last_segment = LastSegment::any;
+    Schedule schedule = Schedule::fixed;
+    double interval_min_s = 10.0;  // of a schedule that is not fixed
+    double interval_max_s = 600.0;
+    double switch_error_arcsec = 2.0;  // presumed, of one switch, rms
+    double magnetic_arcsec_s = 0.7;    // presumed
     std::int64_t gap_ticks = 3;
+    std::int64_t gap_min_ticks = 0;  // from which on a switch that has arrived closes the loop; 0: gap_ticks
 };
 
 struct Compensation {
     std::optional<core::RelockMethod> relock;  // unset: mean_square where the log has detuning, none where not
     std::int64_t relock_ticks = 20;
-    core::BridgeMethod bridge = core::BridgeMethod::quadratic;
+    core::BridgeMethod bridge = core::BridgeMethod::automatic;
     std::int64_t extrapolation_points = 4;
     std::int64_t points_before = 2;
     std::int64_t points_after = 2;
+    MotionPrior prior = MotionPrior::learnt;  // of bridge = "optimal"
+    double prior_band_hz = 24.0;              // of a flat prior: 0.12 in a tick of 5 ms
+    double prior_rate_arcsec_s = 8485.0;      // its rms rate: that of a sine of 12 000 arcsec/s
+    std::vector<double> prior_line_hz = {20.0};
+    std::vector<double> prior_line_arcsec_s = {12000.0};  // amplitudes
+    core::MagneticMethod magnetic = core::MagneticMethod::none;
+    double magnetic_arcsec_s = 0.0;         // at the start, by calibration
+    double magnetic_sigma_arcsec_s = 10.0;  // of that; large: not calibrated
+    double magnetic_thermal_arcsec_s = 0.0;
+    double magnetic_thermal_sigma_arcsec_s = 10.0;
+    double magnetic_thermal_time_s = 3000.0;
 };
 
 struct Motion {

@@ -15,6 +15,7 @@
 #include <zlg/core/mode_switch.hpp>
 #include <zlg/core/perimeter_loop.hpp>
 #include <zlg/core/records.hpp>
+#include <zlg/core/stroke_model.hpp>
 #include <zlg/core/switch_schedule.hpp>
 #include <zlg/core/sync_detector.hpp>
 #include <zlg/core/units.hpp>
@@ -25,7 +26,7 @@ struct GyroControlConfig {
     SyncDetectorConfig detector{};
     PerimeterLoopConfig loop{};
     HalfWaveConfig half_wave{};
-    bool by_direction = false;  // moves up and down are learnt apart: a piezo that creeps has loops that do not close
+    StrokeModelConfig stroke{};  // its range is that of `loop`
     SwitchScheduleConfig schedule{};
     ModeSwitchConfig mode_switch{};  // its range is that of `loop`
     BiasCommutatorConfig commutator{};
@@ -43,6 +44,7 @@ enum class GyroControlFault : unsigned char {
     detector,
     loop,
     half_wave,
+    stroke,
     schedule,
     mode_switch,
     commutator,
@@ -57,6 +59,7 @@ enum class GyroControlFault : unsigned char {
     if (check(c.detector) != SyncDetectorFault::none) return GyroControlFault::detector;
     if (check(c.loop) != PerimeterLoopFault::none) return GyroControlFault::loop;
     if (check(c.half_wave) != HalfWaveFault::none) return GyroControlFault::half_wave;
+    if (check(c.stroke) != StrokeModelFault::none) return GyroControlFault::stroke;
     if (check(c.schedule) != SwitchScheduleFault::none) return GyroControlFault::schedule;
     if (check(c.mode_switch) != ModeSwitchFault::none) return GyroControlFault::mode_switch;
     if (check(c.commutator) != BiasCommutatorFault::none) return GyroControlFault::commutator;
@@ -66,15 +69,20 @@ enum class GyroControlFault : unsigned char {
         return GyroControlFault::monitors;
     }
     if (!(temperature_c > -1e6 && temperature_c < 1e6)) return GyroControlFault::temperature;
-    if (!(c.loop.range == c.mode_switch.range)) return GyroControlFault::ranges_differ;
+    if (!(c.loop.range == c.mode_switch.range && c.loop.range == c.stroke.range))
+        return GyroControlFault::ranges_differ;
     return GyroControlFault::none;
 }
 
 struct GyroControlState {
     SyncDetectorState detector{};
     PerimeterLoopState loop{};
-    HalfWaveState half_wave{};  // of moves upwards, or of all
-    HalfWaveState half_wave_down{};
+    HalfWaveState half_wave{};
+    StrokeModelState stroke{};
+    double move_up_v = 0.0;  // predicted
+    double move_down_v = 0.0;
+    double closed_at_v = 0.0;  // reading of the piezo when the loop was closed last,
+    bool closed_read = false;  // if there was one
     SwitchScheduleState schedule{};
     ModeSwitchState mode_switch{};
     BiasCommutatorState commutator{};
@@ -133,9 +141,10 @@ struct GyroControlOutput {
 //
 // config   passed `check`.
 // state    from `initial_state`; every number in it stays finite, whatever the frames hold.
+// advice   what compensation has learnt by now, for a schedule that asks for it.
 // latency  a switch at the start of tick j is decided in half 2j - 1: halves 2j .. 2j + 2 gap_ticks - 1 are open.
 // cost     bounded by the number of light samples; no allocation.
-[[nodiscard]] GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
-                                     const SensorFrame& frame) noexcept;
+[[nodiscard]] GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,
+                                     const SwitchAdvice& advice = {}) noexcept;
 
 }  // namespace zlg::core

@@ -9,6 +9,7 @@ enum class RelockMethod : unsigned char {
     frequency,    // from the measured bias frequency, eq (11)
     detuning,     // from the mean detuning of each half and an exponential loop, eqs (12)-(13)
     mean_square,  // from the mean square of the detuning of each half, without a loop model
+    joint,        // detuning free-form in time from the light samples, weighed against the counts of the half-periods
 };
 
 // How the reversals of the bias are shifted against lock-in.
@@ -25,11 +26,24 @@ enum class BridgeMethod : unsigned char {
     constant,
     linear,
     quadratic,
+    optimal,    // least mean square error for a prior of the motion
+    automatic,  // the one of these with the smallest predicted error
 };
 
-// The polynomial order of a method; 0 for `none`.
+// The polynomial order of a method, or the highest that it may fall back to; 0 for `none`.
 [[nodiscard]] constexpr int order_of(BridgeMethod method) noexcept {
-    return method == BridgeMethod::quadratic ? 2 : method == BridgeMethod::linear ? 1 : 0;
+    switch (method) {
+        case BridgeMethod::none:
+        case BridgeMethod::constant:
+            return 0;
+        case BridgeMethod::linear:
+            return 1;
+        case BridgeMethod::quadratic:
+        case BridgeMethod::optimal:
+        case BridgeMethod::automatic:
+            break;
+    }
+    return 2;
 }
 
 }  // namespace zlg::core

@@ -3,14 +3,15 @@
 // that fails.
 //
 // `open` .. `searching` are attempts to hold a mode: the loop is open for gap_ticks at a chosen voltage and helicity,
-// then it is closed until it is locked or has failed. Locked: settle_ticks in a row within the tolerance, with light in
-// both directions. Failed: no lock by lock_timeout_ticks, or dark for dark_ticks. A half of which nothing is known
-// (frame missed, samples not finite) neither helps nor hurts a lock; time goes on.
+// then it is closed until it is locked or has failed. A switch closes it earlier, from gap_min_ticks on, at a tick
+// border at which it has arrived: piezo at rest, usable light in the last half. Locked: settle_ticks in a row within the
+// tolerance, with light in both directions. Failed: no lock by lock_timeout_ticks, or dark for dark_ticks. A half of
+// which nothing is known (frame missed, samples not finite) neither helps nor hurts a lock; time goes on.
 //
 //   state      | due           | gap over            | locked                   | failed (seen on a tick border)
 //   -----------+---------------+---------------------+--------------------------+-------------------------------
 //   tracking   | -> open       | -                   | stays                    | lost for lock_timeout: -> returning
-//   open       | ignored       | closes -> settling  | - (light is ignored)     | -
+//   open       | ignored       | closes -> settling  | -                        | -
 //   settling   | ignored       | -                   | -> tracking, `switched`  | -> returning
 //   returning  | ignored       | closes, stays       | -> tracking, `returned`  | -> searching, first place
 //   searching  | ignored       | closes, stays       | -> tracking, `found`     | stays, next place
@@ -35,13 +36,15 @@ enum class SwitchOutcome : unsigned char { switched, returned, found };
 
 struct ModeSwitchConfig {
     PiezoRange range{};
-    std::int32_t gap_ticks = 3;  // 1..2^24; so are the other ticks
+    std::int32_t gap_ticks = 3;      // 1..2^24; so are the other ticks
+    std::int32_t gap_min_ticks = 0;  // up to gap_ticks; 0: the gap is not shortened
     std::int32_t settle_ticks = 20;
     std::int32_t lock_timeout_ticks = 60;  // from closing; > settle_ticks, by five time constants of the loop or more
     std::int32_t dark_ticks = 2;
-    Wavelengths lock_tolerance{0.02};  // of the detuning, smoothed over about eight halves
-    Volts start_set_point{150.0};      // inside the range
-    std::int8_t start_polarity = 1;    // +1 or -1
+    Wavelengths lock_tolerance{0.02};     // of the detuning, smoothed over about eight halves
+    Wavelengths arrival_tolerance{0.05};  // of the detuning to which the voltage leads: a switch has arrived
+    Volts start_set_point{150.0};         // inside the range
+    std::int8_t start_polarity = 1;       // +1 or -1
 };
 
 enum class ModeSwitchFault : unsigned char { none, range, ticks, lock_timeout, lock_tolerance, start };
@@ -52,10 +55,11 @@ enum class ModeSwitchFault : unsigned char { none, range, ticks, lock_timeout, l
     for (const std::int32_t n : {c.gap_ticks, c.settle_ticks, c.lock_timeout_ticks, c.dark_ticks}) {
         if (!(n >= 1 && n <= most)) return ModeSwitchFault::ticks;
     }
+    if (!(c.gap_min_ticks >= 0 && c.gap_min_ticks <= c.gap_ticks)) return ModeSwitchFault::ticks;
     if (!(c.lock_timeout_ticks > c.settle_ticks)) return ModeSwitchFault::lock_timeout;
-    if (!(c.lock_tolerance > Wavelengths{0.0} && c.lock_tolerance < Wavelengths{0.5})) {
-        return ModeSwitchFault::lock_tolerance;
-    }
+    const bool can_lock = c.lock_tolerance > Wavelengths{0.0} && c.lock_tolerance < Wavelengths{0.5};
+    const bool can_arrive = c.arrival_tolerance > Wavelengths{0.0} && c.arrival_tolerance < Wavelengths{0.25};
+    if (!(can_lock && can_arrive)) return ModeSwitchFault::lock_tolerance;
     if (!(c.start_set_point >= c.range.min && c.start_set_point <= c.range.max)) return ModeSwitchFault::start;
     if (!(c.start_polarity == 1 || c.start_polarity == -1)) return ModeSwitchFault::start;
     return ModeSwitchFault::none;
@@ -106,10 +110,12 @@ struct ModeSwitchInput {
     bool two_way = false;
     bool usable = false;  // `detuning` was measured
     Wavelengths detuning{};
-    Volts piezo{};      // reading; NaN when there is none
-    Volts set_point{};  // the loop's present command: stands in for U+ when nothing was read
-    Volts half_wave{};  // present estimate, > 0
-    Volts offset{};     // of a move in either direction
+    bool at_rest = false;     // the piezo is where it was sent
+    Wavelengths in_flight{};  // what of its move came later than the mean of this half
+    Volts piezo{};            // reading; NaN when there is none
+    Volts set_point{};        // the loop's present command: stands in for U+ when nothing was read
+    Volts half_wave{};        // present estimate, > 0
+    Volts offset{};           // of a move in either direction
 };
 
 struct SwitchEvent {
@@ -137,8 +143,8 @@ struct ModeSwitchOutput {
 
 // Advance by one half-period: what was seen of it in, what to command for the next out.
 //
-// A switch: U+ is the mean of the last readings, polarity is inverted, U- = U+ + sign U_lambda/2 + offset goes to the second
-// input, and the loop stays open for gap_ticks. The lock that ends it measures |U- - U+|.
+// A switch: U+ is the mean of the last readings, polarity is inverted, U- = U+ + sign U_lambda/2 + offset goes to the
+// second input, and the loop stays open for the gap. The lock that ends it measures |U- - U+|.
 //
 // config  passed `check`.
 // state   from `initial_state`; finite, set-points within the range.

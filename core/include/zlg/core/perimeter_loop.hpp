@@ -5,6 +5,9 @@
 //          knowing what of its last command is still in flight through the high-voltage stage, then slows down.
 // analog   electronics integrate; the processor gives the second input, which rules while the loop is open, and
 // watches.
+//
+// While the loop is open, set-points lead the voltage to the second input as fast as the stage can, so that it arrives
+// and stays. How fast that is, is learnt from one switch to the next.
 
 #include <array>
 #include <cstdint>
@@ -27,11 +30,13 @@ struct PerimeterLoopConfig {
     double slew_v_s = 4000.0;       // the most the set-point moves per second while the loop is closed
     Wavelengths watch_limit{0.1};   // larger detuning in a closed loop is reported
 
-    // Fast re-lock of a digital loop. Without it, the plain integrator.
-    std::int32_t relock_halves = 0;      // after closing, 0..2^30; 0: none, and the rest is not used
-    double relock_gain = 0.87;           // part of the detuning corrected a half: 1 - (1 - 0.12)^16; 0 exclusive..1
-    Seconds stage_time_constant{0.001};  // RC of the high-voltage stage; slew_v_s limits its current
+    // The high-voltage stage, and how finely it is led while the loop is open.
+    Seconds stage_time_constant{0.001};  // RC; slew_v_s limits its current
     std::int32_t set_points = 16;        // a half, 1..max_set_points
+
+    // Fast re-lock of a digital loop. Without it, the plain integrator.
+    std::int32_t relock_halves = 0;  // after closing, 0..2^30; 0: none, and the gain is not used
+    double relock_gain = 0.87;       // part of the detuning corrected a half: 1 - (1 - 0.12)^16; 0 exclusive..1
 };
 
 enum class PerimeterLoopFault : unsigned char {
@@ -71,7 +76,12 @@ struct PerimeterLoopState {
     double set_point_v = 0.0;  // where the voltage shall be
     double mean_v = 0.0;       // presumed, over the half now in force; so is the next, at its end
     double end_v = 0.0;
+    double start_v = 0.0;  // at its start, and at the opening of the loop
+    double opened_v = 0.0;
     std::int32_t n_closed = 0;  // halves in force since the loop was closed
+    double slew_ratio = 1.0;    // of the stage, learnt, over slew_v_s: 1/4..4
+    double slew_error = 0.0;    // of it, as this switch shows it
+    bool has_slew_error = false;
 
     friend constexpr bool operator==(const PerimeterLoopState&, const PerimeterLoopState&) = default;
 };
@@ -96,7 +106,7 @@ struct PerimeterLoopOutput {
 
 [[nodiscard]] constexpr PerimeterLoopState initial_state(const PerimeterLoopConfig& c, Volts set_point) noexcept {
     const double v = clamp(c.range, set_point).value();
-    return {.set_point_v = v, .mean_v = v, .end_v = v};
+    return {.set_point_v = v, .mean_v = v, .end_v = v, .start_v = v};
 }
 
 // Advance by one half-period.
@@ -104,6 +114,9 @@ struct PerimeterLoopOutput {
 //   closed, digital:  u <- u - clip((half_period/time_constant) clip(dl, error_limit) / kp, slew half_period)
 //   closed, analog:   u held                  kp = 0.5/half_wave, wavelengths per volt
 //   open:             u <- second_input       always: u within the range
+//
+// In a half through which the stage slews, slew_ratio is off by (v read - v presumed)/(v presumed - v at the opening).
+// Half of that is taken in when the loop is closed, if the voltage has arrived at the second input by then.
 //
 // With relock_halves, closed and digital, v the voltage that the presumed stage has made of past set-points:
 //

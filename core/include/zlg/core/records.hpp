@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 namespace zlg::core {
 
@@ -75,6 +76,12 @@ struct HalfRecord {
                same_bits(a.temperature_c, b.temperature_c) && a.bias_sign == b.bias_sign && a.mode == b.mode &&
                a.loop_closed == b.loop_closed && a.valid == b.valid && a.edge_offset_ticks == b.edge_offset_ticks;
     }
+};
+
+// Light samples of one half-period as they were latched, beside its record; empty where there are none.
+struct LightSamples {
+    std::span<const float> a{};  // beam A, up to max_light_samples
+    std::span<const float> b{};  // beam B, as many, or none
 };
 
 // Provenance of one tick of the angle log, a sum of bits.

@@ -2,7 +2,6 @@
 // The raw log: one row per half-period, as CSV or HDF5.
 
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +28,7 @@ struct RawHeader : RawColumns {
     std::vector<std::pair<std::string, std::string>> settings;  // `# key = value` or /config, in their order
     std::vector<std::string> warnings;                          // unknown columns that are ignored, one line each
     int light_samples = 0;                                      // N of /raw/light; 0: there is none
+    bool has_light_b = false;                                   // /raw/light_b beside it
     bool complete = true;  // false: an HDF5 log that is being written, or whose writer was interrupted
 };
 
@@ -54,7 +54,7 @@ public:
     bool next(core::HalfRecord& record);
 
     // The light samples of the row that was read last, until the next call; empty where the log has none.
-    [[nodiscard]] std::span<const float> light() const;
+    [[nodiscard]] core::LightSamples light() const;
 
     // Looks for rows that have been written since; true: `next` has more. Also renews header().complete.
     bool refresh();
@@ -70,7 +70,8 @@ private:
 };
 
 struct RawWriterOptions {
-    int light_samples = 0;  // of each half, 0..64; HDF5 only
+    int light_samples = 0;  // of each half and beam, 0..64; HDF5 only
+    bool light_b = false;   // of beam B too
     // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
     bool keep_part = false;
 };
@@ -90,7 +91,7 @@ public:
 
     // errors  IoError; FormatError: a number of a column that is not finite, which no reader would accept; a shifted edge
     // without the column for it; another number of light samples than announced.
-    void write(const core::HalfRecord& record, std::span<const float> light = {});
+    void write(const core::HalfRecord& record, const core::LightSamples& light = {});
 
     // Makes all rows so far visible to readers of PATH.part. errors  IoError.
     void flush();

@@ -2,9 +2,10 @@
 // The loop of twin and control, one half-period at a time.
 
 #include <cstdint>
-#include <span>
+#include <optional>
 
 #include <zlg/config/config.hpp>
+#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/twin/twin.hpp>
@@ -26,15 +27,24 @@ public:
 
     LoopHalf advance();
 
-    // The light samples of beam A in the half before, until the next `advance`.
-    [[nodiscard]] std::span<const float> light() const;
+    // The light samples of the half before, until the next `advance`.
+    [[nodiscard]] core::LightSamples light() const;
 
 private:
+    // Compensation beside the control, for a schedule that asks for what is measured.
+    struct Adviser {
+        core::GyroCompensationConfig config;
+        core::GyroCompensationState state{};
+    };
+
+    ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion);
+
     twin::Twin twin_;
     core::GyroControlConfig control_config_;
     core::GyroControlState control_state_;
     core::ActuatorFrame actuator_;
     core::SensorFrame sensor_{};
+    std::optional<Adviser> adviser_;
 };
 
 }  // namespace zlg::rig

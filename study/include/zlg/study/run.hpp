@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -67,7 +66,7 @@ struct RunTask {
     config::Config config;
     int threads = 1;
     // All optional; called in order, from the calling thread.
-    std::function<void(const core::HalfRecord&, std::span<const float> light)> on_record;
+    std::function<void(const core::HalfRecord&, const core::LightSamples&)> on_record;
     std::function<void(const core::AngleRow&, double true_arcsec)> on_row;  // the rows of `configured`
     std::function<void(std::int64_t half, std::uint32_t bits)> on_health;   // when the health bits change
     std::function<void(double)> on_progress;                                // 0..1

@@ -1,0 +1,44 @@
+#pragma once
+// Mean rate over a segment of unknown length, blind to oscillations and to its own ends; and how the rate bends in it.
+
+#include <array>
+#include <cstdint>
+
+namespace zlg::core {
+
+// Weighted sums of the ticks of a segment.
+struct SegmentRateState {
+    std::int64_t n_ticks = 0;
+    std::array<double, 5> moments{};  // sums of angle times k^2 .. k^6, k the tick's middle in ticks from the start
+
+    friend constexpr bool operator==(const SegmentRateState&, const SegmentRateState&) = default;
+};
+
+// Take the angle of the next tick, arcsec.
+void take(SegmentRateState& state, double angle_arcsec) noexcept;
+
+// Least squares with the weight u^2 (1 - u)^2, u = 0..1 from start to end, x = 2 u - 1:
+//
+//   rate(x) = mean + change x/2 + bend (x^2 - 1/7)
+struct SegmentRate {
+    double mean_arcsec_s = 0.0;
+    double change_arcsec_s = 0.0;  // from start to end
+    double bend_arcsec_s = 0.0;    // of the ends over the middle
+};
+
+// The weight and its slope vanish at both ends, so that of an oscillation of angular frequency w at most
+// 120/(w L)^3 of its amplitude is left in the mean, L the length: 7e-10 of 20 Hz in 45 s, where a plain mean leaves
+// 2/(w L), 4e-4. What a switch spoils at the ends of a segment weighs nothing. A steady change of the rate leaves the mean that of the middle.
+//
+// accuracy  1/n^4 of the mean rate for n ticks.
+// return    zeros for a segment without a tick.
+[[nodiscard]] SegmentRate rate_of(const SegmentRateState& state, double tick_s) noexcept;
+
+// Variance of the mean on a base at rest: 10/7 W^2/L of an angle random walk W, and 120/7 (c^2/12)/(n L^2) of n ticks
+// that are rounded to counts c, as if independent. That of change and bend is no more than 21 times as large for a walk.
+//
+// return  (arcsec/s)^2; infinite for a segment without a tick.
+[[nodiscard]] double mean_rate_variance(const SegmentRateState& state, double tick_s, double walk_arcsec_sqrt_s,
+                                        double count_arcsec) noexcept;
+
+}  // namespace zlg::core

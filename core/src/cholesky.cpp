@@ -1,0 +1,62 @@
+#include <zlg/core/cholesky.hpp>
+
+#include <zlg/core/maths.hpp>
+
+namespace zlg::core {
+namespace {
+
+// What rounding leaves of a pivot that is 0 in exact arithmetic is a few times 1e-16 of the diagonal.
+constexpr double smallest_pivot = 1e-12;
+
+unsigned row_start(int i) noexcept { return static_cast<unsigned>(i * (i + 1) / 2); }
+
+}  // namespace
+
+bool add_row(CholeskyFactor& factor, const Column& covariance) noexcept {
+    const auto n = static_cast<unsigned>(factor.n);
+    double* const row = factor.lower.data() + row_start(factor.n);
+    double pivot = covariance[n];
+    for (unsigned k = 0; k < n; ++k) {
+        const double* const other = factor.lower.data() + row_start(static_cast<int>(k));
+        double x = covariance[k];
+        for (unsigned i = 0; i < k; ++i) x -= row[i] * other[i];
+        row[k] = x * other[k];
+        pivot -= row[k] * row[k];
+    }
+    if (!(pivot > smallest_pivot * covariance[n] && is_finite(pivot))) {
+        for (unsigned k = 0; k < n; ++k) row[k] = 0.0;
+        return false;
+    }
+    row[n] = 1.0 / square_root(pivot);
+    ++factor.n;
+    return true;
+}
+
+Column forward(const CholeskyFactor& factor, const Column& x) noexcept {
+    Column y{};
+    for (unsigned k = 0; k < static_cast<unsigned>(factor.n); ++k) {
+        const double* const row = factor.lower.data() + row_start(static_cast<int>(k));
+        double sum = x[k];
+        for (unsigned i = 0; i < k; ++i) sum -= row[i] * y[i];
+        y[k] = sum * row[k];
+    }
+    return y;
+}
+
+Column backward(const CholeskyFactor& factor, const Column& x) noexcept {
+    Column y = x;
+    for (auto k = static_cast<unsigned>(factor.n); k-- > 0;) {
+        const double* const row = factor.lower.data() + row_start(static_cast<int>(k));
+        y[k] *= row[k];
+        for (unsigned i = 0; i < k; ++i) y[i] -= row[i] * y[k];
+    }
+    return y;
+}
+
+double product(const Column& a, const Column& b, int n) noexcept {
+    double sum = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(n); ++k) sum += a[k] * b[k];
+    return sum;
+}
+
+}  // namespace zlg::core

@@ -1,0 +1,70 @@
+#include <zlg/core/optimal_bridge.hpp>
+
+namespace zlg::core {
+namespace {
+
+// Weak prior of a learnt covariance: rates with the spectrum 1/(1 + (f/0.05)^4) + 1e-4, f in 1/tick, integrated over
+// half-ticks; by distance in half-ticks, for a tick of variance 1.
+constexpr Window smooth_prior{
+    0.251624421935,    0.248375578065,    0.240671034931,    0.22918718569,     0.214930433481,    0.198767931966,
+    0.181436176951,    0.163550771513,    0.14561691523,     0.128040241686,    0.111137695577,    0.0951482013605,
+    0.0802429294019,   0.0665350131318,   0.0540886120035,   0.0429272504631,   0.0330413930232,   0.0243952403487,
+    0.0169327514722,   0.0105829133213,   0.00526429114214,  0.000888902590385, -0.00263453532511, -0.00539793321143,
+    -0.00749167487083, -0.00900292575272, -0.010014349424,   -0.0106031791206,  -0.0108405941489,  -0.0107913541792,
+    -0.0105136481349,  -0.0100591182656,  -0.00947302397703, -0.00879451395927, -0.00805697903322, -0.00728846184431,
+    -0.00651210303374, -0.00574660676936};
+
+// The prior counts as so many windows beside those in memory: for the slow one as little as keeps the matrix regular, since
+// a tone of 12 000 arcsec/s brings a prior of 0.2 windows to the level of a counter of 0.8 arcsec.
+constexpr std::array<double, 2> prior_windows{10.0, 0.002};
+
+// Rounding that repeats with the motion is learnt as if it were motion: a part of it is added as noise.
+constexpr double rounding_part = 0.3;
+
+double of_ticks_by_halves(const Window& halves, int distance) noexcept {
+    const auto lag = static_cast<unsigned>(2 * distance);
+    return 2.0 * halves[lag] + (lag + 1 < halves.size() ? halves[lag + 1] : halves[lag]) +
+           halves[lag > 0 ? lag - 1 : 1];
+}
+
+}  // namespace
+
+MotionCovariance::MotionCovariance(const OptimalBridgeConfig& config, const MotionMomentsState& moments,
+                                   MotionMemory memory, double scale) noexcept
+    : sum_{moments.moments[memory].sum.data()},
+      window_{window_of(MotionMomentsConfig{config.halves})},
+      halves_{config.halves} {
+    const double rounding = config.counter_step.value() * config.counter_step.value() / 6.0;
+    const double n = moments.moments[memory].n_windows;
+    // Readings that repeat are predicted all too well: rounding is not what may be scaled down.
+    const double part = config.learns ? (scale > 1.0 ? scale : 1.0) * rounding_part : 1.0;
+    // Of moments in both directions of time.
+    per_sum_ = config.learns && n > 0.0 ? 0.5 * scale / n : 0.0;
+    const double prior = per_sum_ * 2.0 * prior_windows[memory] * moments.moments[memory].scatter;
+    const Window& shape = config.learns ? smooth_prior : config.prior_arcsec2;
+    for (int lag = 0; lag < window_; ++lag) {
+        const double at_lag = halves_ ? shape[static_cast<unsigned>(lag)] : of_ticks_by_halves(shape, lag);
+        by_lag_[static_cast<unsigned>(lag)] = config.learns ? prior * at_lag : at_lag;
+    }
+    by_lag_[0] += part * rounding;
+    by_lag_[1] -= 0.5 * part * rounding;
+    if (!config.learns) by_lag_[0] += halves_ ? 0.5 * config.walk_arcsec2 : config.walk_arcsec2;
+}
+
+// The four samples of a pair of ticks lie side by side, and so do those of the pair in reversed time.
+double MotionCovariance::of_ticks(int a, int b) const noexcept {
+    if (!halves_) return of_samples(a, b);
+    if (a == b) return of_samples(2 * a, 2 * a) + of_samples(2 * a + 1, 2 * a + 1) + 2.0 * of_samples(2 * a, 2 * a + 1);
+    const int low = 2 * (a < b ? a : b);
+    const int high = 2 * (a < b ? b : a);
+    const auto four = [this](int i, int j) {
+        const double* const first = sum_ + moment_index(window_, i, j);
+        const double* const second = sum_ + moment_index(window_, i + 1, j);
+        return (first[0] + first[1]) + (second[0] + second[1]);
+    };
+    const auto lag = static_cast<unsigned>(high - low);
+    return per_sum_ * (four(low, high) + four(window_ - 2 - high, window_ - 2 - low)) + 2.0 * by_lag_[lag] +
+           (by_lag_[lag - 1] + by_lag_[lag + 1]);
+}
+
+}  // namespace zlg::core

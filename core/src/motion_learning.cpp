@@ -1,0 +1,102 @@
+#include <zlg/core/motion_learning.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr int points_a_tick = 2;
+
+// Fewer say more of the moment than of the motion.
+constexpr double enough_windows = 50.0;
+
+// A tick this far out, of a variance of the learnt motion's, is a blow or a fault: what is squared only once is not learnt.
+// A motion that goes on like this is a new one.
+constexpr double foreign_ratio = 1e4;
+constexpr int foreign_step = 8;
+constexpr int foreign_at_most = 16 * foreign_step;
+
+// return  the tick may be learnt.
+bool is_familiar(const OptimalBridgeConfig& config, MotionLearningState& state, const MotionTick& tick) noexcept {
+    const Moments& learnt = state.moments.moments[fast_memory];
+    const double x = tick.first + (config.halves ? tick.second : 0.0) - state.moments.level;
+    const double step = config.counter_step.value();
+    if (!is_ready(config, state) || !(x * x > foreign_ratio * (learnt.scatter + step * step))) {
+        state.foreign -= state.foreign > 0;
+        return true;
+    }
+    if (state.foreign < foreign_at_most) state.foreign += foreign_step;
+    return state.foreign >= foreign_at_most;
+}
+
+GapProblem pseudo_gap(MotionMemory memory) noexcept {
+    return {.n_gap = scored_gap, .n_side = points_a_side(scored_gap), .memory = memory};
+}
+
+void add_points(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
+    GapProblem& problem = state.problem;
+    const MotionCovariance covariance = covariance_of(config, state, problem);
+    const int all = 2 * problem.n_side;
+    for (int k = 0; k < points_a_tick && problem.factor.n < all && !problem.failed; ++k)
+        add_point(covariance, problem, place_of(problem.factor.n, problem.n_side, problem.n_gap), Column{});
+}
+
+// Weights of the whole pseudo-gap; then the next one's begin, or all are put to use.
+void take_weights(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
+    const MotionMemory memory = state.problem.memory;
+    state.next[memory] = weights(covariance_of(config, state, state.problem), state.problem);
+    if (memory == fast_memory) {
+        state.problem = pseudo_gap(slow_memory);
+        return;
+    }
+    state.scores.weights = state.next;
+    state.weighing = false;
+}
+
+void weigh(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
+    if (state.n_weighed != state.moments.n_folded) {
+        state.problem = pseudo_gap(fast_memory);
+        state.weighing = true;
+        state.n_weighed = state.moments.n_folded;
+    }
+    if (!state.weighing) return;
+    const GapProblem& problem = state.problem;
+    if (problem.failed || problem.factor.n == 2 * problem.n_side) return take_weights(config, state);
+    add_points(config, state);
+}
+
+std::array<double, window_ticks> ticks_of(const OptimalBridgeConfig& config, const Window& recent) noexcept {
+    std::array<double, window_ticks> ticks;
+    for (unsigned k = 0; k < ticks.size(); ++k)
+        ticks[k] = config.halves ? recent[2 * k] + recent[2 * k + 1] : recent[k];
+    return ticks;
+}
+
+void judge(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
+    const auto ticks = ticks_of(config, state.moments.recent);
+    const double learnt = state.moments.moments[fast_memory].scatter;
+    step(state.scores, ticks, is_rough(scatter(ticks.data(), window_ticks), learnt));
+}
+
+}  // namespace
+
+void step(const OptimalBridgeConfig& config, MotionLearningState& state, const MotionTick& tick, bool idle) noexcept {
+    if (!config.learns) return;
+    MotionTick learnt = tick;
+    learnt.usable = tick.usable && is_familiar(config, state, tick);
+    const MotionMomentsOutput out = step(MotionMomentsConfig{config.halves}, state.moments, learnt);
+    if (out.has_window) judge(config, state);
+    // A gap takes the problem over, and weights of half of it are none: they are begun anew.
+    if (!idle && state.weighing) state.n_weighed = -1;
+    if (!idle) state.weighing = false;
+    if (idle && !is_folding(state.moments)) weigh(config, state);
+}
+
+bool is_ready(const OptimalBridgeConfig& config, const MotionLearningState& state) noexcept {
+    return !config.learns || state.moments.moments[fast_memory].n_windows >= enough_windows;
+}
+
+MotionCovariance covariance_of(const OptimalBridgeConfig& config, const MotionLearningState& state,
+                               const GapProblem& problem) noexcept {
+    return {config, state.moments, problem.memory, problem.scale};
+}
+
+}  // namespace zlg::core

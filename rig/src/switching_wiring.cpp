@@ -1,0 +1,57 @@
+#include "switching_wiring.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <zlg/config/schema.hpp>
+
+namespace zlg::rig {
+namespace {
+
+core::ScheduleKind kind_of(config::Schedule schedule) {
+    switch (schedule) {
+        case config::Schedule::fixed:
+            return core::ScheduleKind::fixed;
+        case config::Schedule::growing:
+            return core::ScheduleKind::growing;
+        case config::Schedule::measured:
+            return core::ScheduleKind::measured;
+    }
+    return core::ScheduleKind::fixed;
+}
+
+}  // namespace
+
+std::int64_t ticks_of(double time_s, double tick_s) {
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(time_s / tick_s)));
+}
+
+core::MagneticDriftConfig magnetic_of(const config::Config& config) {
+    const config::Compensation& c = config.compensation;
+    return {.method = c.magnetic,
+            .tick = core::Seconds{config.gyro.tick_s},
+            .walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s},
+            .count = core::Arcsec{config.gyro.scale_arcsec},
+            .presumed_arcsec_s = c.magnetic_arcsec_s,
+            .presumed_sigma_arcsec_s = c.magnetic_sigma_arcsec_s,
+            .warming_arcsec_s = c.magnetic_thermal_arcsec_s,
+            .warming_sigma_arcsec_s = c.magnetic_thermal_sigma_arcsec_s,
+            .thermal_time = core::Seconds{c.magnetic_thermal_time_s}};
+}
+
+core::SwitchScheduleConfig schedule_of(const config::Config& config) {
+    if (config.switching.interval_optimal)
+        throw config::ConfigError{
+            "switching.interval_s = \"optimal\" must be resolved into seconds before a gyro can run"};
+    const config::Switching& sw = config.switching;
+    return {.interval_ticks = ticks_of(sw.interval_s, config.gyro.tick_s),
+            .first_segment =
+                sw.first_segment == config::FirstSegment::half ? core::FirstSegment::half : core::FirstSegment::full,
+            .kind = kind_of(sw.schedule),
+            .min_ticks = ticks_of(sw.interval_min_s, config.gyro.tick_s),
+            .max_ticks = ticks_of(sw.interval_max_s, config.gyro.tick_s),
+            .tick_s = config.gyro.tick_s,
+            .presumed = {.switch_error_arcsec = sw.switch_error_arcsec, .magnetic_arcsec_s = sw.magnetic_arcsec_s}};
+}
+
+}  // namespace zlg::rig
