@@ -31,4 +31,6 @@ void Interruptible::check() const {
     if (noted) throw logs::IoError{"interrupted by a signal"};
 }
 
+bool Interruptible::is_noted() const { return noted != 0; }
+
 }  // namespace zlg::cli

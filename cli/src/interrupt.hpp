@@ -13,6 +13,9 @@ public:
 
     // errors  logs::IoError where a signal has come.
     void check() const;
+
+    // For a verb that has no other end than a signal.
+    [[nodiscard]] bool is_noted() const;
 };
 
 }  // namespace zlg::cli

@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
     cli::add_paper(program);
     cli::add_convert(program);
     cli::add_calibrate(program);
+    cli::add_follow(program);
     cli::add_inspect(program);
     return guarded(program, argc, argv);
 }

@@ -16,6 +16,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
+#include "processor_option.hpp"
 #include "run_files.hpp"
 #include "verbs.hpp"
 
@@ -71,6 +72,7 @@ std::string text(const study::RunResult& result, const RunFiles& files) {
 }
 
 struct RunOptions : Options {
+    ProcessorOptions processor;
     std::string format = "h5";
 };
 
@@ -81,10 +83,11 @@ logs::LogFormat format_named(const std::string& name) {
 }
 
 study::RunResult run_into(RunFiles& files, const config::Config& config, const RunOptions& options,
-                          const Interruptible& interruptible) {
+                          rig::Processor* processor, const Interruptible& interruptible) {
     Progress progress;
     study::RunTask task{.config = config,
                         .threads = options.threads,
+                        .processor = processor,
                         .on_record =
                             [&](const core::HalfRecord& record, const core::LightSamples& light) {
                                 interruptible.check();
@@ -101,13 +104,14 @@ void run(const RunOptions& options) {
     const logs::LogFormat format = format_named(options.format);
     const config::Config config = with_laser_curve(with_interval(load_config(options)));
     const Interruptible interruptible;
+    const std::unique_ptr<rig::Processor> processor = make_processor(options.processor);
     std::string raw_part;
     std::string angles_part;
     try {
         RunFiles files{options.out, options.force, config, format, logged_light_samples(options, config, format)};
         raw_part = files.raw_part();
         angles_part = files.angles_part();
-        const study::RunResult result = run_into(files, config, options, interruptible);
+        const study::RunResult result = run_into(files, config, options, processor.get(), interruptible);
         const std::string summary = pretty(summary_json(config, result));
         files.finish(result.switches, summary, report::html(study::run_page(config, result)));
         print(options.json ? summary : text(result, files));
@@ -125,6 +129,7 @@ void add_run(CLI::App& program) {
     add_config_argument(*verb, *options);
     verb->add_option("--format", options->format, "of the logs: h5 (default) or csv");
     add_light_option(*verb, *options);
+    add_processor_options(*verb, options->processor);
     add_run_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { run(*options); });

@@ -1,11 +1,17 @@
 #include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/logs/table_file.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wire_stream.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/design_study.hpp>
 
@@ -19,21 +25,62 @@
 namespace zlg::cli {
 namespace {
 
-void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw,
+struct SimulateOptions : Options {
+    std::string wire;
+};
+
+// What the gyro sends meanwhile, if anybody wants it.
+class LineRecording {
+public:
+    LineRecording(const SimulateOptions& options, const config::Config& config) {
+        if (options.wire.empty()) return;
+        stream_.emplace(config, core::RelockMethod::mean_square);
+        file_.emplace(options.wire, options.force);
+    }
+
+    void take(const rig::ClosedLoop& loop, const rig::LoopHalf& half) {
+        if (!stream_) return;
+        stream_->take(loop, half, bytes_);
+        write();
+    }
+
+    void close() {
+        if (!stream_) return;
+        stream_->end(bytes_);
+        write();
+        file_->close();
+    }
+
+private:
+    void write() {
+        file_->append({reinterpret_cast<const char*>(bytes_.data()), bytes_.size()});
+        bytes_.clear();
+    }
+
+    std::optional<rig::WireStream> stream_;
+    std::optional<logs::TableFile> file_;
+    std::vector<std::uint8_t> bytes_;
+};
+
+void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw, LineRecording& line,
             const Interruptible& interruptible) {
     Progress progress;
     const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
         interruptible.check();
-        const core::HalfRecord record = loop.advance().record;
-        raw.write(record, with_light ? loop.light() : core::LightSamples{});
+        const rig::LoopHalf made = loop.advance();
+        raw.write(made.record, with_light ? loop.light() : core::LightSamples{});
+        line.take(loop, made);
         if (half % (2 * progress_stride) == 0)
             progress.show(static_cast<double>(half) / static_cast<double>(2 * ticks));
     }
 }
 
-void simulate(const Options& options) {
+void simulate(const SimulateOptions& options) {
     const logs::LogFormat format = log_format(options.out);
+    if (!options.wire.empty() &&
+        std::filesystem::path{options.wire}.lexically_normal() == std::filesystem::path{options.out}.lexically_normal())
+        throw UsageError{fmt::format("--wire {}: is the raw log; name another file", options.wire)};
     const config::Config config = with_laser_curve(with_interval(load_config(options)));
     const int light_samples = logged_light_samples(options, config, format);
     const twin::Motion motion = rig::motion(config);
@@ -48,7 +95,9 @@ void simulate(const Options& options) {
                             raw_columns(config),
                             {.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true}};
         part = raw.part_path();
-        record(loop, ticks, light_samples > 0, raw, interruptible);
+        LineRecording line{options, config};
+        record(loop, ticks, light_samples > 0, raw, line, interruptible);
+        line.close();
         raw.close();
     } catch (...) {
         rethrow_with({part});
@@ -63,12 +112,13 @@ void simulate(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& program) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SimulateOptions>();
     CLI::App* verb = program.add_subcommand(
         "simulate", "the same as run, writing only what the gyro's processor would have recorded");
     add_config_argument(*verb, *options);
     add_run_options(*verb, *options);
     add_light_option(*verb, *options);
+    verb->add_option("--wire", options->wire, "also write what the gyro would have sent over its line, for zlg follow");
     add_output_options(*verb, *options);
     verb->callback([options] { simulate(*options); });
 }

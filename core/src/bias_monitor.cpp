@@ -1,5 +1,7 @@
 #include <zlg/core/bias_monitor.hpp>
 
+#include <zlg/core/maths.hpp>
+
 #include "bounds.hpp"
 
 namespace zlg::core {
@@ -45,12 +47,12 @@ void remember(BiasMonitorState& s, const BiasMonitorInput& in, bool follows) noe
 
 void judge(const BiasMonitorConfig& c, BiasMonitorState& s, const BiasMonitorInput& in,
            BiasMonitorOutput& out) noexcept {
-    const double twice_b = static_cast<double>(in.counts - s.counts) * in.beat_sign;
+    const double twice_b = as_double(in.counts - s.counts) * in.beat_sign;
     const double bias = s.bias_counts;
     out.judged = s.n_learnt >= bias_learning_halves;
     if (out.judged) {
         const bool smooth = in.settled && s.n_known >= 3;
-        const double change = smooth ? size(static_cast<double>(s.counts - s.counts_long_before)) : 0.0;
+        const double change = smooth ? size(as_double(s.counts - s.counts_long_before)) : 0.0;
         const double fine = bias / 6.0 + change;
         const double tolerance = smooth && fine < bias ? fine : bias;
         out.in_band = size(twice_b - 2.0 * bias) <= tolerance;
@@ -59,7 +61,7 @@ void judge(const BiasMonitorConfig& c, BiasMonitorState& s, const BiasMonitorInp
         out.reversed = s.n_reversed >= reversed_believed;
         out.deficit_ratio = smooth ? 1.0 - 0.5 * twice_b / bias : 0.0;
         out.lost = !out.in_band && size(twice_b) < bias;
-        out.near_rate = out.in_band && size(static_cast<double>(in.counts)) < near_rate_ratio * bias;
+        out.near_rate = out.in_band && size(as_double(in.counts)) < near_rate_ratio * bias;
     } else {
         // What was never there is not learnt.
         out.lost = in.settled && size(twice_b) < 0.25 * c.presumed_counts;

@@ -10,7 +10,7 @@ namespace zlg::core {
     return x < -limit ? -limit : x;
 }
 
-[[nodiscard]] constexpr double size(double x) noexcept { return x < 0.0 ? -x : x; }
+[[nodiscard]] constexpr double size(double x) noexcept { return __builtin_fabs(x); }
 
 // A counter that stops at its end instead of wrapping.
 constexpr void count_up(std::int32_t& n) noexcept {

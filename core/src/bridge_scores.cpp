@@ -24,7 +24,9 @@ constexpr int after = side + scored_gap;
 
 double learnt_angle(const Column& weight, const std::array<double, window_ticks>& x) noexcept {
     double sum = 0.0;
+#pragma GCC unroll 8
     for (unsigned k = 0; k < side; ++k) sum += weight[k] * x[k];
+#pragma GCC unroll 8
     for (unsigned k = 0; k < side; ++k) sum += weight[side + k] * x[after + k];
     return sum;
 }
@@ -34,6 +36,7 @@ double learnt_angle(const Column& weight, const std::array<double, window_ticks>
 double scatter(const double* values, int n) noexcept {
     double sum = 0.0;
     double squares = 0.0;
+#pragma GCC unroll 4
     for (int k = 0; k < n; ++k) {
         sum += values[k];
         squares += values[k] * values[k];

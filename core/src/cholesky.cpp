@@ -12,13 +12,15 @@ unsigned row_start(int i) noexcept { return static_cast<unsigned>(i * (i + 1) / 
 
 }  // namespace
 
-bool add_row(CholeskyFactor& factor, const Column& covariance) noexcept {
+template <std::size_t capacity>
+bool add_row(CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& covariance) noexcept {
     const auto n = static_cast<unsigned>(factor.n);
     double* const row = factor.lower.data() + row_start(factor.n);
     double pivot = covariance[n];
     for (unsigned k = 0; k < n; ++k) {
         const double* const other = factor.lower.data() + row_start(static_cast<int>(k));
         double x = covariance[k];
+#pragma GCC unroll 4
         for (unsigned i = 0; i < k; ++i) x -= row[i] * other[i];
         row[k] = x * other[k];
         pivot -= row[k] * row[k];
@@ -32,31 +34,49 @@ bool add_row(CholeskyFactor& factor, const Column& covariance) noexcept {
     return true;
 }
 
-Column forward(const CholeskyFactor& factor, const Column& x) noexcept {
-    Column y{};
+template <std::size_t capacity>
+ColumnOf<capacity> forward(const CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& x) noexcept {
+    ColumnOf<capacity> y{};
     for (unsigned k = 0; k < static_cast<unsigned>(factor.n); ++k) {
         const double* const row = factor.lower.data() + row_start(static_cast<int>(k));
         double sum = x[k];
+#pragma GCC unroll 4
         for (unsigned i = 0; i < k; ++i) sum -= row[i] * y[i];
         y[k] = sum * row[k];
     }
     return y;
 }
 
-Column backward(const CholeskyFactor& factor, const Column& x) noexcept {
-    Column y = x;
+template <std::size_t capacity>
+ColumnOf<capacity> backward(const CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& x) noexcept {
+    ColumnOf<capacity> y = x;
     for (auto k = static_cast<unsigned>(factor.n); k-- > 0;) {
         const double* const row = factor.lower.data() + row_start(static_cast<int>(k));
         y[k] *= row[k];
+#pragma GCC unroll 4
         for (unsigned i = 0; i < k; ++i) y[i] -= row[i] * y[k];
     }
     return y;
 }
 
-double product(const Column& a, const Column& b, int n) noexcept {
+template <std::size_t capacity>
+double product(const ColumnOf<capacity>& a, const ColumnOf<capacity>& b, int n) noexcept {
     double sum = 0.0;
+#pragma GCC unroll 4
     for (unsigned k = 0; k < static_cast<unsigned>(n); ++k) sum += a[k] * b[k];
     return sum;
 }
+
+template bool add_row(CholeskyFactor&, const Column&) noexcept;
+template Column forward(const CholeskyFactor&, const Column&) noexcept;
+template Column backward(const CholeskyFactor&, const Column&) noexcept;
+template double product(const Column&, const Column&, int) noexcept;
+
+using FewRows = CholeskyFactorOf<few_unknowns>;
+using FewNumbers = ColumnOf<few_unknowns>;
+template bool add_row(FewRows&, const FewNumbers&) noexcept;
+template FewNumbers forward(const FewRows&, const FewNumbers&) noexcept;
+template FewNumbers backward(const FewRows&, const FewNumbers&) noexcept;
+template double product(const FewNumbers&, const FewNumbers&, int) noexcept;
 
 }  // namespace zlg::core

@@ -1,5 +1,7 @@
 #include <zlg/core/edge_dither.hpp>
 
+#include <zlg/core/maths.hpp>
+
 namespace zlg::core {
 namespace {
 
@@ -52,7 +54,7 @@ std::int32_t end_positive(const EdgeDitherConfig& c, const EdgeDitherState& s) n
 void count(const EdgeDitherConfig& c, RateCounts& r, const EdgeDitherInput& in, std::int32_t excess) noexcept {
     ++r.n_halves;
     if (!in.counted) return;
-    const double net = static_cast<double>(in.counts) - in.helicity * (excess / c.cycle_ticks);
+    const double net = as_double(in.counts) - in.helicity * (excess / c.cycle_ticks);
     if (in.next_sign * in.helicity < 0) {
         r.positive += net;
         ++r.n_positive;

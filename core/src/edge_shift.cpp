@@ -49,7 +49,7 @@ bool is_possible(const EdgeShiftConfig& config, std::int32_t edge_offset_ticks) 
 }
 
 EdgeShiftOutput step(const EdgeShiftConfig& config, EdgeShiftState& state, const EdgeShiftInput& input) noexcept {
-    const auto counts = static_cast<double>(input.counts);
+    const auto counts = as_double(input.counts);
     const double counted_arcsec = config.scale.value() * counts;
     const std::int64_t start = state.offset_ticks, middle = input.offset_middle_ticks, end = input.offset_end_ticks;
     state.offset_ticks = input.offset_end_ticks;

@@ -163,7 +163,7 @@ ExactSum fit(const GapBridgeConfig& config, GapBridgeState& state, const Gap& ga
 }
 
 // In the tick that needs it, of what an estimate has left to do; and at the end of a log, where time does not matter.
-constexpr int last_work = 10;
+constexpr int last_work = 8;
 constexpr int all_work = 1000;
 
 // Give a gap its final values from the ticks before `end`, and its lump.

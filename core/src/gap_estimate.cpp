@@ -1,5 +1,7 @@
 #include "gap_estimate.hpp"
 
+#include <memory>
+
 #include <zlg/core/maths.hpp>
 
 #include "gap_interpolation.hpp"
@@ -18,9 +20,9 @@ constexpr int fewest_points = 2;
 constexpr int longest_joint_gap = 8;
 
 // What the variance of an estimate is to be multiplied by where the points do not fit.
-double inflation(const GapProblem& problem, double innovation_ratio) noexcept {
+double inflation(double scale, double innovation_ratio) noexcept {
     // The angle may be known better than the points: that alone is no misfit.
-    const double ratio = innovation_ratio * (problem.scale < 1.0 ? problem.scale : 1.0);
+    const double ratio = innovation_ratio * (scale < 1.0 ? scale : 1.0);
     return ratio > 1.0 ? ratio : 1.0;
 }
 
@@ -34,17 +36,22 @@ double least_variance(const GapBridgeConfig& config, const MotionLearningState& 
     return (rests ? 0.7 : 0.45) * step * step / 6.0;
 }
 
-// The problem of a gap, for the motion as it was of late.
-GapProblem problem_of(const MotionLearningState& learning, int n_gap, int n_side) noexcept {
-    const MotionMemory memory = better_memory(learning.scores);
-    return {.n_gap = n_gap, .n_side = n_side, .memory = memory, .scale = variance_ratio(learning.scores, memory)};
+// The motion as it was of late.
+template <std::size_t capacity>
+void presume(const BridgeScoresState& scores, GapProblemOf<capacity>& problem) noexcept {
+    problem.memory = better_memory(scores);
+    problem.scale = variance_ratio(scores, problem.memory);
 }
 
 void begin(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, bool halves) noexcept {
     finish_folding(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
-    state.estimate = EstimatedGap{.first_tick = gap.first_tick, .end_tick = gap.first_tick + gap.n};
+    // In place: a state that is assigned would stand on the stack first.
+    std::construct_at(&state.estimate);
+    state.estimate.first_tick = gap.first_tick;
+    state.estimate.end_tick = gap.first_tick + gap.n;
     const int n = static_cast<int>(gap.n);
-    state.learning.problem = problem_of(state.learning, n, points_a_side(n));
+    begin_problem(n, points_a_side(n), state.learning.problem);
+    presume(state.learning.scores, state.learning.problem);
     state.learning.problem.halves = halves;
 }
 
@@ -164,16 +171,17 @@ int order_in_place(const GapBridgeConfig& config, const GapBridgeState& state) n
 void predict_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept {
     finish_folding(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
     if (!is_ready(config.optimal, state.learning)) return;
-    GapProblem problem = problem_of(state.learning, predicted_ticks, max_points_a_side);
-    const MotionCovariance covariance = covariance_of(config.optimal, state.learning, problem);
-    const GapData data = points_before(covariance, state, tick, problem);
+    PredictionProblem problem{.n_gap = predicted_ticks, .n_side = max_points_a_side};
+    presume(state.learning.scores, problem);
+    const MotionCovariance covariance{config.optimal, state.learning.moments, problem.memory, problem.scale};
+    const PredictionData data = points_before(covariance, state, tick, problem);
     if (problem.failed || problem.factor.n < fewest_points) return;
     // Of the stages those of the single ticks.
-    GapSolution solution;
+    GapSolutionOf<few_unknowns> solution;
     while (!solution.done && solution.stage < 2 + predicted_ticks) advance(covariance, problem, data, solution);
-    const GapEstimate& found = solution.estimate;
+    const GapEstimateOf<few_unknowns>& found = solution.estimate;
     if (solution.done || !(found.innovation_ratio <= foreign_motion)) return;
-    const double scale = inflation(problem, found.innovation_ratio);
+    const double scale = inflation(problem.scale, found.innovation_ratio);
     state.prediction.first_tick = tick;
     for (unsigned j = 0; j < max_gap_ticks; ++j) {
         // The motion is forgotten by then, but for its mean.
@@ -190,7 +198,7 @@ namespace {
 //
 // return  work of the next half, where `work` is the usual one.
 int hurried(const GapBridgeState& state, const PendingGap& waiting, int work) noexcept {
-    constexpr int most_work = 8;
+    constexpr int most_work = 5;
     const GapProblem& problem = state.learning.problem;
     const int left = n_places(problem) - state.estimate.n_tried + (problem.n_gap + 3) * stride_of(problem);
     const std::int64_t halves_left = 2 * (waiting.due_tick - state.next_tick);
@@ -222,7 +230,7 @@ EstimatedAngle estimate(const GapBridgeConfig& config, GapBridgeState& state, co
     if (!found.known) return out;
     out.has_history = true;
     learn_scale(state);
-    const double misfit = inflation(problem, found.innovation_ratio);
+    const double misfit = inflation(problem.scale, found.innovation_ratio);
     const double least = least_variance(config, state.learning);
     const double variance = misfit * found.sum_variance_arcsec2;
     if (config.method == BridgeMethod::automatic &&
@@ -249,7 +257,5 @@ bool needs_profile(const GapBridgeState& state) noexcept {
     }
     return false;
 }
-
-void take_profile(GapBridgeState& state, const JointRelock& joint) noexcept { state.joint = joint; }
 
 }  // namespace zlg::core

@@ -187,6 +187,10 @@ void prepare_after(const GapBridgeConfig& config, GapBridgeState& state, bool me
     advance(config, state, measured ? work_after_measured : work_after_gap);
 }
 
-void prepare(const GapBridgeConfig& config, GapBridgeState& state) noexcept { advance(config, state, work_between); }
+void prepare(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
+    if (state.n_pending > 0) return advance(config, state, work_between);
+    // A gap that waits may see moments that are not whole: then they must be those of their time.
+    if (is_estimated(config)) fold_ahead(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
+}
 
 }  // namespace zlg::core

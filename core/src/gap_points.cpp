@@ -96,16 +96,20 @@ void try_point(const MotionCovariance& covariance, GapBridgeState& state) noexce
         add_tick(covariance, at(state, tick), k, e, problem);
 }
 
-GapData points_before(const MotionCovariance& covariance, const GapBridgeState& state, std::int64_t tick,
-                      GapProblem& problem) noexcept {
-    EstimatedGap e{.first_tick = tick};
-    for (int k = 0; k < problem.n_side; ++k) {
-        const std::int64_t before = tick_of(e, problem, k);
-        if (before >= 0 && is_point(at(state, before))) add_tick(covariance, at(state, before), k, e, problem);
+PredictionData points_before(const MotionCovariance& covariance, const GapBridgeState& state, std::int64_t tick,
+                             PredictionProblem& problem) noexcept {
+    PredictionData data{.level = state.learning.moments.level};
+    ColumnOf<few_unknowns> error{};
+    for (int k = 0; k < problem.n_side && !problem.failed; ++k) {
+        const std::int64_t before = tick - problem.n_side + k;
+        if (before < 0 || !is_point(at(state, before))) continue;
+        const auto n = static_cast<unsigned>(problem.factor.n);
+        data.value[n] = at(state, before).row.dtheta_final_arcsec - data.level;
+        error[n] = at(state, before).relock_variance_arcsec2;
+        add_point(covariance, problem, k, error);
+        error[n] = 0.0;
     }
-    e.data.level = state.learning.moments.level;
-    for (unsigned k = 0; k < static_cast<unsigned>(problem.factor.n); ++k) e.data.value[k] -= e.data.level;
-    return e.data;
+    return data;
 }
 
 void begin_solution(GapBridgeState& state) noexcept {

@@ -27,9 +27,14 @@ namespace zlg::core {
 // Add the next point of the problem in `state`, if it was measured.
 void try_point(const MotionCovariance& covariance, GapBridgeState& state) noexcept;
 
+// A prediction has the points of one side alone, as ticks, and so a problem that fits on a stack.
+using PredictionProblem = GapProblemOf<few_unknowns>;
+using PredictionData = GapDataOf<few_unknowns>;
+static_assert(max_points_a_side <= static_cast<int>(few_unknowns));
+
 // Points for a prediction from the ticks before `tick`.
-[[nodiscard]] GapData points_before(const MotionCovariance& covariance, const GapBridgeState& state, std::int64_t tick,
-                                    GapProblem& problem) noexcept;
+[[nodiscard]] PredictionData points_before(const MotionCovariance& covariance, const GapBridgeState& state,
+                                           std::int64_t tick, PredictionProblem& problem) noexcept;
 
 // All points are in.
 void begin_solution(GapBridgeState& state) noexcept;

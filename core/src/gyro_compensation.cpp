@@ -103,7 +103,7 @@ constexpr double bias_ticks = 256.0;
 // The first half over the second, less the bias: the sign of its first half, and the slow mean of what it adds.
 void take_excess(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
                  const HalfRecord& second, double known_excess_counts, TickInput& tick) noexcept {
-    const double difference = static_cast<double>(first.counts - second.counts) - known_excess_counts;
+    const double difference = as_double(first.counts - second.counts) - known_excess_counts;
     const double excess = config.relock.scale.value() * difference;
     if (tick.settled) {
         const double bias = 0.5 * tick.sign * excess;
@@ -115,7 +115,7 @@ void take_excess(const GyroCompensationConfig& config, GyroCompensationState& st
 void take_profile(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half) noexcept {
     if (!is_due(state.joint) || needs_profile(state.bridge)) return;
     const Celsius temperature{half.temperature_c};
-    take_profile(state.bridge, tell(config.relock, state.joint, temperature));
+    tell(config.relock, state.joint, temperature, state.bridge.joint);
 }
 
 // Switches over which their errors are averaged.
@@ -190,7 +190,7 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
         take_profile(config, state, taken);
     }
     // No angle is due in this half: it bears a part of what the other one would have to do.
-    if (state.bridge.n_pending > 0) prepare(config.bridge, state.bridge);
+    if (state.bridge.n_pending > 0 || is_folding(state.bridge.learning.moments)) prepare(config.bridge, state.bridge);
     return {};
 }
 

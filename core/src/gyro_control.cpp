@@ -62,12 +62,29 @@ void time_switch(const GyroControlConfig& c, GyroControlState& s, const Observat
     if (in.recentre || in.due) s.recentring = in.recentre;
 }
 
-// Both moves from here, in turn, in halves that end no tick: the next opening finds them ready, two ticks old at most.
-void predict_moves(const GyroControlConfig& c, GyroControlState& s) noexcept {
+// Both moves from here, in turn, in halves that end no tick: the next opening finds them two ticks old at most.
+void note_start(GyroControlState& s) noexcept {
     if (s.half % 2 != 0 || s.mode_switch.phase != SwitchPhase::tracking) return;
-    const bool up = s.half % 4 == 0;
-    const Volts move = predicted_move(c.stroke, s.stroke, up ? 1 : -1, Volts{s.piezo_v}, Celsius{s.temperature_c});
-    (up ? s.move_up_v : s.move_down_v) = move.value();
+    MoveStart& start = s.half % 4 == 0 ? s.up : s.down;
+    start.known = false;
+    start.play = s.stroke.play;
+    start.piezo_v = s.piezo_v;
+    start.temperature_c = s.temperature_c;
+}
+
+void predict_move(const GyroControlConfig& c, const StrokeModelState& stroke, std::int8_t sign,
+                  MoveStart& start) noexcept {
+    if (start.known) return;
+    start.known = true;
+    start.move_v =
+        predicted_move(c.stroke, stroke, start.play, sign, Volts{start.piezo_v}, Celsius{start.temperature_c}).value();
+}
+
+// Moves are needed where the loop opens. What they are predicted from is learnt after that, before a mode is tracked again.
+void predict_moves(const GyroControlConfig& c, GyroControlState& s, bool opens) noexcept {
+    if (!opens && s.mode_switch.phase == SwitchPhase::tracking) return;
+    predict_move(c, s.stroke, 1, s.up);
+    predict_move(c, s.stroke, -1, s.down);
 }
 
 // Where the stage has brought the piezo by the end of an open half, and whether the reading agrees.
@@ -86,6 +103,7 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
     in.tick_border = s.half % 2 != 0;
     in.next_tick = (s.half + 1) / 2;
     time_switch(c, s, o, advice, in);
+    predict_moves(c, s, in.due || in.recentre);
     in.reversed = o.bias.reversed && o.lit;
     in.light_known = o.fresh && (o.light.readable || o.lit);
     in.two_way = o.lit;
@@ -93,8 +111,8 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
     in.detuning = o.monitored.detuning;
     in.piezo = o.piezo;
     in.set_point = Volts{s.loop.set_point_v};
-    in.half_wave = Volts{0.5 * (s.move_up_v - s.move_down_v)};
-    in.offset = Volts{0.5 * (s.move_up_v + s.move_down_v)};
+    in.half_wave = Volts{0.5 * (s.up.move_v - s.down.move_v)};
+    in.offset = Volts{0.5 * (s.up.move_v + s.down.move_v)};
     if (!s.mode_switch.loop_closed) read_flight(c, s, o, in);
     return step(c.mode_switch, s.mode_switch, in);
 }
@@ -204,7 +222,8 @@ void command(bool loop_closed, std::int8_t polarity, const PerimeterLoopOutput& 
     actuator.loop_closed = loop_closed;
     actuator.polarity = polarity;
     actuator.n_set_points = static_cast<std::uint8_t>(regulated.n_set_points);
-    for (std::size_t k = 0; k < actuator.n_set_points; ++k) actuator.set_point_v[k] = regulated.set_point_v[k];
+    actuator.set_point_v[0] = regulated.set_point_v[0];
+    for (std::size_t k = 1; k < actuator.n_set_points; ++k) actuator.set_point_v[k] = regulated.set_point_v[k];
 }
 
 }  // namespace
@@ -214,8 +233,8 @@ GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t co
     s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
     s.half_wave = initial_state(config.half_wave);
     s.stroke = initial_state(config.stroke, config.mode_switch.start_set_point);
-    s.move_up_v = config.stroke.half_wave.value();
-    s.move_down_v = -s.move_up_v;
+    s.up.move_v = config.stroke.half_wave.value();
+    s.down.move_v = -s.up.move_v;
     s.schedule = initial_state(config.schedule);
     s.mode_switch = initial_state(config.mode_switch);
     s.counter = counter;
@@ -238,7 +257,7 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
 
     Observation seen;
     observe(config, state, frame, seen);
-    predict_moves(config, state);
+    note_start(state);
     const ModeSwitchOutput sequenced = sequence(config, state, seen, advice);
     const bool half_wave_rejected = learn_half_wave(config, state, sequenced);
     learn_stroke(config, state, seen, was_closed, sequenced);

@@ -27,12 +27,13 @@ bool is_due(const JointRelockState& state) noexcept {
     return !state.told && (broken_off || (state.profile.n_halves >= profile_halves && !is_pending(state.profile)));
 }
 
-JointRelock tell(const RelockDriftConfig& config, JointRelockState& state, Celsius temperature) noexcept {
+void tell(const RelockDriftConfig& config, JointRelockState& state, Celsius temperature, JointRelock& out) noexcept {
     state.told = true;
     const RelockProfile& profile = state.profile.profile;
     const bool complete = state.profile.n_halves >= profile_halves;
-    JointRelock out{.first_tick = state.first_tick, .known = complete && profile.known};
-    if (!out.known) return out;
+    out.first_tick = state.first_tick;
+    out.known = complete && profile.known;
+    if (!out.known) return;
     const double f0 = bias_at(config, temperature).value();
     const double arcsec = config.chi * f0 * config.scale.value() * 0.5 * config.tick.value();
     for (unsigned k = 0; k < profile_halves; ++k) {
@@ -44,7 +45,6 @@ JointRelock tell(const RelockDriftConfig& config, JointRelockState& state, Celsi
             out.known = out.known && is_finite(covariance);
         }
     }
-    return out;
 }
 
 }  // namespace zlg::core

@@ -95,17 +95,21 @@ void balance(const LightMonitorConfig& c, LightMonitorState& s, const LightMonit
 // Square of the noise of a sample, as detuning: of neighbours, because the perimeter moves too, but not so fast.
 double noise_lambda2(const LightMonitorInput& in) noexcept {
     const std::size_t n = in.light_a.size();
-    const auto rise = [&in](std::size_t k) {
-        const double a = static_cast<double>(in.light_a[k + 1]) - static_cast<double>(in.light_a[k]);
-        if (in.light_b.empty()) return 2.0 * a;
-        return a - (static_cast<double>(in.light_b[k + 1]) - static_cast<double>(in.light_b[k]));
-    };
+    const bool both = !in.light_b.empty();
+    const float* const beam_a = in.light_a.data();
+    const float* const beam_b = both ? in.light_b.data() : beam_a;
     // On its way to a lock the light rises by much from sample to sample, but evenly.
-    const auto bend = [&rise](std::size_t k) { return rise(k + 1) - rise(k); };
+    const auto bend = [beam_a, beam_b, both](std::size_t k) {
+        const auto rise = [](const float* x) { return static_cast<double>(x[1]) - static_cast<double>(x[0]); };
+        const double a = rise(beam_a + k);
+        const double next_a = rise(beam_a + k + 1);
+        if (!both) return 2.0 * next_a - 2.0 * a;
+        return (next_a - rise(beam_b + k + 1)) - (a - rise(beam_b + k));
+    };
     const double first = bend(0);
     const double middle = bend(n / 2 - 1);
     const double last = bend(n - 3);
-    const double light = in.light_b.empty() ? 2.0 * in.light : in.light;
+    const double light = both ? in.light : 2.0 * in.light;
     const double scale = in.signal_per_lambda * light;
     return (first * first + middle * middle + last * last) / (18.0 * scale * scale);
 }

@@ -27,8 +27,9 @@ bool is_familiar(const OptimalBridgeConfig& config, MotionLearningState& state, 
     return state.foreign >= foreign_at_most;
 }
 
-GapProblem pseudo_gap(MotionMemory memory) noexcept {
-    return {.n_gap = scored_gap, .n_side = points_a_side(scored_gap), .memory = memory};
+void begin_pseudo_gap(MotionMemory memory, GapProblem& problem) noexcept {
+    begin_problem(scored_gap, points_a_side(scored_gap), problem);
+    problem.memory = memory;
 }
 
 void add_points(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
@@ -44,7 +45,7 @@ void take_weights(const OptimalBridgeConfig& config, MotionLearningState& state)
     const MotionMemory memory = state.problem.memory;
     state.next[memory] = weights(covariance_of(config, state, state.problem), state.problem);
     if (memory == fast_memory) {
-        state.problem = pseudo_gap(slow_memory);
+        begin_pseudo_gap(slow_memory, state.problem);
         return;
     }
     state.scores.weights = state.next;
@@ -53,7 +54,7 @@ void take_weights(const OptimalBridgeConfig& config, MotionLearningState& state)
 
 void weigh(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
     if (state.n_weighed != state.moments.n_folded) {
-        state.problem = pseudo_gap(fast_memory);
+        begin_pseudo_gap(fast_memory, state.problem);
         state.weighing = true;
         state.n_weighed = state.moments.n_folded;
     }
@@ -92,6 +93,16 @@ void step(const OptimalBridgeConfig& config, MotionLearningState& state, const M
 
 bool is_ready(const OptimalBridgeConfig& config, const MotionLearningState& state) noexcept {
     return !config.learns || state.moments.moments[fast_memory].n_windows >= enough_windows;
+}
+
+void begin_problem(int n_gap, int n_side, GapProblem& problem) noexcept {
+    problem.halves = false;
+    problem.n_gap = n_gap;
+    problem.n_side = n_side;
+    problem.memory = fast_memory;
+    problem.scale = 1.0;
+    problem.failed = false;
+    problem.factor.n = 0;
 }
 
 MotionCovariance covariance_of(const OptimalBridgeConfig& config, const MotionLearningState& state,

@@ -5,26 +5,35 @@
 namespace zlg::core {
 namespace {
 
-int stride_of(const GapProblem& problem) noexcept { return problem.halves ? 2 : 1; }
+template <std::size_t capacity>
+int stride_of(const GapProblemOf<capacity>& problem) noexcept {
+    return problem.halves ? 2 : 1;
+}
 
-double covariance_of(const MotionCovariance& covariance, const GapProblem& problem, int a, int b) noexcept {
+template <std::size_t capacity>
+double covariance_of(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem, int a, int b) noexcept {
     return problem.halves ? covariance.of_samples(a, b) : covariance.of_ticks(a, b);
 }
 
-void subtract(Column& from, double factor, const Column& x, int n) noexcept {
+template <std::size_t capacity>
+void subtract(ColumnOf<capacity>& from, double factor, const ColumnOf<capacity>& x, int n) noexcept {
+#pragma GCC unroll 4
     for (unsigned k = 0; k < static_cast<unsigned>(n); ++k) from[k] -= factor * x[k];
 }
 
 // Take the nuisances out of L^-1 x.
-void clear(const GapRates& rates, Column& x, int n) noexcept {
+template <std::size_t capacity>
+void clear(const GapRatesOf<capacity>& rates, ColumnOf<capacity>& x, int n) noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(rates.n_nuisances); ++k)
         subtract(x, product(rates.nuisance[k], x, n), rates.nuisance[k], n);
 }
 
 // Add a column of H, whose image is made orthogonal to the earlier ones.
-void add_nuisance(const GapProblem& problem, const Column& x, GapRates& rates) noexcept {
+template <std::size_t capacity>
+void add_nuisance(const GapProblemOf<capacity>& problem, const ColumnOf<capacity>& x,
+                  GapRatesOf<capacity>& rates) noexcept {
     const int n = problem.factor.n;
-    Column column = forward(problem.factor, x);
+    ColumnOf<capacity> column = forward(problem.factor, x);
     clear(rates, column, n);
     const double norm = product(column, column, n);
     if (!(norm > 0.0)) return;
@@ -34,9 +43,11 @@ void add_nuisance(const GapProblem& problem, const Column& x, GapRates& rates) n
 }
 
 // A column that has one value before the gap and one after it.
-Column by_side(const GapProblem& problem, double before, double after, bool alternating) noexcept {
+template <std::size_t capacity>
+ColumnOf<capacity> by_side(const GapProblemOf<capacity>& problem, double before, double after,
+                           bool alternating) noexcept {
     const int start = stride_of(problem) * problem.n_side;
-    Column column{};
+    ColumnOf<capacity> column{};
     for (unsigned k = 0; k < static_cast<unsigned>(problem.factor.n); ++k) {
         const double value = problem.place[k] >= start ? after : before;
         column[k] = alternating && problem.place[k] % 2 != 0 ? -value : value;
@@ -44,9 +55,10 @@ Column by_side(const GapProblem& problem, double before, double after, bool alte
     return column;
 }
 
-GapRates rates_of(const GapProblem& problem) noexcept {
+template <std::size_t capacity>
+GapRatesOf<capacity> rates_of(const GapProblemOf<capacity>& problem) noexcept {
     const int n = problem.factor.n;
-    GapRates rates;
+    GapRatesOf<capacity> rates;
     if (problem.halves) {
         add_nuisance(problem, by_side(problem, 1.0, 0.0, true), rates);
         add_nuisance(problem, by_side(problem, 0.0, 1.0, true), rates);
@@ -58,16 +70,20 @@ GapRates rates_of(const GapProblem& problem) noexcept {
 }
 
 // The covariance of the points with ticks first.. of the gap, n of them.
-Column with_gap(const MotionCovariance& covariance, const GapProblem& problem, int first, int n) noexcept {
+template <std::size_t capacity>
+ColumnOf<capacity> with_gap(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem, int first,
+                            int n) noexcept {
     const int stride = stride_of(problem);
     const int from = stride * (problem.n_side + first);
-    Column k{};
+    ColumnOf<capacity> k{};
     for (unsigned i = 0; i < static_cast<unsigned>(problem.factor.n); ++i)
         for (int s = from; s < from + stride * n; ++s) k[i] += covariance_of(covariance, problem, problem.place[i], s);
     return k;
 }
 
-double variance_in_gap(const MotionCovariance& covariance, const GapProblem& problem, int first, int n) noexcept {
+template <std::size_t capacity>
+double variance_in_gap(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem, int first,
+                       int n) noexcept {
     double sum = 0.0;
     for (int a = problem.n_side + first; a < problem.n_side + first + n; ++a) {
         sum += covariance.of_ticks(a, a);
@@ -77,30 +93,35 @@ double variance_in_gap(const MotionCovariance& covariance, const GapProblem& pro
 }
 
 // One quantity to be estimated.
-struct Target {
-    Column g{};              // L^-1 cov(z, t), without the nuisances
+template <std::size_t capacity>
+struct TargetOf {
+    ColumnOf<capacity> g{};  // L^-1 cov(z, t), without the nuisances
     double rate_gain = 0.0;  // of t by the rate, beyond what g takes from the points
     double variance = 0.0;   // of the estimate
 };
 
 // samples  of the gap in t.
-Target target_of(const GapProblem& problem, const GapRates& rates, const Column& with_points, double variance,
-                 double samples) noexcept {
+template <std::size_t capacity>
+TargetOf<capacity> target_of(const GapProblemOf<capacity>& problem, const GapRatesOf<capacity>& rates,
+                             const ColumnOf<capacity>& with_points, double variance, double samples) noexcept {
     const int n = problem.factor.n;
-    Target t{.g = forward(problem.factor, with_points)};
+    TargetOf<capacity> t{.g = forward(problem.factor, with_points)};
     clear(rates, t.g, n);
     t.rate_gain = (samples - product(t.g, rates.rate, n)) / rates.information;
     t.variance = variance - product(t.g, t.g, n) + t.rate_gain * t.rate_gain * rates.information;
     return t;
 }
 
-bool is_solvable(const GapProblem& problem, const GapRates& rates) noexcept {
+template <std::size_t capacity>
+bool is_solvable(const GapProblemOf<capacity>& problem, const GapRatesOf<capacity>& rates) noexcept {
     return !problem.failed && problem.factor.n > rates.n_nuisances + 1 && rates.information > 0.0;
 }
 
-void solve_points(const GapProblem& problem, const GapData& data, GapSolution& s) noexcept {
+template <std::size_t capacity>
+void solve_points(const GapProblemOf<capacity>& problem, const GapDataOf<capacity>& data,
+                  GapSolutionOf<capacity>& s) noexcept {
     const int n = problem.factor.n;
-    Column rest = forward(problem.factor, data.value);
+    ColumnOf<capacity> rest = forward(problem.factor, data.value);
     clear(s.rates, rest, n);
     s.rate = product(s.rates.rate, rest, n) / s.rates.information;
     subtract(rest, s.rate, s.rates.rate, n);
@@ -109,28 +130,33 @@ void solve_points(const GapProblem& problem, const GapData& data, GapSolution& s
     for (unsigned k = 0; k < static_cast<unsigned>(n); ++k) s.with_sum[k] = -data.error_with_all[k];
 }
 
-void solve_tick(const MotionCovariance& covariance, const GapProblem& problem, const GapData& data, int j,
-                GapSolution& s) noexcept {
+template <std::size_t capacity>
+void solve_tick(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem,
+                const GapDataOf<capacity>& data, int j, GapSolutionOf<capacity>& s) noexcept {
     const int n = problem.factor.n;
     const int stride = stride_of(problem);
-    const Column with_points = with_gap(covariance, problem, j, 1);
-    const Target t = target_of(problem, s.rates, with_points, variance_in_gap(covariance, problem, j, 1), stride);
+    const ColumnOf<capacity> with_points = with_gap(covariance, problem, j, 1);
+    const TargetOf<capacity> t =
+        target_of(problem, s.rates, with_points, variance_in_gap(covariance, problem, j, 1), stride);
     subtract(s.with_sum, -1.0, with_points, n);
     s.estimate.value_arcsec[static_cast<unsigned>(j)] =
         data.level + stride * s.rate + product(with_points, s.estimate.dual, n);
     s.estimate.variance_arcsec2[static_cast<unsigned>(j)] = t.variance;
 }
 
-void solve_sum(const MotionCovariance& covariance, const GapProblem& problem, const GapData& data,
-               GapSolution& s) noexcept {
+template <std::size_t capacity>
+void solve_sum(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem,
+               const GapDataOf<capacity>& data, GapSolutionOf<capacity>& s) noexcept {
     const double variance = variance_in_gap(covariance, problem, 0, problem.n_gap) + data.error_variance;
     const double samples = stride_of(problem) * problem.n_gap;
     s.estimate.sum_variance_arcsec2 = target_of(problem, s.rates, s.with_sum, variance, samples).variance;
 }
 
-void solve_probe(const GapProblem& problem, const GapData& data, GapSolution& s) noexcept {
+template <std::size_t capacity>
+void solve_probe(const GapProblemOf<capacity>& problem, const GapDataOf<capacity>& data,
+                 GapSolutionOf<capacity>& s) noexcept {
     const int n = problem.factor.n;
-    GapEstimate& e = s.estimate;
+    GapEstimateOf<capacity>& e = s.estimate;
     e.probe_dual = product(data.probe, e.dual, n);
     if (product(data.probe, data.probe, n) > 0.0)
         e.probe_information = -target_of(problem, s.rates, data.probe, 0.0, 0.0).variance;
@@ -152,17 +178,20 @@ OptimalBridgeFault check(const OptimalBridgeConfig& c) noexcept {
     return OptimalBridgeFault::none;
 }
 
-void add_point(const MotionCovariance& covariance, GapProblem& problem, int place, const Column& error) noexcept {
+template <std::size_t capacity>
+void add_point(const MotionCovariance& covariance, GapProblemOf<capacity>& problem, int place,
+               const ColumnOf<capacity>& error) noexcept {
     const auto n = static_cast<unsigned>(problem.factor.n);
-    if (problem.failed || n == max_unknowns) return;
+    if (problem.failed || n == capacity) return;
     problem.place[n] = static_cast<std::int8_t>(place);
-    Column row{};
+    ColumnOf<capacity> row{};
     for (unsigned k = 0; k <= n; ++k) row[k] = covariance_of(covariance, problem, problem.place[k], place) + error[k];
     problem.failed = !add_row(problem.factor, row);
 }
 
-void advance(const MotionCovariance& covariance, const GapProblem& problem, const GapData& data,
-             GapSolution& solution) noexcept {
+template <std::size_t capacity>
+void advance(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem, const GapDataOf<capacity>& data,
+             GapSolutionOf<capacity>& solution) noexcept {
     const int stage = solution.stage++;
     if (stage == 0) {
         solution.rates = rates_of(problem);
@@ -184,13 +213,21 @@ GapEstimate solve(const MotionCovariance& covariance, const GapProblem& problem,
     return solution.estimate;
 }
 
+template void add_point(const MotionCovariance&, GapProblem&, int, const Column&) noexcept;
+template void advance(const MotionCovariance&, const GapProblem&, const GapData&, GapSolution&) noexcept;
+
+template void add_point(const MotionCovariance&, GapProblemOf<few_unknowns>&, int,
+                        const ColumnOf<few_unknowns>&) noexcept;
+template void advance(const MotionCovariance&, const GapProblemOf<few_unknowns>&, const GapDataOf<few_unknowns>&,
+                      GapSolutionOf<few_unknowns>&) noexcept;
+
 GapWeights weights(const MotionCovariance& covariance, const GapProblem& problem) noexcept {
-    const GapRates rates = rates_of(problem);
+    const auto rates = rates_of(problem);
     GapWeights out;
     if (!is_solvable(problem, rates)) return out;
     const Column with_points = with_gap(covariance, problem, 0, problem.n_gap);
-    Target t = target_of(problem, rates, with_points, variance_in_gap(covariance, problem, 0, problem.n_gap),
-                         stride_of(problem) * problem.n_gap);
+    auto t = target_of(problem, rates, with_points, variance_in_gap(covariance, problem, 0, problem.n_gap),
+                       stride_of(problem) * problem.n_gap);
     subtract(t.g, -t.rate_gain, rates.rate, problem.factor.n);
     out.weight = backward(problem.factor, t.g);
     out.variance_arcsec2 = t.variance;

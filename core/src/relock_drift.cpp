@@ -76,7 +76,7 @@ FalseAngle by_detuning(const RelockDriftConfig& c, const RelockTick& t) noexcept
 }
 
 double deficit_hz(const RelockDriftConfig& c, const RelockTick& t) noexcept {
-    const double difference = static_cast<double>(t.counts_first) - static_cast<double>(t.counts_second);
+    const double difference = as_double(t.counts_first) - as_double(t.counts_second);
     return t.sign * (difference - t.known_excess_counts) / c.tick.value() - bias_at_hz(c, t.temperature_c);
 }
 

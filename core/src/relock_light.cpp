@@ -59,9 +59,9 @@ double level_of_a(const RelockProfileConfig& c, const HalfRecord& half, int sign
 
 // All samples of a signal; `noise_factor` is the variance of one over that of both beams together.
 template <class Signal>
-DetuningSamples by_slope(const RelockProfileConfig& c, int sign, std::size_t n, double noise_factor,
-                         const Signal& signal) noexcept {
-    DetuningSamples out{.n = static_cast<std::int32_t>(n), .weight = 1.0 / noise_factor};
+void by_slope(const RelockProfileConfig& c, int sign, std::size_t n, double noise_factor, const Signal& signal,
+              DetuningSamples& out) noexcept {
+    out.weight = 1.0 / noise_factor;
     const double lambda_per_signal = sign / c.discriminator_per_lambda;
     bool possible = true;
     for (std::size_t k = 0; k < n; ++k) {
@@ -69,12 +69,12 @@ DetuningSamples by_slope(const RelockProfileConfig& c, int sign, std::size_t n, 
         possible &= x < most_detuning_lambda && x > -most_detuning_lambda;
         out.lambda[k] = x;
     }
-    return possible ? out : DetuningSamples{};
+    out.n = possible ? static_cast<std::int32_t>(n) : 0;
 }
 
 // The same through the curve, whose slope scales the noise.
-DetuningSamples through_curve(const DiscriminatorCurve& curve, DetuningSamples samples) noexcept {
-    if (curve.n_nodes == 0) return samples;
+void through_curve(const DiscriminatorCurve& curve, DetuningSamples& samples) noexcept {
+    if (curve.n_nodes == 0) return;
     double slope_sq = 0.0;
     for (std::int32_t k = 0; k < samples.n; ++k) {
         double& x = samples.lambda[static_cast<std::size_t>(k)];
@@ -82,33 +82,38 @@ DetuningSamples through_curve(const DiscriminatorCurve& curve, DetuningSamples s
         x = at.detuning_lambda;
         slope_sq += square(at.slope);
     }
-    if (!(slope_sq > least_slope_sq * samples.n)) return {};
+    const bool slopes = slope_sq > least_slope_sq * samples.n;
     samples.weight *= samples.n / slope_sq;
-    return samples;
+    if (!slopes) samples.n = 0;
 }
 
 }  // namespace
 
-DetuningSamples detuning_samples(const RelockProfileConfig& c, const HalfRecord& half, LightSamples light) noexcept {
+void read_samples(const RelockProfileConfig& c, const HalfRecord& half, LightSamples light,
+                  DetuningSamples& out) noexcept {
+    out.n = 0;
     const std::size_t n = light.a.size();
-    if (n < least_samples || n > static_cast<std::size_t>(most_profile_samples)) return {};
-    if (!light.b.empty() && light.b.size() != n) return {};
+    if (n < least_samples || n > static_cast<std::size_t>(most_profile_samples)) return;
+    if (!light.b.empty() && light.b.size() != n) return;
     const double noise_ratio = c.light_noise.value() * c.discriminator_per_lambda;
     const bool may_stand_still = !(noise_ratio > least_noise_ratio || noise_ratio < -least_noise_ratio);
     const int sign = half.bias_sign * half.mode;
     const double mean_a = good_mean(light.a, may_stand_still);
     if (light.b.empty()) {
         const double level = level_of_a(c, half, sign, mean_a);
-        if (!(level > 0.0 && is_finite(level))) return {};
+        if (!(level > 0.0 && is_finite(level))) return;
         const auto signal = [light, level](std::size_t k) { return static_cast<double>(light.a[k]) / level - 1.0; };
-        return through_curve(c.curve, by_slope(c, sign, n, 2.0, signal));
+        by_slope(c, sign, n, 2.0, signal, out);
+    } else {
+        if (!is_finite(mean_a + good_mean(light.b, may_stand_still))) return;
+        const auto signal = [light](std::size_t k) {
+            const double x = static_cast<double>(light.a[k]);
+            const double y = static_cast<double>(light.b[k]);
+            return (x - y) / (x + y);
+        };
+        by_slope(c, sign, n, 1.0, signal, out);
     }
-    if (!is_finite(mean_a + good_mean(light.b, may_stand_still))) return {};
-    return through_curve(c.curve, by_slope(c, sign, n, 1.0, [light](std::size_t k) {
-                             const double x = static_cast<double>(light.a[k]);
-                             const double y = static_cast<double>(light.b[k]);
-                             return (x - y) / (x + y);
-                         }));
+    through_curve(c.curve, out);
 }
 
 RecordedSquare recorded_square(const RelockProfileConfig& c, const HalfRecord& half) noexcept {

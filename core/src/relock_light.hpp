@@ -9,9 +9,9 @@
 namespace zlg::core {
 
 struct DetuningSamples {
-    std::int32_t n = 0;   // 0: the light cannot be used
-    double weight = 1.0;  // noise variance of the configuration over that of these samples
-    std::array<double, most_profile_samples> lambda{};
+    std::int32_t n = 0;                               // 0: the light cannot be used
+    double weight = 1.0;                              // noise variance of the configuration over that of these samples
+    std::array<double, most_profile_samples> lambda;  // the first n
 };
 
 //   both beams   dl = sign F((A - B)/(A + B)/K)
@@ -19,8 +19,8 @@ struct DetuningSamples {
 //
 // Damage, and light of another mode: a sample that is not finite or not positive, a beam whose samples are all the same
 // although there is noise, detunings beyond the curve or beyond any perimeter.
-[[nodiscard]] DetuningSamples detuning_samples(const RelockProfileConfig& config, const HalfRecord& half,
-                                               LightSamples light) noexcept;
+void read_samples(const RelockProfileConfig& config, const HalfRecord& half, LightSamples light,
+                  DetuningSamples& out) noexcept;
 
 // Mean square of a half and its variance, from the record.
 struct RecordedSquare {

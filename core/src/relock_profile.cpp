@@ -1,5 +1,7 @@
 #include <zlg/core/relock_profile.hpp>
 
+#include <memory>
+
 #include <zlg/core/maths.hpp>
 
 #include "relock_chain.hpp"
@@ -178,7 +180,9 @@ void take_samples(const DetuningSamples& samples, RelockProfileState& s) noexcep
         half.moments[3] += yu * u * u;
     }
     s.halves[k] = half;
-    if (k < 2) s.first_tick_lambda[k] = samples.lambda;
+    if (k < 2)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(samples.n); ++i)
+            s.first_tick_lambda[k][i] = samples.lambda[i];
 }
 
 void take_record(const RecordedSquare& recorded, RelockProfileState& s) noexcept {
@@ -209,7 +213,8 @@ RelockProfileFault check(const RelockProfileConfig& c) noexcept {
 }
 
 void enter_gap(RelockProfileState& state) noexcept {
-    state = {};
+    if (state.armed && state.n_halves == 0) return;  // nothing was taken since
+    std::construct_at(&state);
     state.armed = true;
 }
 
@@ -224,8 +229,11 @@ void take(const RelockProfileConfig& config, RelockProfileState& state, const Ha
     }
     const RecordedSquare recorded = recorded_square(config, half);
     take_record(recorded, state);
-    if (state.task < all_tasks)
-        take_light(recorded.refused ? DetuningSamples{} : detuning_samples(config, half, light), state);
+    if (state.task < all_tasks) {
+        DetuningSamples samples;
+        if (!recorded.refused) read_samples(config, half, light, samples);
+        take_light(samples, state);
+    }
     ++state.n_halves;
     if (state.task < all_tasks)
         advance(config, state);

@@ -5,7 +5,7 @@
 namespace zlg::core {
 
 void take(SegmentRateState& state, double angle_arcsec) noexcept {
-    const double k = static_cast<double>(state.n_ticks) + 0.5;
+    const double k = as_double(state.n_ticks) + 0.5;
     double term = angle_arcsec * k;
     for (double& moment : state.moments) {
         term *= k;
@@ -16,7 +16,7 @@ void take(SegmentRateState& state, double angle_arcsec) noexcept {
 
 SegmentRate rate_of(const SegmentRateState& state, double tick_s) noexcept {
     if (state.n_ticks < 1) return {};
-    const auto n = static_cast<double>(state.n_ticks);
+    const auto n = as_double(state.n_ticks);
     // Sums of angle times u^2 .. u^6, over what the weight sums up to, which is n/30, and the tick.
     std::array<double, 5> m = state.moments;
     double power = n;
@@ -38,7 +38,7 @@ SegmentRate rate_of(const SegmentRateState& state, double tick_s) noexcept {
 double mean_rate_variance(const SegmentRateState& state, double tick_s, double walk_arcsec_sqrt_s,
                           double count_arcsec) noexcept {
     if (state.n_ticks < 1) return infinity;
-    const auto n = static_cast<double>(state.n_ticks);
+    const auto n = as_double(state.n_ticks);
     const double length_s = n * tick_s;
     const double of_walk = 10.0 / 7.0 * walk_arcsec_sqrt_s * walk_arcsec_sqrt_s / length_s;
     return of_walk + 120.0 / 7.0 / 12.0 * count_arcsec * count_arcsec / (n * length_s * length_s);

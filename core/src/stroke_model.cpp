@@ -24,8 +24,7 @@ Pair played(const double* position, std::size_t i, double voltage) noexcept {
     const Pair at = load(position + i);
     const Pair lowest = voltage - load(threshold.data() + i);
     const Pair highest = voltage + load(threshold.data() + i);
-    const Pair above = at < lowest ? lowest : at;
-    return above > highest ? highest : above;
+    return lesser(greater(at, lowest), highest);
 }
 
 double above_reference_c(const StrokeModelConfig& c, Celsius temperature) noexcept {
@@ -63,10 +62,10 @@ double dot(const StrokeWeights& a, const StrokeWeights& b) noexcept {
 }
 
 // What the plays add to a move that ends at this voltage.
-double played_length(const StrokeModelState& s, double voltage) noexcept {
+double played_length(const StrokeModelState& s, const std::array<double, n_plays>& play, double voltage) noexcept {
     Pair length{};
     for (std::size_t i = 0; i < n_plays; i += 2) {
-        const Pair moved = played(s.play.data(), i, voltage) - load(s.play.data() + i);
+        const Pair moved = played(play.data(), i, voltage) - load(play.data() + i);
         length += load(s.weight.data() + first_play + i) * moved;
     }
     return length[0] + length[1];
@@ -141,12 +140,18 @@ void follow(const StrokeModelConfig& config, StrokeModelState& state, Volts piez
 
 Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& state, std::int8_t sign, Volts from,
                      Celsius temperature) noexcept {
+    return predicted_move(config, state, state.play, sign, from, temperature);
+}
+
+Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& state,
+                     const std::array<double, n_plays>& play, std::int8_t sign, Volts from,
+                     Celsius temperature) noexcept {
     const double v0 = over_u(config, state, from);
     const double slope = state.weight[direct] + state.weight[by_temperature] * above_reference_c(config, temperature);
     const double steepness = total_slope(state, slope);
     double move = sign;
     for (int round = 0; round < 4; ++round) {
-        const double length = state.weight[constant] + slope * move + played_length(state, v0 + move);
+        const double length = state.weight[constant] + slope * move + played_length(state, play, v0 + move);
         move += (sign * half_lambda - length) / steepness;
         const double size_of = limited(sign * move, 2.0);
         move = sign * (size_of > 0.5 ? size_of : 0.5);

@@ -27,6 +27,7 @@ void count_mode(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int8
 }
 
 bool is_due_on_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
+    if (s.next_tick - tick > c.interval_ticks) s.next_tick = tick + c.interval_ticks;
     if (tick < s.next_tick) return false;
     s.next_tick += c.interval_ticks;
     if (s.next_tick <= tick) s.next_tick = tick + c.interval_ticks;
@@ -99,9 +100,10 @@ SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleStat
     count_mode(config, state, in.mode);
     const bool jumped = config.kind == ScheduleKind::fixed && in.tick > state.next_tick;
     const bool late = state.waiting || jumped;
-    const bool due = is_newly_due(config, state, in) || state.waiting;
-    state.waiting = due && !in.ready;
-    if (!(due && in.ready)) return {};
+    const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
+    state.waiting = planned && !in.ready;
+    if (!((planned || state.asked) && in.ready)) return {};
+    state.asked = false;
     note_opening(config, state, in);
     return {.open = true, .late = late};
 }

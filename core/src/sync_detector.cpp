@@ -41,8 +41,8 @@ struct Extremes {
         : lowest{static_cast<double>(first), static_cast<double>(first)}, highest{lowest} {}
 
     void take(Pair x) noexcept {
-        lowest = lowest < x ? lowest : x;
-        highest = highest > x ? highest : x;
+        lowest = lesser(lowest, x);
+        highest = greater(highest, x);
     }
 };
 
@@ -95,7 +95,7 @@ Moments through_curve(const SyncDetectorConfig& c, std::size_t n, const Signal& 
 
 // What both beams tell of one half: of dark or damaged ones too, where no detuning will be made of it.
 struct BothBeams {
-    double weakest = 0.0;  // sample of either beam
+    double weakest = 0.0;  // sample of either beam, where every one is finite
     double light = 0.0;    // finite exactly where every sample is: 128 floats cannot overflow a double
     Moments signal{};      // (A - B)/(A + B)
 };
@@ -112,15 +112,14 @@ BothBeams survey(const SyncDetectorInput& in) noexcept {
     for (; k + 1 < n; k += 2) {
         const Pair x = load(a + k);
         const Pair y = load(b + k);
-        weakest = weakest < x ? weakest : x;
-        weakest = weakest < y ? weakest : y;
+        weakest = lesser(weakest, lesser(x, y));
         const Pair sum = x + y;
         light += sum;
         both.signal.add((x - y) / sum);
     }
     if (k < n) {
         const Pair last{static_cast<double>(a[k]), static_cast<double>(b[k])};
-        weakest = weakest < last ? weakest : last;
+        weakest = lesser(weakest, last);
         const double sum = last[0] + last[1];
         light += Pair{sum, 0.0};
         both.signal.add((last[0] - last[1]) / sum);

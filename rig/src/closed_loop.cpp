@@ -57,10 +57,11 @@ twin::TwinHalf advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuato
     }
 }
 
-// The compensation as it is configured, but always with an eye on the magnetic drift.
+// The compensation as it is configured; for a schedule that asks for it, always with an eye on the magnetic drift.
 core::GyroCompensationConfig adviser_config(const config::Config& config) {
     config::Config watching = config;
-    if (watching.compensation.magnetic == core::MagneticMethod::none)
+    if (config.switching.schedule == config::Schedule::measured &&
+        watching.compensation.magnetic == core::MagneticMethod::none)
         watching.compensation.magnetic = core::MagneticMethod::watch;
     return compensation_config(watching, config.compensation.relock.value_or(core::RelockMethod::mean_square),
                                config.compensation.bridge);
@@ -73,31 +74,50 @@ std::int64_t balanced_end(const config::Config& config, const twin::Motion& moti
 
 }  // namespace
 
-ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion)
-    : ClosedLoop{config, balanced_end(config, motion), std::move(motion)} {}
+ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion, Processor* processor)
+    : ClosedLoop{config, balanced_end(config, motion), std::move(motion), processor} {}
 
-ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion)
+ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion, Processor* processor)
     : twin_{make_twin(config, std::move(motion))},
       control_config_{control_config(config)},
       control_state_{initial_state(control_config_)},
-      actuator_{initial_actuator(control_config_)} {
+      actuator_{initial_actuator(control_config_)},
+      processor_{processor} {
     control_config_.schedule.end_tick = end_tick;
-    if (config.switching.schedule == config::Schedule::measured) adviser_.emplace(Adviser{adviser_config(config)});
+    if (processor_)
+        actuator_ = processor_->start({control_config_, adviser_config(config)});
+    else if (config.switching.schedule == config::Schedule::measured)
+        adviser_.emplace(Adviser{adviser_config(config)});
 }
 
 LoopHalf ClosedLoop::advance() {
     const twin::TwinHalf half = advance_twin(twin_, actuator_);
     sensor_ = half.sensor;
-    const core::SwitchAdvice advice = adviser_ ? core::advice(adviser_->config, adviser_->state) : core::SwitchAdvice{};
     LoopHalf out;
-    out.control = step(control_config_, control_state_, sensor_, advice);
+    if (processor_)
+        step_outside(out);
+    else
+        step_here(out);
     out.record = out.control.record;
-    if (adviser_) (void)step(adviser_->config, adviser_->state, out.record, light());
     out.truth = half.truth;
-    out.half_wave_v = control_state_.half_wave.estimate_v;
-    out.half_wave_sigma_v = sigma(control_state_.half_wave).value();
     actuator_ = out.control.actuator;
     return out;
+}
+
+void ClosedLoop::step_here(LoopHalf& out) {
+    const core::SwitchAdvice advice = adviser_ ? core::advice(adviser_->config, adviser_->state) : core::SwitchAdvice{};
+    out.control = step(control_config_, control_state_, sensor_, advice);
+    if (adviser_) (void)step(adviser_->config, adviser_->state, out.control.record, light());
+    out.half_wave_v = control_state_.half_wave.estimate_v;
+    out.half_wave_sigma_v = sigma(control_state_.half_wave).value();
+}
+
+void ClosedLoop::step_outside(LoopHalf& out) {
+    const ProcessorHalf half = processor_->half(sensor_);
+    out.control = half.control;
+    out.compensation = half.compensation;
+    out.half_wave_v = half.half_wave.estimate_v;
+    out.half_wave_sigma_v = sigma(half.half_wave).value();
 }
 
 core::LightSamples ClosedLoop::light() const {

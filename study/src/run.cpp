@@ -103,7 +103,8 @@ public:
 
     // The first half of a tick, while its light is there.
     void first_half(const rig::LoopHalf& first, const core::LightSamples& light) {
-        for (Variant& v : variants_) (void)step(v.config, v.state, first.record, light);
+        for (Variant& v : variants_)
+            if (!is_outside(v)) (void)step(v.config, v.state, first.record, light);
     }
 
     void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second,
@@ -119,7 +120,9 @@ public:
             if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
         }
         for (Variant& v : variants_) {
-            const core::AngleSample sample = step(v.config, v.state, second.record, light_second).sample;
+            const core::AngleSample sample = is_outside(v)
+                                                 ? second.compensation.value_or(core::CompensationOutput{}).sample
+                                                 : step(v.config, v.state, second.record, light_second).sample;
             if (sample.has_final) take_row(v, sample.final_row);
             if (sample.has_gap && is_configured(v)) gaps_[sample.gap.first_tick] = sample.gap;
         }
@@ -127,8 +130,8 @@ public:
 
     void end() {
         for (Variant& v : variants_) {
-            for (core::DrainOutput out = drain(v.config, v.state); out.has_row || out.has_gap;
-                 out = drain(v.config, v.state)) {
+            const auto owed = [&] { return is_outside(v) ? task_.processor->drain() : drain(v.config, v.state); };
+            for (core::DrainOutput out = owed(); out.has_row || out.has_gap; out = owed()) {
                 if (out.has_row) take_row(v, out.row);
                 if (out.has_gap && is_configured(v)) gaps_[out.gap.first_tick] = out.gap;
             }
@@ -144,6 +147,9 @@ public:
 
 private:
     [[nodiscard]] bool is_configured(const Variant& v) const { return &v == &variants_.back(); }
+
+    // Its compensation runs in a processor outside.
+    [[nodiscard]] bool is_outside(const Variant& v) const { return task_.processor != nullptr && is_configured(v); }
 
     void take_row(Variant& v, const core::AngleRow& row) {
         const WaitingTick& waiting = waiting_[static_cast<std::size_t>(row.tick) % waiting_.size()];
@@ -250,7 +256,7 @@ rig::LoopHalf advance(rig::ClosedLoop& loop, const RunTask& task) {
 }
 
 void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t ticks, RunResult& result) {
-    rig::ClosedLoop loop{task.config, motion};
+    rig::ClosedLoop loop{task.config, motion, task.processor};
     Experiment experiment{task, ticks};
     const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
     for (std::int64_t tick = 0; tick < ticks; ++tick) {

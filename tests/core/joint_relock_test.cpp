@@ -40,7 +40,8 @@ TEST(JointRelock, EachHalfGetsItsShareOfTheFalseAngle) {
     for (const int sign : {1, -1}) {
         JointRelockState state = after_gap(profile, sign);
         ASSERT_TRUE(is_due(state));
-        const JointRelock told = tell(relock, state, Celsius{not_a_number});
+        JointRelock told;
+        tell(relock, state, Celsius{not_a_number}, told);
         EXPECT_FALSE(is_due(state));
         ASSERT_TRUE(told.known);
         EXPECT_EQ(told.first_tick, 100);
@@ -57,7 +58,8 @@ TEST(JointRelock, ErrorsOfNeighboursHaveTheSignsOfTheirHalves) {
     RelockProfileConfig profile;
     JointRelockState state = after_gap(profile, -1);
     state.profile.profile.covariance_lambda4[0][1] = 1e-8;
-    const JointRelock told = tell(RelockDriftConfig{}, state, Celsius{20.0});
+    JointRelock told;
+    tell(RelockDriftConfig{}, state, Celsius{20.0}, told);
     const double arcsec = 3.6 * 60e3 * 3.263 * 0.0025;
     EXPECT_NEAR(told.covariance_arcsec2[0][1], -1e-8 * arcsec * arcsec, 1e-12);
     EXPECT_GT(told.covariance_arcsec2[3][3], 0.0);
@@ -68,7 +70,8 @@ TEST(JointRelock, ASecondGapForgetsTheFirst) {
     JointRelockState state = after_gap(profile, 1);
     take(profile, state, half_of(0, 0.0, 1), {}, false, 108);
     ASSERT_TRUE(is_due(state));
-    const JointRelock told = tell(RelockDriftConfig{}, state, Celsius{20.0});
+    JointRelock told;
+    tell(RelockDriftConfig{}, state, Celsius{20.0}, told);
     EXPECT_EQ(told.first_tick, 100);
     EXPECT_FALSE(told.known);
     EXPECT_FALSE(is_due(state));
@@ -82,7 +85,8 @@ TEST(JointRelock, AProfileThatAGapBreaksOffIsGivenUpAtOnce) {
     for (int k = 0; k < 5; ++k) take(profile, state, half_of(k, 0.01, 1), {}, true, 100 + k / 2);
     take(profile, state, half_of(5, 0.0, 1), {}, false, 102);
     ASSERT_TRUE(is_due(state));
-    const JointRelock told = tell(RelockDriftConfig{}, state, Celsius{20.0});
+    JointRelock told;
+    tell(RelockDriftConfig{}, state, Celsius{20.0}, told);
     EXPECT_EQ(told.first_tick, 100);
     EXPECT_FALSE(told.known);
 }
@@ -94,7 +98,9 @@ TEST(JointRelock, WithoutAnyDetuningItIsGivenUp) {
     for (int k = 0; k < 40 && !is_due(state); ++k)
         take(profile, state, half_of(k, not_a_number, 1), {}, true, 5 + k / 2);
     ASSERT_TRUE(is_due(state));
-    EXPECT_FALSE(tell(RelockDriftConfig{}, state, Celsius{20.0}).known);
+    JointRelock told;
+    tell(RelockDriftConfig{}, state, Celsius{20.0}, told);
+    EXPECT_FALSE(told.known);
 }
 
 TEST(JointRelock, BeforeAnyGapNothingIsOwed) {

@@ -123,6 +123,12 @@ TEST(SquareRoot, IsTheNearestDouble) {
     for (int k = 0; k < 1000; ++k) EXPECT_EQ(square_root(static_cast<double>(k * k)), k);
 }
 
+TEST(AsDouble, IsRoundedOnceLikeTheConversion) {
+    for (const std::int64_t x : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1} << 32, -(std::int64_t{1} << 32) - 1,
+                                 (std::int64_t{1} << 53) + 1, -(std::int64_t{1} << 53) - 1, INT64_MAX, INT64_MIN})
+        EXPECT_EQ(as_double(x), static_cast<double>(x)) << x;
+}
+
 TEST(IsFinite, IsFalseForInfinitiesAndNotANumberOnly) {
     for (const double x : {0.0, -0.0, smallest_subnormal, 1.0, -1e300, largest, -largest})
         EXPECT_TRUE(is_finite(x)) << x;

@@ -100,6 +100,24 @@ TEST_P(MotionMoments, WhatIsNoAngleIsNotUsable) {
     }
 }
 
+TEST_P(MotionMoments, FoldingAheadIsSeenByNobody) {
+    const MotionMomentsConfig config{GetParam()};
+    MotionMomentsState plain, ahead;
+    Random random{7};
+    int n_ahead = 0;
+    for (int k = 0; k < 400; ++k) {
+        const MotionTick tick{k % 150 != 149, 100.0 * random.normal(), 100.0 * random.normal()};
+        (void)step(config, plain, tick);
+        (void)step(config, ahead, tick);
+        fold_ahead(config, ahead);
+        ASSERT_EQ(is_folding(plain), is_folding(ahead)) << k;
+        ASSERT_EQ(plain.moments[fast_memory].scatter, ahead.moments[fast_memory].scatter) << k;
+        if (!is_folding(plain)) ASSERT_TRUE(plain == ahead) << k;
+        n_ahead += ahead.folded_rows > plain.folded_rows;
+    }
+    EXPECT_GE(n_ahead, 6);
+}
+
 TEST_P(MotionMoments, FoldingInPiecesIsFoldingAtOnce) {
     const MotionMomentsConfig config{GetParam()};
     Random random{3};

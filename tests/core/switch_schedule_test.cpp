@@ -244,5 +244,58 @@ TEST(SwitchSchedule, TheEndIsBalancedWhereItIsKnown) {
                 }
 }
 
+// What is set from outside.
+TEST(SwitchSchedule, HeldNothingIsDueAndTheGridGoesOn) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    s.held = true;
+    for (std::int64_t tick = 1; tick < 25; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .ready = tick > 12}).open);
+    s.held = false;
+    for (std::int64_t tick = 25; tick < 30; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
+    EXPECT_TRUE(step(c, s, {.tick = 30}).open);
+}
+
+TEST(SwitchSchedule, HeldByBalanceItIsDueWhenReleased) {
+    const SwitchScheduleConfig c{.kind = ScheduleKind::growing, .min_ticks = 10, .max_ticks = 20};
+    SwitchScheduleState s = initial_state(c);
+    s.held = true;
+    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    s.held = false;
+    EXPECT_TRUE(step(c, s, {.tick = 100}).open);
+}
+
+TEST(SwitchSchedule, AskedItOpensOnceWhenReadyHeldOrNot) {
+    for (const bool held : {false, true}) {
+        const SwitchScheduleConfig c{.interval_ticks = 1000};
+        SwitchScheduleState s = initial_state(c);
+        s.held = held;
+        s.asked = true;
+        EXPECT_FALSE(step(c, s, {.tick = 1, .ready = false}).open);
+        EXPECT_TRUE(step(c, s, {.tick = 2}).open);
+        EXPECT_FALSE(s.asked);
+        EXPECT_EQ(s.opened_tick, 2);
+        EXPECT_FALSE(step(c, s, {.tick = 3}).open);
+    }
+}
+
+TEST(SwitchSchedule, OneThatIsAskedForDoesNotMoveTheGrid) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    s.asked = true;
+    EXPECT_TRUE(step(c, s, {.tick = 4}).open);
+    for (std::int64_t tick = 5; tick < 10; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    EXPECT_TRUE(step(c, s, {.tick = 10}).open);
+}
+
+TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
+    SwitchScheduleConfig c{.interval_ticks = std::int64_t{1} << 40};
+    SwitchScheduleState s = initial_state(c);
+    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    c.interval_ticks = 10;
+    for (std::int64_t tick = 100; tick < 110; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
+    EXPECT_TRUE(step(c, s, {.tick = 110}).open);
+    EXPECT_FALSE(step(c, s, {.tick = 111}).open);
+}
+
 }  // namespace
 }  // namespace zlg::core

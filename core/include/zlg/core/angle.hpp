@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include <zlg/core/maths.hpp>
+
 namespace zlg::core {
 
 // A sum of doubles that keeps what rounding would lose, in a second double.
@@ -38,7 +40,7 @@ struct Angle {
         // Unsigned, so that even a wild sum of counts wraps instead of being undefined.
         counts =
             static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) + static_cast<std::uint64_t>(tick_counts));
-        const double counted_arcsec = scale_arcsec * static_cast<double>(tick_counts);
+        const double counted_arcsec = scale_arcsec * as_double(tick_counts);
         if (dtheta_arcsec == counted_arcsec) return;
         remainder_arcsec.add(dtheta_arcsec);
         remainder_arcsec.add(-counted_arcsec);
@@ -46,7 +48,7 @@ struct Angle {
 
     // accuracy  one rounding of the result.
     [[nodiscard]] constexpr double value_arcsec(double scale_arcsec) const noexcept {
-        return scale_arcsec * static_cast<double>(counts) + remainder_arcsec.value();
+        return scale_arcsec * as_double(counts) + remainder_arcsec.value();
     }
 };
 

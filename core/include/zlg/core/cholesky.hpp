@@ -6,33 +6,46 @@
 // A row costs i^2/2 products, so that a system of 32 unknowns can be spread over as many half-periods as are at hand.
 
 #include <array>
+#include <cstddef>
 
 namespace zlg::core {
 
-inline constexpr int max_unknowns = 32;
-using Column = std::array<double, max_unknowns>;
+inline constexpr std::size_t max_unknowns = 32;
+inline constexpr std::size_t few_unknowns = 8;  // of a small problem, which has room on a small stack
 
-struct CholeskyFactor {
+template <std::size_t capacity>
+using ColumnOf = std::array<double, capacity>;
+using Column = ColumnOf<max_unknowns>;
+
+template <std::size_t capacity>
+struct CholeskyFactorOf {
     int n = 0;
-    std::array<double, max_unknowns*(max_unknowns + 1) / 2> lower{};  // by rows; on the diagonal the reciprocal
+    std::array<double, capacity*(capacity + 1) / 2> lower{};  // by rows; on the diagonal the reciprocal
 
-    friend bool operator==(const CholeskyFactor&, const CholeskyFactor&) = default;
+    friend bool operator==(const CholeskyFactorOf&, const CholeskyFactorOf&) = default;
 };
+using CholeskyFactor = CholeskyFactorOf<max_unknowns>;
 
-// Add a row, n < 32.
+// Add a row, n < capacity. There are functions for both capacities, 8 and 32.
 //
 // covariance  of the new unknown with the n earlier ones and, at index n, with itself.
 // return      false, and nothing added, where the matrix would not be positive definite (within 1e-12 of the
 //             diagonal) or holds what is not a number.
-[[nodiscard]] bool add_row(CholeskyFactor& factor, const Column& covariance) noexcept;
+template <std::size_t capacity>
+[[nodiscard]] bool add_row(CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& covariance) noexcept;
 
 // L^-1 x, of the first n numbers; the others are 0.
-[[nodiscard]] Column forward(const CholeskyFactor& factor, const Column& x) noexcept;
+template <std::size_t capacity>
+[[nodiscard]] ColumnOf<capacity> forward(const CholeskyFactorOf<capacity>& factor,
+                                         const ColumnOf<capacity>& x) noexcept;
 
 // L^-T x.
-[[nodiscard]] Column backward(const CholeskyFactor& factor, const Column& x) noexcept;
+template <std::size_t capacity>
+[[nodiscard]] ColumnOf<capacity> backward(const CholeskyFactorOf<capacity>& factor,
+                                          const ColumnOf<capacity>& x) noexcept;
 
 // Sum of the first n products.
-[[nodiscard]] double product(const Column& a, const Column& b, int n) noexcept;
+template <std::size_t capacity>
+[[nodiscard]] double product(const ColumnOf<capacity>& a, const ColumnOf<capacity>& b, int n) noexcept;
 
 }  // namespace zlg::core

@@ -91,9 +91,6 @@ struct TickInput {
 // The profile that was told last is that of a gap which is not yet resolved.
 [[nodiscard]] bool needs_profile(const GapBridgeState& state) noexcept;
 
-// What the detuning says of the ticks after a gap, once it is known or given up. Before that gap is resolved.
-void take_profile(GapBridgeState& state, const JointRelock& joint) noexcept;
-
 // Do some of the next tick's work that depends on earlier ticks alone. To be called once between two ticks, or not: no
 // output depends on it, but that an estimate which is not ready in time leaves its gap to the polynomial.
 void prepare(const GapBridgeConfig& config, GapBridgeState& state) noexcept;

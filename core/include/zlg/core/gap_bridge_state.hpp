@@ -114,7 +114,8 @@ struct GapBridgeState {
     MotionLearningState learning{};
     GapPrediction prediction{};
     EstimatedGap estimate{};
-    JointRelock joint{};
+    JointRelock
+        joint{};  // of the gap that ended last, put here once it is known or given up, before that gap is resolved
     BiasScale bias_scale{};
     ExactSum carry_arcsec{};  // what rounding left of the corrections so far
     std::array<HistoryTick, history_ticks> history{};

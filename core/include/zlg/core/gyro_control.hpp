@@ -1,6 +1,7 @@
 #pragma once
 // Control of the gyro: everything that happens between the latch of one half-period and the command for the next.
 
+#include <array>
 #include <cstdint>
 
 #include <zlg/core/bias_commutator.hpp>
@@ -74,13 +75,24 @@ enum class GyroControlFault : unsigned char {
     return GyroControlFault::none;
 }
 
+// Where a move to the next mode would begin, and how far it would go: the latter is computed when it is needed.
+struct MoveStart {
+    bool known = true;  // `move_v` is that from here
+    double move_v = 0.0;
+    std::array<double, n_plays> play{};
+    double piezo_v = 0.0;
+    double temperature_c = 0.0;
+
+    friend constexpr bool operator==(const MoveStart&, const MoveStart&) = default;
+};
+
 struct GyroControlState {
     SyncDetectorState detector{};
     PerimeterLoopState loop{};
     HalfWaveState half_wave{};
     StrokeModelState stroke{};
-    double move_up_v = 0.0;  // predicted
-    double move_down_v = 0.0;
+    MoveStart up{};  // of the moves that are predicted
+    MoveStart down{};
     double closed_at_v = 0.0;  // reading of the piezo when the loop was closed last,
     bool closed_read = false;  // if there was one
     SwitchScheduleState schedule{};

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include <zlg/core/maths.hpp>
+
 namespace zlg::core {
 
 enum HealthBit : std::uint32_t {
@@ -86,8 +88,8 @@ enum class HealthFault : unsigned char { none, counts_limit };
 //
 // length_ratio  of the half over the nominal one.
 [[nodiscard]] constexpr bool is_beyond(const HealthConfig& c, std::int64_t counts, double length_ratio = 1.0) noexcept {
-    const double most = length_ratio * static_cast<double>(c.counts_limit);
-    return static_cast<double>(counts) > most || static_cast<double>(counts) < -most;
+    const double most = length_ratio * as_double(c.counts_limit);
+    return as_double(counts) > most || as_double(counts) < -most;
 }
 
 // The word of one half, bit by bit.

@@ -42,7 +42,7 @@ void take(const RelockProfileConfig& config, JointRelockState& state, const Half
 // The profile is known, given up, or broken off by a gap, and this has not been told.
 [[nodiscard]] bool is_due(const JointRelockState& state) noexcept;
 
-// Tell it. temperature: NaN where not measured.
-[[nodiscard]] JointRelock tell(const RelockDriftConfig& config, JointRelockState& state, Celsius temperature) noexcept;
+// Tell it. temperature: NaN where not measured. Of a profile that is given up the numbers in `out` stay as they are.
+void tell(const RelockDriftConfig& config, JointRelockState& state, Celsius temperature, JointRelock& out) noexcept;
 
 }  // namespace zlg::core

@@ -38,6 +38,9 @@ void step(const OptimalBridgeConfig& config, MotionLearningState& state, const M
 [[nodiscard]] MotionCovariance covariance_of(const OptimalBridgeConfig& config, const MotionLearningState& state,
                                              const GapProblem& problem) noexcept;
 
+// Begin a problem with no points. What an earlier one has left of its factor has no meaning.
+void begin_problem(int n_gap, int n_side, GapProblem& problem) noexcept;
+
 // Place of the k-th of the points around a gap, in ticks from the start of the window.
 [[nodiscard]] constexpr int place_of(int k, int n_side, int n_gap) noexcept { return k < n_side ? k : k + n_gap; }
 

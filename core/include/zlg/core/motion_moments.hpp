@@ -59,6 +59,8 @@ struct MotionMomentsState {
     MotionBlock block{};    // grows
     MotionBlock folding{};  // is being added to the moments
     int folded_rows = 0;
+    int due_rows =
+        0;  // that are folded by now whether or not some were folded ahead; all of them: the moments are whole
     int n_folded = 0;  // blocks so far, modulo 2^16
     std::array<double, 2> keep{};
     std::array<double, 2> trace{}, total{};  // of the rows that were folded
@@ -86,6 +88,11 @@ struct MotionMomentsOutput {
 
 // A block is being added: the moments are not those of any one time.
 [[nodiscard]] inline bool is_folding(const MotionMomentsState& state) noexcept { return state.folding.n_windows > 0; }
+
+// Fold some rows before they are due. What `step` returns and when the moments are whole does not depend on it.
+//
+// cost  20 rows, of half-ticks 570 elements of each matrix.
+void fold_ahead(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept;
 
 // Add at once what is left of the block that is being added: the moments are then whole.
 void finish_folding(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept;

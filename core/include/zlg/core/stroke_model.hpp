@@ -91,6 +91,11 @@ void follow(const StrokeModelConfig& config, StrokeModelState& state, Volts piez
 [[nodiscard]] Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& state, std::int8_t sign,
                                    Volts from, Celsius temperature) noexcept;
 
+// The same with the plays as they were, to be computed later: what is learnt of moves must not have changed since.
+[[nodiscard]] Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& state,
+                                   const std::array<double, n_plays>& play, std::int8_t sign, Volts from,
+                                   Celsius temperature) noexcept;
+
 // A move begins, from the settled voltage `from`.
 void begin_move(const StrokeModelConfig& config, StrokeModelState& state, Volts from) noexcept;
 

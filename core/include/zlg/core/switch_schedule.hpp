@@ -70,6 +70,8 @@ struct SwitchScheduleState {
     std::int64_t imbalance_ticks = 0;  // ticks in mode + less those in mode -
     std::int64_t centre_ticks = 0;     // of its sawtooth, where the interval is not fixed
     bool balanced = false;             // the last opening before the end was made
+    bool held = false;                 // set from outside: nothing is due by the schedule
+    bool asked = false;                // set from outside: one opening is due, held or not; cleared when it is made
 
     friend constexpr bool operator==(const SwitchScheduleState&, const SwitchScheduleState&) = default;
 };
@@ -98,6 +100,9 @@ struct SwitchScheduleOutput {
 //             different part each time, so that no vibration keeps step. 15/16 of min_ticks pass between two openings
 //             at least; what exceeds max_ticks is forgotten.
 //   end_tick  the last opening is due where the time that is left just makes up for the imbalance.
+//   held      points of the grid pass; when it ends, the others are due at once where the time in the modes asks for it.
+//
+// An interval that has been made shorter since counts from now.
 //
 // config  passed `check`.
 // state   from `initial_state`.

@@ -12,6 +12,7 @@
 
 #include <zlg/config/config.hpp>
 #include <zlg/core/records.hpp>
+#include <zlg/rig/processor.hpp>
 #include <zlg/study/variant.hpp>
 
 namespace zlg::study {
@@ -65,6 +66,9 @@ struct RunResult {
 struct RunTask {
     config::Config config;
     int threads = 1;
+    // Runs the core of the gyro that switches, and its configured compensation; null: this program does. The gyro of
+    // one mode and the other compensations always run here.
+    rig::Processor* processor = nullptr;
     // All optional; called in order, from the calling thread.
     std::function<void(const core::HalfRecord&, const core::LightSamples&)> on_record;
     std::function<void(const core::AngleRow&, double true_arcsec)> on_row;  // the rows of `configured`

@@ -1,0 +1,157 @@
+#include "byte_source.hpp"
+
+#include <fcntl.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <zlg/logs/error.hpp>
+
+#include "failure.hpp"
+
+namespace zlg::cli {
+namespace {
+
+[[noreturn]] void fail(const char* what, const std::string& name, int error) {
+    throw logs::IoError{fmt::format("cannot {} {}: {}", what, name, std::strerror(error))};
+}
+
+speed_t speed_of(int baud) {
+    constexpr std::array<std::pair<int, speed_t>, 14> speeds{{{9600, B9600},
+                                                              {19200, B19200},
+                                                              {38400, B38400},
+                                                              {57600, B57600},
+                                                              {115200, B115200},
+                                                              {230400, B230400},
+                                                              {460800, B460800},
+                                                              {500000, B500000},
+                                                              {576000, B576000},
+                                                              {921600, B921600},
+                                                              {1000000, B1000000},
+                                                              {1500000, B1500000},
+                                                              {2000000, B2000000},
+                                                              {3000000, B3000000}}};
+    std::string allowed;
+    for (const auto& [number, speed] : speeds) {
+        if (number == baud) return speed;
+        allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", number);
+    }
+    throw UsageError{fmt::format("--baud {}: allowed are {}", baud, allowed)};
+}
+
+// Bytes as they come: no line editing, no flow control, no signals.
+void make_raw(int fd, const std::string& name, speed_t speed) {
+    termios settings{};
+    if (::tcgetattr(fd, &settings) != 0) fail("set up", name, errno);
+    ::cfmakeraw(&settings);
+    settings.c_cflag |= static_cast<tcflag_t>(CLOCAL | CREAD);
+    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+    settings.c_cc[VMIN] = 1;
+    settings.c_cc[VTIME] = 0;
+    if (::cfsetspeed(&settings, speed) != 0 || ::tcsetattr(fd, TCSANOW, &settings) != 0) fail("set up", name, errno);
+}
+
+int open_path(const std::string& path, speed_t speed) {
+    // Not to wait for the other end of a pipe, or for the carrier of a modem.
+    const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (fd < 0) fail("open", path, errno);
+    struct stat what {};
+    if (::fstat(fd, &what) == 0 && S_ISDIR(what.st_mode)) {
+        ::close(fd);
+        fail("read", path, EISDIR);
+    }
+    try {
+        if (::isatty(fd) != 0) make_raw(fd, path, speed);
+    } catch (...) {
+        ::close(fd);
+        throw;
+    }
+    return fd;
+}
+
+int connect_tcp(const std::string& name) {
+    const std::string address = name.substr(4);
+    const std::size_t colon = address.rfind(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == address.size())
+        throw UsageError{fmt::format("{}: allowed is tcp:HOST:PORT", name)};
+    addrinfo wanted{};
+    wanted.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    const int unresolved =
+        ::getaddrinfo(address.substr(0, colon).c_str(), address.substr(colon + 1).c_str(), &wanted, &found);
+    if (unresolved != 0) throw logs::IoError{fmt::format("cannot connect to {}: {}", name, ::gai_strerror(unresolved))};
+    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses{found, ::freeaddrinfo};
+    int error = 0;
+    for (const addrinfo* a = found; a != nullptr; a = a->ai_next) {
+        const int fd = ::socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC, a->ai_protocol);
+        if (fd >= 0 && ::connect(fd, a->ai_addr, a->ai_addrlen) == 0) return fd;
+        error = errno;
+        if (fd >= 0) ::close(fd);
+    }
+    fail("connect to", name, error);
+}
+
+int connect_unix(const std::string& name) {
+    const std::string path = name.substr(5);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.empty() || path.size() >= sizeof address.sun_path)
+        throw UsageError{
+            fmt::format("{}: allowed is unix:PATH, a path of up to {} bytes", name, sizeof address.sun_path - 1)};
+    std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+    const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (fd < 0) fail("connect to", name, errno);
+    if (::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return fd;
+    const int error = errno;
+    ::close(fd);
+    fail("connect to", name, error);
+}
+
+int opened(const std::string& source, speed_t speed) {
+    if (source == "-") return STDIN_FILENO;
+    if (source.starts_with("tcp:")) return connect_tcp(source);
+    if (source.starts_with("unix:")) return connect_unix(source);
+    return open_path(source, speed);
+}
+
+}  // namespace
+
+ByteSource::ByteSource(const std::string& source, int baud)
+    : name_{source == "-" ? "standard input" : source}, fd_{opened(source, speed_of(baud))}, owned_{source != "-"} {}
+
+ByteSource::~ByteSource() {
+    if (owned_) ::close(fd_);
+}
+
+ByteSource::Read ByteSource::read(std::span<std::uint8_t> buffer, std::size_t& n, int patience_ms) {
+    pollfd ready{.fd = fd_, .events = POLLIN, .revents = 0};
+    const int polled = ::poll(&ready, 1, patience_ms);
+    if (polled < 0 && errno != EINTR) fail("read", name_, errno);
+    if (polled <= 0) return Read::nothing;
+    const ssize_t got = ::read(fd_, buffer.data(), buffer.size());
+    if (got > 0) {
+        n = static_cast<std::size_t>(got);
+        return Read::bytes;
+    }
+    if (got == 0) return Read::end;
+    if (errno == EINTR || errno == EAGAIN) return Read::nothing;
+    // The other end of a terminal or a socket is gone.
+    const int error = errno;
+    if ((error == EIO && ::isatty(fd_) != 0) || error == ECONNRESET) return Read::end;
+    errno = error;
+    fail("read", name_, errno);
+}
+
+}  // namespace zlg::cli

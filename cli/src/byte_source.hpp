@@ -1,0 +1,34 @@
+#pragma once
+// Bytes from a file, a pipe, a serial device or a socket, without an end of their own where the source has none.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace zlg::cli {
+
+class ByteSource {
+public:
+    // source  a path, `-` for standard input, `tcp:HOST:PORT` or `unix:PATH`.
+    // baud    of a serial device, which is set to eight bits without parity and to nothing else that would change a byte.
+    //
+    // errors  UsageError: a speed that no serial device has, a malformed address; logs::IoError: it cannot be opened.
+    ByteSource(const std::string& source, int baud);
+    ~ByteSource();
+    ByteSource(const ByteSource&) = delete;
+    ByteSource& operator=(const ByteSource&) = delete;
+
+    enum class Read { bytes, nothing, end };
+
+    // Wait up to `patience_ms` for bytes; `n` of them are in `buffer`.
+    //
+    // errors  logs::IoError.
+    [[nodiscard]] Read read(std::span<std::uint8_t> buffer, std::size_t& n, int patience_ms);
+
+private:
+    std::string name_;
+    int fd_ = -1;
+    bool owned_ = true;
+};
+
+}  // namespace zlg::cli

@@ -1,0 +1,195 @@
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/wire_rows.hpp>
+
+#include "as_json.hpp"
+#include "byte_source.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+struct FollowOptions {
+    std::string source;
+    std::string out;
+    int baud = 921600;
+    std::optional<double> duration_s;
+    bool force = false;
+    bool json = false;
+};
+
+// The log, which begins when the length of a tick is known.
+class Recording {
+public:
+    explicit Recording(const FollowOptions& options) : options_{options} {
+        (void)log_format(options.out);
+        if (!options.force && std::filesystem::exists(std::filesystem::symlink_status(options.out)))
+            throw logs::IoError{fmt::format("{} exists; use --force to overwrite", options.out)};
+    }
+
+    // Write what has arrived; true where the log is as long as was asked for.
+    bool take(logs::WireRows& rows) {
+        core::AngleRow row;
+        while (!is_full(rows) && rows.next(row)) {
+            if (!angles_) begin(*rows.tick_s());
+            angles_->write(row);
+            ++n_rows_;
+            angle_arcsec_ += row.dtheta_arcsec;
+        }
+        return is_full(rows);
+    }
+
+    void flush() {
+        if (angles_) angles_->flush();
+    }
+
+    void close() {
+        if (!angles_)
+            throw logs::IoError{
+                fmt::format("{}: not one message of a gyro in it; {} is not written", options_.source, options_.out)};
+        angles_->close();
+    }
+
+    [[nodiscard]] std::int64_t n_rows() const { return n_rows_; }
+    [[nodiscard]] double angle_arcsec() const { return angle_arcsec_; }
+    [[nodiscard]] std::string part_path() const { return angles_ ? angles_->part_path() : std::string{}; }
+
+private:
+    [[nodiscard]] bool is_full(const logs::WireRows& rows) const {
+        return options_.duration_s && rows.tick_s() &&
+               static_cast<double>(n_rows_) * *rows.tick_s() >= *options_.duration_s * (1.0 - 1e-12);
+    }
+
+    void begin(double tick_s) {
+        std::string legend;
+        for (std::size_t bit = 0; bit < core::angle_flag_names.size(); ++bit)
+            legend += fmt::format("{}:{} ", core::angle_flag_names[bit], 1u << bit);
+        for (const auto& [name, bit] : flag_names) legend += fmt::format("{}:{} ", name, static_cast<unsigned>(bit));
+        legend.pop_back();
+        angles_.emplace(options_.out, tick_s, config::Settings{{"flags", legend}}, options_.force,
+                        logs::AngleWriterOptions{.keep_part = true});
+    }
+
+    static constexpr std::array<std::pair<const char*, logs::WireFlag>, 3> flag_names{
+        {{"lost", logs::flag_lost}, {"final_lost", logs::flag_final_lost}, {"restarted", logs::flag_restarted}}};
+
+    const FollowOptions& options_;
+    std::optional<logs::AngleWriter> angles_;
+    std::int64_t n_rows_ = 0;
+    double angle_arcsec_ = 0.0;
+};
+
+// Until the source ends, a signal comes, or the log or the time is as long as was asked for.
+void receive(ByteSource& source, logs::WireRows& rows, Recording& recording, const FollowOptions& options,
+             const Interruptible& interruptible) {
+    using Clock = std::chrono::steady_clock;
+    constexpr int patience_ms = 50;
+    constexpr std::chrono::milliseconds flush_every{500};
+    const auto started = Clock::now();
+    auto flushed = started;
+    std::array<std::uint8_t, 65536> buffer{};
+    while (!interruptible.is_noted()) {
+        std::size_t n = 0;
+        const ByteSource::Read read = source.read(buffer, n, patience_ms);
+        if (read == ByteSource::Read::end) break;
+        rows.take(std::span{buffer}.first(n));
+        const auto now = Clock::now();
+        if (recording.take(rows)) return;
+        if (options.duration_s && std::chrono::duration<double>{now - started}.count() >= *options.duration_s) break;
+        if (now - flushed < flush_every) continue;
+        recording.flush();
+        flushed = now;
+    }
+    rows.end();
+    (void)recording.take(rows);
+}
+
+std::string text(const logs::WireSummary& s, const Recording& recording, const FollowOptions& options) {
+    std::string text = fmt::format("{}: {} ticks, accumulated angle {} arcsec\n", options.out, recording.n_rows(),
+                                   recording.angle_arcsec());
+    text += fmt::format("{} bytes, {} messages\n", s.n_bytes, s.n_telemetry + s.n_status + s.n_replies);
+    const auto add = [&text](std::uint64_t n, const char* what) {
+        if (n > 0) text += fmt::format("{:>10} {}\n", n, what);
+    };
+    add(s.n_lost_messages, "messages lost, by their numbers");
+    add(s.n_lost_rows, "ticks lost; their angle is shared out among them");
+    add(s.n_final_lost_rows, "ticks without a final value");
+    add(s.n_restarts, "restarts of the gyro; its turn meanwhile is not in the log");
+    add(s.n_damaged, "damaged frames");
+    add(s.n_damaged_bytes, "bytes in them");
+    add(s.n_refused, "whole frames that no gyro of ours sends");
+    add(s.n_repeated, "messages that came again");
+    return text;
+}
+
+nlohmann::json json(const logs::WireSummary& s, const Recording& recording, const FollowOptions& options) {
+    return {{"source", options.source},
+            {"angles", options.out},
+            {"ticks", recording.n_rows()},
+            {"angle_arcsec", recording.angle_arcsec()},
+            {"bytes", s.n_bytes},
+            {"telemetry_messages", s.n_telemetry},
+            {"status_messages", s.n_status},
+            {"replies", s.n_replies},
+            {"lost_messages", s.n_lost_messages},
+            {"lost_ticks", s.n_lost_rows},
+            {"final_lost_ticks", s.n_final_lost_rows},
+            {"restarts", s.n_restarts},
+            {"damaged_frames", s.n_damaged},
+            {"damaged_bytes", s.n_damaged_bytes},
+            {"refused_messages", s.n_refused},
+            {"repeated_messages", s.n_repeated}};
+}
+
+void follow(const FollowOptions& options) {
+    Recording recording{options};
+    refuse_own_input(options.source, options.out);
+    ByteSource source{options.source, options.baud};
+    const Interruptible interruptible;
+    logs::WireRows rows;
+    try {
+        receive(source, rows, recording, options, interruptible);
+        recording.close();
+    } catch (...) {
+        rethrow_with({recording.part_path()});
+    }
+    print(options.json ? pretty(json(rows.summary(), recording, options)) : text(rows.summary(), recording, options));
+}
+
+}  // namespace
+
+void add_follow(CLI::App& program) {
+    const auto options = std::make_shared<FollowOptions>();
+    CLI::App* verb = program.add_subcommand("follow", "what a gyro sends over its line, as an angle log");
+    verb->add_option("SOURCE", options->source,
+                     "a file, a serial device, - for standard input, tcp:HOST:PORT or unix:PATH")
+        ->required();
+    verb->add_option("--out", options->out, "angle log to write: .csv, .h5 or .hdf5");
+    verb->add_option("--baud", options->baud, "speed of a serial device (921600)");
+    verb->add_option("--duration", options->duration_s,
+                     "seconds after which it ends, of the log or of the clock, whichever comes first")
+        ->check([](const std::string& duration) {
+            double seconds = 0.0;
+            const bool read = CLI::detail::lexical_cast(duration, seconds);
+            return read && seconds > 0.0 && seconds <= 1e9 ? "" : fmt::format("{}: allowed is up to 1e9 s", duration);
+        });
+    verb->add_flag("--force", options->force, "overwrite what is there");
+    verb->add_flag("--json", options->json, "the result as one JSON object on standard output");
+    verb->callback([options] { follow(*options); });
+}
+
+}  // namespace zlg::cli

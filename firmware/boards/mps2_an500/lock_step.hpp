@@ -1,0 +1,27 @@
+#pragma once
+// The processor driven by a host, half-period by half-period, through memory that both see.
+
+#include <zlg/core/records.hpp>
+#include <zlg/firmware/gyro.hpp>
+
+namespace zlg::firmware::mps2 {
+
+// True where a host has asked for it before the processor started.
+[[nodiscard]] bool is_in_lock_step() noexcept;
+
+// The host has given the image a serial line.
+[[nodiscard]] bool host_listens() noexcept;
+
+// The frame that the host gave, in lock step.
+[[nodiscard]] const core::SensorFrame& host_frame() noexcept;
+
+// To the host.
+void give(const HalfOutput& output) noexcept;
+
+// Say what this processor was compiled from; the host waits for it.
+void present_to_host() noexcept;
+
+// Answer a request of the host, if there is one. A half-period runs in the half-period's interrupt, as it does by the timer.
+void answer_host() noexcept;
+
+}  // namespace zlg::firmware::mps2

@@ -1,0 +1,44 @@
+// The watchdog of the machine: unless it is kicked, first an interrupt that nothing can mask, then a reset.
+
+#include <zlg/firmware/half_period.hpp>
+#include <zlg/firmware/port.hpp>
+
+#include "board.hpp"
+#include "registers.hpp"
+
+namespace zlg::firmware {
+namespace {
+
+using namespace mps2;
+
+// No multiple of usual half-periods: what hangs is to be met, not the interrupt of the half-period.
+constexpr std::uint32_t deadline_ms = 251;
+std::uint32_t halves_at_kick = 0;
+
+}  // namespace
+
+namespace mps2 {
+
+void start_watchdog() noexcept {
+    watchdog.lock() = Watchdog::unlocked;
+    watchdog.load() = deadline_ms * (clock_hz / 1000);
+    watchdog.control() = Watchdog::interrupt | Watchdog::reset;
+    watchdog.lock() = 0;
+}
+
+// More than the one that may have ended just after the kick.
+bool is_half_period_alive() noexcept { return halves() - halves_at_kick > 1; }
+
+}  // namespace mps2
+
+namespace port {
+
+void kick_watchdog() noexcept {
+    halves_at_kick = halves();
+    watchdog.lock() = Watchdog::unlocked;
+    watchdog.clear() = 1;
+    watchdog.lock() = 0;
+}
+
+}  // namespace port
+}  // namespace zlg::firmware

@@ -1,0 +1,76 @@
+#pragma once
+// One gyro as its processor holds it: control and compensation in a row, half-period by half-period.
+//
+// Nothing here knows a board: the same source runs on the host, where it is tested.
+
+#include <cstdint>
+
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/core/gyro_control.hpp>
+#include <zlg/core/records.hpp>
+#include <zlg/wire/parameters.hpp>
+
+namespace zlg::firmware {
+
+// Of control and of compensation.
+using Settings = wire::GyroSettings;
+
+// Which part refuses its configuration, and what its check says.
+struct SettingsFault {
+    core::GyroControlFault control = core::GyroControlFault::none;
+    core::GyroCompensationFault compensation = core::GyroCompensationFault::none;
+
+    friend bool operator==(const SettingsFault&, const SettingsFault&) = default;
+};
+
+[[nodiscard]] SettingsFault check(const Settings& settings) noexcept;
+
+struct GyroState {
+    core::GyroControlState control{};
+    core::GyroCompensationState compensation{};
+
+    friend bool operator==(const GyroState&, const GyroState&) = default;
+};
+
+struct HalfOutput {
+    core::GyroControlOutput control{};
+    core::CompensationOutput compensation{};
+};
+
+class Gyro {
+public:
+    // Begin anew. The settings have passed `check`.
+    //
+    // counter  reading of the fringe counter when the first half begins.
+    // return   what is commanded for the first half.
+    core::ActuatorFrame start(const Settings& settings, std::uint64_t counter = 0) noexcept;
+
+    // Advance by one half-period: call it once per half, also when its frame was missed.
+    //
+    // frame  one that claims more than core::max_light_samples light samples has none.
+    // cost   that of both parts of the core; no allocation.
+    [[nodiscard]] HalfOutput half(const core::SensorFrame& frame) noexcept;
+
+    // The angle that is still owed when no more halves come, one report at each call, until there is none.
+    [[nodiscard]] core::DrainOutput drain() noexcept;
+
+    // Go on with other settings, which have passed `check`: at the border of a tick, which is where `is_within_tick` is false.
+    void change(const Settings& settings) noexcept { settings_ = settings; }
+    [[nodiscard]] bool is_within_tick() const noexcept { return state_.compensation.has_first; }
+
+    // The reading at the start was not known: the next half, the first one, is not counted.
+    void forget_counter() noexcept { state_.control.counter_stale = true; }
+
+    // While held nothing is switched by the schedule; forced it is once, held or not.
+    void hold_switching(bool held) noexcept { state_.control.schedule.held = held; }
+    void force_switch() noexcept { state_.control.schedule.asked = true; }
+
+    [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
+    [[nodiscard]] const GyroState& state() const noexcept { return state_; }
+
+private:
+    Settings settings_{};
+    GyroState state_{};
+};
+
+}  // namespace zlg::firmware

@@ -1,0 +1,96 @@
+#include "background.hpp"
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include <zlg/firmware/half_period.hpp>
+#include <zlg/firmware/port.hpp>
+#include <zlg/wire/status.hpp>
+
+#include "telemetry_queue.hpp"
+
+namespace zlg::firmware {
+namespace {
+
+// Mostly zeros, which need not lie in the flash.
+alignas(Background) constinit std::array<std::byte, sizeof(Background)> memory{};
+
+// Bytes of commands that one round takes.
+constexpr std::size_t bytes_a_round = 64;
+
+}  // namespace
+
+Background& background() noexcept {
+    static Background& the_background = *std::construct_at(reinterpret_cast<Background*>(memory.data()));
+    return the_background;
+}
+
+void Background::start(const wire::GyroSettings& settings, std::uint16_t session) noexcept {
+    commands_.settings = settings;
+    sender_.session = session;
+}
+
+void Background::run() noexcept {
+    if (settings_wait_) settings_wait_ = !gyro_takes(commands_.settings);
+    send_rest();
+    // One frame after the other: an answer first, for somebody waits for it.
+    if (sent_ == out_.size) listen();
+    if (sent_ == out_.size && status_due_) tell_status();
+    if (sent_ == out_.size) tell();
+}
+
+void Background::queue(const wire::Frame& frame) noexcept {
+    out_ = frame;
+    sent_ = 0;
+    send_rest();
+}
+
+void Background::send_rest() noexcept { sent_ += port::send(out_.view().subspan(sent_)); }
+
+void Background::tell() noexcept {
+    wire::Telemetry news;
+    if (!telemetry_queue().take(news)) return;
+    health_ = news.health;
+    queue(frame_of(sender_, news));
+    if (++ticks_since_status_ * news.tick_s >= 1.0) status_due_ = true;
+}
+
+void Background::tell_status() noexcept {
+    wire::Status now = status_of_gyro(commands_.settings.compensation);
+    now.health = health_;
+    now.settings_crc = wire::settings_crc(commands_.settings);
+    now.n_received = receiver_.n_good;
+    now.n_damaged = receiver_.n_damaged;
+    now.n_overruns = port::overruns();
+    now.stack_used_bytes = port::stack_used_bytes();
+    now.last_fault = static_cast<std::uint32_t>(port::last_fault().kind);
+    ticks_since_status_ = 0;
+    status_due_ = false;
+    queue(frame_of(sender_, now));
+}
+
+void Background::listen() noexcept {
+    std::array<std::uint8_t, 1> byte{};
+    wire::Message message;
+    for (std::size_t k = 0; k < bytes_a_round && port::receive(byte) == byte.size(); ++k) {
+        std::span<const std::uint8_t> bytes{byte};
+        if (!receive(receiver_, bytes, message)) continue;
+        const wire::CommandOutput out = handle(commands_, message);
+        if (!out.has_reply) continue;
+        obey(out.effect);
+        return queue(frame_of(sender_, out.reply));
+    }
+}
+
+void Background::obey(const wire::CommandEffect& effect) noexcept {
+    if (effect.settings_changed) {
+        settings_wait_ = !gyro_takes(commands_.settings);
+        port::store(commands_.settings);
+    }
+    if (effect.stop_switching || effect.start_switching) hold_switching(effect.stop_switching);
+    if (effect.force_switch) force_switch();
+    status_due_ = status_due_ || effect.send_status;
+}
+
+}  // namespace zlg::firmware

@@ -1,0 +1,43 @@
+#pragma once
+// What the processor does between two interrupts: it tells of each tick, and obeys commands.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <zlg/wire/command_handler.hpp>
+#include <zlg/wire/frame.hpp>
+
+namespace zlg::firmware {
+
+class Background {
+public:
+    // settings  the gyro was started with.
+    // session   of this start, another one than of the last.
+    void start(const wire::GyroSettings& settings, std::uint16_t session) noexcept;
+
+    // One round. It sends what the line takes and never waits.
+    void run() noexcept;
+
+private:
+    void send_rest() noexcept;
+    void tell() noexcept;
+    void tell_status() noexcept;
+    void listen() noexcept;
+    void obey(const wire::CommandEffect& effect) noexcept;
+    void queue(const wire::Frame& frame) noexcept;
+
+    wire::CommandState commands_{};
+    wire::Sender sender_{};
+    wire::Receiver receiver_{};
+    wire::Frame out_{};  // on its way
+    std::size_t sent_ = 0;
+    bool settings_wait_ = false;  // for the border of a tick
+    bool status_due_ = false;
+    std::uint32_t health_ = 0;
+    std::uint32_t ticks_since_status_ = 0;
+};
+
+// That of this processor, in memory that no start-up code fills.
+[[nodiscard]] Background& background() noexcept;
+
+}  // namespace zlg::firmware

@@ -1,0 +1,92 @@
+#include <zlg/firmware/half_period.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <memory>
+
+#include <zlg/firmware/port.hpp>
+
+#include "background.hpp"
+#include "telemetry_queue.hpp"
+
+namespace zlg::firmware {
+namespace {
+
+// Most of its initial state is zeros: were it initialised by the compiler, they would all lie in the flash as well.
+alignas(Gyro) constinit std::array<std::byte, sizeof(Gyro)> memory{};
+
+constinit std::atomic<std::uint32_t> n_halves{};
+
+// Ended in a lock, as asked for and otherwise; both wrap.
+constinit std::uint32_t n_switches = 0;
+constinit std::uint32_t n_failed = 0;
+
+void count(const core::GyroControlOutput& control) noexcept {
+    if (!control.has_event) return;
+    ++(control.event.outcome == core::SwitchOutcome::switched ? n_switches : n_failed);
+}
+
+// When the last half ended.
+constinit std::uint64_t end_ticks = 0;
+
+// Without a latch the half was as long as it should be.
+void note_end(const core::SensorFrame& frame) noexcept {
+    const bool is_missed = (frame.status & core::frame_missed) != 0;
+    end_ticks = is_missed ? end_ticks + gyro().settings().control.commutator.half_ticks : frame.timer_ticks;
+}
+
+}  // namespace
+
+Gyro& gyro() noexcept {
+    static Gyro& the_gyro = *std::construct_at(reinterpret_cast<Gyro*>(memory.data()));
+    return the_gyro;
+}
+
+core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint64_t> counter) noexcept {
+    telemetry_queue().restart();
+    background().start(settings, static_cast<std::uint16_t>(port::starts()));
+    const core::ActuatorFrame first = gyro().start(settings, counter.value_or(0));
+    if (!counter) gyro().forget_counter();
+    return first;
+}
+
+bool gyro_takes(const Settings& settings) noexcept {
+    const port::Quiet quiet;
+    if (gyro().is_within_tick()) return false;
+    gyro().change(settings);
+    return true;
+}
+
+void hold_switching(bool held) noexcept {
+    const port::Quiet quiet;
+    gyro().hold_switching(held);
+}
+
+void force_switch() noexcept {
+    const port::Quiet quiet;
+    gyro().force_switch();
+}
+
+wire::Status status_of_gyro(const core::GyroCompensationConfig& config) noexcept {
+    const port::Quiet quiet;
+    wire::Status status = wire::status_of(gyro().state().control, gyro().state().compensation, config);
+    status.n_switches = n_switches;
+    status.n_failed = n_failed;
+    return status;
+}
+
+std::uint32_t halves() noexcept { return n_halves.load(std::memory_order_acquire); }
+
+void half_period() noexcept {
+    const core::SensorFrame& frame = port::latched();
+    note_end(frame);
+    const HalfOutput output = gyro().half(frame);
+    port::command(output.control.actuator);
+    port::observe(output);
+    count(output.control);
+    if (port::has_line()) telemetry_queue().put(output, end_ticks, gyro().settings().compensation.relock.tick.value());
+    n_halves.store(n_halves.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+}
+
+}  // namespace zlg::firmware

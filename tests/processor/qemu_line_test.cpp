@@ -1,0 +1,224 @@
+// The image's serial line while the twin drives the image: a gyro that switches tells of it, and obeys.
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+#include <zlg/config/config.hpp>
+#include <zlg/processor/qemu.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wire_stream.hpp>
+#include <zlg/rig/wiring.hpp>
+#include <zlg/wire/command.hpp>
+#include <zlg/wire/telemetry.hpp>
+
+namespace {
+
+using namespace zlg;
+using processor::QemuProcessor;
+namespace fs = std::filesystem;
+
+std::optional<std::string> built_image() {
+    if (std::system("command -v qemu-system-arm >/dev/null") != 0) return {};
+    try {
+        return processor::image_beside(fs::read_symlink("/proc/self/exe").parent_path());
+    } catch (const processor::QemuError&) {
+        return {};
+    }
+}
+
+struct Heard {
+    std::vector<wire::Telemetry> ticks;
+    std::vector<wire::Reply> replies;
+};
+
+void take(Heard& heard, wire::Receiver& receiver, std::span<const std::uint8_t> bytes) {
+    wire::Message message;
+    while (receive(receiver, bytes, message)) {
+        if (const auto tick = wire::telemetry_in(message)) heard.ticks.push_back(*tick);
+        if (const auto reply = wire::reply_in(message)) heard.replies.push_back(*reply);
+    }
+}
+
+// Two pipes, as the emulator wants them: what it sends waits in one of them.
+class Line {
+public:
+    Line() {
+        for (const char* end : {".in", ".out"}) EXPECT_EQ(mkfifo((path_ + end).c_str(), 0600), 0);
+        tells_ = open((path_ + ".in").c_str(), O_RDWR);
+        hears_ = open((path_ + ".out").c_str(), O_RDONLY | O_NONBLOCK);
+    }
+    ~Line() {
+        close(tells_);
+        close(hears_);
+        fs::remove_all(folder_);
+    }
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+
+    [[nodiscard]] std::string name() const { return "pipe:" + path_; }
+
+    void send(const wire::Frame& frame) const {
+        EXPECT_EQ(write(tells_, frame.bytes.data(), frame.size), static_cast<ssize_t>(frame.size));
+    }
+
+    const Heard& hear() {
+        std::uint8_t bytes[4096];
+        for (ssize_t n = 0; (n = read(hears_, bytes, sizeof bytes)) > 0;)
+            take(heard_, receiver_, std::span{bytes}.first(static_cast<std::size_t>(n)));
+        return heard_;
+    }
+
+    [[nodiscard]] std::uint32_t n_damaged() const { return receiver_.n_damaged; }
+
+private:
+    static std::string made_folder() {
+        std::string name = fs::temp_directory_path() / "zlg-line-XXXXXX";
+        EXPECT_NE(mkdtemp(name.data()), nullptr);
+        return name;
+    }
+
+    std::string folder_ = made_folder();
+    std::string path_ = folder_ + "/line";
+    int tells_ = -1;
+    int hears_ = -1;
+    wire::Receiver receiver_{};
+    Heard heard_{};
+};
+
+config::Config gyro() {
+    config::Config c;
+    c.switching.interval_s = 1.0;
+    return c;
+}
+
+std::vector<wire::Telemetry> told_by_this_program(int halves) {
+    rig::ClosedLoop loop{gyro(), rig::motion(gyro())};
+    rig::WireStream stream{gyro(), core::RelockMethod::mean_square};
+    std::vector<std::uint8_t> bytes;
+    for (int k = 0; k < halves; ++k) stream.take(loop, loop.advance(), bytes);
+    Heard heard;
+    wire::Receiver receiver;
+    take(heard, receiver, bytes);
+    return heard.ticks;
+}
+
+TEST(QemuLine, tells_bit_by_bit_what_this_program_tells) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    constexpr int halves = 4000;
+    Line line;
+    QemuProcessor qemu{{.image = *image, .line = line.name()}};
+    rig::ClosedLoop loop{gyro(), rig::motion(gyro()), &qemu};
+    for (int k = 0; k < halves; ++k) {
+        (void)loop.advance();
+        (void)line.hear();
+    }
+    // The last tick is on its way.
+    for (int patience = 1000; patience > 0 && line.hear().ticks.size() < halves / 2; --patience) usleep(10'000);
+    std::vector<wire::Telemetry> expected = told_by_this_program(halves);
+    // The machine has no pulse.
+    for (wire::Telemetry& tick : expected) tick.time = {.timer_ticks = tick.time.timer_ticks};
+    ASSERT_EQ(line.hear().ticks.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) ASSERT_EQ(line.hear().ticks[k], expected[k]) << "tick " << k;
+    EXPECT_EQ(line.n_damaged(), 0u);
+    EXPECT_NE(expected.front().mode, expected[200].mode) << "the gyro has switched";
+}
+
+constexpr std::uint16_t interval_ticks = 0x0402;
+constexpr int second = 400;  // halves
+
+wire::Command about(std::uint16_t key, wire::CommandCode code) {
+    wire::Command command{.code = code};
+    command.parameters.items[0].key = key;
+    command.parameters.n = 1;
+    return command;
+}
+
+// A host that sends one command after the other while the gyro runs.
+class Driven {
+public:
+    explicit Driven(const std::string& image) : qemu_{{.image = image, .line = line_.name()}} {}
+
+    // The value of one parameter, as the gyro answers.
+    double value_of(std::uint16_t key) {
+        (void)switches_during(about(key, wire::CommandCode::read_parameters));
+        return line_.hear().replies.back().parameters.items[0].value;
+    }
+
+    // The switches that end while this command is answered, and in `halves` after it.
+    int switches_after(const wire::Command& command, int halves) {
+        int n = switches_during(command);
+        for (int k = 0; k < halves; ++k) n += advance();
+        return n;
+    }
+
+    int advance() {
+        const rig::LoopHalf half = loop_.advance();
+        (void)line_.hear();
+        return half.control.has_event && half.control.event.outcome == core::SwitchOutcome::switched ? 1 : 0;
+    }
+
+    int last_mode() {
+        for (int k = 0; k < 8; ++k) (void)advance();
+        return line_.hear().ticks.back().mode;
+    }
+
+private:
+    // Until it is answered.
+    int switches_during(const wire::Command& command) {
+        const std::size_t n_replies = line_.hear().replies.size();
+        line_.send(frame_of(sender_, command));
+        int n = 0;
+        for (int most = 200'000; most > 0 && line_.hear().replies.size() == n_replies; --most) n += advance();
+        if (line_.hear().replies.size() != n_replies + 1) throw std::runtime_error{"the gyro does not answer"};
+        EXPECT_EQ(line_.hear().replies.back().result, wire::CommandResult::done);
+        return n;
+    }
+
+    Line line_;
+    QemuProcessor qemu_;
+    rig::ClosedLoop loop_{gyro(), rig::motion(gyro()), &qemu_};
+    wire::Sender sender_{.session = 5};
+};
+
+TEST(QemuLine, the_parameters_are_those_that_the_gyro_was_started_with) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    EXPECT_EQ(Driven{*image}.value_of(interval_ticks), 200.0) << "of 1 s";
+}
+
+TEST(QemuLine, what_is_set_is_what_the_gyro_runs_by) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    Driven gyro{*image};
+    const int slow = gyro.switches_after({.code = wire::CommandCode::read_state}, 5 * second);
+    EXPECT_GE(slow, 4);
+    EXPECT_LE(slow, 6);
+    wire::Command command = about(interval_ticks, wire::CommandCode::set_parameters);
+    command.parameters.items[0].value = 100.0;
+    EXPECT_GE(gyro.switches_after(command, 5 * second), 9) << "two a second";
+}
+
+TEST(QemuLine, switching_stops_is_forced_and_starts_again) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    Driven gyro{*image};
+    (void)gyro.switches_after({.code = wire::CommandCode::stop_switching}, second);
+    const int mode = gyro.last_mode();
+    EXPECT_EQ(gyro.switches_after({.code = wire::CommandCode::read_state}, 5 * second), 0) << "stopped";
+    EXPECT_EQ(gyro.last_mode(), mode);
+    EXPECT_EQ(gyro.switches_after({.code = wire::CommandCode::force_switch}, 5 * second), 1) << "forced, once";
+    EXPECT_EQ(gyro.last_mode(), -mode);
+    EXPECT_GE(gyro.switches_after({.code = wire::CommandCode::start_switching}, 5 * second), 4) << "one a second";
+}
+
+}  // namespace

@@ -1,0 +1,127 @@
+#include <zlg/processor/qemu.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+#include <zlg/config/config.hpp>
+#include <zlg/processor/compared.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wiring.hpp>
+
+namespace {
+
+using namespace zlg;
+using processor::QemuError;
+using processor::QemuProcessor;
+namespace fs = std::filesystem;
+
+std::optional<std::string> built_image() {
+    if (std::system("command -v qemu-system-arm >/dev/null") != 0) return {};
+    try {
+        return processor::image_beside(fs::read_symlink("/proc/self/exe").parent_path());
+    } catch (const QemuError&) {
+        return {};
+    }
+}
+
+// A program that stands in for the emulator.
+std::string script(const std::string& name, const std::string& text) {
+    const std::string path = fs::temp_directory_path() / (name + std::to_string(getpid()));
+    std::ofstream{path} << "#!/bin/sh\n" << text << "\n";
+    fs::permissions(path, fs::perms::owner_all);
+    return path;
+}
+
+std::string complaint(const processor::QemuOptions& options) {
+    try {
+        QemuProcessor{options};
+    } catch (const QemuError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+int children() {
+    int n = 0;
+    std::ifstream list{"/proc/self/task/" + std::to_string(gettid()) + "/children"};
+    for (int pid = 0; list >> pid;) ++n;
+    return n;
+}
+
+TEST(QemuProcessor, says_which_program_is_not_there) {
+    const std::string said = complaint({.image = "/proc/self/exe", .program = "no-such-emulator"});
+    EXPECT_NE(said.find("no-such-emulator"), std::string::npos) << said;
+    EXPECT_NE(said.find("qemu-system-arm"), std::string::npos) << "it must name the package: " << said;
+}
+
+TEST(QemuProcessor, says_which_image_is_not_there) {
+    EXPECT_NE(complaint({.image = "/no/such.elf"}).find("/no/such.elf"), std::string::npos);
+}
+
+TEST(QemuProcessor, tells_how_an_emulator_that_ends_has_ended) {
+    const std::string program = script("ends", "echo 'no such machine' >&2; exit 5");
+    const std::string said = complaint({.image = "/proc/self/exe", .program = program});
+    EXPECT_NE(said.find("exit status 5"), std::string::npos) << said;
+    EXPECT_NE(said.find("no such machine"), std::string::npos) << said;
+    EXPECT_EQ(children(), 0);
+    fs::remove(program);
+}
+
+TEST(QemuProcessor, gives_up_an_emulator_that_hangs_and_ends_it) {
+    const std::string program = script("hangs", "exec sleep 1000");
+    const std::string said = complaint({.image = "/proc/self/exe", .program = program, .timeout_ms = 100});
+    EXPECT_NE(said.find("100 ms"), std::string::npos) << said;
+    EXPECT_EQ(children(), 0) << "it is still there";
+    fs::remove(program);
+}
+
+TEST(QemuProcessor, finds_no_image_where_there_is_none) {
+    EXPECT_THROW((void)processor::image_beside("/proc"), QemuError);
+}
+
+TEST(QemuProcessor, gives_the_bits_of_this_program_switch_by_switch) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    QemuProcessor qemu{{.image = *image}};
+    for (const auto relock : {core::RelockMethod::mean_square, core::RelockMethod::joint}) {
+        processor::ComparedProcessor both{qemu};
+        config::Config c;
+        c.switching.interval_s = 1.0;
+        c.compensation.relock = relock;
+        rig::ClosedLoop loop{c, rig::motion(c), &both};
+        int events = 0;
+        for (int k = 0; k < 4000; ++k) events += loop.advance().control.has_event ? 1 : 0;
+        for (auto owed = both.drain(); owed.has_row || owed.has_gap;) owed = both.drain();
+        EXPECT_GE(events, 8);
+        EXPECT_EQ(both.first_difference(), "");
+        EXPECT_EQ(qemu.state(), both.state());
+    }
+}
+
+TEST(QemuProcessor, refuses_settings_that_the_core_refuses) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    QemuProcessor qemu{{.image = *image}};
+    rig::ProcessorSettings settings;
+    settings.control.presumed_temperature = core::Celsius{1e9};
+    EXPECT_THROW((void)qemu.start(settings), QemuError);
+    EXPECT_NO_THROW((void)qemu.start({})) << "and takes good ones afterwards";
+}
+
+TEST(QemuProcessor, ends_with_its_object) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    {
+        const QemuProcessor qemu{{.image = *image}};
+        EXPECT_EQ(children(), 1);
+    }
+    EXPECT_EQ(children(), 0);
+}
+
+}  // namespace

@@ -1,0 +1,84 @@
+#include <zlg/wire/frame.hpp>
+
+#include <zlg/wire/crc.hpp>
+
+#include "packing.hpp"
+
+namespace zlg::wire {
+namespace {
+
+void put_u32(std::span<std::uint8_t> at, std::uint32_t x) noexcept {
+    for (std::size_t k = 0; k < 4; ++k) at[k] = static_cast<std::uint8_t>(x >> (8 * k));
+}
+
+// The message that the bytes between two zeros are, if they are one.
+bool take_message(Receiver& r, Message& message) noexcept {
+    const Unstuffed unstuffed = unstuff(std::span{r.held}.first(r.n_held));
+    if (!unstuffed.good || unstuffed.size < header_bytes + crc_bytes || unstuffed.size > max_message_bytes)
+        return false;
+    const auto bytes = std::span<const std::uint8_t>{r.held}.first(unstuffed.size);
+    const auto covered = bytes.first(bytes.size() - crc_bytes);
+    if (Unpacker{bytes.last(crc_bytes)}.u32() != crc32c(covered)) return false;
+    Unpacker header{covered};
+    if (header.u8() != wire_version) {
+        ++r.n_foreign;
+        return false;
+    }
+    message.type = static_cast<MessageType>(header.u8());
+    message.session = header.u16();
+    message.sequence = header.u32();
+    message.body = covered.subspan(header_bytes);
+    return true;
+}
+
+// The zero has come.
+bool end_frame(Receiver& r, Message& message) noexcept {
+    if (r.n_held == 0 && !r.overflown) return false;
+    const bool good = !r.overflown && take_message(r, message);
+    if (good) {
+        ++r.n_good;
+    } else {
+        ++r.n_damaged;
+        r.n_skipped += r.n_held;
+    }
+    r.n_held = 0;
+    r.overflown = false;
+    return good;
+}
+
+}  // namespace
+
+Frame frame_of(Sender& sender, MessageType type, std::span<const std::uint8_t> body) noexcept {
+    Frame frame;
+    if (body.size() > max_body_bytes) return frame;
+    std::array<std::uint8_t, max_message_bytes> message{};
+    message[0] = wire_version;
+    message[1] = static_cast<std::uint8_t>(type);
+    message[2] = static_cast<std::uint8_t>(sender.session);
+    message[3] = static_cast<std::uint8_t>(sender.session >> 8);
+    put_u32(std::span{message}.subspan(4), sender.sequence++);
+    for (std::size_t k = 0; k < body.size(); ++k) message[header_bytes + k] = body[k];
+    const std::size_t covered = header_bytes + body.size();
+    put_u32(std::span{message}.subspan(covered), crc32c(std::span{message}.first(covered)));
+    // The array is of zeros: those in front and behind stand there.
+    frame.size = 2 + stuff(std::span{message}.first(covered + crc_bytes), std::span{frame.bytes}.subspan(1));
+    return frame;
+}
+
+bool receive(Receiver& receiver, std::span<const std::uint8_t>& bytes, Message& message) noexcept {
+    while (!bytes.empty()) {
+        const std::uint8_t byte = bytes.front();
+        bytes = bytes.subspan(1);
+        if (byte == 0) {
+            if (end_frame(receiver, message)) return true;
+        } else if (receiver.n_held < receiver.held.size()) {
+            receiver.held[receiver.n_held++] = byte;
+        } else {
+            receiver.overflown = true;
+            ++receiver.n_skipped;
+        }
+    }
+    return false;
+}
+
+}  // namespace zlg::wire
