@@ -19,7 +19,7 @@ void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_
     if (points.n == 0) return;
     open.gap.has_before = true;
     open.gap.mode_before = at(state, tick - 1).row.mode;
-    const int order = is_estimated(config) ? order_in_place(config, state) : order_of(config.method);
+    const int order = order_in_place(config, state);
     std::construct_at(&open.fit, points.position, points.n, order);
     open.lower_order = open.fit.order() < order;
     const double n = points.n;

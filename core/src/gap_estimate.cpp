@@ -205,9 +205,14 @@ int hurried(const GapBridgeState& state, const PendingGap& waiting, int work) no
     return left > work * halves_left ? most_work : work;
 }
 
-}  // namespace
+// Ticks before this one will not be amended any more: the first after a gap may be by the next.
+std::int64_t end_of_amended(const GapBridgeState& state) noexcept {
+    const std::int64_t last = state.next_tick - 1;
+    return last > 0 && at(state, last - 1).measured ? last + 1 : last;
+}
 
-void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state, int work, std::int64_t end) noexcept {
+// work  points, or stages of the solution; a stage of half-ticks is 2.
+void go_on(const GapBridgeConfig& config, GapBridgeState& state, int work) noexcept {
     const PendingGap* waiting = nullptr;
     for (int k = 0; k < state.n_pending && waiting == nullptr; ++k)
         if (!state.pending[static_cast<unsigned>(k)].resolved) waiting = &state.pending[static_cast<unsigned>(k)];
@@ -215,7 +220,23 @@ void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state, int 
     // The moments of the ticks before the gap come first.
     if (is_folding(state.learning.moments)) return;
     begin_or_change(config, state, waiting->gap, false);
-    work_on(config, state, waiting->gap, hurried(state, *waiting, work), end, false);
+    work_on(config, state, waiting->gap, hurried(state, *waiting, work), end_of_amended(state), false);
+}
+
+// At the end of a tick, and of half-ticks, which cost more, always; of whole ticks in the middle of one.
+constexpr int usual_work = 2;
+constexpr int work_between = 5;
+
+}  // namespace
+
+void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
+    go_on(config, state, usual_work);
+}
+
+void prepare_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
+    if (state.n_pending > 0) return go_on(config, state, config.optimal.halves ? usual_work : work_between);
+    // A gap that waits may see moments that are not whole: then they must be those of their time.
+    fold_ahead(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
 }
 
 EstimatedAngle estimate(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,

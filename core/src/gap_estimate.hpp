@@ -13,10 +13,11 @@ inline constexpr int predicted_ticks = 4;
 // A gap begins at `tick`: predict it from the ticks before, if the motion is known.
 void predict_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept;
 
-// Go on with the gap that waits longest: points of ticks before `end`, then the solution of half-ticks.
-//
-// work  points, or stages of the solution; a stage of half-ticks is 2.
-void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state, int work, std::int64_t end) noexcept;
+// Go on with the gap that waits longest, at the end of a tick: points of the ticks that have passed, then the solution.
+void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
+
+// The same between two ticks, where there is more room; where no gap waits, with what has been learnt.
+void prepare_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
 
 struct EstimatedAngle {
     bool known = false;                        // rows have their final values
@@ -30,7 +31,7 @@ struct EstimatedAngle {
 
 // Give a gap of at most 16 ticks and the re-lock ticks after it their final values, from the ticks before `end`.
 //
-// work  that may still be done, as above. Not enough, where gaps crowd: the polynomial is left.
+// work  that may still be done: points, or stages of the solution; a stage of half-ticks is 2. Not enough, where gaps crowd: the polynomial is left.
 [[nodiscard]] EstimatedAngle estimate(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
                                       std::int64_t end, int work) noexcept;
 

@@ -139,16 +139,6 @@ constexpr int work_after_measured = 7;
 constexpr int work_after_gap = 5;
 constexpr int work_between = 10;
 
-// The same of an optimal estimate; between two ticks the points and the solution of whole ticks have room.
-constexpr int estimate_work = 2;
-constexpr int estimate_between = 5;
-
-// Ticks before this one will not be amended any more: the first after a gap may be by the next.
-std::int64_t end_of_amended(const GapBridgeState& state) noexcept {
-    const std::int64_t last = state.next_tick - 1;
-    return last > 0 && at(state, last - 1).measured ? last + 1 : last;
-}
-
 // A portion of the sums of a gap that is due in the next tick. The last point is left for that tick, which may still
 // amend it.
 //
@@ -169,10 +159,6 @@ int advance_sums(const GapBridgeConfig& config, const GapBridgeState& state, con
 
 void advance(const GapBridgeConfig& config, GapBridgeState& state, int work) noexcept {
     if (config.method == BridgeMethod::none) return;
-    if (is_estimated(config)) {
-        const bool between = work == work_between && !config.optimal.halves;
-        return advance_estimate(config, state, between ? estimate_between : estimate_work, end_of_amended(state));
-    }
     std::size_t n_due = 0;
     for (int k = 0; k < state.n_pending && n_due < state.sums.size(); ++k) {
         const PendingGap& pending = state.pending[static_cast<unsigned>(k)];
@@ -184,13 +170,13 @@ void advance(const GapBridgeConfig& config, GapBridgeState& state, int work) noe
 }  // namespace
 
 void prepare_after(const GapBridgeConfig& config, GapBridgeState& state, bool measured) noexcept {
+    if (is_estimated(config)) return advance_estimate(config, state);
     advance(config, state, measured ? work_after_measured : work_after_gap);
 }
 
 void prepare(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
-    if (state.n_pending > 0) return advance(config, state, work_between);
-    // A gap that waits may see moments that are not whole: then they must be those of their time.
-    if (is_estimated(config)) fold_ahead(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
+    if (is_estimated(config)) return prepare_estimate(config, state);
+    advance(config, state, work_between);
 }
 
 }  // namespace zlg::core

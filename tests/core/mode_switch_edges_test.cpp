@@ -255,6 +255,7 @@ TEST(ModeSwitchEdges, TheHalfWaveVoltageIsAMagnitudeHoweverSmall) {
         ASSERT_EQ(s.event.outcome, SwitchOutcome::switched);
         ASSERT_TRUE(s.event.has_half_wave);
         EXPECT_EQ(s.event.half_wave_v, std::fabs(step_v));
+        EXPECT_EQ(s.event.direction, step_v < 0.0 ? -1 : 1);
         EXPECT_FALSE(std::signbit(s.event.half_wave_v));
     }
 }
