@@ -128,7 +128,10 @@ int run(Call call) {
         write(std::filesystem::path{call.out} / "accuracy.md", text);
         write(std::filesystem::path{call.out} / "accuracy.html", report::html(study::accuracy_page(accuracy)));
     }
-    return std::ranges::all_of(accuracy.criteria, [](const study::Criterion& c) { return c.met; }) ? 0 : 1;
+    return std::ranges::all_of(accuracy.criteria,
+                               [](const study::Criterion& c) { return c.verdict != study::Verdict::missed; })
+               ? 0
+               : 1;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ private:
     std::uint32_t ticks_since_status_ = 0;
 };
 
-// That of this processor, in memory that no start-up code fills.
+// That of this processor, all zeros until it is started.
 [[nodiscard]] Background& background() noexcept;
 
 }  // namespace zlg::firmware

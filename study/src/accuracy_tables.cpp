@@ -208,17 +208,25 @@ TableOfAccuracy long_run_table(const Accuracy& accuracy) {
     return t;
 }
 
+const char* name_of(Verdict verdict) {
+    return verdict == Verdict::met ? "yes" : verdict == Verdict::missed ? "NO" : "within chance";
+}
+
 TableOfAccuracy criteria_table(const Accuracy& accuracy) {
-    const auto met = std::ranges::count_if(accuracy.criteria, [](const Criterion& c) { return c.met; });
+    const auto n_of = [&](Verdict verdict) {
+        return std::ranges::count(accuracy.criteria, verdict, &Criterion::verdict);
+    };
     TableOfAccuracy t{
         .heading = "Wanted and got",
-        .words = fmt::format("{} of {} met. A limit counts as met where the excess is within two standard errors.", met,
-                             accuracy.criteria.size()),
+        .words = fmt::format(
+            "Of {} limits {} are met, {} are missed, and {} are exceeded by less than two standard errors "
+            "(\"within chance\").",
+            accuracy.criteria.size(), n_of(Verdict::met), n_of(Verdict::missed), n_of(Verdict::within_chance)),
         .table = {}};
     t.table.header = {"number", "wanted", "got", "met"};
     t.table.prose = true;
     for (const Criterion& c : accuracy.criteria)
-        t.table.rows.push_back({c.number, c.wanted, c.got, c.met ? "yes" : "NO"});
+        t.table.rows.push_back({c.number, c.wanted, c.got, name_of(c.verdict)});
     return t;
 }
 

@@ -9,7 +9,7 @@
 
 namespace zlg::firmware {
 
-// The gyro of this processor. It lies in memory that no start-up code fills: start it before its first half.
+// The gyro of this processor. Start-up code leaves it all zeros: start it before its first half.
 [[nodiscard]] Gyro& gyro() noexcept;
 
 // Begin anew: the gyro, and what is told of it. The settings have passed `check`; no half-period may end meanwhile.

@@ -98,11 +98,14 @@ struct SwitchingDrift {
 inline const std::vector<double> accuracy_run_lengths_s{600.0, 900.0, 3600.0};
 
 // Something that is wanted, and what became of it.
+// What chance may explain is neither: the limit is exceeded, but by less than two standard errors.
+enum class Verdict : unsigned char { met, within_chance, missed };
+
 struct Criterion {
     std::string number;
     std::string wanted;
     std::string got;
-    bool met = false;
+    Verdict verdict = Verdict::missed;
 };
 
 struct AccuracyTask {
