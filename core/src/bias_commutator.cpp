@@ -33,17 +33,16 @@ bool track_sign(BiasCommutatorState& s, const BiasCommutatorInput& in) noexcept 
 // How far the stamp is out of step. Every stamp is brought back to the even reversal first.
 std::uint64_t track_time(const BiasCommutatorConfig& c, BiasCommutatorState& s,
                          const BiasCommutatorInput& in) noexcept {
-    ++s.n_halves;
+    s.expected_ticks += c.half_ticks;
     if (!in.received) return 0;
 
     // Unsigned differences wrap, so the smaller of the two is the size of the deviation.
     const std::uint64_t even_ticks = in.timer_ticks - static_cast<std::uint64_t>(s.dither.end_ticks);
-    const std::uint64_t late = even_ticks - (s.stamp_ticks + s.n_halves * c.half_ticks);
+    const std::uint64_t late = even_ticks - s.expected_ticks;
     const std::uint64_t early = std::uint64_t{0} - late;
     const std::uint64_t error_ticks = s.timer_known ? (late < early ? late : early) : 0;
     s.timer_known = true;
-    s.stamp_ticks = even_ticks;
-    s.n_halves = 0;
+    s.expected_ticks = even_ticks;
     return error_ticks;
 }
 

@@ -3,14 +3,14 @@
 namespace zlg::core {
 namespace {
 
-constexpr double memory = 4000.0;
-constexpr double recent_memory = 200.0;
-constexpr double rough_memory = 100.0;
-constexpr double enough = 200.0;
-constexpr double enough_rough = 10.0;
+constexpr double memory = 2000.0;
+constexpr double recent_memory = 100.0;
+constexpr double rough_memory = 50.0;
+constexpr double enough = 100.0;
+constexpr double enough_rough = 5.0;
 
 // Of the slow memory, which has next to no prior.
-constexpr double enough_for_slow = 1000.0;
+constexpr double enough_for_slow = 500.0;
 
 // A polynomial knows nothing of the motion: it is taken only where it is clearly better.
 constexpr double polynomial_handicap = 1.05;
@@ -22,7 +22,7 @@ constexpr double most_ratio = 16.0;
 constexpr int side = points_a_side(scored_gap);
 constexpr int after = side + scored_gap;
 
-double learnt_angle(const Column& weight, const std::array<double, window_ticks>& x) noexcept {
+double learnt_angle(const Column& weight, WindowTicks x) noexcept {
     double sum = 0.0;
 #pragma GCC unroll 8
     for (unsigned k = 0; k < side; ++k) sum += weight[k] * x[k];
@@ -45,7 +45,7 @@ double scatter(const double* values, int n) noexcept {
     return about_mean > 0.0 ? about_mean : 0.0;
 }
 
-void step(BridgeScoresState& state, const std::array<double, window_ticks>& x, bool rough) noexcept {
+void step(BridgeScoresState& state, WindowTicks x, bool rough) noexcept {
     if (!state.weights[fast_memory].known || !state.weights[slow_memory].known) return;
     const double truth = x[side] + x[side + 1] + x[side + 2];
     const double inner = x[side - 1] + x[after];

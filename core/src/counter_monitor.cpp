@@ -5,14 +5,14 @@
 namespace zlg::core {
 namespace {
 
-constexpr std::uint64_t judged_bits = 0x7ffffffe;
+constexpr std::uint32_t judged_bits = 0x7ffffffe;
 
 // Steps beyond are no rotation; their sums stay far from an overflow.
 constexpr std::int64_t most_unevenness = std::int64_t{1} << 40;
 
-void count_changes(CounterMonitorState& s, std::uint64_t bits) noexcept {
+void count_changes(CounterMonitorState& s, std::uint32_t bits) noexcept {
     s.changed |= bits;
-    const std::uint64_t carry = s.changed_odd & bits;
+    const std::uint32_t carry = s.changed_odd & bits;
     s.changed_odd ^= bits;
     s.changed_often |= s.changed_two & carry;
     s.changed_two ^= carry;
@@ -35,13 +35,13 @@ std::int64_t unevenness(const CounterMonitorState& s, std::int64_t step) noexcep
 }
 
 // Rounding alone makes a mean of one count and a half, shifted edges two. A stuck bit makes 1.5 of its own value.
-std::uint64_t bits_below(std::int64_t unevenness) noexcept {
+std::uint32_t bits_below(std::int64_t unevenness) noexcept {
     constexpr std::int64_t least_mean_counts = 5;  // in halves: 2.5
-    std::uint64_t bits = 0;
+    std::uint32_t bits = 0;
     for (int k = 1; k < 31; ++k) {
         const std::int64_t by_value = std::int64_t{counter_window_halves} << (k - 1);
         const std::int64_t least = counter_window_halves * least_mean_counts / 2;
-        if (unevenness >= (by_value > least ? by_value : least)) bits |= std::uint64_t{1} << k;
+        if (unevenness >= (by_value > least ? by_value : least)) bits |= std::uint32_t{1} << k;
     }
     return bits;
 }
@@ -53,7 +53,7 @@ constexpr std::int32_t calm_windows = 12;
 constexpr std::int32_t windows_believed = 6;
 
 // Bits that looked stuck all the way, which was so long that they should have changed several times.
-std::uint64_t still_all_the_way(CounterMonitorState& s, std::uint64_t still) noexcept {
+std::uint32_t still_all_the_way(CounterMonitorState& s, std::uint32_t still) noexcept {
     const auto net = static_cast<std::int64_t>(s.reading - s.window_reading);
     s.window_reading = s.reading;
     const bool same_way = (net > 0 && s.way > 0) || (net < 0 && s.way < 0);
@@ -62,10 +62,10 @@ std::uint64_t still_all_the_way(CounterMonitorState& s, std::uint64_t still) noe
     s.n_same_way = goes_on ? s.n_same_way + (s.n_same_way < windows_believed) : 1;
     s.way = goes_on ? limited_sum(s.way, net) : net;
     if (s.n_same_way < windows_believed || s.still == 0) return 0;
-    std::uint64_t passed = 0;
+    std::uint32_t passed = 0;
     const std::int64_t way = s.way < 0 ? -s.way : s.way;
     for (int k = 1; k < 31; ++k) {
-        if (way >= std::int64_t{1} << (k + 3)) passed |= std::uint64_t{1} << k;
+        if (way >= std::int64_t{1} << (k + 3)) passed |= std::uint32_t{1} << k;
     }
     return s.still & passed;
 }
@@ -77,7 +77,7 @@ void begin_window(CounterMonitorState& s) noexcept {
 }
 
 void end_window(CounterMonitorState& s) noexcept {
-    std::uint64_t still = ~s.changed & (s.changed_often << 1) & (s.changed_often >> 1) & judged_bits;
+    std::uint32_t still = ~s.changed & (s.changed_often << 1) & (s.changed_often >> 1) & judged_bits;
     if (still != 0) still &= bits_below(s.unevenness);
     s.n_calm = s.unevenness < 2 * counter_window_halves ? s.n_calm + 1 : 0;
     s.stuck &= ~s.changed;
@@ -101,7 +101,7 @@ bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool c
         begin_window(state);
     }
     const auto step = static_cast<std::int64_t>(reading - state.reading);
-    if (state.n_known >= 2) count_changes(state, reading ^ state.reading_before);
+    if (state.n_known >= 2) count_changes(state, static_cast<std::uint32_t>(reading ^ state.reading_before));
     if (state.n_known >= 5) {
         state.unevenness += unevenness(state, step);
         if (state.unevenness > most_unevenness) state.unevenness = most_unevenness;

@@ -12,18 +12,17 @@ EdgeShiftConfig edges_of(const GyroCompensationConfig& c) noexcept {
     return {.timer = c.timer, .plateau_ratio = c.plateau_ratio, .tick = c.relock.tick, .scale = c.relock.scale};
 }
 
-HalfRecord believed(const EdgeShiftConfig& edges, GyroCompensationState& state, HalfRecord half) noexcept {
+void doubt(const GyroCompensationConfig& config, GyroCompensationState& state, HalfRecord& half) noexcept {
     if (half.counts > max_counts || half.counts < -max_counts) {
         half.counts = 0;
         half.valid = false;
     }
-    const bool end_unknown = half.edge_offset_ticks != 0 && !is_possible(edges, half.edge_offset_ticks);
+    const bool end_unknown = half.edge_offset_ticks != 0 && !is_possible(edges_of(config), half.edge_offset_ticks);
     if (end_unknown) half.edge_offset_ticks = 0;
     if (state.start_unknown || end_unknown) half.valid = false;
     state.start_unknown = end_unknown;
     half.bias_sign = half.bias_sign < 0 ? std::int8_t{-1} : std::int8_t{1};
     half.mode = half.mode < 0 ? std::int8_t{-1} : std::int8_t{1};
-    return half;
 }
 
 EdgeShiftInput edge_input(const RelockDriftConfig& config, const HalfRecord& first, const HalfRecord& second) noexcept {
@@ -128,12 +127,12 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
     errors.mean_sq_arcsec2 += (sq - errors.mean_sq_arcsec2) / static_cast<double>(errors.n);
 }
 
-CompensationOutput complete_tick(const GyroCompensationConfig& config, const EdgeShiftConfig& edges,
-                                 GyroCompensationState& state, const HalfRecord& second, LightSamples light) noexcept {
+CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
+                                 const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
     state.has_first = false;
 
-    const EdgeShiftOutput shifted = step(edges, state.edges, edge_input(config.relock, first, second));
+    const EdgeShiftOutput shifted = step(edges_of(config), state.edges, edge_input(config.relock, first, second));
     TickInput tick = assemble(config, first, second, shifted.value_arcsec);
     if (is_joint(config)) {
         take(config.profile, state.joint, second, light, tick.measured, state.bridge.next_tick);
@@ -180,10 +179,14 @@ SwitchAdvice advice(const GyroCompensationConfig& config, const GyroCompensation
 
 CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                         LightSamples light) noexcept {
-    const EdgeShiftConfig edges = edges_of(config);
-    const HalfRecord taken = believed(edges, state, half);
-    if (state.has_first) return complete_tick(config, edges, state, taken, light);
-    state.first = taken;
+    if (state.has_first) {
+        HalfRecord second = half;
+        doubt(config, state, second);
+        return complete_tick(config, state, second, light);
+    }
+    HalfRecord& taken = state.first;
+    taken = half;
+    doubt(config, state, taken);
     state.has_first = true;
     if (is_joint(config)) {
         take(config.profile, state.joint, taken, light, taken.loop_closed && taken.valid, state.bridge.next_tick);

@@ -263,7 +263,8 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     learn_stroke(config, state, seen, was_closed, sequenced);
     const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
 
-    GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.has_event, .event = sequenced.event};
+    GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.has_event};
+    if (sequenced.has_event) out.event = sequenced.event;
     command(sequenced.loop_closed, sequenced.polarity, regulated, out.actuator);
     out.actuator.edge_offset_ticks =
         next_edge(config.commutator, state.commutator, {seen.valid && seen.loop_closed, seen.counts, seen.polarity});

@@ -1,5 +1,8 @@
 #include <zlg/core/motion_learning.hpp>
 
+#include <array>
+#include <span>
+
 namespace zlg::core {
 namespace {
 
@@ -40,42 +43,44 @@ void add_points(const OptimalBridgeConfig& config, MotionLearningState& state) n
         add_point(covariance, problem, place_of(problem.factor.n, problem.n_side, problem.n_gap), Column{});
 }
 
-// Weights of the whole pseudo-gap; then the next one's begin, or all are put to use.
+// Weights of the whole pseudo-gap.
 void take_weights(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
-    const MotionMemory memory = state.problem.memory;
-    state.next[memory] = weights(covariance_of(config, state, state.problem), state.problem);
-    if (memory == fast_memory) {
-        begin_pseudo_gap(slow_memory, state.problem);
-        return;
-    }
-    state.scores.weights = state.next;
+    state.scores.weights[state.problem.memory] = weights(covariance_of(config, state, state.problem), state.problem);
     state.weighing = false;
 }
 
+// Of four blocks the fast memory is weighed after two, the slow one after one.
+void begin_weighing(MotionLearningState& state) noexcept {
+    const int block = state.moments.n_folded;
+    state.n_weighed = block;
+    if (block % 4 == 0) return;
+    begin_pseudo_gap(block % 2 != 0 ? fast_memory : slow_memory, state.problem);
+    state.weighing = true;
+}
+
 void weigh(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
-    if (state.n_weighed != state.moments.n_folded) {
-        begin_pseudo_gap(fast_memory, state.problem);
-        state.weighing = true;
-        state.n_weighed = state.moments.n_folded;
-    }
+    if (state.n_weighed != state.moments.n_folded) begin_weighing(state);
     if (!state.weighing) return;
     const GapProblem& problem = state.problem;
     if (problem.failed || problem.factor.n == 2 * problem.n_side) return take_weights(config, state);
     add_points(config, state);
 }
 
-std::array<double, window_ticks> ticks_of(const OptimalBridgeConfig& config, const Window& recent) noexcept {
-    std::array<double, window_ticks> ticks;
-    for (unsigned k = 0; k < ticks.size(); ++k)
-        ticks[k] = config.halves ? recent[2 * k] + recent[2 * k + 1] : recent[k];
-    return ticks;
-}
-
-void judge(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
-    const auto ticks = ticks_of(config, state.moments.recent);
+void judge(MotionLearningState& state, WindowTicks ticks) noexcept {
     const double learnt = state.moments.moments[fast_memory].scatter;
     step(state.scores, ticks, is_rough(scatter(ticks.data(), window_ticks), learnt));
 }
+
+void judge(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
+    const Window& recent = state.moments.recent;
+    if (!config.halves) return judge(state, std::span{recent}.first<window_ticks>());
+    std::array<double, window_ticks> ticks;
+    for (unsigned k = 0; k < ticks.size(); ++k) ticks[k] = recent[2 * k] + recent[2 * k + 1];
+    judge(state, ticks);
+}
+
+// Neighbours share most of their ticks: every second window tells nearly as much as all.
+bool is_judged_now(const MotionMomentsState& moments) noexcept { return moments.block.n_windows % 2 == 0; }
 
 }  // namespace
 
@@ -84,7 +89,7 @@ void step(const OptimalBridgeConfig& config, MotionLearningState& state, const M
     MotionTick learnt = tick;
     learnt.usable = tick.usable && is_familiar(config, state, tick);
     const MotionMomentsOutput out = step(MotionMomentsConfig{config.halves}, state.moments, learnt);
-    if (out.has_window) judge(config, state);
+    if (out.has_window && is_judged_now(state.moments)) judge(config, state);
     // A gap takes the problem over, and weights of half of it are none: they are begun anew.
     if (!idle && state.weighing) state.n_weighed = -1;
     if (!idle) state.weighing = false;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <new>
 
 #include <zlg/firmware/port.hpp>
 
@@ -27,19 +28,26 @@ void count(const core::GyroControlOutput& control) noexcept {
     ++(control.event.outcome == core::SwitchOutcome::switched ? n_switches : n_failed);
 }
 
+constinit HalfOutput last{};
+
 // When the last half ended.
 constinit std::uint64_t end_ticks = 0;
 
 // Without a latch the half was as long as it should be.
-void note_end(const core::SensorFrame& frame) noexcept {
+void note_end(const Settings& settings, const core::SensorFrame& frame) noexcept {
     const bool is_missed = (frame.status & core::frame_missed) != 0;
-    end_ticks = is_missed ? end_ticks + gyro().settings().control.commutator.half_ticks : frame.timer_ticks;
+    end_ticks = is_missed ? end_ticks + settings.control.commutator.half_ticks : frame.timer_ticks;
+}
+
+// Apart, so that the interrupt need not save the registers that this takes.
+[[gnu::noinline]] Gyro& construct_gyro() noexcept {
+    return *std::construct_at(reinterpret_cast<Gyro*>(memory.data()));
 }
 
 }  // namespace
 
 Gyro& gyro() noexcept {
-    static Gyro& the_gyro = *std::construct_at(reinterpret_cast<Gyro*>(memory.data()));
+    static Gyro& the_gyro = construct_gyro();
     return the_gyro;
 }
 
@@ -76,16 +84,19 @@ wire::Status status_of_gyro(const core::GyroCompensationConfig& config) noexcept
     return status;
 }
 
+const HalfOutput& last_half() noexcept { return last; }
+
 std::uint32_t halves() noexcept { return n_halves.load(std::memory_order_acquire); }
 
 void half_period() noexcept {
+    Gyro& it = gyro();
     const core::SensorFrame& frame = port::latched();
-    note_end(frame);
-    const HalfOutput output = gyro().half(frame);
+    note_end(it.settings(), frame);
+    // Made where it stays: a copy of it would cost more than most parts of the core.
+    const HalfOutput& output = *::new (&last) HalfOutput{it.half(frame)};
     port::command(output.control.actuator);
-    port::observe(output);
     count(output.control);
-    if (port::has_line()) telemetry_queue().put(output, end_ticks, gyro().settings().compensation.relock.tick.value());
+    if (port::has_line()) telemetry_queue().put(output, end_ticks, it.settings().compensation.relock.tick.value());
     n_halves.store(n_halves.load(std::memory_order_relaxed) + 1, std::memory_order_release);
 }
 

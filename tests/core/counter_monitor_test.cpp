@@ -87,7 +87,7 @@ TEST(CounterMonitor, AStuckBitIsFoundWithinEightWindowsWhereTheGyroTurns) {
         ASSERT_EQ(counter.until_stuck(1000), 1000);
         counter.stuck_bit = bit;
         EXPECT_LE(counter.until_stuck(1000), 8 * counter_window_halves) << bit;
-        EXPECT_EQ(counter.state.stuck, std::uint64_t{1} << bit);
+        EXPECT_EQ(counter.state.stuck, std::uint32_t{1} << bit);
     }
 }
 

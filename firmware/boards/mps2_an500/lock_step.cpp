@@ -31,6 +31,8 @@ void answer(Exchange& x) noexcept {
         case Request::half:
             pend_irq(half_timer_irq);
             barrier();
+            x.output = last_half();
+            x.half_wave = gyro().state().control.half_wave;
             break;
         case Request::drain:
             x.drained = gyro().drain();
@@ -49,11 +51,6 @@ bool is_in_lock_step() noexcept { return exchange().magic == lock_step_magic; }
 bool host_listens() noexcept { return exchange().has_line != 0; }
 
 const core::SensorFrame& host_frame() noexcept { return exchange().sensor; }
-
-void give(const HalfOutput& output) noexcept {
-    exchange().output = output;
-    exchange().half_wave = gyro().state().control.half_wave;
-}
 
 void present_to_host() noexcept {
     Exchange& x = exchange();

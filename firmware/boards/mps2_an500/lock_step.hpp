@@ -2,7 +2,6 @@
 // The processor driven by a host, half-period by half-period, through memory that both see.
 
 #include <zlg/core/records.hpp>
-#include <zlg/firmware/gyro.hpp>
 
 namespace zlg::firmware::mps2 {
 
@@ -14,9 +13,6 @@ namespace zlg::firmware::mps2 {
 
 // The frame that the host gave, in lock step.
 [[nodiscard]] const core::SensorFrame& host_frame() noexcept;
-
-// To the host.
-void give(const HalfOutput& output) noexcept;
 
 // Say what this processor was compiled from; the host waits for it.
 void present_to_host() noexcept;

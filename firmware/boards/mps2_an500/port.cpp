@@ -51,10 +51,6 @@ const core::SensorFrame& latched() noexcept { return is_in_lock_step() ? host_fr
 
 void command(const core::ActuatorFrame&) noexcept {}
 
-void observe(const HalfOutput& output) noexcept {
-    if (is_in_lock_step()) give(output);
-}
-
 bool has_line() noexcept { return !is_in_lock_step() || host_listens(); }
 
 std::uint32_t overruns() noexcept { return n_overruns; }

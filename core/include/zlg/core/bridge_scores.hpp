@@ -1,11 +1,13 @@
 #pragma once
 // How well each way to bridge a gap would have done of late.
 //
-// Every window of 19 measured ticks holds a gap of 3 ticks that was measured: each candidate bridges it with the 8 ticks on
-// either side, and its error is known. Errors are averaged over some 4000 and over 200 ticks, and apart from these over 100
-// windows that were rougher than the learnt motion: a shock, or the start of a journey. Weights come from moments of earlier ticks, so no candidate has seen what it is judged by.
+// A window of 19 measured ticks holds a gap of 3 ticks that was measured: each candidate bridges it with the 8 ticks on either
+// side, and its error is known. Errors are averaged over some 2000 and over 100 windows, and apart from these over 50 that were
+// rougher than the learnt motion: a shock, or the start of a journey. Weights come from moments of earlier ticks, so no
+// candidate has seen what it is judged by.
 
 #include <array>
+#include <span>
 
 #include <zlg/core/motion_moments.hpp>
 #include <zlg/core/optimal_bridge.hpp>
@@ -13,6 +15,8 @@
 namespace zlg::core {
 
 inline constexpr int scored_gap = 3;
+
+using WindowTicks = std::span<const double, window_ticks>;
 
 enum BridgeCandidate : unsigned { by_fast_memory, by_slow_memory, by_constant, by_quadratic };
 inline constexpr unsigned n_candidates = 4;
@@ -43,12 +47,12 @@ struct BridgeScoresState {
 [[nodiscard]] constexpr bool is_rough(double scatter, double learnt) noexcept { return scatter > 9.0 * learnt; }
 
 // Judge all by one more window of ticks, once both memories have weights.
-void step(BridgeScoresState& state, const std::array<double, window_ticks>& window, bool rough) noexcept;
+void step(BridgeScoresState& state, WindowTicks window, bool rough) noexcept;
 
-// True when at least 200 pseudo-gaps have been judged.
+// True when at least 100 pseudo-gaps have been judged.
 [[nodiscard]] bool is_judged(const BridgeScoresState& state) noexcept;
 
-// The memory to be used: the one that lost less, the fast one before 1000 pseudo-gaps.
+// The memory to be used: the one that lost less, the fast one before 500 pseudo-gaps.
 [[nodiscard]] MotionMemory better_memory(const BridgeScoresState& state) noexcept;
 
 // The polynomial to be taken instead of a memory's estimate, if there is one that lost less by a twentieth: in rough

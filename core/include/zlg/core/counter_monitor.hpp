@@ -23,18 +23,18 @@ struct CounterMonitorState {
     std::uint64_t reading = 0;  // the last one, and the one before
     std::uint64_t reading_before = 0;
     std::array<std::int64_t, 4> steps{};  // from reading to reading, the last one first
-    std::uint64_t changed = 0;            // in the window: bits that changed between readings of the same bias sign
-    std::uint64_t changed_odd = 0;        // how often, modulo 4: two binary digits for each bit
-    std::uint64_t changed_two = 0;
-    std::uint64_t changed_often = 0;   // four times at least
+    std::uint32_t changed = 0;            // in the window: bits that changed between readings of the same bias sign
+    std::uint32_t changed_odd = 0;        // how often, modulo 4: two binary digits for each bit
+    std::uint32_t changed_two = 0;
+    std::uint32_t changed_often = 0;   // four times at least
     std::int64_t unevenness = 0;       // sum of the sizes of the second differences of those steps
     std::uint64_t window_reading = 0;  // at the end of the window before
     std::int64_t way = 0;              // counts since the windows in a row began that all went the same way
     std::int32_t n_same_way = 0;       // and how many there were
-    std::uint64_t still = 0;           // bits that looked stuck in all of them
+    std::uint32_t still = 0;           // bits that looked stuck in all of them
     std::int32_t n_halves = 0;         // in the window
     std::int32_t n_calm = 0;           // windows in a row without unevenness
-    std::uint64_t stuck = 0;           // bits found stuck, which have not changed since
+    std::uint32_t stuck = 0;           // bits found stuck, which have not changed since
 
     friend constexpr bool operator==(const CounterMonitorState&, const CounterMonitorState&) = default;
 };

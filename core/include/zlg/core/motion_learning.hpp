@@ -1,8 +1,8 @@
 #pragma once
 // What is learnt of the motion between gaps: its moments, and how well each way to bridge a gap would have done.
 //
-// After each block of the moments the weights of a pseudo-gap are computed anew for both memories, a little at each tick
-// in which no gap waits for its estimate.
+// After a block of the moments the weights of a pseudo-gap are computed anew for one of the memories, a little at each tick in
+// which no gap waits for its estimate.
 
 #include <cstdint>
 
@@ -15,11 +15,10 @@ namespace zlg::core {
 struct MotionLearningState {
     MotionMomentsState moments{};
     BridgeScoresState scores{};
-    int n_weighed = 0;                 // blocks in the moments when the last weights were begun
-    int foreign = 0;                   // ticks of late that were no such motion, weighted
-    bool weighing = false;             // `problem` is a pseudo-gap
-    GapProblem problem{};              // of a pseudo-gap, or of the gap that waits for its estimate
-    std::array<GapWeights, 2> next{};  // weights, until both are known
+    int n_weighed = 0;     // blocks in the moments when the last weights were begun
+    int foreign = 0;       // ticks of late that were no such motion, weighted
+    bool weighing = false; // `problem` is a pseudo-gap
+    GapProblem problem{};  // of a pseudo-gap, or of the gap that waits for its estimate
 
     friend bool operator==(const MotionLearningState&, const MotionLearningState&) = default;
 };

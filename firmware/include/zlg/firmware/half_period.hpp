@@ -26,10 +26,13 @@ void hold_switching(bool held) noexcept;
 void force_switch() noexcept;  // once, as soon as the gyro is ready for it
 [[nodiscard]] wire::Status status_of_gyro(const core::GyroCompensationConfig& config) noexcept;
 
+// What the last half has brought, for whoever looks on; whole while the interrupt is kept away.
+[[nodiscard]] const HalfOutput& last_half() noexcept;
+
 // Done since the start, wraps. May be asked from anywhere.
 [[nodiscard]] std::uint32_t halves() noexcept;
 
-// Take the frame that the board has latched, give its command, show the rest. Called from the board's interrupt.
+// Take the frame that the board has latched and give its command. Called from the board's interrupt.
 void half_period() noexcept;
 
 }  // namespace zlg::firmware

@@ -29,9 +29,6 @@ void start_half_periods(std::uint64_t half_ticks) noexcept;
 // What is in force from the start of the next half-period.
 void command(const core::ActuatorFrame& actuator) noexcept;
 
-// Everything that the half has brought, for whoever looks on: may do nothing.
-void observe(const HalfOutput& output) noexcept;
-
 // Somebody may listen on the serial line: without, no telemetry is made.
 [[nodiscard]] bool has_line() noexcept;
 
