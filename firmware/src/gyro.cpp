@@ -31,8 +31,9 @@ HalfOutput Gyro::half(const core::SensorFrame& frame) noexcept {
     const bool asks = settings_.control.schedule.kind == core::ScheduleKind::measured;
     const core::SwitchAdvice advice =
         asks ? core::advice(settings_.compensation, state_.compensation) : core::SwitchAdvice{};
-    HalfOutput out{.control = step(settings_.control, state_.control, frame, advice),
-                   .compensation = step(settings_.compensation, state_.compensation, out.control.record, light_of(frame))};
+    HalfOutput out{
+        .control = step(settings_.control, state_.control, frame, advice),
+        .compensation = step(settings_.compensation, state_.compensation, out.control.record, light_of(frame))};
     return out;
 }
 

@@ -40,9 +40,7 @@ void note_end(const Settings& settings, const core::SensorFrame& frame) noexcept
 }
 
 // Apart, so that the interrupt need not save the registers that this takes.
-[[gnu::noinline]] Gyro& construct_gyro() noexcept {
-    return *std::construct_at(reinterpret_cast<Gyro*>(memory.data()));
-}
+[[gnu::noinline]] Gyro& construct_gyro() noexcept { return *std::construct_at(reinterpret_cast<Gyro*>(memory.data())); }
 
 }  // namespace
 

@@ -165,7 +165,8 @@ void work_for_one_and_a_half() {
 
 // The linker leads the half-period here instead.
 extern "C" void __real__ZN3zlg8firmware4port7commandERKNS_4core13ActuatorFrameE(const zlg::core::ActuatorFrame&);
-extern "C" void __wrap__ZN3zlg8firmware4port7commandERKNS_4core13ActuatorFrameE(const zlg::core::ActuatorFrame& actuator) {
+extern "C" void __wrap__ZN3zlg8firmware4port7commandERKNS_4core13ActuatorFrameE(
+    const zlg::core::ActuatorFrame& actuator) {
     if (halves() == quiet_halves) chosen().in_half();
     if (halves() < work_until) work_for_one_and_a_half();
     __real__ZN3zlg8firmware4port7commandERKNS_4core13ActuatorFrameE(actuator);

@@ -32,7 +32,7 @@ struct BiasCommutatorState {
     bool learnt = false;                // the sign rests on an echo
     std::int32_t n_contradictions = 0;  // echoes in a row that were of the other sign
     bool timer_known = false;
-    std::uint64_t expected_ticks = 0;  // stamp of the even reversal that ended the last half, by the last stamp received
+    std::uint64_t expected_ticks = 0;  // of the even reversal that ended the last half, by the last stamp
     EdgeDitherState dither{};
 
     friend constexpr bool operator==(const BiasCommutatorState&, const BiasCommutatorState&) = default;

@@ -15,10 +15,10 @@ namespace zlg::core {
 struct MotionLearningState {
     MotionMomentsState moments{};
     BridgeScoresState scores{};
-    int n_weighed = 0;     // blocks in the moments when the last weights were begun
-    int foreign = 0;       // ticks of late that were no such motion, weighted
-    bool weighing = false; // `problem` is a pseudo-gap
-    GapProblem problem{};  // of a pseudo-gap, or of the gap that waits for its estimate
+    int n_weighed = 0;      // blocks in the moments when the last weights were begun
+    int foreign = 0;        // ticks of late that were no such motion, weighted
+    bool weighing = false;  // `problem` is a pseudo-gap
+    GapProblem problem{};   // of a pseudo-gap, or of the gap that waits for its estimate
 
     friend bool operator==(const MotionLearningState&, const MotionLearningState&) = default;
 };
