@@ -131,6 +131,7 @@ std::string text(const logs::WireSummary& s, const Recording& recording, const F
     add(s.n_restarts, "restarts of the gyro; its turn meanwhile is not in the log");
     add(s.n_damaged, "damaged frames");
     add(s.n_damaged_bytes, "bytes in them");
+    add(s.n_foreign, "of them whole, but of another version of the line: from a gyro with other software");
     add(s.n_refused, "whole frames that no gyro of ours sends");
     add(s.n_repeated, "messages that came again");
     return text;
@@ -151,6 +152,7 @@ nlohmann::json json(const logs::WireSummary& s, const Recording& recording, cons
             {"restarts", s.n_restarts},
             {"damaged_frames", s.n_damaged},
             {"damaged_bytes", s.n_damaged_bytes},
+            {"foreign_frames", s.n_foreign},
             {"refused_messages", s.n_refused},
             {"repeated_messages", s.n_repeated}};
 }

@@ -94,7 +94,9 @@ void half_period() noexcept {
     const HalfOutput& output = *::new (&last) HalfOutput{it.half(frame)};
     port::command(output.control.actuator);
     count(output.control);
-    if (port::has_line()) telemetry_queue().put(output, end_ticks, it.settings().compensation.relock.tick.value());
+    if (port::has_line())
+        telemetry_queue().put(output, time_of(end_ticks, port::last_pulse()),
+                              it.settings().compensation.relock.tick.value());
     n_halves.store(n_halves.load(std::memory_order_relaxed) + 1, std::memory_order_release);
 }
 

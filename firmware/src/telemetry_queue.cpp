@@ -15,7 +15,7 @@ void TelemetryQueue::restart() noexcept {
     begin_.store(end_.load(std::memory_order_relaxed), std::memory_order_relaxed);
 }
 
-void TelemetryQueue::put(const HalfOutput& half, std::uint64_t end_ticks, double tick_s) noexcept {
+void TelemetryQueue::put(const HalfOutput& half, const wire::TickTime& ended, double tick_s) noexcept {
     if (!half.compensation.has_sample) {
         health_of_first_ = half.control.health;
         return;
@@ -26,7 +26,7 @@ void TelemetryQueue::put(const HalfOutput& half, std::uint64_t end_ticks, double
                                                .health = health_of_first_ | half.control.health,
                                                .temperature_c = half.control.record.temperature_c,
                                                .tick_s = tick_s,
-                                               .time = {.timer_ticks = end_ticks}});
+                                               .time = ended});
     const std::uint32_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_.load(std::memory_order_acquire) == waiting_.size()) return;
     waiting_[end % waiting_.size()] = told;

@@ -19,8 +19,8 @@ public:
     // The next half. A tick that does not fit is not told, for the gyro does not wait for its listener; its angle is in the sums
     // of the next one.
     //
-    // end_ticks  stamp of the half's end.
-    void put(const HalfOutput& half, std::uint64_t end_ticks, double tick_s) noexcept;
+    // ended  when the half did.
+    void put(const HalfOutput& half, const wire::TickTime& ended, double tick_s) noexcept;
 
     [[nodiscard]] bool take(wire::Telemetry& told) noexcept;
 

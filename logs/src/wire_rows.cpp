@@ -37,6 +37,7 @@ void WireRows::take(std::span<const std::uint8_t> bytes) {
     wire::Message message;
     while (wire::receive(receiver_, bytes, message)) take(message);
     summary_.n_damaged += std::exchange(receiver_.n_damaged, 0u);
+    summary_.n_foreign += std::exchange(receiver_.n_foreign, 0u);
     summary_.n_damaged_bytes += std::exchange(receiver_.n_skipped, 0u);
 }
 

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 #include <zlg/firmware/exchange.hpp>
+#include <zlg/rig/wire_stream.hpp>
 
 #include "child_process.hpp"
 #include "shared_memory.hpp"
@@ -148,6 +149,8 @@ QemuProcessor::~QemuProcessor() = default;
 core::ActuatorFrame QemuProcessor::start(const rig::ProcessorSettings& settings) {
     link_->exchange().settings = {settings.control, settings.compensation};
     link_->exchange().counter = 0;
+    link_->exchange().pulse = {};
+    first_ticks_.reset();
     const Exchange& answer = link_->ask(Request::start);
     if (answer.fault != firmware::SettingsFault{})
         throw QemuError{fmt::format("the image refuses its settings: control {}, compensation {}",
@@ -158,8 +161,17 @@ core::ActuatorFrame QemuProcessor::start(const rig::ProcessorSettings& settings)
 
 rig::ProcessorHalf QemuProcessor::half(const core::SensorFrame& frame) {
     link_->exchange().sensor = frame;
+    if ((frame.status & core::frame_missed) == 0) give_pulse(frame.timer_ticks);
     const Exchange& answer = link_->ask(Request::half);
     return {answer.output.control, answer.output.compensation, answer.half_wave};
+}
+
+// The clock outside is that of rig::WireStream.
+void QemuProcessor::give_pulse(std::uint64_t now_ticks) {
+    if (!first_ticks_) first_ticks_ = now_ticks;
+    const std::uint64_t n_before = (now_ticks - *first_ticks_) / rig::pulse_ticks;
+    link_->exchange().pulse = {.n = static_cast<std::uint32_t>(n_before + 1),
+                               .stamp_ticks = *first_ticks_ + n_before * rig::pulse_ticks};
 }
 
 core::DrainOutput QemuProcessor::drain() { return link_->ask(Request::drain).drained; }

@@ -15,7 +15,7 @@ constexpr double tick_s = 0.005;
 void put_tick(TelemetryQueue& queue, std::int64_t tick) {
     HalfOutput half;
     half.control.health = 1;
-    queue.put(half, 0, tick_s);
+    queue.put(half, {}, tick_s);
     half.control.health = 4;
     half.control.record.mode = -1;
     half.control.record.temperature_c = 21.5;
@@ -26,7 +26,7 @@ void put_tick(TelemetryQueue& queue, std::int64_t tick) {
     half.compensation.sample.final_row.tick = tick - 10;
     half.compensation.sample.final_row.dtheta_arcsec = 2.0;
     half.compensation.sample.final_row.dtheta_final_arcsec = 3.0;
-    queue.put(half, 50'000u * static_cast<std::uint64_t>(tick + 1), tick_s);
+    queue.put(half, {.timer_ticks = 50'000u * static_cast<std::uint64_t>(tick + 1)}, tick_s);
 }
 
 double turned_arcsec(std::uint64_t reading) { return wire::turned_arcsec(0, reading); }

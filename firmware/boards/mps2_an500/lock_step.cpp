@@ -52,6 +52,8 @@ bool host_listens() noexcept { return exchange().has_line != 0; }
 
 const core::SensorFrame& host_frame() noexcept { return exchange().sensor; }
 
+Pulse host_pulse() noexcept { return exchange().pulse; }
+
 void present_to_host() noexcept {
     Exchange& x = exchange();
     x.processor_layout = layout();

@@ -2,6 +2,7 @@
 // The processor driven by a host, half-period by half-period, through memory that both see.
 
 #include <zlg/core/records.hpp>
+#include <zlg/firmware/pulse.hpp>
 
 namespace zlg::firmware::mps2 {
 
@@ -11,8 +12,9 @@ namespace zlg::firmware::mps2 {
 // The host has given the image a serial line.
 [[nodiscard]] bool host_listens() noexcept;
 
-// The frame that the host gave, in lock step.
+// The frame and the pulse that the host gave, in lock step.
 [[nodiscard]] const core::SensorFrame& host_frame() noexcept;
+[[nodiscard]] Pulse host_pulse() noexcept;
 
 // Say what this processor was compiled from; the host waits for it.
 void present_to_host() noexcept;

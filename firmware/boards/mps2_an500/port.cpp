@@ -49,6 +49,8 @@ void start_half_periods(std::uint64_t half_ticks) noexcept {
 
 const core::SensorFrame& latched() noexcept { return is_in_lock_step() ? host_frame() : no_frame; }
 
+Pulse last_pulse() noexcept { return is_in_lock_step() ? host_pulse() : Pulse{}; }
+
 void command(const core::ActuatorFrame&) noexcept {}
 
 bool has_line() noexcept { return !is_in_lock_step() || host_listens(); }

@@ -12,6 +12,7 @@
 
 #include <zlg/firmware/fault.hpp>
 #include <zlg/firmware/gyro.hpp>
+#include <zlg/firmware/pulse.hpp>
 
 namespace zlg::firmware {
 
@@ -47,6 +48,7 @@ struct Exchange {
     Settings settings{};
     std::uint64_t counter = 0;
     core::SensorFrame sensor{};
+    Pulse pulse{};
 
     // Processor to host.
     SettingsFault fault{};
@@ -64,7 +66,8 @@ static_assert(std::endian::native == std::endian::little, "the numbers cross as 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free && sizeof(std::atomic<std::uint32_t>) == 4);
 static_assert(std::is_trivially_copyable_v<Settings> && std::is_trivially_copyable_v<core::SensorFrame> &&
               std::is_trivially_copyable_v<HalfOutput> && std::is_trivially_copyable_v<core::DrainOutput> &&
-              std::is_trivially_copyable_v<GyroState> && std::is_trivially_copyable_v<FaultRecord>);
+              std::is_trivially_copyable_v<GyroState> && std::is_trivially_copyable_v<Pulse> &&
+              std::is_trivially_copyable_v<FaultRecord>);
 
 // A number of the sources of the core and of how the compiler lays them out: equal on both sides or nothing may cross.
 //

@@ -10,6 +10,7 @@
 #include <zlg/core/records.hpp>
 #include <zlg/firmware/fault.hpp>
 #include <zlg/firmware/gyro.hpp>
+#include <zlg/firmware/pulse.hpp>
 
 namespace zlg::firmware::port {
 
@@ -25,6 +26,9 @@ void start_half_periods(std::uint64_t half_ticks) noexcept;
 //
 // return  a frame with status `frame_missed` where nothing was received.
 [[nodiscard]] const core::SensorFrame& latched() noexcept;
+
+// The last pulse of a clock outside that came before the end of this half-period. Called in the interrupt, where there is a line.
+[[nodiscard]] Pulse last_pulse() noexcept;
 
 // What is in force from the start of the next half-period.
 void command(const core::ActuatorFrame& actuator) noexcept;

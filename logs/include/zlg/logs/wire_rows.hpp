@@ -36,7 +36,8 @@ struct WireSummary {
     std::uint64_t n_lost_messages = 0;  // by the sequence numbers
     std::uint64_t n_repeated = 0;       // messages that came again, not taken
     std::uint64_t n_refused = 0;        // whole frames that hold what no gyro sends
-    std::uint64_t n_damaged = 0;        // pieces between zeros that are no whole frame
+    std::uint64_t n_damaged = 0;        // pieces between zeros that are no whole frame of this line's version
+    std::uint64_t n_foreign = 0;        // of these: whole, but of another version
     std::uint64_t n_damaged_bytes = 0;  // and their bytes
     std::uint64_t n_rows = 0;
     std::uint64_t n_lost_rows = 0;        // with flag_lost

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -43,7 +44,12 @@ public:
 
 private:
     class Link;
+
+    void give_pulse(std::uint64_t now_ticks);
+
     std::unique_ptr<Link> link_;
+    std::optional<std::uint64_t>
+        first_ticks_;  // stamp of the first frame since the start, which comes with the first pulse
 };
 
 // Where the image lies beside a program that was built with it.
