@@ -1,8 +1,8 @@
 // Leads the processor's image through the scripts, and through a gyro's life in closed loop with the twin.
 //
-// usage: zlg_image_instructions IMAGE EMULATOR
+// usage: zlg_image_instructions IMAGE EMULATOR [LINE]
 //
-// bench/count_image runs it with an emulator that counts. Its lines, with tabs between the words:
+// bench/count_image runs it with an emulator that counts; LINE is where the gyro's line leads. Its lines, with tabs between the words:
 //   halves NAME NUMBER       so many half-periods of this script, in the order in which they ran
 //   stack_used_bytes NUMBER  the most in all of them
 //   state NAME NUMBER        bytes that a part of the image remembers in
@@ -84,11 +84,11 @@ void tell_sizes() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
-        fmt::print(stderr, "usage: zlg_image_instructions IMAGE EMULATOR\n");
+    if (argc != 3 && argc != 4) {
+        fmt::print(stderr, "usage: zlg_image_instructions IMAGE EMULATOR [LINE]\n");
         return 2;
     }
-    processor::QemuProcessor processor{{.image = argv[1], .program = argv[2]}};
+    processor::QemuProcessor processor{{.image = argv[1], .program = argv[2], .line = argc == 4 ? argv[3] : "null"}};
     for (const auto& all : {bench::usual_scripts(), bench::worst_scripts(), bench::estimating_scripts()})
         for (const auto& script : all) lead(processor, script);
     for (const auto& scenario : scenarios()) live(processor, scenario);

@@ -10,7 +10,7 @@
 
 namespace zlg::firmware {
 
-// One side puts, the other takes.
+// One side puts, the other takes, and makes the messages: the interrupt has no time for that.
 class TelemetryQueue {
 public:
     // A gyro that begins anew. Nobody may put meanwhile.
@@ -25,11 +25,24 @@ public:
     [[nodiscard]] bool take(wire::Telemetry& told) noexcept;
 
 private:
-    wire::TelemetryState sums_{};
-    std::array<wire::Telemetry, 4> waiting_{};
+    struct Tick {
+        core::AngleSample sample{};
+        wire::TickReport report{};
+        bool after_others = false;      // ticks before it did not fit
+        wire::TelemetryState others{};  // their sums
+    };
+
+    std::array<Tick, 4> waiting_{};
     std::atomic<std::uint32_t> begin_{};
     std::atomic<std::uint32_t> end_{};
+
+    // Of the side that puts.
     std::uint32_t health_of_first_ = 0;
+    bool has_skipped_ = false;
+    wire::TelemetryState skipped_{};
+
+    // Of the side that takes.
+    wire::TelemetryState sums_{};
 };
 
 // That of this processor.

@@ -163,6 +163,21 @@ TEST(TelemetryOfATick, SumsUpWhatIsDeliveredAndWhatIsSettled) {
     EXPECT_EQ(t.time.timer_ticks, 8u);
 }
 
+TEST(TelemetryOfATick, TicksThatAreNotToldStayInTheSums) {
+    TelemetryState whole;
+    TelemetryState told;
+    TelemetryState skipped;
+    for (int tick = 0; tick < 3; ++tick) {
+        core::AngleSample one = sample(tick, 0.1 * (tick + 1));
+        one.has_final = true;
+        one.final_row = {.tick = tick, .dtheta_arcsec = -0.3, .dtheta_final_arcsec = 0.7};
+        (void)telemetry_of(whole, one, {});
+        (void)telemetry_of(tick == 0 ? told : skipped, one, {});
+    }
+    skip(told, skipped);
+    EXPECT_EQ(told, whole);
+}
+
 TEST(TelemetryOfATick, AfterTheLastOneOnlyTheSettledRowGoesOn) {
     TelemetryState state;
     (void)telemetry_of(state, sample(0, 1.5), {});

@@ -64,6 +64,13 @@ Telemetry telemetry_of(TelemetryState& state, const core::AngleRow& row, const T
     return t;
 }
 
+void skip(TelemetryState& state, const TelemetryState& of_them) noexcept {
+    state.angle.add(of_them.angle);
+    state.settled_angle.add(of_them.settled_angle);
+    state.settled_final_angle.add(of_them.settled_final_angle);
+    state.tick = of_them.tick;
+}
+
 Frame frame_of(Sender& sender, const Telemetry& t) noexcept {
     Packer p;
     p.u32(t.tick);

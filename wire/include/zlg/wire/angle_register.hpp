@@ -24,6 +24,9 @@ struct AngleRegister {
         const std::uint64_t size = (bits & ((std::uint64_t{1} << 52) - 1)) | (std::uint64_t{1} << 52);
         AngleRegister part = shifted(size, exponent - 1075 + 92);
         if ((bits >> 63) != 0) part = negative(part);
+        add(part);
+    }
+    constexpr void add(const AngleRegister& part) noexcept {
         low += part.low;
         high += part.high + (low < part.low ? 1u : 0u);
     }

@@ -71,6 +71,9 @@ struct TickReport {
 [[nodiscard]] Telemetry telemetry_of(TelemetryState& state, const core::AngleRow& row,
                                      const TickReport& report) noexcept;
 
+// Ticks that are not told: their sums are part of the next message. `of_them` was all zeros before the first of them.
+void skip(TelemetryState& state, const TelemetryState& of_them) noexcept;
+
 [[nodiscard]] Frame frame_of(Sender& sender, const Telemetry& telemetry) noexcept;
 
 // Nothing where the message is of another type or length, or holds what no gyro sends: an angle that is not finite, a
