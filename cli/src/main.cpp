@@ -82,5 +82,6 @@ int main(int argc, char** argv) {
     cli::add_calibrate(program);
     cli::add_follow(program);
     cli::add_inspect(program);
+    cli::add_analyze(program);
     return guarded(program, argc, argv);
 }

@@ -142,14 +142,14 @@ config::Config with_interval(const config::Config& config) {
     return resolved;
 }
 
-void refuse_own_input(const std::string& input, const std::string& output) {
+void refuse_own_input(const std::string& input, const std::string& output, const char* option) {
     std::error_code ignored;
     if (std::filesystem::equivalent(input, output, ignored))
-        throw UsageError{fmt::format("--out {}: is the input; name another file", output)};
+        throw UsageError{fmt::format("{} {}: is the input; name another file", option, output)};
     // The output grows under this name first.
     if (std::filesystem::equivalent(input, output + ".part", ignored))
         throw UsageError{
-            fmt::format("--out {}: would grow as {}, which is the input; name another file", output, input)};
+            fmt::format("{} {}: would grow as {}, which is the input; name another file", option, output, input)};
 }
 
 config::Settings angle_settings(const config::Config& config) {

@@ -57,8 +57,8 @@ void add_light_option(CLI::App& verb, Options& options);
 // With a number in place of interval_s = "optimal", and a message that says which.
 [[nodiscard]] config::Config with_interval(const config::Config& config);
 
-// errors  UsageError where both are the same file.
-void refuse_own_input(const std::string& input, const std::string& output);
+// errors  UsageError where both are the same file; `option` names the output.
+void refuse_own_input(const std::string& input, const std::string& output, const char* option = "--out");
 
 // What an angle log says of itself: the settings on which compensation rests.
 [[nodiscard]] config::Settings angle_settings(const config::Config& config);

@@ -12,11 +12,11 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
-#include <zlg/rig/wiring.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "log_compensation.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -29,65 +29,6 @@ struct ProcessOptions : Options {
     bool follow = false;
     double give_up_s = 10.0;
 };
-
-// mean_square where the log has what it needs, none where not; an explicit method is obeyed or refused.
-core::RelockMethod choose_relock(const config::Config& config, const logs::RawHeader& header, const std::string& path) {
-    using core::RelockMethod;
-    if (!config.compensation.relock) return header.has_detuning_sq ? RelockMethod::mean_square : RelockMethod::none;
-    const RelockMethod asked = *config.compensation.relock;
-    const auto refuse = [&](const char* method, const char* column) {
-        throw config::ConfigError{
-            fmt::format("compensation.relock = \"{}\" needs the column {}, which {} lacks; "
-                        "allowed without it: \"none\", \"frequency\"",
-                        method, column, path)};
-    };
-    if (asked == RelockMethod::detuning && !header.has_detuning) refuse("detuning", "detuning_lambda");
-    if (asked == RelockMethod::mean_square && !header.has_detuning_sq) refuse("mean_square", "detuning_sq_lambda2");
-    if (asked == RelockMethod::joint) {
-        if (!header.has_detuning_sq) refuse("joint", "detuning_sq_lambda2");
-        if (header.light_samples == 0)
-            complain(
-                fmt::format("note: {}: holds no light samples; compensation.relock = \"joint\" takes the mean "
-                            "squares of the detuning instead",
-                            path));
-    }
-    return asked;
-}
-
-// The inverse discriminator of [perimeter], for a log whose detunings were read by the slope alone.
-core::DiscriminatorCurve curve_of(const config::Config& config, const logs::RawHeader& header,
-                                  const std::string& path) {
-    if (config.perimeter.discriminator_signal.empty() && config.perimeter.discriminator_detuning_lambda.empty())
-        return {};
-    const config::Config recorded = as_recorded(config, header.settings, path);
-    const config::Perimeter& with = recorded.perimeter;
-    if (with.discriminator_signal.empty())
-        return rig::discriminator_curve(config, recorded.gyro.discriminator_per_lambda);
-    if (with.discriminator_signal != config.perimeter.discriminator_signal ||
-        with.discriminator_detuning_lambda != config.perimeter.discriminator_detuning_lambda)
-        complain(
-            fmt::format("warning: {}: its detunings were read through a discriminator curve of its own; the other "
-                        "one, of perimeter.discriminator_signal, is not applied to them",
-                        path));
-    return {};
-}
-
-core::GyroCompensationConfig compensation_of(const config::Config& config, core::RelockMethod relock,
-                                             const logs::RawHeader& header, const std::string& path) {
-    auto made = rig::compensation_config(config, relock, config.compensation.bridge);
-    made.relock.curve = curve_of(config, header, path);
-    made.profile.record_curve = made.relock.curve;
-    if (!header.has_edge_offset) return made;
-    const config::Gyro& g = config.gyro;
-    if (!(g.bias_edge_s < 0.5 * g.tick_s)) {
-        throw config::ConfigError{
-            fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}, where "
-                        "edges are shifted",
-                        g.bias_edge_s, g.tick_s)};
-    }
-    made.timer = core::Hertz{header.timer_hz};
-    return made;
-}
 
 struct Summary {
     std::int64_t halves = 0;

@@ -14,5 +14,6 @@ void add_convert(CLI::App& program);
 void add_calibrate(CLI::App& program);
 void add_follow(CLI::App& program);
 void add_inspect(CLI::App& program);
+void add_analyze(CLI::App& program);
 
 }  // namespace zlg::cli

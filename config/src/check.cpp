@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/discriminator_curve.hpp>
@@ -100,6 +101,12 @@ void check_faults(const Faults& f) {
                                   f.at_s.size(), f.duration_s.size(), f.size.size()));
 }
 
+void check_analysis(const Analysis& a) {
+    for (const double column : a.column)
+        if (column != std::floor(column))
+            throw ConfigError(fmt::format("analysis.column = {}: allowed are whole numbers", toml_real(column)));
+}
+
 void check_times(const Gyro& gyro, const Switching& switching) {
     if (!(gyro.bias_edge_s < gyro.tick_s / 2.0)) {
         throw ConfigError(fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}",
@@ -149,6 +156,7 @@ void check(const Config& config) {
     check_dither(config);
     check_motion(config.motion);
     check_faults(config.faults);
+    check_analysis(config.analysis);
     if (!(config.piezo.range_min_v < config.piezo.range_max_v)) {
         throw ConfigError(fmt::format("piezo.range_min_v = {}: allowed is below piezo.range_max_v = {}",
                                       toml_real(config.piezo.range_min_v), toml_real(config.piezo.range_max_v)));

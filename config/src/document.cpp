@@ -1,3 +1,6 @@
+#include <span>
+#include <variant>
+
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
@@ -5,6 +8,33 @@
 #include "key.hpp"
 
 namespace zlg::config {
+namespace {
+
+std::vector<std::string> words(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
+
+// What a program that fills a Config from outside must know of the value.
+struct TellKind {
+    KeyInfo& info;
+    const Config& defaults;
+
+    void operator()(const Real&) const { info.kind = ValueKind::real; }
+    void operator()(const OptionalReal&) const { info.kind = ValueKind::optional_real; }
+    void operator()(const Integer&) const { info.kind = ValueKind::integer; }
+    void operator()(const Sign&) const { info.kind = ValueKind::integer; }
+    void operator()(const Text&) const { info.kind = ValueKind::text; }
+    void operator()(const RealList&) const { info.kind = ValueKind::reals; }
+    void operator()(const Interval&) const { info.kind = ValueKind::interval; }
+    void operator()(const ChoiceList& slot) const {
+        info.kind = ValueKind::choices;
+        info.choices = words(slot.names);
+    }
+    void operator()(const Choice& slot) const {
+        info.kind = slot.get(defaults) < 0 ? ValueKind::optional_choice : ValueKind::choice;
+        info.choices = words(slot.names);
+    }
+};
+
+}  // namespace
 
 Settings to_settings(const Config& config) {
     Settings settings;
@@ -33,8 +63,15 @@ std::vector<KeyInfo> describe_keys() {
     const Config defaults;
     std::vector<KeyInfo> infos;
     for (const Key& key : all_keys()) {
-        infos.push_back({std::string{key.section}, std::string{key.name}, std::string{key.unit},
-                         std::string{key.meaning}, value_text(key, defaults), allowed_text(key)});
+        infos.push_back({std::string{key.section},
+                         std::string{key.name},
+                         std::string{key.unit},
+                         std::string{key.meaning},
+                         value_text(key, defaults),
+                         allowed_text(key),
+                         {},
+                         {}});
+        std::visit(TellKind{infos.back(), defaults}, key.slot);
     }
     return infos;
 }

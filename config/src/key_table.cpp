@@ -23,6 +23,13 @@ constexpr std::array<std::string_view, 3> priors{"learnt", "flat", "lines"};
 constexpr std::array<std::string_view, 5> motions{"rest", "constant", "sine", "sum", "file"};
 constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 
+constexpr std::array<std::string_view, 9> deviations{"adev",  "oadev",  "mdev",    "tdev",   "hdev",
+                                                     "ohdev", "totdev", "mtotdev", "htotdev"};
+constexpr std::array<std::string_view, 4> tau_spacings{"octave", "decade", "log", "all"};
+constexpr std::array<std::string_view, 4> shown_rates{"deg/h", "arcsec/s", "deg/s", "rad/s"};
+constexpr std::array<std::string_view, 2> angle_columns{"final", "delivered"};
+constexpr std::array<std::string_view, 3> text_holds{"increment", "rate", "phase"};
+
 constexpr std::int64_t int64_max = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t int32_max = std::numeric_limits<std::int32_t>::max();
 
@@ -285,6 +292,50 @@ const Key table[] = {
      Real{at<&C::design, &Design::switch_error_arcsec>, non_negative}},
     {"design", "run_lengths_s", "s", "lengths of run for which the design is worked out",
      RealList{at<&C::design, &Design::run_lengths_s>, positive}},
+
+    {"analysis", "deviations", "", "which deviations are computed; the first is the one that is drawn",
+     choice_list<&C::analysis, &Analysis::deviations>(deviations)},
+    {"analysis", "taus", "", "averaging times: octave, decade (1, 2, 4, 10), log (taus_per_decade), all",
+     choice<&C::analysis, &Analysis::taus>(tau_spacings)},
+    {"analysis", "taus_per_decade", "", "of taus = log",
+     Integer{at<&C::analysis, &Analysis::taus_per_decade>, 1, 10000}},
+    {"analysis", "taus_s", "s", "averaging times, instead of taus",
+     RealList{at<&C::analysis, &Analysis::taus_s>, positive, true}},
+    {"analysis", "confidence", "", "of the intervals",
+     Real{at<&C::analysis, &Analysis::confidence>, {.min = 0.0, .max = 0.999999, .without_min = true}}},
+    {"analysis", "least_known_ratio", "", "share of an averaging time that must be known for it to count",
+     Real{at<&C::analysis, &Analysis::least_known_ratio>, {.min = 0.0, .max = 1.0, .without_min = true}}},
+    {"analysis", "unit", "", "of rates in text and report; JSON has arcsec/s",
+     choice<&C::analysis, &Analysis::unit>(shown_rates)},
+    {"analysis", "angles", "", "which angle of an angle log: known afterwards, or as delivered in real time",
+     choice<&C::analysis, &Analysis::angles>(angle_columns)},
+    {"analysis", "latitude_deg", "deg", "where the gyro stood, to compare with the Earth's rate",
+     OptionalReal{at<&C::analysis, &Analysis::latitude_deg>, {.min = -90.0, .max = 90.0}}},
+    {"analysis", "column", "", "columns of a text file, the first is 1; unset: 1",
+     RealList{at<&C::analysis, &Analysis::column>, {.min = 1.0, .max = 1e6}, true}},
+    {"analysis", "column_holds", "",
+     "what the columns of a text file hold; unset: as [motion] describes them, if it does",
+     optional_choice<&C::analysis, &Analysis::column_holds>(text_holds)},
+    {"analysis", "scale_arcsec", "arcsec", "angle (or rate in arcsec/s) per unit of the columns",
+     Real{at<&C::analysis, &Analysis::scale_arcsec>, non_zero}},
+    {"analysis", "rate_hz", "Hz", "rows of the text file per second",
+     OptionalReal{at<&C::analysis, &Analysis::rate_hz>, positive}},
+    {"analysis", "comment", "", "lines of a text file that begin with this are skipped",
+     Text{at<&C::analysis, &Analysis::comment>}},
+    {"analysis", "skip_lines", "", "lines of numbers to skip at the head of a text file",
+     Integer{at<&C::analysis, &Analysis::skip_lines>, 0, int32_max}},
+    {"analysis", "table_column", "", "column with the rate of a rate table; 0: the gyro stood on none",
+     Integer{at<&C::analysis, &Analysis::table_column>, 0, 1'000'000}},
+    {"analysis", "table_scale_arcsec_s", "arcsec/s", "rate per unit of that column",
+     Real{at<&C::analysis, &Analysis::table_scale_arcsec_s>, non_zero}},
+    {"analysis", "table_settling_s", "s", "beginning of each stage of the table that is left out",
+     Real{at<&C::analysis, &Analysis::table_settling_s>, non_negative}},
+    {"analysis", "table_same_rate_ratio", "",
+     "rates of the table this near to each other, of its largest, are of one stage",
+     Real{at<&C::analysis, &Analysis::table_same_rate_ratio>, {.min = 0.0, .max = 1.0}}},
+    {"analysis", "table_earth_arcsec_s", "arcsec/s",
+     "rotation about the gyro's axis that the table does not show; the bias is then without it",
+     Real{at<&C::analysis, &Analysis::table_earth_arcsec_s>, any_finite}},
 };
 
 }  // namespace

@@ -49,10 +49,10 @@ Extent x_extent(const Figure& figure) {
 }
 
 // An error bar that reaches near zero or below runs out of a log axis; it must not stretch the axis with it.
-void add_error(Extent& extent, double y, double error, bool log) {
-    if (!std::isfinite(error)) return;
-    extent.add(on_axis(y + error, log));
-    if (!log || y - error > 0.1 * y) extent.add(on_axis(y - error, log));
+void add_error(Extent& extent, double y, double up, double down, bool log) {
+    if (!std::isfinite(up) || !std::isfinite(down)) return;
+    extent.add(on_axis(y + up, log));
+    if (!log || y - down > 0.1 * y) extent.add(on_axis(y - down, log));
 }
 
 Extent y_extent(const Figure& figure) {
@@ -61,7 +61,10 @@ Extent y_extent(const Figure& figure) {
         for (std::size_t i = 0; i < n_points(s); ++i) {
             if (!drawable(figure, s, i)) continue;
             extent.add(on_axis(s.y[i], figure.log_y));
-            if (i < s.y_error.size()) add_error(extent, s.y[i], std::fabs(s.y_error[i]), figure.log_y);
+            if (i >= s.y_error.size()) continue;
+            const double up = std::fabs(s.y_error[i]);
+            const double down = i < s.y_error_down.size() ? std::fabs(s.y_error_down[i]) : up;
+            add_error(extent, s.y[i], up, down, figure.log_y);
         }
     }
     if (has_bars(figure) && !figure.log_y) extent.add(0.0);

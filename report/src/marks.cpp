@@ -92,10 +92,12 @@ std::string error_bars(const Series& series, const Layout& layout) {
     std::string path;
     for (std::size_t i = 0; i < n; ++i) {
         const double error = std::fabs(series.y_error[i]);
-        if (!layout.x.shows(series.x[i]) || !layout.y.shows(series.y[i]) || !std::isfinite(error)) continue;
+        const double down = i < series.y_error_down.size() ? std::fabs(series.y_error_down[i]) : error;
+        const bool has_bar = std::isfinite(error) && std::isfinite(down);
+        if (!layout.x.shows(series.x[i]) || !layout.y.shows(series.y[i]) || !has_bar) continue;
         const double x = layout.x.at(series.x[i]);
         const std::string upper = coordinate(layout.y.at(series.y[i] + error));
-        const std::string lower = coordinate(layout.y.at(series.y[i] - error));
+        const std::string lower = coordinate(layout.y.at(series.y[i] - down));
         path += fmt::format("M{},{}V{}", coordinate(x), lower, upper);
         if (cap > 0.0)
             path += fmt::format("M{0},{2}H{1}M{0},{3}H{1}", coordinate(x - cap), coordinate(x + cap), lower, upper);

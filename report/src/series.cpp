@@ -36,6 +36,7 @@ Series picked(const Series& series, const std::vector<std::size_t>& indices) {
         out.x.push_back(series.x[i]);
         out.y.push_back(series.y[i]);
         if (i < series.y_error.size()) out.y_error.push_back(series.y_error[i]);
+        if (i < series.y_error_down.size()) out.y_error_down.push_back(series.y_error_down[i]);
     }
     return out;
 }

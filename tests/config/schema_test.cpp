@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <zlg/config/schema.hpp>
 
@@ -181,7 +182,16 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
                                             "laser.comparator_threshold = 0.125",
                                             "laser.quadrature = x4",
                                             "faults.kind = laser_off",
-                                            "faults.random_kinds = shock"};
+                                            "faults.random_kinds = shock",
+                                            "analysis.deviations = mdev",
+                                            "analysis.taus = all",
+                                            "analysis.confidence = 0.5",
+                                            "analysis.least_known_ratio = 0.5",
+                                            "analysis.unit = rad/s",
+                                            "analysis.angles = delivered",
+                                            "analysis.column_holds = phase",
+                                            "analysis.comment = %",
+                                            "analysis.table_same_rate_ratio = 0.5"};
         std::string setting = dotted + " = 7";
         for (const std::string& choice : choices) {
             if (choice.starts_with(dotted + " ")) setting = choice;
@@ -199,8 +209,8 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
 }
 
 TEST(Schema, knows_every_key_of_the_sections) {
-    const std::set<std::string> sections{"run",       "gyro",         "drift",  "perimeter", "piezo", "motion",
-                                         "switching", "compensation", "design", "laser",     "faults"};
+    const std::set<std::string> sections{"run",       "gyro",         "drift",  "perimeter", "piezo",  "motion",
+                                         "switching", "compensation", "design", "laser",     "faults", "analysis"};
     std::set<std::string> found;
     std::set<std::string> names;
     for (const KeyInfo& key : describe_keys()) {
@@ -210,8 +220,8 @@ TEST(Schema, knows_every_key_of_the_sections) {
         EXPECT_FALSE(key.allowed.empty()) << key.name;
     }
     EXPECT_EQ(found, sections);
-    // The members of the eleven structs, interval_optimal apart: 2 + 15 + 15 + 5 + 11 + 15 + 10 + 17 + 12 + 8 + 2.
-    EXPECT_EQ(names.size(), 112u);
+    // The members of the twelve structs, interval_optimal apart: 2 + 15 + 15 + 5 + 11 + 15 + 10 + 17 + 12 + 8 + 2 + 20.
+    EXPECT_EQ(names.size(), 132u);
     EXPECT_TRUE(is_known_section("gyro"));
     EXPECT_FALSE(is_known_section("gyr"));
 }
@@ -423,6 +433,25 @@ TEST(Schema, no_key_takes_nan_or_infinity) {
     Config c;
     c.gyro.bias_chi = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(complaint([&] { check(c); }), "gyro.bias_chi = nan: allowed is from 0");
+}
+
+TEST(Schema, kinds_and_choices_are_those_of_the_members) {
+    std::map<std::string, const KeyInfo> known;
+    for (const KeyInfo& key : describe_keys()) known.emplace(key.section + "." + key.name, key);
+    using enum ValueKind;
+    EXPECT_EQ(known.at("gyro.tick_s").kind, real);
+    EXPECT_EQ(known.at("run.duration_s").kind, optional_real);
+    EXPECT_EQ(known.at("run.seed").kind, integer);
+    EXPECT_EQ(known.at("gyro.first_bias_sign").kind, integer);
+    EXPECT_EQ(known.at("motion.path").kind, text);
+    EXPECT_EQ(known.at("motion.frequency_hz").kind, reals);
+    EXPECT_EQ(known.at("switching.interval_s").kind, interval);
+    EXPECT_EQ(known.at("motion.kind").kind, choice);
+    EXPECT_EQ(known.at("motion.kind").choices, (std::vector<std::string>{"rest", "constant", "sine", "sum", "file"}));
+    EXPECT_EQ(known.at("compensation.relock").kind, optional_choice);
+    EXPECT_EQ(known.at("faults.kind").kind, choices);
+    EXPECT_EQ(known.at("faults.kind").choices.size(), fault_kind_names.size());
+    EXPECT_TRUE(known.at("gyro.tick_s").choices.empty());
 }
 
 TEST(Schema, a_bridge_needs_one_point_more_than_its_order) {

@@ -203,6 +203,18 @@ TEST(Svg, error_bars_reach_one_error_to_each_side) {
     EXPECT_EQ(std::count(path.begin(), path.end(), 'V'), 1) << "the second point has no error bar";
 }
 
+TEST(Svg, an_error_bar_may_reach_down_otherwise_than_up) {
+    Series data = series({0, 1}, {10, 5}, Mark::points);
+    data.y_error = {4.0, not_a_number};
+    data.y_error_down = {2.0, 1.0};
+    const auto elements = markup::read(svg(figure({data})));
+    const std::string path = markup::of_class(elements, "error").attributes.at("d");
+    const auto y = ticks_seen(elements, "y-ticks");
+    EXPECT_NEAR(read_off(y, std::stod(path.substr(path.find(',') + 1)), false), 8.0, 0.05);
+    EXPECT_NEAR(read_off(y, std::stod(path.substr(path.find('V') + 1)), false), 14.0, 0.05);
+    EXPECT_EQ(std::count(path.begin(), path.end(), 'V'), 1);
+}
+
 TEST(Svg, an_error_bar_that_reaches_zero_does_not_stretch_a_log_axis) {
     Series data = series({1, 2}, {10, 20}, Mark::points);
     data.y_error = {9.99999, 25.0};

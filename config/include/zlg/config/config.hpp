@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <zlg/config/analysis.hpp>
 #include <zlg/config/faults.hpp>
 #include <zlg/config/laser.hpp>
 #include <zlg/core/magnetic_drift.hpp>
@@ -154,6 +155,7 @@ struct Config {
     Motion motion;
     Faults faults;
     Design design;
+    Analysis analysis;
 };
 
 }  // namespace zlg::config

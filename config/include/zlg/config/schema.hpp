@@ -24,6 +24,8 @@ struct ConfigError : std::runtime_error {
 // Dotted keys (`gyro.tick_s`) and their values as TOML, in the order of the table or of a log.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+enum class ValueKind { real, optional_real, integer, text, reals, choice, optional_choice, choices, interval };
+
 // What is known of one key.
 struct KeyInfo {
     std::string section;
@@ -32,6 +34,8 @@ struct KeyInfo {
     std::string meaning;
     std::string default_text;  // TOML; empty where it is unset
     std::string allowed;       // in words
+    ValueKind kind{};
+    std::vector<std::string> choices;  // of a choice
 };
 
 // TOML text; `source_name` begins the messages, as in `lab.toml:3: ...`.

@@ -16,7 +16,8 @@ struct Series {
     std::vector<double> y_error;  // empty, or one half-length of the error bar per point
     Mark mark = Mark::line;
     bool dashed = false;
-    int colour = -1;  // that of the series with this index, and its marker; -1: its own
+    int colour = -1;                     // that of the series with this index, and its marker; -1: its own
+    std::vector<double> y_error_down{};  // where a bar reaches down otherwise than up: y_error is then the upper length
 };
 
 // A shaded stretch of the x axis, such as the ticks of a gap.

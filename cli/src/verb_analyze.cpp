@@ -1,0 +1,125 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <zlg/analysis/imu_yaml.hpp>
+#include <zlg/logs/table_file.hpp>
+#include <zlg/report/page.hpp>
+#include <zlg/study/analyze.hpp>
+
+#include "analysis_input.hpp"
+#include "analysis_text.hpp"
+#include "as_json.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+struct AnalyzeOptions : Options {
+    std::vector<std::string> files;
+    std::string imu_yaml;
+    std::string compare;
+};
+
+bool same_name(const std::string& a, const std::string& b) {
+    namespace fs = std::filesystem;
+    const auto whole = [](const std::string& path) {
+        std::error_code failed;
+        const fs::path followed = fs::weakly_canonical(path, failed);
+        return failed ? fs::absolute(path).lexically_normal() : followed;
+    };
+    std::error_code ignored;
+    return whole(a) == whole(b) || fs::equivalent(a, b, ignored);
+}
+
+void check_output(const AnalyzeOptions& options, const std::string& output, const char* option) {
+    if (output.empty()) return;
+    for (const std::string& file : options.files) refuse_own_input(file, output, option);
+    if (!options.compare.empty()) refuse_own_input(options.compare, output, option);
+}
+
+void check_usage(const AnalyzeOptions& options) {
+    check_output(options, options.imu_yaml, "--imu-yaml");
+    if (options.out.empty()) return;
+    const std::string suffix = std::filesystem::path{options.out}.extension();
+    if (suffix != ".html")
+        throw UsageError{fmt::format("{}: the suffix '{}' names no report; allowed is .html", options.out, suffix)};
+    check_output(options, options.out, "--out");
+    if (options.imu_yaml.empty()) return;
+    for (const std::string& name : {options.out, options.out + ".part"})
+        if (same_name(options.imu_yaml, name) || same_name(options.imu_yaml + ".part", name))
+            throw UsageError{fmt::format("--imu-yaml {}: is what --out writes; name another file", options.imu_yaml)};
+}
+
+std::optional<study::PresumedNoise> presumed(const AnalyzeOptions& options) {
+    if (options.compare.empty()) return std::nullopt;
+    return study::PresumedNoise{.name = std::filesystem::path{options.compare}.filename().string(),
+                                .terms = analysis::terms_of(analysis::read_imu_yaml(options.compare))};
+}
+
+struct Output {
+    std::string path;
+    std::string text;
+};
+
+// Both or neither: none gets its name before all are written.
+void write(const std::vector<Output>& outputs, bool force) {
+    std::vector<logs::TableFile> files;
+    for (const Output& o : outputs) {
+        files.emplace_back(o.path, force);
+        files.back().append(o.text);
+        files.back().flush();
+    }
+    for (logs::TableFile& file : files) file.close();
+}
+
+void analyze(const AnalyzeOptions& options) {
+    check_usage(options);
+    AnalysisInput input = read_analysis_input(options, options.files);
+    const study::AnalysisTask task{.config = input.config.analysis,
+                                   .settling_samples = input.config.compensation.relock_ticks,
+                                   .threads = options.threads};
+    study::AnalysisResult result{
+        .axes = {}, .earth = {}, .presumed = presumed(options), .tables = std::move(input.tables)};
+    Progress progress;
+    const auto n = static_cast<double>(input.axes.size());
+    for (study::AxisRecord& axis : input.axes) {
+        progress.show(static_cast<double>(result.axes.size()) / n);
+        result.axes.push_back(study::analyze_axis(task, std::move(axis)));
+    }
+    result.earth = study::earth_lines(result.axes);
+    // All that may refuse comes before the first file.
+    std::vector<Output> outputs;
+    if (!options.out.empty()) outputs.push_back({options.out, report::html(study::analysis_page(task.config, result))});
+    if (!options.imu_yaml.empty())
+        outputs.push_back({options.imu_yaml, analysis::imu_yaml(study::kalibr_gyro(result.axes))});
+    write(outputs, options.force);
+    print(options.json ? pretty(analysis_json(task.config, result)) : analysis_text(task.config, result));
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& program) {
+    const auto options = std::make_shared<AnalyzeOptions>();
+    CLI::App* verb = program.add_subcommand(
+        "analyze", "Allan deviations, noise terms, drift by mode and errors of switches of recorded gyros");
+    verb->add_option("FILE", options->files, "angle logs, raw logs, or text files of columns")->required();
+    verb->add_option("--threads", options->threads, "threads, 1..64")->check(CLI::Range(1, 64));
+    verb->add_option("--imu-yaml", options->imu_yaml, "write the noise as Kalibr's imu.yaml");
+    verb->add_option("--compare", options->compare,
+                     "an imu.yaml whose noise is told, and drawn by --out, beside the measured one");
+    add_config_options(*verb, *options);
+    add_output_options(*verb, *options);
+    verb->callback([options] { analyze(*options); });
+}
+
+}  // namespace zlg::cli

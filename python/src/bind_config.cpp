@@ -1,0 +1,90 @@
+#include <pybind11/stl.h>
+
+#include <zlg/config/schema.hpp>
+
+#include "bind.hpp"
+#include "log_settings.hpp"
+
+namespace zlg::python {
+
+namespace py = pybind11;
+
+namespace {
+
+const char* name_of(config::ValueKind kind) {
+    switch (kind) {
+        case config::ValueKind::real:
+            return "real";
+        case config::ValueKind::optional_real:
+            return "optional_real";
+        case config::ValueKind::integer:
+            return "integer";
+        case config::ValueKind::text:
+            return "text";
+        case config::ValueKind::reals:
+            return "reals";
+        case config::ValueKind::choice:
+            return "choice";
+        case config::ValueKind::optional_choice:
+            return "optional_choice";
+        case config::ValueKind::choices:
+            return "choices";
+        case config::ValueKind::interval:
+            break;
+    }
+    return "interval";
+}
+
+py::list keys() {
+    py::list all;
+    for (const config::KeyInfo& key : config::describe_keys()) {
+        py::dict info;
+        info["section"] = key.section;
+        info["name"] = key.name;
+        info["unit"] = key.unit;
+        info["meaning"] = key.meaning;
+        info["default"] = key.default_text;
+        info["allowed"] = key.allowed;
+        info["kind"] = name_of(key.kind);
+        info["choices"] = key.choices;
+        all.append(info);
+    }
+    return all;
+}
+
+// Only the end is checked: what stands between members and `sets` need not be allowed.
+config::Config of_pairs(const config::Settings& settings, const std::vector<std::string>& sets) {
+    config::Config config;
+    for (const auto& [key, value] : settings) config::apply_pair(config, key, value, "zlg.Config");
+    for (const std::string& set : sets) config::apply_set(config, set);
+    config::check(config);
+    return config;
+}
+
+config::Config of_layers(const std::string& toml, const std::string& source, const std::vector<std::string>& sets) {
+    config::Config config;
+    config::apply_toml(config, toml, source);
+    for (const std::string& set : sets) config::apply_set(config, set);
+    config::check(config);
+    return config;
+}
+
+config::Config of_log(const config::Settings& settings, const std::string& name) {
+    config::Config config;
+    config::apply_log(config, log_settings(settings, name), name);
+    return config;
+}
+
+}  // namespace
+
+void bind_config(py::module_& m) {
+    py::class_<config::Config>(m, "CheckedConfig")
+        .def(py::init(&of_pairs), py::arg("settings"), py::arg("sets") = std::vector<std::string>{})
+        .def_static("of_layers", &of_layers, py::arg("toml"), py::arg("source"), py::arg("sets"))
+        .def_static("of_log", &of_log, py::arg("settings"), py::arg("name"))
+        .def("toml", &config::to_toml)
+        .def("settings", &config::to_settings);
+    m.def("config_keys", &keys);
+}
+
+}  // namespace zlg::python

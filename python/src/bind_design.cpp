@@ -1,0 +1,133 @@
+#include <cmath>
+
+#include <zlg/config/config.hpp>
+#include <zlg/design/drift_budget.hpp>
+#include <zlg/design/error.hpp>
+#include <zlg/design/perimeter_response.hpp>
+#include <zlg/design/relock_loop.hpp>
+#include <zlg/design/substitution.hpp>
+#include <zlg/design/substitution_noise.hpp>
+#include <zlg/design/switching_interval.hpp>
+#include <zlg/report/page.hpp>
+#include <zlg/study/design_study.hpp>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+
+namespace zlg::python {
+namespace {
+
+using namespace design;
+
+IntervalMethod method_of(const std::string& name) {
+    std::string allowed;
+    for (const IntervalMethod method : interval_methods) {
+        if (name == design::name(method)) return method;
+        allowed += (allowed.empty() ? "" : ", ") + std::string{design::name(method)};
+    }
+    throw DesignError{"method = \"" + name + "\": allowed are " + allowed};
+}
+
+DriftCase case_of(const config::Config& config, double run_s) { return study::drift_case(config, run_s); }
+
+py::array drift(const config::Config& config, double run_s, const In<double>& interval_s, const std::string& method) {
+    const DriftCase task = case_of(config, run_s);
+    const IntervalMethod which = method_of(method);
+    return of_each([&](double interval) { return drift_arcsec_s(which, task, interval); }, interval_s);
+}
+
+py::tuple best(const config::Config& config, double run_s, const std::string& method) {
+    const Optimum found = optimum(method_of(method), case_of(config, run_s));
+    return py::make_tuple(found.interval_s, found.drift_arcsec_s, std::string{sentence(found.status)});
+}
+
+Substitution substitution_of(int order, int n, const std::tuple<int, int, int>& points, bool extrapolate,
+                             double tick_s) {
+    const auto [extrapolation, before, after] = points;
+    return {.fit = extrapolate ? Fit::extrapolation : Fit::interpolation,
+            .order = order,
+            .n = n,
+            .points = {extrapolation, before, after},
+            .tick_s = tick_s};
+}
+
+py::array response(int order, int n, const std::tuple<int, int, int>& points, bool extrapolate, double tick_s,
+                   const In<double>& frequency_hz) {
+    const auto answer = ErrorResponse::of_sum(substitution_of(order, n, points, extrapolate, tick_s));
+    return of_each([&](double f) { return std::abs(answer(f)); }, frequency_hz);
+}
+
+py::dict relock(const config::Config& config, double miss_lambda, int ticks) {
+    const RelockLoop loop{.tick_s = config.gyro.tick_s,
+                          .tau_s = config.perimeter.tau_s,
+                          .limit_lambda = config.perimeter.limit_lambda,
+                          .rc_s = config.piezo.rc_s,
+                          .slew_lambda_s = 0.5 * config.piezo.slew_v_s / config.piezo.half_wave_v};
+    RelockTrace trace = simulate_relock(loop, miss_lambda, ticks);
+    const BiasLaw law{config.gyro.scale_arcsec, config.gyro.bias_hz, config.gyro.bias_chi};
+    py::dict d;
+    d["false_drift_arcsec_s"] = as_array(false_drift_arcsec_s(law, trace, 1));
+    d["step_s"] = trace.step_s;
+    d["detuning_lambda"] = as_array(std::move(trace.detuning_lambda));
+    return d;
+}
+
+py::dict of(const study::SubstitutionLine& line) {
+    py::dict d;
+    d["order"] = line.order;
+    d["gap_ticks"] = line.gap_ticks;
+    d["frequency_hz"] = line.frequency_hz;
+    d["worst_arcsec"] = line.worst_arcsec;
+    d["rms_arcsec"] = line.rms_arcsec;
+    d["noise_gain"] = line.noise_gain;
+    d["counter_arcsec"] = line.counter_arcsec;
+    d["relock_arcsec"] = line.relock_arcsec;
+    d["total_arcsec"] = line.total_arcsec;
+    return d;
+}
+
+py::dict of(const study::IntervalLine& line) {
+    py::dict d;
+    d["run_s"] = line.run_s;
+    d["method"] = std::string{name(line.method)};
+    d["interval_s"] = line.optimum.interval_s;
+    d["drift_arcsec_s"] = line.optimum.drift_arcsec_s;
+    d["status"] = std::string{sentence(line.optimum.status)};
+    return d;
+}
+
+py::dict design_of(const config::Config& config) {
+    study::DesignResult result;
+    std::string html;
+    {
+        const py::gil_scoped_release released;
+        result = study::design_gyro(config);
+        html = report::html(study::design_page(config, result));
+    }
+    py::list intervals, substitution;
+    for (const auto& line : result.intervals) intervals.append(of(line));
+    for (const auto& line : result.substitution) substitution.append(of(line));
+    py::dict d;
+    d["intervals"] = intervals;
+    d["substitution"] = substitution;
+    d["relock_s"] = result.loop.relock_s;
+    d["phase_margin_deg"] = result.loop.margins.phase_margin_deg;
+    d["gain_margin"] = result.loop.margins.gain_margin;
+    d["stable"] = result.loop.margins.stable;
+    d["false_angle_arcsec"] = result.loop.false_angle_arcsec;
+    d["page"] = html;
+    return d;
+}
+
+}  // namespace
+
+void bind_design(py::module_& m) {
+    m.def("drift_arcsec_s", &drift, py::arg("config"), py::arg("run_s"), py::arg("interval_s"), py::arg("method"));
+    m.def("optimum", &best, py::arg("config"), py::arg("run_s"), py::arg("method"));
+    m.def("substitution_response", &response, py::arg("order"), py::arg("gap_ticks"), py::arg("points"),
+          py::arg("extrapolate"), py::arg("tick_s"), py::arg("frequency_hz"));
+    m.def("relock", &relock, py::arg("config"), py::arg("miss_lambda"), py::arg("ticks"));
+    m.def("design_gyro", &design_of, py::arg("config"));
+}
+
+}  // namespace zlg::python

@@ -1,0 +1,86 @@
+#include <zlg/config/config.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/laser_calibration.hpp>
+#include <zlg/rig/wiring.hpp>
+#include <zlg/study/design_study.hpp>
+
+#include "bind.hpp"
+#include "log_columns.hpp"
+
+namespace zlg::python {
+namespace {
+
+struct Loop {
+    rig::ClosedLoop loop;
+    bool is_busy = false;  // read and written with the interpreter held
+};
+
+// A loop advances where the interpreter is released, so that another thread could ask for it meanwhile.
+class Use {
+public:
+    explicit Use(Loop& loop) : loop_{loop} {
+        if (loop.is_busy) throw std::runtime_error{"this loop is in use by another thread"};
+        loop.is_busy = true;
+    }
+    ~Use() { loop_.is_busy = false; }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+
+private:
+    Loop& loop_;
+};
+
+// Some halves of a loop as columns: those of a raw log, and beside them health and truth.
+py::dict advance(Loop& shared, std::int64_t halves, bool light, const py::object& progress) {
+    if (!(halves >= 0)) throw std::invalid_argument{"halves = " + std::to_string(halves) + ": allowed is 0 or more"};
+    const Use use{shared};
+    rig::ClosedLoop& loop = shared.loop;
+    const auto n = static_cast<std::size_t>(halves);
+    RawCollector rows;
+    std::vector<std::uint32_t> health;
+    std::vector<double> turned, false_relock, detuning;
+    const Progress tell{progress};
+    {
+        const py::gil_scoped_release released;
+        rows.reserve(n), health.reserve(n), turned.reserve(n), false_relock.reserve(n), detuning.reserve(n);
+        for (std::size_t half = 0; half < n; ++half) {
+            const rig::LoopHalf out = loop.advance();
+            rows.add(out.record, light ? loop.light() : core::LightSamples{});
+            health.push_back(out.control.health);
+            turned.push_back(out.truth.dtheta_arcsec);
+            false_relock.push_back(out.truth.false_relock_arcsec);
+            detuning.push_back(out.truth.detuning_end_lambda);
+            if (half % 16384 == 0) tell(static_cast<double>(half) / static_cast<double>(n));
+        }
+    }
+    py::dict columns = rows.take_out();
+    columns["health"] = as_array(std::move(health));
+    columns["truth_dtheta_arcsec"] = as_array(std::move(turned));
+    columns["truth_false_relock_arcsec"] = as_array(std::move(false_relock));
+    columns["truth_detuning_end_lambda"] = as_array(std::move(detuning));
+    return columns;
+}
+
+}  // namespace
+
+void bind_rig(py::module_& m) {
+    py::class_<Loop>(m, "ClosedLoop")
+        .def(py::init([](const config::Config& config, const std::optional<twin::Motion>& motion) {
+                 return Loop{rig::ClosedLoop{config, motion ? *motion : rig::motion(config)}};
+             }),
+             py::arg("config"), py::arg("motion"))
+        .def("advance", &advance, py::arg("halves"), py::arg("light"), py::arg("progress"));
+    m.def(
+        "run_ticks",
+        [](const config::Config& config, const std::optional<twin::Motion>& motion) {
+            return rig::run_ticks(config, motion ? *motion : rig::motion(config));
+        },
+        py::arg("config"), py::arg("motion"));
+    m.def("with_interval", &study::with_interval, py::arg("config"));
+    m.def("calibrated_by_laser", &rig::calibrated_by_laser, py::arg("config"),
+          py::call_guard<py::gil_scoped_release>());
+    m.def("without_switching", &rig::without_switching, py::arg("config"));
+    m.attr("timer_hz") = rig::timer_hz;
+}
+
+}  // namespace zlg::python

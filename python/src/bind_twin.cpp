@@ -1,0 +1,124 @@
+#include <stdexcept>
+
+#include <zlg/config/config.hpp>
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/wiring.hpp>
+#include <zlg/twin/twin.hpp>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+
+namespace zlg::python {
+namespace {
+
+using core::ActuatorFrame;
+using core::SensorFrame;
+
+twin::Motion sines(double rate_arcsec_s, const std::vector<std::tuple<double, double, double>>& sines) {
+    std::vector<twin::Sine> terms;
+    for (const auto& [amplitude, frequency, phase] : sines) terms.push_back({amplitude, frequency, phase});
+    return twin::Motion::sines(rate_arcsec_s, std::move(terms));
+}
+
+void bind_motion(py::module_& m) {
+    py::class_<twin::Motion>(m, "Motion", "Rotation of the gyro's case, as an angle that is a function of time.")
+        .def_static("rest", &twin::Motion::rest, "A case that does not turn.")
+        .def_static("sines", &sines, py::arg("rate_arcsec_s"), py::arg("sines"),
+                    "A constant rate plus sines (amplitude_arcsec_s, frequency_hz, phase_deg).")
+        .def_static(
+            "from_increments",
+            [](const In<double>& increments, double rate_hz) {
+                const auto values = span_of(increments, "increment_arcsec");
+                return twin::Motion::from_increments({values.begin(), values.end()}, rate_hz);
+            },
+            py::arg("increment_arcsec"), py::arg("rate_hz"),
+            "Increment k, arcsec, is the rotation from k/rate_hz to (k + 1)/rate_hz.")
+        .def(
+            "increment_arcsec",
+            [](const twin::Motion& motion, const In<double>& t0_s, const In<double>& t1_s) {
+                return of_each([&](double t0, double t1) { return motion.increment_arcsec(t0, t1); }, t0_s, t1_s);
+            },
+            py::arg("t0_s"), py::arg("t1_s"),
+            "Rotation from t0_s to t1_s, arcsec; arrays are taken element by element.")
+        .def_property_readonly("duration_s", &twin::Motion::duration_s, "Length of sampled motion; inf of others.");
+}
+
+// The samples of one beam, shape (n_light,).
+py::array_t<float> beam(const std::array<float, core::max_light_samples>& samples, std::uint8_t n) {
+    return as_array(std::vector<float>{samples.begin(), samples.begin() + n});
+}
+
+void bind_frames(py::module_& m) {
+    py::class_<SensorFrame>(m, "SensorFrame", "What the gyro's electronics latch at the end of a half-period.")
+        .def(py::init<>())
+        .def_readwrite("sequence", &SensorFrame::sequence)
+        .def_readwrite("timer_ticks", &SensorFrame::timer_ticks)
+        .def_readwrite("counter", &SensorFrame::counter)
+        .def_readwrite("bias_sign", &SensorFrame::bias_sign)
+        .def_readwrite("polarity", &SensorFrame::polarity)
+        .def_readwrite("loop_closed", &SensorFrame::loop_closed)
+        .def_readwrite("piezo_v", &SensorFrame::piezo_v)
+        .def_readwrite("coil_current_a", &SensorFrame::coil_current_a)
+        .def_readwrite("temperature_c", &SensorFrame::temperature_c)
+        .def_readwrite("status", &SensorFrame::status)
+        .def_property_readonly("light_a", [](const SensorFrame& f) { return beam(f.light_a, f.n_light); })
+        .def_property_readonly("light_b", [](const SensorFrame& f) {
+            return beam(f.light_b, f.has_light_b ? f.n_light : std::uint8_t{0});
+        });
+    py::class_<ActuatorFrame>(m, "ActuatorFrame", "What the processor commands for the next half-period.")
+        .def(py::init<>())
+        .def_readwrite("loop_closed", &ActuatorFrame::loop_closed)
+        .def_readwrite("polarity", &ActuatorFrame::polarity)
+        .def_readwrite("edge_offset_ticks", &ActuatorFrame::edge_offset_ticks)
+        .def_property(
+            "set_point_v",
+            [](const ActuatorFrame& f) {
+                return as_array(std::vector<double>{f.set_point_v.begin(), f.set_point_v.begin() + f.n_set_points});
+            },
+            [](ActuatorFrame& f, const In<double>& volts) {
+                const auto values = span_of(volts, "set_point_v");
+                if (values.empty() || values.size() > core::max_set_points)
+                    throw std::invalid_argument{"set_point_v: allowed are 1..16 voltages"};
+                std::copy(values.begin(), values.end(), f.set_point_v.begin());
+                f.n_set_points = static_cast<std::uint8_t>(values.size());
+            });
+}
+
+twin::Twin twin_of(const config::Config& config, const std::optional<twin::Motion>& motion) {
+    const twin::TwinConfig made = rig::twin_config(config);
+    twin::Motion turning = motion ? *motion : rig::motion(config);
+    try {
+        return twin::Twin{made, std::move(turning)};
+    } catch (const std::runtime_error& error) {
+        // A laser without light, or one whose light no table can hold.
+        throw config::ConfigError{std::string{"[laser] does not make a gyro: "} + error.what()};
+    }
+}
+
+std::pair<SensorFrame, twin::TwinTruth> advance(twin::Twin& twin, const ActuatorFrame& actuator) {
+    try {
+        twin::TwinHalf half = twin.advance(actuator);
+        return {half.sensor, half.truth};
+    } catch (const std::overflow_error& error) {
+        throw config::ConfigError{std::string{"[gyro], [drift] or [motion] asks for a rate beyond any counter: "} +
+                                  error.what()};
+    }
+}
+
+}  // namespace
+
+void bind_twin(py::module_& m) {
+    bind_motion(m);
+    bind_frames(m);
+    py::class_<twin::TwinTruth>(m, "TwinTruth", "What happened in a half-period and no gyro knows.")
+        .def_readonly("dtheta_arcsec", &twin::TwinTruth::dtheta_arcsec)
+        .def_readonly("false_relock_arcsec", &twin::TwinTruth::false_relock_arcsec)
+        .def_readonly("detuning_end_lambda", &twin::TwinTruth::detuning_end_lambda)
+        .def_readonly("perimeter_v", &twin::TwinTruth::perimeter_v)
+        .def_readonly("lit", &twin::TwinTruth::lit);
+    py::class_<twin::Twin>(m, "Twin")
+        .def(py::init(&twin_of), py::arg("config"), py::arg("motion") = py::none())
+        .def("advance", &advance, py::arg("actuator"));
+}
+
+}  // namespace zlg::python

@@ -1,0 +1,39 @@
+"""zlg: a Zeeman laser gyro that switches its mode, its processor, and the analysis of its noise.
+
+    import zlg
+    result = zlg.run(zlg.Config.of("run.duration_s=600"))
+
+Modules: `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `study`. Arrays are NumPy's; what C++ computed is handed over
+without a copy, and contiguous arrays of the right type are read where they are. Names carry their unit; 1 arcsec/s is 1 deg/h.
+Long calls release the interpreter. `run`, `simulate`, `compensate`, `paper`, `analyze` and the readers and writers of logs take
+`progress`, a function of the fraction done, and end on Ctrl-C; a deviation, a fit and `design_gyro` go on to their end.
+"""
+
+from . import analysis, config, core, design, logs, rig, study, twin
+from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, SeriesError
+from .config import Config
+from .rig import simulate
+from .core import compensate
+from .study import RunResult, run
+
+__all__ = [
+    "Config",
+    "ConfigError",
+    "DesignError",
+    "Error",
+    "FormatError",
+    "IoError",
+    "RunResult",
+    "SeriesError",
+    "analysis",
+    "compensate",
+    "config",
+    "core",
+    "design",
+    "logs",
+    "rig",
+    "run",
+    "simulate",
+    "study",
+    "twin",
+]

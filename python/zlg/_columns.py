@@ -1,0 +1,60 @@
+"""What the modules have in common: columns of logs, and arrays as C++ takes them."""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+from collections.abc import Iterable
+from typing import Any, Callable, Optional, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+T = TypeVar("T")
+Progress = Optional[Callable[[float], object]]
+
+
+def made_of(kind: type[T], columns: dict[str, Any]) -> T:
+    """The dataclass from the columns of its names."""
+    names = {field.name for field in dataclasses.fields(kind)}
+    return kind(**{name: value for name, value in columns.items() if name in names})
+
+
+def columns_of(log: Any) -> dict[str, Any]:
+    """The members by their names, not copied."""
+    return {field.name: getattr(log, field.name) for field in dataclasses.fields(log)}
+
+
+def tell(reasons: Iterable[str]) -> None:
+    """Each as a warning, at the line that called the function that calls this."""
+    for reason in reasons:
+        warnings.warn(reason, stacklevel=3)
+
+
+def _filled(masked: Any, value: Any) -> Any:
+    return masked.filled(value)
+
+
+def floats(values: ArrayLike) -> NDArray[np.float64]:
+    """As float64, not copied where they are; what is masked is NaN."""
+    if isinstance(values, np.ma.MaskedArray):
+        values = _filled(values.astype(np.float64), np.nan)
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+def mask(valid: Optional[ArrayLike]) -> Optional[NDArray[np.uint8]]:
+    """As bytes 0 and 1, not copied where they are bool; what is masked is not valid. Raises ValueError: anything else."""
+    if valid is None:
+        return None
+    given = np.asarray(_filled(valid, False) if isinstance(valid, np.ma.MaskedArray) else valid)
+    flags = np.ascontiguousarray(given, dtype=np.bool_)
+    if given.dtype != np.bool_ and not np.array_equal(flags, given):
+        raise ValueError("valid: holds other than True and False, or 1 and 0")
+    return flags.view(np.uint8)
+
+
+def signs(mode: ArrayLike) -> NDArray[np.int8]:
+    """As int8. Raises ValueError: a mode that is masked, or other than 1 and -1."""
+    if not np.all(np.equal(np.abs(floats(mode)), 1.0)):
+        raise ValueError("mode: holds other than 1 and -1")
+    return np.ascontiguousarray(mode, dtype=np.int8)

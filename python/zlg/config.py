@@ -1,0 +1,171 @@
+"""Configurations: a dataclass per section of the TOML file, one member per key, the unit in its name."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import json
+import math
+import os
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Optional, Union
+
+from . import _zlg
+from .sections import (  # noqa: F401
+    Analysis,
+    Compensation,
+    Design,
+    Drift,
+    Faults,
+    Gyro,
+    Laser,
+    Motion,
+    Perimeter,
+    Piezo,
+    Run,
+    Sections,
+    Switching,
+)
+
+__all__ = [
+    "Analysis",
+    "Compensation",
+    "Config",
+    "Design",
+    "Drift",
+    "Faults",
+    "Gyro",
+    "Laser",
+    "Motion",
+    "Perimeter",
+    "Piezo",
+    "Run",
+    "Switching",
+]
+
+
+def _toml(value: Any) -> str:
+    """A value as TOML; numbers of NumPy as those of Python."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, (list, tuple)) or hasattr(value, "__array__") and getattr(value, "ndim", 0) == 1:
+        return "[" + ", ".join(_toml(each) for each in value) + "]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) or hasattr(value, "__index__"):
+        return str(int(value))
+    number = float(value)
+    return repr(number) if math.isfinite(number) else "nan" if math.isnan(number) else f"{number:+}".lower()
+
+
+@dataclass
+class Config(Sections):
+    """Everything configurable. The defaults are the gyro of the paper.
+
+    Members are the sections `run`, `gyro`, `laser`, `drift`, `perimeter`, `piezo`, `switching`, `compensation`, `motion`, `faults`,
+    `design` and `analysis`. A member that is None is unset. What is out of its range is told by `check`, and by every function
+    that takes a configuration, as ConfigError: key, value, what is allowed.
+    """
+
+    @classmethod
+    def of(cls, *settings: str) -> Config:
+        """The defaults, and over them settings as the program's --set takes them: "section.key=value".
+
+        Raises ConfigError.
+        """
+        return cls.from_toml("", "", *settings)
+
+    @classmethod
+    def load(cls, path: Union[str, os.PathLike[str]], *settings: str) -> Config:
+        """A TOML file, and over it settings as for `of`.
+
+        Raises ConfigError; OSError where the file cannot be read.
+        """
+        with open(path, encoding="utf-8") as file:
+            return cls.from_toml(file.read(), os.fspath(path), *settings)
+
+    @classmethod
+    def from_toml(cls, text: str, source: str = "text", *settings: str) -> Config:
+        """TOML text; `source` begins the messages.
+
+        Raises ConfigError.
+        """
+        return cls._of_checked(_zlg.CheckedConfig.of_layers(text, source, list(settings)))
+
+    @classmethod
+    def from_settings(cls, settings: Union[Mapping[str, str], Sequence[tuple[str, str]]], name: str = "log") -> Config:
+        """The settings of a log, "section.key" to TOML text; what belongs to no section is ignored.
+
+        Raises ConfigError, also for a key that stands twice with different values.
+        """
+        pairs = list(settings.items()) if isinstance(settings, Mapping) else list(settings)
+        return cls._of_checked(_zlg.CheckedConfig.of_log(pairs, name))
+
+    def with_(self, *settings: str, **sections: Mapping[str, Any]) -> Config:
+        """A changed copy: settings as for `of`, or a mapping of keys for a section.
+
+        config.with_("motion.kind=rest", switching={"interval_s": 60})
+        """
+        changed = copy.deepcopy(self)
+        for section, values in sections.items():
+            setattr(changed, section, dataclasses.replace(getattr(changed, section), **values))
+        return type(self)._of_checked(_zlg.CheckedConfig(changed.settings(), list(settings))) if settings else changed
+
+    def settings(self) -> list[tuple[str, str]]:
+        """What differs from the defaults, as ("section.key", TOML text)."""
+        defaults = Sections()
+        pairs = []
+        for section in dataclasses.fields(Sections):
+            mine, theirs = getattr(self, section.name), getattr(defaults, section.name)
+            for key in dataclasses.fields(mine):
+                value = getattr(mine, key.name)
+                if value is not None and not _same(value, getattr(theirs, key.name)):
+                    pairs.append((f"{section.name}.{key.name}", _toml(value)))
+        return pairs
+
+    def check(self) -> None:
+        """Raises ConfigError with the first rule that is broken."""
+        self._checked()
+
+    def to_toml(self) -> str:
+        """Every key that is set, as a TOML file. Raises ConfigError."""
+        return self._checked().toml()
+
+    def _checked(self) -> _zlg.CheckedConfig:
+        return _zlg.CheckedConfig(self.settings())
+
+    @classmethod
+    def _of_checked(cls, checked: _zlg.CheckedConfig) -> Config:
+        config = cls()
+        for section, values in tomllib.loads(checked.toml()).items():
+            part = getattr(config, section)
+            for key, value in values.items():
+                setattr(part, key, _like(value, getattr(part, key)))
+        return config
+
+
+def _same(value: Any, default: Any) -> bool:
+    if isinstance(value, (list, tuple)) or hasattr(value, "__array__"):
+        return list(value) == list(default) if isinstance(default, list) else False
+    return not isinstance(value, bool) and bool(value == default)
+
+
+def _like(value: Any, default: Any) -> Any:
+    """As the member's type has it: a list stays one where TOML has a single value, a real stays one where it is whole."""
+    if isinstance(default, list):
+        values = value if isinstance(value, list) else [value]
+        return [each if isinstance(each, str) else float(each) for each in values]
+    return float(value) if isinstance(default, float) and isinstance(value, int) else value
+
+
+def checked(config: Optional[Config]) -> _zlg.CheckedConfig:
+    """What C++ takes; None is the gyro of the paper."""
+    return (Config() if config is None else config)._checked()
+
+
+def angle_settings(config: _zlg.CheckedConfig) -> list[tuple[str, str]]:
+    """The settings that stand above an angle log: what its angles depend on."""
+    kept = ("gyro.", "compensation.", "drift.random_walk_arcsec_sqrt_s", "perimeter.discriminator_")
+    return [pair for pair in config.settings() if pair[0].startswith(kept)]

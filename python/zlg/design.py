@@ -1,0 +1,138 @@
+"""Theory for the designer: drift budget, best interval between switches, error of substitution, loop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _zlg
+from ._columns import made_of
+from .config import Config, checked
+
+__all__ = [
+    "Design",
+    "IntervalLine",
+    "Optimum",
+    "Relock",
+    "SubstitutionLine",
+    "design_gyro",
+    "drift_arcsec_s",
+    "optimum",
+    "relock",
+    "substitution_response",
+]
+
+Method = Literal["corrected", "worst_case", "as_printed", "closed_form", "random_sign"]
+
+
+class Optimum(NamedTuple):
+    """Best interval between switches: s, the budget there in arcsec/s, and a sentence."""
+
+    interval_s: float
+    drift_arcsec_s: float
+    status: str
+
+
+@dataclass
+class IntervalLine:
+    """The best interval of one budget for one length of run."""
+
+    run_s: float
+    method: str
+    interval_s: float
+    drift_arcsec_s: float
+    status: str
+
+
+@dataclass
+class SubstitutionLine:
+    """Error of a gap's angle, arcsec, by order of the polynomial; frequency NaN: the whole configured motion."""
+
+    order: int
+    gap_ticks: int
+    frequency_hz: float
+    worst_arcsec: float
+    rms_arcsec: float
+    noise_gain: float
+    counter_arcsec: float
+    relock_arcsec: float
+    total_arcsec: float
+
+
+@dataclass
+class Design:
+    """What `design_gyro` gives."""
+
+    intervals: list[IntervalLine]
+    substitution: list[SubstitutionLine]
+    #: of the perimeter loop
+    relock_s: float
+    stable: bool
+    phase_margin_deg: float
+    gain_margin: float
+    #: total false angle of one re-lock
+    false_angle_arcsec: float
+    #: HTML
+    page: str
+
+
+@dataclass
+class Relock:
+    """The perimeter loop from its closing on."""
+
+    step_s: float
+    #: every step_s, wavelengths, shape (steps,)
+    detuning_lambda: NDArray[np.float64]
+    #: false rotation of each tick, arcsec/s, shape (ticks,)
+    false_drift_arcsec_s: NDArray[np.float64]
+
+
+def design_gyro(config: Optional[Config] = None) -> Design:
+    """All of it for one gyro. Raises ConfigError; DesignError for a gyro without a budget."""
+    result = _zlg.design_gyro(checked(config))
+    result["intervals"] = [made_of(IntervalLine, each) for each in result["intervals"]]
+    result["substitution"] = [made_of(SubstitutionLine, each) for each in result["substitution"]]
+    return made_of(Design, result)
+
+
+def drift_arcsec_s(
+    interval_s: ArrayLike, run_s: float = 3600.0, config: Optional[Config] = None, method: Method = "corrected"
+) -> NDArray[np.float64]:
+    """Apparent drift of a run whose modes are switched every interval_s, arcsec/s, shape of interval_s.
+
+    The gyro is [drift], an error per switch design.switch_error_arcsec. Raises DesignError unless 0 < interval_s <= run_s.
+    """
+    return _zlg.drift_arcsec_s(checked(config), run_s, interval_s, method)
+
+
+def optimum(run_s: float = 3600.0, config: Optional[Config] = None, method: Method = "corrected") -> Optimum:
+    """The interval with the least drift, found without approximation. Raises DesignError."""
+    return Optimum(*_zlg.optimum(checked(config), run_s, method))
+
+
+def substitution_response(
+    frequency_hz: ArrayLike,
+    order: int = 2,
+    gap_ticks: int = 3,
+    points: tuple[int, int, int] = (4, 2, 2),
+    extrapolate: bool = False,
+    tick_s: float = 0.005,
+) -> NDArray[np.float64]:
+    """|H|: worst error of a gap's angle over the amplitude of an oscillation of the rate, arcsec per arcsec/s, shape of frequency_hz.
+
+    points  of the extrapolation, before and after the gap. Raises DesignError.
+    """
+    return _zlg.substitution_response(order, gap_ticks, points, extrapolate, tick_s, frequency_hz)
+
+
+def relock(config: Optional[Config] = None, miss_lambda: Optional[float] = None, ticks: int = 20) -> Relock:
+    """The loop's way to the centre of the mode, and the false rotation meanwhile; the miss is that of [perimeter].
+
+    Raises DesignError.
+    """
+    used = Config() if config is None else config
+    miss = used.perimeter.miss_lambda if miss_lambda is None else miss_lambda
+    return made_of(Relock, _zlg.relock(checked(used), miss, ticks))

@@ -1,0 +1,153 @@
+"""Raw and angle logs, as CSV or HDF5: read into arrays, and written from them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _zlg
+from ._columns import Progress, columns_of, made_of, tell
+from .config import Config, checked
+
+__all__ = ["AngleLog", "RawLog", "kind", "read_angles", "read_raw", "read_text_columns", "write_angles", "write_raw"]
+
+Path = Union[str, os.PathLike[str]]
+
+
+@dataclass
+class RawLog:
+    """What a gyro's processor recorded: arrays of shape (halves,), one element per half of a bias period. None: not recorded."""
+
+    counts: NDArray[np.int64]
+    bias_sign: NDArray[np.int8]
+    mode: NDArray[np.int8]
+    loop_closed: NDArray[np.bool_]
+    valid: Optional[NDArray[np.bool_]] = None
+    #: mean over the half, wavelengths
+    detuning_lambda: Optional[NDArray[np.float64]] = None
+    #: mean of the square, wavelengths^2
+    detuning_sq_lambda2: Optional[NDArray[np.float64]] = None
+    piezo_v: Optional[NDArray[np.float64]] = None
+    temperature_c: Optional[NDArray[np.float64]] = None
+    #: shift of the reversal that ends the half, ticks of a timer of timer_hz
+    edge_offset_ticks: Optional[NDArray[np.int32]] = None
+    #: photodiodes, shape (halves, samples)
+    light_a: Optional[NDArray[np.float32]] = None
+    light_b: Optional[NDArray[np.float32]] = None
+    #: ticks per second of that timer, 1 .. 1e15 where there are shifts
+    timer_hz: float = 0.0
+    #: ("section.key", TOML text), as they stand above the rows
+    settings: list[tuple[str, str]] = field(default_factory=list)
+    #: False: it is being written, or its writer was interrupted
+    complete: bool = True
+
+    def __len__(self) -> int:
+        return len(self.counts)
+
+    @property
+    def config(self) -> Config:
+        """The configuration that the settings tell, over the defaults."""
+        return Config.from_settings(self.settings)
+
+    @property
+    def tick_s(self) -> float:
+        """Length of a tick, two halves."""
+        return self.config.gyro.tick_s
+
+
+@dataclass
+class AngleLog:
+    """What compensation made of a raw log: arrays of shape (ticks,), one element per tick."""
+
+    #: as delivered in real time, arcsec
+    dtheta_arcsec: NDArray[np.float64]
+    #: the best increment known afterwards, arcsec
+    dtheta_final_arcsec: NDArray[np.float64]
+    #: one standard deviation of it; inf where unknown
+    sigma_arcsec: NDArray[np.float64]
+    mode: NDArray[np.int8]
+    #: sum of the bits zlg.core.angle_flags
+    flags: NDArray[np.uint32]
+    #: what the twin turned, arcsec; None: not known
+    truth_dtheta_arcsec: Optional[NDArray[np.float64]] = None
+    tick_s: float = 0.005
+    settings: list[tuple[str, str]] = field(default_factory=list)
+    complete: bool = True
+
+    def __len__(self) -> int:
+        return len(self.flags)
+
+    @property
+    def t_s(self) -> NDArray[np.float64]:
+        """End of each tick, s, shape (ticks,)."""
+        return self.tick_s * np.arange(1, len(self) + 1)
+
+    @property
+    def measured(self) -> NDArray[np.bool_]:
+        """False where the increment was bridged, guessed or distrusted, shape (ticks,)."""
+        missing = np.uint32(_zlg.not_measured)
+        return np.equal(self.flags & missing, 0)
+
+    @property
+    def error_arcsec(self) -> NDArray[np.float64]:
+        """Final less true angle since the start, arcsec, shape (ticks,). Raises ValueError without truth."""
+        if self.truth_dtheta_arcsec is None:
+            raise ValueError("the log has no true angle: it was not made by the twin")
+        return np.cumsum(self.dtheta_final_arcsec - self.truth_dtheta_arcsec)
+
+
+def kind(path: Path) -> str:
+    """ "raw", "angles" or "unknown", told from the content. Raises IoError, FormatError."""
+    return _zlg.log_kind(os.fspath(path))
+
+
+def read_raw(path: Path, light: bool = True, progress: Progress = None) -> RawLog:
+    """A raw log, CSV or HDF5; light=False leaves its light samples on the disk.
+
+    Warns of unknown columns, and of a last line without end. Raises IoError; FormatError: file, row, column, value, what is allowed.
+    """
+    columns = _zlg.read_raw(os.fspath(path), light, progress)
+    tell(columns["warnings"])
+    return made_of(RawLog, columns)
+
+
+def write_raw(
+    path: Path, log: RawLog, config: Optional[Config] = None, force: bool = False, progress: Progress = None
+) -> None:
+    """Write a raw log, in the format that the suffix says: .csv, .h5 or .hdf5.
+
+    The settings are those of the log, or all of `config`. Raises IoError (a file is not overwritten without `force`), FormatError;
+    ValueError for rows that no reader would accept.
+    """
+    settings = log.settings if config is None else checked(config).settings()
+    _zlg.write_raw(os.fspath(path), columns_of(log), settings, log.timer_hz, force, progress)
+
+
+def read_angles(path: Path, progress: Progress = None) -> AngleLog:
+    """An angle log, CSV or HDF5. Warns of unknown columns. Raises IoError, FormatError."""
+    columns = _zlg.read_angles(os.fspath(path), progress)
+    tell(columns["warnings"])
+    t_s = columns["t_s"]
+    known = dict(columns["settings"]).get("tick_s") or dict(columns["settings"]).get("gyro.tick_s")
+    columns["tick_s"] = float(known) if known else float(t_s[0]) if len(t_s) else 0.005
+    return made_of(AngleLog, columns)
+
+
+def write_angles(path: Path, log: AngleLog, force: bool = False, progress: Progress = None) -> None:
+    """Write an angle log, .csv, .h5 or .hdf5; the truth is kept in HDF5. Raises IoError, FormatError."""
+    _zlg.write_angles(os.fspath(path), columns_of(log), log.tick_s, log.settings, force, progress)
+
+
+def read_text_columns(
+    path: Path, columns: Sequence[int], comment: str = "#", skip_lines: int = 0
+) -> list[NDArray[np.float64]]:
+    """Columns of numbers of a text file, the first is 1; NaN where a field is `nan` or empty.
+
+    Returns one array per column, shape (rows,). Raises IoError, FormatError.
+    """
+    return _zlg.read_text_columns(os.fspath(path), list(columns), comment, skip_lines)

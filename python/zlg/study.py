@@ -1,0 +1,261 @@
+"""Experiments: one run of the twin, many compensations, statistics."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _zlg
+from ._columns import Progress, floats, made_of, signs
+from .analysis import Deviations, FittedTerm, ModeSplit, NoiseFit
+from .config import Config, angle_settings, checked
+from .logs import AngleLog, RawLog
+
+__all__ = [
+    "Analysis",
+    "Axis",
+    "AxisResult",
+    "Claim",
+    "EarthLine",
+    "Paper",
+    "Readout",
+    "RunResult",
+    "Switches",
+    "Variant",
+    "analyze",
+    "axis_of_log",
+    "paper",
+    "run",
+]
+
+
+@dataclass
+class Variant:
+    """One way to compensate a run, and what comes of it."""
+
+    name: str
+    #: slope of the angle error over the run, arcsec/s
+    drift_arcsec_s: float
+    #: at the end
+    angle_error_arcsec: float
+    #: errors per switch, with the sign of the false drift; None without a switch
+    switch_mean_arcsec: Optional[float]
+    switch_rms_arcsec: Optional[float]
+    switch_max_arcsec: Optional[float]
+    #: of each switch, shape (switches,)
+    switch_tick: NDArray[np.int64]
+    switch_error_arcsec: NDArray[np.float64]
+    #: final less true angle over time, shape (points,)
+    t_s: NDArray[np.float64]
+    error_arcsec: NDArray[np.float64]
+
+
+@dataclass
+class Switches:
+    """The switches of the configured compensation, arrays of shape (switches,); NaN where unknown."""
+
+    tick: NDArray[np.int64]
+    mode: NDArray[np.int32]
+    miss_lambda: NDArray[np.float64]
+    half_wave_v: NDArray[np.float64]
+    gap_ticks: NDArray[np.int64]
+    dp_arcsec: NDArray[np.float64]
+    relock_arcsec: NDArray[np.float64]
+    sigma_arcsec: NDArray[np.float64]
+    true_error_arcsec: NDArray[np.float64]
+
+
+@dataclass
+class RunResult:
+    """What `run` gives."""
+
+    tick_s: float
+    ticks: int
+    variants: list[Variant]
+    switches: Switches
+    #: true false drift 1, 2, ... ticks after the loop is closed, deg/h, mean over the switches
+    relock_false_drift_deg_h: NDArray[np.float64]
+    raw: Optional[RawLog]
+    #: of the configured compensation, with the truth
+    angles: Optional[AngleLog]
+    #: the report, HTML
+    page: Optional[str]
+
+    def __getitem__(self, name: str) -> Variant:
+        """The variant of a name: "one_mode", "switching", "relock_frequency", ..., "configured". Raises KeyError."""
+        for variant in self.variants:
+            if variant.name == name:
+                return variant
+        raise KeyError(f"{name}: allowed are {', '.join(variant.name for variant in self.variants)}")
+
+
+def run(
+    config: Optional[Config] = None,
+    *,
+    raw: bool = False,
+    angles: bool = True,
+    page: bool = False,
+    threads: int = 1,
+    progress: Progress = None,
+) -> RunResult:
+    """The main experiment: a gyro that switches modes, every compensation on the same records, and the gyro in one mode.
+
+    config  default: an hour of the paper's gyro.
+    raw, angles, page  what to keep beside the figures.
+    Raises ConfigError, IoError and FormatError for a motion file.
+    """
+    asked = Config() if config is None else config
+    if asked.compensation.relock is None:
+        asked = asked.with_(compensation={"relock": "mean_square"})
+    used = _zlg.with_interval(checked(asked))
+    result = _zlg.run(used, raw, angles, page, threads, progress)
+    result["variants"] = [made_of(Variant, each) for each in result["variants"]]
+    result["switches"] = made_of(Switches, result["switches"])
+    if raw:
+        told = {"settings": used.settings(), "timer_hz": _zlg.timer_hz}
+        result["raw"] = made_of(RawLog, {**result["raw"], **told})
+    if angles:
+        known = {"settings": angle_settings(used), "tick_s": result["tick_s"]}
+        result["angles"] = made_of(AngleLog, {**result["angles"], **known})
+    return made_of(RunResult, result)
+
+
+@dataclass
+class Claim:
+    """Something that the paper says, and what became of it."""
+
+    where: str
+    claim: str
+    verdict: str
+    finding: str
+
+
+@dataclass
+class Paper:
+    """The paper recomputed."""
+
+    claims: list[Claim]
+    #: of all points measured on the twin, against theory
+    chi2_per_dof: float
+    #: every figure and table, HTML
+    page: str
+
+
+def paper(
+    config: Optional[Config] = None, threads: int = 1, switches_per_point: int = 2000, progress: Progress = None
+) -> Paper:
+    """Every figure and table of the paper recomputed, beside print and twin; about a minute. Raises ConfigError, DesignError."""
+    result = _zlg.paper(checked(config), threads, switches_per_point, progress)
+    result["claims"] = [made_of(Claim, each) for each in result["claims"]]
+    return made_of(Paper, result)
+
+
+@dataclass
+class Axis:
+    """One axis of a gyro as it was read."""
+
+    name: str
+    rate_hz: float
+    #: NaN where nothing was measured, shape (samples,)
+    rates_arcsec_s: NDArray[np.float64]
+    #: +1 or -1, of a switched gyro
+    mode: Optional[NDArray[np.int8]] = None
+    #: the rates with the gaps filled as compensation did
+    bridged_arcsec_s: Optional[NDArray[np.float64]] = None
+    #: three axes of one group stand at right angles
+    group: str = ""
+
+
+@dataclass
+class Readout:
+    """The Allan deviation at a time, between two points of its curve."""
+
+    what: str
+    tau_s: float
+    deviation_arcsec_s: float
+
+
+@dataclass
+class AxisResult:
+    """What is known of the noise of one axis."""
+
+    name: str
+    n_samples: int
+    n_known: int
+    n_gaps: int
+    mean_arcsec_s: float
+    mean_sigma_arcsec_s: float
+    deviations: list[Deviations]
+    fit: Optional[NoiseFit]
+    #: why there is no fit
+    no_fit: str
+    #: at 1 s, and where each term is read
+    readouts: list[Readout]
+    #: of a switched gyro
+    modes: Optional[ModeSplit]
+    #: of a switched gyro: mode +1, mode -1, and both with the magnetic part taken out
+    mode_curves: list[Deviations]
+
+
+@dataclass
+class EarthLine:
+    """The Earth's rate as three axes at right angles see it: the norm of their mean rates."""
+
+    group: str
+    n_axes: int
+    norm_arcsec_s: float
+    sigma_arcsec_s: float
+
+
+@dataclass
+class Analysis:
+    """What `analyze` gives."""
+
+    axes: list[AxisResult]
+    #: of each group of three axes
+    earth: list[EarthLine]
+    #: HTML
+    page: str
+
+
+def axis_of_log(log: AngleLog, name: str = "gyro") -> Axis:
+    """The final increments of an angle log; ticks that were not measured are missing."""
+    rates = log.dtheta_final_arcsec / log.tick_s
+    return Axis(name, 1.0 / log.tick_s, np.where(log.measured, rates, np.nan), log.mode, rates)
+
+
+def analyze(
+    axes: Sequence[Axis],
+    config: Optional[Config] = None,
+    settling_samples: int = 20,
+    threads: int = 1,
+    progress: Progress = None,
+) -> Analysis:
+    """What `zlg analyze` computes of axes in memory, and draws; [analysis] says which deviations.
+
+    settling_samples  after a gap that belong to the switch
+    progress          told, and Ctrl-C looked for, before each axis
+    Raises ConfigError; SeriesError with the axis' name.
+    """
+    records = _zlg.Axes()
+    for axis in axes:
+        mode = None if axis.mode is None else signs(axis.mode)
+        bridged = None if axis.bridged_arcsec_s is None else floats(axis.bridged_arcsec_s)
+        records.add(axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged)
+    result = _zlg.analyze(checked(config), records, settling_samples, threads, progress)
+    for each in result["axes"]:
+        each["deviations"] = [made_of(Deviations, curve) for curve in each["deviations"]]
+        each["mode_curves"] = [made_of(Deviations, curve) for curve in each["mode_curves"]]
+        each["readouts"] = [made_of(Readout, readout) for readout in each["readouts"]]
+        if each["modes"] is not None:
+            each["modes"] = made_of(ModeSplit, each["modes"])
+        if each["fit"] is not None:
+            terms = [made_of(FittedTerm, term) for term in each["fit"]["fitted"]]
+            each["fit"] = made_of(NoiseFit, {**each["fit"], "fitted": terms})
+    result["axes"] = [made_of(AxisResult, each) for each in result["axes"]]
+    result["earth"] = [made_of(EarthLine, each) for each in result["earth"]]
+    return made_of(Analysis, result)

@@ -1,0 +1,114 @@
+"""Builds the wheel of zlg: CMake makes the package, this packs it. Needs nothing from the network.
+
+python3 -m build --wheel --no-isolation; without --wheel it packs the sources, and builds the wheel from them.
+"""
+
+import base64
+import hashlib
+import io
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LEFT_OUT = {".git", "build", "dist", "__pycache__"}
+
+
+def version():
+    return re.search(r"project\(zlg VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
+def metadata():
+    head = {
+        "Metadata-Version": "2.1",
+        "Name": "zlg",
+        "Version": version(),
+        "Summary": "A Zeeman laser gyro that switches its mode: simulation, compensation, noise analysis",
+        "License": "Apache-2.0",
+        "Requires-Python": ">=3.11",
+        "Requires-Dist": "numpy",
+    }
+    return "".join(f"{key}: {value}\n" for key, value in head.items())
+
+
+def tag():
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+
+
+def get_requires_for_build_wheel(config_settings=None):
+    return []
+
+
+get_requires_for_build_sdist = get_requires_for_build_wheel
+
+
+def built_package(config_settings):
+    """The folder with the package. The setting `build-dir` names a build folder to go on with."""
+    build = pathlib.Path((config_settings or {}).get("build-dir", ROOT / "build" / "wheel"))
+    if not (build / "CMakeCache.txt").exists():
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DZLG_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}"]
+        subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), "-G", "Ninja", *options], check=True)
+    subprocess.run(["cmake", "--build", str(build), "--target", "zlg_python"], check=True)
+    return build / "python" / "zlg"
+
+
+def record_line(name, content):
+    digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+    return f"{name},sha256={digest},{len(content)}\n"
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    package = built_package(config_settings)
+    suffix = sysconfig.get_config_var("EXT_SUFFIX")
+    kept = [p for p in sorted(package.iterdir()) if p.suffix in (".py", ".pyi", ".typed") or p.name.endswith(suffix)]
+    if not any(path.name == f"_zlg{suffix}" for path in kept):
+        raise SystemExit(f"{package} holds no _zlg{suffix}; the build folder is of another Python")
+    info = f"zlg-{version()}.dist-info"
+    contents = {f"zlg/{path.name}": path.read_bytes() for path in kept}
+    contents[f"{info}/METADATA"] = metadata().encode()
+    contents[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    wheel = f"Wheel-Version: 1.0\nGenerator: zlg\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    contents[f"{info}/WHEEL"] = wheel.encode()
+    record = "".join(record_line(name, content) for name, content in contents.items())
+    contents[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()
+    name = f"zlg-{version()}-{tag()}.whl"
+    with zipfile.ZipFile(pathlib.Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as archive:
+        for member, content in contents.items():
+            archive.writestr(zipfile.ZipInfo(member, (1980, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED)
+    return name
+
+
+def listed_by_git():
+    """The files of a checkout that git knows; None where this is none, as in an unpacked sdist, or git is not there."""
+    if not (ROOT / ".git").exists() or shutil.which("git") is None:
+        return None
+    done = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z"], capture_output=True, text=True)
+    return [ROOT / name for name in done.stdout.split("\0") if name] if done.returncode == 0 else None
+
+
+def source_files():
+    listed = listed_by_git()
+    if listed is not None:
+        yield from (path for path in sorted(listed) if path.is_file())
+        return
+    for folder, folders, files in os.walk(ROOT):
+        folders[:] = sorted(f for f in folders if f not in LEFT_OUT and not f.startswith("."))
+        yield from (pathlib.Path(folder) / f for f in sorted(files) if not f.endswith((".whl", ".tar.gz", ".part")))
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    base = f"zlg-{version()}"
+    with tarfile.open(pathlib.Path(sdist_directory) / f"{base}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT) as archive:
+        for path in source_files():
+            archive.add(path, f"{base}/{path.relative_to(ROOT)}", recursive=False)
+        head = tarfile.TarInfo(f"{base}/PKG-INFO")
+        head.size = len(metadata())
+        archive.addfile(head, io.BytesIO(metadata().encode()))
+    return f"{base}.tar.gz"

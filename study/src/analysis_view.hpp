@@ -1,0 +1,58 @@
+#pragma once
+// One axis as the page of an analysis shows it, and its figures.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <zlg/report/figure.hpp>
+#include <zlg/study/analyze.hpp>
+
+namespace zlg::study {
+
+struct View {
+    const config::Analysis& config;
+    const AxisResult& axis;
+    std::size_t index;
+    const std::optional<PresumedNoise>& presumed;
+
+    [[nodiscard]] double shown(double arcsec_s) const { return shown_rate(config.unit, arcsec_s); }
+    [[nodiscard]] std::string unit() const { return shown_unit(config.unit); }
+    [[nodiscard]] std::string id(const char* what) const { return fmt::format("{}-{}", what, index + 1); }
+};
+
+[[nodiscard]] inline report::Series named(std::string name, report::Mark mark = report::Mark::line,
+                                          bool dashed = false) {
+    return {.name = std::move(name), .x = {}, .y = {}, .y_error = {}, .mark = mark, .dashed = dashed};
+}
+
+[[nodiscard]] inline report::Series curve_series(const View& v, const analysis::DeviationCurve& curve,
+                                                 std::string name) {
+    report::Series s = named(std::move(name), report::Mark::points);
+    for (const auto& p : curve.points) {
+        if (!(p.deviation > 0.0)) continue;
+        s.x.push_back(p.tau_s);
+        s.y.push_back(v.shown(p.deviation));
+        s.y_error.push_back(v.shown(p.high - p.deviation));
+        s.y_error_down.push_back(v.shown(p.deviation - p.low));
+    }
+    return s;
+}
+
+// The deviation with its intervals and the fitted terms; with guides of the classical slopes.
+[[nodiscard]] report::Figure sigma_figure(const View& v);
+[[nodiscard]] report::Figure guide_figure(const View& v);
+
+[[nodiscard]] report::Figure course_figure(const View& v);
+[[nodiscard]] report::Figure spectrum_figure(const View& v);
+[[nodiscard]] report::Figure bands_figure(const View& v);
+
+// Of a switched gyro.
+[[nodiscard]] report::Figure mode_figure(const View& v);
+[[nodiscard]] report::Figure split_figure(const View& v);
+[[nodiscard]] report::Figure switch_figure(const View& v);
+
+}  // namespace zlg::study

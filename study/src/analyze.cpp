@@ -1,0 +1,211 @@
+#include <zlg/study/analyze.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <zlg/analysis/noise_units.hpp>
+#include <zlg/config/schema.hpp>
+
+#include "axis_curves.hpp"
+
+namespace zlg::study {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t course_bins = 1500;
+constexpr std::size_t spectrogram_times = 60;
+
+void count_known(const AxisRecord& record, AxisResult& axis) {
+    std::size_t gap_from = 0;
+    bool in_gap = false;
+    const auto close = [&](std::size_t end) {
+        if (!in_gap) return;
+        ++axis.n_gaps;
+        if (axis.gaps.size() < most_gaps)
+            axis.gaps.push_back(
+                {static_cast<double>(gap_from) / record.rate_hz, static_cast<double>(end) / record.rate_hz});
+        in_gap = false;
+    };
+    for (std::size_t k = 0; k < record.rates_arcsec_s.size(); ++k) {
+        const double r = record.rates_arcsec_s[k];
+        if (std::isfinite(r)) {
+            ++axis.n_known;
+            axis.mean_arcsec_s += (r - axis.mean_arcsec_s) / static_cast<double>(axis.n_known);
+            close(k);
+        } else if (!in_gap) {
+            in_gap = true;
+            gap_from = k;
+        }
+    }
+    close(record.rates_arcsec_s.size());
+}
+
+// Means over equal stretches; one of which half is missing is a gap.
+std::vector<TimeBin> course_of(const AxisRecord& record) {
+    const std::size_t n = record.rates_arcsec_s.size();
+    const std::size_t length = std::max<std::size_t>(1, (n + course_bins - 1) / course_bins);
+    std::vector<TimeBin> course;
+    for (std::size_t from = 0; from < n; from += length) {
+        const std::size_t to = std::min(n, from + length);
+        double mean = 0.0, known = 0.0;
+        for (std::size_t k = from; k < to; ++k)
+            if (std::isfinite(record.rates_arcsec_s[k]))
+                known += 1.0, mean += (record.rates_arcsec_s[k] - mean) / known;
+        const bool is_gap = 2.0 * known < static_cast<double>(to - from) || known == 0.0;
+        course.push_back({0.5 * static_cast<double>(from + to) / record.rate_hz, is_gap ? none : mean});
+    }
+    return course;
+}
+
+// On the straight line in log-log between the neighbours.
+std::optional<double> read_curve(const analysis::DeviationCurve& curve, double tau_s) {
+    const auto& p = curve.points;
+    for (std::size_t k = 0; k + 1 < p.size(); ++k) {
+        if (!(p[k].tau_s <= tau_s && tau_s <= p[k + 1].tau_s)) continue;
+        if (!(p[k].deviation > 0.0) || !(p[k + 1].deviation > 0.0)) return std::nullopt;
+        const double share = std::log(tau_s / p[k].tau_s) / std::log(p[k + 1].tau_s / p[k].tau_s);
+        return std::exp((1.0 - share) * std::log(p[k].deviation) + share * std::log(p[k + 1].deviation));
+    }
+    return std::nullopt;
+}
+
+// At 1 s, at the least value, and where each term is read.
+std::vector<Readout> readouts_of(const AxisResult& axis) {
+    std::vector<Readout> out;
+    const auto& curve = axis.allan;
+    if (curve.points.empty()) return out;
+    const auto add = [&](std::string what, double tau_s) {
+        if (const auto value = read_curve(curve, tau_s)) out.push_back({std::move(what), tau_s, *value});
+    };
+    add("at 1 s", 1.0);
+    const auto least = std::ranges::min_element(curve.points, {}, &analysis::DeviationPoint::deviation);
+    out.push_back({"least", least->tau_s, least->deviation});
+    if (!axis.fit) return out;
+    for (const analysis::FittedTerm& term : axis.fit->fitted)
+        if (term.found && std::isfinite(term.read_at_s) && term.read_at_s != 1.0)
+            add(fmt::format("where {} is read", analysis::name_of(term.kind)), term.read_at_s);
+    return out;
+}
+
+void take_modes(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
+    if (record.mode.empty()) return;
+    axis.modes = analysis::split_modes({.rate_hz = record.rate_hz,
+                                        .rates_arcsec_s = record.rates_arcsec_s,
+                                        .bridged_arcsec_s = record.bridged_arcsec_s,
+                                        .mode = record.mode},
+                                       task.settling_samples);
+    std::vector<double>{}.swap(record.bridged_arcsec_s);
+    for (const int mode : {1, -1}) {
+        std::vector<double> one = record.rates_arcsec_s;
+        for (std::size_t k = 0; k < one.size(); ++k)
+            if (record.mode[k] != mode) one[k] = none;
+        try {
+            axis.mode_curves.push_back(octave_oadev(task, record_of(one, record.rate_hz)));
+        } catch (const analysis::SeriesError&) {
+            // Never in this mode, or not long enough: no curve.
+            axis.mode_curves.push_back(
+                {.kind = analysis::DeviationKind::oadev, .confidence = task.config.confidence, .points = {}});
+        }
+    }
+}
+
+std::size_t piece_of(std::size_t n) {
+    std::size_t piece = 8;
+    while (2 * piece <= n / 8) piece *= 2;
+    return piece;
+}
+
+void take_spectra(const AxisRecord& record, AxisResult& axis) {
+    const std::size_t n = record.rates_arcsec_s.size();
+    try {
+        axis.spectrum = analysis::welch_spectrum(record.rates_arcsec_s, record.rate_hz, piece_of(n));
+        const std::size_t piece = std::clamp<std::size_t>(2 * n / spectrogram_times, 8, 1 << 16);
+        axis.spectrogram = analysis::spectrogram(record.rates_arcsec_s, record.rate_hz, piece);
+    } catch (const analysis::SeriesError&) {
+        // Too short, or too little known: the page goes without.
+        axis.spectrum = {};
+        axis.spectrogram = {};
+    }
+}
+
+// Of a switched gyro the curve without the sawtooth of its magnetic drift.
+void take_curve_left(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
+    analysis::take_out_magnetic(*axis.modes, record.mode, record.rate_hz, record.rates_arcsec_s);
+    if (axis.modes->segments.size() < 2) return;
+    axis.mode_curves.push_back(octave_oadev(task, record_of(record.rates_arcsec_s, record.rate_hz)));
+}
+
+double mean_of(std::span<const double> rates) {
+    double mean = 0.0, n = 0.0;
+    for (const double r : rates)
+        if (std::isfinite(r)) n += 1.0, mean += (r - mean) / n;
+    return mean;
+}
+
+// Takes out of the rates what is no noise, and the sinusoids out of the mean: over gaps and parts of a period they would leave
+// much more there than its error says.
+void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
+    std::vector<double>& rates = record.rates_arcsec_s;
+    try {
+        if (axis.modes) take_curve_left(task, record, axis);
+        const double mean = mean_of(rates);
+        axis.fit = analysis::fit_noise_in_place(
+            rates, record.rate_hz, {.least_known_ratio = task.config.least_known_ratio, .threads = task.threads});
+        if (!axis.fit->terms.sines.empty()) axis.mean_arcsec_s += mean_of(rates) - mean;
+        if (axis.modes || !axis.fit->terms.sines.empty())
+            axis.spectrum_left = analysis::welch_spectrum(rates, record.rate_hz, piece_of(rates.size()));
+    } catch (const analysis::SeriesError& error) {
+        if (axis.fit) return;
+        const bool is_switched = axis.modes && axis.modes->segments.size() > 1;
+        axis.no_fit = fmt::format("{}{}", is_switched ? "without the magnetic drift: " : "", error.what());
+    }
+}
+
+// How far such a mean may be from the next one: the fitted noise at the record's length, without ramp and sinusoids, which
+// are no chance; without a fit that describes the record, the longest Allan deviation, as of white noise.
+double sigma_of_mean(const AxisResult& axis) {
+    const double known_s = static_cast<double>(axis.n_known) / axis.rate_hz;
+    if (!axis.fit || !axis.fit->describes) {
+        if (axis.allan.points.empty()) return none;
+        const auto& last = axis.allan.points.back();
+        return last.deviation * std::sqrt(std::min(1.0, last.tau_s / known_s));
+    }
+    analysis::NoiseTerms terms = axis.fit->terms;
+    terms.ramp_arcsec_s2 = 0.0;
+    terms.sines.clear();
+    return std::sqrt(analysis::allan_variance(terms, known_s));
+}
+
+AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
+    AxisResult axis{.name = record.name, .group = record.group, .holds = record.holds, .rate_hz = record.rate_hz};
+    axis.is_error = record.is_error;
+    axis.n_samples = std::ssize(record.rates_arcsec_s);
+    count_known(record, axis);
+    axis.course = course_of(record);
+    take_curves(task, record, axis);
+    take_modes(task, record, axis);
+    take_spectra(record, axis);
+    take_fit(task, record, axis);
+    axis.mean_sigma_arcsec_s = sigma_of_mean(axis);
+    axis.readouts = readouts_of(axis);
+    return axis;
+}
+
+}  // namespace
+
+AxisResult analyze_axis(const AnalysisTask& task, AxisRecord record) {
+    if (task.config.deviations.empty()) throw config::ConfigError("analysis.deviations = []: allowed is one or more");
+    const std::string name = record.name;
+    try {
+        return analyzed(task, std::move(record));
+    } catch (const analysis::SeriesError& error) {
+        throw analysis::SeriesError(fmt::format("{}: {}", name, error.what()));
+    }
+}
+
+}  // namespace zlg::study

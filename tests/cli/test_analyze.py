@@ -1,0 +1,330 @@
+"""zlg analyze: logs and text files in, deviations, terms and drift by mode out."""
+
+import html.parser
+import json
+import math
+import random
+import unittest
+
+from support import ROOT, CliTest, complaints, run
+
+TEXT = ["--set", "analysis.column_holds=rate", "--set", "analysis.rate_hz=10"]
+IMU = ROOT.parent / "shared" / "data" / "lasergyro.imu"
+
+
+def white(n, deviation, mean=0.0, seed=1):
+    generator = random.Random(seed)
+    return [generator.gauss(mean, deviation) for _ in range(n)]
+
+
+def lines(values):
+    return "".join(f"{value!r}\n" for value in values)
+
+
+def plain_oadev(rates, m, rate_hz):
+    """By the definition, from the angle."""
+    angle = [0.0]
+    for rate in rates:
+        angle.append(angle[-1] + rate / rate_hz)
+    tau = m / rate_hz
+    squares = [(angle[k + 2 * m] - 2 * angle[k + m] + angle[k]) ** 2 for k in range(len(rates) - 2 * m + 1)]
+    return math.sqrt(sum(squares) / len(squares) / 2.0) / tau
+
+
+class Words(html.parser.HTMLParser):
+    """The text of a page, and the numbers in its drawings."""
+
+    def __init__(self):
+        super().__init__()
+        self.text = []
+        self.drawn = []
+
+    def handle_starttag(self, tag, attributes):
+        self.drawn += [value for name, value in attributes if name in ("d", "x", "y", "cx", "cy", "points") and value]
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+class Analyze(CliTest):
+    def json_of(self, *arguments):
+        result = run("analyze", *arguments, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def refusal(self, code, *arguments):
+        result = run("analyze", *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(len(complaints(result)), 1, result.stderr)
+        return result.stderr
+
+    def test_deviations_are_those_of_the_definition(self):
+        rates = white(2000, 3.0)
+        path = self.write("rates.txt", lines(rates))
+        axis = self.json_of(path, *TEXT)["axes"][0]
+        self.assertEqual((axis["samples"], axis["known"], axis["gaps"]), (2000, 2000, 0))
+        for point in axis["deviations"][0]["points"]:
+            expected = plain_oadev(rates, point["m"], 10.0)
+            self.assertAlmostEqual(point["deviation"], expected, delta=1e-9 * expected)
+            self.assertEqual(point["n"], 2000 - 2 * point["m"] + 1)
+            self.assertLess(point["low"], point["deviation"])
+            self.assertGreater(point["high"], point["deviation"])
+
+    def test_increments_and_angles_are_the_same_gyro(self):
+        rates = white(1000, 3.0)
+        angle, angles = 100.0, [100.0]
+        for rate in rates:
+            angle += rate / 10.0
+            angles.append(angle)
+        as_rate = self.json_of(self.write("rates.txt", lines(rates)), *TEXT)["axes"][0]
+        increments = self.write("increments.txt", lines(rate / 10.0 / 0.5 for rate in rates))
+        as_increments = self.json_of(increments, "--set", "analysis.column_holds=increment", "--set", "analysis.rate_hz=10",
+                                     "--set", "analysis.scale_arcsec=0.5")["axes"][0]
+        as_phase = self.json_of(self.write("angles.txt", lines(angles)), "--set", "analysis.column_holds=phase",
+                                "--set", "analysis.rate_hz=10")["axes"][0]
+        for other in (as_increments, as_phase):
+            self.assertAlmostEqual(other["mean_rate_arcsec_s"], as_rate["mean_rate_arcsec_s"], places=9)
+            for a, b in zip(as_rate["deviations"][0]["points"], other["deviations"][0]["points"]):
+                self.assertAlmostEqual(a["deviation"], b["deviation"], delta=1e-8 * a["deviation"])
+
+    def test_angle_random_walk_is_found_with_its_error(self):
+        # 3 arcsec/s a sample at 10 Hz: N = 3/sqrt(10) arcsec/sqrt(s) = 0.0158 deg/sqrt(h)
+        path = self.write("rates.txt", lines(white(20000, 3.0, mean=2.0)))
+        axis = self.json_of(path, *TEXT)["axes"][0]
+        terms = {term["term"]: term for term in axis["fit"]["terms"]}
+        walk = terms["angle random walk"]
+        self.assertTrue(walk["found"])
+        self.assertAlmostEqual(walk["value"], 3.0 / math.sqrt(10.0), delta=4.0 * walk["sigma"])
+        self.assertAlmostEqual(walk["shown"]["value"], walk["value"] / 60.0, places=12)
+        self.assertEqual(walk["shown"]["unit"], "deg/sqrt(h)")
+        absent = terms["rate random walk"]
+        self.assertAlmostEqual(absent["shown"]["limit_95"], 60.0 * absent["limit_95"], places=12)
+        self.assertAlmostEqual(axis["fit"]["data_sheet"]["angle_random_walk_deg_sqrt_h"], walk["shown"]["value"], places=12)
+        self.assertEqual({readout["unit"] for readout in axis["readouts"]}, {"arcsec/s"})
+        self.assertEqual([name for name, term in terms.items() if term["found"]], ["angle random walk"])
+        self.assertAlmostEqual(axis["mean_rate_arcsec_s"], 2.0, delta=4.0 * axis["mean_rate_sigma_arcsec_s"])
+        self.assertAlmostEqual(axis["fit"]["discrete"]["white_rate_arcsec_s"], 3.0, delta=0.1)
+
+    def test_missing_samples_are_counted_and_not_filled(self):
+        rates = white(3000, 3.0)
+        text = "".join("nan\n" if 1000 <= k < 1100 or k == 2000 else f"{rate!r}\n" for k, rate in enumerate(rates))
+        axis = self.json_of(self.write("rates.txt", text), *TEXT)["axes"][0]
+        self.assertEqual((axis["samples"], axis["known"], axis["gaps"]), (3000, 2899, 2))
+        # Differences of neighbours: 99 + 1 about the long gap are lost, and 2 about the single one.
+        self.assertEqual(axis["deviations"][0]["points"][0]["n"], 2999 - 101 - 2)
+
+    def test_several_columns_and_files(self):
+        rows = "".join(f"{a},{b},{c}\n" for a, b, c in zip(white(500, 1.0, 3.0, 1), white(500, 1.0, 4.0, 2), white(500, 1.0, 14.0, 3)))
+        path = self.write("unit.csv", "# three axes\n" + rows)
+        other = self.write("other.txt", lines(white(500, 1.0)))
+        result = self.json_of(path, *TEXT, "--set", "analysis.column=[1, 2, 3]", "--set", "analysis.latitude_deg=30")
+        self.assertEqual(len(result["axes"]), 3)
+        self.assertAlmostEqual(result["earth"][0]["norm_arcsec_s"], math.sqrt(9 + 16 + 196), delta=0.3)
+        self.assertAlmostEqual(result["latitude"]["vertical_arcsec_s"], 15.041067 / 2.0, places=5)
+        self.assertEqual(len(self.json_of(other, path, *TEXT)["axes"]), 2)
+
+    def test_deviations_taus_and_units_are_chosen(self):
+        path = self.write("rates.txt", lines(white(1000, 3.0)))
+        result = run("analyze", path, *TEXT, "--set", "analysis.deviations=[\"mdev\", \"tdev\"]", "--set",
+                     "analysis.taus_s=[0.1, 1, 10]", "--set", "analysis.unit=rad/s")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("mdev, rad/s; intervals of 95 %", result.stdout)
+        self.assertIn("tdev, arcsec; intervals of 95 %", result.stdout)
+        axis = self.json_of(path, *TEXT, "--set", "analysis.taus_s=[0.1, 1, 10]")["axes"][0]
+        self.assertEqual([point["tau_s"] for point in axis["deviations"][0]["points"]], [0.1, 1.0, 10.0])
+
+    def test_a_run_gives_its_drifts_back(self):
+        out = self.folder / "run"
+        made = run("run", "--out", out, "--duration", 600, "--set", "switching.interval_s=20", "--set", "motion.kind=rest",
+                   "--set", "drift.magnetic_thermal_arcsec_s=0", "--set", "motion.rate_arcsec_s=0", "--set",
+                   "drift.nonmagnetic_arcsec_s=0.5")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        result = self.json_of(out / "angles.h5")
+        self.assertEqual([axis["name"] for axis in result["axes"]], ["angles.h5", "angles.h5, error"])
+        for axis in result["axes"]:
+            modes = axis["modes"]
+            self.assertEqual(len(modes["segments"]), 30)
+            self.assertEqual(modes["switch_statistics"]["n"], 29)
+            self.assertAlmostEqual(modes["nonmagnetic_arcsec_s"]["value"], 0.5, delta=4 * modes["nonmagnetic_arcsec_s"]["sigma"])
+            self.assertAlmostEqual(modes["magnetic_arcsec_s"]["value"], 0.7, delta=4 * modes["magnetic_arcsec_s"]["sigma"])
+            self.assertLess(modes["magnetic_arcsec_s"]["sigma"], 0.05)
+        raw = self.json_of(out / "raw.h5")["axes"][0]
+        self.assertEqual(raw["mean_rate_arcsec_s"], result["axes"][0]["mean_rate_arcsec_s"])
+        self.assertEqual(raw["gaps"], 29)
+
+    def test_the_page_is_whole_and_has_no_number_that_is_none(self):
+        rates = white(3000, 3.0)
+        text = "".join("nan\n" if 1000 <= k < 1200 else f"{rate!r}\n" for k, rate in enumerate(rates))
+        page = self.folder / "report.html"
+        result = run("analyze", self.write("rates.txt", text), *TEXT, "--out", page)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        words = Words()
+        words.feed(page.read_text())
+        for text in words.text + words.drawn:
+            self.assertNotRegex(text.lower(), r"\bnan\b|\binf\b")
+        for name in ("sigma-1", "slopes-1", "course-1", "spectrum-1", "bands-1"):
+            self.assertIn(f'id="{name}"', page.read_text())
+        again = run("analyze", self.folder / "rates.txt", *TEXT, "--out", page)
+        self.assertEqual(again.returncode, 3, again.stderr)
+        self.assertEqual(run("analyze", self.folder / "rates.txt", *TEXT, "--out", page, "--force").returncode, 0)
+
+    def test_kalibr_in_and_out(self):
+        path = self.write("rates.txt", lines(white(5000, 3.0)))
+        yaml = self.folder / "imu.yaml"
+        result = run("analyze", path, *TEXT, "--imu-yaml", yaml)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        values = dict(line.split("#")[0].split(": ") for line in yaml.read_text().splitlines() if not line.startswith("#"))
+        self.assertAlmostEqual(float(values["gyroscope_noise_density"]) * 648000.0 / math.pi, 3.0 / math.sqrt(10.0), delta=0.05)
+        self.assertEqual(float(values["update_rate"]), 10.0)
+        compared = run("analyze", path, *TEXT, "--compare", yaml)
+        self.assertEqual(compared.returncode, 0, compared.stderr)
+        self.assertIn("imu.yaml presumes 0.01", compared.stdout)
+        told = self.json_of(path, *TEXT, "--compare", yaml)["presumed"]
+        self.assertEqual(told["name"], "imu.yaml")
+        self.assertAlmostEqual(told["angle_random_walk_arcsec_sqrt_s"], 3.0 / math.sqrt(10.0), delta=0.05)
+        self.assertAlmostEqual(told["data_sheet"]["angle_random_walk_deg_sqrt_h"], told["angle_random_walk_arcsec_sqrt_s"] / 60.0)
+        self.refusal(3, path, *TEXT, "--compare", path)
+
+    def test_kalibr_is_given_the_limit_of_what_was_not_found(self):
+        path, yaml = self.write("rates.txt", lines(white(5000, 3.0))), self.folder / "imu.yaml"
+        axis = self.json_of(path, *TEXT, "--imu-yaml", yaml)["axes"][0]
+        walk = next(term for term in axis["fit"]["terms"] if term["term"] == "rate random walk")
+        self.assertFalse(walk["found"])
+        line = next(line for line in yaml.read_text().splitlines() if line.startswith("gyroscope_random_walk"))
+        self.assertIn("upper limit, none was found", line)
+        self.assertAlmostEqual(float(line.split("#")[0].split(": ")[1]) * 648000.0 / math.pi, walk["limit_95"], delta=1e-6 * walk["limit_95"])
+
+    def test_kalibr_is_not_told_what_describes_no_noise(self):
+        moved = [20.0 * math.sin(1e-4 * k * k) + x for k, x in enumerate(white(5000, 1.0))]
+        path, page = self.write("moved.txt", lines(moved)), self.folder / "page.html"
+        self.assertFalse(self.json_of(path, *TEXT)["axes"][0]["fit"]["describes"])
+        self.assertIn("do not describe", self.refusal(3, path, *TEXT, "--imu-yaml", self.folder / "imu.yaml", "--out", page))
+        self.assertFalse(page.exists())
+
+    def test_both_files_are_written_or_neither(self):
+        path, page, yaml = self.write("rates.txt", lines(white(2000, 3.0))), self.folder / "new.html", self.folder / "there.yaml"
+        yaml.write_text("mine\n")
+        before = sorted(self.folder.iterdir())
+        self.assertIn("there.yaml exists", self.refusal(3, path, *TEXT, "--out", page, "--imu-yaml", yaml))
+        self.assertEqual(sorted(self.folder.iterdir()), before)
+        self.assertEqual(yaml.read_text(), "mine\n")
+
+    def test_no_output_goes_over_another_file_of_the_same_call(self):
+        path, page, yaml = self.write("rates.txt", lines(white(2000, 3.0))), self.folder / "a.html", self.folder / "x.yaml"
+        for other in (page, self.folder / "." / "a.html", self.folder / "a.html.part"):
+            self.assertIn("--imu-yaml", self.refusal(2, path, *TEXT, "--out", page, "--imu-yaml", other, "--force"))
+        self.assertEqual(run("analyze", path, *TEXT, "--imu-yaml", yaml).returncode, 0)
+        text = yaml.read_text()
+        self.assertIn(f"--imu-yaml {yaml}: is the input", self.refusal(2, path, *TEXT, "--compare", yaml, "--imu-yaml", yaml, "--force"))
+        self.assertIn(f"--imu-yaml {path}: is the input", self.refusal(2, path, *TEXT, "--imu-yaml", path, "--force"))
+        self.assertEqual(yaml.read_text(), text)
+
+    def test_logs_with_their_truth_are_the_axes_of_one_unit(self):
+        logs = []
+        for k, rate in enumerate((-12.0, 3.0, 8.5)):
+            out = self.folder / f"run{k}"
+            made = run("run", "--out", out, "--duration", 60, "--seed", k + 1, "--set", "motion.kind=rest", "--set", f"motion.rate_arcsec_s={rate}")
+            self.assertEqual(made.returncode, 0, made.stderr)
+            logs.append(out / "angles.h5")
+        result = self.json_of(*logs)
+        self.assertEqual([axis["is_error"] for axis in result["axes"]], [False, True] * 3)
+        self.assertEqual([line["axes"] for line in result["earth"]], [3])
+        means = [axis["mean_rate_arcsec_s"] for axis in result["axes"] if not axis["is_error"]]
+        self.assertAlmostEqual(result["earth"][0]["norm_arcsec_s"], math.hypot(*means), places=9)
+        self.assertEqual(self.json_of(*logs[:2])["earth"], [])
+
+    def test_a_missing_angle_costs_three_differences(self):
+        angle, angles = 0.0, []
+        for rate in white(1000, 3.0):
+            angles.append(angle)
+            angle += rate
+        text = "".join("nan\n" if k == 500 else f"{value!r}\n" for k, value in enumerate(angles))
+        axis = self.json_of(self.write("angles.txt", text), "--set", "analysis.column_holds=phase", "--set", "analysis.rate_hz=1")["axes"][0]
+        for point in axis["deviations"][0]["points"]:
+            m = point["m"]
+            lost = sum(0 <= start < 1000 - 2 * m for start in (500, 500 - m, 500 - 2 * m))
+            self.assertEqual(point["n"], 1000 - 2 * m - lost)
+
+    def test_what_would_take_many_minutes_says_so_at_once(self):
+        path = self.write("long.txt", "1\n2\n4\n" * 200000)
+        message = self.refusal(2, path, *TEXT, "--set", "analysis.deviations=mtotdev")
+        self.assertRegex(message, "mtotdev.*600000 samples.* min; say which times, analysis.taus_s")
+
+    def test_a_rate_table(self):
+        generator = random.Random(5)
+        rows = []
+        for rate in (-10.0, -5.0, -1.0, 0.0, 1.0, 5.0, 10.0):
+            for _ in range(100):
+                rows.append(f"{rate!r} {(rate * 3600.0 * (1 + 50e-6) + 7.0 + generator.gauss(0.0, 1.0)) / 10.0!r}\n")
+        path = self.write("table.txt", "".join(rows))
+        result = self.json_of(path, "--set", "analysis.column_holds=increment", "--set", "analysis.rate_hz=10", "--set",
+                              "analysis.column=2", "--set", "analysis.table_column=1", "--set", "analysis.table_scale_arcsec_s=3600")
+        table = result["rate_tables"][0]
+        self.assertEqual(len(table["stages"]), 7)
+        self.assertAlmostEqual(table["scale_factor_units_arcsec"]["value"], 1 + 50e-6, delta=4 * table["scale_factor_units_arcsec"]["sigma"])
+        self.assertLess(table["scale_factor_units_arcsec"]["sigma"], 1e-5)
+        self.assertAlmostEqual(table["bias_arcsec_s"]["value"], 7.0, delta=4 * table["bias_arcsec_s"]["sigma"])
+        said = ["--set", "analysis.column_holds=increment", "--set", "analysis.rate_hz=10", "--set", "analysis.column=2",
+                "--set", "analysis.table_column=1", "--set", "analysis.table_scale_arcsec_s=3600"]
+        with_earth = self.json_of(path, *said, "--set", "analysis.table_earth_arcsec_s=7")["rate_tables"][0]
+        self.assertAlmostEqual(with_earth["bias_arcsec_s"]["value"], table["bias_arcsec_s"]["value"] - 7.0, places=6)
+        self.assertIn("0 stages", self.refusal(3, path, *said, "--set", "analysis.table_settling_s=1e18"))
+        # -1, 0 and 1 are then one rate.
+        wide = self.json_of(path, *said, "--set", "analysis.table_same_rate_ratio=0.25")["rate_tables"][0]
+        self.assertEqual(len(wide["stages"]), 5)
+
+    def test_what_tells_nothing_is_refused_in_one_line(self):
+        for name, values in (("one", [1.0]), ("constant", [5.0] * 100), ("zero", [0.0] * 100), ("unknown", [math.nan] * 100)):
+            message = self.refusal(3, self.write(f"{name}.txt", lines(values)), *TEXT, "--out", self.folder / "page.html")
+            self.assertIn(f"{name}.txt", message)
+            self.assertFalse((self.folder / "page.html").exists())
+        self.assertIn("no rows", self.refusal(3, self.write("empty.txt", ""), *TEXT))
+        self.assertIn("'x'", self.refusal(3, self.write("word.txt", "1\nx\n"), *TEXT))
+
+    def test_odd_records_are_no_accident(self):
+        generator = random.Random(7)
+        odd = {"line": range(300), "turns": [k % 2 for k in range(200)],
+               "tiny": [1e-300 * generator.gauss(0.0, 1.0) for _ in range(500)],
+               "huge": [1e150 * generator.gauss(0.0, 1.0) for _ in range(500)],
+               "sine": [math.sin(0.3 * k) for k in range(500)],
+               "sparse": [math.nan if (k // 50) % 10 else generator.gauss(0.0, 1.0) for k in range(5000)]}
+        for name, values in odd.items():
+            page = self.folder / f"{name}.html"
+            result = run("analyze", self.write(f"{name}.txt", lines(values)), *TEXT, "--out", page)
+            self.assertIn(result.returncode, (0, 3), f"{name}: {result.stderr}")
+            if result.returncode == 0:
+                words = Words()
+                words.feed(page.read_text())
+                for text in words.text + words.drawn:
+                    self.assertNotRegex(text.lower(), r"\bnan\b|\binf\b", name)
+
+    def test_a_short_record_has_a_deviation_and_no_terms(self):
+        axis = self.json_of(self.write("short.txt", "1\n2\n4\n"), *TEXT)["axes"][0]
+        self.assertEqual(len(axis["deviations"][0]["points"]), 1)
+        self.assertIn("64", axis["fit"]["reason"])
+
+    def test_wrong_usage(self):
+        path = self.write("rates.txt", lines(white(100, 1.0)))
+        self.assertIn("analysis.column_holds", self.refusal(2, path))
+        self.assertIn("analysis.rate_hz", self.refusal(2, path, "--set", "analysis.column_holds=rate"))
+        self.assertIn("analysis.rate_hz", self.refusal(2, path, "--set", "analysis.column_holds=rate", "--set", "analysis.rate_hz=0"))
+        self.assertIn(".html", self.refusal(2, path, *TEXT, "--out", "page.pdf"))
+        self.assertIn("analysis.deviations", self.refusal(2, path, *TEXT, "--set", "analysis.deviations=alan"))
+        self.assertIn("analysis.deviations", self.refusal(2, path, *TEXT, "--set", "analysis.deviations=[]"))
+        self.assertIn("analysis.confidence", self.refusal(2, path, *TEXT, "--set", "analysis.confidence=0.9999999999999999"))
+
+    @unittest.skipUnless(IMU.exists(), "no recording of a real laser gyro beside the project")
+    def test_a_real_unit_sees_the_earth_turn(self):
+        result = self.json_of(IMU, "--set", "analysis.column_holds=increment", "--set", "analysis.scale_arcsec=0.1", "--set",
+                              "analysis.rate_hz=100", "--set", "analysis.comment=%", "--set", "analysis.skip_lines=3", "--set",
+                              "analysis.column=[1, 2, 3]")
+        self.assertEqual([axis["samples"] for axis in result["axes"]], [184718] * 3)
+        self.assertAlmostEqual(result["earth"][0]["norm_arcsec_s"], 14.86, delta=0.02)
+        by_motion = self.json_of(IMU, "--set", "motion.scale_arcsec=0.1", "--set", "motion.comment=%", "--set",
+                                 "motion.skip_lines=3", "--set", "motion.column=3")
+        self.assertEqual(by_motion["axes"][0]["mean_rate_arcsec_s"], result["axes"][2]["mean_rate_arcsec_s"])
+
+
+if __name__ == "__main__":
+    unittest.main()

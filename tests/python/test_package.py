@@ -1,0 +1,126 @@
+"""Stubs, docstrings and the wheel."""
+
+import ast
+import importlib
+import importlib.util
+import inspect
+import os
+import pkgutil
+import subprocess
+import shutil
+import sys
+import tarfile
+import zipfile
+
+import pytest
+from conftest import PACKAGE_DIR, ROOT
+
+import zlg
+from zlg import _zlg
+
+
+def names_of(body):
+    for node in body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.name
+        elif isinstance(node, ast.AnnAssign):
+            yield node.target.id
+
+
+def public(owner):
+    return {name for name in vars(owner) if not name.startswith("_")}
+
+
+def test_the_stub_has_every_name():
+    stub = ast.parse((PACKAGE_DIR / "zlg" / "_zlg.pyi").read_text()).body
+    assert {name for name in names_of(stub)} == public(_zlg)
+    for node in stub:
+        if isinstance(node, ast.ClassDef):
+            members = {name for name in names_of(node.body) if name not in ("__init__",)}
+            assert members == public(getattr(_zlg, node.name)), node.name
+
+
+def test_the_stub_has_every_argument():
+    stub = {node.name: node for node in ast.parse((PACKAGE_DIR / "zlg" / "_zlg.pyi").read_text()).body
+            if isinstance(node, ast.FunctionDef)}  # fmt: skip
+    for name, node in stub.items():
+        signature = getattr(_zlg, name).__doc__.splitlines()[0]
+        for argument in node.args.args:
+            assert f"{argument.arg}: " in signature, (name, argument.arg)
+        assert signature.count(": ") >= len(node.args.args)
+
+
+def modules():
+    return [importlib.import_module(f"zlg.{m.name}") for m in pkgutil.iter_modules(zlg.__path__)
+            if m.name not in ("_zlg", "_columns", "sections")]  # fmt: skip
+
+
+@pytest.mark.parametrize("module", modules(), ids=lambda m: m.__name__)
+def test_everything_public_says_what_it_is(module):
+    assert module.__doc__
+    for name in module.__all__:
+        each = getattr(module, name)
+        if inspect.isfunction(each) or inspect.isclass(each):
+            assert each.__doc__, name
+        if inspect.isfunction(each):
+            told = inspect.signature(each)
+            assert told.return_annotation is not told.empty, name
+            assert all(p.annotation is not p.empty for p in told.parameters.values()), name
+
+
+def test_the_types_agree(tmp_path):
+    assert (PACKAGE_DIR / "zlg" / "py.typed").exists()
+    check = ["-m", "mypy", "--strict", "--cache-dir", str(tmp_path), "-p", "zlg"]
+    done = subprocess.run([sys.executable, *check], cwd=PACKAGE_DIR, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_wheel_holds_all_that_is_needed(tmp_path):
+    build = ["-m", "build", "--wheel", "--no-isolation", "--outdir", str(tmp_path), "-C", f"build-dir={PACKAGE_DIR.parent}"]
+    done = subprocess.run([sys.executable, *build, str(ROOT)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    (wheel,) = tmp_path.glob("zlg-*.whl")
+    zipfile.ZipFile(wheel).extractall(tmp_path / "site")
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
+    program = "import zlg, sys; print(zlg.__file__, len(zlg.simulate(zlg.Config.of('run.duration_s=1')).raw))"
+    told = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+    assert told.stdout.split() == [str(tmp_path / "site" / "zlg" / "__init__.py"), "400"]
+
+
+@pytest.fixture
+def backend():
+    specification = importlib.util.spec_from_file_location("zlg_build", ROOT / "python" / "zlg_build.py")
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+def test_no_wheel_is_made_without_its_module(backend, tmp_path, monkeypatch):
+    (tmp_path / "__init__.py").touch()
+    (tmp_path / "_zlg.cpython-27-x86_64-linux-gnu.so").touch()
+    monkeypatch.setattr(backend, "built_package", lambda settings: tmp_path)
+    with pytest.raises(SystemExit, match="holds no _zlg.*another Python"):
+        backend.build_wheel(tmp_path)
+    assert not list(tmp_path.glob("*.whl"))
+
+
+def test_the_sources_are_packed(backend, tmp_path):
+    with tarfile.open(tmp_path / backend.build_sdist(tmp_path)) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    assert names >= {"PKG-INFO", "pyproject.toml", "CMakeLists.txt", "LICENSE", "python/zlg_build.py", "python/zlg/py.typed"}
+    for folder in ("core", "twin", "logs", "config", "rig", "design", "analysis", "report", "study", "python"):
+        known = {str(path.relative_to(ROOT)) for path in (ROOT / folder).rglob("*.hpp")}
+        assert known and len(known & names) >= len(known) - 3  # a header may be too new for git to know it
+    assert not any(name.startswith(("build/", ".git/")) or "__pycache__" in name for name in names)
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
+def test_only_sources_that_git_knows_are_packed(backend, tmp_path, monkeypatch):
+    monkeypatch.setattr(backend, "ROOT", tmp_path)
+    for name in ("known.txt", "lost.txt", "notes.txt"):
+        (tmp_path / name).touch()
+    assert [path.name for path in backend.source_files()] == ["known.txt", "lost.txt", "notes.txt"]
+    for command in (["init", "-q"], ["add", "known.txt", "lost.txt"]):
+        subprocess.run(["git", "-C", str(tmp_path), *command], check=True)
+    (tmp_path / "lost.txt").unlink()
+    assert [path.name for path in backend.source_files()] == ["known.txt"]

@@ -1,0 +1,126 @@
+"""The main experiment from Python: the same bits as the program, progress, interruption, threads."""
+
+import _thread
+import json
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import PACKAGE_DIR
+
+import zlg
+
+SHORT = zlg.Config.of("run.duration_s=120", "switching.interval_s=15")
+PROGRAM = PACKAGE_DIR.parent / "bin" / "zlg"
+
+
+@pytest.mark.skipif(not PROGRAM.exists(), reason="the program was not built")
+def test_the_same_bits_as_the_program(tmp_path):
+    sets = ["--set", "run.duration_s=120", "--set", "switching.interval_s=15"]
+    command = [PROGRAM, "run", *sets, "--json", "--out", tmp_path / "run"]
+    told = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    result = zlg.run(SHORT, raw=True)
+    assert [v["name"] for v in told["variants"]] == [v.name for v in result.variants]
+    assert [v["drift_arcsec_s"] for v in told["variants"]] == [v.drift_arcsec_s for v in result.variants]
+    raw = zlg.logs.read_raw(tmp_path / "run" / "raw.h5")
+    angles = zlg.logs.read_angles(tmp_path / "run" / "angles.h5")
+    assert np.array_equal(raw.counts, result.raw.counts) and np.array_equal(raw.piezo_v, result.raw.piezo_v)
+    for log in (result.angles, zlg.compensate(raw)):
+        assert np.array_equal(angles.dtheta_final_arcsec, log.dtheta_final_arcsec)
+        assert np.array_equal(angles.flags, log.flags)
+        assert log.settings == [pair for pair in angles.settings if "." in pair[0]]
+    assert np.array_equal(zlg.simulate(SHORT).raw.counts, raw.counts)
+
+
+def test_what_comes_back_fits_together():
+    result = zlg.run(SHORT, page=True)
+    configured = result["configured"]
+    assert configured.error_arcsec[-1] == pytest.approx(configured.angle_error_arcsec, abs=5.0)
+    assert result.angles.error_arcsec[-1] == pytest.approx(configured.angle_error_arcsec, abs=1e-6)
+    assert not configured.t_s.flags.owndata  # the memory is that of C++
+    assert len(result.switches.tick) == 7 and len(result.angles) == result.ticks == 24000
+    assert result["one_mode"].switch_rms_arcsec is None
+    assert abs(configured.switch_rms_arcsec) < abs(result["switching"].switch_rms_arcsec)
+    assert result.raw is None and "<html" in result.page
+    with pytest.raises(KeyError, match="configured"):
+        result["best"]
+
+
+def test_progress_rises_to_the_end():
+    told = []
+    zlg.run(SHORT, progress=told.append)
+    assert len(told) > 2 and told == sorted(told) and 0 <= told[0] and told[-1] <= 1
+
+
+def test_an_exception_of_progress_ends_the_run():
+    def refuse(fraction):
+        raise LookupError("enough")
+
+    for call in (zlg.run, zlg.simulate):
+        with pytest.raises(LookupError, match="enough"):
+            call(SHORT, progress=refuse)
+    with pytest.raises(LookupError):
+        zlg.compensate(zlg.simulate(SHORT).raw, progress=refuse)
+    with pytest.raises(LookupError):
+        zlg.study.analyze([zlg.study.Axis("x", 1.0, np.arange(100.0))], progress=refuse)
+
+
+def test_ctrl_c_ends_a_long_call():
+    # A script in the background ignores it, and so does what it starts.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    threading.Timer(0.1, _thread.interrupt_main).start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        zlg.simulate(zlg.Config.of("run.duration_s=36000"))
+    signal.signal(signal.SIGINT, before)
+    assert time.monotonic() - start < 5.0  # the whole run takes longer
+
+
+def test_other_threads_run_meanwhile():
+    task = threading.Thread(target=zlg.run, args=(zlg.Config.of("run.duration_s=1200"),))
+    turns = 0
+    task.start()
+    while task.is_alive():
+        time.sleep(0.001)
+        turns += 1
+    assert turns > 50
+
+
+def test_a_run_that_cannot_be_is_told():
+    with pytest.raises(zlg.ConfigError, match="duration_s"):
+        zlg.run(zlg.Config(run=zlg.config.Run(duration_s=1e-9)))
+    with pytest.raises(zlg.Error, match="none.txt"):
+        zlg.run(zlg.Config.of("motion.kind=file", "motion.path=none.txt"))
+
+
+def test_an_axis_is_analyzed():
+    angles = zlg.run(SHORT.with_("motion.kind=rest")).angles
+    axis = zlg.study.axis_of_log(angles)
+    result = zlg.study.analyze([axis], zlg.Config.of("analysis.deviations=[\"oadev\", \"mdev\"]"))
+    (told,) = result.axes
+    assert told.n_samples == len(angles) and told.n_known == angles.measured.sum() and told.n_gaps == 7
+    assert [d.kind for d in told.deviations] == ["oadev", "mdev"]
+    by_hand = zlg.analysis.deviations_of_log(angles, taus=[0.005])
+    assert told.deviations[0].deviation[0] == pytest.approx(by_hand.deviation[0], rel=1e-9)
+    assert told.fit is not None and "<html" in result.page
+    assert {d.kind for d in told.mode_curves} == {"oadev"} and len(told.mode_curves) == 3
+    assert len(told.modes.switch_time_s) == 7 and told.modes.magnetic[0] == pytest.approx(0.7, abs=0.3)
+    assert told.readouts[0].tau_s == pytest.approx(1.0) and result.earth == []
+    axis.rates_arcsec_s = np.full(100, np.nan)
+    axis.mode = axis.bridged_arcsec_s = None
+    with pytest.raises(zlg.SeriesError, match="gyro"):
+        zlg.study.analyze([axis])
+
+
+def test_three_axes_see_the_earth():
+    random = np.random.default_rng(9)
+    means = [2.0, -10.0, 11.0]  # their norm is 15 arcsec/s
+    axes = [zlg.study.Axis(f"{k}", 10.0, mean + random.normal(0.0, 1.0, 10_000), group="box") for k, mean in enumerate(means)]
+    (earth,) = zlg.study.analyze(axes).earth
+    assert (earth.group, earth.n_axes) == ("box", 3)
+    assert abs(earth.norm_arcsec_s - 15.0) < 5 * earth.sigma_arcsec_s < 0.5
+    axes[0].rates_arcsec_s = np.ma.masked_array(axes[0].rates_arcsec_s, np.arange(10_000) < 100)
+    assert zlg.study.analyze(axes).axes[0].n_known == 9900
