@@ -19,7 +19,7 @@ Telemetry filled() {
             .has_settled = true,
             .settled_age_ticks = 0x0124,
             .mode = -1,
-            .flags = 0x11223344,
+            .flags = 0x1234,
             .dtheta_arcsec = -12.625,
             .angle = 0xFEDCBA9876543210,
             .settled_mode = 1,
@@ -81,7 +81,7 @@ TEST(Telemetry, HasTheLayoutOfTheDescription) {
     EXPECT_EQ(body[7], 0x00);
     EXPECT_EQ(number(8, 8), 0xFEDCBA9876543210u);
     EXPECT_EQ(real(16), -12.625);
-    EXPECT_EQ(number(24, 4), 0x11223344u);
+    EXPECT_EQ(number(24, 4), 0x1234u);
     EXPECT_EQ(number(28, 4), 0x3FFFFFFFu);
     EXPECT_EQ(body[32], 0xFF);
     EXPECT_EQ(body[33], 0x01);
@@ -114,6 +114,8 @@ TEST(Telemetry, WhatNoGyroSendsIsRefused) {
     EXPECT_TRUE(refused([](Telemetry& t) { t.settled_sigma_arcsec = nan; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.mode = 0; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.settled_mode = 2; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.flags = 0x10000; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.settled_flags = 0x20000; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = 0.0; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = inf; }));
 }

@@ -36,7 +36,11 @@ void complete(const TelemetryState& state, const TickReport& report, Telemetry& 
 // Of one tick: beyond, the register itself could not tell it.
 constexpr double most_arcsec = 0x1p35;
 
+// Of the flags; those above are left to whoever keeps the rows.
+constexpr std::uint32_t flags_of_the_gyro = 0xFFFF;
+
 bool is_possible(const Telemetry& t) noexcept {
+    if (((t.flags | t.settled_flags) & ~flags_of_the_gyro) != 0) return false;
     if (!is_sign(t.mode) || !is_sign(t.settled_mode)) return false;
     for (const double angle_arcsec : {t.dtheta_arcsec, t.settled_dtheta_arcsec, t.settled_final_arcsec})
         if (!(angle_arcsec > -most_arcsec && angle_arcsec < most_arcsec)) return false;
