@@ -20,9 +20,9 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 study::AxisRecord white(std::size_t n, double mean, double deviation, unsigned seed) {
     std::mt19937 engine(seed);
-    std::normal_distribution<double> noise(mean, deviation);
+    std::normal_distribution<double> normal;
     study::AxisRecord axis{.name = "axis", .group = "unit", .holds = "rates", .rate_hz = 10.0};
-    for (std::size_t k = 0; k < n; ++k) axis.rates_arcsec_s.push_back(noise(engine));
+    for (std::size_t k = 0; k < n; ++k) axis.rates_arcsec_s.push_back(mean + deviation * normal(engine));
     return axis;
 }
 
