@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "compensation_support.hpp"
@@ -92,6 +93,36 @@ TEST(MotionLearning, AnEstimateThatWaitsKeepsTheProblem) {
     EXPECT_FALSE(state.scores.weights[fast_memory].known);
     learn_noise(config, state, random, 30);
     EXPECT_TRUE(state.scores.weights[fast_memory].known);
+}
+
+TEST(MotionLearning, EverySecondWindowIsJudgedOnceBothMemoriesHaveWeights) {
+    Random random{10};
+    const OptimalBridgeConfig config;
+    MotionLearningState state;
+    // 18 ticks before the first window, a block of 100, some ticks to weigh: the fast memory is known, the slow one is not.
+    learn_noise(config, state, random, 18 + 100 + 30);
+    EXPECT_TRUE(state.scores.weights[fast_memory].known);
+    EXPECT_EQ(state.scores.n, 0.0);
+    learn_noise(config, state, random, 100);
+    EXPECT_TRUE(state.scores.weights[slow_memory].known);
+    const double before = state.scores.n + state.scores.n_rough;
+    learn_noise(config, state, random, 60);
+    EXPECT_EQ(state.scores.n + state.scores.n_rough, before + 30.0);
+}
+
+TEST(MotionLearning, OfFourBlocksTheFastMemoryIsWeighedAfterTwoAndTheSlowOneAfterOne) {
+    Random random{11};
+    const OptimalBridgeConfig config;
+    MotionLearningState state;
+    learn_noise(config, state, random, 1000);
+    std::array<int, 2> n_weighed{};
+    for (int t = 0; t < 800; ++t) {
+        const auto before = state.scores.weights;
+        learn_noise(config, state, random, 1);
+        for (const unsigned m : {fast_memory, slow_memory}) n_weighed[m] += !(state.scores.weights[m] == before[m]);
+    }
+    EXPECT_EQ(n_weighed[fast_memory], 4);
+    EXPECT_EQ(n_weighed[slow_memory], 2);
 }
 
 TEST(MotionLearning, ReadyAfterFiftyWindowsOrWithAGivenPrior) {
