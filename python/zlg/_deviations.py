@@ -1,0 +1,252 @@
+"""Allan deviation and its kin, of arrays, of logs and as a stream; public by `zlg.analysis`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _zlg
+from ._columns import floats, made_of, mask
+from .logs import AngleLog
+
+Floats = NDArray[np.float64]
+DataType = Literal["increments", "rate", "phase"]
+Taus = Union[Literal["octave", "decade", "log", "all"], Sequence[float], Floats, None]
+Unit = Literal["arcsec", "rad", "deg", "arcsec/s", "rad/s", "deg/s", "deg/h", "1"]
+
+KINDS = ("adev", "oadev", "mdev", "tdev", "hdev", "ohdev", "totdev", "mtotdev", "htotdev")
+
+
+@dataclass
+class Deviations:
+    """A deviation against averaging time: arrays of shape (taus,). A tau at which nothing is known is left out."""
+
+    kind: str
+    #: of the intervals, for instance 0.6827
+    confidence: float
+    #: averaging factors, tau_s times the rate
+    m: NDArray[np.int64]
+    tau_s: Floats
+    #: arcsec/s; tdev arcsec; without unit for unit "1"
+    deviation: Floats
+    #: ends of the interval
+    low: Floats
+    high: Floats
+    #: differences that were known
+    terms: NDArray[np.int64]
+    #: equivalent degrees of freedom
+    edf: Floats
+    #: exponent of the rate's spectrum f^noise at this tau
+    noise: NDArray[np.int32]
+
+
+class Known(NamedTuple):
+    """(taus, devs, errs, ns): s, deviation, half of its 68.27 % interval, number of differences."""
+
+    taus: Floats
+    devs: Floats
+    errs: Floats
+    ns: NDArray[np.int64]
+
+
+def _taus(taus: Taus) -> Union[str, list[float]]:
+    return "octave" if taus is None else taus if isinstance(taus, str) else [float(tau) for tau in taus]
+
+
+def deviation(
+    kind: str,
+    data: ArrayLike,
+    *,
+    rate_hz: float,
+    data_type: DataType,
+    unit: Unit,
+    valid: Optional[ArrayLike] = None,
+    taus: Taus = None,
+    per_decade: int = 20,
+    confidence: float = 0.6827,
+    least_known_ratio: float = 0.9,
+    noise: Optional[int] = None,
+    bias_removed: bool = True,
+    threads: int = 1,
+) -> Deviations:
+    """A deviation of a record with gaps, in arcsec/s, with intervals.
+
+    kind        one of KINDS
+    data        shape (samples,)
+    valid       bool, shape (samples,); default: all that are finite
+    taus        "octave" (default), "decade", "log" (per_decade), "all", or times in s
+    least_known_ratio  of each averaging window
+    noise       exponent of the rate's spectrum, 2 .. -4; default: identified from the data
+    bias_removed  of the total deviations
+    Raises SeriesError: no sample, nothing known, all equal, another unit, no tau with a term.
+    """
+    columns = _zlg.deviation(
+        kind, floats(data), rate_hz, data_type, unit, mask(valid), _taus(taus), per_decade, False,
+        confidence, least_known_ratio, noise, bias_removed, threads,
+    )  # fmt: skip
+    return made_of(Deviations, columns)
+
+
+def _known(
+    kind: str, data: ArrayLike, rate: float, data_type: Optional[str], taus: Taus, valid: Optional[ArrayLike]
+) -> Known:
+    if data_type is None:
+        raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
+    called = "rate" if data_type == "freq" else data_type
+    d = made_of(
+        Deviations,
+        _zlg.deviation(
+            kind, floats(data), rate, called, "1", mask(valid), _taus(taus), 20, True, 0.6827, 0.9, None, True, 1
+        ),
+    )
+    return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
+
+
+def adev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Allan deviation, from windows side by side, in the unit of the data (a rate).
+
+    data       shape (samples,); NaN or valid == False: missing
+    rate       samples per second
+    data_type  "increments", "rate" (also "freq") or "phase"; must be given
+    taus       "octave" (default), "decade", "log", "all", or times in s, of which those that the record has no term of are left out
+    Returns (taus, devs, errs, ns), each of shape (taus,). Raises SeriesError; TypeError without data_type.
+    """
+    return _known("adev", data, rate, data_type, taus, valid)
+
+
+def oadev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Overlapping Allan deviation; as `adev`."""
+    return _known("oadev", data, rate, data_type, taus, valid)
+
+
+def mdev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Modified Allan deviation; as `adev`."""
+    return _known("mdev", data, rate, data_type, taus, valid)
+
+
+def tdev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Time deviation, tau/sqrt(3) times the modified one: an angle; as `adev`."""
+    return _known("tdev", data, rate, data_type, taus, valid)
+
+
+def hdev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Hadamard deviation; as `adev`."""
+    return _known("hdev", data, rate, data_type, taus, valid)
+
+
+def ohdev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Overlapping Hadamard deviation; as `adev`."""
+    return _known("ohdev", data, rate, data_type, taus, valid)
+
+
+def totdev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Total deviation, its bias removed; as `adev`."""
+    return _known("totdev", data, rate, data_type, taus, valid)
+
+
+def mtotdev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Modified total deviation, its bias removed; as `adev`."""
+    return _known("mtotdev", data, rate, data_type, taus, valid)
+
+
+def htotdev(
+    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+    valid: Optional[ArrayLike] = None,
+) -> Known:  # fmt: skip
+    """Hadamard total deviation, its bias removed; as `adev`."""
+    return _known("htotdev", data, rate, data_type, taus, valid)
+
+
+def deviations_of_log(
+    log: AngleLog, kind: str = "oadev", *, angles: Literal["final", "delivered"] = "final", taus: Taus = None,
+    confidence: float = 0.6827, threads: int = 1,
+) -> Deviations:  # fmt: skip
+    """A deviation of an angle log, arcsec/s; ticks that were not measured are missing. Raises SeriesError."""
+    data = log.dtheta_final_arcsec if angles == "final" else log.dtheta_arcsec
+    return deviation(
+        kind, data, rate_hz=1.0 / log.tick_s, data_type="increments", unit="arcsec", valid=log.measured, taus=taus,
+        confidence=confidence, threads=threads,
+    )  # fmt: skip
+
+
+class DeviationStream:
+    """Deviations of a stream of any length in bounded memory: oadev, mdev, tdev, ohdev.
+
+    factors  averaging factors m; over `window`, a power of two from 64, they are rounded to a multiple of their stride
+    Raises SeriesError.
+    """
+
+    def __init__(
+        self, *, rate_hz: float, data_type: DataType, unit: Unit, kinds: Sequence[str] = ("oadev",),
+        factors: Sequence[int], window: int = 1 << 14, least_known_ratio: float = 0.9,
+    ) -> None:  # fmt: skip
+        self._stream = _zlg.DeviationStream(
+            rate_hz, data_type, unit, list(kinds), list(factors), window, least_known_ratio
+        )
+
+    @classmethod
+    def of_log(
+        cls, path: Union[str, os.PathLike[str]], *, kinds: Sequence[str] = ("oadev",), factors: Sequence[int],
+        window: int = 1 << 14, least_known_ratio: float = 0.9, angles: Literal["final", "delivered"] = "final",
+    ) -> DeviationStream:  # fmt: skip
+        """The stream of an angle log's increments; memory does not grow with the log, Ctrl-C ends it.
+
+        Raises IoError, FormatError, SeriesError.
+        """
+        made = cls.__new__(cls)
+        made._stream = _zlg.DeviationStream.of_log(
+            os.fspath(path), list(kinds), list(factors), window, least_known_ratio, angles == "final"
+        )
+        return made
+
+    def add(self, data: ArrayLike, valid: Optional[ArrayLike] = None) -> None:
+        """The samples that follow, shape (samples,). Raises SeriesError."""
+        self._stream.add(floats(data), mask(valid))
+
+    def curve(self, kind: str = "oadev", *, confidence: float = 0.6827, noise: Optional[int] = None) -> Deviations:
+        """What is known by now. Raises SeriesError: no tau with a term yet."""
+        return made_of(Deviations, self._stream.curve(kind, confidence, noise))
+
+    @property
+    def n_samples(self) -> int:
+        """Samples so far."""
+        return self._stream.n_samples
+
+    @property
+    def n_known(self) -> int:
+        """Of them not missing."""
+        return self._stream.n_known
+
+    @property
+    def memory_bytes(self) -> int:
+        """What the stream holds; it does not grow."""
+        return self._stream.memory_bytes
