@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -29,6 +30,8 @@ using namespace zlg;
 using namespace zlg::analysis;
 
 constexpr double tick_s = 0.005;
+
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -102,8 +105,8 @@ double peak_mb() {
 }
 
 void print(const DeviationCurve& curve, double compute_s, double all_s) {
-    fmt::print("{{\"compute_s\": {:.4f}, \"all_s\": {:.4f}, \"peak_mb\": {:.1f}, \"curve\": [", compute_s, all_s,
-               peak_mb());
+    fmt::print("{{\"compute_s\": {:.4f}, \"all_s\": {:.4f}, \"processor_s\": {:.4f}, \"peak_mb\": {:.1f}, \"curve\": [",
+               compute_s, all_s, processor_s(), peak_mb());
     for (std::size_t k = 0; k < curve.points.size(); ++k)
         fmt::print("{}[{}, {:.17g}, {}]", k == 0 ? "" : ", ", curve.points[k].m, curve.points[k].deviation,
                    curve.points[k].terms);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <zlg/core/gap_bridge.hpp>
+#include <zlg/core/compensation/gap_bridge.hpp>
 
 #include "paired.hpp"
 

@@ -18,6 +18,11 @@ PART_OF = {
     "cholesky": "optimal_bridge",
     "gap_estimate": "optimal_bridge",
     "gap_points": "optimal_bridge",
+    "few_ticks": "optimal_bridge",
+    "gap_rounding": "optimal_bridge",
+    "rounding_law": "optimal_bridge",
+    "gap_known": "counted_stretch",
+    "gap_known_estimate": "counted_stretch",
     "joint_relock": "optimal_bridge",
     "motion_covariance": "optimal_bridge",
     "stage_model": "perimeter_loop",
@@ -28,9 +33,9 @@ PART_OF = {
 }
 MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "stroke_model", "mode_switch", "switch_schedule", "bias_commutator",
-    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "light_monitor", "detuning_monitor", "health",
+    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "health",
     "gyro_control", "relock_drift", "relock_profile", "edge_shift", "gap_bridge", "motion_moments",
-    "bridge_scores", "motion_learning", "optimal_bridge", "joint_relock", "angle", "gyro_compensation",
+    "bridge_scores", "motion_learning", "optimal_bridge", "counted_stretch", "joint_relock", "angle", "gyro_compensation",
 ]
 CONTROL = MODULES[:MODULES.index("relock_drift")]
 WHOLE = "whole half-period"

@@ -14,7 +14,7 @@
 #include <zlg/twin/laser_table.hpp>
 #include <zlg/twin/slip_phase.hpp>
 
-#include <laser_beats.hpp>
+#include <laser/laser_beats.hpp>
 
 #include "laser_phases.hpp"
 #include "paired.hpp"

@@ -16,7 +16,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/core/magnetic_drift.hpp>
+#include <zlg/core/compensation/magnetic_drift.hpp>
 
 namespace {
 

@@ -1,8 +1,9 @@
 #pragma once
-// Ratios of two pieces of work that are timed in turn, so that a machine that slows down slows both.
+// Ratios of the processor time of two pieces of work that are done in turn, so that a machine that slows down slows both, and
+// one that does other work beside them is not waited for.
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,9 +12,9 @@ namespace zlg::bench {
 
 template <class Work>
 double seconds(Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 inline double median(std::vector<double> values) {

@@ -18,11 +18,13 @@ function(zlg_flags target)
     endif()
 endfunction()
 
-# zlg_library(name SOURCES ... USES ...): library zlg_<name> of the folder <name>/, seeing only the include roots it USES.
+# zlg_library(name SOURCES ... USES ...): library zlg_<name> of the folder src/<name>/, seeing only the include roots it USES. Its own
+# private headers in other rooms than the source's are named from that folder: "common/bounds.hpp".
 function(zlg_library name)
     cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
     add_library(zlg_${name} STATIC ${arg_SOURCES})
     target_include_directories(zlg_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    target_include_directories(zlg_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(zlg_${name} PUBLIC ${arg_USES})
     # The Python module is made of the same archives. Without the right of others to replace our functions it costs next to nothing.
     if(NOT ZLG_CORE_ONLY)

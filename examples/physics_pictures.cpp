@@ -8,7 +8,7 @@
 #include <iostream>
 #include <string>
 
-#include <zlg/study/physics_pictures.hpp>
+#include <zlg/trials/physics_pictures.hpp>
 
 namespace {
 
@@ -26,11 +26,11 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 void write_all(const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
-    const zlg::study::PhysicsPictures made = zlg::study::physics_pictures();
-    for (const zlg::study::Picture& picture : made.pictures) {
-        write(folder / (picture.name + ".svg"), zlg::study::svg_file(picture));
+    const zlg::trials::PhysicsPictures made = zlg::trials::physics_pictures();
+    for (const zlg::trials::Picture& picture : made.pictures) {
+        write(folder / (picture.name + ".svg"), zlg::trials::svg_file(picture));
     }
-    write(folder / "numbers.md", zlg::study::markdown(made.readings));
+    write(folder / "numbers.md", zlg::trials::markdown(made.readings));
 }
 
 }  // namespace

@@ -203,10 +203,15 @@ def statement_changes(tokens, text):
             conditional = before is not None and before.text in (")", "else")
             if conditional or last == first + 1:
                 yield start, end, "", "the return is left out"
-            if last > first + 1 and text[tokens[first + 1].start : end] != "{}":
+            if last > first + 1 and not is_empty(text[tokens[first + 1].start : end]):
                 yield start, end, "return {}", "return ... -> return {}"
         elif head.text not in NOT_DELETED and not is_declaration(tokens, first, last):
             yield start, end, "", "the statement is left out"
+
+
+def is_empty(value):
+    """True of what an empty pair of braces makes as well: of a truth value, a number, an enumeration of faults."""
+    return value in ("{}", "false", "0", "0.0") or value.endswith("Fault::none")
 
 
 def is_declaration(tokens, first, last):

@@ -1,7 +1,6 @@
 #include "analysis_input.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -14,11 +13,11 @@
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
-#include <zlg/logs/text_columns.hpp>
 
 #include "failure.hpp"
 #include "log_compensation.hpp"
 #include "output.hpp"
+#include "text_input.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -80,32 +79,32 @@ private:
     config::AngleColumn column_;
 };
 
-double tick_of(const logs::AngleHeader& header, const std::string& path) {
-    for (const auto& [key, value] : header.settings) {
-        if (key != "tick_s" && key != "gyro.tick_s") continue;
-        double tick_s = 0.0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), tick_s);
-        if (error == std::errc{} && end == value.data() + value.size() && tick_s > 0.0 && std::isfinite(tick_s))
-            return tick_s;
-        throw logs::FormatError{fmt::format("{}: {} = {}, allowed is a positive number", path, key, value)};
-    }
-    throw logs::FormatError{fmt::format("{}: does not say tick_s, the length of its ticks", path)};
+// The times of the rows must bear out the length of a tick.
+void check_tick(const std::string& path, double tick_s, double first_s, const logs::TimedAngle& last) {
+    if (last.row.tick < 1) return;
+    const double by_times_s = (last.t_s - first_s) / static_cast<double>(last.row.tick);
+    if (std::fabs(by_times_s - tick_s) <= 1e-3 * tick_s) return;
+    throw logs::FormatError{fmt::format("{}: tick_s = {}, and the column t_s has ticks of {} s; allowed is one value",
+                                        path, tick_s, by_times_s)};
 }
 
 config::Config read_angles(const Options& options, const std::string& path, std::vector<study::AxisRecord>& axes) {
     logs::AngleReader reader{path};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
-    const config::Config config = load_log_config(options, reader.header().settings, path);
-    TickRates ticks(path, tick_of(reader.header(), path), config.analysis.angles);
+    const config::Config config = load_log_config(options, reader.header().settings, path, LogFacts::tick);
+    TickRates ticks(path, config.gyro.tick_s, config.analysis.angles);
     logs::TimedAngle angle;
     Progress progress;
+    double first_s = missing;
     for (std::int64_t n = 1; reader.next(angle); ++n) {
+        if (n == 1) first_s = angle.t_s;
         ticks.take(angle.row, angle.truth_dtheta_arcsec);
         if (n % 100'000 == 0) progress.show(reader.fraction_read());
     }
     if (!reader.header().complete)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", path));
     if (ticks.empty()) throw logs::FormatError{fmt::format("{}: holds no tick", path)};
+    check_tick(path, config.gyro.tick_s, first_s, angle);
     ticks.finish(axes);
     return config;
 }
@@ -131,119 +130,6 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     return config;
 }
 
-struct TextAxes {
-    logs::TextLayout layout;
-    config::TextHolds holds;
-    double scale_arcsec;
-    double rate_hz;
-};
-
-// [motion] describes a file of motion in the same words; where it says anything of one, it may stand in.
-bool motion_describes_a_file(const config::Motion& m) {
-    const config::Motion unset;
-    return m.column != unset.column || m.column_holds != unset.column_holds || m.scale_arcsec != unset.scale_arcsec ||
-           m.rate_hz != unset.rate_hz || m.comment != unset.comment || m.skip_lines != unset.skip_lines;
-}
-
-TextAxes text_axes(const config::Config& config, const std::string& path) {
-    const config::Analysis& a = config.analysis;
-    TextAxes axes;
-    for (const double column : a.column) axes.layout.columns.push_back(static_cast<std::int64_t>(column));
-    if (a.column_holds) {
-        if (!a.rate_hz)
-            throw config::ConfigError{
-                fmt::format("analysis.rate_hz is not set: say how many rows of {} make a second", path)};
-        axes.layout.comment = a.comment;
-        axes.layout.skip_lines = a.skip_lines;
-        axes.holds = *a.column_holds;
-        axes.scale_arcsec = a.scale_arcsec;
-        axes.rate_hz = *a.rate_hz;
-    } else if (motion_describes_a_file(config.motion)) {
-        const config::Motion& m = config.motion;
-        axes.layout.comment = m.comment;
-        axes.layout.skip_lines = m.skip_lines;
-        if (axes.layout.columns.empty()) axes.layout.columns = {m.column};
-        axes.holds =
-            m.column_holds == config::ColumnHolds::rate ? config::TextHolds::rate : config::TextHolds::increment;
-        axes.scale_arcsec = m.scale_arcsec;
-        axes.rate_hz = m.rate_hz;
-    } else {
-        throw config::ConfigError{
-            fmt::format("analysis.column_holds is not set: {} is no log of zlg; say what its columns hold, "
-                        "\"increment\", \"rate\" or "
-                        "\"phase\", with analysis.scale_arcsec and analysis.rate_hz",
-                        path)};
-    }
-    if (axes.layout.columns.empty()) axes.layout.columns = {1};
-    return axes;
-}
-
-std::string holds_text(const TextAxes& axes) {
-    switch (axes.holds) {
-        case config::TextHolds::increment:
-            return fmt::format("increments, {} arcsec a unit", axes.scale_arcsec);
-        case config::TextHolds::phase:
-            return fmt::format("angles, {} arcsec a unit", axes.scale_arcsec);
-        case config::TextHolds::rate:
-            break;
-    }
-    return fmt::format("rates, {} arcsec/s a unit", axes.scale_arcsec);
-}
-
-study::TableResult table_test(const config::Analysis& a, const study::AxisRecord& axis,
-                              const std::vector<double>& table_rates) {
-    if (table_rates.size() != axis.rates_arcsec_s.size())
-        throw config::ConfigError{"analysis.column_holds = \"phase\": a rate-table test takes increments or rates"};
-    const double settling =
-        std::min(std::ceil(a.table_settling_s * axis.rate_hz), static_cast<double>(table_rates.size()));
-    const analysis::RateTableOptions options{.same_rate_ratio = a.table_same_rate_ratio,
-                                             .settling_samples = static_cast<std::int64_t>(settling),
-                                             .earth_arcsec_s = a.table_earth_arcsec_s};
-    try {
-        return {.name = axis.name,
-                .holds = axis.holds,
-                .table = analysis::rate_table(table_rates, axis.rates_arcsec_s, options)};
-    } catch (const analysis::SeriesError& error) {
-        throw analysis::SeriesError{fmt::format("{}: {}", axis.name, error.what())};
-    }
-}
-
-config::Config read_text(const Options& options, const std::string& path, AnalysisInput& input) {
-    const config::Config config = load_config(options);
-    TextAxes what = text_axes(config, path);
-    const bool on_table = config.analysis.table_column > 0;
-    if (on_table) what.layout.columns.push_back(config.analysis.table_column);
-    auto columns = logs::read_text_columns(path, what.layout);
-    std::vector<double> table_rates;
-    if (on_table) {
-        table_rates = std::move(columns.back());
-        columns.pop_back();
-        for (double& r : table_rates) r *= config.analysis.table_scale_arcsec_s;
-    }
-    const bool is_rate = what.holds == config::TextHolds::rate;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        const analysis::DataKind kind = what.holds == config::TextHolds::phase ? analysis::DataKind::phase
-                                        : is_rate                              ? analysis::DataKind::rate
-                                                                               : analysis::DataKind::increments;
-        study::AxisRecord axis;
-        axis.name = fmt::format("{}, column {}", name_of_file(path), what.layout.columns[c]);
-        axis.group = path;
-        axis.holds = holds_text(what);
-        axis.rate_hz = what.rate_hz;
-        for (double& v : columns[c]) v *= what.scale_arcsec;
-        axis.rates_arcsec_s = analysis::rates_arcsec_s(
-            {.what = {kind, is_rate ? analysis::Unit::arcsec_s : analysis::Unit::arcsec, what.rate_hz},
-             .values = columns[c]});
-        if (kind == analysis::DataKind::phase) axis.phase_arcsec = std::move(columns[c]);
-        std::vector<double>{}.swap(columns[c]);
-        if (on_table)
-            input.tables.push_back(table_test(config.analysis, axis, table_rates));
-        else
-            input.axes.push_back(std::move(axis));
-    }
-    return config;
-}
-
 config::Config read_one(const Options& options, const std::string& path, AnalysisInput& input) {
     switch (logs::recognise(path)) {
         case logs::LogKind::raw_csv:
@@ -256,6 +142,27 @@ config::Config read_one(const Options& options, const std::string& path, Analysi
             break;
     }
     return read_text(options, path, input);
+}
+
+// Deviations are sums of squares, which a double must hold.
+void check_sizes(const study::AxisRecord& axis) {
+    constexpr double most = 1e100, least = 1e-100;  // arcsec/s
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (std::size_t k = 0; k < axis.rates_arcsec_s.size(); ++k) {
+        const double rate = axis.rates_arcsec_s[k];
+        if (std::isnan(rate)) continue;
+        if (!(std::fabs(rate) <= most))
+            throw logs::FormatError{
+                fmt::format("{}: {}: sample {} is {:g} arcsec/s; allowed is -1e100..1e100, or its square overflows",
+                            axis.group, axis.name, k + 1, rate)};
+        lowest = std::min(lowest, rate);
+        highest = std::max(highest, rate);
+    }
+    if (lowest < highest && highest - lowest < least)
+        throw logs::FormatError{
+            fmt::format("{}: {}: samples differ by {:g} arcsec/s at most; allowed is 1e-100 or more, or their squares "
+                        "are too small for a number",
+                        axis.group, axis.name, highest - lowest)};
 }
 
 // Of different files, that is.
@@ -275,6 +182,7 @@ AnalysisInput read_analysis_input(const Options& options, const std::vector<std:
         config::Config config = read_one(options, paths[k], input);
         if (k == 0) input.config = std::move(config);
     }
+    for (const study::AxisRecord& axis : input.axes) check_sizes(axis);
     // Three files of one axis each, whose errors are no axes, are those of one unit.
     const auto n = std::ranges::count(input.axes, false, &study::AxisRecord::is_error);
     if (paths.size() == 3 && n == 3 && one_axis_each(input.axes))

@@ -15,7 +15,8 @@ json number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
 json curve_json(const analysis::DeviationCurve& curve) {
     json points = json::array();
-    for (const auto& p : curve.points)
+    const bool is_total = analysis::is_total(curve.kind);
+    for (const auto& p : curve.points) {
         points.push_back({{"tau_s", p.tau_s},
                           {"m", p.m},
                           {"deviation", number(p.deviation)},
@@ -24,10 +25,14 @@ json curve_json(const analysis::DeviationCurve& curve) {
                           {"n", p.terms},
                           {"edf", number(p.law.edf)},
                           {"noise", p.noise}});
-    return {{"kind", analysis::name_of(curve.kind)},
-            {"unit", curve.kind == analysis::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
-            {"confidence", curve.confidence},
-            {"points", points}};
+        if (is_total) points.back()["as_computed"] = number(p.as_computed);
+    }
+    json j{{"kind", analysis::name_of(curve.kind)},
+           {"unit", curve.kind == analysis::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
+           {"confidence", curve.confidence},
+           {"points", points}};
+    if (is_total) j["total_bias"] = analysis::name_of(curve.total_bias);
+    return j;
 }
 
 json term_json(const analysis::FittedTerm& term) {

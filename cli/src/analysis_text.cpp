@@ -7,6 +7,8 @@
 #include <zlg/analysis/noise_units.hpp>
 #include <zlg/study/term_text.hpp>
 
+#include "output.hpp"
+
 namespace zlg::cli {
 namespace {
 
@@ -23,7 +25,7 @@ double shown(const analysis::DeviationCurve& curve, const config::Analysis& conf
 
 std::string head_text(const config::Analysis& config, const AxisResult& axis) {
     const double span_s = static_cast<double>(axis.n_samples) / axis.rate_hz;
-    std::string text = fmt::format("{}: {}, {:g} Hz\n  {} samples, {:.6g} s, {} known, {} gaps\n", axis.name,
+    std::string text = fmt::format("{}: {}, {:g} Hz\n  {} samples, {:.6g} s, {} known, {} gaps\n", printable(axis.name),
                                    axis.holds, axis.rate_hz, axis.n_samples, span_s, axis.n_known, axis.n_gaps);
     const auto in_unit = [&config](double x) { return study::shown_rate(config.unit, x); };
     text += fmt::format("  mean rate   {} {}\n",
@@ -32,14 +34,31 @@ std::string head_text(const config::Analysis& config, const AxisResult& axis) {
     return text;
 }
 
+std::string bias_text(analysis::TotalBias bias) {
+    switch (bias) {
+        case analysis::TotalBias::removed:
+            return "bias of mirroring removed";
+        case analysis::TotalBias::published:
+            return "bias of mirroring removed as published";
+        case analysis::TotalBias::as_computed:
+            break;
+    }
+    return "as computed, with the bias of mirroring";
+}
+
 std::string curve_text(const config::Analysis& config, const analysis::DeviationCurve& curve) {
-    std::string text = fmt::format("  {}, {}; intervals of {:g} %\n  {:>12} {:>10} {:>12} {:>12} {:>12} {:>9} {:>6}\n",
-                                   analysis::name_of(curve.kind), unit_of(curve, config), 100.0 * curve.confidence,
-                                   "tau, s", "n", "sigma", "low", "high", "edf", "noise");
-    for (const auto& p : curve.points)
-        text += fmt::format("  {:>12.6g} {:>10} {:>12.5g} {:>12.5g} {:>12.5g} {:>9.4g} {:>6}\n", p.tau_s, p.terms,
+    const bool is_total = analysis::is_total(curve.kind);
+    std::string text =
+        fmt::format("  {}, {}{}; intervals of {:g} %\n  {:>12} {:>10} {:>12} {:>12} {:>12} {:>9} {:>6}{}\n",
+                    analysis::name_of(curve.kind), unit_of(curve, config),
+                    is_total ? ", " + bias_text(curve.total_bias) : "", 100.0 * curve.confidence, "tau, s", "n",
+                    "sigma", "low", "high", "edf", "noise", is_total ? fmt::format(" {:>12}", "as computed") : "");
+    for (const auto& p : curve.points) {
+        text += fmt::format("  {:>12.6g} {:>10} {:>12.5g} {:>12.5g} {:>12.5g} {:>9.4g} {:>6}", p.tau_s, p.terms,
                             shown(curve, config, p.deviation), shown(curve, config, p.low),
                             shown(curve, config, p.high), p.law.edf, fmt::format("f^{}", p.noise));
+        text += is_total ? fmt::format(" {:>12.5g}\n", shown(curve, config, p.as_computed)) : "\n";
+    }
     return text;
 }
 
@@ -111,13 +130,14 @@ std::string earth_text(const config::Analysis& config, const study::AnalysisResu
 
 std::string presumed_text(const study::PresumedNoise& presumed) {
     const analysis::DataSheet sheet = analysis::data_sheet(presumed.terms);
-    return fmt::format("{} presumes {:.4g} deg/sqrt(h) and {:.4g} deg/h/sqrt(h)\n", presumed.name,
+    return fmt::format("{} presumes {:.4g} deg/sqrt(h) and {:.4g} deg/h/sqrt(h)\n", printable(presumed.name),
                        sheet.angle_random_walk_deg_sqrt_h, sheet.rate_random_walk_deg_h_sqrt_h);
 }
 
 std::string table_text(const study::TableResult& test) {
     const analysis::RateTable& r = test.table;
-    std::string text = fmt::format("{}: {}\n  {} stages of a rate table\n", test.name, test.holds, r.stages.size());
+    std::string text =
+        fmt::format("{}: {}\n  {} stages of a rate table\n", printable(test.name), test.holds, r.stages.size());
     text += fmt::format("  {:>16} {:>18} {:>12} {:>10} {:>14}\n", "input, deg/h", "output, units/s", "sigma", "n",
                         "residual, ppm");
     for (const auto& s : r.stages)

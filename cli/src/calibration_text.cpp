@@ -4,6 +4,8 @@
 
 #include <zlg/config/schema.hpp>
 
+#include "output.hpp"
+
 namespace zlg::cli {
 namespace {
 
@@ -111,8 +113,9 @@ std::string laser_toml(const rig::LaserCalibration& found) {
     text += fmt::format("# Inverse discriminator: error {:.2g} wavelength up to {:.4g}{}.\n", found.curve_error_lambda,
                         found.third_wave_lambda,
                         goes_beyond ? fmt::format(", {:.2g} beyond", found.curve_error_beyond_lambda) : "");
-    return text + curve_lines(found.config.perimeter.discriminator_detuning_lambda,
-                              found.config.perimeter.discriminator_signal);
+    const config::Perimeter& perimeter = found.config.perimeter;
+    return text + curve_lines(perimeter.discriminator_detuning_lambda, perimeter.discriminator_signal) +
+           fmt::format("discriminator_centre_lambda = {:.7g}\n", perimeter.discriminator_centre_lambda);
 }
 
 json laser_json(const rig::LaserCalibration& found) {
@@ -124,6 +127,7 @@ json laser_json(const rig::LaserCalibration& found) {
             {"discriminator",
              {{"detuning_lambda", c.perimeter.discriminator_detuning_lambda},
               {"signal", c.perimeter.discriminator_signal},
+              {"centre_lambda", c.perimeter.discriminator_centre_lambda},
               {"third_wave_lambda", found.third_wave_lambda},
               {"error_lambda", found.curve_error_lambda},
               {"error_beyond_lambda", found.curve_error_beyond_lambda}}},
@@ -146,7 +150,7 @@ std::string calibration_text(const CalibrationResult& result) {
     text += "\nlogs\n";
     for (const CalibrationFile& f : result.files)
         text += fmt::format(
-            "{}: {:.6g} s, {} segments, {} re-locks{}\n", f.path, f.duration_s, f.segments, f.relocks,
+            "{}: {:.6g} s, {} segments, {} re-locks{}\n", printable(f.path), f.duration_s, f.segments, f.relocks,
             f.has_temperature ? fmt::format(", {:.4g}..{:.4g} C", f.temperature_min_c, f.temperature_max_c) : "");
     return text;
 }

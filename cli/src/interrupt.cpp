@@ -1,36 +1,143 @@
 #include "interrupt.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <ctime>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/unfinished.hpp>
+
+#include "failure.hpp"
 
 namespace zlg::cli {
 namespace {
 
-volatile std::sig_atomic_t noted = 0;
+constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
+constexpr const char* complaint = "interrupted by a signal";
+
+std::atomic<int> n_noted{0};
+std::atomic<bool> finishes{false};
+
+// From the handler, and from the end of `main`, to the thread.
+std::array<int, 2> news{-1, -1};
+
+static_assert(std::atomic<int>::is_always_lock_free, "a handler may use nothing else");
 
 void note(int signal) {
-    noted = 1;
-    std::signal(signal, SIG_DFL);
+    const int error = errno;
+    if (++n_noted > 1) std::signal(signal, SIG_DFL);
+    const char byte = 's';
+    (void)!::write(news[1], &byte, 1);
+    errno = error;
+}
+
+void install() {
+    for (const int signal : signals) {
+        struct sigaction before {};
+        // Who starts a program with nohup wants it to outlive the terminal.
+        if (signal == SIGHUP && ::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+        std::signal(signal, note);
+    }
+}
+
+double cpu_s() {
+    timespec t{};
+    (void)::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct Patience {
+    double wall_s;
+    double cpu_s;
+};
+
+// For a verb to end by itself. On a busy machine it has been given less than the clock says; one that waits uses none.
+Patience patience() {
+    return finishes ? Patience{.wall_s = 5.0, .cpu_s = 1.0} : Patience{.wall_s = 0.3, .cpu_s = 0.15};
+}
+
+enum class News { none, signal, end };
+
+News wait_for_news(int ms) {
+    pollfd ready{.fd = news[0], .events = POLLIN, .revents = 0};
+    char byte = 0;
+    if (::poll(&ready, 1, ms) <= 0 || ::read(news[0], &byte, 1) != 1) return News::none;
+    return byte == 's' ? News::signal : News::end;
+}
+
+// Files that are getting their names are given a second for it, for the file system may hang.
+[[noreturn]] void end_now() {
+    auto kept = logs::abandon_outputs();
+    for (int ms = 0; !kept && ms < 1000; ms += 5) {
+        (void)::poll(nullptr, 0, 5);
+        kept = logs::abandon_outputs();
+    }
+    std::string line = complaint;
+    if (kept && !kept->empty()) line += fmt::format("; recorded until then: {}", fmt::join(*kept, ", "));
+    report_error(line);
+    ::_exit(bad_input_or_output);
+}
+
+void watch() {
+    using Clock = std::chrono::steady_clock;
+    News what = News::none;
+    while (what == News::none) what = wait_for_news(-1);
+    if (what == News::end) return;
+    const auto noted = Clock::now();
+    const double cpu_before_s = cpu_s();
+    for (;;) {
+        what = wait_for_news(10);
+        if (what == News::end) return;
+        const double wall_s = std::chrono::duration<double>{Clock::now() - noted}.count();
+        const Patience most = patience();
+        if (what == News::signal || wall_s > most.wall_s || cpu_s() - cpu_before_s > most.cpu_s) end_now();
+    }
 }
 
 }  // namespace
 
-Interruptible::Interruptible() {
-    noted = 0;
-    std::signal(SIGINT, note);
-    std::signal(SIGTERM, note);
+InterruptGuard::InterruptGuard() {
+    if (::pipe2(news.data(), O_CLOEXEC | O_NONBLOCK) != 0) return;
+    // The handler is to run in the others, whose waiting it ends.
+    sigset_t ours{};
+    sigset_t before{};
+    ::sigemptyset(&ours);
+    for (const int signal : signals) ::sigaddset(&ours, signal);
+    ::pthread_sigmask(SIG_BLOCK, &ours, &before);
+    try {
+        thread_ = std::thread{watch};
+    } catch (const std::system_error&) {
+        // Without it the signals end the program in their own way.
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (thread_.joinable()) install();
 }
 
-Interruptible::~Interruptible() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+InterruptGuard::~InterruptGuard() {
+    if (!thread_.joinable()) return;
+    const char byte = 'e';
+    (void)!::write(news[1], &byte, 1);
+    thread_.join();
 }
 
 void Interruptible::check() const {
-    if (noted) throw logs::IoError{"interrupted by a signal"};
+    if (is_noted()) throw logs::IoError{complaint};
 }
 
-bool Interruptible::is_noted() const { return noted != 0; }
+bool Interruptible::is_noted() const { return n_noted.load(std::memory_order_relaxed) != 0; }
+
+void Interruptible::will_finish() const { finishes = true; }
 
 }  // namespace zlg::cli

@@ -11,22 +11,27 @@
 namespace zlg::cli {
 namespace {
 
-// The inverse discriminator of [perimeter], for a log whose detunings were read by the slope alone.
-core::DiscriminatorCurve curve_of(const config::Config& config, const logs::RawHeader& header,
-                                  const std::string& path) {
-    if (config.perimeter.discriminator_signal.empty() && config.perimeter.discriminator_detuning_lambda.empty())
-        return {};
+// The inverse discriminators of a log's detunings: the one that they have come through in the control, and, where there was
+// none, that of [perimeter], which they come through here.
+struct Curves {
+    core::DiscriminatorCurve here;
+    core::DiscriminatorCurve control;
+};
+
+Curves curves_of(const config::Config& config, const logs::RawHeader& header, const std::string& path) {
     const config::Config recorded = as_recorded(config, header.settings, path);
+    const double slope = recorded.gyro.discriminator_per_lambda;
     const config::Perimeter& with = recorded.perimeter;
-    if (with.discriminator_signal.empty())
-        return rig::discriminator_curve(config, recorded.gyro.discriminator_per_lambda);
-    if (with.discriminator_signal != config.perimeter.discriminator_signal ||
-        with.discriminator_detuning_lambda != config.perimeter.discriminator_detuning_lambda)
+    const config::Perimeter& asked = config.perimeter;
+    if (with.discriminator_signal.empty()) return {.here = rig::discriminator_curve(config, slope), .control = {}};
+    const bool asks_for_another = with.discriminator_signal != asked.discriminator_signal ||
+                                  with.discriminator_detuning_lambda != asked.discriminator_detuning_lambda;
+    if (asks_for_another && !asked.discriminator_signal.empty())
         complain(
             fmt::format("warning: {}: its detunings were read through a discriminator curve of its own; the other "
                         "one, of perimeter.discriminator_signal, is not applied to them",
                         path));
-    return {};
+    return {.here = {}, .control = rig::discriminator_curve(recorded, slope)};
 }
 
 }  // namespace
@@ -57,8 +62,9 @@ core::RelockMethod choose_relock(const config::Config& config, const logs::RawHe
 core::GyroCompensationConfig compensation_of(const config::Config& config, core::RelockMethod relock,
                                              const logs::RawHeader& header, const std::string& path) {
     auto made = rig::compensation_config(config, relock, config.compensation.bridge);
-    made.relock.curve = curve_of(config, header, path);
-    made.profile.record_curve = made.relock.curve;
+    const Curves curves = curves_of(config, header, path);
+    made.relock.curve = made.profile.record_curve = curves.here;
+    made.relock.control_curve = curves.control;
     if (!header.has_edge_offset) return made;
     const config::Gyro& g = config.gyro;
     if (!(g.bias_edge_s < 0.5 * g.tick_s)) {

@@ -7,8 +7,10 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/text/inputs.hpp>
 
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "nearest_verb.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -37,7 +39,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
     } catch (const CLI::ParseError& error) {
-        cli::complain(cli::explain(program, error, argc, argv));
+        cli::report_error(cli::explain(program, error, argc, argv));
         return cli::wrong_usage;
     }
 }
@@ -46,19 +48,22 @@ int guarded(CLI::App& program, int argc, char** argv) {
     try {
         return parse_and_run(program, argc, argv);
     } catch (const cli::UsageError& error) {
-        cli::complain(error.what());
+        cli::report_error(error.what());
         return cli::wrong_usage;
     } catch (const design::DesignError& error) {
-        cli::complain(error.what());
+        cli::report_error(error.what());
         return cli::wrong_usage;
     } catch (const config::ConfigError& error) {
-        cli::complain(error.what());
+        cli::report_error(error.what());
+        return cli::wrong_usage;
+    } catch (const text::OutputIsInput& error) {
+        cli::report_error(error.what());
         return cli::wrong_usage;
     } catch (const std::bad_alloc&) {
-        cli::complain("out of memory");
+        cli::report_error("out of memory");
         return cli::bad_input_or_output;
     } catch (const std::exception& error) {
-        cli::complain(error.what());
+        cli::report_error(error.what());
         return cli::bad_input_or_output;
     }
 }
@@ -69,6 +74,7 @@ int main(int argc, char** argv) {
     // A full disk or a closed pipe is a failed write, not the end of the program.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    text::watch_inputs();
     CLI::App program{"Software of a Zeeman laser gyro in the quasi-four-frequency regime", "zlg"};
     program.require_subcommand(1);
     program.set_version_flag("--version", "zlg " ZLG_VERSION);
@@ -83,5 +89,8 @@ int main(int argc, char** argv) {
     cli::add_follow(program);
     cli::add_inspect(program);
     cli::add_analyze(program);
-    return guarded(program, argc, argv);
+    const cli::InterruptGuard guard;
+    const int exit_code = guarded(program, argc, argv);
+    cli::print_notes();
+    return exit_code;
 }

@@ -1,57 +1,25 @@
 #include "options.hpp"
 
-#include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 #include <fmt/format.h>
 
-#include <zlg/config/spelling.hpp>
+#include <zlg/config/log_settings.hpp>
 #include <zlg/logs/error.hpp>
-#include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
-#include <zlg/study/design_study.hpp>
+#include <zlg/text/inputs.hpp>
 
 #include "failure.hpp"
 
 namespace zlg::cli {
 namespace {
 
-std::string lower_case(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 void apply_options(config::Config& config, const Options& options) {
     if (!options.config_path.empty()) config::apply_file(config, options.config_path);
     for (const std::string& set : options.sets) config::apply_set(config, set);
     if (options.seed) config::apply_pair(config, "run.seed", *options.seed, "--seed");
     if (options.duration_s) config::apply_pair(config, "run.duration_s", *options.duration_s, "--duration");
-}
-
-// A key that stands twice with different values, or in a section that is nearly one of ours: which is meant?
-void refuse_doubtful(const config::Settings& settings, const std::string& path) {
-    std::map<std::string, std::string> seen;
-    for (const auto& [key, value] : settings) {
-        const auto [first, is_new] = seen.emplace(key, value);
-        if (!is_new && first->second != value)
-            throw logs::FormatError{fmt::format("{}: {} stands twice, as {} and as {}; allowed is one value", path, key,
-                                                first->second, value)};
-        const std::size_t dot = key.find('.');
-        if (dot == std::string::npos || config::is_known_section(key.substr(0, dot))) continue;
-        for (const config::KeyInfo& known : config::describe_keys())
-            if (config::letters_apart(lower_case(key.substr(0, dot)), known.section) <= 1)
-                throw logs::FormatError{fmt::format("{}: {}: unknown section [{}]; did you mean [{}]?", path, key,
-                                                    key.substr(0, dot), known.section)};
-    }
-}
-
-// A log may name its tick and scale without a section, as an HDF5 log does in its root.
-config::Settings with_full_keys(config::Settings settings) {
-    for (auto& [key, value] : settings)
-        if (key == "tick_s" || key == "scale_arcsec") key.insert(0, "gyro.");
-    return settings;
 }
 
 }  // namespace
@@ -81,20 +49,23 @@ config::Config load_config(const Options& options) {
     config::Config config;
     apply_options(config, options);
     config::check(config);
+    if (config.motion.kind == config::MotionKind::file) text::note_input(config.motion.path);
     return config;
 }
 
 config::Config load_log_config(const Options& options, const config::Settings& log_settings,
-                               const std::string& log_path) {
-    const config::Settings settings = with_full_keys(log_settings);
-    refuse_doubtful(settings, log_path);
-    config::Config config;
+                               const std::string& log_path, LogFacts used) {
+    config::Settings settings;
+    config::Config config = config::without_log_facts();
     try {
+        settings = config::checked_log_settings(log_settings, log_path);
         config::apply_log(config, settings, log_path);
     } catch (const config::ConfigError& error) {
         throw logs::FormatError{error.what()};
     }
     apply_options(config, options);
+    if (used != LogFacts::none) config::require_log_facts(config, log_path, used == LogFacts::tick_and_scale);
+    config::fill_log_facts(config);
     config::check_compensation(config);
     config::check_against_log(config, settings, log_path);
     return config;
@@ -102,7 +73,7 @@ config::Config load_log_config(const Options& options, const config::Settings& l
 
 config::Config as_recorded(config::Config config, const config::Settings& log_settings, const std::string& log_path) {
     config.perimeter = {};
-    config::apply_log(config, with_full_keys(log_settings), log_path);
+    config::apply_log(config, config::checked_log_settings(log_settings, log_path), log_path);
     return config;
 }
 
@@ -113,33 +84,17 @@ void add_config_argument(CLI::App& verb, Options& options) {
     verb.add_option("--set", options.sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
 }
 
-config::Config with_laser_curve(const config::Config& config) {
-    if (config.gyro.fidelity != config::Fidelity::laser) return config;
-    const config::Config calibrated = rig::calibrated_by_laser(config);
-    const double presumed_hz = config.gyro.bias_hz;
-    const double laser_hz = calibrated.gyro.bias_hz;
-    if (!(std::abs(presumed_hz - laser_hz) <= 0.05 * laser_hz))
-        complain(
-            fmt::format("warning: gyro.bias_hz = {:.6g} is presumed, [laser] makes {:.6g}: see zlg calibrate "
-                        "--from-laser",
-                        presumed_hz, laser_hz));
-    const bool slope_is_told = config.gyro.discriminator_per_lambda != config::Gyro{}.discriminator_per_lambda;
-    if (slope_is_told || !config.perimeter.discriminator_signal.empty()) return config;
-    config::Config told = config;
-    told.gyro.discriminator_per_lambda = calibrated.gyro.discriminator_per_lambda;
-    told.perimeter.discriminator_detuning_lambda = calibrated.perimeter.discriminator_detuning_lambda;
-    told.perimeter.discriminator_signal = calibrated.perimeter.discriminator_signal;
-    complain("gyro.fidelity = laser: perimeter.discriminator_signal is not given and taken from [laser]");
-    return told;
+study::Resolved resolve(const config::Config& config) {
+    study::Resolved resolved = study::resolved(config);
+    for (const std::string& note : resolved.notes) complain(note);
+    for (const std::string& warning : resolved.warnings) complain("warning: " + warning);
+    return resolved;
 }
 
-config::Config with_interval(const config::Config& config) {
-    const config::Config resolved = study::with_interval(config);
-    if (config.switching.interval_optimal)
-        complain(fmt::format(
-            "switching.interval_s = \"optimal\" is {:.4g} s here, by design.switch_error_arcsec = {:.4g} and [drift]",
-            resolved.switching.interval_s, config.design.switch_error_arcsec));
-    return resolved;
+void refuse_a_run_without_switches(const rig::SwitchTally& tally) {
+    if (!tally.none_succeeded()) return;
+    complain(rig::sentence(tally));
+    throw CLI::RuntimeError{result_says_no};
 }
 
 void refuse_own_input(const std::string& input, const std::string& output, const char* option) {
@@ -193,9 +148,8 @@ logs::RawWriterOptions copied_light(const logs::RawHeader& header, const std::st
 
 void rethrow_with(std::initializer_list<std::string> part_paths) {
     std::string note;
-    std::error_code ignored;
     for (const std::string& part : part_paths)
-        if (std::filesystem::exists(part, ignored)) note += fmt::format("{}{}", note.empty() ? "" : ", ", part);
+        if (text::is_own_output(part)) note += fmt::format("{}{}", note.empty() ? "" : ", ", part);
     if (note.empty()) throw;
     note = "; recorded until then: " + note;
     try {
@@ -204,6 +158,8 @@ void rethrow_with(std::initializer_list<std::string> part_paths) {
         throw logs::IoError{error.what() + note};
     } catch (const logs::FormatError& error) {
         throw logs::FormatError{error.what() + note};
+    } catch (const text::OutputIsInput& error) {
+        throw text::OutputIsInput{error.what() + note};
     } catch (const config::ConfigError& error) {
         throw config::ConfigError{error.what() + note};
     } catch (const std::exception& error) {

@@ -12,6 +12,8 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/rig/switch_count.hpp>
+#include <zlg/study/resolved.hpp>
 
 namespace zlg::cli {
 
@@ -38,24 +40,27 @@ void add_light_option(CLI::App& verb, Options& options);
 // errors  config::ConfigError.
 [[nodiscard]] config::Config load_config(const Options& options);
 
+// The facts of a log that are used: how long its ticks are, what a count is worth.
+enum class LogFacts { none, tick, tick_and_scale };
+
 // The same over the settings of a log, checked as far as compensation depends on it.
 //
-// errors  logs::FormatError for the log's settings; config::ConfigError, also where its tick or scale is contradicted.
+// errors  logs::FormatError for the log's settings; config::ConfigError, also where its tick or scale is contradicted,
+//         or is used and stands neither in the log nor in the options.
 [[nodiscard]] config::Config load_log_config(const Options& options, const config::Settings& log_settings,
-                                             const std::string& log_path);
+                                             const std::string& log_path, LogFacts used = LogFacts::tick_and_scale);
 
 // How the detunings of a log were read: the curve that it names, or none, and its slope, or that of the configuration.
 [[nodiscard]] config::Config as_recorded(config::Config config, const config::Settings& log_settings,
                                          const std::string& log_path);
 
-// Of a gyro of fidelity laser: with the curve of its discriminator where neither it nor a slope is given, and a message that says so;
-// another message where the bias that is presumed is not that of the laser.
+// As study::resolved, with a line on standard error for each note and warning.
 //
 // errors  config::ConfigError where [laser] does not make a gyro.
-[[nodiscard]] config::Config with_laser_curve(const config::Config& config);
+[[nodiscard]] study::Resolved resolve(const config::Config& config);
 
-// With a number in place of interval_s = "optimal", and a message that says which.
-[[nodiscard]] config::Config with_interval(const config::Config& config);
+// The end of a verb whose gyro was to switch and never did: one line on standard error, and exit 1.
+void refuse_a_run_without_switches(const rig::SwitchTally& tally);
 
 // errors  UsageError where both are the same file; `option` names the output.
 void refuse_own_input(const std::string& input, const std::string& output, const char* option = "--out");

@@ -2,15 +2,19 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>
+#include <zlg/text/escape.hpp>
 
 #include "failure.hpp"
 
@@ -23,29 +27,61 @@ constexpr double first_after_s = 1.0;
 constexpr double every_s = 0.1;
 constexpr int width = 40;
 
+std::vector<std::string> notes;  // that wait; of the thread of `main`
+
+// By whichever thread is the first: an error has one line.
+std::atomic<bool> is_error_said{false};
+
+void write_line(const std::string& line) {
+    // A standard error that takes nothing must not turn a complaint into a crash.
+    (void)std::fputs(fmt::format("zlg: {}\n", text::escaped(text::shortened(line))).c_str(), stderr);
+}
+
 }  // namespace
 
-void complain(const std::string& line) {
-    // A standard error that takes nothing must not turn a complaint into a crash.
-    (void)std::fputs(fmt::format("zlg: {}\n", line).c_str(), stderr);
+void complain(const std::string& line) { notes.push_back(line); }
+
+void print_notes() {
+    for (const std::string& line : notes)
+        if (!is_error_said) write_line(line);
+    notes.clear();
 }
 
-void print(std::string_view text) {
+void print_warnings() {
+    std::erase_if(notes, [](const std::string& line) {
+        const bool is_warning = line.starts_with("warning: ");
+        if (is_warning && !is_error_said) write_line(line);
+        return is_warning;
+    });
+}
+
+void report_error(const std::string& line) {
+    if (!is_error_said.exchange(true)) write_line(line);
+}
+
+void print(std::string_view raw) {
+    const std::string text = text::escaped(raw, text::Lines::many);
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!written) throw logs::IoError{fmt::format("standard output: {}", std::strerror(errno))};
+    print_notes();
 }
 
-Progress::Progress() : terminal_{isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
+std::string printable(const std::string& text) { return text::escaped(text); }
+
+Progress::Progress(std::string part)
+    : growth_{std::move(part)}, terminal_{isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
 
 Progress::~Progress() {
     if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", width + 10).c_str(), stderr);
 }
 
 void Progress::show(double fraction) {
-    if (!terminal_) return;
     const double t_s = now_s();
+    growth_.look(t_s - started_s_, fraction);
     if (t_s - started_s_ < first_after_s || t_s - last_s_ < every_s) return;
     last_s_ = t_s;
+    print_warnings();
+    if (!terminal_) return;
     drawn_ = true;
     const int done = static_cast<int>(fraction * width);
     (void)std::fputs(fmt::format("\r[{:=<{}}{:{}}] {:3.0f} %", "", done, "", width - done, 100.0 * fraction).c_str(),

@@ -1,24 +1,33 @@
 #pragma once
 // What goes to standard output, whole or with an error.
 
+#include <string>
 #include <string_view>
+
+#include "cost.hpp"
 
 namespace zlg::cli {
 
 // errors  logs::IoError where standard output does not take it.
 void print(std::string_view text);
 
+// A name of a file, or another text from outside, as a part of one line.
+[[nodiscard]] std::string printable(const std::string& text);
+
 // A bar on standard error, if that is a terminal and the work lasts over a second.
 class Progress {
 public:
-    Progress();
+    // part  what grows meanwhile, for a warning of work that will last long or fill the disk; empty: no warning.
+    explicit Progress(std::string part = {});
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    // errors  logs::IoError where the disk cannot hold `part` when it is done.
     void show(double fraction);
 
 private:
+    Growth growth_;
     bool terminal_;
     bool drawn_ = false;
     double started_s_;

@@ -1,5 +1,6 @@
 #include "run_files.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -43,14 +44,17 @@ std::string make_new_folder() {
     throw logs::IoError{"zlg-run-001 to zlg-run-999 exist; name a folder with --out"};
 }
 
+// What was not measured is an empty field; what has no bound is `inf`.
+std::string cell(double value) { return std::isnan(value) ? std::string{} : fmt::format("{}", value); }
+
 std::string switch_table(const std::vector<study::SwitchLine>& switches) {
     std::string text =
         "tick,mode,miss_lambda,half_wave_v,half_wave_sigma_v,gap_ticks,dp_arcsec,relock_arcsec,sigma_arcsec,"
         "true_error_arcsec\n";
     for (const study::SwitchLine& s : switches)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.tick, s.mode, s.miss_lambda, s.half_wave_v,
-                            s.half_wave_sigma_v, s.gap_ticks, s.dp_arcsec, s.relock_arcsec, s.sigma_arcsec,
-                            s.true_error_arcsec);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.tick, s.mode, cell(s.miss_lambda), cell(s.half_wave_v),
+                            cell(s.half_wave_sigma_v), s.gap_ticks, cell(s.dp_arcsec), cell(s.relock_arcsec),
+                            cell(s.sigma_arcsec), cell(s.true_error_arcsec));
     return text;
 }
 
@@ -67,19 +71,24 @@ std::string health_head() {
 RunFiles::RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format,
                    int light_samples)
     : folder_{out}, force_{force}, tick_s_{config.gyro.tick_s}, names_{file_names(format)} {
-    if (folder_.empty()) {
-        folder_ = make_new_folder();
-        made_folder_ = true;
-    } else {
-        made_folder_ = make_folder(folder_);
-    }
+    make_own_folder();
     try {
         open(config, light_samples);
     } catch (...) {
-        std::error_code ignored;
-        if (made_folder_) fs::remove(folder_, ignored);
+        discard();
         throw;
     }
+}
+
+// A signal finds it either not made or known as new.
+void RunFiles::make_own_folder() {
+    const logs::Together made_and_known;
+    made_folder_ = folder_.empty();
+    if (made_folder_)
+        folder_ = make_new_folder();
+    else
+        made_folder_ = make_folder(folder_);
+    if (made_folder_) new_folder_.emplace(folder_);
 }
 
 void RunFiles::open(const config::Config& config, int light_samples) {
@@ -99,7 +108,12 @@ void RunFiles::open(const config::Config& config, int light_samples) {
 }
 
 RunFiles::~RunFiles() {
-    if (finished_) return;
+    if (!finished_) discard();
+}
+
+// A folder can go when nothing is in it any more.
+void RunFiles::discard() {
+    const logs::Together all_or_none;
     for (auto* file : {&health_, &switches_, &summary_, &page_}) file->reset();
     raw_.reset();
     angles_.reset();
@@ -114,6 +128,7 @@ void RunFiles::write_health(std::int64_t half, std::uint32_t bits) {
 
 void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std::string& summary,
                       const std::string& page) {
+    const logs::Together all_or_none;
     switches_->append(switch_table(switches));
     summary_->append(summary);
     page_->append(page);

@@ -11,6 +11,7 @@
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
+#include <zlg/logs/unfinished.hpp>
 #include <zlg/study/run.hpp>
 
 namespace zlg::cli {
@@ -43,13 +44,16 @@ public:
 
 private:
     [[nodiscard]] std::string path(const std::string& name) const;
+    void make_own_folder();
     void open(const config::Config& config, int light_samples);
+    void discard();
 
     std::string folder_;
     bool force_;
     double tick_s_;
     std::array<std::string, 6> names_;
     bool made_folder_ = false;
+    std::optional<logs::NewFolder> new_folder_;
     bool finished_ = false;
     std::vector<std::string> completed_;  // by this run, where nothing stood before
     std::optional<logs::RawWriter> raw_;

@@ -10,6 +10,7 @@
 
 #include <zlg/analysis/imu_yaml.hpp>
 #include <zlg/logs/table_file.hpp>
+#include <zlg/logs/unfinished.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
 
@@ -73,6 +74,7 @@ struct Output {
 
 // Both or neither: none gets its name before all are written.
 void write(const std::vector<Output>& outputs, bool force) {
+    const logs::Together all_or_none;
     std::vector<logs::TableFile> files;
     for (const Output& o : outputs) {
         files.emplace_back(o.path, force);
@@ -116,7 +118,7 @@ void add_analyze(CLI::App& program) {
     verb->add_option("--threads", options->threads, "threads, 1..64")->check(CLI::Range(1, 64));
     verb->add_option("--imu-yaml", options->imu_yaml, "write the noise as Kalibr's imu.yaml");
     verb->add_option("--compare", options->compare,
-                     "an imu.yaml whose noise is told, and drawn by --out, beside the measured one");
+                     "an imu.yaml whose noise is printed, and drawn by --out, beside the measured one");
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { analyze(*options); });

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <initializer_list>
+#include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -5,6 +9,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/file_nature.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 
@@ -28,14 +33,29 @@ void warn(const ConvertOptions& options, const std::vector<std::string>& warning
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.file));
 }
 
+bool says(const config::Settings& settings, std::string_view fact) {
+    return std::ranges::any_of(settings, [fact](const auto& setting) {
+        return setting.first == fact || setting.first == fmt::format("gyro.{}", fact);
+    });
+}
+
+// Nothing is invented: what the log does not say, the copy does not say either.
+void warn_of_absent(const ConvertOptions& options, const config::Settings& settings,
+                    std::initializer_list<std::string_view> facts) {
+    for (const std::string_view fact : facts)
+        if (!says(settings, fact))
+            complain(fmt::format("warning: {}: does not say {}, nor does the copy", options.file, fact));
+}
+
 std::int64_t convert_raw(const ConvertOptions& options, logs::LogFormat format) {
     const Interruptible interruptible;
     logs::RawReader raw{options.file};
     const logs::RawHeader& header = raw.header();
     warn(options, header.warnings, header.complete);
+    warn_of_absent(options, header.settings, {"tick_s", "scale_arcsec"});
     const logs::RawWriterOptions copied = copied_light(header, options.file, format);
     logs::RawWriter copy{options.out, header.settings, options.force, header, copied};
-    Progress progress;
+    Progress progress{copy.part_path()};
     core::HalfRecord record;
     std::int64_t rows = 0;
     while (raw.next(record)) {
@@ -52,7 +72,8 @@ std::int64_t convert_raw(const ConvertOptions& options, logs::LogFormat format) 
 }
 
 double logged_tick_s(const logs::AngleHeader& header, const ConvertOptions& options) {
-    return load_log_config(options, header.settings, options.file).gyro.tick_s;
+    if (!says(header.settings, "tick_s")) return std::numeric_limits<double>::quiet_NaN();
+    return load_log_config(options, header.settings, options.file, LogFacts::none).gyro.tick_s;
 }
 
 std::int64_t convert_angles(const ConvertOptions& options, logs::LogFormat format) {
@@ -60,12 +81,13 @@ std::int64_t convert_angles(const ConvertOptions& options, logs::LogFormat forma
     logs::AngleReader angles{options.file};
     const logs::AngleHeader& header = angles.header();
     warn(options, header.warnings, header.complete);
+    warn_of_absent(options, header.settings, {"tick_s"});
     const bool with_truth = header.has_truth && format == logs::LogFormat::hdf5;
     if (header.has_truth && !with_truth)
         complain(fmt::format("warning: {}: /truth stays behind, a CSV log holds none", options.file));
     logs::AngleWriter copy{
         options.out, logged_tick_s(header, options), header.settings, options.force, {.has_truth = with_truth}};
-    Progress progress;
+    Progress progress{copy.part_path()};
     logs::TimedAngle angle;
     std::int64_t rows = 0;
     while (angles.next(angle)) {
@@ -90,6 +112,8 @@ std::int64_t convert_rows(const ConvertOptions& options, logs::LogFormat format)
         case logs::LogKind::unknown:
             break;
     }
+    if (const std::string nature = logs::foreign_nature(options.file); !nature.empty())
+        throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log; it is {}", options.file, nature)};
     throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log", options.file)};
 }
 
@@ -100,7 +124,7 @@ void convert(const ConvertOptions& options) {
     if (options.json)
         print(pretty(nlohmann::json{{"file", options.file}, {"out", options.out}, {"rows", rows}}));
     else
-        print(fmt::format("{}: {} rows\n", options.out, rows));
+        print(fmt::format("{}: {} rows\n", printable(options.out), rows));
 }
 
 }  // namespace

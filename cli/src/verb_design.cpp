@@ -42,6 +42,7 @@ json roots_json(const design::Roots& roots) {
 json run_json(const study::RunLine& r) {
     return {
         {"run_s", r.run_s},
+        {"best", {{"interval_s", r.best.interval_s}, {"drift_arcsec_s", r.best.drift_arcsec_s}}},
         {"nonmagnetic_arcsec_s", r.terms.nonmagnetic_arcsec_s},
         {"quasi_nonmagnetic_arcsec_s", r.terms.quasi_nonmagnetic_arcsec_s},
         {"sawtooth_arcsec_s", r.terms.sawtooth_arcsec_s},
@@ -89,7 +90,9 @@ json loop_json(const study::LoopLine& l) {
 }
 
 json result_json(const study::DesignResult& result) {
-    json j{{"optimum", json::array()},
+    json j{{"switch_error_arcsec", result.switch_error_arcsec},
+           {"switch_error_is_given", result.switch_error_is_given},
+           {"optimum", json::array()},
            {"runs", json::array()},
            {"substitution", json::array()},
            {"loop", loop_json(result.loop)}};
@@ -111,6 +114,16 @@ std::string interval_text(const study::DesignResult& result) {
             text += fmt::format("  {}", design::sentence(l.optimum.status));
         text += '\n';
     }
+    return text;
+}
+
+std::string best_text(const study::DesignResult& result) {
+    std::string text = fmt::format(
+        "\na switch leaves {:.3g} arcsec rms, {}; what that makes best, as switching.interval_s = \"optimal\"\n"
+        "{:>10}{:>14}{:>14}\n",
+        result.switch_error_arcsec, result.switch_error_source, "run, s", "interval, s", "drift, \"/s");
+    for (const auto& r : result.runs)
+        text += fmt::format("{:>10.6g}{:>14.1f}{:>14.4f}\n", r.run_s, r.best.interval_s, r.best.drift_arcsec_s);
     return text;
 }
 
@@ -177,11 +190,14 @@ void design_gyro(const DesignOptions& options) {
         config::apply_pair(config, "design.run_lengths_s", "[" + *options.run_lengths + "]", "--run-lengths");
         config::check(config);
     }
+    // The interval is what is asked for here.
+    config.switching.interval_optimal = false;
+    config = resolve(config).config;
     const study::DesignResult result = study::design_gyro(config);
     if (!options.out.empty()) write_page(options, config, result);
-    print(options.json
-              ? pretty(result_json(result))
-              : interval_text(result) + run_text(result) + substitution_text(result) + loop_text(config, result.loop));
+    print(options.json ? pretty(result_json(result))
+                       : interval_text(result) + best_text(result) + run_text(result) + substitution_text(result) +
+                             loop_text(config, result.loop));
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -41,10 +43,13 @@ public:
             throw logs::IoError{fmt::format("{} exists; use --force to overwrite", options.out)};
     }
 
-    // Write what has arrived; true where the log is as long as was asked for.
-    bool take(logs::WireRows& rows) {
+    // Write what has arrived; true where the log is as long as was asked for. One message can bring many rows: `stop` is
+    // asked now and then.
+    bool take(logs::WireRows& rows, const std::function<bool()>& stop) {
+        constexpr std::int64_t stride_rows = 1024;
         core::AngleRow row;
         while (!is_full(rows) && rows.next(row)) {
+            if (n_rows_ % stride_rows == stride_rows - 1 && stop()) break;
             if (!angles_) begin(*rows.tick_s());
             angles_->write(row);
             ++n_rows_;
@@ -81,11 +86,14 @@ private:
         for (const auto& [name, bit] : flag_names) legend += fmt::format("{}:{} ", name, static_cast<unsigned>(bit));
         legend.pop_back();
         angles_.emplace(options_.out, tick_s, config::Settings{{"flags", legend}}, options_.force,
-                        logs::AngleWriterOptions{.keep_part = true});
+                        logs::AngleWriterOptions{.keep_part = true, .keep_csv_part = true});
     }
 
-    static constexpr std::array<std::pair<const char*, logs::WireFlag>, 3> flag_names{
-        {{"lost", logs::flag_lost}, {"final_lost", logs::flag_final_lost}, {"restarted", logs::flag_restarted}}};
+    static constexpr std::array<std::pair<const char*, logs::WireFlag>, 4> flag_names{
+        {{"lost", logs::flag_lost},
+         {"final_lost", logs::flag_final_lost},
+         {"restarted", logs::flag_restarted},
+         {"outage", logs::flag_outage}}};
 
     const FollowOptions& options_;
     std::optional<logs::AngleWriter> angles_;
@@ -101,26 +109,36 @@ void receive(ByteSource& source, logs::WireRows& rows, Recording& recording, con
     constexpr std::chrono::milliseconds flush_every{500};
     const auto started = Clock::now();
     auto flushed = started;
+    const std::function<bool()> is_over = [&] {
+        const double past_s = std::chrono::duration<double>{Clock::now() - started}.count();
+        return interruptible.is_noted() || (options.duration_s && past_s >= *options.duration_s);
+    };
     std::array<std::uint8_t, 65536> buffer{};
-    while (!interruptible.is_noted()) {
+    while (!is_over()) {
         std::size_t n = 0;
         const ByteSource::Read read = source.read(buffer, n, patience_ms);
         if (read == ByteSource::Read::end) break;
-        rows.take(std::span{buffer}.first(n));
-        const auto now = Clock::now();
-        if (recording.take(rows)) return;
-        if (options.duration_s && std::chrono::duration<double>{now - started}.count() >= *options.duration_s) break;
-        if (now - flushed < flush_every) continue;
+        // In pieces of a few messages, for what waits to be written has no other limit.
+        for (std::span<const std::uint8_t> left = std::span{buffer}.first(n); !left.empty() && !is_over();) {
+            const std::size_t piece = std::min<std::size_t>(left.size(), wire::max_frame_bytes);
+            rows.take(left.first(piece));
+            left = left.subspan(piece);
+            if (recording.take(rows, is_over)) return;
+        }
+        if (Clock::now() - flushed < flush_every) continue;
         recording.flush();
-        flushed = now;
+        flushed = Clock::now();
     }
+    // What waits is of the last few messages.
     rows.end();
-    (void)recording.take(rows);
+    (void)recording.take(rows, [] { return false; });
 }
 
-std::string text(const logs::WireSummary& s, const Recording& recording, const FollowOptions& options) {
-    std::string text = fmt::format("{}: {} ticks, accumulated angle {} arcsec\n", options.out, recording.n_rows(),
-                                   recording.angle_arcsec());
+std::string text(const logs::WireRows& rows, const Recording& recording, const FollowOptions& options) {
+    const logs::WireSummary& s = rows.summary();
+    const std::optional<double> tick_s = rows.tick_s();
+    std::string text = fmt::format("{}: {} ticks, accumulated angle {} arcsec\n", printable(options.out),
+                                   recording.n_rows(), recording.angle_arcsec());
     text += fmt::format("{} bytes, {} messages\n", s.n_bytes, s.n_telemetry + s.n_status + s.n_replies);
     const auto add = [&text](std::uint64_t n, const char* what) {
         if (n > 0) text += fmt::format("{:>10} {}\n", n, what);
@@ -129,11 +147,19 @@ std::string text(const logs::WireSummary& s, const Recording& recording, const F
     add(s.n_lost_rows, "ticks lost; their angle is shared out among them");
     add(s.n_final_lost_rows, "ticks without a final value");
     add(s.n_restarts, "restarts of the gyro; its turn meanwhile is not in the log");
+    if (s.n_outages > 0)
+        text += fmt::format(
+            "{:>10} outages of more than {} ticks: {} ticks, in which it turned by {} arcsec, are in no row\n",
+            s.n_outages, logs::max_lost_rows, s.n_outage_ticks, s.outage_arcsec);
+    if (s.n_other_tick > 0)
+        text += fmt::format("{:>10} messages of ticks of {} s; those of the log have {} s, so they are not in it\n",
+                            s.n_other_tick, s.other_tick_s, *tick_s);
     add(s.n_damaged, "damaged frames");
     add(s.n_damaged_bytes, "bytes in them");
     add(s.n_foreign, "of them whole, but of another version of the line: from a gyro with other software");
     add(s.n_refused, "whole frames that no gyro of ours sends");
-    add(s.n_repeated, "messages that came again");
+    add(s.n_unfitting, "messages that fit neither those before them nor those after");
+    add(s.n_repeated, "messages that came again or too late");
     return text;
 }
 
@@ -150,6 +176,11 @@ nlohmann::json json(const logs::WireSummary& s, const Recording& recording, cons
             {"lost_ticks", s.n_lost_rows},
             {"final_lost_ticks", s.n_final_lost_rows},
             {"restarts", s.n_restarts},
+            {"outages", s.n_outages},
+            {"outage_ticks", s.n_outage_ticks},
+            {"outage_arcsec", s.outage_arcsec},
+            {"other_tick_messages", s.n_other_tick},
+            {"unfitting_messages", s.n_unfitting},
             {"damaged_frames", s.n_damaged},
             {"damaged_bytes", s.n_damaged_bytes},
             {"foreign_frames", s.n_foreign},
@@ -163,13 +194,14 @@ void follow(const FollowOptions& options) {
     ByteSource source{options.source, options.baud};
     const Interruptible interruptible;
     logs::WireRows rows;
+    interruptible.will_finish();
     try {
         receive(source, rows, recording, options, interruptible);
         recording.close();
     } catch (...) {
         rethrow_with({recording.part_path()});
     }
-    print(options.json ? pretty(json(rows.summary(), recording, options)) : text(rows.summary(), recording, options));
+    print(options.json ? pretty(json(rows.summary(), recording, options)) : text(rows, recording, options));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/file_nature.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 
@@ -35,7 +37,7 @@ struct RawFindings {
     std::string damage;  // empty: none
 
     void take(const core::HalfRecord& r) {
-        const bool measured = r.loop_closed && r.valid;
+        const bool measured = is_measured(r);
         // A gap is counted by ticks: the second half of a tick belongs to the gap of the first.
         const bool new_tick = r.half % 2 == 0;
         if (new_tick) {
@@ -67,6 +69,7 @@ std::vector<std::string> optional_columns(const logs::RawHeader& header) {
     if (header.has_piezo) columns.emplace_back("piezo_v");
     if (header.has_temperature) columns.emplace_back("temperature_c");
     if (header.has_edge_offset) columns.emplace_back("edge_offset_ticks");
+    if (header.has_span) columns.emplace_back("span");
     return columns;
 }
 
@@ -105,15 +108,31 @@ std::string repaired_path(const InspectOptions& options) {
     return std::filesystem::path{file}.replace_extension(fmt::format(".repaired{}", file.extension().string()));
 }
 
-json raw_json(const InspectOptions& options, const logs::RawHeader& header, const config::Config& config,
+// What a log says of itself, as far as it can be understood; what cannot be is damage, and dropped from a repaired copy.
+struct LogSettings {
+    config::Settings good;
+    config::Config config;
+    std::string damage;
+};
+
+// A fact that the log gives; null where it does not.
+json fact(const config::Settings& settings, std::string_view name, double value) {
+    for (const auto& [key, text] : settings)
+        if (key == name || key == fmt::format("gyro.{}", name)) return value;
+    return nullptr;
+}
+
+json raw_json(const InspectOptions& options, const logs::RawHeader& header, const LogSettings& log,
               const RawFindings& f) {
+    const config::Gyro& gyro = log.config.gyro;
+    const json tick_s = fact(log.good, "tick_s", gyro.tick_s);
     return {{"file", options.file},
             {"kind", "raw"},
             {"halves", f.halves},
             {"ticks", f.halves / 2},
-            {"tick_s", config.gyro.tick_s},
-            {"scale_arcsec", config.gyro.scale_arcsec},
-            {"duration_s", static_cast<double>(f.halves / 2) * config.gyro.tick_s},
+            {"tick_s", tick_s},
+            {"scale_arcsec", fact(log.good, "scale_arcsec", gyro.scale_arcsec)},
+            {"duration_s", tick_s.is_null() ? json(nullptr) : json(static_cast<double>(f.halves / 2) * gyro.tick_s)},
             {"optional_columns", optional_columns(header)},
             {"settings", header.settings.size()},
             {"light_samples", header.light_samples},
@@ -163,36 +182,47 @@ AngleFindings read_angles(logs::AngleReader& reader, const std::string& path) {
 std::string as_text(const json& findings) {
     std::string text;
     for (const auto& [key, value] : findings.items()) {
-        if (value.is_null()) continue;
-        if (value.is_object()) {
+        const bool is_fact = key == "tick_s" || key == "scale_arcsec";
+        if (value.is_null() && !is_fact) continue;
+        if (value.is_null()) {
+            text += fmt::format("{:<18} not given\n", key);
+        } else if (value.is_object()) {
             for (const auto& [name, n] : value.items())
                 if (n != 0) text += fmt::format("{:<18} {}: {}\n", key, name, n.dump());
         } else {
-            text += fmt::format("{:<18} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+            text +=
+                fmt::format("{:<18} {}\n", key, value.is_string() ? printable(value.get<std::string>()) : value.dump());
         }
     }
     return text;
 }
 
-// What a log says of itself, as far as it can be understood; what cannot be is damage, and dropped from a repaired copy.
-struct LogSettings {
-    config::Settings good;
-    config::Config config;
-    std::string damage;
-};
-
-LogSettings understood(const InspectOptions& options, const config::Settings& settings) {
-    LogSettings found;
-    for (const auto& setting : settings) {
-        try {
-            (void)load_log_config(options, {setting}, options.file);
-            found.good.push_back(setting);
-        } catch (const logs::FormatError& error) {
-            if (found.damage.empty()) found.damage = error.what();
-        }
+// Together with what was understood before, which it may contradict.
+bool understand_all(const InspectOptions& options, std::span<const config::Settings::value_type> settings,
+                    LogSettings& found, std::string& damage) {
+    config::Settings together = found.good;
+    together.insert(together.end(), settings.begin(), settings.end());
+    try {
+        found.config = load_log_config(options, together, options.file, LogFacts::none);
+        found.good = std::move(together);
+        return true;
+    } catch (const std::runtime_error& error) {  // FormatError; ConfigError of two keys that do not agree
+        damage = error.what();
+        return false;
     }
-    found.config = load_log_config(options, found.good, options.file);
-    return found;
+}
+
+// Settings that can be understood together cost as much as one; where they cannot, each half is tried in turn.
+void understand(const InspectOptions& options, std::span<const config::Settings::value_type> settings,
+                LogSettings& found) {
+    std::string damage;
+    if (understand_all(options, settings, found, damage)) return;
+    if (settings.size() == 1) {
+        if (found.damage.empty()) found.damage = damage;
+        return;
+    }
+    understand(options, settings.first(settings.size() / 2), found);
+    understand(options, settings.subspan(settings.size() / 2), found);
 }
 
 void repair(const InspectOptions& options, logs::RawReader& reader, const config::Settings& settings,
@@ -208,7 +238,8 @@ void repair(const InspectOptions& options, logs::RawReader& reader, const config
 json inspect_raw(const InspectOptions& options) {
     logs::RawReader reader{options.file};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
-    const LogSettings log = understood(options, reader.header().settings);
+    LogSettings log;
+    understand(options, reader.header().settings, log);
     const std::string out = options.repair ? repaired_path(options) : "";
     RawFindings found;
     if (options.repair)
@@ -218,7 +249,7 @@ json inspect_raw(const InspectOptions& options) {
     if (found.damage.empty() && !reader.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
     if (found.damage.empty()) found.damage = log.damage;
-    json findings = raw_json(options, reader.header(), log.config, found);
+    json findings = raw_json(options, reader.header(), log, found);
     if (options.repair) findings["repaired"] = out;
     return findings;
 }
@@ -232,12 +263,19 @@ void inspect(const InspectOptions& options) {
             break;
         case logs::LogKind::angle_csv:
         case logs::LogKind::angle_hdf5: {
-            if (options.repair) throw UsageError{"--repair takes a raw log; an angle log is made anew by zlg process"};
+            if (options.repair)
+                throw UsageError{
+                    fmt::format("--repair {}: is an angle log; allowed is a raw log. zlg convert copies the whole rows "
+                                "of an angle log",
+                                options.file)};
             logs::AngleReader reader{options.file};
             findings = angle_json(options, read_angles(reader, options.file));
             break;
         }
         case logs::LogKind::unknown:
+            if (const std::string nature = logs::foreign_nature(options.file); !nature.empty())
+                throw logs::FormatError{
+                    fmt::format("{}: neither a raw log nor an angle log; it is {}", options.file, nature)};
             throw logs::FormatError{
                 fmt::format("{}: neither a raw log nor an angle log: no line names the columns of one", options.file)};
     }

@@ -9,10 +9,14 @@
 
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/table_file.hpp>
+#include <zlg/logs/unfinished.hpp>
+#include <zlg/paper/paper.hpp>
 #include <zlg/report/export.hpp>
-#include <zlg/study/paper.hpp>
+#include <zlg/rig/wiring.hpp>
+#include <zlg/study/run.hpp>
 
 #include "as_json.hpp"
+#include "cost.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -31,7 +35,7 @@ constexpr double most_chi2_per_dof = 1.4;
 constexpr const char* page_name = "paper.html";
 constexpr const char* claims_name = "claims.csv";
 
-bool agrees(const study::Paper& paper) {
+bool agrees(const paper::Paper& paper) {
     return paper.chi2_per_dof >= least_chi2_per_dof && paper.chi2_per_dof <= most_chi2_per_dof;
 }
 
@@ -41,10 +45,10 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-std::string claims_table(const std::vector<study::Claim>& claims) {
+std::string claims_table(const std::vector<paper::Claim>& claims) {
     std::string text = "where,claim,verdict,finding\n";
-    for (const study::Claim& c : claims)
-        text += fmt::format("{},{},{},{}\n", quoted(c.where), quoted(c.claim), study::verdict_name(c.verdict),
+    for (const paper::Claim& c : claims)
+        text += fmt::format("{},{},{},{}\n", quoted(c.where), quoted(c.claim), paper::verdict_name(c.verdict),
                             quoted(c.finding));
     return text;
 }
@@ -52,9 +56,9 @@ std::string claims_table(const std::vector<study::Claim>& claims) {
 // Name and content of what is written beside the page.
 using Files = std::vector<std::pair<std::string, std::string>>;
 
-Files files_of(const study::Paper& paper) {
+Files files_of(const paper::Paper& paper) {
     Files files{{claims_name, claims_table(paper.claims)}};
-    for (const study::PaperItem& item : paper.items) {
+    for (const paper::PaperItem& item : paper.items) {
         for (const report::Diagram& d : item.section.diagrams) files.emplace_back(d.id + ".svg", report::svg_file(d));
         for (const report::Figure& f : item.section.figures) {
             files.emplace_back(f.id + ".svg", report::svg_file(f));
@@ -69,9 +73,7 @@ Files files_of(const study::Paper& paper) {
 class Folder {
 public:
     Folder(std::string path, bool force) : path_{std::move(path)}, force_{force} {
-        std::error_code error;
-        made_ = fs::create_directory(path_, error);
-        if (error) throw logs::IoError{fmt::format("{}: cannot make the folder: {}", path_, error.message())};
+        make();
         try {
             // Which files there will be shows only at the end, so all that is there counts.
             if (!made_ && !force_ && !fs::is_empty(path_))
@@ -84,6 +86,7 @@ public:
         }
     }
     ~Folder() {
+        const logs::Together all_or_none;
         page_.reset();
         std::error_code ignored;
         if (!finished_)
@@ -94,6 +97,7 @@ public:
     Folder& operator=(const Folder&) = delete;
 
     void write(const std::string& page, const Files& files) {
+        const logs::Together all_or_none;
         for (const auto& [name, text] : files) {
             const fs::path path = fs::path{path_} / name;
             if (!fs::exists(path)) new_.push_back(path);
@@ -107,6 +111,15 @@ public:
     }
 
 private:
+    // A signal finds it either not made or known as new.
+    void make() {
+        const logs::Together made_and_known;
+        std::error_code error;
+        made_ = fs::create_directory(path_, error);
+        if (error) throw logs::IoError{fmt::format("{}: cannot make the folder: {}", path_, error.message())};
+        if (made_) new_folder_.emplace(path_);
+    }
+
     void remove_if_made() const {
         std::error_code ignored;
         if (made_) fs::remove(path_, ignored);
@@ -115,24 +128,25 @@ private:
     std::string path_;
     bool force_;
     bool made_ = false;
+    std::optional<logs::NewFolder> new_folder_;
     bool finished_ = false;
     std::vector<fs::path> new_;  // where nothing stood before
     std::optional<logs::TableFile> page_;
 };
 
-json result_json(const study::Paper& paper) {
+json result_json(const paper::Paper& paper) {
     json items = json::array();
-    for (const study::PaperItem& item : paper.items) {
+    for (const paper::PaperItem& item : paper.items) {
         json figures = json::array();
         for (const report::Diagram& d : item.section.diagrams) figures.push_back(d.id);
         for (const report::Figure& f : item.section.figures) figures.push_back(f.id);
         items.push_back({{"number", item.number}, {"title", item.section.heading}, {"figures", figures}});
     }
     json claims = json::array();
-    for (const study::Claim& c : paper.claims)
+    for (const paper::Claim& c : paper.claims)
         claims.push_back({{"where", c.where},
                           {"claim", c.claim},
-                          {"verdict", study::verdict_name(c.verdict)},
+                          {"verdict", paper::verdict_name(c.verdict)},
                           {"finding", c.finding}});
     return {{"items", items},
             {"chi2_per_dof", paper.chi2_per_dof},
@@ -140,26 +154,39 @@ json result_json(const study::Paper& paper) {
             {"claims", claims}};
 }
 
-std::string text(const study::Paper& paper, const std::string& folder, std::size_t n_files) {
+std::string text(const paper::Paper& paper, const std::string& folder, std::size_t n_files) {
     std::string lines;
-    for (const study::PaperItem& item : paper.items) lines += item.section.heading + "\n";
+    for (const paper::PaperItem& item : paper.items) lines += item.section.heading + "\n";
     return fmt::format(
         "{}\ntwin against theory: chi-square {:.3f} per point, {} points (those of one experiment share its noise), "
         "allowed {} to {}\n{} claims: "
         "{}\nwritten to {}: {} and {} more files\n",
         lines, paper.chi2_per_dof, paper.degrees_of_freedom, least_chi2_per_dof, most_chi2_per_dof, paper.claims.size(),
-        study::verdict_counts(paper.claims), folder, page_name, n_files);
+        paper::verdict_counts(paper.claims), printable(folder), page_name, n_files);
+}
+
+// What every paper costs, a minute or so, is no news; what a longer run than the paper's adds is.
+void announce_run(const paper::PaperTask& task) {
+    constexpr double paper_s = 3600.0;
+    if (task.config.run.duration_s.value_or(paper_s) <= paper_s) return;
+    announce({.ticks = rig::run_ticks(task.config, rig::motion(task.config)), .bytes_a_tick = 0.0, .out = {}},
+             [&task](std::int64_t ticks) {
+                 config::Config beginning = task.config;
+                 beginning.run.duration_s = static_cast<double>(ticks) * task.config.gyro.tick_s;
+                 (void)study::run({.config = beginning, .threads = task.threads});
+             });
 }
 
 void run(const Options& options) {
     if (options.out.empty()) throw UsageError{"--out is missing: name the folder to write into"};
-    study::PaperTask task{.config = load_config(options), .threads = options.threads};
+    paper::PaperTask task{.config = load_config(options), .threads = options.threads};
     Folder folder{options.out, options.force};
+    announce_run(task);
     Progress progress;
     task.on_progress = [&](double fraction) { progress.show(fraction); };
-    const study::Paper paper = study::recompute_paper(task);
+    const paper::Paper paper = paper::recompute_paper(task);
     const Files files = files_of(paper);
-    folder.write(report::html(study::paper_page(paper)), files);
+    folder.write(report::html(paper::paper_page(paper)), files);
     print(options.json ? pretty(result_json(paper)) : text(paper, options.out, files.size()));
     if (agrees(paper)) return;
     complain(

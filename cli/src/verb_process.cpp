@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <thread>
 
@@ -43,8 +44,8 @@ struct Summary {
         const bool is_gap = (row.flags & (core::flag_loop_unlocked | core::flag_invalid)) != 0;
         gaps += is_gap && !in_gap ? 1 : 0;
         in_gap = is_gap;
-        for (std::size_t bit = 0; bit < flagged.size(); ++bit)
-            if (row.flags & (1u << bit)) ++flagged[bit];
+        for (std::uint32_t rest = row.flags; rest != 0; rest &= rest - 1)  // most rows have none
+            if (const auto bit = static_cast<std::size_t>(std::countr_zero(rest)); bit < flagged.size()) ++flagged[bit];
     }
 };
 
@@ -70,8 +71,9 @@ bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options, const In
 
 // The next row of a log that grows. What is known by now is shown to those who follow the angles.
 bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& angles, const ProcessOptions& options,
-            const Interruptible& interruptible) {
+            Progress& progress, const Interruptible& interruptible) {
     angles.flush();
+    progress.show(raw.fraction_read());
     return wait_for_rows(raw, options, interruptible) && raw.next(record);
 }
 
@@ -80,13 +82,15 @@ Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& con
     Summary summary;
     core::GyroCompensationState state;
     core::HalfRecord record;
-    Progress progress;
-    while (raw.next(record) || (options.follow && follow(raw, record, angles, options, interruptible))) {
+    Progress progress{angles.part_path()};
+    const bool has_light = raw.header().light_samples > 0;
+    while (raw.next(record) || (options.follow && follow(raw, record, angles, options, progress, interruptible))) {
         if (++summary.halves % stride_halves == 0) {
             interruptible.check();
             progress.show(raw.fraction_read());
         }
-        const core::CompensationOutput out = step(config, state, record, raw.light());
+        const core::CompensationOutput out =
+            step(config, state, record, has_light ? raw.light() : core::LightSamples{});
         if (!out.has_sample) continue;
         summary.angle_arcsec = out.angle_arcsec;
         if (!out.sample.has_final) continue;
@@ -105,8 +109,8 @@ std::string text(const Summary& s, const ProcessOptions& options) {
     std::string flags;
     for (std::size_t bit = 0; bit < s.flagged.size(); ++bit)
         if (s.flagged[bit] > 0) flags += fmt::format("  {:<18} {}\n", core::angle_flag_names[bit], s.flagged[bit]);
-    return fmt::format("{}: {} ticks, {} gaps, accumulated angle {} arcsec\n{}", options.out, s.ticks, s.gaps,
-                       s.angle_arcsec, flags.empty() ? "" : "ticks by flag:\n" + flags);
+    return fmt::format("{}: {} ticks, {} gaps, accumulated angle {} arcsec\n{}", printable(options.out), s.ticks,
+                       s.gaps, s.angle_arcsec, flags.empty() ? "" : "ticks by flag:\n" + flags);
 }
 
 nlohmann::json json(const Summary& s, const ProcessOptions& options, const config::Config& config) {

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -7,11 +8,13 @@
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
-#include <zlg/study/design_study.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
 
 #include "as_json.hpp"
+#include "cost.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -42,6 +45,8 @@ json summary_json(const config::Config& config, const study::RunResult& result) 
     return {{"duration_s", static_cast<double>(result.ticks) * result.tick_s},
             {"ticks", result.ticks},
             {"switches", result.switches.size()},
+            {"switches_failed", result.tally.failed},
+            {"warnings", result.warnings},
             {"relock_false_drift_deg_h", result.relock_false_drift_deg_h},
             {"variants", variants},
             {"config", config_json(config)}};
@@ -56,7 +61,8 @@ std::string table(const study::RunResult& result) {
         fmt::format("{:<20}{:>12}{:>14}   error per switch, arcsec\n{:<20}{:>12}{:>14}{:>10}{:>10}{:>10}\n", "",
                     "drift", "angle error", "variant", "arcsec/s", "arcsec", "mean", "rms", "max");
     for (const study::VariantResult& v : result.variants)
-        text += fmt::format("{:<20}{:>12.5f}{:>14.2f}{:>10}{:>10}{:>10}\n", v.name, v.drift_arcsec_s,
+        // A blank before each, however long it is.
+        text += fmt::format("{:<19} {:>11.5f} {:>13.2f} {:>9} {:>9} {:>9}\n", v.name, v.drift_arcsec_s,
                             v.angle_error_arcsec, cell(v.switch_error, &study::SwitchStatistics::mean_arcsec),
                             cell(v.switch_error, &study::SwitchStatistics::rms_arcsec),
                             cell(v.switch_error, &study::SwitchStatistics::max_arcsec));
@@ -65,10 +71,11 @@ std::string table(const study::RunResult& result) {
 
 std::string text(const study::RunResult& result, const RunFiles& files) {
     return fmt::format(
-        "{} s, {} switches, all compensations of one run's records (one_mode: a run without switching)\n\n{}\n"
+        "{} s, {} switches{}, all compensations of one run's records (one_mode: a run without switching)\n\n{}\n"
         "drift: slope of the angle error (final minus true); 1 arcsec/s is 1 deg/h\nwritten to {}: {}\n",
-        static_cast<double>(result.ticks) * result.tick_s, result.switches.size(), table(result), files.folder(),
-        files.list());
+        static_cast<double>(result.ticks) * result.tick_s, result.switches.size(),
+        result.tally.failed > 0 ? fmt::format(" ({})", rig::sentence(result.tally)) : "", table(result),
+        printable(files.folder()), files.list());
 }
 
 struct RunOptions : Options {
@@ -82,10 +89,11 @@ logs::LogFormat format_named(const std::string& name) {
     throw UsageError{fmt::format("--format {}: allowed are h5 and csv", name)};
 }
 
-study::RunResult run_into(RunFiles& files, const config::Config& config, const RunOptions& options,
+study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, const RunOptions& options,
                           rig::Processor* processor, const Interruptible& interruptible) {
-    Progress progress;
-    study::RunTask task{.config = config,
+    Progress progress{files.raw_part()};
+    study::RunTask task{.config = resolved.config,
+                        .warnings = resolved.warnings,
                         .threads = options.threads,
                         .processor = processor,
                         .on_record =
@@ -99,25 +107,55 @@ study::RunResult run_into(RunFiles& files, const config::Config& config, const R
     return study::run(task);
 }
 
+// The least that a run does of a tick. A file is not read again for it.
+void advance(const config::Config& config, const twin::Motion& motion, rig::Processor* processor, std::int64_t ticks) {
+    rig::ClosedLoop loop{config, motion, processor};
+    for (std::int64_t half = 0; half < 2 * ticks; ++half) (void)loop.advance();
+}
+
+// A motion file may be a pipe, which can be read once.
+void announce_run(const config::Config& config, const RunOptions& options, logs::LogFormat format, int light_samples,
+                  rig::Processor* processor) {
+    const bool has_file = config.motion.kind == config::MotionKind::file;
+    if (has_file && !std::filesystem::is_regular_file(config.motion.path)) return;
+    const twin::Motion motion = rig::motion(config);
+    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
+    const double raw = format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes;
+    announce({.ticks = rig::run_ticks(config, motion),
+              .bytes_a_tick = raw + angles_bytes + light_bytes * light_samples,
+              .out = options.out},
+             [&](std::int64_t ticks) {
+                 if (has_file) return advance(config, motion, processor, ticks);
+                 config::Config beginning = config;
+                 beginning.run.duration_s = static_cast<double>(ticks) * config.gyro.tick_s;
+                 (void)study::run({.config = beginning, .threads = options.threads, .processor = processor});
+             });
+}
+
 // The files are gone when this returns by an exception, but for the logs that grew until then.
 void run(const RunOptions& options) {
     const logs::LogFormat format = format_named(options.format);
-    const config::Config config = with_laser_curve(with_interval(load_config(options)));
-    const Interruptible interruptible;
+    const study::Resolved resolved = resolve(load_config(options));
+    const config::Config& config = resolved.config;
     const std::unique_ptr<rig::Processor> processor = make_processor(options.processor);
+    announce_run(config, options, format, logged_light_samples(options, config, format), processor.get());
+    const Interruptible interruptible;
     std::string raw_part;
     std::string angles_part;
+    rig::SwitchTally tally;
     try {
         RunFiles files{options.out, options.force, config, format, logged_light_samples(options, config, format)};
         raw_part = files.raw_part();
         angles_part = files.angles_part();
-        const study::RunResult result = run_into(files, config, options, processor.get(), interruptible);
+        const study::RunResult result = run_into(files, resolved, options, processor.get(), interruptible);
         const std::string summary = pretty(summary_json(config, result));
         files.finish(result.switches, summary, report::html(study::run_page(config, result)));
         print(options.json ? summary : text(result, files));
+        tally = result.tally;
     } catch (...) {
         rethrow_with({raw_part, angles_part});
     }
+    refuse_a_run_without_switches(tally);
 }
 
 }  // namespace

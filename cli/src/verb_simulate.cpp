@@ -10,12 +10,14 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
+#include <zlg/logs/unfinished.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/switch_count.hpp>
 #include <zlg/rig/wire_stream.hpp>
 #include <zlg/rig/wiring.hpp>
-#include <zlg/study/design_study.hpp>
 
 #include "as_json.hpp"
+#include "cost.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -63,17 +65,32 @@ private:
 };
 
 void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw, LineRecording& line,
-            const Interruptible& interruptible) {
-    Progress progress;
-    const std::int64_t progress_stride = std::max<std::int64_t>(1, ticks / 200);
+            rig::SwitchCount& count, const Interruptible& interruptible) {
+    Progress progress{raw.part_path()};
+    const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
         interruptible.check();
         const rig::LoopHalf made = loop.advance();
         raw.write(made.record, with_light ? loop.light() : core::LightSamples{});
         line.take(loop, made);
+        count.take(made);
         if (half % (2 * progress_stride) == 0)
             progress.show(static_cast<double>(half) / static_cast<double>(2 * ticks));
     }
+}
+
+void announce_simulation(const config::Config& config, const twin::Motion& motion, std::int64_t ticks,
+                         const SimulateOptions& options, logs::LogFormat format) {
+    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
+    announce({.ticks = ticks,
+              .bytes_a_tick = (format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes) +
+                              (options.wire.empty() ? 0.0 : wire_bytes) +
+                              light_bytes * logged_light_samples(options, config, format),
+              .out = options.out},
+             [&](std::int64_t n) {
+                 rig::ClosedLoop loop{config, motion};
+                 for (std::int64_t half = 0; half < 2 * n; ++half) (void)loop.advance();
+             });
 }
 
 void simulate(const SimulateOptions& options) {
@@ -81,11 +98,13 @@ void simulate(const SimulateOptions& options) {
     if (!options.wire.empty() &&
         std::filesystem::path{options.wire}.lexically_normal() == std::filesystem::path{options.out}.lexically_normal())
         throw UsageError{fmt::format("--wire {}: is the raw log; name another file", options.wire)};
-    const config::Config config = with_laser_curve(with_interval(load_config(options)));
+    const config::Config config = resolve(load_config(options)).config;
     const int light_samples = logged_light_samples(options, config, format);
     const twin::Motion motion = rig::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};
+    rig::SwitchCount count{config};
+    announce_simulation(config, motion, ticks, options, format);
     const Interruptible interruptible;
     std::string part;
     try {
@@ -96,7 +115,8 @@ void simulate(const SimulateOptions& options) {
                             {.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true}};
         part = raw.part_path();
         LineRecording line{options, config};
-        record(loop, ticks, light_samples > 0, raw, line, interruptible);
+        record(loop, ticks, light_samples > 0, raw, line, count, interruptible);
+        const logs::Together both_or_neither;
         line.close();
         raw.close();
     } catch (...) {
@@ -104,9 +124,13 @@ void simulate(const SimulateOptions& options) {
     }
     const double duration_s = static_cast<double>(ticks) * config.gyro.tick_s;
     if (options.json)
-        print(pretty(nlohmann::json{{"raw", options.out}, {"halves", 2 * ticks}, {"duration_s", duration_s}}));
+        print(pretty(nlohmann::json{{"raw", options.out},
+                                    {"halves", 2 * ticks},
+                                    {"duration_s", duration_s},
+                                    {"switches_failed", count.tally().failed}}));
     else
-        print(fmt::format("{}: {} half-periods, {} s\n", options.out, 2 * ticks, duration_s));
+        print(fmt::format("{}: {} half-periods, {} s\n", printable(options.out), 2 * ticks, duration_s));
+    refuse_a_run_without_switches(count.tally());
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include <pybind11/stl.h>
 
+#include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
 
 #include "bind.hpp"
-#include "log_settings.hpp"
 
 namespace zlg::python {
 
@@ -29,6 +29,10 @@ const char* name_of(config::ValueKind kind) {
             return "optional_choice";
         case config::ValueKind::choices:
             return "choices";
+        case config::ValueKind::column:
+            return "column";
+        case config::ValueKind::columns:
+            return "columns";
         case config::ValueKind::interval:
             break;
     }
@@ -71,7 +75,7 @@ config::Config of_layers(const std::string& toml, const std::string& source, con
 
 config::Config of_log(const config::Settings& settings, const std::string& name) {
     config::Config config;
-    config::apply_log(config, log_settings(settings, name), name);
+    config::apply_log(config, config::checked_log_settings(settings, name), name);
     return config;
 }
 
@@ -82,6 +86,7 @@ void bind_config(py::module_& m) {
         .def(py::init(&of_pairs), py::arg("settings"), py::arg("sets") = std::vector<std::string>{})
         .def_static("of_layers", &of_layers, py::arg("toml"), py::arg("source"), py::arg("sets"))
         .def_static("of_log", &of_log, py::arg("settings"), py::arg("name"))
+        .def("given", [](const config::Config& c) { return std::vector<std::string>(c.given.begin(), c.given.end()); })
         .def("toml", &config::to_toml)
         .def("settings", &config::to_settings);
     m.def("config_keys", &keys);

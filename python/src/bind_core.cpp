@@ -1,4 +1,5 @@
 #include <zlg/config/config.hpp>
+#include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
@@ -6,7 +7,6 @@
 
 #include "bind.hpp"
 #include "log_columns.hpp"
-#include "log_settings.hpp"
 
 namespace zlg::python {
 namespace {
@@ -34,7 +34,8 @@ void bind_control(py::module_& m) {
         .def_readwrite("mode", &HalfRecord::mode)
         .def_readwrite("loop_closed", &HalfRecord::loop_closed)
         .def_readwrite("valid", &HalfRecord::valid)
-        .def_readwrite("edge_offset_ticks", &HalfRecord::edge_offset_ticks);
+        .def_readwrite("edge_offset_ticks", &HalfRecord::edge_offset_ticks)
+        .def_readwrite("span", &HalfRecord::span);
     py::class_<GyroControlOutput>(m, "ControlOutput", "What control makes of one half-period.")
         .def_readonly("actuator", &GyroControlOutput::actuator)
         .def_readonly("record", &GyroControlOutput::record)
@@ -48,19 +49,19 @@ void bind_control(py::module_& m) {
 }
 
 // The configuration as it was when the detunings were read: what the log does not tell is presumed.
-config::Config as_recorded(config::Config config, const config::Settings& told) {
+config::Config as_recorded(config::Config config, const config::Settings& recorded_settings) {
     config.perimeter = {};
-    config::apply_log(config, told, "the log");
+    config::apply_log(config, recorded_settings, "the log");
     return config;
 }
 
 // The inverse discriminator of [perimeter], for a log whose detunings were read by the slope alone; linear where they were
 // not, or none is known.
-core::DiscriminatorCurve curve_of(const config::Config& config, const config::Settings& told,
+core::DiscriminatorCurve curve_of(const config::Config& config, const config::Settings& recorded_settings,
                                   std::vector<std::string>& warnings) {
     const config::Perimeter& asked = config.perimeter;
     if (asked.discriminator_signal.empty() && asked.discriminator_detuning_lambda.empty()) return {};
-    const config::Config recorded = as_recorded(config, told);
+    const config::Config recorded = as_recorded(config, recorded_settings);
     const config::Perimeter& with = recorded.perimeter;
     if (with.discriminator_signal.empty())
         return rig::discriminator_curve(config, recorded.gyro.discriminator_per_lambda);
@@ -72,11 +73,11 @@ core::DiscriminatorCurve curve_of(const config::Config& config, const config::Se
     return {};
 }
 
-core::GyroCompensationConfig compensation_of(const config::Config& config, const config::Settings& told,
+core::GyroCompensationConfig compensation_of(const config::Config& config, const config::Settings& recorded_settings,
                                              const RawView& raw, double timer_hz, std::vector<std::string>& warnings) {
     auto made = rig::compensation_config(config, config.compensation.relock.value_or(core::RelockMethod::none),
                                          config.compensation.bridge);
-    made.relock.curve = curve_of(config, told, warnings);
+    made.relock.curve = curve_of(config, recorded_settings, warnings);
     made.profile.record_curve = made.relock.curve;
     if (!raw.has_edge_offset()) return made;
     if (!(timer_hz >= 1.0 && timer_hz <= 1e15))
@@ -89,10 +90,10 @@ core::GyroCompensationConfig compensation_of(const config::Config& config, const
 py::dict compensate(const py::dict& columns, const config::Config& config, const config::Settings& settings,
                     double timer_hz, const py::object& progress) {
     const RawView raw{columns};
-    const config::Settings told = log_settings(settings, "the log");
-    config::check_against_log(config, told, "the log");
+    const config::Settings recorded_settings = config::checked_log_settings(settings, "the log");
+    config::check_against_log(config, recorded_settings, "the log");
     std::vector<std::string> warnings;
-    const core::GyroCompensationConfig made = compensation_of(config, told, raw, timer_hz, warnings);
+    const core::GyroCompensationConfig made = compensation_of(config, recorded_settings, raw, timer_hz, warnings);
     const Progress tell{progress};
     AngleCollector angles;
     {

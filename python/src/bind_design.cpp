@@ -108,6 +108,10 @@ py::dict design_of(const config::Config& config) {
     for (const auto& line : result.intervals) intervals.append(of(line));
     for (const auto& line : result.substitution) substitution.append(of(line));
     py::dict d;
+    d["switch_error_arcsec"] = result.switch_error_arcsec;
+    py::dict best;
+    for (const study::RunLine& line : result.runs) best[py::cast(line.run_s)] = line.best.interval_s;
+    d["best_interval_s"] = best;
     d["intervals"] = intervals;
     d["substitution"] = substitution;
     d["relock_s"] = result.loop.relock_s;

@@ -24,6 +24,8 @@ py::dict dict_of(const analysis::DeviationCurve& curve) {
     c["terms"] = column(p, &analysis::DeviationPoint::terms);
     c["edf"] = column(p, [](const analysis::DeviationPoint& each) { return each.law.edf; });
     c["noise"] = column(p, &analysis::DeviationPoint::noise);
+    c["as_computed"] = column(p, &analysis::DeviationPoint::as_computed);
+    c["bias"] = std::string{name_of(curve.total_bias)};
     return c;
 }
 
@@ -136,18 +138,18 @@ void bind_deviations(py::module_& m) {
         [](const std::string& kind, const In<double>& values, double rate_hz, const std::string& data_type,
            const std::string& unit, const std::optional<In<std::uint8_t>>& valid, const Taus& taus, int per_decade,
            bool drop_long_taus, double confidence, double least_known_ratio, std::optional<int> noise,
-           bool bias_removed, int threads) {
+           const std::string& bias, int threads) {
             const DeviationOptions options{.confidence = confidence,
                                            .least_known_ratio = least_known_ratio,
                                            .noise = noise,
-                                           .total_bias = bias_removed ? TotalBias::removed : TotalBias::as_computed,
+                                           .total_bias = total_bias_of(bias),
                                            .threads = threads};
             return deviation_of(kind, values, rate_hz, data_type, unit, valid, taus, per_decade, drop_long_taus,
                                 options);
         },
         py::arg("kind"), py::arg("values"), py::arg("rate_hz"), py::arg("data_type"), py::arg("unit"), py::arg("valid"),
         py::arg("taus"), py::arg("per_decade"), py::arg("drop_long_taus"), py::arg("confidence"),
-        py::arg("least_known_ratio"), py::arg("noise"), py::arg("bias_removed"), py::arg("threads"));
+        py::arg("least_known_ratio"), py::arg("noise"), py::arg("bias"), py::arg("threads"));
     m.attr("not_measured") = not_measured;
     bind_stream(m);
 }

@@ -1,3 +1,6 @@
+#include <array>
+#include <utility>
+
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
@@ -50,6 +53,7 @@ py::dict read_raw(const std::string& path, bool light, const py::object& progres
     absent(header.has_piezo, "piezo_v");
     absent(header.has_temperature, "temperature_c");
     absent(header.has_edge_offset, "edge_offset_ticks");
+    absent(header.has_span, "span");
     std::vector<std::string> warnings = header.warnings;
     if (!reader->line_is_ended())
         warnings.push_back(path + ": the last line has no end; the file may have been cut off");
@@ -65,9 +69,14 @@ void write_raw(const std::string& path, const py::dict& columns, const config::S
     const RawView rows{columns};
     const Progress tell{progress};
     const auto has = [&](const char* name) { return columns.contains(name) && !columns[name].is_none(); };
-    const logs::RawColumns kept{true,           has("detuning_lambda"), has("detuning_sq_lambda2"),
-                                has("piezo_v"), has("temperature_c"),   has("edge_offset_ticks"),
-                                timer_hz};
+    const logs::RawColumns kept{.has_valid = true,
+                                .has_detuning = has("detuning_lambda"),
+                                .has_detuning_sq = has("detuning_sq_lambda2"),
+                                .has_piezo = has("piezo_v"),
+                                .has_temperature = has("temperature_c"),
+                                .has_edge_offset = has("edge_offset_ticks"),
+                                .timer_hz = timer_hz,
+                                .has_span = has("span")};
     const py::gil_scoped_release released;
     logs::RawWriter writer{
         path, settings, force, kept, {.light_samples = rows.light_samples(), .light_b = rows.has_light_b()}};
@@ -146,12 +155,39 @@ void write_angles(const std::string& path, const py::dict& c, double tick_s, con
     writer.close();
 }
 
-py::list read_text(const std::string& path, const std::vector<std::int64_t>& columns, const std::string& comment,
-                   std::int64_t skip_lines) {
+logs::TextSeparator separator_of(const std::string& name) {
+    using enum logs::TextSeparator;
+    const std::array<std::pair<const char*, logs::TextSeparator>, 6> all{{{"auto", automatic},
+                                                                          {"space", blanks},
+                                                                          {"tab", tab},
+                                                                          {"semicolon", semicolon},
+                                                                          {"comma", comma},
+                                                                          {"bar", bar}}};
+    for (const auto& [known, separator] : all)
+        if (name == known) return separator;
+    throw std::invalid_argument{"separator = " + name + ": allowed is auto, space, tab, semicolon, comma, bar"};
+}
+
+logs::TextMark mark_of(const std::string& name) {
+    if (name == "auto") return logs::TextMark::automatic;
+    if (name == "point") return logs::TextMark::point;
+    if (name == "comma") return logs::TextMark::comma;
+    throw std::invalid_argument{"decimal = " + name + ": allowed is auto, point, comma"};
+}
+
+py::list read_text(const std::string& path, const std::vector<std::string>& columns, const std::string& comment,
+                   std::int64_t skip_lines, const std::string& separator, const std::string& decimal) {
+    const logs::TextLayout layout{.columns = columns,
+                                  .comment = comment,
+                                  .skip_lines = skip_lines,
+                                  .separator = separator_of(separator),
+                                  .mark = mark_of(decimal),
+                                  .time_column = "0",
+                                  .section = "read_text_columns:"};
     std::vector<std::vector<double>> read;
     {
         const py::gil_scoped_release released;
-        read = logs::read_text_columns(path, {.columns = columns, .comment = comment, .skip_lines = skip_lines});
+        read = logs::read_text_columns(path, layout);
     }
     py::list arrays;
     for (auto& each : read) arrays.append(as_array(std::move(each)));
@@ -169,7 +205,7 @@ void bind_logs(py::module_& m) {
     m.def("write_angles", &write_angles, py::arg("path"), py::arg("columns"), py::arg("tick_s"), py::arg("settings"),
           py::arg("force"), py::arg("progress"));
     m.def("read_text_columns", &read_text, py::arg("path"), py::arg("columns"), py::arg("comment"),
-          py::arg("skip_lines"));
+          py::arg("skip_lines"), py::arg("separator"), py::arg("decimal"));
 }
 
 }  // namespace zlg::python

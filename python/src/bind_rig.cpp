@@ -2,7 +2,7 @@
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
-#include <zlg/study/design_study.hpp>
+#include <zlg/study/resolved.hpp>
 
 #include "bind.hpp"
 #include "log_columns.hpp"
@@ -76,7 +76,17 @@ void bind_rig(py::module_& m) {
             return rig::run_ticks(config, motion ? *motion : rig::motion(config));
         },
         py::arg("config"), py::arg("motion"));
-    m.def("with_interval", &study::with_interval, py::arg("config"));
+    m.def(
+        "resolved",
+        [](const config::Config& config) {
+            study::Resolved made;
+            {
+                const py::gil_scoped_release released;
+                made = study::resolved(config);
+            }
+            return py::make_tuple(made.config, made.notes, made.warnings);
+        },
+        py::arg("config"));
     m.def("calibrated_by_laser", &rig::calibrated_by_laser, py::arg("config"),
           py::call_guard<py::gil_scoped_release>());
     m.def("without_switching", &rig::without_switching, py::arg("config"));

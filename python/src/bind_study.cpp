@@ -1,7 +1,7 @@
 #include <zlg/config/config.hpp>
+#include <zlg/paper/paper.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
-#include <zlg/study/paper.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
 
@@ -43,11 +43,12 @@ py::dict switches_of(const std::vector<SwitchLine>& s) {
     return d;
 }
 
-py::dict run(const config::Config& config, bool raw, bool angles, bool page, int threads, const py::object& progress) {
+py::dict run(const config::Config& config, const std::vector<std::string>& warnings, bool raw, bool angles, bool page,
+             int threads, const py::object& progress) {
     const Progress tell{progress};
     RawCollector records;
     AngleCollector rows;
-    study::RunTask task{.config = config, .threads = threads, .on_progress = std::cref(tell)};
+    study::RunTask task{.config = config, .warnings = warnings, .threads = threads, .on_progress = std::cref(tell)};
     if (raw) task.on_record = [&](const core::HalfRecord& r, const core::LightSamples&) { records.add(r); };
     if (angles) task.on_row = [&](const core::AngleRow& row, double truth) { rows.add(row, truth); };
     study::RunResult result;
@@ -62,6 +63,9 @@ py::dict run(const config::Config& config, bool raw, bool angles, bool page, int
     py::dict d;
     d["tick_s"] = result.tick_s;
     d["ticks"] = result.ticks;
+    d["switches_failed"] = result.tally.failed;
+    d["none_succeeded"] = result.tally.none_succeeded();
+    d["warnings"] = result.warnings;
     d["variants"] = variants;
     d["switches"] = switches_of(result.switches);
     d["relock_false_drift_deg_h"] = as_array(std::move(result.relock_false_drift_deg_h));
@@ -73,22 +77,22 @@ py::dict run(const config::Config& config, bool raw, bool angles, bool page, int
 
 py::dict paper(const config::Config& config, int threads, int switches_per_point, const py::object& progress) {
     const Progress tell{progress};
-    study::Paper result;
+    paper::Paper result;
     std::string html;
     {
         const py::gil_scoped_release released;
-        result = study::recompute_paper({.config = config,
+        result = paper::recompute_paper({.config = config,
                                          .threads = threads,
                                          .switches_per_point = switches_per_point,
                                          .on_progress = std::cref(tell)});
-        html = report::html(study::paper_page(result));
+        html = report::html(paper::paper_page(result));
     }
     py::list claims;
-    for (const study::Claim& c : result.claims) {
+    for (const paper::Claim& c : result.claims) {
         py::dict claim;
         claim["where"] = c.where;
         claim["claim"] = c.claim;
-        claim["verdict"] = study::verdict_name(c.verdict);
+        claim["verdict"] = paper::verdict_name(c.verdict);
         claim["finding"] = c.finding;
         claims.append(claim);
     }
@@ -192,8 +196,8 @@ py::dict analyze(const config::Config& config, Axes& axes, std::int64_t settling
 }  // namespace
 
 void bind_study(py::module_& m) {
-    m.def("run", &run, py::arg("config"), py::arg("raw"), py::arg("angles"), py::arg("page"), py::arg("threads"),
-          py::arg("progress"));
+    m.def("run", &run, py::arg("config"), py::arg("warnings"), py::arg("raw"), py::arg("angles"), py::arg("page"),
+          py::arg("threads"), py::arg("progress"));
     py::class_<Axes>(m, "Axes")
         .def(py::init<>())
         .def("add", &Axes::add, py::arg("name"), py::arg("group"), py::arg("rate_hz"), py::arg("rates_arcsec_s"),

@@ -5,7 +5,7 @@ namespace zlg::python {
 void RawCollector::reserve(std::size_t halves) {
     half_.reserve(halves), counts_.reserve(halves), bias_sign_.reserve(halves), mode_.reserve(halves);
     loop_closed_.reserve(halves), valid_.reserve(halves), detuning_.reserve(halves), detuning_sq_.reserve(halves);
-    piezo_.reserve(halves), temperature_.reserve(halves), edge_offset_.reserve(halves);
+    piezo_.reserve(halves), temperature_.reserve(halves), edge_offset_.reserve(halves), span_.reserve(halves);
 }
 
 void RawCollector::add(const core::HalfRecord& r, const core::LightSamples& light) {
@@ -20,6 +20,7 @@ void RawCollector::add(const core::HalfRecord& r, const core::LightSamples& ligh
     piezo_.push_back(r.piezo_v);
     temperature_.push_back(r.temperature_c);
     edge_offset_.push_back(r.edge_offset_ticks);
+    span_.push_back(r.span);
     light_a_.insert(light_a_.end(), light.a.begin(), light.a.end());
     light_b_.insert(light_b_.end(), light.b.begin(), light.b.end());
 }
@@ -43,6 +44,7 @@ py::dict RawCollector::take_out() {
     columns["piezo_v"] = as_array(std::move(piezo_));
     columns["temperature_c"] = as_array(std::move(temperature_));
     columns["edge_offset_ticks"] = as_array(std::move(edge_offset_));
+    columns["span"] = as_array(std::move(span_));
     columns["light_a"] = light(std::move(light_a_));
     columns["light_b"] = light(std::move(light_b_));
     return columns;
@@ -91,6 +93,8 @@ RawView::RawView(const py::dict& columns) {
     piezo_ = hold<double>(columns, "piezo_v");
     temperature_ = hold<double>(columns, "temperature_c");
     edge_offset_ = hold<std::int32_t>(columns, "edge_offset_ticks");
+    span_ = hold<std::int32_t>(columns, "span");
+    refuse_bad_spans();
     light_a_ = hold_light(columns, "light_a");
     light_b_ = hold_light(columns, "light_b");
     if (has_light_b() && light_b_.size() != light_a_.size())
@@ -109,6 +113,16 @@ void RawView::refuse_bad_rows() const {
     refuse(valid_, "valid", "0 or 1", [&](std::size_t k) { return valid_[k] <= 1; });
 }
 
+void RawView::refuse_bad_spans() const {
+    std::int64_t missed = 0;
+    refuse(span_, "span", "1 and one for each row of valid 0, counts 0, span 1 directly before", [&](std::size_t k) {
+        if (span_[k] < 1 || span_[k] - 1 > missed) return false;
+        const bool is_missed = !valid_.empty() && valid_[k] == 0 && counts_[k] == 0 && span_[k] == 1;
+        missed = is_missed ? missed + 1 : 0;
+        return true;
+    });
+}
+
 core::HalfRecord RawView::record(std::size_t row) const {
     const auto of = [row](std::span<const double> column) {
         return column.empty() ? std::numeric_limits<double>::quiet_NaN() : column[row];
@@ -123,7 +137,8 @@ core::HalfRecord RawView::record(std::size_t row) const {
             .mode = mode_[row],
             .loop_closed = loop_closed_[row] != 0,
             .valid = valid_.empty() || valid_[row] != 0,
-            .edge_offset_ticks = edge_offset_.empty() ? 0 : edge_offset_[row]};
+            .edge_offset_ticks = edge_offset_.empty() ? 0 : edge_offset_[row],
+            .span = span_.empty() ? 1 : span_[row]};
 }
 
 core::LightSamples RawView::light(std::size_t row) const {

@@ -22,7 +22,7 @@ private:
     std::vector<std::int8_t> bias_sign_, mode_;
     std::vector<std::uint8_t> loop_closed_, valid_;
     std::vector<double> detuning_, detuning_sq_, piezo_, temperature_;
-    std::vector<std::int32_t> edge_offset_;
+    std::vector<std::int32_t> edge_offset_, span_;
     std::vector<float> light_a_, light_b_;
 };
 
@@ -43,6 +43,7 @@ private:
     template <class T>
     std::span<const T> hold(const py::dict& columns, const char* name);
     void refuse_bad_rows() const;
+    void refuse_bad_spans() const;
     std::span<const float> hold_light(const py::dict& columns, const char* name);
 
     std::vector<py::object> held_;
@@ -50,7 +51,7 @@ private:
     std::span<const std::int8_t> bias_sign_, mode_;
     std::span<const std::uint8_t> loop_closed_, valid_;
     std::span<const double> detuning_, detuning_sq_, piezo_, temperature_;
-    std::span<const std::int32_t> edge_offset_;
+    std::span<const std::int32_t> edge_offset_, span_;
     std::span<const float> light_a_, light_b_;
     std::size_t n_light_ = 0;
 };

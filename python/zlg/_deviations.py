@@ -19,6 +19,8 @@ DataType = Literal["increments", "rate", "phase"]
 Taus = Union[Literal["octave", "decade", "log", "all"], Sequence[float], Floats, None]
 Unit = Literal["arcsec", "rad", "deg", "arcsec/s", "rad/s", "deg/s", "deg/h", "1"]
 
+TotalBias = Literal["removed", "published", "as_computed"]
+
 KINDS = ("adev", "oadev", "mdev", "tdev", "hdev", "ohdev", "totdev", "mtotdev", "htotdev")
 
 
@@ -43,6 +45,10 @@ class Deviations:
     edf: Floats
     #: exponent of the rate's spectrum f^noise at this tau
     noise: NDArray[np.int32]
+    #: of totdev, mtotdev and htotdev with the bias of mirroring; of others the deviation
+    as_computed: Floats
+    #: what was done about that bias: "removed", "published" or "as_computed"
+    bias: str
 
 
 class Known(NamedTuple):
@@ -71,7 +77,7 @@ def deviation(
     confidence: float = 0.6827,
     least_known_ratio: float = 0.9,
     noise: Optional[int] = None,
-    bias_removed: bool = True,
+    bias: TotalBias = "removed",
     threads: int = 1,
 ) -> Deviations:
     """A deviation of a record with gaps, in arcsec/s, with intervals.
@@ -82,26 +88,28 @@ def deviation(
     taus        "octave" (default), "decade", "log" (per_decade), "all", or times in s
     least_known_ratio  of each averaging window
     noise       exponent of the rate's spectrum, 2 .. -4; default: identified from the data
-    bias_removed  of the total deviations
+    bias        that mirroring gives totdev, mtotdev, htotdev: "removed", "published" (removed by the factors of NIST SP 1065,
+                whose tables have them), "as_computed" (as AllanTools and Stable32)
     Raises SeriesError: no sample, nothing known, all equal, another unit, no tau with a term.
     """
     columns = _zlg.deviation(
         kind, floats(data), rate_hz, data_type, unit, mask(valid), _taus(taus), per_decade, False,
-        confidence, least_known_ratio, noise, bias_removed, threads,
+        confidence, least_known_ratio, noise, bias, threads,
     )  # fmt: skip
     return made_of(Deviations, columns)
 
 
 def _known(
-    kind: str, data: ArrayLike, rate: float, data_type: Optional[str], taus: Taus, valid: Optional[ArrayLike]
-) -> Known:
+    kind: str, data: ArrayLike, rate: float, data_type: Optional[str], taus: Taus, valid: Optional[ArrayLike],
+    bias: TotalBias = "removed",
+) -> Known:  # fmt: skip
     if data_type is None:
         raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
     called = "rate" if data_type == "freq" else data_type
     d = made_of(
         Deviations,
         _zlg.deviation(
-            kind, floats(data), rate, called, "1", mask(valid), _taus(taus), 20, True, 0.6827, 0.9, None, True, 1
+            kind, floats(data), rate, called, "1", mask(valid), _taus(taus), 20, True, 0.6827, 0.9, None, bias, 1
         ),
     )
     return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
@@ -164,26 +172,26 @@ def ohdev(
 
 def totdev(
     data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
+    valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
 ) -> Known:  # fmt: skip
-    """Total deviation, its bias removed; as `adev`."""
-    return _known("totdev", data, rate, data_type, taus, valid)
+    """Total deviation; as `adev`. By default with the bias of mirroring, as AllanTools and Stable32; `bias` as of `deviation`."""
+    return _known("totdev", data, rate, data_type, taus, valid, bias)
 
 
 def mtotdev(
     data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
+    valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
 ) -> Known:  # fmt: skip
-    """Modified total deviation, its bias removed; as `adev`."""
-    return _known("mtotdev", data, rate, data_type, taus, valid)
+    """Modified total deviation; as `adev`. By default with the bias of mirroring, as AllanTools and Stable32; `bias` as of `deviation`."""
+    return _known("mtotdev", data, rate, data_type, taus, valid, bias)
 
 
 def htotdev(
     data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
+    valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
 ) -> Known:  # fmt: skip
-    """Hadamard total deviation, its bias removed; as `adev`."""
-    return _known("htotdev", data, rate, data_type, taus, valid)
+    """Hadamard total deviation; as `adev`. By default with the bias of mirroring, as AllanTools and Stable32; `bias` as of `deviation`."""
+    return _known("htotdev", data, rate, data_type, taus, valid, bias)
 
 
 def deviations_of_log(

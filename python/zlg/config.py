@@ -8,11 +8,13 @@ import json
 import math
 import os
 import tomllib
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 from . import _zlg
+from .section import give, given_of, keys_of
 from .sections import (  # noqa: F401
     Analysis,
     Compensation,
@@ -65,7 +67,7 @@ class Config(Sections):
     """Everything configurable. The defaults are the gyro of the paper.
 
     Members are the sections `run`, `gyro`, `laser`, `drift`, `perimeter`, `piezo`, `switching`, `compensation`, `motion`, `faults`,
-    `design` and `analysis`. A member that is None is unset. What is out of its range is told by `check`, and by every function
+    `design` and `analysis`. A member that is None is unset. What is out of its range is refused by `check`, and by every function
     that takes a configuration, as ConfigError: key, value, what is allowed.
     """
 
@@ -110,19 +112,27 @@ class Config(Sections):
         """
         changed = copy.deepcopy(self)
         for section, values in sections.items():
-            setattr(changed, section, dataclasses.replace(getattr(changed, section), **values))
+            part = getattr(changed, section)
+            for key, value in values.items():
+                if key not in keys_of(part):
+                    raise TypeError(f"[{section}] has no key {key!r}")
+                setattr(part, key, value)
         return type(self)._of_checked(_zlg.CheckedConfig(changed.settings(), list(settings))) if settings else changed
 
+    def says(self, key: str) -> bool:
+        """Whether "section.key" was given: in a text, as a setting, as an attribute, or as a value that is not the default."""
+        return any(key == given for given, _ in self.settings())
+
     def settings(self) -> list[tuple[str, str]]:
-        """What differs from the defaults, as ("section.key", TOML text)."""
+        """What was given or differs from the defaults, as ("section.key", TOML text)."""
         defaults = Sections()
         pairs = []
         for section in dataclasses.fields(Sections):
             mine, theirs = getattr(self, section.name), getattr(defaults, section.name)
-            for key in dataclasses.fields(mine):
-                value = getattr(mine, key.name)
-                if value is not None and not _same(value, getattr(theirs, key.name)):
-                    pairs.append((f"{section.name}.{key.name}", _toml(value)))
+            for key in keys_of(mine):
+                value = getattr(mine, key)
+                if value is not None and (key in given_of(mine) or not _same(value, getattr(theirs, key))):
+                    pairs.append((f"{section.name}.{key}", _toml(value)))
         return pairs
 
     def check(self) -> None:
@@ -143,6 +153,10 @@ class Config(Sections):
             part = getattr(config, section)
             for key, value in values.items():
                 setattr(part, key, _like(value, getattr(part, key)))
+        given = checked.given()
+        for field in dataclasses.fields(Sections):
+            part = getattr(config, field.name)
+            give(part, (key for key in keys_of(part) if f"{field.name}.{key}" in given))
         return config
 
 
@@ -163,6 +177,14 @@ def _like(value: Any, default: Any) -> Any:
 def checked(config: Optional[Config]) -> _zlg.CheckedConfig:
     """What C++ takes; None is the gyro of the paper."""
     return (Config() if config is None else config)._checked()
+
+
+def resolved(config: Optional[Config]) -> tuple[_zlg.CheckedConfig, list[str]]:
+    """With what it leaves open decided, as the program does it, and what contradicts itself: each a UserWarning too."""
+    made, _, contradictions = _zlg.resolved(checked(config))
+    for line in contradictions:
+        warnings.warn(line, stacklevel=3)
+    return made, contradictions
 
 
 def angle_settings(config: _zlg.CheckedConfig) -> list[tuple[str, str]]:

@@ -7,7 +7,7 @@ from typing import Optional
 from . import _zlg
 from ._columns import Progress, columns_of, made_of, tell
 from ._zlg import ActuatorFrame, ControlOutput, HalfRecord, SensorFrame
-from .config import Config, angle_settings, checked
+from .config import Config, angle_settings, checked, resolved
 from .logs import AngleLog, RawLog
 
 __all__ = ["Control", "ControlOutput", "HalfRecord", "angle_flags", "compensate", "flag_names", "health_bits"]
@@ -27,7 +27,7 @@ class Control:
     """The controller: what happens between the latch of one half-period and the command for the next. Raises ConfigError."""
 
     def __init__(self, config: Optional[Config] = None) -> None:
-        self._control = _zlg.Control(checked(config))
+        self._control = _zlg.Control(resolved(config)[0])
 
     def initial_actuator(self) -> ActuatorFrame:
         """What is commanded before any frame."""
@@ -38,15 +38,26 @@ class Control:
         return self._control.step(frame)
 
 
+def _require_facts(*configs: Config) -> None:
+    facts = [fact for fact in ("gyro.tick_s", "gyro.scale_arcsec") if not any(config.says(fact) for config in configs)]
+    if facts:
+        raise _zlg.ConfigError(
+            f"the log does not say {' and '.join(facts)}, for which there is no default; give {'it' if len(facts) == 1 else 'them'} "
+            f'in its settings, as ("{facts[0]}", "..."), or in the configuration'
+        )
+
+
 def compensate(raw: RawLog, config: Optional[Config] = None, progress: Progress = None) -> AngleLog:
     """A raw log through the compensation; the same bits as in the live run.
 
-    config  all of it, tick and scale of the gyro as the log's settings tell them; default: what these tell.
+    config  all of it, tick and scale of the gyro as the log's settings have them; default: what these say. Tick and scale
+            have no default: the log's settings say them, or the configuration does.
             `compensation.relock` None: mean_square where the log has detuning_sq_lambda2, none where not.
     Returns an AngleLog of len(raw)//2 ticks; an odd last half is dropped, with a warning. Raises ConfigError, also where the log
     was recorded with another tick or scale; FormatError for a log without a whole tick; ValueError for columns that do not fit.
     """
     used = raw.config if config is None else config
+    _require_facts(raw.config, used)
     if used.compensation.relock is None:
         used = used.with_(compensation={"relock": "none" if raw.detuning_sq_lambda2 is None else "mean_square"})
     if used.compensation.relock in ("detuning", "mean_square", "joint"):
@@ -59,10 +70,10 @@ def compensate(raw: RawLog, config: Optional[Config] = None, progress: Progress 
     columns = _zlg.compensate(columns_of(raw), checked(used), raw.settings, raw.timer_hz, progress)
     if len(raw) < 2:
         raise _zlg.FormatError("the log holds no whole tick, which is two half-periods")
-    told = list(columns["warnings"])
+    lines = list(columns["warnings"])
     if used.compensation.relock == "joint" and raw.light_a is None:
-        told.append('the log holds no light samples; compensation.relock = "joint" takes the mean squares of the detuning')
+        lines.append('the log holds no light samples; compensation.relock = "joint" takes the mean squares of the detuning')
     if len(raw) % 2:
-        told.append(f"the last half-period ({len(raw) - 1}) is the first of a tick whose other half is missing; dropped")
-    tell(told)
+        lines.append(f"the last half-period ({len(raw) - 1}) is the first of a tick whose other half is missing; dropped")
+    tell(lines)
     return made_of(AngleLog, {**columns, "tick_s": used.gyro.tick_s, "settings": angle_settings(checked(used))})

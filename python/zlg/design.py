@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _zlg
 from ._columns import made_of
-from .config import Config, checked
+from .config import Config, checked, resolved
 
 __all__ = [
     "Design",
@@ -66,6 +66,10 @@ class SubstitutionLine:
 class Design:
     """What `design_gyro` gives."""
 
+    #: rms of a switch: design.switch_error_arcsec where it is given, else of a trial of the gyro on the twin
+    switch_error_arcsec: float
+    #: best interval with that, by length of run, s; what switching.interval_s = "optimal" stands for
+    best_interval_s: dict[float, float]
     intervals: list[IntervalLine]
     substitution: list[SubstitutionLine]
     #: of the perimeter loop
@@ -92,7 +96,7 @@ class Relock:
 
 def design_gyro(config: Optional[Config] = None) -> Design:
     """All of it for one gyro. Raises ConfigError; DesignError for a gyro without a budget."""
-    result = _zlg.design_gyro(checked(config))
+    result = _zlg.design_gyro(resolved(config)[0])
     result["intervals"] = [made_of(IntervalLine, each) for each in result["intervals"]]
     result["substitution"] = [made_of(SubstitutionLine, each) for each in result["substitution"]]
     return made_of(Design, result)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -36,6 +37,8 @@ class RawLog:
     temperature_c: Optional[NDArray[np.float64]] = None
     #: shift of the reversal that ends the half, ticks of a timer of timer_hz
     edge_offset_ticks: Optional[NDArray[np.int32]] = None
+    #: counts go over so many halves, this one the last; those before it have valid False, counts 0, span 1
+    span: Optional[NDArray[np.int32]] = None
     #: photodiodes, shape (halves, samples)
     light_a: Optional[NDArray[np.float32]] = None
     light_b: Optional[NDArray[np.float32]] = None
@@ -56,8 +59,9 @@ class RawLog:
 
     @property
     def tick_s(self) -> float:
-        """Length of a tick, two halves."""
-        return self.config.gyro.tick_s
+        """Length of a tick, two halves; NaN where the settings do not tell it."""
+        config = self.config
+        return config.gyro.tick_s if config.says("gyro.tick_s") else math.nan
 
 
 @dataclass
@@ -75,7 +79,8 @@ class AngleLog:
     flags: NDArray[np.uint32]
     #: what the twin turned, arcsec; None: not known
     truth_dtheta_arcsec: Optional[NDArray[np.float64]] = None
-    tick_s: float = 0.005
+    #: length of a tick; NaN: not known
+    tick_s: float = math.nan
     settings: list[tuple[str, str]] = field(default_factory=list)
     complete: bool = True
 
@@ -102,7 +107,7 @@ class AngleLog:
 
 
 def kind(path: Path) -> str:
-    """ "raw", "angles" or "unknown", told from the content. Raises IoError, FormatError."""
+    """ "raw", "angles" or "unknown", by the content. Raises IoError, FormatError."""
     return _zlg.log_kind(os.fspath(path))
 
 
@@ -129,12 +134,11 @@ def write_raw(
 
 
 def read_angles(path: Path, progress: Progress = None) -> AngleLog:
-    """An angle log, CSV or HDF5. Warns of unknown columns. Raises IoError, FormatError."""
+    """An angle log, CSV or HDF5; tick_s is NaN where it does not say it. Warns of unknown columns. Raises IoError, FormatError."""
     columns = _zlg.read_angles(os.fspath(path), progress)
     tell(columns["warnings"])
-    t_s = columns["t_s"]
     known = dict(columns["settings"]).get("tick_s") or dict(columns["settings"]).get("gyro.tick_s")
-    columns["tick_s"] = float(known) if known else float(t_s[0]) if len(t_s) else 0.005
+    columns["tick_s"] = float(known) if known else math.nan
     return made_of(AngleLog, columns)
 
 
@@ -144,10 +148,18 @@ def write_angles(path: Path, log: AngleLog, force: bool = False, progress: Progr
 
 
 def read_text_columns(
-    path: Path, columns: Sequence[int], comment: str = "#", skip_lines: int = 0
+    path: Path,
+    columns: Sequence[Union[int, str]],
+    comment: str = "#",
+    skip_lines: int = 0,
+    separator: str = "auto",
+    decimal: str = "auto",
 ) -> list[NDArray[np.float64]]:
-    """Columns of numbers of a text file, the first is 1; NaN where a field is `nan` or empty.
+    """Columns of numbers of a text file, by number from 1 or by the name in its header; NaN where a field is `nan` or empty.
 
-    Returns one array per column, shape (rows,). Raises IoError, FormatError.
+    separator  "space", "tab", "semicolon", "comma", "bar"; "auto": recognised together with the decimal mark
+    decimal    "point", "comma" or "auto"
+    Returns one array per column, shape (rows,). Raises IoError; FormatError, also for a file that can be read in two ways.
     """
-    return _zlg.read_text_columns(os.fspath(path), list(columns), comment, skip_lines)
+    wanted = [str(column) for column in columns]
+    return _zlg.read_text_columns(os.fspath(path), wanted, comment, skip_lines, separator, decimal)

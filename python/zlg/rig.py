@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, made_of
-from .config import Config, checked
+from .config import Config, checked, resolved
 from .logs import RawLog
 from .twin import Motion
 
@@ -39,10 +39,14 @@ class Simulation:
 
 
 class ClosedLoop:
-    """A gyro and its processor. `motion` takes the place of the configuration's. Raises ConfigError."""
+    """A gyro and its processor. `motion` takes the place of the configuration's. Raises ConfigError.
+
+    What the configuration leaves open is decided as the program does it: the constants that [laser] implies, and the best
+    interval. `warnings` says what contradicts itself in it; each is a UserWarning too.
+    """
 
     def __init__(self, config: Optional[Config] = None, motion: Optional[Motion] = None) -> None:
-        self._config = _zlg.with_interval(checked(config))
+        self._config, self.warnings = resolved(config)
         self._loop = _zlg.ClosedLoop(self._config, motion)
 
     def advance(self, halves: int, light: bool = False, progress: Progress = None) -> Simulation:

@@ -6,6 +6,8 @@ Made by tools/python_configuration from the table of keys; do not edit.
 from dataclasses import dataclass, field
 from typing import Literal, Optional, Union
 
+from .section import Section
+
 FaultsKind = Literal[
     "laser_off", "beam_fades", "mode_hop", "switch_wrong_mode", "switch_no_mode", "half_wave_error",
     "perimeter_ramp", "piezo_step", "light_stuck", "light_noisy", "light_saturated", "light_nan",
@@ -19,18 +21,18 @@ AnalysisDeviations = Literal[
 
 
 @dataclass
-class Run:
+class Run(Section):
     """[run]"""
 
     #: length of the run; unset: 3600, or the length of the motion file [s]; allowed: above 0 up to 1e9
     duration_s: Optional[float] = None
 
-    #: seed of all random numbers; the same seed gives the same run; allowed: from 0
+    #: seed of all random numbers; the same seed gives the same run; allowed: 0..9223372036854775807
     seed: int = 1
 
 
 @dataclass
-class Gyro:
+class Gyro(Section):
     """[gyro]"""
 
     #: physics of a simulated gyro: told by [gyro] and [drift], or following from [laser]; allowed:
@@ -56,7 +58,7 @@ class Gyro:
     #: sign of the bias in the first half of every tick; allowed: -1 or 1
     first_bias_sign: int = 1
 
-    #: temperature at which bias_hz holds [C]; allowed: any finite number
+    #: temperature at which bias_hz holds [C]; allowed: above -1e6 to below 1e6
     reference_temperature_c: float = 20.0
 
     #: warming of the gyro in operation, approached with drift.thermal_time_s [C]; allowed: any finite number
@@ -71,7 +73,7 @@ class Gyro:
     #: noise of one light sample, white, as detuning [lambda]; allowed: from 0
     light_noise_lambda: float = 0.0033
 
-    #: (I1 - I2)/(I1 + I2) per wavelength of detuning [1/lambda]; allowed: any finite number but 0
+    #: (I1 - I2)/(I1 + I2) per wavelength of detuning [1/lambda]; allowed: 1e-6..1e6 or -1e6..-1e-6
     discriminator_per_lambda: float = 0.332
 
     #: shifts of the bias edges against lock-in; auto: paired at low rates, random at high ones; allowed:
@@ -84,7 +86,7 @@ class Gyro:
 
 
 @dataclass
-class Laser:
+class Laser(Section):
     """[laser]"""
 
     #: length of the ring [m]; allowed: 0.001..1000
@@ -114,7 +116,7 @@ class Laser:
     #: cross-saturation of waves on opposite components over that on the same one; allowed: 0..1
     opposite_sigma_coupling: float = 0.6
 
-    #: plateau of the bias field at gyro.reference_temperature_c [G]; allowed: above 0 up to 10000
+    #: plateau of the bias field at gyro.reference_temperature_c [G]; allowed: 1e-6..10000
     bias_field_g: float = 15.0
 
     #: beat frequency below which equal waves of the left mode lock [Hz]; allowed: 0..1e6
@@ -135,7 +137,7 @@ class Laser:
 
 
 @dataclass
-class Drift:
+class Drift(Section):
     """[drift]"""
 
     #: drift that changes its sign with the mode, at the start [arcsec/s]; allowed: any finite number
@@ -156,20 +158,20 @@ class Drift:
 
 
 @dataclass
-class Perimeter:
+class Perimeter(Section):
     """[perimeter]"""
 
     #: control of the perimeter; allowed: "analog", "exponential", "digital"
     loop: Literal["analog", "exponential", "digital"] = "analog"
 
-    #: time constant of the loop [s]; allowed: above 0
+    #: time constant of the loop [s]; allowed: 1e-6..1e6
     tau_s: float = 0.0065
 
-    #: detuning at which the error signal is limited [lambda]; allowed: above 0
+    #: detuning at which the error signal is limited [lambda]; allowed: above 0 up to 1000
     limit_lambda: float = 0.09
 
-    #: detuning when the loop closes, all causes included; 0: what comes of itself [lambda]; allowed: from 0
-    #: to below 0.24
+    #: detuning when the loop closes after a switch, all causes included; 0: what comes of itself [lambda];
+    #: allowed: from 0 to below 0.24
     miss_lambda: float = 0.22
 
     #: growth of the perimeter with temperature [lambda/C]; allowed: any finite number
@@ -179,32 +181,35 @@ class Perimeter:
     #: tau_s; allowed: 0..1000000
     relock_halves: int = 0
 
-    #: digital loop, in these halves: part of the detuning corrected per light sample; allowed: above 0 up to
-    #: 1
+    #: digital loop, in these halves: part of the detuning corrected per light sample; allowed: 1e-9..1
     sample_gain: float = 0.12
 
-    #: digital loop, after these halves: its time constant [s]; allowed: above 0
+    #: digital loop, after these halves: its time constant [s]; allowed: above 0 up to 1e6
     settled_tau_s: float = 0.025
 
     #: set-points a half, of an open loop and of a digital one with relock_halves; allowed: 1..16
     set_points: int = 16
 
-    #: calibrated points of the discriminator besides 0, growing, 31 at most; none:
-    #: gyro.discriminator_per_lambda alone [lambda]; allowed: one number or an array, [] included, each above
-    #: 0 up to 1000
+    #: calibrated points of the discriminator besides 0, growing, 31 at most on a side; those above 0 alone:
+    #: the other side is their mirror image; none: gyro.discriminator_per_lambda alone [lambda]; allowed: one
+    #: number or an array, [] included, each -1000..1000
     discriminator_detuning_lambda: list[float] = field(default_factory=list)
 
-    #: size of (I1 - I2)/(I1 + I2) at each of these detunings, growing; allowed: one number or an array, []
-    #: included, each above 0 up to 1000
+    #: (I1 - I2)/(I1 + I2) at each of these detunings, of the same sign, growing; allowed: one number or an
+    #: array, [] included, each -1000..1000
     discriminator_signal: list[float] = field(default_factory=list)
+
+    #: detuning, on that scale, at which the bias is largest: bias_hz (1 - bias_chi (detuning - centre)^2)
+    #: [lambda]; allowed: -0.2..0.2
+    discriminator_centre_lambda: float = 0.0
 
 
 @dataclass
-class Piezo:
+class Piezo(Section):
     """[piezo]"""
 
     #: voltage that moves the perimeter by half a wavelength, at gyro.reference_temperature_c [V]; allowed:
-    #: above 0
+    #: 0.001..1e6
     half_wave_v: float = 40.0
 
     #: relative change of the half-wave voltage with temperature [1/C]; allowed: any finite number
@@ -213,16 +218,16 @@ class Piezo:
     #: relative error of the half-wave voltage that control presumes at first; allowed: -0.9..0.9
     half_wave_error: float = 0.0
 
-    #: time constant of the high-voltage stage [s]; allowed: above 0
+    #: time constant of the high-voltage stage [s]; allowed: 1e-6..1000
     rc_s: float = 0.001
 
-    #: fastest change of the high voltage [V/s]; allowed: above 0
+    #: fastest change of the high voltage [V/s]; allowed: above 0 up to 1e12
     slew_v_s: float = 4000.0
 
-    #: lower end of the high voltage [V]; allowed: any finite number
+    #: lower end of the high voltage [V]; allowed: above -1e6 to below 1e6
     range_min_v: float = 0.0
 
-    #: upper end of the high voltage; above the lower [V]; allowed: any finite number
+    #: upper end of the high voltage; above the lower [V]; allowed: above -1e6 to below 1e6
     range_max_v: float = 300.0
 
     #: width of a voltage loop of piezo.hysteresis_stroke_v over its height; 0: none; allowed: 0..0.4
@@ -234,7 +239,7 @@ class Piezo:
     #: growth of a stroke per decade of time, from 10 ms to 10^4 s; 0: none; allowed: 0..0.05
     creep_per_decade: float = 0.0
 
-    #: resonance of the mirror; 0: rigid, else 100 or more [Hz]; allowed: 0..1e6
+    #: resonance of the mirror; 0: rigid, else 100 or more [Hz]; allowed: 0 or 100..1e6
     mirror_hz: float = 0.0
 
     #: damping of that resonance, as a part of the critical; allowed: 0.001..0.999
@@ -251,11 +256,11 @@ class Piezo:
 
 
 @dataclass
-class Switching:
+class Switching(Section):
     """[switching]"""
 
-    #: from one opening of the loop to the next; at least gap_ticks + 2 ticks [s]; allowed: above 0, or
-    #: "optimal"
+    #: from one opening of the loop to the next; at least gap_ticks + 2 ticks [s]; allowed: above 0 up to 1e9,
+    #: or "optimal"
     interval_s: Union[float, Literal["optimal"]] = 90.0
 
     #: length of the first segment: an interval or half of one; allowed: "full", "half"
@@ -291,7 +296,7 @@ class Switching:
 
 
 @dataclass
-class Compensation:
+class Compensation(Section):
     """[compensation]"""
 
     #: correction of the false drift after closing; unset: mean_square where the log has detuning, none where
@@ -353,7 +358,7 @@ class Compensation:
 
 
 @dataclass
-class Motion:
+class Motion(Section):
     """[motion]"""
 
     #: how the gyro is turned; allowed: "rest", "constant", "sine", "sum", "file"
@@ -376,8 +381,9 @@ class Motion:
     #: the motion file, for kind file; allowed: any text
     path: str = ""
 
-    #: column of the file, the first is 1; allowed: 1..2147483647
-    column: int = 1
+    #: column of the file, by its number from 1 or its name; unset: 1, but no column of times; allowed: a
+    #: number 1..1000000, or a name
+    column: Optional[Union[int, str]] = None
 
     #: whether the column holds angle increments or rates; allowed: "increment", "rate"
     column_holds: Literal["increment", "rate"] = "increment"
@@ -394,9 +400,21 @@ class Motion:
     #: lines of numbers to skip at the head of the file; allowed: 0..2147483647
     skip_lines: int = 0
 
+    #: what parts the columns of the file; auto: recognised, together with the decimal mark; allowed: "auto",
+    #: "space", "tab", "semicolon", "comma", "bar"
+    separator: Literal["auto", "space", "tab", "semicolon", "comma", "bar"] = "auto"
+
+    #: decimal mark of the file; auto: recognised, together with the separator; allowed: "auto", "point",
+    #: "comma"
+    decimal: Literal["auto", "point", "comma"] = "auto"
+
+    #: column with the time of each row, against which rate_hz is checked; 0: none; unset: looked for;
+    #: allowed: a number 0..1000000, or a name
+    time_column: Optional[Union[int, str]] = None
+
 
 @dataclass
-class Faults:
+class Faults(Section):
     """[faults]"""
 
     #: what breaks in a simulated gyro, fault by fault; allowed: one or an array, [] included, of "laser_off",
@@ -423,7 +441,7 @@ class Faults:
     #: more of them at random moments [1/h]; allowed: 0..1e6
     random_per_hour: float = 0.0
 
-    #: seed of their moments, kinds, durations and sizes; allowed: from 0
+    #: seed of their moments, kinds, durations and sizes; allowed: 0..9223372036854775807
     random_seed: int = 1
 
     #: their kinds; none: all; allowed: one or an array, [] included, of "laser_off", "beam_fades",
@@ -435,10 +453,11 @@ class Faults:
 
 
 @dataclass
-class Design:
+class Design(Section):
     """[design]"""
 
-    #: error of the angle that one switch leaves [arcsec]; allowed: from 0
+    #: error of the angle that one switch leaves: the dP of the paper's budgets; given, also the rms for
+    #: interval_s = "optimal", which else is found by a trial on the twin [arcsec]; allowed: from 0
     switch_error_arcsec: float = 10.0
 
     #: lengths of run for which the design is worked out [s]; allowed: one number or an array, each above 0
@@ -446,7 +465,7 @@ class Design:
 
 
 @dataclass
-class Analysis:
+class Analysis(Section):
     """[analysis]"""
 
     #: which deviations are computed; the first is the one that is drawn; allowed: one or an array, []
@@ -469,6 +488,11 @@ class Analysis:
     #: share of an averaging time that must be known for it to count; allowed: above 0 up to 1
     least_known_ratio: float = 0.9
 
+    #: bias that mirroring gives totdev, mtotdev and htotdev: removed, removed as NIST publishes it, or
+    #: as_computed, which is what Stable32 and AllanTools print; allowed: "removed", "published",
+    #: "as_computed"
+    total_bias: Literal["removed", "published", "as_computed"] = "removed"
+
     #: of rates in text and report; JSON has arcsec/s; allowed: "deg/h", "arcsec/s", "deg/s", "rad/s"
     unit: Literal["deg/h", "arcsec/s", "deg/s", "rad/s"] = "deg/h"
 
@@ -479,9 +503,9 @@ class Analysis:
     #: where the gyro stood, to compare with the Earth's rate [deg]; allowed: -90..90
     latitude_deg: Optional[float] = None
 
-    #: columns of a text file, the first is 1; unset: 1; allowed: one number or an array, [] included, each
-    #: 1..1e6
-    column: list[float] = field(default_factory=list)
+    #: columns of a text file, by number from 1 or by name; unset: 1, but no column of times; allowed: one or
+    #: an array, [] included, of numbers 1..1000000 and names
+    column: list[Union[int, str]] = field(default_factory=list)
 
     #: what the columns of a text file hold; unset: as [motion] describes them, if it does; allowed:
     #: "increment", "rate", "phase"
@@ -499,8 +523,21 @@ class Analysis:
     #: lines of numbers to skip at the head of a text file; allowed: 0..2147483647
     skip_lines: int = 0
 
-    #: column with the rate of a rate table; 0: the gyro stood on none; allowed: 0..1000000
-    table_column: int = 0
+    #: what parts the columns of a text file; auto: recognised, together with the decimal mark; allowed:
+    #: "auto", "space", "tab", "semicolon", "comma", "bar"
+    separator: Literal["auto", "space", "tab", "semicolon", "comma", "bar"] = "auto"
+
+    #: decimal mark of a text file; auto: recognised, together with the separator; allowed: "auto", "point",
+    #: "comma"
+    decimal: Literal["auto", "point", "comma"] = "auto"
+
+    #: column with the time of each row, against which rate_hz is checked; 0: none; unset: looked for;
+    #: allowed: a number 0..1000000, or a name
+    time_column: Optional[Union[int, str]] = None
+
+    #: column with the rate of a rate table, by number or name; 0 or unset: the gyro stood on none; allowed: a
+    #: number 0..1000000, or a name
+    table_column: Optional[Union[int, str]] = None
 
     #: rate per unit of that column [arcsec/s]; allowed: any finite number but 0
     table_scale_arcsec_s: float = 1.0

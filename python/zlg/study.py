@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from . import _zlg
 from ._columns import Progress, floats, made_of, signs
 from .analysis import Deviations, FittedTerm, ModeSplit, NoiseFit
-from .config import Config, angle_settings, checked
+from .config import Config, angle_settings, checked, resolved
 from .logs import AngleLog, RawLog
 
 __all__ = [
@@ -79,6 +79,12 @@ class RunResult:
     switches: Switches
     #: true false drift 1, 2, ... ticks after the loop is closed, deg/h, mean over the switches
     relock_false_drift_deg_h: NDArray[np.float64]
+    #: after which the gyro went back, had to be searched for, or held nothing
+    switches_failed: int
+    #: switches were due, and the gyro holds the mode of none
+    none_succeeded: bool
+    #: what contradicts itself in the configuration
+    warnings: list[str]
     raw: Optional[RawLog]
     #: of the configured compensation, with the truth
     angles: Optional[AngleLog]
@@ -111,13 +117,13 @@ def run(
     asked = Config() if config is None else config
     if asked.compensation.relock is None:
         asked = asked.with_(compensation={"relock": "mean_square"})
-    used = _zlg.with_interval(checked(asked))
-    result = _zlg.run(used, raw, angles, page, threads, progress)
+    used, contradictions = resolved(asked)
+    result = _zlg.run(used, contradictions, raw, angles, page, threads, progress)
     result["variants"] = [made_of(Variant, each) for each in result["variants"]]
     result["switches"] = made_of(Switches, result["switches"])
     if raw:
-        told = {"settings": used.settings(), "timer_hz": _zlg.timer_hz}
-        result["raw"] = made_of(RawLog, {**result["raw"], **told})
+        facts = {"settings": used.settings(), "timer_hz": _zlg.timer_hz}
+        result["raw"] = made_of(RawLog, {**result["raw"], **facts})
     if angles:
         known = {"settings": angle_settings(used), "tick_s": result["tick_s"]}
         result["angles"] = made_of(AngleLog, {**result["angles"], **known})
@@ -238,7 +244,7 @@ def analyze(
     """What `zlg analyze` computes of axes in memory, and draws; [analysis] says which deviations.
 
     settling_samples  after a gap that belong to the switch
-    progress          told, and Ctrl-C looked for, before each axis
+    progress          called, and Ctrl-C looked for, before each axis
     Raises ConfigError; SeriesError with the axis' name.
     """
     records = _zlg.Axes()

@@ -6,7 +6,7 @@ from typing import Optional
 
 from . import _zlg
 from ._zlg import ActuatorFrame, Motion, SensorFrame, TwinTruth
-from .config import Config, checked
+from .config import Config, resolved
 
 __all__ = ["ActuatorFrame", "Motion", "SensorFrame", "Twin", "TwinTruth"]
 
@@ -18,7 +18,7 @@ class Twin:
     """
 
     def __init__(self, config: Optional[Config] = None, motion: Optional[Motion] = None) -> None:
-        self._twin = _zlg.Twin(checked(config), motion)
+        self._twin = _zlg.Twin(resolved(config)[0], motion)
 
     def advance(self, actuator: ActuatorFrame) -> tuple[SensorFrame, TwinTruth]:
         """Live through the next half-period under `actuator`. Raises ValueError for a frame that hardware could not obey."""

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include <zlg/analysis/noise_fit.hpp>
+#include <zlg/analysis/series.hpp>
 
+#include "ramp.hpp"
 #include "simulated_noise.hpp"
 
 namespace {
@@ -155,6 +157,12 @@ TEST(NoiseFit, refuses_what_tells_nothing) {
     refuses(std::vector<double>(1000, 1.0), 1.0);
     refuses(std::vector<double>(1000, std::nan("")), 1.0);
     refuses(std::vector<double>(1000, 1.0), 0.0);
+}
+
+TEST(NoiseFit, a_ramp_that_nothing_can_be_weighed_against_is_refused) {
+    // Without noise and without steps no covariance is positive: all weights were 0/0, and the limit NaN.
+    EXPECT_THROW((void)find_ramp(std::vector<double>(640, 5.0), 1.0, {}), SeriesError);
+    EXPECT_THROW((void)find_ramp(std::vector<double>(640, 0.0), 1.0, {}), SeriesError);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 import random
 import re
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -14,6 +15,9 @@ ZLG = Path(os.environ.get("ZLG", ROOT / "build" / "release" / "bin" / "zlg"))
 
 REQUIRED = ["half", "bias_sign", "mode", "counts", "loop_closed"]
 OPTIONAL = ["valid", "detuning_lambda", "detuning_sq_lambda2", "piezo_v", "temperature_c"]
+
+# Under nohup the programs that a test starts would ignore it.
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def run(*arguments, **options):
@@ -38,8 +42,20 @@ def columns_of(rows):
     return [name for name in REQUIRED + OPTIONAL if name in rows[0]]
 
 
-def csv_text(rows, columns=None, lines=()):
-    """A raw log: `# key = value` lines, header, rows. Reals in the shortest form that reads back."""
+# What a log must say, or whoever has it processed.
+FACTS = {"gyro.tick_s": "0.005", "gyro.scale_arcsec": "3.263"}
+
+SAID = [word for key, value in FACTS.items() for word in ("--set", f"{key}={value}")]
+
+
+def csv_text(rows, columns=None, lines=(), facts=True):
+    """A raw log: `# key = value` lines, header, rows. Reals in the shortest form that reads back.
+
+    facts  with those of the paper's gyro, as far as `lines` have no others
+    """
+    said = " ".join(lines)
+    if facts:
+        lines = [*lines, *(f"{key} = {value}" for key, value in FACTS.items() if key.split(".")[1] not in said)]
     columns = columns or columns_of(rows)
     text = [f"# {line}" for line in lines] + [",".join(columns)]
     text += [",".join(repr(row[name]) for name in columns) for row in rows]
@@ -125,7 +141,7 @@ class CliTest(unittest.TestCase):
 
     def process(self, rows, settings, columns=None, lines=(), name="log"):
         """`zlg process` on these rows; the angle log."""
-        raw = self.write(f"{name}.csv", csv_text(rows, columns, lines))
+        raw = self.write(f"{name}.csv", csv_text(rows, columns, lines, facts=False))
         out = self.folder / f"{name}-angles.csv"
         self.succeed("process", raw, "--out", out, "--force", *set_options(settings))
         return AngleLog(out)

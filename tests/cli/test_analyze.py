@@ -246,6 +246,30 @@ class Analyze(CliTest):
             lost = sum(0 <= start < 1000 - 2 * m for start in (500, 500 - m, 500 - 2 * m))
             self.assertEqual(point["n"], 1000 - 2 * m - lost)
 
+    def test_total_deviations_say_what_was_done_about_their_bias(self):
+        # The thousand numbers of NIST SP 1065, whose table 31 has the bias removed as published; without it they are AllanTools'.
+        rates, number = [], 1234567890
+        for _ in range(1000):
+            rates.append(number / 2147483647)
+            number = 16807 * number % 2147483647
+        path = self.write("nbs14.txt", "".join(f"{rate!r}\n" for rate in rates))
+        values = {}
+        for bias in ("removed", "published", "as_computed"):
+            arguments = [path, "--set", "analysis.column_holds=rate", "--set", "analysis.rate_hz=1", "--set",
+                         "analysis.deviations=mtotdev", "--set", "analysis.taus_s=[10]", "--set", f"analysis.total_bias={bias}"]  # fmt: skip
+            curve = self.json_of(*arguments)["axes"][0]["deviations"][0]
+            self.assertEqual(curve["total_bias"], bias)
+            point = curve["points"][0]
+            self.assertLess(point["low"], point["deviation"])
+            self.assertLess(point["deviation"], point["high"])
+            values[bias] = (point["deviation"], point["as_computed"])
+            text = run("analyze", *arguments).stdout
+            self.assertIn("as computed", text)
+            self.assertIn({"removed": "bias of mirroring removed;", "published": "removed as published", "as_computed": "with the bias"}[bias], text)
+        self.assertAlmostEqual(values["as_computed"][0], 5.5529e-2, delta=1e-6)
+        self.assertEqual({both for _, both in values.values()}, {values["as_computed"][0]})
+        self.assertLess(values["as_computed"][0], values["removed"][0])
+
     def test_what_would_take_many_minutes_says_so_at_once(self):
         path = self.write("long.txt", "1\n2\n4\n" * 200000)
         message = self.refusal(2, path, *TEXT, "--set", "analysis.deviations=mtotdev")
@@ -291,7 +315,7 @@ class Analyze(CliTest):
                "sparse": [math.nan if (k // 50) % 10 else generator.gauss(0.0, 1.0) for k in range(5000)]}
         for name, values in odd.items():
             page = self.folder / f"{name}.html"
-            result = run("analyze", self.write(f"{name}.txt", lines(values)), *TEXT, "--out", page)
+            result = run("analyze", self.write(f"{name}.txt", lines(values)), *TEXT, "--set", "analysis.column=1", "--out", page)
             self.assertIn(result.returncode, (0, 3), f"{name}: {result.stderr}")
             if result.returncode == 0:
                 words = Words()

@@ -7,7 +7,7 @@ import unittest
 
 from oracle import Settings
 from random_logs import random_log
-from support import CliTest, complaints, csv_text, quiet_log, run
+from support import SAID, CliTest, complaints, csv_text, quiet_log, run
 
 USAGE, INPUT = 2, 3
 
@@ -24,7 +24,7 @@ class BadInputTest(CliTest):
     def refuse_log(self, text, *says, options=(), codes=INPUT):
         raw = self.write("raw.csv", text)
         before = {path.name for path in self.folder.iterdir()}
-        result = self.refuse(codes, "process", raw, "--out", self.out, *options, says=says)
+        result = self.refuse(codes, "process", raw, "--out", self.out, *SAID, *options, says=says)
         self.assert_nothing_left(before)
         return result
 
@@ -35,7 +35,7 @@ class BadInputTest(CliTest):
 
     def spoil(self, half, **changes):
         """A good log with other values in one row; a value may be any text."""
-        lines = csv_text(quiet_log(20)).splitlines()
+        lines = csv_text(quiet_log(20), facts=False).splitlines()
         names = lines[0].split(",")
         fields = lines[1 + half].split(",")
         for name, value in changes.items():
@@ -62,22 +62,22 @@ class BadRows(BadInputTest):
         self.refuse_log(self.spoil(12, counts=""), "raw.csv", "counts")
 
     def test_hole_in_half(self):
-        lines = csv_text(quiet_log(20)).splitlines(True)
+        lines = csv_text(quiet_log(20), facts=False).splitlines(True)
         self.refuse_log("".join(lines[:9] + lines[10:]), "raw.csv", "half", "9")
 
     def test_repeated_half(self):
-        lines = csv_text(quiet_log(20)).splitlines(True)
+        lines = csv_text(quiet_log(20), facts=False).splitlines(True)
         self.refuse_log("".join(lines[:10] + lines[9:]), "raw.csv", "half", "8")
 
     def test_half_does_not_start_at_zero(self):
-        lines = csv_text(quiet_log(20)).splitlines(True)
+        lines = csv_text(quiet_log(20), facts=False).splitlines(True)
         self.refuse_log("".join(lines[:1] + lines[3:]), "raw.csv", "half")
 
     def test_bias_that_does_not_alternate(self):
         self.refuse_log(self.spoil(12, bias_sign=-1), "raw.csv", "bias_sign")
 
     def test_too_few_and_too_many_fields(self):
-        lines = csv_text(quiet_log(20)).splitlines(True)
+        lines = csv_text(quiet_log(20), facts=False).splitlines(True)
         self.refuse_log("".join(lines[:12]) + "11,-1,1\n" + "".join(lines[13:]), "raw.csv")
         self.refuse_log("".join(lines[:12]) + lines[12].rstrip("\n") + ",7\n" + "".join(lines[13:]), "raw.csv")
 
@@ -115,7 +115,7 @@ class BadHeaders(BadInputTest):
 
 class BadFiles(BadInputTest):
     def test_file_without_rows(self):
-        for name, text in (("empty", ""), ("blank", "\n\n"), ("header only", csv_text(quiet_log(1)).splitlines()[0] + "\n"),
+        for name, text in (("empty", ""), ("blank", "\n\n"), ("header only", csv_text(quiet_log(1), facts=False).splitlines()[0] + "\n"),
                            ("comment only", "# gyro.tick_s = 0.005\n")):
             with self.subTest(file=name):
                 self.refuse_log(text, "raw.csv")
@@ -229,7 +229,7 @@ class BadOutput(BadInputTest):
     def test_error_with_force_keeps_the_old_output(self):
         self.out.write_text("precious")
         bad = self.write("bad.csv", self.spoil(39, counts="x"))
-        self.refuse_call(INPUT, "process", bad, "--out", self.out, "--force")
+        self.refuse_call(INPUT, "process", bad, "--out", self.out, "--force", *SAID)
         self.assertEqual(self.out.read_text(), "precious")
 
     def test_input_is_never_the_output(self):

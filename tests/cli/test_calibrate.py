@@ -80,7 +80,8 @@ class Calibrate(Simulated):
     def test_missing_columns_leave_their_constants_open(self):
         lines = self.simulate(duration=100).read_text().splitlines()
         rows = [line.split(",") for line in lines if not line.startswith("#")]
-        kept = self.write("kept.csv", "\n".join(",".join(row[:6]) for row in rows) + "\n")
+        facts = [line + "\n" for line in lines if line.startswith(("# gyro.tick_s", "# gyro.scale_arcsec"))]
+        kept = self.write("kept.csv", "".join(facts) + "\n".join(",".join(row[:6]) for row in rows) + "\n")
         result = self.found(kept)
         self.assertIn("gyro.bias_hz", result["constants"])
         for key, column in (("gyro.bias_chi", "detuning_sq_lambda2"), ("piezo.half_wave_v", "piezo_v"),
@@ -229,7 +230,8 @@ class Refusals(Simulated):
         self.refuse(3, "calibrate", self.write("hole.csv", csv_text(quiet_log()).replace("\n30,", "\n31,")))
         self.refuse(2, "calibrate")
         log = self.write("log.csv", csv_text(quiet_log()))
-        self.refuse(2, "calibrate", log, "--rate-arcsec-s", "nan", says=("--rate-arcsec-s",))
+        for rate in ("nan", "inf", "1e300", "-1.1e9"):
+            self.refuse(2, "calibrate", log, f"--rate-arcsec-s={rate}", says=("--rate-arcsec-s", "-1e9..1e9"))
 
     def test_a_log_that_determines_nothing_says_no(self):
         result = run("calibrate", self.write("log.csv", csv_text(quiet_log())), "--json")

@@ -1,7 +1,8 @@
 """`zlg design`: what a designer's script reads, against computations made here."""
 
 import json
-from math import exp, sqrt, tanh
+from math import exp, hypot, sqrt, tanh
+import re
 import unittest
 
 from support import CliTest, run
@@ -34,7 +35,9 @@ class Optimum(CliTest):
                 "worst_case": lambda L: nm + ((a + om) * L - a * tau * tanh(L / 2 / tau) * (1 + exp(-t / tau))) / t + dp / L,
                 "as_printed": lambda L: nm + a * tau / 2 / L * (1 - exp(-L / tau)) ** 2 + L * om / t + dp / L,
                 "closed_form": lambda L: nm + L * om / t + dp / L,
-                "random_sign": lambda L: nm + sqrt((L * om / t) ** 2 + dp * dp / (t * L)),
+                # The worst end of worst_case beside independent errors.
+                "random_sign": lambda L: nm + hypot(((a + om) * L - a * tau * tanh(L / 2 / tau) * (1 + exp(-t / tau))) / t,
+                                                    dp / sqrt(t * L)),
             }
             for method, budget in budgets.items():
                 interval, drift = least(budget, t)
@@ -83,9 +86,28 @@ class Refusals(CliTest):
 class OptimalInterval(CliTest):
     def test_a_run_takes_the_optimum_of_its_own_length(self):
         raw = self.folder / "raw.csv"
-        result = self.succeed("simulate", "--duration", "600", "--set", "switching.interval_s=optimal", "--out", raw)
-        self.assertIn("88.6", result.stderr)
-        self.assertIn("# switching.interval_s = 88.6", raw.read_text()[:3000])
+        options = ["--duration", "600", "--set", "switching.interval_s=optimal", "--set", "design.switch_error_arcsec=2"]
+        result = self.succeed("simulate", *options, "--out", raw)
+        # Independent errors beside a sawtooth of L Om/2 about what the start leaves, at an end anywhere.
+        om = 0.7 + 0.7 * (1 - exp(-0.2))
+        best = (2**2 * 600 / (2 * (0.7**2 + om**2 / 3) / 4)) ** (1 / 3)
+        found = float(re.search(r"# switching.interval_s = (\S+)", raw.read_text()[:5000]).group(1))
+        self.assertAlmostEqual(found / best, 1.0, delta=0.005)
+        self.assertIn(f"{found:.4g} s here", result.stderr)
+
+    def test_what_a_switch_leaves_is_tried_unless_it_is_given(self):
+        def best(*settings):
+            options = [word for setting in settings for word in ("--set", setting)]
+            result = json.loads(self.succeed("design", "--json", "--run-lengths", "600", *options).stdout)
+            return result["switch_error_arcsec"], result["switch_error_is_given"], result["runs"][0]["best"]["interval_s"]
+
+        good = best("motion.kind=rest")
+        bad = best("motion.frequency_hz=20.06", "compensation.bridge=constant")
+        self.assertFalse(good[1])
+        # A constant misses 12 000 arcsec/s at 20 Hz by 154.51 arcsec at the worst phase, 109 rms.
+        self.assertAlmostEqual(bad[0] / 109, 1.0, delta=0.2)
+        self.assertGreater(bad[2], 10 * good[2])
+        self.assertEqual(best("design.switch_error_arcsec=10")[:2], (10, True))
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import json
 import os
 import pty
 import random
+import resource
 import signal
 import socket
 import subprocess
@@ -12,6 +13,7 @@ import time
 import tty
 import unittest
 
+from line_of import Gyro
 from support import AngleLog, CliTest, ZLG, run
 
 
@@ -49,6 +51,21 @@ class Follow(CliTest):
         result = run("follow", source, "--out", out, "--force", "--json", *options, **more)
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout), out
+
+    def test_on_a_full_disk_the_whole_rows_stay(self):
+        out = self.folder / "full.csv"
+        limit = 100_000
+        result = run("follow", self.line(), "--out", out, preexec_fn=lambda: resource.setrlimit(
+            resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertEqual(result.returncode, 3)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn(f"recorded until then: {out}.part", result.stderr)
+        self.assertFalse(out.exists())
+        kept = (self.folder / "full.csv.part").read_text()
+        self.assertTrue(kept.endswith("\n"))
+        self.assertGreater(len(kept), limit - 200)
+        rows = rows_of(self.folder / "full.csv.part")
+        self.assertEqual(rows, self.rows[:len(rows)])
 
     def test_a_good_line_gives_the_rows_of_process(self):
         said, out = self.followed(self.line())
@@ -90,11 +107,94 @@ class Follow(CliTest):
         self.assertTrue(good.issuperset(unflagged))
 
     def test_two_starts_are_one_log_that_says_so(self):
-        said, out = self.followed(self.line(self.bytes[:300_000] + self.bytes))
+        second = b"".join(Gyro(session=2).ticks(500))
+        said, out = self.followed(self.line(self.bytes[:300_000] + second))
         self.assertEqual(said["restarts"], 1)
         log = AngleLog(out)
         restarted = [row for row in rows_of(out)[1:] if int(row.split(",")[6]) & log.bits["restarted"]]
         self.assertEqual(len(restarted), 1)
+
+    def test_what_comes_again_is_not_in_the_log_again(self):
+        half = self.bytes.index(b"\0\0", 300_000) + 1
+        for whole_again in (self.bytes[:half] + self.bytes, self.bytes + self.bytes,
+                            self.bytes[:half] + self.bytes[:20_000] + self.bytes[half:]):
+            said, out = self.followed(self.line(whole_again))
+            self.assertEqual(rows_of(out), self.rows)
+            self.assertEqual(said["restarts"], 0)
+            self.assertGreater(said["repeated_messages"], 100)
+
+    def test_a_frame_again_among_the_first_is_not_in_the_log_again(self):
+        sent = Gyro().ticks(600)
+        for at in (0, 1, 5, 10, 20, 100, 255, 256, 400):
+            for later in (1, 2, 190):
+                frames = sent[:]
+                frames.insert(at + later, sent[at])
+                said, _ = self.followed(self.line(b"".join(frames)))
+                self.assertEqual((said["ticks"], said["angle_arcsec"], said["restarts"]), (600, 150.0, 0), (at, later))
+            frames = sent[:]
+            frames[at], frames[at + 1] = frames[at + 1], frames[at]
+            said, _ = self.followed(self.line(b"".join(frames)))
+            self.assertEqual((said["ticks"], said["angle_arcsec"], said["restarts"]), (600, 150.0, 0), at)
+
+    def test_one_impossible_frame_spoils_nothing(self):
+        for at in (0, 1, 50, 199):
+            for other in ({"tick_s": 1e308}, {"tick_s": 5e-324}, {"tick_s": 11.0}, {"tick_s": 1e-7}, {"tick_s": 0.01},
+                          {"tick": 2 ** 24}, {"tick": 2 ** 31}, {"bits": 255}, {"byte_7": 1}, {"bytes_34": 1},
+                          {"sigma": 1e300}, {"turn": float("nan")}, {"settled_turn": 1e300}, {"bits": 3, "age": 65}):
+                gyro = Gyro()
+                frames = gyro.ticks(at) + [gyro.next(**other)] + gyro.ticks(200)
+                said, out = self.followed(self.line(b"".join(frames)))
+                self.assertEqual((said["angle_arcsec"], said["restarts"]), (0.25 * (201 + at), 0), (at, other))
+                # Of two first ones that differ it cannot be said which is the gyro's.
+                self.assertIn(said["refused_messages"] + said["unfitting_messages"], (1, 2) if at == 1 else (1,), (at, other))
+                self.assertEqual(run("inspect", out).returncode, 0, (at, other))
+
+    def test_a_start_with_another_tick_is_reported_and_not_in_the_log(self):
+        data = b"".join(Gyro().ticks(100) + Gyro(session=2, tick_s=0.01).ticks(100))
+        said, out = self.followed(self.line(data))
+        self.assertEqual((said["ticks"], said["other_tick_messages"]), (100, 100))
+        result = run("follow", self.line(data), "--out", out, "--force")
+        self.assertIn("100 messages of ticks of 0.01 s", result.stdout)
+
+    def test_a_jump_of_the_ticks_makes_no_gigabytes(self):
+        gyro = Gyro()
+        frames = gyro.ticks(20)
+        for _ in range(200):
+            gyro.tick += 2 ** 24 - 10
+            frames.append(gyro.next())
+        said, out = self.followed(self.line(b"".join(frames)))
+        self.assertEqual((said["ticks"], said["unfitting_messages"]), (20, 200))
+        self.assertLess(out.stat().st_size, 4000)
+
+    def test_an_outage_that_is_too_long_for_rows_is_reported(self):
+        gyro = Gyro()
+        frames = gyro.ticks(100)
+        gyro.skip(200_000, 201_000)
+        said, out = self.followed(self.line(b"".join(frames + gyro.ticks(100))))
+        # The tick that is settled with the first message after it is the first row.
+        self.assertEqual((said["ticks"], said["outages"], said["outage_ticks"]), (205, 1, 199_995))
+        self.assertEqual(said["angle_arcsec"] + said["outage_arcsec"], 0.25 * 200_200)
+        log = AngleLog(out)
+        first = [k for k, row in enumerate(rows_of(out)[1:]) if int(row.split(",")[6]) & log.bits["outage"]]
+        self.assertEqual(first, [100])
+
+    def test_a_signal_is_heard_while_many_rows_are_written(self):
+        gyro = Gyro()
+        frames = gyro.ticks(20)
+        for _ in range(2000):
+            gyro.skip(60_000, 1)
+            frames.append(gyro.next())
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            out = self.folder / f"{number}.csv"
+            process = subprocess.Popen([ZLG, "follow", self.line(b"".join(frames)), "--out", out, "--json"],
+                                       stdout=subprocess.PIPE, text=True)
+            time.sleep(1.0)
+            self.assertIsNone(process.poll())
+            process.send_signal(number)
+            said = json.loads(process.communicate(timeout=10)[0])
+            self.assertEqual(process.returncode, 0)
+            self.assertGreater(said["ticks"], 0)
+            self.assertTrue(out.exists())
 
     def test_the_duration_ends_the_log(self):
         said, out = self.followed(self.line(), "--duration", 2.5)

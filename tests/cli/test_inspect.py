@@ -55,7 +55,7 @@ class Inspect(CliTest):
         self.assertFalse((self.folder / "a.csv").exists())
 
 
-class DoubtfulSettings(CliTest):
+class UnclearSettings(CliTest):
     def refused(self, *lines):
         raw = self.write("raw.csv", csv_text(quiet_log(), lines=lines))
         result = run("process", raw, "--out", self.folder / "a.csv", "--force")
@@ -66,6 +66,24 @@ class DoubtfulSettings(CliTest):
         self.assertTrue(self.refused("GYRO.scale_arcsec = 1.5"))
         self.assertTrue(self.refused("scale_arcsec = 1.5", "gyro.scale_arcsec = 2"))
         self.assertFalse(self.refused("laboratory = 12", "operator.name = x", "gyro.scale_arcsec = 1.5"))
+
+    def test_only_other_values_of_our_keys_contradict(self):
+        for lines in (["note = a", "note = b"], ["tick_s = 0.005", "gyro.tick_s = 0.0050"], ["operator.name = x", "operator.name = y"],
+                      ["gyro.tick_s = 5e-3", "gyro.tick_s = 0.005"]):
+            self.assertFalse(self.refused(*lines), lines)
+            self.succeed("inspect", self.folder / "raw.csv")
+        self.assertTrue(self.refused("gyro.tick_s = 0.005", "gyro.tick_s = 0.006"))
+
+    def test_a_contradiction_is_damage(self):
+        lines = ["laboratory = 12", "gyro.bias_hz = 50000", "gyro.bias_chi = 3", "gyro.bias_hz = 60000", "gyro.bias_chi = 3.0"]
+        raw = self.write("raw.csv", csv_text(quiet_log(), lines=lines))
+        result = run("inspect", raw, "--json")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual(json.loads(result.stdout)["halves"], 80)
+        self.assertIn("gyro.bias_hz stands twice, as 50000 and as 60000", json.loads(result.stdout)["damage"])
+        self.succeed("inspect", raw, "--repair", "--out", self.folder / "good.csv")
+        self.succeed("inspect", self.folder / "good.csv")
+        self.succeed("process", self.folder / "good.csv", "--out", self.folder / "a.csv")
 
 
 if __name__ == "__main__":

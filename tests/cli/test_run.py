@@ -193,6 +193,49 @@ class Folders(RunTest):
             self.assertRegex(name, r"^zlg-run-\d{3}$")
 
 
+# Half a wavelength takes twice the voltage that the processor presumes.
+NEVER = ["--duration", 20, "--set", "switching.interval_s=5", "--set", "perimeter.miss_lambda=0", "--set", "piezo.half_wave_error=-0.5"]
+
+
+class Switches(CliTest):
+    def test_a_run_in_which_no_switch_succeeds_says_so_and_exits_1(self):
+        result = run("run", *NEVER, "--json", "--out", self.folder / "run", "--format", "csv")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no switch of modes succeeded", result.stderr)
+        self.assertGreater(json.loads(result.stdout)["switches_failed"], 0)
+        self.assertEqual(sorted(path.name for path in (self.folder / "run").iterdir()), sorted(FILES))
+        self.assertIn("no switch of modes succeeded", (self.folder / "run" / "report.html").read_text())
+        result = run("run", *NEVER, "--out", self.folder / "text")
+        self.assertIn("no switch of modes succeeded", result.stdout)
+
+    def test_so_does_simulate(self):
+        result = run("simulate", *NEVER, "--out", self.folder / "raw.csv")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no switch of modes succeeded", result.stderr)
+        self.assertTrue((self.folder / "raw.csv").exists())
+
+    def test_a_run_without_a_switch_that_is_due_is_good(self):
+        self.succeed("run", *NEVER[:2], "--set", "switching.interval_s=90", "--out", self.folder / "run")
+
+    def test_a_laser_that_is_dark_at_its_miss_switches_at_the_second_attempt(self):
+        short = [word for setting in ("gyro.fidelity=laser", "laser.perimeter_m=0.12", "perimeter.loop=digital", "switching.interval_s=5")
+                 for word in ("--set", setting)]
+        result = json.loads(self.succeed("run", *short, "--duration", 32, "--json", "--out", self.folder / "run").stdout)
+        self.assertGreaterEqual(result["switches"], 3)
+        self.assertLess(abs(result["variants"][-1]["angle_error_arcsec"]), 60.0)
+
+    def test_one_constant_of_a_laser_is_not_told_alone(self):
+        short = [word for setting in ("gyro.fidelity=laser", "laser.perimeter_m=0.12", "switching.interval_s=5") for word in ("--set", setting)]
+        told = self.succeed("run", *short, "--set", "gyro.bias_hz=79766.7", "--duration", 32, "--json", "--out", self.folder / "agrees")
+        self.assertIn("gyro.bias_chi = 6.37", told.stderr)
+        self.assertLess(json.loads(told.stdout)["variants"][-1]["switch_error_rms_arcsec"], 6.0)
+        off = self.succeed("run", *short, "--set", "gyro.bias_chi=3.6", "--duration", 12, "--json", "--out", self.folder / "off")
+        line = "gyro.bias_chi = 3.6 is presumed, [laser] makes 6.37"
+        self.assertIn(f"warning: {line}", off.stderr)
+        self.assertIn(line, " ".join(json.loads(off.stdout)["warnings"]))
+        self.assertIn(line, (self.folder / "off" / "report.html").read_text())
+
+
 class Inspect(RunTest):
     def test_inspect_tells_the_time_span(self):
         result = json.loads(self.succeed("inspect", self.out / "raw.csv", "--json").stdout)

@@ -75,7 +75,7 @@ Config any_config() {
     c.run.seed = *rc::gen::inRange<std::int64_t>(0, std::numeric_limits<std::int64_t>::max());
     c.gyro.scale_arcsec = *any_double(1e-6, 1e6);
     c.gyro.bias_hz = *any_double(1.0, 1e12);
-    c.gyro.reference_temperature_c = *rc::gen::element(-0.0, 0.0, -1e300, 5e-324, 0.1, 1e22);
+    c.gyro.reference_temperature_c = *rc::gen::element(-0.0, 0.0, -999999.9, 5e-324, 0.1, 1e5);
     c.gyro.first_bias_sign = *rc::gen::element<std::int64_t>(-1, 1);
     c.perimeter.loop = *rc::gen::element(Loop::analog, Loop::exponential, Loop::digital);
     c.switching.interval_optimal = *rc::gen::arbitrary<bool>();
@@ -88,6 +88,11 @@ Config any_config() {
     c.faults.random_kinds = *rc::gen::container<std::vector<FaultKind>>(
         rc::gen::element(FaultKind::beam_fades, FaultKind::counter_bit_stuck));
     c.motion.comment = *rc::gen::container<std::string>(rc::gen::inRange<char>(1, 127));
+    c.motion.column = *rc::gen::element<std::string>("", "1", "12", "gyro z", "a,b");
+    c.motion.separator = *rc::gen::element(TextSeparator::automatic, TextSeparator::tab, TextSeparator::comma);
+    c.analysis.column =
+        *rc::gen::container<std::vector<std::string>>(rc::gen::element<std::string>("3", "gyro_z", "\"x\""));
+    c.analysis.time_column = *rc::gen::element<std::string>("", "0", "7", "Zeit [s]");
     c.motion.path = *rc::gen::element<std::string>("", "a b.txt", "\"quoted\"", "back\\slash", "\xCE\xA9.txt", "#");
     return c;
 }
@@ -128,6 +133,10 @@ RC_GTEST_PROP(Schema, settings_and_toml_read_back_to_the_same_configuration, ())
         RC_ASSERT(read.motion.amplitude_arcsec_s == config.motion.amplitude_arcsec_s);
         RC_ASSERT(read.motion.comment == config.motion.comment);
         RC_ASSERT(read.motion.path == config.motion.path);
+        RC_ASSERT(read.motion.column == config.motion.column);
+        RC_ASSERT(read.motion.separator == config.motion.separator);
+        RC_ASSERT(read.analysis.column == config.analysis.column);
+        RC_ASSERT(read.analysis.time_column == config.analysis.time_column);
         RC_ASSERT(read.faults.kind == config.faults.kind);
         RC_ASSERT(read.faults.random_kinds == config.faults.random_kinds);
     }
@@ -167,8 +176,13 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
                                             "motion.column_holds = rate",
                                             "motion.path = a.txt",
                                             "motion.comment = %",
+                                            "analysis.total_bias = published",
+                                            "motion.separator = tab",
+                                            "motion.decimal = comma",
                                             "perimeter.miss_lambda = 0.125",
+                                            "perimeter.discriminator_centre_lambda = 0.125",
                                             "piezo.half_wave_error = 0.125",
+                                            "piezo.mirror_hz = 125",
                                             "perimeter.sample_gain = 0.5",
                                             "piezo.hysteresis = 0.125",
                                             "piezo.creep_per_decade = 0.01",
@@ -191,6 +205,8 @@ TEST(Schema, every_key_sets_itself_and_nothing_else) {
                                             "analysis.angles = delivered",
                                             "analysis.column_holds = phase",
                                             "analysis.comment = %",
+                                            "analysis.separator = semicolon",
+                                            "analysis.decimal = point",
                                             "analysis.table_same_rate_ratio = 0.5"};
         std::string setting = dotted + " = 7";
         for (const std::string& choice : choices) {
@@ -220,8 +236,8 @@ TEST(Schema, knows_every_key_of_the_sections) {
         EXPECT_FALSE(key.allowed.empty()) << key.name;
     }
     EXPECT_EQ(found, sections);
-    // The members of the twelve structs, interval_optimal apart: 2 + 15 + 15 + 5 + 11 + 15 + 10 + 17 + 12 + 8 + 2 + 20.
-    EXPECT_EQ(names.size(), 132u);
+    // The members of the twelve structs, interval_optimal apart: 2 + 15 + 15 + 5 + 12 + 15 + 10 + 17 + 15 + 8 + 2 + 24.
+    EXPECT_EQ(names.size(), 140u);
     EXPECT_TRUE(is_known_section("gyro"));
     EXPECT_FALSE(is_known_section("gyr"));
 }
@@ -352,7 +368,9 @@ TEST(Schema, a_value_out_of_range_is_told_what_is_allowed) {
     EXPECT_EQ(set_complaint("motion.scale_arcsec=0"),
               "--set: motion.scale_arcsec = 0: allowed is any finite number but 0");
     EXPECT_EQ(set_complaint("gyro.first_bias_sign=0"), "--set: gyro.first_bias_sign = 0: allowed is -1 or 1");
-    EXPECT_EQ(set_complaint("run.seed=-1"), "--set: run.seed = -1: allowed is from 0");
+    EXPECT_EQ(set_complaint("run.seed=-1"), "--set: run.seed = -1: allowed is 0..9223372036854775807");
+    EXPECT_NE(set_complaint("run.seed=18446744073709551615").find("allowed is 0..9223372036854775807"),
+              std::string::npos);
     expect_contains(set_complaint("motion.frequency_hz=[1, -1]"),
                     "motion.frequency_hz = [1, -1]: allowed is one number");
     expect_contains(set_complaint("design.run_lengths_s=[]"),
@@ -471,9 +489,31 @@ TEST(Schema, a_bridge_needs_one_point_more_than_its_order) {
     EXPECT_NO_THROW(check(with({"compensation.points_before=1"})));
 }
 
+TEST(Schema, the_table_says_what_is_allowed_of_a_number_of_either_sign_and_of_zero_or_more) {
+    Config c;
+    for (const char* good : {"1e-6", "-1e-6", "1e6", "-1e6", "0.3"})
+        EXPECT_NO_THROW(apply_pair(c, "gyro.discriminator_per_lambda", good, "test")) << good;
+    for (const char* bad : {"0", "9e-7", "-9e-7", "1.1e6", "-1.1e6"})
+        expect_contains(complaint([&] { apply_pair(c, "gyro.discriminator_per_lambda", bad, "test"); }),
+                        "allowed is 1e-6..1e6 or -1e6..-1e-6");
+    for (const char* good : {"0", "-0.0", "100", "1e6"})
+        EXPECT_NO_THROW(apply_pair(c, "piezo.mirror_hz", good, "test")) << good;
+    for (const char* bad : {"1e-300", "99.9", "-1", "1.1e6"})
+        expect_contains(complaint([&] { apply_pair(c, "piezo.mirror_hz", bad, "test"); }), "allowed is 0 or 100..1e6");
+}
+
+TEST(Schema, a_section_is_misspelt_by_a_letter_or_its_case) {
+    EXPECT_EQ(misspelt_section("Gyro"), "gyro");
+    EXPECT_EQ(misspelt_section("gyr"), "gyro");
+    EXPECT_EQ(misspelt_section("gyrro"), "gyro");
+    EXPECT_EQ(misspelt_section("gyro"), std::nullopt);
+    EXPECT_EQ(misspelt_section("lab"), std::nullopt);
+    EXPECT_EQ(misspelt_section(std::string(1 << 20, 'g')), std::nullopt);
+}
+
 TEST(Schema, a_motion_has_as_many_frequencies_and_phases_as_amplitudes) {
     expect_contains(check_complaint({"motion.kind=sum", "motion.amplitude_arcsec_s=[1, 2, 3]"}),
-                    "3 amplitude_arcsec_s, 1 frequency_hz and 1 phase_deg");
+                    "motion.amplitude_arcsec_s: 3 numbers, motion.frequency_hz: 1, motion.phase_deg: 1");
     EXPECT_NO_THROW(check(with({"motion.kind=sum", "motion.amplitude_arcsec_s=[1, 2]", "motion.frequency_hz=[1, 2]"})))
         << "one phase serves all";
     EXPECT_THROW(check(with({"motion.kind=sum", "motion.amplitude_arcsec_s=[1, 2, 3]", "motion.frequency_hz=[1, 2, 3]",
@@ -483,7 +523,7 @@ TEST(Schema, a_motion_has_as_many_frequencies_and_phases_as_amplitudes) {
                                 "motion.phase_deg=[0, 90]"})));
     expect_contains(
         check_complaint({"motion.amplitude_arcsec_s=[1, 2]", "motion.frequency_hz=[1, 2]", "motion.phase_deg=[0, 90]"}),
-        "kind \"sine\" has one");
+        "motion.kind = \"sine\" has one");
     EXPECT_NO_THROW(check(with({"motion.kind=rest", "motion.amplitude_arcsec_s=[1, 2]"})));
 }
 
@@ -587,19 +627,35 @@ TEST(Schema, a_discriminator_is_as_many_detunings_as_signals_and_both_grow) {
 
     EXPECT_NO_THROW(check(with({"perimeter.discriminator_signal=[]"})));
     expect_contains(check_complaint({"perimeter.discriminator_signal=[0.1, 0.2]"}),
-                    "0 discriminator_detuning_lambda and 2 discriminator_signal");
+                    "perimeter.discriminator_detuning_lambda: 0 numbers, perimeter.discriminator_signal: 2");
     expect_contains(check_complaint({"perimeter.discriminator_detuning_lambda=[0.1, 0.1]",
                                      "perimeter.discriminator_signal=[0.1, 0.2]"}),
                     "perimeter.discriminator_detuning_lambda: 0.1 after 0.1; allowed is growth");
     expect_contains(check_complaint({"perimeter.discriminator_detuning_lambda=[0.1, 0.2]",
                                      "perimeter.discriminator_signal=[0.2, 0.1]"}),
                     "perimeter.discriminator_signal: 0.1 after 0.2");
-    expect_contains(set_complaint("perimeter.discriminator_signal=[0.1, 0]"), "[] included, each above 0 up to 1000");
+    expect_contains(set_complaint("perimeter.discriminator_signal=[0.1, 2000]"), "[] included, each -1000..1000");
+    expect_contains(
+        check_complaint(
+            {"perimeter.discriminator_detuning_lambda=[0, 0.2]", "perimeter.discriminator_signal=[0.1, 0.2]"}),
+        "discriminator_signal is 0.1 at discriminator_detuning_lambda 0; allowed is the same sign, and not 0");
     std::string many = "[1";
     for (int k = 2; k <= 32; ++k) many += ", " + std::to_string(k);
     const std::string detunings = "perimeter.discriminator_detuning_lambda=" + many + "]";
     const std::string signals = "perimeter.discriminator_signal=" + many + "]";
     expect_contains(check_complaint({detunings, signals}), "31 at most");
+}
+
+TEST(Schema, a_discriminator_may_have_two_sides) {
+    EXPECT_NO_THROW(check(with({"perimeter.discriminator_detuning_lambda=[-0.2, -0.1, 0.1]",
+                                "perimeter.discriminator_signal=[-0.3, -0.1, 0.2]"})));
+    expect_contains(check_complaint({"perimeter.discriminator_detuning_lambda=[-0.2, 0.1]",
+                                     "perimeter.discriminator_signal=[0.1, 0.2]"}),
+                    "discriminator_signal is 0.1 at discriminator_detuning_lambda -0.2; allowed is the same sign");
+    expect_contains(check_complaint({"perimeter.discriminator_detuning_lambda=[-0.2, -0.1]",
+                                     "perimeter.discriminator_signal=[-0.2, -0.1]"}),
+                    "2 points below 0 and none above");
+    expect_contains(set_complaint("perimeter.discriminator_centre_lambda=0.3"), "-0.2..0.2");
 }
 
 TEST(Schema, an_unset_list_is_not_written) {
@@ -614,7 +670,7 @@ TEST(Schema, faults_are_lists_of_equal_length) {
     EXPECT_EQ(c.faults.at_s, (std::vector<double>{1.0, 2.5}));
     EXPECT_NO_THROW(check(with({"faults.kind=shock", "faults.at_s=1", "faults.duration_s=0.011", "faults.size=-0.2"})));
     expect_contains(check_complaint({"faults.kind=[\"shock\", \"shock\"]", "faults.at_s=1"}),
-                    "faults: 2 kind, 1 at_s, 0 duration_s and 0 size; allowed is as many of each");
+                    "faults.kind: 2, faults.at_s: 1, faults.duration_s: 0, faults.size: 0; allowed is as many of each");
     expect_contains(set_complaint("faults.kind=[\"shock\", \"quake\"]"), "faults.kind = 'quake': allowed is one or an");
     expect_contains(set_complaint("faults.kind=[1]"), "a string is wanted, this is an integer");
     expect_contains(set_complaint("faults.at_s=[1, -1]"), "faults.at_s = [1, -1]: allowed is");

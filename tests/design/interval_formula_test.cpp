@@ -7,6 +7,7 @@
 
 #include <zlg/design/error.hpp>
 #include <zlg/design/interval_formula.hpp>
+#include <zlg/design/switching_interval.hpp>
 
 namespace zlg::design {
 namespace {
@@ -134,11 +135,22 @@ TEST(IntervalFormula, ARootLongerThanTheRunIsSaidToBe) {
 }
 
 TEST(IntervalFormula, TheRandomSignIntervalIsTheMinimumOfTheRmsBudget) {
-    const DriftCase c = paper(0.7, 3600.0);
+    DriftCase c = paper(0.7, 3600.0);
+    c.gyro.magnetic_thermal_arcsec_s = 0.0;
     const double best_s = random_sign_interval_s(c);
     EXPECT_NEAR(best_s, std::cbrt(100.0 * 3600.0 / 0.98), 1e-10);
     EXPECT_LT(random_sign_drift_arcsec_s(c, best_s), random_sign_drift_arcsec_s(c, 1.001 * best_s));
     EXPECT_LT(random_sign_drift_arcsec_s(c, best_s), random_sign_drift_arcsec_s(c, 0.999 * best_s));
+}
+
+TEST(IntervalFormula, TheRandomSignIntervalKnowsTheWarming) {
+    const DriftCase c = paper(0.7, 3600.0);
+    const double om_arcsec_s = 0.5 * (0.7 + magnetic_rate_arcsec_s(c.gyro, 3600.0));
+    EXPECT_NEAR(random_sign_interval_s(c), std::cbrt(100.0 * 3600.0 / (2.0 * om_arcsec_s * om_arcsec_s)), 1e-10);
+    EXPECT_NEAR(random_sign_interval_s(c) / optimum(IntervalMethod::random_sign, c).interval_s, 1.0, 0.01);
+    const double end_arcsec_s = 0.5 * magnetic_rate_arcsec_s(c.gyro, 3600.0);
+    EXPECT_NEAR(random_sign_interval_s(c, FirstSegment::half),
+                std::cbrt(100.0 * 3600.0 / (2.0 * end_arcsec_s * end_arcsec_s)), 1e-10);
 }
 
 // A greatest switch error of 10 arcsec is three standard deviations of independent ones.
@@ -147,6 +159,7 @@ TEST(IntervalFormula, ThePapersRuleCosts2_9To5_6TimesWhereSwitchErrorsAreIndepen
     constexpr std::array ends_s{600.0, 36000.0};
     for (std::size_t i = 0; i < ends_s.size(); ++i) {
         DriftCase c = paper(0.7, ends_s[i]);
+        c.gyro.magnetic_thermal_arcsec_s = 0.0;
         c.gyro.nonmagnetic_arcsec_s = 0.0;
         const double rule_s = closed_form_interval_s(c);
         c.switch_error_arcsec = 10.0 / 3.0;

@@ -230,10 +230,48 @@ TEST(SwitchingInterval, RandomSignAndClosedFormReportTheirOwnBudget) {
     const Optimum closed = optimum(IntervalMethod::closed_form, c);
     EXPECT_NEAR(closed.interval_s, 226.8, 0.05);
     EXPECT_NEAR(closed.drift_arcsec_s, 0.05 + closed.interval_s * 0.7 / 3600.0 + 10.0 / closed.interval_s, 1e-14);
-    const Optimum random_sign = optimum(IntervalMethod::random_sign, c);
+    DriftCase cold = c;
+    cold.gyro.magnetic_thermal_arcsec_s = 0.0;
+    const Optimum random_sign = optimum(IntervalMethod::random_sign, cold);
     EXPECT_NEAR(random_sign.interval_s, std::cbrt(100.0 * 3600.0 / 0.98), 1e-10);
     // At the minimum the switches have twice the variance of the sawtooth.
     EXPECT_NEAR(random_sign.drift_arcsec_s, 0.05 + std::sqrt(3.0) * 0.7 * random_sign.interval_s / 3600.0, 1e-14);
+}
+
+// The sum of the integrals over all segments, at ends anywhere within the last two intervals, beside independent switch
+// errors: the least rms over a grid of intervals, against the budget that looks at the worst end.
+TEST(SwitchingInterval, RandomSignCostsLittleMoreThanTheLeastRmsOverAllEnds) {
+    struct Draw {
+        double om0, a, tau_s, error, run_s;
+        FirstSegment first;
+    };
+    for (const Draw& d : {Draw{0.7, 0.7, 3000.0, 1.2, 3600.0, FirstSegment::full},
+                          Draw{0.0, 3.0, 900.0, 2.0, 1800.0, FirstSegment::full},
+                          Draw{-2.0, 5.0, 600.0, 1.0, 1200.0, FirstSegment::full},
+                          Draw{14.0, 14.0, 3000.0, 6.0, 600.0, FirstSegment::half},
+                          Draw{5.0, 0.0, 3000.0, 0.7, 600.0, FirstSegment::half},
+                          Draw{0.1, 0.0, 3000.0, 0.5, 7200.0, FirstSegment::full}}) {
+        const GyroDrift gyro{0.0, d.om0, d.a, d.tau_s};
+        const auto rms_arcsec = [&](double interval_s) {
+            double sum_sq = 0.0;
+            constexpr int n_ends = 40;
+            for (int k = 0; k < n_ends; ++k) {
+                const double end_s = d.run_s - 2.0 * interval_s * (k + 0.5) / n_ends;
+                const auto segments = segments_s(interval_s, d.first, end_s);
+                const double angle = end_error_arcsec(gyro, segments);
+                sum_sq += angle * angle + d.error * d.error * static_cast<double>(segments.size() - 1);
+            }
+            return std::sqrt(sum_sq / n_ends);
+        };
+        double least = rms_arcsec(d.run_s / 3.0);
+        for (double interval_s = d.run_s / 3.0; interval_s > 1e-3 * d.run_s; interval_s *= 0.95)
+            least = std::min(least, rms_arcsec(interval_s));
+        const DriftCase task{.gyro = gyro, .switch_error_arcsec = d.error, .run_s = d.run_s};
+        EXPECT_LT(rms_arcsec(random_sign_optimum(task, d.first).interval_s), 1.15 * least) << d.om0 << ' ' << d.a;
+        const Optimum expected = expected_optimum(task, d.first);
+        EXPECT_LT(rms_arcsec(expected.interval_s), 1.03 * least) << d.om0 << ' ' << d.a;
+        EXPECT_NEAR(rms_arcsec(expected.interval_s) / d.run_s / expected.drift_arcsec_s, 1.0, 0.05);
+    }
 }
 
 // --- edges -----------------------------------------------------------------------------------------------------------

@@ -45,6 +45,7 @@ TEST(OutputBits, see_every_member) {
     sees([](HalfOutput& o) { o.control.actuator.edge_offset_ticks = 1; }, "actuator.edge_offset_ticks");
     sees([](HalfOutput& o) { o.control.record.counts = 1; }, "record.counts");
     sees([](HalfOutput& o) { o.control.record.temperature_c = 1.0; }, "record.temperature_c");
+    sees([](HalfOutput& o) { o.control.record.span = 2; }, "record.span");
     sees([](HalfOutput& o) { o.control.health = 1u << 31; }, "health");
     sees([](HalfOutput& o) { o.control.event.miss_lambda = 1e-300; }, "event.miss_lambda");
     sees([](HalfOutput& o) { o.compensation.sample.flags = 1; }, "sample.flags");

@@ -66,7 +66,7 @@ extern "C" {
 
 [[gnu::noinline]] void provoke_write_to_code() { reg(0x00008000) = 1; }
 
-[[gnu::noinline]] void provoke_write_beyond_memory() { reg(0x20010000) = 1; }
+[[gnu::noinline]] void provoke_write_beyond_memory() { reg(0x20020000) = 1; }
 
 [[gnu::noinline]] std::uint32_t provoke_stack_overflow(std::uint32_t depth) {
     volatile std::uint32_t kept[16]{};

@@ -119,7 +119,7 @@ class Addresses(FaultTest):
         self.expect_in_its_place("write_to_code", "forbidden_address", address=0x8000)
 
     def test_write_beyond_the_memory(self):
-        self.expect_in_its_place("write_beyond_memory", "forbidden_address", address=0x20010000)
+        self.expect_in_its_place("write_beyond_memory", "forbidden_address", address=0x20020000)
 
 
 class Stack(FaultTest):

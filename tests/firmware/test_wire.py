@@ -24,7 +24,7 @@ BUILD = Path(os.environ.get("ZLG_BUILD", ROOT / "build" / "release")).resolve()
 IMAGE = BUILD / "firmware" / "zlg_gyro.elf"
 ZLG = BUILD / "bin" / "zlg"
 
-STORED, STORED_BYTES = 0x1E800, 0x1800
+STORED, STORED_BYTES = 0x3C000, 0x4000
 HALF_WAVE, INTERVAL, MIN_TICKS, SETTLE = 0x0205, 0x0402, 0x0403, 0x0503
 HALF_TIMER = 25_000  # of 10 MHz
 PATIENCE_S = 20.0  # of this machine under load; in the emulator all is done within some ticks
@@ -269,7 +269,7 @@ class Switching(WireTest):
         self.assertEqual(state.sequence, host.of(REPLY)[0].sequence + 1)
         self.assertEqual((state.tick_s, state.timer_hz, state.n_good, state.n_damaged, state.last_fault), (0.005, 1e7, 1, 0, 0))
         self.assertAlmostEqual(state.tick, host.of(TELEMETRY)[-1].tick, delta=2)
-        self.assertTrue(300 < state.stack_bytes < 8192, state.stack_bytes)
+        self.assertTrue(300 < state.stack_bytes < 16384, state.stack_bytes)
 
 
 class Repeated(WireTest):

@@ -79,6 +79,7 @@ HalfRecord half_from(Bytes& bytes, const HalfRecord& previous) {
     half.edge_offset_ticks = bytes.take<std::int32_t>() >> bytes.index(32);
     half.bias_sign = bytes.take<std::int8_t>();
     half.mode = bytes.take<std::int8_t>();
+    half.span = bytes.take<std::int32_t>() >> bytes.index(32);
     return half;
 }
 

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> raw_file() {
         writer.write({.half = k,
                       .counts = 150 - k,
                       .detuning_lambda = 0.01 * k,
-                      .detuning_sq_lambda2 = 1e-4 * k,
+                      .detuning_sq_lambda2 = 1.1e-4 * k * k,
                       .piezo_v = 150.0,
                       .temperature_c = 20.0,
                       .bias_sign = k % 2 == 0 ? std::int8_t{1} : std::int8_t{-1}},

@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
-#include <zlg/twin/motion.hpp>
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/rig/wiring.hpp>
 
 #include "bytes.hpp"
 #include "claim.hpp"
@@ -15,16 +18,18 @@ using namespace zlg;
 using fuzz::claim;
 
 // The first bytes say how to read the rest.
-twin::MotionFile how_to_read(fuzz::Bytes& bytes) {
+config::Config how_to_read(fuzz::Bytes& bytes) {
     constexpr const char* comments[] = {"#", "", "//", " ", ";", "#"};
-    twin::MotionFile file;
-    file.column = static_cast<int>(bytes.index(8));
-    file.holds_rate = bytes.flag();
-    file.skip_lines = static_cast<int>(bytes.index(4)) - 1;
+    config::Config config;
+    config::Motion& file = config.motion;
+    file.kind = config::MotionKind::file;
+    file.column = std::to_string(bytes.index(8));
+    file.column_holds = bytes.flag() ? config::ColumnHolds::rate : config::ColumnHolds::increment;
+    file.skip_lines = static_cast<std::int64_t>(bytes.index(4)) - 1;
     file.comment = comments[bytes.index(6)];
     file.scale_arcsec = bytes.real(1.0);
     file.rate_hz = bytes.real(100.0);
-    return file;
+    return config;
 }
 
 // As far as the sum of all increments is a number, so is every part of it.
@@ -46,14 +51,16 @@ void claim_adds_up(const twin::Motion& motion) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::size_t head = 22;
     fuzz::Bytes bytes{data, std::min(size, head)};
-    twin::MotionFile file = how_to_read(bytes);
+    config::Config config = how_to_read(bytes);
     const std::size_t used = std::min(size, head);
-    file.path = fuzz::scratch().write("motion.txt", data + used, size - used);
+    config.motion.path = fuzz::scratch().write("motion.txt", data + used, size - used);
     try {
-        claim_adds_up(twin::Motion::from_file(file));
+        claim_adds_up(rig::motion(config));
     } catch (const std::invalid_argument&) {
-        // A member of `file` is out of range.
-    } catch (const std::runtime_error&) {
+        // The rate is out of range.
+    } catch (const config::ConfigError&) {
+        // A column of times, or times of another rate.
+    } catch (const logs::FormatError&) {
         // The text is no motion.
     }
     return 0;

@@ -202,6 +202,9 @@ TEST(GrowingLog, everything_flushed_survives_60_kills_at_random_moments) {
                 flushed.set(half + 1);
             }
         });
+        // Half of them from its first moment on; half while rows are surely coming, however busy the machine.
+        if (kill % 2 == 1)
+            while (flushed.get() == 0) std::this_thread::sleep_for(1ms);
         std::this_thread::sleep_for(std::chrono::microseconds(random() % 25'000));
         kill_and_wait(child);
         EXPECT_FALSE(fs::exists(folder.file("raw.h5")));
@@ -215,7 +218,7 @@ TEST(GrowingLog, everything_flushed_survives_60_kills_at_random_moments) {
         EXPECT_GE(good_rows(reader), flushed.get()) << "kill " << kill;
         kills_with_rows += flushed.get() > 0 ? 1 : 0;
     }
-    EXPECT_GE(kills_with_rows, 20) << "most kills must meet a writer at work";
+    EXPECT_GE(kills_with_rows, 30) << "half of the kills must meet a writer at work";
 }
 
 TEST(GrowingLog, angles_flushed_survive_a_kill) {

@@ -30,8 +30,8 @@ HalfRecord row_of(std::int64_t half) {
     const auto x = static_cast<double>(half);
     return {.half = half,
             .counts = 151 - 302 * (half % 2),
-            .detuning_lambda = 1e-3 + x,
-            .detuning_sq_lambda2 = 1e-6 + x,
+            .detuning_lambda = 1e-3 * (1.5 + std::sin(x)),
+            .detuning_sq_lambda2 = 1e-4 * (1.0 + x),
             .piezo_v = 150.0 + x,
             .temperature_c = 20.0 + x,
             .bias_sign = static_cast<std::int8_t>(half % 2 == 0 ? 1 : -1),

@@ -65,8 +65,8 @@ std::vector<HalfRecord> any_records() {
         r.counts = *rc::gen::inRange<std::int64_t>(-limit, limit + 1);
         r.loop_closed = *rc::gen::arbitrary<bool>();
         r.valid = *rc::gen::arbitrary<bool>();
-        r.detuning_lambda = *any_finite_double();
-        r.detuning_sq_lambda2 = *any_finite_double();
+        r.detuning_lambda = std::fmod(*any_finite_double(), 30.0);
+        r.detuning_sq_lambda2 = *rc::gen::arbitrary<bool>() ? r.detuning_lambda * r.detuning_lambda : 0.0;
         r.piezo_v = *any_finite_double();
         r.temperature_c = *any_finite_double();
     }
@@ -212,6 +212,19 @@ TEST(RawReader, refuses_numbers_that_are_not_finite) {
     }
 }
 
+TEST(RawReader, refuses_detunings_that_no_perimeter_can_have) {
+    const std::string head = "half,bias_sign,mode,counts,loop_closed,detuning_lambda,detuning_sq_lambda2\n0,1,1,5,1,";
+    const auto row = [&](const std::string& text) { return complaint(head + text + "\n"); };
+    expect_contains(row("30.1,910"),
+                    "column 'detuning_lambda': '30.1' is out of range; allowed is -30..30 wavelengths");
+    expect_contains(row("0.01,-1e-9"),
+                    "raw.csv:2, row 1, column 'detuning_sq_lambda2': '-1e-9' is out of range; allowed is 0..900");
+    expect_contains(row("0.01,5000"), "'5000' is out of range; allowed is 0..900 wavelengths^2");
+    for (const std::string good : {"-0.2,0.04", "-0.2,0.01", "0.2,0.039", "0.2,0", "-30,900", "0.01,0", "0,0.3"})
+        EXPECT_EQ(read_text(head + good + "\n").size(), 1u) << good;
+    EXPECT_EQ(read_text("half,bias_sign,mode,counts,loop_closed,detuning_sq_lambda2\n0,1,1,5,1,0.01\n").size(), 1u);
+}
+
 TEST(RawReader, half_must_count_from_0_without_holes) {
     expect_contains(complaint(names + "1,1,1,5,1\n"), "column 'half': '1' leaves a hole; expected 0");
     expect_contains(complaint(names + "0,1,1,5,1\n2,-1,1,5,1\n"),
@@ -283,8 +296,9 @@ TEST(RawWriter, writes_settings_names_and_shortest_numbers) {
     writer.close();
     EXPECT_EQ(content_of(folder.file("raw.csv")),
               "# gyro.scale_arcsec = 3.263\n"
-              "half,bias_sign,mode,counts,loop_closed,valid,detuning_lambda,detuning_sq_lambda2,piezo_v,temperature_c\n"
-              "0,-1,1,-150,1,0,0.1,0.01,150,20.25\n");
+              "half,bias_sign,mode,counts,loop_closed,valid,detuning_lambda,detuning_sq_lambda2,piezo_v,temperature_c,"
+              "span\n"
+              "0,-1,1,-150,1,0,0.1,0.01,150,20.25,1\n");
 }
 
 TEST(RawWriter, refuses_what_no_reader_accepts) {
@@ -299,6 +313,17 @@ TEST(RawWriter, refuses_what_no_reader_accepts) {
                     "line break");
 }
 
+TEST(RawWriter, refuses_detunings_that_no_reader_accepts) {
+    const TemporaryFolder folder;
+    for (const std::string name : {"raw.csv", "raw.h5"}) {
+        RawWriter writer{folder.file(name), {}, false};
+        EXPECT_EQ(message_of<FormatError>([&] { writer.write({.detuning_sq_lambda2 = -1.0}); }),
+                  "half 0 cannot be logged: detuning_sq_lambda2 = -1 is out of range; allowed is 0..900 wavelengths^2");
+        expect_contains(message_of<FormatError>([&] { writer.write({.detuning_lambda = 1e3}); }), "-30..30");
+        writer.write({.detuning_lambda = 0.2});
+    }
+}
+
 TEST(RawWriter, has_room_for_the_longest_row) {
     const TemporaryFolder folder;
     RawWriter writer{folder.file("raw.csv"), {}, false};
@@ -306,17 +331,18 @@ TEST(RawWriter, has_room_for_the_longest_row) {
     const HalfRecord row{.half = std::numeric_limits<std::int64_t>::min(),
                          .counts = std::numeric_limits<std::int64_t>::min(),
                          .detuning_lambda = longest,
-                         .detuning_sq_lambda2 = longest,
+                         .detuning_sq_lambda2 = -longest,
                          .piezo_v = longest,
                          .temperature_c = longest,
                          .bias_sign = -1,
-                         .mode = -1};
+                         .mode = -1,
+                         .span = std::numeric_limits<std::int32_t>::min()};
     writer.write(row);
     writer.close();
     const std::string text = content_of(folder.file("raw.csv"));
     EXPECT_EQ(text.substr(text.find('\n') + 1),
-              "-9223372036854775808,-1,-1,-9223372036854775808,1,1,-2.2250738585072014e-308,-2.2250738585072014e-308,"
-              "-2.2250738585072014e-308,-2.2250738585072014e-308\n");
+              "-9223372036854775808,-1,-1,-9223372036854775808,1,1,-2.2250738585072014e-308,2.2250738585072014e-308,"
+              "-2.2250738585072014e-308,-2.2250738585072014e-308,-2147483648\n");
 }
 
 TEST(RawReader, knows_how_much_of_the_file_it_has_read) {

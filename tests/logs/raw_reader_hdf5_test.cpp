@@ -142,6 +142,15 @@ TEST(RawReader, refuses_values_of_an_hdf5_log_that_no_gyro_can_have_recorded) {
         "row 3, column '/raw/light': 'inf' is not finite");
 }
 
+TEST(RawReader, refuses_detunings_of_an_hdf5_log_that_no_perimeter_can_have) {
+    expect_contains(complaint_of<double>("detuning_lambda", {0.1, -31.0, 0.0}),
+                    "row 2, column '/raw/detuning_lambda': '-31' is out of range; allowed is -30..30 wavelengths");
+    expect_contains(
+        complaint_of<double>("detuning_sq_lambda2", {0.01, 0.0, -0.01}),
+        "row 3, column '/raw/detuning_sq_lambda2': '-0.01' is out of range; allowed is 0..900 wavelengths^2");
+    expect_contains(complaint_of<double>("detuning_sq_lambda2", {5000.0, 0.0, 0.0}), "'5000' is out of range");
+}
+
 TEST(RawReader, hands_out_the_rows_of_an_hdf5_log_before_the_first_bad_one) {
     const TemporaryFolder folder;
     {

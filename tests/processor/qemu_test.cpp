@@ -1,10 +1,13 @@
 #include <zlg/processor/qemu.hpp>
 
+#include <atomic>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include <unistd.h>
 
@@ -51,6 +54,30 @@ int children() {
     int n = 0;
     std::ifstream list{"/proc/self/task/" + std::to_string(gettid()) + "/children"};
     for (int pid = 0; list >> pid;) ++n;
+    return n;
+}
+
+pid_t child() {
+    std::ifstream list{"/proc/self/task/" + std::to_string(gettid()) + "/children"};
+    pid_t pid = 0;
+    list >> pid;
+    return pid;
+}
+
+// How often one of the threads in this folder of /proc is found at work, of 40 times within 200 ms.
+int times_at_work(const std::string& tasks) {
+    int n = 0;
+    for (int k = 0; k < 40; ++k) {
+        bool works = false;
+        for (const auto& task : fs::directory_iterator{tasks}) {
+            std::string line;
+            std::getline(std::ifstream{task.path() / "stat"}, line);
+            const std::size_t name_end = line.rfind(')');
+            works = works || (name_end != std::string::npos && line.substr(name_end + 2, 1) == "R");
+        }
+        n += works ? 1 : 0;
+        usleep(5000);
+    }
     return n;
 }
 
@@ -122,6 +149,37 @@ TEST(QemuProcessor, ends_with_its_object) {
         EXPECT_EQ(children(), 1);
     }
     EXPECT_EQ(children(), 0);
+}
+
+// Who looks for the other all the time takes the processor from it where others want it too.
+TEST(QemuProcessor, whoever_waits_sleeps) {
+    const auto image = built_image();
+    if (!image) GTEST_SKIP() << "no image or no emulator";
+    QemuProcessor processor{{.image = *image}};
+    (void)processor.state();
+    const pid_t emulator = child();
+    ASSERT_GT(emulator, 0);
+    usleep(50'000);
+    EXPECT_LE(times_at_work("/proc/" + std::to_string(emulator) + "/task"), 4);
+    // The emulator stands still, and this program waits for its answer.
+    ASSERT_EQ(kill(emulator, SIGSTOP), 0);
+    std::atomic<pid_t> asks{0};
+    std::thread host{[&] {
+        asks = gettid();
+        (void)processor.state();
+    }};
+    usleep(100'000);
+    int n = 0;
+    for (int k = 0; k < 40; ++k) {
+        std::string line;
+        std::getline(std::ifstream{"/proc/self/task/" + std::to_string(asks) + "/stat"}, line);
+        n += line.substr(line.rfind(')') + 2, 1) == "R" ? 1 : 0;
+        usleep(5000);
+    }
+    ASSERT_EQ(kill(emulator, SIGCONT), 0);
+    host.join();
+    // It looks up once a millisecond.
+    EXPECT_LE(n, 12);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 """Configurations as dataclasses, held against the program's table of keys."""
 
+import copy
 import dataclasses
 import importlib.machinery
 import importlib.util
+import pickle
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from conftest import ROOT
 
 import zlg
 from zlg import _zlg
-from zlg.config import Config, Motion, Run
+from zlg.config import Config, Gyro, Motion, Run
 
 
 def test_the_dataclasses_are_those_of_the_table_of_keys():
@@ -99,6 +101,22 @@ def test_only_the_end_of_a_change_is_checked():
     assert config.motion.frequency_hz == [3.0, 4.0]
     with pytest.raises(zlg.ConfigError, match="motion"):
         Config().with_("motion.frequency_hz=[3]", motion=sines)
+
+
+def test_an_attribute_that_is_set_is_given_whatever_its_value():
+    config = Config()
+    assert config.settings() == [] and not config.says("gyro.tick_s")
+    config.gyro.tick_s = Config().gyro.tick_s
+    assert config.settings() == [("gyro.tick_s", "0.005")] and config.says("gyro.tick_s")
+    assert copy.deepcopy(config).settings() == pickle.loads(pickle.dumps(config)).settings() == config.settings()
+    assert config == Config()
+    assert Config(gyro=Gyro(scale_arcsec=3.263)).says("gyro.scale_arcsec")
+    assert Config().with_(gyro={"tick_s": 0.005}).settings() == config.settings()
+    assert Config().with_("run.seed=2", gyro={"tick_s": 0.005}).says("gyro.tick_s")
+    # Of a replaced section it shows no more which key was meant.
+    assert Config(gyro=dataclasses.replace(Config().gyro, tick_s=0.01)).settings() == [("gyro.tick_s", "0.01")]
+    with pytest.raises(TypeError, match="tick"):
+        Config().with_(gyro={"tick": 0.005})
 
 
 def test_a_key_that_stands_twice_is_refused():

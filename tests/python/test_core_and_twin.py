@@ -95,7 +95,7 @@ def test_a_log_says_with_what_it_was_recorded():
     assert len(core.compensate(raw)) == 6000
     with pytest.raises(zlg.ConfigError, match=r"gyro.scale_arcsec = 3.263: .* recorded with 1.5"):
         core.compensate(raw, zlg.Config())
-    raw.settings = [("scale_arcsec", "1.5")]
+    raw.settings = [("scale_arcsec", "1.5"), ("tick_s", "0.005")]
     with pytest.raises(zlg.ConfigError, match="recorded with 1.5"):
         core.compensate(raw, zlg.Config())
     raw.settings.append(("gyro.scale_arcsec", "1.6"))
@@ -104,6 +104,23 @@ def test_a_log_says_with_what_it_was_recorded():
     raw.settings = [("gyros.tick_s", "0.005")]
     with pytest.raises(zlg.ConfigError, match=r"did you mean \[gyro\]"):
         core.compensate(raw)
+
+
+def test_a_log_without_facts_is_refused():
+    raw = rig.simulate(SHORT.with_("gyro.scale_arcsec=1.5")).raw
+    whole = core.compensate(raw)
+    raw.settings = [pair for pair in raw.settings if pair[0] not in ("gyro.tick_s", "gyro.scale_arcsec")]
+    assert np.isnan(raw.tick_s)
+    with pytest.raises(zlg.ConfigError, match="gyro.tick_s and gyro.scale_arcsec, for which there is no default"):
+        core.compensate(raw)
+    with pytest.raises(zlg.ConfigError, match="the log does not say gyro.tick_s"):
+        core.compensate(raw, zlg.Config())
+    with pytest.raises(zlg.ConfigError, match="the log does not say gyro.tick_s, "):
+        core.compensate(raw, raw.config.with_(gyro={"scale_arcsec": 1.5}))
+    said = raw.config.with_("gyro.tick_s=0.005", "gyro.scale_arcsec=1.5")
+    assert np.array_equal(core.compensate(raw, said).dtheta_final_arcsec, whole.dtheta_final_arcsec)
+    raw.settings += [("tick_s", "0.005"), ("scale_arcsec", "1.5")]
+    assert np.array_equal(core.compensate(raw).dtheta_final_arcsec, whole.dtheta_final_arcsec)
 
 
 @pytest.mark.parametrize("timer_hz", [0.0, 0.5, np.nan, np.inf])
@@ -121,7 +138,7 @@ def test_detunings_are_presumed_to_be_read_with_the_slope_that_is_given():
     straight = {"discriminator_detuning_lambda": [0.1, 0.25], "discriminator_signal": [0.2, 0.5]}
     raw = rig.simulate(config).raw
     linear = core.compensate(raw, config)
-    raw.settings = []
+    raw.settings = [("tick_s", "0.005"), ("scale_arcsec", "3.263")]
     # The curve of the same slope is no correction: signal = 2 times detuning.
     curved = core.compensate(raw, config.with_(perimeter=straight))
     assert np.allclose(curved.dtheta_final_arcsec, linear.dtheta_final_arcsec, rtol=0, atol=1e-9)

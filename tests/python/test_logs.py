@@ -87,6 +87,17 @@ def test_text_columns(tmp_path):
     assert first[0] == 1.0 and np.isnan(first[1])
 
 
+def test_text_columns_have_names_and_decimal_commas(tmp_path):
+    (tmp_path / "lab.csv").write_text("time;gyro_z\n0,00;0,5\n0,01;-1,25\n")
+    assert np.array_equal(read_text_columns(tmp_path / "lab.csv", ["gyro_z"])[0], [0.5, -1.25])
+    (tmp_path / "one.csv").write_text("0,5\n0,75\n")
+    with pytest.raises(zlg.FormatError, match="can be read as"):
+        read_text_columns(tmp_path / "one.csv", [1])
+    assert np.array_equal(read_text_columns(tmp_path / "one.csv", [1], decimal="comma")[0], [0.5, 0.75])
+    with pytest.raises(ValueError, match="separator = dot"):
+        read_text_columns(tmp_path / "one.csv", [1], separator="dot")
+
+
 BAD_COLUMNS = {
     "a byte's overflow": ("mode", [1, 1, 257, 1, 1, 1], "mode: row 2 holds 257"),
     "no mode": ("mode", [1, 1, 0, 1, 1, 1], "mode: row 2 holds 0; allowed is 1 or -1"),
@@ -99,6 +110,8 @@ BAD_COLUMNS = {
     "neither closed nor open": ("loop_closed", [1, 1, 1, 2, 1, 1], "loop_closed: row 3 holds 2"),
     "neither valid nor not": ("valid", [1, 1, 1, 1, 1, 0.5], "valid: row 5 holds 0.5"),
     "half a timer tick": ("edge_offset_ticks", [0, 0.5, 0, 0, 0, 0], "edge_offset_ticks: row 1 holds 0.5"),
+    "a span over a half that was not missed": ("span", [1, 1, 2, 1, 1, 1], "span: row 2 holds 2; allowed is 1"),
+    "no half": ("span", [1, 0, 1, 1, 1, 1], "span: row 1 holds 0"),
 }
 
 
@@ -112,6 +125,18 @@ def test_rows_that_no_reader_would_accept_are_refused(name, tmp_path):
     for call in (zlg.compensate, lambda raw: write_raw(tmp_path / "raw.csv", raw)):
         with pytest.raises(ValueError, match=reason):
             call(log)
+
+
+def test_counts_over_missed_halves_are_the_angle(tmp_path):
+    log = three_ticks()
+    log.counts = np.array([COUNTS[0], COUNTS[1], 0, 0, COUNTS[2:5].sum(), COUNTS[5]])
+    log.valid = np.array([True, True, False, False, True, True])
+    log.span = np.array([1, 1, 1, 1, 3, 1])
+    angles = zlg.compensate(log)
+    assert np.isclose(angles.dtheta_final_arcsec.sum(), 3.263 * COUNTS.sum(), rtol=0, atol=1e-9)
+    for suffix in ("csv", "h5"):
+        write_raw(tmp_path / f"raw.{suffix}", log)
+        assert np.array_equal(read_raw(tmp_path / f"raw.{suffix}").span, log.span)
 
 
 def test_whole_numbers_of_any_type_are_taken():

@@ -35,6 +35,62 @@ def test_the_same_bits_as_the_program(tmp_path):
     assert np.array_equal(zlg.simulate(SHORT).raw.counts, raw.counts)
 
 
+LASER = ("gyro.fidelity=laser", "laser.perimeter_m=0.12")
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.skipif(not PROGRAM.exists(), reason="the program was not built")
+@pytest.mark.parametrize(
+    "settings",
+    [
+        (),
+        LASER,
+        (*LASER, "perimeter.loop=digital", "perimeter.relock_halves=4", "laser.quadrature=x4"),
+        (*LASER, "gyro.bias_hz=79766.7", "motion.kind=rest"),
+        (*LASER, "gyro.bias_chi=3.6"),
+        (*LASER, "switching.interval_s=optimal", "drift.magnetic_arcsec_s=3"),
+        ("switching.interval_s=optimal", "compensation.relock=detuning", "compensation.bridge=constant"),
+        ("compensation.magnetic=estimate", "drift.magnetic_arcsec_s=14", "motion.kind=rest"),
+    ],
+)
+def test_the_same_numbers_as_the_program_whatever_is_configured(settings, tmp_path):
+    settings = ("run.duration_s=40", "switching.interval_s=8", *settings)
+    sets = [word for setting in settings for word in ("--set", setting)]
+    command = [PROGRAM, "run", *sets, "--json", "--out", tmp_path / "run"]
+    told = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    result = zlg.run(zlg.Config.of(*settings))
+    members = {
+        "drift_arcsec_s": "drift_arcsec_s",
+        "angle_error_arcsec": "angle_error_arcsec",
+        "switch_error_mean_arcsec": "switch_mean_arcsec",
+        "switch_error_rms_arcsec": "switch_rms_arcsec",
+        "switch_error_max_arcsec": "switch_max_arcsec",
+    }
+    for theirs, ours in zip(told["variants"], result.variants):
+        assert theirs["name"] == ours.name
+        assert {key: theirs[key] for key in members} == {key: getattr(ours, name) for key, name in members.items()}
+    assert told["switches"] == len(result.switches.tick) and told["switches"] > 0
+    assert told["switches_failed"] == result.switches_failed
+    assert told["warnings"] == result.warnings
+    assert told["relock_false_drift_deg_h"] == list(result.relock_false_drift_deg_h)
+
+
+def test_a_contradiction_of_the_laser_is_a_warning():
+    config = zlg.Config.of("run.duration_s=10", "switching.interval_s=4", *LASER, "gyro.bias_chi=3.6")
+    with pytest.warns(UserWarning, match=r"gyro.bias_chi = 3.6 is presumed, \[laser\] makes 6.37"):
+        assert any("6.37" in line for line in zlg.run(config).warnings)
+    with pytest.warns(UserWarning, match="6.37"):
+        zlg.simulate(zlg.Config.of("run.duration_s=10", *LASER).with_(gyro={"bias_chi": 3.6}))
+
+
+def test_a_run_in_which_no_switch_succeeds_says_so():
+    # Half a wavelength takes twice what is presumed.
+    config = zlg.Config.of("run.duration_s=20", "switching.interval_s=5", "perimeter.miss_lambda=0", "piezo.half_wave_error=-0.5")
+    result = zlg.run(config)
+    assert result.none_succeeded and result.switches_failed > 0
+    assert not zlg.run(SHORT).none_succeeded
+
+
 def test_what_comes_back_fits_together():
     result = zlg.run(SHORT, page=True)
     configured = result["configured"]

@@ -105,4 +105,33 @@ TEST(LaserLoop, the_digital_loop_sees_the_light_of_the_laser_too) {
     }
 }
 
+// Rings and gains of which some are dark one way at the default miss of 0.22: such a switch fails, and the next holds.
+TEST(LaserLoop, no_laser_is_lost_for_good_by_the_miss) {
+    struct Draw {
+        double perimeter_m;
+        double gain_loss_ratio;
+        config::Loop loop;
+    };
+    const std::array draws{Draw{0.12, 1.2, config::Loop::digital},     Draw{0.085, 1.185, config::Loop::digital},
+                           Draw{0.124, 1.108, config::Loop::analog},   Draw{0.16, 1.06, config::Loop::digital},
+                           Draw{0.1, 1.28, config::Loop::exponential}, Draw{0.24, 1.16, config::Loop::analog}};
+    for (const Draw& draw : draws) {
+        config::Config c = laser_gyro();
+        c.laser.perimeter_m = draw.perimeter_m;
+        c.laser.gain_loss_ratio = draw.gain_loss_ratio;
+        c.perimeter.loop = draw.loop;
+        c.switching.interval_s = 2.0;
+        c.gyro.scale_arcsec *= 0.16 / draw.perimeter_m;
+        c = rig::calibrated_by_laser(c);
+        ASSERT_EQ(c.perimeter.miss_lambda, 0.22);
+        rig::ClosedLoop loop{c, rig::motion(c)};
+        int n_switched = 0;
+        for (int h = 0; h < 20 * 400; ++h) {
+            const rig::LoopHalf half = loop.advance();
+            n_switched += half.control.has_event && half.control.event.outcome == core::SwitchOutcome::switched;
+        }
+        EXPECT_GE(n_switched, 4) << draw.perimeter_m << " m, " << draw.gain_loss_ratio;
+    }
+}
+
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <vector>
+
+#include <fmt/format.h>
+#include <zlg/config/schema.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/logs/wire_rows.hpp>
 #include <zlg/rig/wire_stream.hpp>
@@ -101,6 +104,16 @@ TEST(WireStream, HealthAndModeAreThoseOfTheTick) {
     EXPECT_GE(n_switching, 46);
     EXPECT_LE(n_switching, 200);
     EXPECT_NEAR(n_minus, 2000, 20);
+}
+
+// The line refuses what no configuration allows, and nothing else.
+TEST(WireStream, ATickMayHaveOnTheLineTheLengthsOfTheConfiguration) {
+    config::Config c;
+    const auto set = [&c](double tick_s) { config::apply_pair(c, "gyro.tick_s", fmt::format("{}", tick_s), "test"); };
+    EXPECT_NO_THROW(set(wire::min_tick_s));
+    EXPECT_NO_THROW(set(wire::max_tick_s));
+    EXPECT_THROW(set(0.999 * wire::min_tick_s), config::ConfigError);
+    EXPECT_THROW(set(1.001 * wire::max_tick_s), config::ConfigError);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/study/design_study.hpp>
 
@@ -33,8 +34,10 @@ TEST(DesignGyro, finds_the_intervals_of_the_papers_gyro) {
     EXPECT_NEAR(line(r, 3600, IntervalMethod::corrected).optimum.drift_arcsec_s, 0.152, 5e-4);
     EXPECT_NEAR(line(r, 36000, IntervalMethod::as_printed).optimum.interval_s, 294.8, 0.05);
     EXPECT_NEAR(line(r, 36000, IntervalMethod::closed_form).optimum.interval_s, std::sqrt(10.0 * 36000 / 0.7), 0.05);
-    EXPECT_NEAR(line(r, 3600, IntervalMethod::random_sign).optimum.interval_s, std::cbrt(100.0 * 3600 / (2 * 0.49)),
-                0.05);
+    // The worst end has the mean of the drifts at the start and at the end, 0.7 + 0.7 (1 - e^-1.2) arcsec/s.
+    const double om_arcsec_s = 0.7 + 0.35 * (1.0 - std::exp(-1.2));
+    EXPECT_NEAR(line(r, 3600, IntervalMethod::random_sign).optimum.interval_s,
+                std::cbrt(100.0 * 3600 / (2 * om_arcsec_s * om_arcsec_s)), 0.1);
 }
 
 TEST(DesignGyro, gives_the_substitution_errors_of_the_configured_oscillation) {
@@ -76,6 +79,7 @@ TEST(DesignGyro, lays_the_gap_at_every_place_of_a_recorded_motion) {
     c.gyro.tick_s = 0.01;
     c.motion.kind = config::MotionKind::file;
     c.motion.path = path;
+    c.motion.column = "1";  // it rises as times do
     const auto r = study::design_gyro(c);
     EXPECT_NEAR(line(r, 2, 3).worst_arcsec, 0.0, 1e-6);
     // A constant through 2 + 2 points misses the curvature 1: -n (n + 2)(n + 4)/12 in the sum.
@@ -134,21 +138,36 @@ TEST(DesignGyro, judges_the_perimeter_loop) {
     EXPECT_GT(r.loop.relock_s, r.loop.relock_linear_s) << "the limiter slows it down";
 }
 
-TEST(OptimalInterval, is_the_minimum_of_the_corrected_budget) {
-    EXPECT_NEAR(study::optimal_interval_s({}, 3600.0), 195.2, 0.05);
-}
-
 TEST(OptimalInterval, takes_the_place_of_the_word_for_the_length_of_the_run) {
     config::Config c;
     c.switching.interval_optimal = true;
     c.run.duration_s = 600.0;
-    const config::Config resolved = study::with_interval(c);
+    const config::Config resolved = study::with_interval(c, 2.0);
     EXPECT_FALSE(resolved.switching.interval_optimal);
-    EXPECT_NEAR(resolved.switching.interval_s, 88.7, 0.05);
+    const double end_arcsec_s = 0.7 + 0.7 * (1.0 - std::exp(-0.2));
+    // Of S = Om(0) L/2 and a third of the square of K = Om(t) L/2, to first order.
+    EXPECT_NEAR(resolved.switching.interval_s,
+                std::cbrt(4.0 * 600.0 / (2.0 * (0.7 * 0.7 + end_arcsec_s * end_arcsec_s / 3.0) / 4.0)), 0.05);
     c.switching.first_segment = config::FirstSegment::half;
-    // Without warm-up longer by sqrt 2; with it by sqrt((Om(t) + Om(0))/Om(t)), Om(600 s) = 0.827 arcsec/s.
-    EXPECT_NEAR(study::with_interval(c).switching.interval_s, 88.7 * std::sqrt((0.827 + 0.7) / 0.827), 1.5);
-    EXPECT_EQ(study::with_interval({}).switching.interval_s, 90.0);
+    EXPECT_NEAR(study::with_interval(c, 2.0).switching.interval_s,
+                std::cbrt(4.0 * 600.0 / (end_arcsec_s * end_arcsec_s / 6.0)), 0.1);
+    EXPECT_EQ(study::with_interval({}, 2.0).switching.interval_s, 90.0);
+}
+
+TEST(DesignGyro, takes_what_a_switch_leaves_from_a_trial_unless_it_is_given) {
+    config::Config c;
+    c.motion.kind = config::MotionKind::rest;
+    const auto tried = study::design_gyro(c);
+    EXPECT_FALSE(tried.switch_error_is_given);
+    EXPECT_LT(tried.switch_error_arcsec, 3.0);
+    EXPECT_LT(tried.runs.back().best.interval_s,
+              0.5 * line(tried, 36000, IntervalMethod::corrected).optimum.interval_s);
+    config::apply_set(c, "design.switch_error_arcsec=10");
+    const auto given = study::design_gyro(c);
+    EXPECT_TRUE(given.switch_error_is_given);
+    EXPECT_EQ(given.switch_error_arcsec, 10.0);
+    EXPECT_NEAR(given.runs.back().best.interval_s / tried.runs.back().best.interval_s,
+                std::pow(10.0 / tried.switch_error_arcsec, 2.0 / 3.0), 0.05 * std::pow(10.0, 2.0 / 3.0));
 }
 
 TEST(DesignGyro, refuses_a_gyro_whose_switches_cost_nothing) {

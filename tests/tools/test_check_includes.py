@@ -5,50 +5,60 @@ import unittest
 from trees import TreeTest
 
 GOOD = {
-    "core/include/zlg/core/angle.hpp": "#include <array>\n#include <zlg/core/units.hpp>\n",
-    "core/src/angle.cpp": '#include <zlg/core/angle.hpp>\n#include "remainder.hpp"\n',
-    "core/src/remainder.hpp": "#pragma once\n",
-    "twin/src/twin.cpp": "#include <zlg/core/records.hpp>\n#include <cmath>\n#include <boost/random.hpp>\n",
-    "logs/src/raw_log.cpp": "#include <zlg/core/units.hpp>\n#include <fmt/format.h>\n",
-    "config/src/schema.cpp": "#include <zlg/core/methods.hpp>\n",
-    "rig/src/rig.cpp": "#include <zlg/twin/twin.hpp>\n#include <zlg/logs/raw_log.hpp>\n#include <zlg/config/config.hpp>\n",
-    "report/src/page.cpp": "#include <zlg/report/page.hpp>\n",
-    "study/src/run.cpp": "#include <zlg/rig/rig.hpp>\n#include <zlg/core/angle.hpp>\n",
+    "src/core/include/zlg/core/compensation/angle.hpp": "#include <array>\n#include <zlg/core/units.hpp>\n",
+    "src/core/angle.cpp": '#include <zlg/core/compensation/angle.hpp>\n#include "remainder.hpp"\n',
+    "src/core/remainder.hpp": "#pragma once\n",
+    "src/core/common/pair.hpp": "#pragma once\n",
+    "src/core/include/zlg/core/gyro_compensation.hpp": "#include <zlg/core/compensation/gap_bridge.hpp>\n",
+    "src/core/control/mode_switch.cpp": '#include <zlg/core/records.hpp>\n#include "common/pair.hpp"\n',
+    "src/twin/twin.cpp": "#include <zlg/core/records.hpp>\n#include <cmath>\n#include <boost/random.hpp>\n",
+    "src/logs/raw_log.cpp": "#include <zlg/core/units.hpp>\n#include <fmt/format.h>\n",
+    "src/config/schema.cpp": "#include <zlg/core/methods.hpp>\n",
+    "src/rig/rig.cpp": "#include <zlg/twin/twin.hpp>\n#include <zlg/logs/raw_log.hpp>\n#include <zlg/config/config.hpp>\n",
+    "src/report/page.cpp": "#include <zlg/report/page.hpp>\n",
+    "src/study/run.cpp": "#include <zlg/rig/rig.hpp>\n#include <zlg/core/compensation/angle.hpp>\n",
     "cli/main.cpp": "#include <iostream>\n#include <zlg/report/page.hpp>\n#include <zlg/study/run.hpp>\n",
-    "firmware/main.cpp": "#include <zlg/core/angle.hpp>\n",
-    "tests/twin/twin_test.cpp": '#include <zlg/core/angle.hpp>\n#include <zlg/rig/rig.hpp>\n#include "../x.hpp"\n',
+    "firmware/main.cpp": "#include <zlg/core/compensation/angle.hpp>\n",
+    "tests/twin/twin_test.cpp": '#include <zlg/core/compensation/angle.hpp>\n#include <zlg/rig/rig.hpp>\n#include "../x.hpp"\n',
     "build/release/generated.cpp": "#include <zlg/cli/verbs.hpp>\n",
 }
 
 # What is written into which file of the good tree, and what the check must say of it.
 BROKEN = {
-    "core sees nobody": ("core/src/angle.cpp", "#include <zlg/logs/raw_log.hpp>", "core may not include logs"),
-    "core without exceptions": ("core/src/angle.cpp", "#include <stdexcept>", "core may not include <stdexcept>"),
-    "core without libm": ("core/src/angle.cpp", "#include <cmath>", "core may not include <cmath>"),
-    "core without libraries": ("core/src/angle.cpp", "#include <fmt/format.h>", "core may not include <fmt/format.h>"),
-    "twin sees records only": ("twin/src/twin.cpp", "#include <zlg/core/angle.hpp>", "twin sees of core only"),
-    "twin sees no controller": ("twin/src/twin.cpp", "#include <zlg/rig/rig.hpp>", "twin may not include rig"),
-    "logs see records only": ("logs/src/raw_log.cpp", "#include <zlg/core/methods.hpp>", "logs sees of core only"),
-    "config sees core only": ("config/src/schema.cpp", "#include <zlg/twin/twin.hpp>", "config may not include twin"),
-    "rig below study": ("rig/src/rig.cpp", "#include <zlg/study/run.hpp>", "rig may not include study"),
-    "report sees tables only": ("report/src/page.cpp", "#include <zlg/core/records.hpp>", "report may not include core"),
-    "rig without report": ("rig/src/rig.cpp", "#include <zlg/report/page.hpp>", "rig may not include report"),
-    "study below cli": ("study/src/run.cpp", "#include <zlg/cli/verbs.hpp>", "study may not include cli"),
+    "core sees nobody": ("src/core/angle.cpp", "#include <zlg/logs/raw_log.hpp>", "core may not include logs"),
+    "core without exceptions": ("src/core/angle.cpp", "#include <stdexcept>", "core may not include <stdexcept>"),
+    "core without libm": ("src/core/angle.cpp", "#include <cmath>", "core may not include <cmath>"),
+    "core without libraries": ("src/core/angle.cpp", "#include <fmt/format.h>", "core may not include <fmt/format.h>"),
+    "twin sees records only": ("src/twin/twin.cpp", "#include <zlg/core/compensation/angle.hpp>", "twin sees of core only"),
+    "twin sees no controller": ("src/twin/twin.cpp", "#include <zlg/rig/rig.hpp>", "twin may not include rig"),
+    "logs see records only": ("src/logs/raw_log.cpp", "#include <zlg/core/methods.hpp>", "logs sees of core only"),
+    "config sees core only": ("src/config/schema.cpp", "#include <zlg/twin/twin.hpp>", "config may not include twin"),
+    "rig below study": ("src/rig/rig.cpp", "#include <zlg/study/run.hpp>", "rig may not include study"),
+    "report sees tables only": ("src/report/page.cpp", "#include <zlg/core/records.hpp>", "report may not include core"),
+    "rig without report": ("src/rig/rig.cpp", "#include <zlg/report/page.hpp>", "rig may not include report"),
+    "study below cli": ("src/study/run.cpp", "#include <zlg/cli/verbs.hpp>", "study may not include cli"),
     "firmware sees core only": ("firmware/main.cpp", "#include <zlg/twin/twin.hpp>", "firmware may not include twin"),
     "lab beside cli": ("lab/server.cpp", "#include <zlg/cli/verbs.hpp>", "lab may not include cli"),
     "no unknown folder": ("cli/main.cpp", "#include <zlg/utils/x.hpp>", "there is no folder utils"),
     "no source without rules": ("utils/x.cpp", "#include <array>", "without a line in the table"),
-    "no clock below the border": ("rig/src/rig.cpp", "#include <chrono>", "reads a clock"),
-    "no printing below the border": ("study/src/run.cpp", "#include <iostream>", "prints"),
-    "no arguments below the border": ("config/src/schema.cpp", "#include <CLI/CLI.hpp>", "parses arguments"),
-    "no path upwards": ("cli/main.cpp", '#include "../core/src/remainder.hpp"', "no path may lead up"),
+    "no clock below the border": ("src/rig/rig.cpp", "#include <chrono>", "reads a clock"),
+    "no printing below the border": ("src/study/run.cpp", "#include <iostream>", "prints"),
+    "no arguments below the border": ("src/config/schema.cpp", "#include <CLI/CLI.hpp>", "parses arguments"),
+    "no path upwards": ("cli/main.cpp", '#include "../src/core/remainder.hpp"', "no path may lead up"),
     "no path upwards in brackets": ("cli/main.cpp", "#include <zlg/core/../x.hpp>", "no path may lead up"),
-    "private headers stay": ("rig/src/rig.cpp", '#include "remainder.hpp"', "beside the file that includes them"),
+    "private headers stay": ("src/rig/rig.cpp", '#include "remainder.hpp"', "beside the file that includes them"),
     "public in brackets": ("cli/main.cpp", '#include "zlg/rig/rig.hpp"', "with angle brackets"),
     "public without private": (
-        "core/include/zlg/core/angle.hpp", '#include "remainder.hpp"', "public header includes"),
-    "spaces do not hide": ("core/src/angle.cpp", "  #  include   <vector>", "core may not include <vector>"),
-    "macros do not hide": ("core/src/angle.cpp", "#include HEADER", "the name must stand in the line"),
+        "src/core/include/zlg/core/compensation/angle.hpp", '#include "remainder.hpp"', "public header includes"),
+    "spaces do not hide": ("src/core/angle.cpp", "  #  include   <vector>", "core may not include <vector>"),
+    "control knows no compensation": (
+        "src/core/control/mode_switch.cpp", "#include <zlg/core/compensation/gap_bridge.hpp>", "may not include compensation"),
+    "nor its private headers": (
+        "src/core/control/mode_switch.cpp", '#include "compensation/gap_points.hpp"', "may not include compensation"),
+    "nor its door": ("src/core/control/mode_switch.cpp", "#include <zlg/core/gyro_compensation.hpp>", "may not include compensation"),
+    "compensation knows no control": (
+        "src/core/include/zlg/core/gyro_compensation.hpp", "#include <zlg/core/control/half_wave.hpp>", "may not include control"),
+    "macros do not hide": ("src/core/angle.cpp", "#include HEADER", "the name must stand in the line"),
 }
 
 
@@ -75,7 +85,7 @@ class CheckIncludes(TreeTest):
                     (self.root / path).unlink()
 
     def test_an_include_in_a_comment_is_none(self):
-        self.write("core/src/angle.cpp", "// #include <vector>\n")
+        self.write("src/core/angle.cpp", "// #include <vector>\n")
         self.assert_good(self.run_check("check_includes"))
 
     def test_a_tree_without_sources_is_refused(self):

@@ -52,6 +52,11 @@ class Operators(unittest.TestCase):
         self.assert_changes("if (a) return b;", "the return is left out")
         self.assert_changes("for (;;) break;", "the statement is left out")
 
+    def test_what_empty_braces_make_is_not_returned_twice(self):
+        for value in ("{}", "false", "0", "0.0", "SwitchFault::none"):
+            with self.subTest(value):
+                self.assertNotIn("return ... -> return {}", [change for _, change in changes(in_function(f"return {value};"))])
+
     def test_declarations_stay(self):
         for statement in ("const int c = a;", "std::array<double, 4> x{};", "Row& row = rows[a];", "zlg::Sum sum;", "auto c = a;"):
             with self.subTest(statement):
@@ -98,12 +103,12 @@ int larger(int a, int b) noexcept {
 }
 """
 TEST = """#include <gtest/gtest.h>
-#include "relock.hpp"
+#include "compensation/relock/relock.hpp"
 TEST(Larger, IsTheFirstWhereItIsLarger) { EXPECT_EQ(larger(2, 1), 2); }
 """
 SECOND_TEST = "TEST(Larger, IsTheSecondWhereThatIsLarger) { EXPECT_EQ(larger(1, 2), 2); }\n"
 EQUIVALENT = """[[equivalent]]
-file = "core/src/relock_drift.cpp"
+file = "src/core/compensation/relock/relock_drift.cpp"
 function = "larger"
 line = "return a > b ? a : b;"
 change = "`>` -> `>=`"
@@ -117,9 +122,9 @@ class Mutate(TreeTest):
         (self.root / "tools").mkdir()
         for name in ("mutate", "mutation_operators.py"):
             shutil.copy(TOOLS / name, self.root / "tools" / name)
-        (self.root / "core" / "include").mkdir(parents=True)
-        self.write("core/src/relock.hpp", "int larger(int a, int b) noexcept;\n")
-        self.write("core/src/relock_drift.cpp", SOURCE)
+        (self.root / "src" / "core" / "include").mkdir(parents=True)
+        self.write("src/core/compensation/relock/relock.hpp", "int larger(int a, int b) noexcept;\n")
+        self.write("src/core/compensation/relock/relock_drift.cpp", SOURCE)
         self.write("tests/core/relock_drift_test.cpp", TEST + SECOND_TEST)
 
     def mutate(self, *arguments):
@@ -128,7 +133,7 @@ class Mutate(TreeTest):
 
     def test_a_mutant_that_no_test_notices_is_named_unless_it_is_proved_equivalent(self):
         answer = self.mutate("relock_drift")
-        self.assert_refused(answer, "survived: core/src/relock_drift.cpp:3: `>` -> `>=`   in larger")
+        self.assert_refused(answer, "survived: src/core/compensation/relock/relock_drift.cpp:3: `>` -> `>=`   in larger")
         self.assertEqual(answer.stdout.count("survived: "), 1, answer.stdout)
         self.write("tests/mutants/equivalent.toml", EQUIVALENT)
         self.assert_good(self.mutate("relock_drift"))

@@ -30,7 +30,7 @@ class Pages(unittest.TestCase):
         rows = [line for line in text.splitlines() if line.startswith("| ")][1:]
         self.assertGreater(len(rows), 10)
         for row in rows:
-            self.assertRegex(row, r"\| `[\w.]+` \|$")
+            self.assertRegex(row, r"\| `[\w./]+`(, `[\w./]+`)* \|$")
 
 
 class Fuzz(unittest.TestCase):

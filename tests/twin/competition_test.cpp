@@ -1,4 +1,4 @@
-#include <competition.hpp>
+#include <laser/competition.hpp>
 
 #include <algorithm>
 #include <bit>

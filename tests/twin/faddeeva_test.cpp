@@ -1,4 +1,4 @@
-#include <faddeeva.hpp>
+#include <laser/faddeeva.hpp>
 
 #include <cmath>
 #include <complex>

@@ -1,6 +1,6 @@
 // Steps of the beats against a general integrator that reads the four-wave equations at every moment.
 
-#include "laser_beats.hpp"
+#include "laser/laser_beats.hpp"
 
 #include <array>
 #include <cmath>

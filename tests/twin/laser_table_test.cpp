@@ -10,7 +10,7 @@
 
 #include <zlg/twin/laser_zones.hpp>
 
-#include <laser_grid.hpp>
+#include <laser/laser_grid.hpp>
 
 namespace zlg::twin {
 namespace {

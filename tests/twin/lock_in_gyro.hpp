@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <zlg/core/edge_dither.hpp>
+#include <zlg/core/control/edge_dither.hpp>
 #include <zlg/twin/beat_phase.hpp>
 #include <zlg/twin/slip_phase.hpp>
 

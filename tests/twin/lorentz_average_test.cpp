@@ -1,4 +1,4 @@
-#include <lorentz_average.hpp>
+#include <laser/lorentz_average.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -90,11 +90,23 @@ TEST(Status, WhatNoGyroSendsIsRefused) {
     s.phase = static_cast<core::SwitchPhase>(5);
     EXPECT_FALSE(carried(s).has_value());
     s = filled();
-    s.tick_s = 0.0;
-    EXPECT_FALSE(carried(s).has_value());
+    for (const double tick_s : {0.0, 9e-7, 11.0, 1e308, std::numeric_limits<double>::quiet_NaN()}) {
+        s.tick_s = tick_s;
+        EXPECT_FALSE(carried(s).has_value()) << tick_s;
+    }
     const auto body = body_of(filled());
     EXPECT_FALSE(status_in({.type = MessageType::reply, .body = body}).has_value());
     EXPECT_FALSE(status_in({.type = MessageType::status, .body = std::span{body}.first(95)}).has_value());
+}
+
+TEST(Status, BitsAndBytesThatMustBeZeroAre) {
+    for (const auto& [at, bits] : {std::pair{6u, 0xF8u}, {7u, 0xFFu}})
+        for (unsigned bit = 1; bit < 256; bit <<= 1) {
+            auto body = body_of(filled());
+            body[at] = static_cast<std::uint8_t>(body[at] ^ bit);
+            EXPECT_EQ(status_in({.type = MessageType::status, .body = body}).has_value(), (bits & bit) == 0)
+                << at << ' ' << bit;
+        }
 }
 
 TEST(Status, OfTheCoreIsWhatTheCoreKnows) {

@@ -17,7 +17,7 @@ Telemetry filled() {
     return {.tick = 0xFFFFFFF0,
             .has_tick = true,
             .has_settled = true,
-            .settled_age_ticks = 0x0124,
+            .settled_age_ticks = 0x24,
             .mode = -1,
             .flags = 0x1234,
             .dtheta_arcsec = -12.625,
@@ -76,7 +76,7 @@ TEST(Telemetry, HasTheLayoutOfTheDescription) {
     };
     const auto real = [&number](std::size_t at) { return std::bit_cast<double>(number(at, 8)); };
     EXPECT_EQ(number(0, 4), 0xFFFFFFF0u);
-    EXPECT_EQ(number(4, 2), 0x0124u);
+    EXPECT_EQ(number(4, 2), 0x24u);
     EXPECT_EQ(body[6], 0x07);
     EXPECT_EQ(body[7], 0x00);
     EXPECT_EQ(number(8, 8), 0xFEDCBA9876543210u);
@@ -118,6 +118,23 @@ TEST(Telemetry, WhatNoGyroSendsIsRefused) {
     EXPECT_TRUE(refused([](Telemetry& t) { t.settled_flags = 0x20000; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = 0.0; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = inf; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = nan; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = 9e-7; }));
+    EXPECT_FALSE(refused([](Telemetry& t) { t.tick_s = 1e-6; }));
+    EXPECT_FALSE(refused([](Telemetry& t) { t.tick_s = 10.0; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = 11.0; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.settled_sigma_arcsec = 1e300; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.settled_age_ticks = 65; }));
+}
+
+TEST(Telemetry, BitsAndBytesThatMustBeZeroAre) {
+    for (const auto& [at, bits] : {std::pair{6u, 0xF8u}, {7u, 0xFFu}, {34u, 0xFFu}, {35u, 0xFFu}})
+        for (unsigned bit = 1; bit < 256; bit <<= 1) {
+            std::vector<std::uint8_t> body = body_of(filled());
+            body[at] = static_cast<std::uint8_t>(body[at] ^ bit);
+            EXPECT_EQ(telemetry_in({.type = MessageType::telemetry, .body = body}).has_value(), (bits & bit) == 0)
+                << at << ' ' << bit;
+        }
 }
 
 TEST(Telemetry, AnotherTypeOrLengthIsRefused) {

@@ -8,6 +8,9 @@ namespace zlg::firmware::mps2 {
 
 void start_uart() noexcept;
 
+// Wakes the host, in lock step.
+void ring_bell() noexcept;
+
 // A line for the bench. It waits until the characters are out, but not for ever.
 void tell_bench(std::string_view line) noexcept;
 

@@ -4,6 +4,7 @@
 #include <zlg/firmware/half_period.hpp>
 #include <zlg/firmware/port.hpp>
 
+#include "board.hpp"
 #include "registers.hpp"
 
 namespace zlg::firmware::mps2 {
@@ -12,8 +13,15 @@ namespace {
 // Memory of the machine that a gyro's board has not: it serves nothing but this exchange.
 Exchange& exchange() noexcept { return *reinterpret_cast<Exchange*>(0x60000000); }
 
+// Longer than the host needs for a half-period of the averaged twin: some ten microseconds.
+constexpr int n_looks = 2'000;
+
 bool is(const Exchange& x, Readiness readiness) noexcept {
     return x.readiness.load(std::memory_order_relaxed) == static_cast<std::uint32_t>(readiness);
+}
+
+[[nodiscard]] bool is_asked(const Exchange& x) noexcept {
+    return x.asked.load(std::memory_order_acquire) != x.answered.load(std::memory_order_relaxed);
 }
 
 void start_by(Exchange& x) noexcept {
@@ -65,12 +73,28 @@ void present_to_host() noexcept {
     x.readiness.store(static_cast<std::uint32_t>(readiness), std::memory_order_release);
 }
 
+void wait_for_host() noexcept {
+    Exchange& x = exchange();
+    // What waits for room on the line has no interrupt to wake it.
+    if (x.has_bell == 0 || host_listens()) return;
+    for (int k = 0; k < n_looks; ++k)
+        if (is_asked(x)) return;
+    // With interrupts held back none comes between the last look and the sleep; one that waits ends it.
+    asm volatile("cpsid i" ::: "memory");
+    x.processor_sleeps.store(1);
+    if (!is_asked(x)) asm volatile("wfi" ::: "memory");
+    x.processor_sleeps.store(0);
+    asm volatile("cpsie i" ::: "memory");
+}
+
 void answer_host() noexcept {
     Exchange& x = exchange();
+    // Read once: a request that comes between two looks would be answered under the number of the one before, and then again.
     const std::uint32_t asked = x.asked.load(std::memory_order_acquire);
     if (asked == x.answered.load(std::memory_order_relaxed) || !is(x, Readiness::ready)) return;
     answer(x);
-    x.answered.store(asked, std::memory_order_release);
+    x.answered.store(asked);
+    if (x.host_sleeps.load() != 0) ring_bell();
 }
 
 }  // namespace zlg::firmware::mps2

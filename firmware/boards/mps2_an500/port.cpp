@@ -61,7 +61,10 @@ Quiet::Quiet() noexcept : before_{} { asm volatile("mrs %0, primask\n cpsid i" :
 Quiet::~Quiet() { asm volatile("msr primask, %0" ::"r"(before_) : "memory"); }
 
 void idle() noexcept {
-    if (is_in_lock_step()) return answer_host();
+    if (is_in_lock_step()) {
+        wait_for_host();
+        return answer_host();
+    }
     asm volatile("wfi");
 }
 

@@ -41,6 +41,7 @@ struct Uart {
 };
 inline constexpr Uart uart0{0x40004000};  // telemetry and commands
 inline constexpr Uart uart1{0x40005000};  // the bench
+inline constexpr Uart uart2{0x40006000};  // the bell of the host in lock step
 
 // CMSDK watchdog: it counts down from `load`, interrupts at 0, and at the next 0 resets.
 struct Watchdog {
@@ -82,6 +83,7 @@ inline void trap_division_by_zero() noexcept { reg(0xe000ed14) = reg(0xe000ed14)
 // Numbers of the interrupts.
 inline constexpr std::uint32_t uart0_receive_irq = 0;
 inline constexpr std::uint32_t uart1_receive_irq = 2;
+inline constexpr std::uint32_t uart2_receive_irq = 4;
 inline constexpr std::uint32_t half_timer_irq = 8;
 
 // The interrupt controller of the processor.

@@ -65,9 +65,9 @@ using namespace zlg::firmware;
     &stack_top,
     {reset, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault, on_fault,
      on_fault, on_fault, on_fault, on_fault},
-    {on_uart0_receive, on_fault, on_uart1_receive, on_fault, on_fault, on_fault, on_fault, on_fault,
-     on_half_timer,    on_fault, on_fault,         on_fault, on_fault, on_fault, on_fault, on_fault,
-     on_fault,         on_fault, on_fault,         on_fault, on_fault, on_fault, on_fault, on_fault,
-     on_fault,         on_fault, on_fault,         on_fault, on_fault, on_fault, on_fault, on_fault}};
+    {on_uart0_receive, on_fault, on_uart1_receive, on_fault, on_uart2_receive, on_fault, on_fault, on_fault,
+     on_half_timer,    on_fault, on_fault,         on_fault, on_fault,         on_fault, on_fault, on_fault,
+     on_fault,         on_fault, on_fault,         on_fault, on_fault,         on_fault, on_fault, on_fault,
+     on_fault,         on_fault, on_fault,         on_fault, on_fault,         on_fault, on_fault, on_fault}};
 
 }  // namespace

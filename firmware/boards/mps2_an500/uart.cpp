@@ -49,6 +49,14 @@ void on_uart0_receive() noexcept {
 
 void on_uart1_receive() noexcept { uart1.clear() = Uart::receive_full; }
 
+// That it came is all.
+void on_uart2_receive() noexcept {
+    uart2.clear() = Uart::receive_full;
+    while ((uart2.state() & Uart::receive_full) != 0) {
+        [[maybe_unused]] const std::uint32_t byte = uart2.data();
+    }
+}
+
 namespace mps2 {
 
 void start_uart() noexcept {
@@ -58,7 +66,13 @@ void start_uart() noexcept {
     enable_irq(uart0_receive_irq);
     uart1.baud_divider() = 16;
     uart1.control() = Uart::send;
+    uart2.baud_divider() = 16;
+    uart2.control() = Uart::send | Uart::receive | Uart::receive_irq;
+    set_irq_priority(uart2_receive_irq, 0x80);
+    enable_irq(uart2_receive_irq);
 }
+
+void ring_bell() noexcept { uart2.data() = 1; }
 
 void tell_bench(std::string_view line) noexcept {
     for (const std::string_view part : {line, std::string_view{"\r\n"}})

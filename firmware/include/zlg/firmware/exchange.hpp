@@ -32,6 +32,7 @@ struct Exchange {
     // Written by the host before the processor starts.
     std::uint32_t magic = 0;     // the processor is to be driven in lock step
     std::uint32_t has_line = 0;  // 1: somebody listens on the serial line
+    std::uint32_t has_bell = 0;  // 1: a byte on the bell's line wakes whoever sleeps
     std::uint64_t host_layout = 0;
 
     // Written by the processor once.
@@ -43,6 +44,10 @@ struct Exchange {
     std::atomic<std::uint32_t> asked{};
     std::atomic<std::uint32_t> answered{};
     Request request = Request::none;
+
+    // 1 while that side may sleep: who has news for it rings the bell.
+    std::atomic<std::uint32_t> host_sleeps{};
+    std::atomic<std::uint32_t> processor_sleeps{};
 
     // Host to processor.
     Settings settings{};

@@ -59,7 +59,11 @@ public:
     [[nodiscard]] bool is_within_tick() const noexcept { return state_.compensation.has_first; }
 
     // The reading at the start was not known: the next half, the first one, is not counted.
-    void forget_counter() noexcept { state_.control.counter_stale = true; }
+    void forget_counter() noexcept {
+        core::GyroControlState& control = state_.control;
+        control.counter_stale = true;
+        control.reading_monitor.countable = control.reading_monitor.has_last = false;
+    }
 
     // While held nothing is switched by the schedule; forced it is once, held or not.
     void hold_switching(bool held) noexcept { state_.control.schedule.held = held; }

@@ -38,7 +38,7 @@ void for_each_number(const core::ActuatorFrame& frame, Visit&& visit) {
 template <class Visit>
 void for_each_number(const core::HalfRecord& record, Visit&& visit) {
     const auto& [half, counts, detuning, detuning_sq, piezo_v, temperature_c, bias_sign, mode, loop_closed, valid,
-                 offset] = record;
+                 offset, span] = record;
     visit("record.half", bits_of(half));
     visit("record.counts", bits_of(counts));
     visit("record.detuning_lambda", bits_of(detuning));
@@ -50,6 +50,7 @@ void for_each_number(const core::HalfRecord& record, Visit&& visit) {
     visit("record.loop_closed", bits_of(loop_closed));
     visit("record.valid", bits_of(valid));
     visit("record.edge_offset_ticks", bits_of(offset));
+    visit("record.span", bits_of(span));
 }
 
 template <class Visit>

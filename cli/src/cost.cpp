@@ -1,0 +1,130 @@
+#include "cost.hpp"
+
+#include <sys/statvfs.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <zlg/logs/error.hpp>
+
+#include "failure.hpp"
+
+namespace zlg::cli {
+namespace {
+
+constexpr double announced_bytes = 1e9;
+constexpr double announced_s = 30.0;
+
+// An estimate that is a third too high must not refuse what would fit.
+constexpr double certain = 2.0 / 3.0;
+
+bool is_announced = false;
+
+std::string size_text(double bytes) {
+    if (bytes >= 1e15) return fmt::format("{:.3g} PB", bytes / 1e15);
+    if (bytes >= 1e12) return fmt::format("{:.3g} TB", bytes / 1e12);
+    if (bytes >= 1e9) return fmt::format("{:.3g} GB", bytes / 1e9);
+    return fmt::format("{:.3g} MB", bytes / 1e6);
+}
+
+std::string time_text(double s) {
+    if (s >= 2.0 * 365.25 * 86400.0) return fmt::format("{:.3g} years", s / (365.25 * 86400.0));
+    if (s >= 2.0 * 86400.0) return fmt::format("{:.3g} days", s / 86400.0);
+    if (s >= 2.0 * 3600.0) return fmt::format("{:.2g} hours", s / 3600.0);
+    if (s >= 120.0) return fmt::format("{:.2g} minutes", s / 60.0);
+    return fmt::format("{:.2g} s", s);
+}
+
+std::optional<double> free_bytes(const std::string& out) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    fs::path place{out.empty() ? "." : out};
+    if (!fs::is_directory(place, ignored)) place = place.has_parent_path() ? place.parent_path() : fs::path{"."};
+    struct statvfs disk {};
+    if (::statvfs(place.c_str(), &disk) != 0) return std::nullopt;
+    return static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
+}
+
+void require_room(const Cost& cost) {
+    const double bytes = static_cast<double>(cost.ticks) * cost.bytes_a_tick;
+    const std::optional<double> room = free_bytes(cost.out);
+    if (!room || certain * bytes <= *room) return;
+    throw logs::IoError{fmt::format(
+        "{}: {:.6g} ticks need about {} of disk, {} are free; allowed is a shorter run.duration_s or a longer "
+        "gyro.tick_s",
+        cost.out.empty() ? "--out" : cost.out, static_cast<double>(cost.ticks), size_text(bytes), size_text(*room))};
+}
+
+double measured_s(const std::function<void(std::int64_t)>& work, std::int64_t ticks) {
+    using Clock = std::chrono::steady_clock;
+    const auto started = Clock::now();
+    work(ticks);
+    return std::chrono::duration<double>{Clock::now() - started}.count();
+}
+
+// More than it will be, where that is below what is announced.
+double estimated_s(std::int64_t ticks, const std::function<void(std::int64_t)>& work) {
+    constexpr std::int64_t few = 500;
+    // No tick of any twin or processor lasts 3 ms.
+    if (ticks < 20 * few) return 0.0;
+    const double few_s = measured_s(work, few);
+    const double most_s = few_s * static_cast<double>(ticks) / static_cast<double>(few);
+    if (most_s < announced_s) return most_s;
+    // What comes before the first tick is in both measurements; the first of them may have waited for the disk.
+    const std::int64_t more = std::min<std::int64_t>(4000, ticks / 10);
+    const double more_s = measured_s(work, more);
+    const double start_and_few_s = std::min(few_s, measured_s(work, few));
+    return std::max(0.0, more_s - start_and_few_s) * static_cast<double>(ticks) / static_cast<double>(more - few);
+}
+
+std::string cost_text(double time_s, double bytes) {
+    const std::string disk = bytes > 0.0 ? fmt::format(" and {} of disk", size_text(bytes)) : "";
+    return fmt::format("warning: this takes about {}{}", time_text(time_s), disk);
+}
+
+}  // namespace
+
+void announce(const Cost& cost, const std::function<void(std::int64_t)>& work) {
+    require_room(cost);
+    const auto ticks = static_cast<double>(cost.ticks);
+    const double time_s = estimated_s(cost.ticks, work);
+    const double bytes = ticks * cost.bytes_a_tick;
+    if (time_s < announced_s && bytes < announced_bytes) return;
+    is_announced = true;
+    complain(fmt::format("{}: {:.6g} ticks", cost_text(time_s, bytes), ticks));
+}
+
+Growth::Growth(std::string part) : part_{std::move(part)}, is_watched_{!part_.empty()} {}
+
+double Growth::expected_bytes(double fraction) {
+    // Less may be the beginning of the file, or a block that is not yet full.
+    constexpr double least_bytes = 2e6;
+    std::error_code is_missing;
+    const auto size = std::filesystem::file_size(part_, is_missing);
+    const double written_bytes = is_missing ? 0.0 : static_cast<double>(size);
+    if (written_bytes < least_bytes) return 0.0;
+    const double bytes = written_bytes / fraction;
+    const std::optional<double> room = free_bytes(part_);
+    if (room && certain * bytes - written_bytes > *room)
+        throw logs::IoError{
+            fmt::format("{}: needs about {} of disk in all, {} are free", part_, size_text(bytes), size_text(*room))};
+    return bytes;
+}
+
+void Growth::look(double past_s, double fraction) {
+    constexpr double early_s = 1.0;
+    if (!is_watched_ || fraction <= 0.0 || (bytes_ > 0.0 && past_s < early_s)) return;
+    bytes_ = expected_bytes(fraction);
+    if (past_s < early_s) return;
+    is_watched_ = false;
+    const double time_s = past_s / fraction;
+    if (is_announced || (time_s < announced_s && bytes_ < announced_bytes)) return;
+    is_announced = true;
+    complain(cost_text(time_s, bytes_));
+}
+
+}  // namespace zlg::cli

@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <zlg/config/schema.hpp>
+#include <zlg/core/common/discriminator_curve.hpp>
+
+#include "key.hpp"
+#include "toml_text.hpp"
+
+namespace zlg::config {
+
+namespace {
+
+// A polynomial of order m goes through m + 1 points; none and constant need one point.
+int bridge_order(core::BridgeMethod bridge) {
+    switch (bridge) {
+        case core::BridgeMethod::linear:
+            return 1;
+        case core::BridgeMethod::quadratic:
+        case core::BridgeMethod::optimal:  // where the motion is not known
+        case core::BridgeMethod::automatic:
+            return 2;
+        case core::BridgeMethod::none:
+        case core::BridgeMethod::constant:
+            break;
+    }
+    return 0;
+}
+
+void check_bridge(const Config& config) {
+    const Compensation& c = config.compensation;
+    const int order = bridge_order(c.bridge);
+    const auto complain = [&](std::string_view where, std::int64_t points) {
+        throw ConfigError(fmt::format("compensation.bridge = {}: a bridge of order {} needs {} points, but {} is {}",
+                                      value_text(*find_key("compensation", "bridge"), config), order, order + 1, where,
+                                      points));
+    };
+    if (order > c.extrapolation_points - 1) complain("compensation.extrapolation_points", c.extrapolation_points);
+    const std::int64_t both_sides = c.points_before + c.points_after;
+    if (order > both_sides - 1) complain("compensation.points_before + points_after", both_sides);
+    if (c.prior_line_hz.empty() || c.prior_line_hz.size() != c.prior_line_arcsec_s.size()) {
+        throw ConfigError(
+            fmt::format("compensation.prior_line_hz: {} numbers, compensation.prior_line_arcsec_s: {}; allowed are as "
+                        "many of each, "
+                        "one at least",
+                        c.prior_line_hz.size(), c.prior_line_arcsec_s.size()));
+    }
+}
+
+void check_motion(const Motion& m) {
+    if (m.kind == MotionKind::file && m.path.empty()) {
+        throw ConfigError("motion.path = \"\": motion.kind = \"file\" needs the path of a motion file");
+    }
+    if (m.kind != MotionKind::sine && m.kind != MotionKind::sum) return;
+    const std::size_t n = m.amplitude_arcsec_s.size();
+    // One phase serves all sines.
+    const bool phases_fit = m.phase_deg.size() == n || m.phase_deg.size() == 1;
+    if (m.frequency_hz.size() != n || !phases_fit) {
+        throw ConfigError(fmt::format(
+            "motion.amplitude_arcsec_s: {} numbers, motion.frequency_hz: {}, motion.phase_deg: {}; allowed is "
+            "an equal number of each, or one phase for all",
+            n, m.frequency_hz.size(), m.phase_deg.size()));
+    }
+    if (m.kind == MotionKind::sine && n != 1) {
+        throw ConfigError(
+            fmt::format("motion.amplitude_arcsec_s: {} numbers; motion.kind = \"sine\" has one, use \"sum\"", n));
+    }
+}
+
+void require_growth(std::string_view name, const std::vector<double>& values) {
+    const auto fallen = std::ranges::adjacent_find(values, std::greater_equal{});
+    if (fallen == values.end()) return;
+    throw ConfigError(
+        fmt::format("perimeter.{}: {} after {}; allowed is growth", name, toml_real(fallen[1]), toml_real(*fallen)));
+}
+
+// A curve through the origin, of the side above it or of both: as many of each, growing, of the same sign.
+void check_discriminator(const Perimeter& p) {
+    constexpr auto most = static_cast<std::ptrdiff_t>(core::max_side_nodes);
+    const std::vector<double>& detuning = p.discriminator_detuning_lambda;
+    const std::vector<double>& signal = p.discriminator_signal;
+    const auto n_below = std::ranges::count_if(detuning, [](double x) { return x < 0.0; });
+    const auto n_above = std::ssize(detuning) - n_below;
+    if (signal.size() != detuning.size() || n_below > most || n_above > most) {
+        throw ConfigError(fmt::format(
+            "perimeter.discriminator_detuning_lambda: {} numbers, perimeter.discriminator_signal: {}; allowed are as "
+            "many of each, {} at most on a side of 0",
+            detuning.size(), signal.size(), most));
+    }
+    require_growth("discriminator_detuning_lambda", detuning);
+    require_growth("discriminator_signal", signal);
+    for (std::size_t k = 0; k < detuning.size(); ++k) {
+        if (detuning[k] * signal[k] > 0.0) continue;
+        throw ConfigError(
+            fmt::format("perimeter: discriminator_signal is {} at discriminator_detuning_lambda {}; allowed is the "
+                        "same sign, and not 0",
+                        toml_real(signal[k]), toml_real(detuning[k])));
+    }
+    if (n_below > 0 && n_above == 0)
+        throw ConfigError(
+            fmt::format("perimeter.discriminator_detuning_lambda: {} points below 0 and none above; allowed are those "
+                        "above 0, or both",
+                        n_below));
+}
+
+void check_dither(const Config& config) {
+    const Gyro& gyro = config.gyro;
+    if (gyro.dither == core::DitherMethod::none || gyro.fidelity != Fidelity::averaged) return;
+    throw ConfigError(fmt::format(
+        "gyro.dither = {}: the averaged gyro reverses its bias evenly; allowed is gyro.fidelity = \"laser\"",
+        value_text(*find_key("gyro", "dither"), config)));
+}
+
+void check_faults(const Faults& f) {
+    const std::size_t n = f.kind.size();
+    if (f.at_s.size() == n && f.duration_s.size() == n && f.size.size() == n) return;
+    throw ConfigError(
+        fmt::format("faults.kind: {}, faults.at_s: {}, faults.duration_s: {}, faults.size: {}; allowed is as "
+                    "many of each",
+                    n, f.at_s.size(), f.duration_s.size(), f.size.size()));
+}
+
+void check_times(const Gyro& gyro, const Switching& switching) {
+    if (!(gyro.bias_edge_s < gyro.tick_s / 2.0)) {
+        throw ConfigError(fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}",
+                                      toml_real(gyro.bias_edge_s), toml_real(gyro.tick_s)));
+    }
+    if (switching.gap_min_ticks > switching.gap_ticks) {
+        throw ConfigError(fmt::format("switching.gap_min_ticks = {}: allowed is up to switching.gap_ticks = {}",
+                                      switching.gap_min_ticks, switching.gap_ticks));
+    }
+    const auto least_ticks = static_cast<double>(switching.gap_ticks + 2);
+    if (!switching.interval_optimal && !(switching.interval_s >= least_ticks * gyro.tick_s)) {
+        throw ConfigError(fmt::format(
+            "switching.interval_s = {}: allowed is from switching.gap_ticks + 2 = {} ticks of gyro.tick_s = {} s: {} s",
+            toml_real(switching.interval_s), least_ticks, toml_real(gyro.tick_s),
+            toml_real(least_ticks * gyro.tick_s)));
+    }
+}
+
+void check_interval_limits(const Gyro& gyro, const Switching& s) {
+    const double least_s = static_cast<double>(s.gap_ticks + 2) * gyro.tick_s;
+    if (s.schedule != Schedule::fixed && !(s.interval_min_s >= least_s)) {
+        throw ConfigError(fmt::format(
+            "switching.interval_min_s = {}: allowed is from switching.gap_ticks + 2 ticks of gyro.tick_s = {} s, "
+            "{} s, where switching.schedule is not fixed",
+            toml_real(s.interval_min_s), toml_real(gyro.tick_s), toml_real(least_s)));
+    }
+    if (!(s.interval_min_s <= s.interval_max_s)) {
+        throw ConfigError(fmt::format("switching.interval_min_s = {}: allowed is up to switching.interval_max_s = {}",
+                                      toml_real(s.interval_min_s), toml_real(s.interval_max_s)));
+    }
+}
+
+}  // namespace
+
+void check_compensation(const Config& config) {
+    for (const Key& key : all_keys()) {
+        if (key.section == "compensation" || key.section == "gyro") check_range(key, config);
+    }
+    check_bridge(config);
+}
+
+void check(const Config& config) {
+    for (const Key& key : all_keys()) check_range(key, config);
+    check_bridge(config);
+    check_times(config.gyro, config.switching);
+    check_interval_limits(config.gyro, config.switching);
+    check_discriminator(config.perimeter);
+    check_dither(config);
+    check_motion(config.motion);
+    check_faults(config.faults);
+    if (!(config.piezo.range_min_v < config.piezo.range_max_v)) {
+        throw ConfigError(fmt::format("piezo.range_min_v = {}: allowed is below piezo.range_max_v = {}",
+                                      toml_real(config.piezo.range_min_v), toml_real(config.piezo.range_max_v)));
+    }
+}
+
+}  // namespace zlg::config

@@ -1,0 +1,97 @@
+#include <span>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+
+#include "key.hpp"
+
+namespace zlg::config {
+namespace {
+
+std::vector<std::string> words(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
+
+// What a program that fills a Config from outside must know of the value.
+struct TellKind {
+    KeyInfo& info;
+    const Config& defaults;
+
+    void operator()(const Real&) const { info.kind = ValueKind::real; }
+    void operator()(const OptionalReal&) const { info.kind = ValueKind::optional_real; }
+    void operator()(const Integer&) const { info.kind = ValueKind::integer; }
+    void operator()(const Sign&) const { info.kind = ValueKind::integer; }
+    void operator()(const Text&) const { info.kind = ValueKind::text; }
+    void operator()(const RealList&) const { info.kind = ValueKind::reals; }
+    void operator()(const Column&) const { info.kind = ValueKind::column; }
+    void operator()(const ColumnList&) const { info.kind = ValueKind::columns; }
+    void operator()(const Interval&) const { info.kind = ValueKind::interval; }
+    void operator()(const ChoiceList& slot) const {
+        info.kind = ValueKind::choices;
+        info.choices = words(slot.names);
+    }
+    void operator()(const Choice& slot) const {
+        info.kind = slot.get(defaults) < 0 ? ValueKind::optional_choice : ValueKind::choice;
+        info.choices = words(slot.names);
+    }
+};
+
+}  // namespace
+
+Settings to_settings(const Config& config) {
+    Settings settings;
+    for (const Key& key : all_keys()) {
+        std::string text = value_text(key, config);
+        if (!text.empty()) settings.emplace_back(dotted(key), std::move(text));
+    }
+    return settings;
+}
+
+std::string to_toml(const Config& config) {
+    std::string text;
+    std::string_view section;
+    for (const Key& key : all_keys()) {
+        if (key.section != section) {
+            section = key.section;
+            text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
+        }
+        const std::string value = value_text(key, config);
+        if (!value.empty()) text += fmt::format("{} = {}\n", key.name, value);
+    }
+    return text;
+}
+
+std::vector<KeyInfo> describe_keys() {
+    const Config defaults;
+    std::vector<KeyInfo> infos;
+    for (const Key& key : all_keys()) {
+        infos.push_back({std::string{key.section},
+                         std::string{key.name},
+                         std::string{key.unit},
+                         std::string{key.meaning},
+                         value_text(key, defaults),
+                         allowed_text(key),
+                         {},
+                         {}});
+        std::visit(TellKind{infos.back(), defaults}, key.slot);
+    }
+    return infos;
+}
+
+std::string reference_markdown() {
+    std::string text;
+    std::string section;
+    for (const KeyInfo& key : describe_keys()) {
+        if (key.section != section) {
+            section = key.section;
+            text += fmt::format("{}## [{}]\n\n| key | unit | default | allowed | meaning |\n|---|---|---|---|---|\n",
+                                text.empty() ? "" : "\n", section);
+        }
+        const std::string default_cell = key.default_text.empty() ? "unset" : fmt::format("`{}`", key.default_text);
+        text +=
+            fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.unit, default_cell, key.allowed, key.meaning);
+    }
+    return text;
+}
+
+}  // namespace zlg::config

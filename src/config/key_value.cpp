@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <zlg/config/schema.hpp>
+
+#include "key.hpp"
+#include "toml_text.hpp"
+
+namespace zlg::config {
+
+namespace {
+
+template <class... F>
+struct Overload : F... {
+    using F::operator()...;
+};
+template <class... F>
+Overload(F...) -> Overload<F...>;
+
+std::string list_text(const std::vector<double>& values) {
+    if (values.size() == 1) return toml_real(values.front());
+    std::string text = "[";
+    for (const double value : values) text += (text.size() > 1 ? ", " : "") + toml_real(value);
+    return text + "]";
+}
+
+std::string interval_text(const Switching& switching) {
+    return switching.interval_optimal ? toml_string("optimal") : toml_real(switching.interval_s);
+}
+
+std::string choice_text(const Choice& slot, const Config& config) {
+    const int index = slot.get(config);
+    return index < 0 ? std::string{} : toml_string(slot.names[static_cast<std::size_t>(index)]);
+}
+
+std::string choices_text(const ChoiceList& slot, const Config& config) {
+    const std::vector<int> indices = slot.get(config);
+    if (indices.empty()) return {};
+    std::string text;
+    for (const int index : indices)
+        text += (text.empty() ? "" : ", ") + toml_string(slot.names[static_cast<std::size_t>(index)]);
+    return indices.size() == 1 ? text : "[" + text + "]";
+}
+
+bool is_number(const std::string& column) {
+    const std::size_t sign = column.starts_with('-') ? 1 : 0;
+    return column.size() > sign && column.find_first_not_of("0123456789", sign) == std::string::npos;
+}
+
+// Of one that is set: a number from 1 (or 0) to a million, or any name.
+bool is_column(const std::string& column, bool may_be_none) {
+    if (column.empty()) return false;
+    if (!is_number(column)) return true;
+    const bool none = column.find_first_not_of('0') == std::string::npos;
+    return !column.starts_with('-') && column.size() <= 7 && (none ? may_be_none : std::stoll(column) <= 1'000'000);
+}
+
+std::string column_text(const std::string& column) {
+    return column.empty() || is_number(column) ? column : toml_string(column);
+}
+
+std::string columns_text(const std::vector<std::string>& columns) {
+    if (columns.size() == 1) return column_text(columns.front());
+    std::string text;
+    for (const std::string& column : columns) text += (text.empty() ? "[" : ", ") + column_text(column);
+    return text.empty() ? text : text + "]";
+}
+
+bool all_within(const Range& range, const std::vector<double>& values) {
+    for (const double value : values) {
+        if (!contains(range, value)) return false;
+    }
+    return true;
+}
+
+bool is_within(const Slot& slot, Config& config) {
+    return std::visit(
+        Overload{[&](const Real& s) { return contains(s.range, s.value(config)); },
+                 [&](const OptionalReal& s) { return !s.value(config) || contains(s.range, *s.value(config)); },
+                 [&](const Integer& s) { return s.value(config) >= s.min && s.value(config) <= s.max; },
+                 [&](const Sign& s) { return s.value(config) == 1 || s.value(config) == -1; },
+                 [&](const Text&) { return true; },
+                 [&](const RealList& s) {
+                     return (s.may_be_empty || !s.value(config).empty()) && all_within(s.range, s.value(config));
+                 },
+                 [&](const ChoiceList& s) {
+                     for (const int index : s.get(config)) {
+                         if (index < 0 || index >= static_cast<int>(s.names.size())) return false;
+                     }
+                     return true;
+                 },
+                 [&](const Interval& s) {
+                     return config.switching.interval_optimal || contains(s.range, config.switching.interval_s);
+                 },
+                 [&](const Choice& s) { return s.get(config) < static_cast<int>(s.names.size()); },
+                 [&](const Column& s) { return s.value(config).empty() || is_column(s.value(config), s.may_be_none); },
+                 [&](const ColumnList& s) {
+                     return std::ranges::all_of(s.value(config),
+                                                [](const std::string& column) { return is_column(column, false); });
+                 }},
+        slot);
+}
+
+}  // namespace
+
+std::string dotted(const Key& key) { return fmt::format("{}.{}", key.section, key.name); }
+
+std::string value_text(const Key& key, const Config& config) {
+    // The table names members of a mutable Config; it is only read here.
+    Config copy = config;
+    return std::visit(
+        Overload{[&](const Real& s) { return toml_real(s.value(copy)); },
+                 [&](const OptionalReal& s) { return s.value(copy) ? toml_real(*s.value(copy)) : std::string{}; },
+                 [&](const Integer& s) { return fmt::format("{}", s.value(copy)); },
+                 [&](const Sign& s) { return fmt::format("{}", s.value(copy)); },
+                 [&](const Text& s) { return toml_string(s.value(copy)); },
+                 [&](const RealList& s) {
+                     return s.may_be_empty && s.value(copy).empty() ? std::string{} : list_text(s.value(copy));
+                 },
+                 [&](const ChoiceList& s) { return choices_text(s, copy); },
+                 [&](const Interval&) { return interval_text(copy.switching); },
+                 [&](const Choice& s) { return choice_text(s, copy); },
+                 [&](const Column& s) { return column_text(s.value(copy)); },
+                 [&](const ColumnList& s) { return columns_text(s.value(copy)); }},
+        key.slot);
+}
+
+std::string allowed_text(const Key& key) {
+    return std::visit(
+        Overload{
+            [](const Real& s) { return in_words(s.range); }, [](const OptionalReal& s) { return in_words(s.range); },
+            [](const Integer& s) { return fmt::format("{}..{}", s.min, s.max); },
+            [](const Sign&) { return std::string{"-1 or 1"}; }, [](const Text&) { return std::string{"any text"}; },
+            [](const RealList& s) {
+                return fmt::format("one number or an array{}, each {}", s.may_be_empty ? ", [] included" : "",
+                                   in_words(s.range));
+            },
+            [](const ChoiceList& s) {
+                return fmt::format("one or an array, [] included, of \"{}\"",
+                                   fmt::join(s.names.begin(), s.names.end(), "\", \""));
+            },
+            [](const Interval& s) { return fmt::format("{}, or \"optimal\"", in_words(s.range)); },
+            [](const Choice& s) { return fmt::format("\"{}\"", fmt::join(s.names.begin(), s.names.end(), "\", \"")); },
+            [](const Column& s) { return fmt::format("a number {}..1000000, or a name", s.may_be_none ? 0 : 1); },
+            [](const ColumnList&) {
+                return std::string{"one or an array, [] included, of numbers 1..1000000 and names"};
+            }},
+        key.slot);
+}
+
+void check_range(const Key& key, const Config& config) {
+    Config copy = config;
+    if (is_within(key.slot, copy)) return;
+    throw ConfigError(fmt::format("{} = {}: allowed is {}", dotted(key), value_text(key, config), allowed_text(key)));
+}
+
+}  // namespace zlg::config

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+#include <toml++/toml.h>
+#include <zlg/text/toml_document.hpp>
+#include <zlg/text/whole_file.hpp>
+
+#include <algorithm>
+#include <zlg/config/schema.hpp>
+
+#include "assign.hpp"
+#include "nearest.hpp"
+#include "toml_text.hpp"
+
+namespace zlg::config {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& place, std::string_view what) {
+    throw ConfigError(fmt::format("{}: {}", place, what));
+}
+
+void assign_at(const std::string& place, std::string_view section, std::string_view name, const toml::node& node,
+               Config& config) {
+    const Key* key = find_key(section, name);
+    if (key == nullptr) {
+        fail(place, fmt::format("unknown key [{}] {}; did you mean {}?", section, name, nearest_key(section, name)));
+    }
+    try {
+        assign(*key, node, config);
+    } catch (const ConfigError& error) {
+        fail(place, error.what());
+    }
+}
+
+void require_section(const std::string& place, std::string_view section) {
+    if (is_known_section(section)) return;
+    fail(place, fmt::format("unknown section [{}]; did you mean [{}]?", section, nearest_section(section)));
+}
+
+void assign_section(std::string_view source_name, std::string_view section, const toml::node& node, Config& config) {
+    const auto place = [&](const toml::node& at) { return fmt::format("{}:{}", source_name, at.source().begin.line); };
+    if (!node.is_table() && !is_known_section(section)) {
+        fail(place(node), fmt::format("{} stands in no section; did you mean {}?", section, nearest_key("", section)));
+    }
+    require_section(place(node), section);
+    if (!node.is_table())
+        fail(place(node), fmt::format("{0} is a section: write [{0}] once and its keys below", section));
+    for (const auto& [name, value] : *node.as_table()) assign_at(place(value), section, name.str(), value, config);
+}
+
+toml::table parse_document(std::string_view text, std::string_view source_name) {
+    try {
+        return text::parse_toml(text);
+    } catch (const toml::parse_error& error) {
+        const auto& at = error.source().begin;
+        throw ConfigError(fmt::format("{}:{}:{}: {}", source_name, at.line, at.column, error.description()));
+    }
+}
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+// A document of one value. What is not valid TOML, or is more than one value, is a string as it stands; text that is not
+// UTF-8 is none, for it could not be written again.
+toml::table parse_value(const std::string& place, std::string_view text) {
+    try {
+        toml::table document = text::parse_toml(fmt::format("value = {}", text));
+        if (document.size() == 1 && document.contains("value")) return document;
+    } catch (const toml::parse_error&) {
+        // A bare word such as quadratic, or a path.
+    }
+    try {
+        return text::parse_toml(fmt::format("value = {}", toml_string(text)));
+    } catch (const toml::parse_error& error) {
+        fail(place, fmt::format("a value cannot be read as text: {}", error.description()));
+    }
+}
+
+}  // namespace
+
+bool is_known_section(std::string_view name) {
+    return std::ranges::find(all_keys(), name, &Key::section) != all_keys().end();
+}
+
+bool is_given(const Config& config, std::string_view dotted_key) {
+    const auto dot = std::min(dotted_key.find('.'), dotted_key.size() - 1);
+    const Key* key = find_key(dotted_key.substr(0, dot), dotted_key.substr(dot + 1));
+    if (key == nullptr) throw std::invalid_argument(fmt::format("{} is no key", dotted_key));
+    return config.given.contains(dotted_key) || value_text(*key, config) != value_text(*key, Config{});
+}
+
+void apply_toml(Config& config, std::string_view text, std::string_view source_name) {
+    const toml::table document = parse_document(text, source_name);
+    Config result = config;
+    for (const auto& [section, node] : document) assign_section(source_name, section.str(), node, result);
+    config = std::move(result);
+}
+
+void apply_file(Config& config, const std::string& path) {
+    std::string text;
+    try {
+        text = text::read_whole(path);
+    } catch (const text::CannotRead& error) {
+        throw ConfigError(fmt::format("cannot read the configuration {}: {}", path, error.what()));
+    }
+    apply_toml(config, text, path);
+}
+
+void apply_pair(Config& config, std::string_view dotted_key, std::string_view value, std::string_view source_name) {
+    const std::string place{source_name};
+    const auto dot = dotted_key.find('.');
+    if (dot == std::string_view::npos) {
+        fail(place,
+             fmt::format("{}: section.key is wanted; did you mean {}?", dotted_key, nearest_key("", dotted_key)));
+    }
+    const std::string_view section = dotted_key.substr(0, dot);
+    require_section(place, section);
+    Config result = config;
+    const toml::table document = parse_value(place, trimmed(value));
+    assign_at(place, section, dotted_key.substr(dot + 1), *document.get("value"), result);
+    config = std::move(result);
+}
+
+void apply_set(Config& config, std::string_view setting) {
+    const auto equals = setting.find('=');
+    if (equals == std::string_view::npos) {
+        throw ConfigError(fmt::format("--set {}: section.key=value is wanted, an equals sign is missing", setting));
+    }
+    apply_pair(config, trimmed(setting.substr(0, equals)), setting.substr(equals + 1), "--set");
+}
+
+}  // namespace zlg::config

@@ -1,0 +1,93 @@
+#include <zlg/core/compensation/counted_stretch.hpp>
+
+#include <zlg/core/common/maths.hpp>
+
+#include "common/bounds.hpp"
+
+namespace zlg::core {
+namespace {
+
+// Beyond this a sum of counts is not exact as a double.
+constexpr std::int64_t most_counts = std::int64_t{1} << 52;
+
+void see_detuning(CountedStretchState& s, double sq_lambda2) noexcept {
+    if (!(sq_lambda2 > 0.0 && is_finite(sq_lambda2))) return;
+    if (s.least_sq_lambda2 == 0.0 || sq_lambda2 < s.least_sq_lambda2) s.least_sq_lambda2 = sq_lambda2;
+    if (sq_lambda2 > s.most_sq_lambda2) s.most_sq_lambda2 = sq_lambda2;
+}
+
+void add_half(CountedStretchState& s, const HalfRecord& half) noexcept {
+    see_detuning(s, half.detuning_sq_lambda2);
+    if (!half.loop_closed) s.known_before = false;
+    if (!half.loop_closed || half.mode != s.mode) s.broken = true;
+    if (!half.valid) return count_up(s.uncovered);
+    if (half.span - 1 != s.uncovered) s.broken = true;
+    s.uncovered = 0;
+    // Unsigned, so that even wild counts wrap instead of being undefined.
+    s.counts =
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(s.counts) + static_cast<std::uint64_t>(half.counts));
+    if (s.counts > most_counts || s.counts < -most_counts) s.broken = true;
+}
+
+void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges) noexcept {
+    s.broken = !s.known_before;
+    s.mode = mode;
+    s.counts = s.area_ticks = 0;
+    s.start_ticks = edges.offset_ticks;
+    s.start_known = edges.follows;
+    s.start_arcsec = edges.beyond_arcsec;
+}
+
+void add_area(CountedStretchState& s, const HalfRecord& first, const HalfRecord& second, std::int32_t start) noexcept {
+    const std::int64_t middle = first.edge_offset_ticks;
+    s.area_ticks += first.bias_sign * first.mode * (middle - start);
+    s.area_ticks += second.bias_sign * second.mode * (second.edge_offset_ticks - middle);
+}
+
+// Without shifts exactly K c.
+double angle(const EdgeShiftConfig& config, const CountedStretchState& s, Hertz bias, std::int32_t end,
+             EdgeShiftState& edges) noexcept {
+    const double scale = config.scale.value();
+    const double area = plateau_per_tick(config, bias) * as_double(s.area_ticks);
+    const double turn = (as_double(s.counts) - area) / as_double(s.n_ticks);
+    const double ticks = config.tick.value() * config.timer.value();
+    const double start_arcsec = s.start_known ? s.start_arcsec : scale * turn * (s.start_ticks / ticks);
+    const double end_arcsec = scale * turn * (end / ticks);
+    edges.follows = true;
+    edges.turn_counts = turn;
+    edges.beyond_arcsec = end_arcsec;
+    return scale * as_double(s.counts) - scale * area + start_arcsec - end_arcsec;
+}
+
+}  // namespace
+
+CountedStretch step(const EdgeShiftConfig& config, CountedStretchState& state, const HalfRecord& first,
+                    const HalfRecord& second, Hertz bias, const EdgeShiftState& edges_before,
+                    EdgeShiftState& edges) noexcept {
+    if (state.n_ticks == 0) begin(state, first.mode, edges_before);
+    ++state.n_ticks;
+    add_half(state, first);
+    add_half(state, second);
+    add_area(state, first, second, edges_before.offset_ticks);
+    if (state.uncovered > 0) return {};
+    CountedStretch out;
+    if (!state.broken) {
+        out.n_ticks = state.n_ticks;
+        out.angle_arcsec = angle(config, state, bias, second.edge_offset_ticks, edges);
+        out.fall_lambda2 = state.most_sq_lambda2 - state.least_sq_lambda2;
+    }
+    state.n_ticks = 0;
+    if (second.detuning_sq_lambda2 > 0.0 && is_finite(second.detuning_sq_lambda2))
+        state.least_sq_lambda2 = state.most_sq_lambda2 = second.detuning_sq_lambda2;
+    return out;
+}
+
+void begin_anew(CountedStretchState& state, double detuning_sq_lambda2) noexcept {
+    state.n_ticks = 0;
+    state.uncovered = 0;
+    state.known_before = true;
+    state.least_sq_lambda2 = state.most_sq_lambda2 = 0.0;
+    see_detuning(state, detuning_sq_lambda2);
+}
+
+}  // namespace zlg::core

@@ -1,0 +1,123 @@
+#include "gap_known.hpp"
+
+#include <zlg/core/common/maths.hpp>
+
+#include "gap_interpolation.hpp"
+
+namespace zlg::core {
+namespace {
+
+// Beyond so many variances a rate is none of the motion.
+constexpr double foreign_sq = 9.0;
+
+// A stretch, and its rows that have not left: `n` of them, from `first` on.
+struct Stretch {
+    std::int64_t first = 0, last = 0;
+    std::int64_t n_gone = 0;
+    double sum_arcsec = 0.0;
+    double variance_arcsec2 = 0.0;  // of a single tick
+
+    [[nodiscard]] double n() const noexcept { return as_double(last - first + 1); }
+};
+
+Stretch stretch_of(const GapBridgeState& state, const HistoryTick& entry) noexcept {
+    const std::int64_t last = entry.row.tick;
+    const std::int64_t start = last + 1 - entry.known_ticks;
+    const std::int64_t first = start < state.next_final ? state.next_final : start;
+    return {first, last, first - start, entry.known_arcsec, entry.variance_arcsec2};
+}
+
+double lacking(const GapBridgeState& state, const Stretch& s, double constant_arcsec) noexcept {
+    ExactSum lack;
+    lack.add(s.sum_arcsec);
+    lack.add(-as_double(s.n_gone) * constant_arcsec);
+    for (std::int64_t t = s.first; t <= s.last; ++t) lack.add(-at(state, t).row.dtheta_final_arcsec);
+    return lack.value();
+}
+
+void set_row(AngleRow& row, double value_arcsec, double variance_arcsec2, ExactSum& change) noexcept {
+    change.add(value_arcsec);
+    change.add(-row.dtheta_final_arcsec);
+    row.dtheta_final_arcsec = value_arcsec;
+    row.sigma_arcsec = deviation(variance_arcsec2);
+    if (!is_finite(row.sigma_arcsec)) return;
+    row.flags = (row.flags & ~std::uint32_t{flag_unrepaired}) | flag_interpolated;
+}
+
+// Share of tick j = 1.. in what lacks.
+double share(const Stretch& s, bool is_whole, double j) noexcept {
+    const double n = s.n();
+    return is_whole ? 6.0 * j * (n + 1.0 - j) / (n * (n + 1.0) * (n + 2.0)) : 1.0 / n;
+}
+
+// Of a tick in a stretch that turned at another rate than any that was learnt: it may have turned in any of its ticks.
+double foreign_variance(const GapBridgeConfig& config, GapBridgeState& state, const Stretch& s) noexcept {
+    const double n = s.n() + as_double(s.n_gone);
+    const double off_level = s.sum_arcsec / n - state.learning.moments.level;
+    const bool is_foreign = off_level * off_level > foreign_sq * tick_variance(config, state);
+    return is_foreign ? off_level * off_level * (n - 1.0) : 0.0;
+}
+
+void shift_rows(const GapBridgeConfig& config, GapBridgeState& state, const Stretch& s, bool is_whole,
+                double constant_arcsec, ExactSum& change) noexcept {
+    const double lack = lacking(state, s, constant_arcsec);
+    const double about_mean = tick_variance(config, state) + foreign_variance(config, state, s);
+    // What the rows that have left lack is in the others.
+    const double beyond =
+        as_double(s.n_gone) * (s.sum_arcsec / (s.n() + as_double(s.n_gone)) - constant_arcsec) / s.n();
+    for (std::int64_t t = s.first; t <= s.last; ++t) {
+        AngleRow& row = at(state, t).row;
+        const double w = share(s, is_whole, as_double(t - s.first + 1));
+        const double before = row.sigma_arcsec * row.sigma_arcsec;
+        double variance = (before < about_mean ? before : about_mean) + beyond * beyond;
+        if (before < infinity) variance += lack * lack * w * (1.0 - w);
+        set_row(row, row.dtheta_final_arcsec + w * lack, variance, change);
+    }
+}
+
+void settle(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, const HistoryTick& entry,
+            double constant_arcsec, ExactSum& change) noexcept {
+    const Stretch s = stretch_of(state, entry);
+    if (s.first > s.last) return;
+    if (s.first == s.last && s.n_gone == 0)
+        return set_row(at(state, s.last).row, s.sum_arcsec, s.variance_arcsec2, change);
+    const bool is_whole = s.n_gone == 0 && entry.known_ticks == gap.n;
+    const KnownEstimate found =
+        is_whole ? estimate_known(config, state, gap, s.sum_arcsec, entry.relock_variance_arcsec2) : KnownEstimate{};
+    if (!found.known) return shift_rows(config, state, s, is_whole, constant_arcsec, change);
+    for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j)
+        set_row(at(state, gap.first_tick + j).row, found.value_arcsec[j], found.variance_arcsec2[j], change);
+    // Rounding of the estimate.
+    const double lack = lacking(state, s, 0.0);
+    AngleRow& last = at(state, s.last).row;
+    change.add(lack);
+    last.dtheta_final_arcsec += lack;
+}
+
+}  // namespace
+
+void note_known(const GapBridgeConfig& config, const TickInput& input, Gap& gap, HistoryTick& entry) noexcept {
+    if (input.known_ticks <= 0 || input.known_ticks > gap.n - gap.known_ticks) return;
+    entry.known_ticks = input.known_ticks;
+    entry.known_arcsec = input.known_arcsec;
+    entry.variance_arcsec2 += input.known_drift_arcsec2;
+    entry.relock_variance_arcsec2 = input.known_drift_arcsec2;
+    // Of the reading between two stretches the one has more what the other has less.
+    if (gap.known_ticks > 0) gap.known_variance_arcsec2 -= shared_rounding(config);
+    gap.known_ticks += input.known_ticks;
+    gap.known_variance_arcsec2 += input.known_variance_arcsec2;
+}
+
+ExactSum settle_known(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t first,
+                      std::int64_t last, double constant_arcsec) noexcept {
+    ExactSum change;
+    for (std::int64_t t = first; t <= last; ++t) {
+        HistoryTick& entry = at(state, t);
+        if (entry.known_ticks == 0) continue;
+        settle(config, state, gap, entry, constant_arcsec, change);
+        entry.known_ticks = 0;
+    }
+    return change;
+}
+
+}  // namespace zlg::core

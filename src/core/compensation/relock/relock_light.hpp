@@ -1,0 +1,35 @@
+#pragma once
+// The light samples of one half-period as detunings.
+
+#include <array>
+#include <cstdint>
+
+#include <zlg/core/compensation/relock_profile.hpp>
+
+namespace zlg::core {
+
+struct DetuningSamples {
+    std::int32_t n = 0;                               // 0: the light cannot be used
+    double weight = 1.0;                              // noise variance of the configuration over that of these samples
+    std::array<double, most_profile_samples> lambda;  // the first n
+};
+
+//   both beams   dl = sign F((A - B)/(A + B)/K)
+//   beam A       dl = sign F((A/level - 1)/K),  level = mean(A)/(1 + sign K x),  x: apparent, of the recorded mean
+//
+// Damage, and light of another mode: a sample that is not finite or not positive, a beam whose samples are all the same
+// although there is noise, detunings beyond the curve or beyond any perimeter.
+void read_samples(const RelockProfileConfig& config, const HalfRecord& half, LightSamples light,
+                  DetuningSamples& out) noexcept;
+
+// Mean square of a half and its variance, from the record.
+struct RecordedSquare {
+    bool known = false;
+    bool refused = false;          // by the control, which records 0: neither the square nor the light can be believed
+    double mean_sq_lambda2 = 0.0;  // without that of the noise
+    double variance_lambda4 = 0.0;
+};
+
+[[nodiscard]] RecordedSquare recorded_square(const RelockProfileConfig& config, const HalfRecord& half) noexcept;
+
+}  // namespace zlg::core

@@ -1,0 +1,194 @@
+#include "gyro_observation.hpp"
+
+#include <zlg/core/common/maths.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr bool is_sign(std::int8_t x) noexcept { return x == 1 || x == -1; }
+
+void read_order(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    o.received = (frame.status & frame_missed) == 0;
+    const FrameOrderOutput order =
+        step(s.order, o.received, frame.sequence, is_on_time(c.commutator, s.commutator, frame.timer_ticks));
+    o.sequence_error = order.error;
+    o.fresh = order.fresh;
+    o.follows = order.follows;
+    o.counted = order.follows && !s.counter_stale;
+    s.counter_stale = !o.fresh;
+}
+
+// Of the half just latched over the nominal one, from reversal to reversal.
+double length_ratio(const BiasCommutatorConfig& c, const BiasCommutatorState& s) noexcept {
+    const std::int32_t longer_ticks = s.dither.end_ticks - s.dither.start_ticks;
+    return longer_ticks == 0 ? 1.0 : 1.0 + longer_ticks / static_cast<double>(c.half_ticks);
+}
+
+void read_counter(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    if (o.counted) o.counts = static_cast<std::int64_t>(frame.counter - s.counter);
+    if (o.fresh) s.counter = frame.counter;
+    o.beyond = is_beyond(c.health, o.counts, length_ratio(c.commutator, s.commutator));
+}
+
+void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    o.polarity = s.mode_switch.polarity;
+    o.loop_closed = s.mode_switch.loop_closed;
+    if (o.fresh) {
+        o.polarity_error = !is_sign(frame.polarity);
+        o.echo_error = frame.polarity != o.polarity || frame.loop_closed != o.loop_closed;
+        if (!o.polarity_error) o.polarity = frame.polarity;
+        o.loop_closed = frame.loop_closed;
+    }
+    o.settled = o.loop_closed && s.mode_switch.phase == SwitchPhase::tracking;
+}
+
+void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    const bool good = o.counted && !o.beyond && !o.commuted.sign_error && !o.polarity_error;
+    o.bias = step(c.bias_monitor, s.bias_monitor,
+                  {.counted = good,
+                   .counts = o.counts,
+                   .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity),
+                   .settled = o.settled && s.was_lit});
+    // A half of garbage says little of the one after it.
+    o.bias_wrong = o.bias.judged && !o.bias.in_band && s.was_lit;
+    if (o.fresh) o.coil = step(c.coil_monitor, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
+}
+
+void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    if (!o.fresh) {
+        s.light_monitor.has_last = false;
+        return;
+    }
+    const std::size_t n = frame.n_light <= max_light_samples ? frame.n_light : 0;
+    const std::span light_a = std::span{frame.light_a}.first(n);
+    const std::span light_b = frame.has_light_b ? std::span{frame.light_b}.first(n) : std::span<const float>{};
+    const int sign = o.commuted.sign * o.polarity;
+    const bool beats = o.bias.judged && o.bias.in_band;
+    o.light = step(c.detector, s.detector, {light_a, light_b, sign, o.settled && !s.light_spoilt, beats});
+    o.monitored = step(c.light_monitor, s.light_monitor,
+                       {.light_a = light_a,
+                        .light_b = light_b,
+                        .sign = sign,
+                        .closed = o.loop_closed,
+                        .settled = o.settled,
+                        .beats = beats,
+                        .deficit_ratio = o.bias.deficit_ratio,
+                        .two_way = o.light.two_way,
+                        .dark = o.light.dark,
+                        .light = o.light.light,
+                        .signal_per_lambda = c.detector.discriminator_per_lambda,
+                        .curve = &c.detector.curve,
+                        .usable = o.light.usable && !o.commuted.sign_error && !o.polarity_error,
+                        .detuning = o.light.detuning,
+                        .mean_sq_lambda2 = o.light.mean_sq_lambda2});
+    o.detuning_usable = o.monitored.usable;
+    o.lit = o.light.two_way || o.monitored.contradicted;
+    s.light_spoilt = o.monitored.stuck || o.monitored.noisy || o.monitored.unbalanced || o.monitored.contradicted;
+}
+
+void read_slow(GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    if (!o.fresh) return;
+    o.piezo = Volts{frame.piezo_v};
+    if (is_finite(frame.piezo_v)) s.piezo_v = frame.piezo_v;
+    if (!is_finite(frame.temperature_c)) return;
+    s.temperature_c = frame.temperature_c;
+    if (!s.temperature_known) s.temperature_before_c = s.temperature_c;
+    s.temperature_known = true;
+}
+
+// Only the counts of a gyro that lases as it should say something of the counter.
+void read_bits(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    const bool beats = o.counted && o.lit && o.loop_closed && s.was_lit;
+    o.bit_stuck = step(c.counter_monitor, s.counter_monitor, beats, frame.counter);
+}
+
+// Good signs, and latched in time.
+bool is_echoed(const Observation& o) noexcept {
+    return !o.commuted.sign_error && !o.polarity_error && !o.commuted.latch_error;
+}
+
+// Half of the bias is gone, or it is that of the other helicity: b by the last two halves. A wrong reading seldom looks so.
+bool is_lost_or_reversed(const BiasMonitorState& s) noexcept {
+    const double b = 0.5 * s.beat_sign * as_double(s.counts - s.counts_before);
+    return b < 0.5 * s.bias_counts && b > -1.25 * s.bias_counts;
+}
+
+void read_span(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+    // What does not follow begins anew, whether or not it can be read: so many halves lie between.
+    const bool found = !o.fresh || (o.follows && o.lit && !o.coil.off && !o.coil.unbalanced);
+    const BiasMonitorState& bias = s.bias_monitor;
+    o.reading = step(s.reading_monitor,
+                     {.read = o.fresh && is_echoed(o) && !o.bit_stuck,
+                      .follows = o.follows,
+                      .countable = o.loop_closed && found,
+                      .mode = o.polarity,
+                      .suspicious = o.beyond || o.bias_wrong,
+                      .agrees = o.counted && !o.beyond && !(o.bias.judged && !o.bias.in_band),
+                      .bias_lost = o.bias.judged && is_lost_or_reversed(bias),
+                      .reading = frame.counter,
+                      .most_counts = length_ratio(c.commutator, s.commutator) * as_double(c.health.counts_limit),
+                      .bias_counts = bias.bias_counts > 0.0 ? bias.bias_counts : c.bias_monitor.presumed_counts,
+                      .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity)});
+}
+
+// A re-lock is corrected by both halves of a tick: one without the other would be worse than none.
+void match_halves(GyroControlState& s, Observation& o) noexcept {
+    o.has_mean_square = o.detuning_usable && o.monitored.has_mean_square;
+    const bool is_first = s.half % 2 == 0;
+    if (is_first) {
+        s.first_was_blind = o.valid && !o.has_mean_square;
+        s.first_was_seen = o.valid && o.has_mean_square;
+        return;
+    }
+    if (s.first_was_blind) {
+        o.has_mean_square = false;
+    } else if (s.first_was_seen && !o.has_mean_square) {
+        o.valid = false;
+    }
+}
+
+void judge(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
+    const bool countable = o.reading.trusted && is_echoed(o) && !o.beyond && !o.bit_stuck && !o.coil.unbalanced;
+    const bool lased = o.lit && o.loop_closed;
+    if (lased && (o.bias.lost || o.bias.reversed)) o.bias_wrong = true;
+    o.valid = countable && o.lit && !o.bias_wrong && !o.monitored.returns;
+    match_halves(s, o);
+    // Away from a lock the detuning moves; what it leaves in the angle must be seen.
+    if ((s.light_spoilt || o.monitored.withheld) && !o.has_mean_square && !o.settled) o.valid = false;
+    o.unsteady = step(c.detuning_monitor, s.detuning_monitor,
+                      {.is_second = s.half % 2 != 0,
+                       .is_good = o.valid && o.loop_closed,
+                       .is_settled = o.settled,
+                       .is_known = o.has_mean_square,
+                       .mean_sq_lambda2 = o.monitored.mean_sq_lambda2});
+    if (o.unsteady) o.valid = false;
+    s.was_lit = o.lit && o.loop_closed && o.counted;
+}
+
+// The counts of a half that is not valid are good all the same. But where the detuning moves they hold a false angle: such a
+// half is bridged, unless it covers others, too.
+void leave_counts(GyroControlState& s, Observation& o) noexcept {
+    const bool is_false = o.unsteady || !o.settled;
+    o.left_to_next = o.reading.continues && !o.valid && (o.reading.span > 1 || !is_false);
+    if (o.left_to_next) leave_to_next(s.reading_monitor, o.reading);
+}
+
+}  // namespace
+
+void observe(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,
+             Observation& seen) noexcept {
+    read_order(config, state, frame, seen);
+    seen.commuted = step(config.commutator, state.commutator,
+                         {.received = seen.fresh, .bias_sign = frame.bias_sign, .timer_ticks = frame.timer_ticks});
+    read_counter(config, state, frame, seen);
+    read_echoes(state, frame, seen);
+    read_bias(config, state, frame, seen);
+    read_light(config, state, frame, seen);
+    read_slow(state, frame, seen);
+    read_bits(config, state, frame, seen);
+    read_span(config, state, frame, seen);
+    judge(config, state, seen);
+    leave_counts(state, seen);
+}
+
+}  // namespace zlg::core

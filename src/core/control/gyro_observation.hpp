@@ -1,0 +1,44 @@
+#pragma once
+// What one frame shows, before anything is decided.
+
+#include <cstdint>
+
+#include <zlg/core/gyro_control.hpp>
+
+namespace zlg::core {
+
+struct Observation {
+    bool received = false;
+    bool fresh = false;    // received, and of this half: everything below rests on it
+    bool follows = false;  // fresh, and no half is lost between it and the one before
+    bool counted = false;  // `counts` are those of this half
+    bool sequence_error = false;
+    bool polarity_error = false;
+    bool echo_error = false;
+    bool bit_stuck = false;  // of the counter
+    bool lit = false;        // there was light in both directions, or the beat proves it
+    bool valid = false;
+    bool unsteady = false;  // the tick holds a false angle
+    bool beyond = false;    // the counts are more than the gyro can make
+    std::int8_t polarity = 1;
+    bool loop_closed = true;
+    bool settled = false;  // and locked
+    std::int64_t counts = 0;
+    ReadingMonitorOutput reading;
+    bool left_to_next = false;  // its counts are part of those of the next valid half
+    BiasCommutatorOutput commuted;
+    BiasMonitorOutput bias;
+    bool bias_wrong = false;
+    CoilMonitorOutput coil;
+    SyncDetectorOutput light;
+    LightMonitorOutput monitored;
+    bool detuning_usable = false;
+    bool has_mean_square = false;  // to be recorded
+    Volts piezo{__builtin_nan("")};
+};
+
+// Read the frame that is latched now: all states but those of what decides and commands.
+void observe(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,
+             Observation& seen) noexcept;
+
+}  // namespace zlg::core

@@ -1,0 +1,227 @@
+#include <zlg/core/control/mode_switch.hpp>
+
+#include <zlg/core/common/maths.hpp>
+
+#include "common/bounds.hpp"
+
+namespace zlg::core {
+namespace {
+
+// Weight of a new half in the smoothed detuning: light noise shrinks four times, and a lock is seen four ticks later.
+constexpr double smoothing_weight = 0.125;
+
+constexpr std::int8_t inverse(std::int8_t sign) noexcept { return static_cast<std::int8_t>(-sign); }
+
+void add(PiezoReadings& r, double voltage_v) noexcept {
+    const auto size = static_cast<std::int32_t>(r.voltage_v.size());
+    r.voltage_v[static_cast<std::size_t>(r.next)] = voltage_v;
+    r.next = (r.next + 1) % size;
+    if (r.n < size) ++r.n;
+    r.age = 0;
+}
+
+double mean_v(const PiezoReadings& r) noexcept {
+    double sum_v = 0.0;
+    for (std::int32_t k = 0; k < r.n; ++k) sum_v += r.voltage_v[static_cast<std::size_t>(k)];
+    return sum_v / r.n;
+}
+
+bool fresh(const PiezoReadings& r) noexcept {
+    return r.n > 0 && r.age <= static_cast<std::int32_t>(r.voltage_v.size());
+}
+
+void judge_lock(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    const double detuning_lambda = in.detuning.value();
+    s.detuning_lambda =
+        s.smoothing ? s.detuning_lambda + smoothing_weight * (detuning_lambda - s.detuning_lambda) : detuning_lambda;
+    s.smoothing = true;
+    const double limit_lambda = c.lock_tolerance.value();
+    if (s.detuning_lambda > limit_lambda || s.detuning_lambda < -limit_lambda) {
+        s.n_locked = 0;
+        count_up(s.n_lost);
+        return;
+    }
+    count_up(s.n_locked);
+    s.n_lost = 0;
+    if (plausible(c.range, in.piezo)) add(s.readings, in.piezo.value());
+}
+
+// What one half with the loop closed tells of the lock.
+void watch(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    count_up(s.readings.age);
+    if (!in.light_known) return;
+    if (!in.two_way) {
+        s.n_locked = 0;
+        count_up(s.n_lost);
+        count_up(s.n_dark);
+        return;
+    }
+    s.n_dark = 0;
+    if (!in.usable || !is_finite(in.detuning.value())) return;
+    if (s.switching && !s.has_miss && s.n_halves == 1) {
+        s.has_miss = true;
+        s.miss_lambda = in.detuning.value();
+    }
+    judge_lock(c, s, in);
+}
+
+void open_loop(const ModeSwitchConfig& c, ModeSwitchState& s, SwitchPhase phase, std::int8_t polarity,
+               double set_point_v, std::int64_t tick) noexcept {
+    if (!s.switching) {
+        s.switching = true;
+        s.tick_opened = tick;
+        s.has_miss = false;
+        s.miss_lambda = 0.0;
+        s.out_of_range = false;
+    }
+    s.phase = phase;
+    s.loop_closed = false;
+    s.polarity = polarity;
+    s.set_point_v = clamp(c.range, Volts{set_point_v}).value();
+    s.n_halves = 0;
+}
+
+void close_loop(ModeSwitchState& s) noexcept {
+    if (s.phase == SwitchPhase::open) s.phase = SwitchPhase::settling;
+    s.loop_closed = true;
+    s.n_halves = 0;
+    s.n_locked = 0;
+    s.n_lost = 0;
+    s.n_dark = 0;
+    s.smoothing = false;
+    s.readings = PiezoReadings{};
+}
+
+// Whether the light of the last open half is that of the new mode, near its centre.
+bool has_arrived(const ModeSwitchConfig& c, const ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    if (c.gap_min_ticks == 0 || s.phase != SwitchPhase::open) return false;
+    if (!in.tick_border || s.n_halves < 2 * c.gap_min_ticks) return false;
+    if (!(in.light_known && in.two_way && in.usable && in.at_rest)) return false;
+    const Wavelengths leads_to = in.detuning + in.in_flight;
+    return leads_to >= -1.0 * c.arrival_tolerance && leads_to <= c.arrival_tolerance;
+}
+
+void remember_good(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    s.good_measured = fresh(s.readings);
+    s.good_v = s.readings.n > 0 ? mean_v(s.readings) : clamp(c.range, in.set_point).value();
+    s.good_polarity = s.polarity;
+}
+
+void begin_switch(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    remember_good(c, s, in);
+    const SwitchDirection direction = choose_direction(c.range, Volts{s.good_v}, in.half_wave);
+    const double target_v = s.good_v + direction.sign * in.half_wave.value() + in.offset.value();
+    open_loop(c, s, SwitchPhase::open, inverse(s.polarity), target_v, in.next_tick);
+    s.out_of_range = direction.out_of_range;
+    if (in.recentre) s.good_measured = false;
+}
+
+// Go on where the gyro is, with the helicity that it has.
+void adopt(ModeSwitchState& s) noexcept {
+    const SwitchPhase phase = s.phase == SwitchPhase::searching ? SwitchPhase::searching : SwitchPhase::returning;
+    close_loop(s);
+    s.phase = phase;
+    s.polarity = inverse(s.polarity);
+    s.good_polarity = s.polarity;
+    s.good_measured = false;
+}
+
+void begin_return(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    open_loop(c, s, SwitchPhase::returning, s.good_polarity, s.good_v, in.next_tick);
+}
+
+// Each place of the range twice, first with the helicity that was held last.
+void try_place(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    constexpr double most_places = 1000.0;
+    const double span_v = c.range.max.value() - c.range.min.value();
+    const double wanted = 2.0 * span_v / in.half_wave.value();
+    const double bounded = wanted >= 1.0 ? (wanted < most_places ? wanted : most_places) : 1.0;
+    const auto n_places = static_cast<std::int32_t>(bounded);
+
+    s.place %= 2 * n_places;
+    const double fraction = (s.place / 2 + 0.5) / n_places;
+    const std::int8_t polarity = s.place % 2 == 0 ? s.good_polarity : inverse(s.good_polarity);
+    open_loop(c, s, SwitchPhase::searching, polarity, c.range.min.value() + fraction * span_v, in.next_tick);
+    ++s.place;
+}
+
+SwitchOutcome outcome_of(SwitchPhase phase) noexcept {
+    if (phase == SwitchPhase::returning) return SwitchOutcome::returned;
+    return phase == SwitchPhase::searching ? SwitchOutcome::found : SwitchOutcome::switched;
+}
+
+SwitchEvent completed(const ModeSwitchState& s) noexcept {
+    SwitchEvent e{.tick_opened = s.tick_opened,
+                  .outcome = outcome_of(s.phase),
+                  .has_miss = s.has_miss,
+                  .miss_lambda = s.miss_lambda,
+                  .out_of_range = s.out_of_range};
+    e.has_half_wave = e.outcome == SwitchOutcome::switched && s.good_measured && fresh(s.readings);
+    if (!e.has_half_wave) return e;
+    const double step_v = mean_v(s.readings) - s.good_v;
+    e.half_wave_v = step_v < 0.0 ? -step_v : step_v;
+    e.direction = step_v < 0.0 ? -1 : 1;
+    return e;
+}
+
+void settle(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in, ModeSwitchOutput& out) noexcept {
+    if (s.n_locked >= 2 * c.settle_ticks) {
+        out.has_event = s.switching;
+        if (s.switching) out.event = completed(s);
+        s.switching = false;
+        s.phase = SwitchPhase::tracking;
+        return;
+    }
+    const bool failed = s.n_halves >= 2 * c.lock_timeout_ticks || s.n_dark >= 2 * c.dark_ticks;
+    if (!failed || !in.tick_border) return;
+    if (s.phase == SwitchPhase::settling) {
+        begin_return(c, s, in);
+        return;
+    }
+    if (s.phase == SwitchPhase::returning) s.place = 0;
+    try_place(c, s, in);
+}
+
+void track(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
+    if (!in.tick_border) return;
+    if (in.due || in.recentre) {
+        begin_switch(c, s, in);
+    } else if (s.n_lost >= 2 * c.lock_timeout_ticks) {
+        remember_good(c, s, in);
+        begin_return(c, s, in);
+    }
+}
+
+}  // namespace
+
+ModeSwitchState initial_state(const ModeSwitchConfig& config) noexcept {
+    ModeSwitchState s;
+    s.polarity = config.start_polarity;
+    s.set_point_v = config.start_set_point.value();
+    s.good_v = config.start_set_point.value();
+    s.good_polarity = config.start_polarity;
+    return s;
+}
+
+ModeSwitchOutput step(const ModeSwitchConfig& config, ModeSwitchState& state, const ModeSwitchInput& input) noexcept {
+    ModeSwitchOutput out;
+    count_up(state.n_halves);
+    if (!state.loop_closed) {
+        if (state.n_halves >= 2 * config.gap_ticks || has_arrived(config, state, input)) close_loop(state);
+    } else {
+        watch(config, state, input);
+        if (input.reversed && input.tick_border) {
+            adopt(state);
+        } else if (state.phase == SwitchPhase::tracking) {
+            track(config, state, input);
+        } else {
+            settle(config, state, input, out);
+        }
+    }
+    out.loop_closed = state.loop_closed;
+    out.polarity = state.polarity;
+    out.set_point = Volts{state.set_point_v};
+    return out;
+}
+
+}  // namespace zlg::core

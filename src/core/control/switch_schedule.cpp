@@ -1,0 +1,111 @@
+#include <zlg/core/control/switch_schedule.hpp>
+
+#include <zlg/core/common/maths.hpp>
+
+namespace zlg::core {
+namespace {
+
+// Ticks beyond are no time of a gyro; below, adding an interval cannot overflow.
+constexpr std::int64_t most_ticks = std::int64_t{1} << 62;
+constexpr std::int64_t most_interval_ticks = std::int64_t{1} << 53;
+
+bool is_positive(double x) noexcept { return x > 0.0 && x <= 1e12; }
+
+std::int64_t limited_to(std::int64_t ticks, std::int64_t most) noexcept {
+    if (ticks > most) return most;
+    return ticks < -most ? -most : ticks;
+}
+
+std::int64_t in_mode(std::int8_t mode, std::int64_t ticks) noexcept { return mode < 0 ? -ticks : ticks; }
+
+void count_mode(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int8_t mode) noexcept {
+    // The first segment, of the first interval, ends half an interval from the centre.
+    const bool begins = s.imbalance_ticks == 0 && s.opened_tick == 0;
+    if (begins && c.kind != ScheduleKind::fixed && c.first_segment == FirstSegment::full)
+        s.centre_ticks = in_mode(mode, s.interval_ticks - s.interval_ticks / 2);
+    s.imbalance_ticks = limited_to(s.imbalance_ticks + in_mode(mode, 1), most_interval_ticks);
+}
+
+bool is_due_on_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
+    if (s.next_tick - tick > c.interval_ticks) s.next_tick = tick + c.interval_ticks;
+    if (tick < s.next_tick) return false;
+    s.next_tick += c.interval_ticks;
+    if (s.next_tick <= tick) s.next_tick = tick + c.interval_ticks;
+    return true;
+}
+
+bool is_due_by_balance(const SwitchScheduleConfig& c, const SwitchScheduleState& s,
+                       const SwitchScheduleInput& in) noexcept {
+    const bool rested = s.opened_tick == 0 || in.tick - s.opened_tick >= c.min_ticks - c.min_ticks / 16;
+    return rested && in_mode(in.mode, s.imbalance_ticks - s.centre_ticks) >= s.interval_ticks / 2;
+}
+
+bool is_due_by_end(const SwitchScheduleConfig& c, const SwitchScheduleState& s,
+                   const SwitchScheduleInput& in) noexcept {
+    const std::int64_t lead_ticks = in_mode(in.mode, s.imbalance_ticks);
+    return c.end_tick > 0 && lead_ticks > 0 && lead_ticks >= c.end_tick - in.tick;
+}
+
+// Nothing is due after the opening that balances the end.
+bool is_newly_due(const SwitchScheduleConfig& c, SwitchScheduleState& s, const SwitchScheduleInput& in) noexcept {
+    if (!(in.tick >= 0 && in.tick < most_ticks)) return false;
+    const bool regular = c.kind == ScheduleKind::fixed ? is_due_on_grid(c, s, in.tick) : is_due_by_balance(c, s, in);
+    if (s.balanced) return false;
+    s.balanced = is_due_by_end(c, s, in);
+    return regular || s.balanced;
+}
+
+// Up to a sixteenth shorter, by multiples of the golden section: equal intervals could hold a whole number of periods of a
+// vibration, and every switch would then meet it at the same phase and leave the same error.
+std::int64_t varied(std::int64_t interval_ticks, std::uint32_t n_openings) noexcept {
+    const std::uint32_t part = (n_openings * 2654435769U) >> 16U;  // of 65536
+    const std::int64_t sixteenth = interval_ticks / 16;
+    return interval_ticks - sixteenth / 65536 * part - sixteenth % 65536 * part / 65536;
+}
+
+void note_opening(const SwitchScheduleConfig& c, SwitchScheduleState& s, const SwitchScheduleInput& in) noexcept {
+    s.opened_tick = in.tick;
+    if (c.kind == ScheduleKind::fixed) return;
+    const SwitchAdvice advice = c.kind == ScheduleKind::measured ? in.advice : SwitchAdvice{};
+    s.interval_ticks = varied(balanced_interval(c, advice, in.tick), ++s.n_openings);
+    s.imbalance_ticks = s.centre_ticks + limited_to(s.imbalance_ticks - s.centre_ticks, c.max_ticks);
+}
+
+}  // namespace
+
+std::int64_t balanced_interval(const SwitchScheduleConfig& c, const SwitchAdvice& advice, std::int64_t tick) noexcept {
+    const double error =
+        is_positive(advice.switch_error_arcsec) ? advice.switch_error_arcsec : c.presumed.switch_error_arcsec;
+    const double drift =
+        is_positive(advice.magnetic_arcsec_s) ? advice.magnetic_arcsec_s : c.presumed.magnetic_arcsec_s;
+    const double time_s = static_cast<double>(tick > 1 ? tick : 1) * c.tick_s;
+    const double ratio = error / drift;
+    const double ticks = exponential(natural_log(6.0 * ratio * ratio * time_s) / 3.0) / c.tick_s;
+    if (!(ticks > static_cast<double>(c.min_ticks))) return c.min_ticks;
+    return ticks < static_cast<double>(c.max_ticks) ? static_cast<std::int64_t>(ticks) : c.max_ticks;
+}
+
+std::int64_t first_tick(const SwitchScheduleConfig& c) noexcept {
+    const std::int64_t interval = c.kind == ScheduleKind::fixed ? c.interval_ticks : balanced_interval(c, {}, 1);
+    return c.first_segment == FirstSegment::half ? interval / 2 : interval;
+}
+
+SwitchScheduleState initial_state(const SwitchScheduleConfig& c) noexcept {
+    return {.next_tick = first_tick(c),
+            .interval_ticks = c.kind == ScheduleKind::fixed ? c.interval_ticks : balanced_interval(c, {}, 1)};
+}
+
+SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleState& state,
+                          const SwitchScheduleInput& in) noexcept {
+    count_mode(config, state, in.mode);
+    const bool jumped = config.kind == ScheduleKind::fixed && in.tick > state.next_tick;
+    const bool late = state.waiting || jumped;
+    const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
+    state.waiting = planned && !in.ready;
+    if (!((planned || state.asked) && in.ready)) return {};
+    state.asked = false;
+    note_opening(config, state, in);
+    return {.open = true, .late = late};
+}
+
+}  // namespace zlg::core

@@ -1,0 +1,55 @@
+#pragma once
+// The counted angle of ticks that were not measured one by one: halves without a reading, and the half whose counts go
+// over all of them.
+//
+//   sum over ticks a..b = K (c - f/timer * sum of bias_sign * mode * d) - x_b + x_(a-1)
+//
+// c are all counts from the last reading before tick a to the one that ends tick b; what shifted edges add (d, x) is that
+// of edge_shift.hpp. A tick has one half of each bias sign, so the bias cancels in whole ticks, where the loop was closed
+// in one mode.
+
+#include <cstdint>
+
+#include <zlg/core/compensation/edge_shift.hpp>
+#include <zlg/core/records.hpp>
+
+namespace zlg::core {
+
+struct CountedStretchState {
+    bool known_before =
+        true;  // a closed tick was measured since the loop was open: its detuning bounds the false drift
+    double least_sq_lambda2 = 0.0;  // of the detuning in the halves from the last measured one to now; 0: not known
+    double most_sq_lambda2 = 0.0;
+    std::int64_t n_ticks = 0;    // since the last border between ticks with a reading
+    std::int64_t counts = 0;     // over them
+    std::int32_t uncovered = 0;  // halves up to now that no counts go over yet
+    bool broken = false;         // the counts do not give the angle
+    std::int8_t mode = 1;
+    std::int64_t area_ticks = 0;   // sum of bias_sign * mode * d
+    std::int32_t start_ticks = 0;  // shift of the reversal that begins the stretch,
+    bool start_known = false;      // and x there
+    double start_arcsec = 0.0;
+
+    friend bool operator==(const CountedStretchState&, const CountedStretchState&) = default;
+};
+
+struct CountedStretch {
+    std::int64_t n_ticks = 0;  // that end now; 0: nothing is known
+    double angle_arcsec = 0.0;
+    double fall_lambda2 =
+        0.0;  // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
+};
+
+// Take a tick that was not measured.
+//
+// edges  those of the ticks before. They are put right for the next tick where a stretch ends.
+[[nodiscard]] CountedStretch step(const EdgeShiftConfig& config, CountedStretchState& state, const HalfRecord& first,
+                                  const HalfRecord& second, Hertz bias, const EdgeShiftState& edges_before,
+                                  EdgeShiftState& edges) noexcept;
+
+// A measured tick: all begins anew.
+//
+// detuning_sq_lambda2  mean square of its second half; 0: not known.
+void begin_anew(CountedStretchState& state, double detuning_sq_lambda2) noexcept;
+
+}  // namespace zlg::core

@@ -1,0 +1,71 @@
+#pragma once
+// Shifted bias edges: what they add to the counts of a tick, and its rotation in even time.
+//
+// The counter is latched at the reversals. Where these come e ticks of the timer late, a half lasts d = e_end - e_start
+// longer than nominal. Its edges stay whole, so the plateau f of the bias fills the difference; and the tick as a whole
+// rotates for another time. With c the counts of both halves, K the scale, e_0 and e_2 at the ends of the tick:
+//
+//   A = (f/timer) (sum of bias_sign * mode * d)         known area: whole ticks of the timer times f
+//   r = (c - A)/(T + (e_2 - e_0)/timer)                 rate
+//   P = K (c - A) - x + x_before,  x = K (r + (r - r_before)/2) e_2/timer
+//
+// x is the rotation between the even and the shifted end of the tick, at the rate expected there. The next tick gets back
+// the very x that this one gives away, so that the sum of all P is that of the counts, less the area.
+
+#include <cstdint>
+
+#include <zlg/core/compensation/angle.hpp>
+#include <zlg/core/units.hpp>
+
+namespace zlg::core {
+
+struct EdgeShiftConfig {
+    Hertz timer{1e7};            // 1..1e15
+    double plateau_ratio = 1.0;  // plateau of the bias over its mean in an even half, 1..2: 1/(1 - t_e/T), linear edges
+    Seconds tick{0.005};         // T, > 0
+    Arcsec scale{3.263};         // K, > 0
+};
+
+enum class EdgeShiftFault : unsigned char { none, timer, plateau_ratio, tick, scale };
+
+[[nodiscard]] EdgeShiftFault check(const EdgeShiftConfig& config) noexcept;
+
+// A shift that leaves both halves beside it some time: less than a quarter of a tick.
+[[nodiscard]] bool is_possible(const EdgeShiftConfig& config, std::int32_t edge_offset_ticks) noexcept;
+
+// Counts that the bias makes in one tick of the timer, on its plateau. f0 is taken for 0 from 1e15 on.
+[[nodiscard]] double plateau_per_tick(const EdgeShiftConfig& config, Hertz bias) noexcept;
+
+struct EdgeShiftState {
+    std::int32_t offset_ticks = 0;  // of the last reversal
+    bool follows = false;           // the tick before is measured, its two numbers are known:
+    double turn_counts = 0.0;       // r T
+    double beyond_arcsec = 0.0;     // x
+    ExactSum left_arcsec{};         // by the rounding of P: part of the next
+
+    friend bool operator==(const EdgeShiftState&, const EdgeShiftState&) = default;
+};
+
+// One tick, its halves in order of time.
+struct EdgeShiftInput {
+    std::int64_t counts = 0;  // of both halves
+    int sign_first = 1;       // bias_sign * mode
+    int sign_second = -1;
+    std::int32_t offset_middle_ticks = 0;  // of the reversal that ends the first half; possible
+    std::int32_t offset_end_ticks = 0;     // of the one that ends the second
+    Hertz bias{60e3};                      // f0, mean over an even half; taken for 0 from 1e15 on
+};
+
+struct EdgeShiftOutput {
+    double value_arcsec = 0.0;         // P: without shifts exactly scale * counts
+    double known_excess_counts = 0.0;  // of the first half over the second by what they differ in length
+};
+
+// config  passed `check`.
+[[nodiscard]] EdgeShiftOutput step(const EdgeShiftConfig& config, EdgeShiftState& state,
+                                   const EdgeShiftInput& input) noexcept;
+
+// The tick before was not measured: the next one takes its own rate for the time between its even and its shifted start.
+void break_off(EdgeShiftState& state) noexcept;
+
+}  // namespace zlg::core

@@ -1,0 +1,56 @@
+#pragma once
+// The current of the bias coil: whether it is the same in both signs, and the same as always.
+//
+// A current that is a part p larger in one sign than in the other leaves p of the bias in the angle of every tick. The
+// counter cannot tell this from rotation, the current can.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace zlg::core {
+
+struct CoilMonitorConfig {
+    double tolerance_ratio = 0.0;  // of the current in one half, 0..1; 0: nothing is judged
+};
+
+enum class CoilMonitorFault : unsigned char { none, tolerance };
+
+[[nodiscard]] constexpr CoilMonitorFault check(const CoilMonitorConfig& c) noexcept {
+    return c.tolerance_ratio >= 0.0 && c.tolerance_ratio <= 1.0 ? CoilMonitorFault::none : CoilMonitorFault::tolerance;
+}
+
+struct CoilMonitorState {
+    std::array<double, 2> level_a{};   // size of the current in halves of negative and of positive sign
+    std::array<double, 2> first_a{};   // the first that were learnt
+    double spread = 0.0;               // mean size of a half's deviation from it, ratio
+    double deviation = 0.0;            // of the last half, ratio
+    double odd = 0.0;                  // smoothed half difference of two halves, positive sign less negative
+    double even = 0.0;                 // smoothed deviation
+    std::int32_t n_learnt = 0;         // halves, up to `learning_halves`
+    std::array<double, 2> steady_a{};  // means since it is off and steady,
+    std::int32_t n_steady = 0;         // for so many halves
+
+    friend constexpr bool operator==(const CoilMonitorState&, const CoilMonitorState&) = default;
+};
+
+struct CoilMonitorOutput {
+    bool off = false;         // the current is not what it was
+    bool unbalanced = false;  // in this half, or between the signs: the counts of a tick hold bias
+};
+
+// Advance by one half-period that was received.
+//
+// Two halves in a row may differ by the tolerance, or by eight standard deviations of such a difference where that is more; half
+// their difference, smoothed over eight halves, by half the tolerance, or two deviations. A change that is the same in both
+// signs for a second is the new level: it leaves nothing in the angle. So is one after which the signs are more alike than
+// those that were learnt. The loss of more than half of the current is never learnt, unless what is left is what was learnt
+// first.
+//
+// config   passed `check`.
+// sign     of the bias in this half, +1 or -1.
+// current  less than a microampere and what is not finite are no measurement until a level is learnt; then 0 is a loss.
+[[nodiscard]] CoilMonitorOutput step(const CoilMonitorConfig& config, CoilMonitorState& state, int sign,
+                                     double current_a) noexcept;
+
+}  // namespace zlg::core

@@ -1,0 +1,122 @@
+#pragma once
+// What the piezo makes of its voltage, learnt from the switches: the voltage that the next move will need.
+//
+//   L(v) = b + (w0 + k (T - T0)) (v - v0)/U + sum_i w_i (p_i(v) - p_i(v0))/U     length from v0 on, wavelengths
+//   p_i(v) = clip(p_i, v - r_i U, v + r_i U)                                      play operators (Prandtl, Ishlinskii)
+//
+// U is the presumed half-wave voltage. The plays follow every reading of the piezo: so they know the turning points,
+// and what creep and warming have made the loop do since the last switch, however long ago that was. The weights are a
+// random walk, estimated by a Kalman filter: each switch that ends in a lock is one measurement of L. Hysteresis is in
+// w_i, temperature in k, what does not turn with the direction in b. The thresholds are a fixed grid, finer where a
+// switch turns.
+//
+// Two moves in a row in one direction, seldom when the gyro warms by whole modes, can miss by 0.015: such a turn was
+// never seen before.
+
+#include <array>
+#include <cstdint>
+
+#include <zlg/core/control/piezo_range.hpp>
+#include <zlg/core/units.hpp>
+
+namespace zlg::core {
+
+inline constexpr std::size_t n_plays = 6;
+inline constexpr std::size_t n_stroke_weights = n_plays + 3;  // w0, k, b, plays
+
+struct StrokeModelConfig {
+    PiezoRange range{};
+    Volts half_wave{40.0};                   // presumed, 1e-3..1e6 V
+    double half_wave_sigma_ratio = 0.1;      // one standard deviation over itself, 0..1 exclusive
+    double play_sigma_ratio = 0.1;           // of each w_i over 1/2, 0..1; so are the next
+    double temperature_sigma_per_c = 0.002;  // of k; 0: no temperature
+    Celsius reference{20.0};                 // T0
+    Wavelengths measurement_sigma{0.001};    // of one length, 0 exclusive..0.5; a tenth of the miss is added
+    Wavelengths process_sigma{0.001};        // true change from one switch to the next, 0..0.5
+    double gate = 5.0;                       // a length farther off than this many standard deviations is an outlier
+};
+
+enum class StrokeModelFault : unsigned char { none, range, half_wave, sigma, reference, gate };
+
+[[nodiscard]] constexpr StrokeModelFault check(const StrokeModelConfig& c) noexcept {
+    const auto within = [](double x, double most) { return x >= 0.0 && x <= most; };
+    if (check(c.range) != PiezoRangeFault::none) return StrokeModelFault::range;
+    if (!(c.half_wave >= Volts{1e-3} && c.half_wave <= Volts{1e6})) return StrokeModelFault::half_wave;
+    if (!(c.half_wave_sigma_ratio > 0.0 && c.half_wave_sigma_ratio < 1.0)) return StrokeModelFault::sigma;
+    if (!within(c.play_sigma_ratio, 1.0) || !within(c.temperature_sigma_per_c, 1.0)) return StrokeModelFault::sigma;
+    if (!(c.measurement_sigma > Wavelengths{0.0} && c.measurement_sigma <= Wavelengths{0.5})) {
+        return StrokeModelFault::sigma;
+    }
+    if (!within(c.process_sigma.value(), 0.5)) return StrokeModelFault::sigma;
+    if (!(c.reference > Celsius{-1e6} && c.reference < Celsius{1e6})) return StrokeModelFault::reference;
+    if (!(c.gate > 0.0 && c.gate <= 100.0)) return StrokeModelFault::gate;
+    return StrokeModelFault::none;
+}
+
+using StrokeWeights = std::array<double, n_stroke_weights>;
+
+struct StrokeModelState {
+    std::array<double, n_plays> play{};  // over U, counted from the start's voltage; so are all voltages here
+    double origin_v = 0.0;               // the start's voltage
+    double start = 0.0;                  // v0 of the last move, and its plays
+    std::array<double, n_plays> start_play{};
+    StrokeWeights weight{};
+    std::array<StrokeWeights, n_stroke_weights> covariance{};
+    StrokeWeights regressor{};  // of a move that has arrived and is not yet confirmed
+    double length_lambda = 0.0;
+    double length_sigma_lambda = 0.0;
+    bool pending = false;
+    StrokeWeights gain{};  // P h of `regressor`: a row a half, from the arrival on; then P -= gain gain / spread
+    double spread = 0.0;
+    std::int8_t n_gain = 0;                      // rows of `gain` done
+    std::int8_t n_corrected = n_stroke_weights;  // rows of P done
+    std::int8_t outlier_side = 0;  // of the last measurement: +1 moved too far for the gate, -1 too little; 0: inside
+    std::int32_t n_learnt = 0;
+
+    friend constexpr bool operator==(const StrokeModelState&, const StrokeModelState&) = default;
+};
+
+[[nodiscard]] StrokeModelState initial_state(const StrokeModelConfig& config, Volts start) noexcept;
+
+// Once every half-period: let the plays follow a reading of the piezo (one that cannot be is ignored), and do one row
+// of what is left of the filter's work.
+void follow(const StrokeModelConfig& config, StrokeModelState& state, Volts piezo) noexcept;
+
+// The change of voltage, from `from` on, that is predicted to move the perimeter by half a wavelength.
+//
+// sign         +1 or -1, of the move.
+// temperature  now; not finite: T0.
+// return       of that sign, half to twice the presumed half-wave voltage.
+// accuracy     1e-4 of U where the plays make up to a third of the stroke.
+[[nodiscard]] Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& state, std::int8_t sign,
+                                   Volts from, Celsius temperature) noexcept;
+
+// The same with the plays as they were, to be computed later: what is learnt of moves must not have changed since.
+[[nodiscard]] Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& state,
+                                   const std::array<double, n_plays>& play, std::int8_t sign, Volts from,
+                                   Celsius temperature) noexcept;
+
+// A move begins, from the settled voltage `from`.
+void begin_move(const StrokeModelConfig& config, StrokeModelState& state, Volts from) noexcept;
+
+struct StrokeArrival {
+    std::int8_t sign = 1;    // of the move
+    Volts piezo{};           // at its end; the plays have followed it
+    Wavelengths detuning{};  // there, from the centre of the neighbouring mode
+    Celsius temperature{};
+};
+
+// The move has arrived, in whatever mode: remember what was measured until it is known.
+void arrive(const StrokeModelConfig& config, StrokeModelState& state, const StrokeArrival& arrival) noexcept;
+
+// The lock says whether the mode was the neighbour's. Learn from the move if so.
+//
+//   P += Q,  K = P h/(h P h + r),  w += K (L - h w),  P -= K h P
+//   h: `regressor`,  r = measurement_sigma^2 + (miss/10)^2
+//
+// A second outlier in a row on the same side is believed: the piezo is another one, and P begins anew.
+//
+// return  false for an outlier, which teaches nothing.
+bool confirm(const StrokeModelConfig& config, StrokeModelState& state, bool neighbour) noexcept;
+
+}  // namespace zlg::core

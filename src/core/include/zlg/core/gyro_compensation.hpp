@@ -1,0 +1,81 @@
+#pragma once
+// Compensation: makes angle of what control recorded, half by half.
+//
+// It obeys the recorded mode, bias sign and loop state and never commands, so a recorded log gives the same bits as the
+// live run. Two halves make a tick; a tick with an open loop or an invalid half belongs to a gap, and so does one with
+// counts that go over more than one half.
+
+#include <cstdint>
+
+#include <zlg/core/compensation/angle.hpp>
+#include <zlg/core/compensation/counted_stretch.hpp>
+#include <zlg/core/compensation/edge_shift.hpp>
+#include <zlg/core/compensation/gap_bridge.hpp>
+#include <zlg/core/compensation/joint_relock.hpp>
+#include <zlg/core/compensation/magnetic_drift.hpp>
+#include <zlg/core/compensation/relock_drift.hpp>
+#include <zlg/core/compensation/relock_profile.hpp>
+#include <zlg/core/records.hpp>
+#include <zlg/core/units.hpp>
+
+namespace zlg::core {
+
+struct GyroCompensationConfig {
+    RelockDriftConfig relock{};
+    RelockProfileConfig profile{};          // of `joint`
+    Hertz timer{1e7};                       // ticks of the timer per second, of shifted edges; 1..1e15
+    double plateau_ratio = 1.0;             // plateau of the bias over its mean in an even half, 1..2
+    GapBridgeConfig bridge{};               // its count is the scale; of half-ticks with `joint`
+    ArcsecPerRootSecond random_walk{0.14};  // for sigma, >= 0
+    MagneticDriftConfig magnetic{};         // its tick, walk and count are those above
+};
+
+enum class GyroCompensationFault : unsigned char { none, relock, edges, bridge, random_walk, magnetic, profile };
+
+[[nodiscard]] GyroCompensationFault check(const GyroCompensationConfig& config) noexcept;
+
+// What the switches of late have left in the angle, by the sigma of their gaps.
+struct SwitchErrors {
+    std::int32_t n = 0;
+    double mean_sq_arcsec2 = 0.0;
+
+    friend constexpr bool operator==(const SwitchErrors&, const SwitchErrors&) = default;
+};
+
+struct GyroCompensationState {
+    bool has_first = false;
+    HalfRecord first{};          // the half that waits for the other one of its tick
+    bool first_waits = false;    // the last tick was tick 1 of `frequency`
+    bool start_unknown = false;  // the reversal that begins the next half is recorded where none can have been
+    EdgeShiftState edges{};
+    CountedStretchState stretch{};
+    RelockDriftState relock{};
+    JointRelockState joint{};
+    double bias_arcsec = 0.0;  // that the bias adds to a half, slow mean; 0: not yet known
+    GapBridgeState bridge{};
+    MagneticDriftState magnetic{};
+    SwitchErrors switch_errors{};
+    Angle angle{};  // sum of all dtheta delivered
+
+    friend bool operator==(const GyroCompensationState&, const GyroCompensationState&) = default;
+};
+
+struct CompensationOutput {
+    bool has_sample = false;  // at the end of every tick
+    AngleSample sample{};
+    double angle_arcsec = 0.0;  // accumulated
+};
+
+// For the control, if it asks: it is free to go its own way.
+[[nodiscard]] SwitchAdvice advice(const GyroCompensationConfig& config, const GyroCompensationState& state) noexcept;
+
+// Take one half-period. Counts beyond 2^52 are no counts: the half is taken as invalid. Nor is a shift of an edge by a
+// quarter of a tick or more: both halves beside it are. A span below 1 is taken as 1.
+[[nodiscard]] CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
+                                      const HalfRecord& half, LightSamples light = {}) noexcept;
+
+// The log has ended: one more report of a gap or final row at each call, until there is neither. An odd last half is
+// dropped.
+[[nodiscard]] DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept;
+
+}  // namespace zlg::core

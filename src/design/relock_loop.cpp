@@ -1,0 +1,204 @@
+#include <zlg/design/relock_loop.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "range_check.hpp"
+
+namespace zlg::design {
+namespace {
+
+constexpr std::string_view where = "re-lock loop";
+
+void check(const RelockLoop& loop, double miss_lambda, int n_ticks) {
+    require_positive(where, "tick_s", loop.tick_s);
+    require_positive(where, "tau_s", loop.tau_s);
+    require(loop.limit_lambda > 0.0, where, "limit_lambda", loop.limit_lambda, "a number above 0, or infinity");
+    require_not_negative(where, "rc_s", loop.rc_s);
+    require(loop.slew_lambda_s > 0.0, where, "slew_lambda_s", loop.slew_lambda_s, "a number above 0, or infinity");
+    require(loop.delay_s >= 0.0 && loop.delay_s <= 10.0 * loop.tick_s, where, "delay_s", loop.delay_s, "0..10 T");
+    require(loop.mirror_hz > 0.0, where, "mirror_hz", loop.mirror_hz, "a number above 0, or infinity");
+    require_positive(where, "mirror_zeta", loop.mirror_zeta);
+    require(std::abs(miss_lambda) <= 0.5, where, "miss_lambda", miss_lambda, "-0.5..0.5");
+    require(n_ticks >= 1 && n_ticks <= 10000, where, "n_ticks", n_ticks, "1..10000");
+}
+
+void check(const BiasLaw& law) {
+    require_positive("bias law", "scale_arcsec", law.scale_arcsec);
+    require_positive("bias law", "bias_hz", law.bias_hz);
+    require_not_negative("bias law", "chi", law.chi);
+}
+
+// Integrals of dl and dl^2 travel with the state, so the means over a half are as exact as the motion.
+enum Member : std::size_t { command, voltage, position, velocity, sum, sum_square, n_members };
+using State = std::array<double, n_members>;
+
+State advanced(const State& s, const State& slope, double by) {
+    State next;
+    for (std::size_t k = 0; k < n_members; ++k) next[k] = s[k] + by * slope[k];
+    return next;
+}
+
+// Of a half. The corners that limiter and slew put inside steps want the finest grid, which a long simulation cannot afford.
+double steps_a_half(const RelockLoop& loop, int n_ticks) {
+    constexpr double long_ticks = 1000.0;
+    const double grid = 4000.0 / std::max(1.0, n_ticks / long_ticks);
+    double step = std::min(loop.tick_s / std::max(1000.0, grid), loop.tau_s / 200.0);
+    if (loop.rc_s > 0.0) step = std::min(step, loop.rc_s / 100.0);
+    if (std::isfinite(loop.mirror_hz)) step = std::min(step, 0.02 / (2.0 * std::numbers::pi * loop.mirror_hz));
+    return std::ceil(0.5 * loop.tick_s / step);
+}
+
+class Simulation {
+public:
+    Simulation(const RelockLoop& loop, double miss_lambda, int n_ticks)
+        : loop_{loop}, miss_{miss_lambda}, mirror_rad_s_{2.0 * std::numbers::pi * loop.mirror_hz} {
+        const double steps = steps_a_half(loop, n_ticks);
+        require(steps <= 1e6, where, "steps a half", steps, "at most 1e6: a time constant is too short for the tick");
+        steps_a_half_ = static_cast<int>(steps);
+        step_s_ = 0.5 * loop.tick_s / steps_a_half_;
+    }
+
+    RelockTrace run(int n_ticks) {
+        trace_.step_s = step_s_;
+        trace_.detuning_lambda = {detuning(state_)};
+        for (int half = 0; half < 2 * n_ticks; ++half) {
+            const State before = state_;
+            for (int k = 0; k < steps_a_half_; ++k) step();
+            const double length = 0.5 * loop_.tick_s;
+            trace_.half.push_back(
+                {(state_[sum] - before[sum]) / length, (state_[sum_square] - before[sum_square]) / length});
+        }
+        return std::move(trace_);
+    }
+
+private:
+    [[nodiscard]] double height(const State& s) const {
+        if (std::isfinite(loop_.mirror_hz)) return s[position];
+        return loop_.rc_s > 0.0 ? s[voltage] : s[command];
+    }
+
+    [[nodiscard]] double detuning(const State& s) const { return miss_ - height(s); }
+
+    // What the detector says at `fraction` of the step that begins now.
+    [[nodiscard]] double detected(const State& s, double fraction) const {
+        if (loop_.delay_s == 0.0) return detuning(s);
+        const auto& past = trace_.detuning_lambda;
+        const double now = static_cast<double>(past.size() - 1) + fraction;
+        const double at = now - loop_.delay_s / step_s_;
+        if (at <= 0.0) return miss_;
+        const auto below = static_cast<std::size_t>(at);
+        if (below + 1 >= past.size()) return past.back();  // a delay shorter than the step
+        const double part = at - std::floor(at);
+        return (1.0 - part) * past[below] + part * past[below + 1];
+    }
+
+    [[nodiscard]] State slope(const State& s, double fraction) const {
+        State d{};
+        d[command] = std::clamp(detected(s, fraction), -loop_.limit_lambda, loop_.limit_lambda) / loop_.tau_s;
+        if (loop_.rc_s > 0.0) {
+            d[voltage] = std::clamp((s[command] - s[voltage]) / loop_.rc_s, -loop_.slew_lambda_s, loop_.slew_lambda_s);
+        }
+        if (std::isfinite(loop_.mirror_hz)) {
+            const double drive = loop_.rc_s > 0.0 ? s[voltage] : s[command];
+            d[position] = s[velocity];
+            d[velocity] =
+                mirror_rad_s_ * (mirror_rad_s_ * (drive - s[position]) - 2.0 * loop_.mirror_zeta * s[velocity]);
+        }
+        d[sum] = detuning(s);
+        d[sum_square] = d[sum] * d[sum];
+        return d;
+    }
+
+    void step() {
+        const State a = slope(state_, 0.0);
+        const State b = slope(advanced(state_, a, 0.5 * step_s_), 0.5);
+        const State c = slope(advanced(state_, b, 0.5 * step_s_), 0.5);
+        const State d = slope(advanced(state_, c, step_s_), 1.0);
+        for (std::size_t k = 0; k < n_members; ++k) {
+            state_[k] += step_s_ / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]);
+        }
+        trace_.detuning_lambda.push_back(detuning(state_));
+    }
+
+    RelockLoop loop_;
+    double miss_;
+    double mirror_rad_s_;
+    int steps_a_half_ = 0;
+    double step_s_ = 0.0;
+    State state_{};
+    RelockTrace trace_;
+};
+
+}  // namespace
+
+RelockTrace simulate_relock(const RelockLoop& loop, double miss_lambda, int n_ticks) {
+    check(loop, miss_lambda, n_ticks);
+    return Simulation{loop, miss_lambda, n_ticks}.run(n_ticks);
+}
+
+std::vector<double> step_response(const RelockLoop& loop, int n_ticks) {
+    constexpr double step_lambda = 0.25;  // linear: the size does not matter
+    RelockLoop linear = loop;
+    linear.limit_lambda = linear.slew_lambda_s = RelockLoop::none;
+    const auto trace = simulate_relock(linear, step_lambda, n_ticks);
+    const std::size_t stride = (trace.detuning_lambda.size() - 1) / static_cast<std::size_t>(n_ticks);
+    std::vector<double> response;
+    for (std::size_t k = stride; k < trace.detuning_lambda.size(); k += stride) {
+        response.push_back(1.0 - trace.detuning_lambda[k] / step_lambda);
+    }
+    return response;
+}
+
+double relock_time_s(const RelockLoop& loop, double miss_lambda, double tolerance_lambda, int n_ticks) {
+    return relock_time_s(simulate_relock(loop, miss_lambda, n_ticks), tolerance_lambda);
+}
+
+double relock_steps(const RelockLoop& loop, int n_ticks) { return 2.0 * n_ticks * steps_a_half(loop, n_ticks); }
+
+double relock_time_s(const RelockTrace& trace, double tolerance_lambda) {
+    require_positive(where, "tolerance_lambda", tolerance_lambda);
+    const auto& dl = trace.detuning_lambda;
+    std::size_t k = dl.size();
+    while (k > 0 && std::abs(dl[k - 1]) <= tolerance_lambda) --k;
+    if (k == 0) return 0.0;
+    if (k == dl.size()) return std::numeric_limits<double>::infinity();
+    const double outside = std::abs(dl[k - 1]);
+    const double inside = std::abs(dl[k]);
+    return trace.step_s * (static_cast<double>(k - 1) + (outside - tolerance_lambda) / (outside - inside));
+}
+
+double bias_deficit_arcsec_s(const BiasLaw& law, double detuning_lambda) {
+    check(law);
+    require_finite("bias law", "detuning_lambda", detuning_lambda);
+    return law.scale_arcsec * law.bias_hz * law.chi * detuning_lambda * detuning_lambda;
+}
+
+std::vector<double> false_drift_arcsec_s(const BiasLaw& law, const RelockTrace& trace, int first_sign) {
+    check(law);
+    require(first_sign == 1 || first_sign == -1, "false drift", "first_sign", first_sign, "1 or -1");
+    const double gain = 0.5 * first_sign * law.scale_arcsec * law.bias_hz * law.chi;
+    std::vector<double> drift;
+    for (std::size_t h = 0; h + 1 < trace.half.size(); h += 2) {
+        drift.push_back(gain * (trace.half[h + 1].mean_square_lambda2 - trace.half[h].mean_square_lambda2));
+    }
+    return drift;
+}
+
+double false_angle_law_arcsec(double deficit_arcsec_s, double tick_s) {
+    require_not_negative("false angle", "deficit_arcsec_s", deficit_arcsec_s);
+    require_positive("false angle", "tick_s", tick_s);
+    return 0.25 * tick_s * deficit_arcsec_s;
+}
+
+double false_angle_exponential_arcsec(double deficit_arcsec_s, double tick_s, double tau_s) {
+    require_not_negative("false angle", "deficit_arcsec_s", deficit_arcsec_s);
+    require_positive("false angle", "tick_s", tick_s);
+    require_positive("false angle", "tau_s", tau_s);
+    return 0.5 * deficit_arcsec_s * tau_s * std::tanh(0.5 * tick_s / tau_s);
+}
+
+}  // namespace zlg::design

@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <zlg/design/error.hpp>
+#include <zlg/design/interval_formula.hpp>
+#include <zlg/design/switching_interval.hpp>
+
+#include "minimum.hpp"
+#include "range_check.hpp"
+
+namespace zlg::design {
+
+namespace {
+
+constexpr std::string_view where = "switching interval";
+
+[[noreturn]] void refuse(IntervalMethod method) {
+    throw DesignError(fmt::format("{}: method {} is none of the {} that there are", where, static_cast<int>(method),
+                                  interval_methods.size()));
+}
+
+// Each slope is L times the derivative of the budget with respect to L, in arcsec/s.
+
+double slope_corrected(const DriftCase& task, double interval_s) {
+    const auto& gyro = task.gyro;
+    const double sech = 1.0 / std::cosh(interval_s / (2.0 * gyro.thermal_time_s));
+    const double warmed = -std::expm1(-task.run_s / gyro.thermal_time_s);
+    const double magnetic_arcsec_s =
+        std::abs(gyro.magnetic_thermal_arcsec_s) / 2.0 * sech * sech * warmed + std::abs(gyro.magnetic_arcsec_s);
+    return interval_s * magnetic_arcsec_s / task.run_s - task.switch_error_arcsec / interval_s;
+}
+
+double slope_as_printed(const DriftCase& task, double interval_s) {
+    return interval_s * derivative_as_printed_arcsec_s2(task, interval_s);
+}
+
+// dK/dL at t, arcsec/s.
+double kernel_slope_arcsec_s(const GyroDrift& gyro, double interval_s, double at_s) {
+    const double tau_s = gyro.thermal_time_s;
+    const double tanh = std::tanh(interval_s / (2.0 * tau_s));
+    return (magnetic_rate_arcsec_s(gyro, at_s) +
+            gyro.magnetic_thermal_arcsec_s * std::exp(-at_s / tau_s) * tanh * tanh) /
+           2.0;
+}
+
+// dS/dL, arcsec/s.
+double start_slope_arcsec_s(const GyroDrift& gyro, double interval_s, FirstSegment first) {
+    if (first == FirstSegment::full) return kernel_slope_arcsec_s(gyro, interval_s, 0.0);
+    const double half_ratio = interval_s / (2.0 * gyro.thermal_time_s);
+    return -gyro.magnetic_thermal_arcsec_s / 2.0 * std::tanh(half_ratio) / std::cosh(half_ratio);
+}
+
+// Of what the sawtooth leaves at the worst end.
+double slope_worst_end(const DriftCase& task, double interval_s, FirstSegment first) {
+    const double start_arcsec = start_residue_arcsec(task.gyro, interval_s, first);
+    const double end_arcsec = kernel_arcsec(task.gyro, interval_s, task.run_s);
+    const double magnetic_arcsec_s =
+        std::copysign(1.0, start_arcsec) * start_slope_arcsec_s(task.gyro, interval_s, first) +
+        std::copysign(1.0, end_arcsec) * kernel_slope_arcsec_s(task.gyro, interval_s, task.run_s);
+    return interval_s * magnetic_arcsec_s / task.run_s;
+}
+
+double slope_worst_case(const DriftCase& task, double interval_s, FirstSegment first) {
+    return slope_worst_end(task, interval_s, first) - task.switch_error_arcsec / interval_s;
+}
+
+// Of sqrt(M^2 + N^2): (M L M' + N L N')/sqrt(M^2 + N^2), with N as L^(-1/2). The case has no nonmagnetic drift.
+double slope_random_sign(const DriftCase& task, double interval_s, FirstSegment first) {
+    const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
+    const double total_arcsec_s = random_sign_drift_arcsec_s(task, interval_s, first);
+    const double magnetic_arcsec_s =
+        worst_case_drift_arcsec_s(task, interval_s, first) - task.switch_error_arcsec / interval_s;
+    return (magnetic_arcsec_s * slope_worst_end(task, interval_s, first) - 0.5 * noise_arcsec_s * noise_arcsec_s) /
+           total_arcsec_s;
+}
+
+// The same of an end that nobody knows: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) + N^2).
+double slope_expected(const DriftCase& task, double interval_s, FirstSegment first) {
+    const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
+    const double start_arcsec = start_residue_arcsec(task.gyro, interval_s, first);
+    const double end_arcsec = kernel_arcsec(task.gyro, interval_s, task.run_s);
+    const double magnetic = start_arcsec * start_slope_arcsec_s(task.gyro, interval_s, first) +
+                            end_arcsec * kernel_slope_arcsec_s(task.gyro, interval_s, task.run_s) / 3.0;
+    return (interval_s * magnetic / (task.run_s * task.run_s) - 0.5 * noise_arcsec_s * noise_arcsec_s) /
+           expected_drift_arcsec_s(task, interval_s, first);
+}
+
+DriftCase without_nonmagnetic(DriftCase task) {
+    task.gyro.nonmagnetic_arcsec_s = 0.0;
+    return task;
+}
+
+bool has_magnetic_drift(const GyroDrift& gyro) {
+    return gyro.magnetic_arcsec_s != 0.0 || gyro.magnetic_thermal_arcsec_s != 0.0;
+}
+
+OptimumStatus status_of(double interval_s, double run_s, bool magnetic_drift) {
+    if (!magnetic_drift) return OptimumStatus::no_magnetic_drift;
+    return interval_s < run_s ? OptimumStatus::inside : OptimumStatus::whole_run;
+}
+
+// Below this interval the switches alone cost more than a run without any.
+double least_of_one_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
+    return task.switch_error_arcsec / whole_run_arcsec_s;
+}
+
+double least_of_random_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
+    const double ratio_s = task.switch_error_arcsec / whole_run_arcsec_s;
+    return ratio_s * ratio_s / task.run_s;
+}
+
+// Minimum of a budget that is nowhere below what its switches cost, by its value and slope as functions of case and
+// interval.
+template <class Drift, class Slope, class Least>
+Optimum searched(const DriftCase& task, const Drift& drift, const Slope& slope, const Least& least) {
+    check(task);
+    // The nonmagnetic drift is the same everywhere and would only blur the comparison of minima.
+    const DriftCase excess = without_nonmagnetic(task);
+    const double whole_run_arcsec_s = drift(excess, task.run_s);
+    const double least_s = std::min(least(excess, whole_run_arcsec_s), task.run_s);
+    require(std::isfinite(whole_run_arcsec_s) && std::isfinite(task.run_s / least_s), where, "drift over the whole run",
+            whole_run_arcsec_s, "what numbers can hold");
+    const double interval_s =
+        least_point([&](double length_s) { return drift(excess, length_s); },
+                    [&](double length_s) { return slope(excess, length_s); }, least_s, task.run_s);
+    return {status_of(interval_s, task.run_s, has_magnetic_drift(task.gyro)), interval_s, drift(task, interval_s)};
+}
+
+// Minimum of a budget that has a formula for it and knows no warm-up.
+Optimum limited_to_run(IntervalMethod method, const DriftCase& task, double formula_s) {
+    const double interval_s = std::min(formula_s, task.run_s);
+    return {status_of(interval_s, task.run_s, task.gyro.magnetic_arcsec_s != 0.0), interval_s,
+            drift_arcsec_s(method, task, interval_s)};
+}
+
+double closed_form_drift_arcsec_s(const DriftCase& task, double interval_s) {
+    DriftCase cold = task;
+    cold.gyro.magnetic_thermal_arcsec_s = 0.0;
+    return corrected_terms(cold, interval_s).total_arcsec_s();
+}
+
+}  // namespace
+
+std::string_view name(IntervalMethod method) {
+    switch (method) {
+        case IntervalMethod::corrected:
+            return "corrected";
+        case IntervalMethod::worst_case:
+            return "worst_case";
+        case IntervalMethod::as_printed:
+            return "as_printed";
+        case IntervalMethod::closed_form:
+            return "closed_form";
+        case IntervalMethod::random_sign:
+            return "random_sign";
+    }
+    return "";
+}
+
+std::string_view sentence(OptimumStatus status) {
+    switch (status) {
+        case OptimumStatus::inside:
+            return "the drift is least at an interval shorter than the run";
+        case OptimumStatus::whole_run:
+            return "the drift is least without a switch: in this run none pays for itself";
+        case OptimumStatus::no_magnetic_drift:
+            return "this budget holds no magnetic drift that a switch could reverse: best is not to switch";
+    }
+    return "";
+}
+
+double drift_arcsec_s(IntervalMethod method, const DriftCase& task, double interval_s) {
+    switch (method) {
+        case IntervalMethod::corrected:
+            return corrected_terms(task, interval_s).total_arcsec_s();
+        case IntervalMethod::worst_case:
+            return worst_case_drift_arcsec_s(task, interval_s);
+        case IntervalMethod::as_printed:
+            return terms_as_printed(task, interval_s).total_arcsec_s();
+        case IntervalMethod::closed_form:
+            return closed_form_drift_arcsec_s(task, interval_s);
+        case IntervalMethod::random_sign:
+            return random_sign_drift_arcsec_s(task, interval_s);
+    }
+    refuse(method);
+}
+
+Optimum worst_case_optimum(const DriftCase& task, FirstSegment first) {
+    return searched(
+        task,
+        [first](const DriftCase& t, double interval_s) { return worst_case_drift_arcsec_s(t, interval_s, first); },
+        [first](const DriftCase& t, double interval_s) { return slope_worst_case(t, interval_s, first); },
+        least_of_one_sign_s);
+}
+
+Optimum random_sign_optimum(const DriftCase& task, FirstSegment first) {
+    return searched(
+        task,
+        [first](const DriftCase& t, double interval_s) { return random_sign_drift_arcsec_s(t, interval_s, first); },
+        [first](const DriftCase& t, double interval_s) { return slope_random_sign(t, interval_s, first); },
+        least_of_random_sign_s);
+}
+
+Optimum expected_optimum(const DriftCase& task, FirstSegment first) {
+    return searched(
+        task, [first](const DriftCase& t, double interval_s) { return expected_drift_arcsec_s(t, interval_s, first); },
+        [first](const DriftCase& t, double interval_s) { return slope_expected(t, interval_s, first); },
+        least_of_random_sign_s);
+}
+
+Optimum optimum(IntervalMethod method, const DriftCase& task) {
+    const auto drift = [method](const DriftCase& t, double interval_s) {
+        return drift_arcsec_s(method, t, interval_s);
+    };
+    switch (method) {
+        case IntervalMethod::corrected:
+            return searched(task, drift, slope_corrected, least_of_one_sign_s);
+        case IntervalMethod::as_printed:
+            return searched(task, drift, slope_as_printed, least_of_one_sign_s);
+        case IntervalMethod::worst_case:
+            return worst_case_optimum(task, FirstSegment::full);
+        case IntervalMethod::closed_form:
+            return limited_to_run(method, task, closed_form_interval_s(task));
+        case IntervalMethod::random_sign:
+            return random_sign_optimum(task, FirstSegment::full);
+    }
+    refuse(method);
+}
+
+Sensitivity sensitivity(IntervalMethod method, const DriftCase& task) {
+    const Optimum best = optimum(method, task);
+    const auto rise = [&](double interval_s) { return drift_arcsec_s(method, task, interval_s) - best.drift_arcsec_s; };
+    Sensitivity result{.shorter_arcsec_s = rise(0.7 * best.interval_s), .longer_arcsec_s = std::nullopt};
+    const double longer_s = 1.3 * best.interval_s;
+    if (longer_s <= task.run_s) result.longer_arcsec_s = rise(longer_s);
+    return result;
+}
+
+}  // namespace zlg::design

@@ -1,0 +1,85 @@
+#include "csv_head.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <zlg/logs/error.hpp>
+
+#include "text_fields.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr std::string_view blanks = " \t";
+
+// As much as an HDF5 log may hold.
+constexpr std::size_t most_settings_bytes = std::size_t{16} << 20;
+
+// Prose with an equals sign in it is not a setting: a key has no blanks.
+bool is_key(std::string_view text) { return !text.empty() && text.find_first_of(blanks) == std::string_view::npos; }
+
+bool looks_like_number(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("+-.,0123456789eE") == std::string_view::npos;
+}
+
+// Of the names of columns: the one that stands there most often; blanks where there is no other.
+char separator_of(std::string_view names) {
+    char found = blanks_separator;
+    std::ptrdiff_t most = 0;
+    for (const char separator : {',', ';', '\t', '|'}) {
+        const auto n = std::ranges::count(names, separator);
+        if (n > most) found = separator;
+        most = std::max(most, n);
+    }
+    return trimmed(names).find_first_of(blanks) == std::string_view::npos && most == 0 ? ',' : found;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+void collect_setting(std::string_view line, Settings& settings) {
+    line.remove_prefix(1);
+    const auto equals = line.find('=');
+    if (equals == std::string_view::npos) return;
+    const std::string_view key = trimmed(line.substr(0, equals));
+    if (is_key(key)) settings.emplace_back(key, trimmed(line.substr(equals + 1)));
+}
+
+CsvHead read_head(LineReader& lines) {
+    CsvHead head;
+    std::string_view line;
+    std::size_t n_bytes = 0;
+    do {
+        if (!lines.next(line)) throw FormatError(fmt::format("{} is empty: no line of column names", lines.path()));
+        if (!line.starts_with('#')) continue;
+        const std::size_t before = head.settings.size();
+        collect_setting(line, head.settings);
+        if (head.settings.size() > before) n_bytes += line.size();
+        if (n_bytes > most_settings_bytes)
+            throw FormatError(fmt::format("{}:{}: settings of more than {} bytes, which is the most allowed",
+                                          lines.path(), lines.line_number(), most_settings_bytes));
+    } while (trimmed(line).empty() || line.starts_with('#'));
+
+    head.separator = separator_of(line);
+    std::vector<Field> fields;
+    split_fields(line, head.separator, fields);
+    for (const Field& field : fields) head.names.emplace_back(field.text);
+    if (std::ranges::all_of(head.names, looks_like_number)) {
+        throw FormatError(fmt::format("{}:{}: a row of numbers; the column names must stand above it", lines.path(),
+                                      lines.line_number()));
+    }
+    const auto nameless = std::ranges::find(head.names, std::string{});
+    if (nameless != head.names.end()) {
+        throw FormatError(fmt::format("{}:{}: column {} of {} has no name", lines.path(), lines.line_number(),
+                                      nameless - head.names.begin() + 1, head.names.size()));
+    }
+    return head;
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,40 @@
+#pragma once
+// What stands above the rows of a CSV log: lines `# key = value`, then one line of column names.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "line_reader.hpp"
+
+namespace zlg::logs {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+struct CsvHead {
+    Settings settings;               // in their order; other lines that begin with # are ignored
+    std::vector<std::string> names;  // of the columns, without surrounding blanks and quotes
+    char separator = ',';            // that parts them: , ; | tab, or ' ' for any run of blanks
+};
+
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+// A line `# key = value` is appended to `settings`; another remark is not.
+void collect_setting(std::string_view line, Settings& settings);
+
+// Calls `use(field)` for every comma-separated field of a line.
+template <class Use>
+void for_each_field(std::string_view line, Use use) {
+    for (;;) {
+        const auto comma = line.find(',');
+        use(line.substr(0, comma));
+        if (comma == std::string_view::npos) return;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+// errors  FormatError: the file is empty, no line of names, numbers in its place, a nameless column.
+[[nodiscard]] CsvHead read_head(LineReader& lines);
+
+}  // namespace zlg::logs

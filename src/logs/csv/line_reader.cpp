@@ -1,0 +1,88 @@
+#include "line_reader.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstring>
+#include <zlg/logs/error.hpp>
+#include <zlg/text/inputs.hpp>
+
+namespace zlg::logs {
+
+namespace {
+
+// Spreadsheets put it before UTF-8 text.
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+}  // namespace
+
+LineReader::LineReader(std::string path, std::int64_t most_bytes)
+    : path_{std::move(path)},
+      file_{::open(path_.c_str(), O_RDONLY | O_CLOEXEC)},
+      buffer_{std::make_unique_for_overwrite<char[]>(max_line_bytes)},
+      most_bytes_{most_bytes} {
+    if (!file_.is_open()) throw IoError(fmt::format("cannot open {}: {}", path_, std::strerror(errno)));
+    text::note_input(file_.get());
+    struct stat status {};
+    if (::fstat(file_.get(), &status) == 0) size_bytes_ = status.st_size;
+    refill();
+    if (std::string_view{buffer_.get(), end_}.starts_with(byte_order_mark)) begin_ = byte_order_mark.size();
+}
+
+void LineReader::refill() {
+    std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+    while (!end_of_file_ && end_ < max_line_bytes) {
+        const ssize_t n = ::read(file_.get(), buffer_.get() + end_, max_line_bytes - end_);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) throw IoError(fmt::format("cannot read {}: {}", path_, std::strerror(errno)));
+        end_of_file_ = n == 0;
+        end_ += static_cast<std::size_t>(n);
+        read_bytes_ += n;
+        if (most_bytes_ > 0 && read_bytes_ > most_bytes_)
+            throw FormatError(fmt::format("{}: more than {} bytes, which is the most allowed", path_, most_bytes_));
+    }
+}
+
+double LineReader::fraction_read() const {
+    return size_bytes_ > 0 ? static_cast<double>(read_bytes_) / static_cast<double>(size_bytes_) : 0.0;
+}
+
+bool LineReader::at_end() {
+    if (begin_ == end_ && !end_of_file_) refill();
+    return begin_ == end_;
+}
+
+std::string_view LineReader::take(std::size_t length) {
+    std::string_view line{buffer_.get() + begin_, length};
+    begin_ += length + (terminated_ ? 1 : 0);
+    ++line_number_;
+    if (line.find('\0') != std::string_view::npos) {
+        throw FormatError(fmt::format("{}:{}: a NUL byte; this is not a text file", path_, line_number_));
+    }
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+bool LineReader::next(std::string_view& line) {
+    const auto find_end = [this] { return std::memchr(buffer_.get() + begin_, '\n', end_ - begin_); };
+    const void* newline = find_end();
+    if (newline == nullptr && !end_of_file_) {
+        refill();
+        newline = find_end();
+    }
+    if (newline == nullptr && begin_ == end_) return false;
+    if (newline == nullptr && !end_of_file_) {
+        throw FormatError(fmt::format("{}:{}: a line of more than {} bytes; this is not a log", path_, line_number_ + 1,
+                                      max_line_bytes));
+    }
+    terminated_ = newline != nullptr;
+    const char* stop = terminated_ ? static_cast<const char*>(newline) : buffer_.get() + end_;
+    line = take(static_cast<std::size_t>(stop - (buffer_.get() + begin_)));
+    return true;
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,57 @@
+#pragma once
+// Lines of a text file, one after the other, through a buffer of fixed size.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "file_descriptor.hpp"
+
+namespace zlg::logs {
+
+class LineReader {
+public:
+    // A line that does not fit is no line of a log.
+    static constexpr std::size_t max_line_bytes = std::size_t{1} << 20;
+
+    // `most_bytes` of the file, 0: any number.
+    //
+    // errors  IoError: no such file, a directory, no permission.
+    explicit LineReader(std::string path, std::int64_t most_bytes = 0);
+
+    // The next line without its LF or CRLF, valid until the next call; false at the end of the file.
+    //
+    // errors  IoError; FormatError: a NUL byte, a line longer than max_line_bytes, more than most_bytes.
+    bool next(std::string_view& line);
+
+    // Nothing follows the line that was read last.
+    [[nodiscard]] bool at_end();
+
+    // The line that was read last ended with LF. A log that was cut off ends without.
+    [[nodiscard]] bool terminated() const { return terminated_; }
+    [[nodiscard]] std::int64_t line_number() const { return line_number_; }
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+    // Of the file's bytes, 0..1; 0 where a size is not known.
+    [[nodiscard]] double fraction_read() const;
+
+private:
+    void refill();
+    [[nodiscard]] std::string_view take(std::size_t length);
+
+    std::string path_;
+    FileDescriptor file_;
+    std::unique_ptr<char[]> buffer_;
+    std::size_t begin_ = 0;  // first byte that was not handed out
+    std::size_t end_ = 0;    // one past the last byte that was read
+    bool end_of_file_ = false;
+    std::int64_t size_bytes_ = 0;
+    std::int64_t read_bytes_ = 0;
+    std::int64_t most_bytes_ = 0;
+    bool terminated_ = true;
+    std::int64_t line_number_ = 0;
+};
+
+}  // namespace zlg::logs

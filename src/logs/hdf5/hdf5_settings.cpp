@@ -1,0 +1,86 @@
+#include "hdf5_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <zlg/logs/error.hpp>
+
+#include "settings_lines.hpp"
+#include "toml_settings.hpp"
+
+namespace zlg::logs::hdf5 {
+
+namespace {
+
+// What a reader must know to make angles of counts stands in the root, too.
+constexpr std::array<const char*, 2> root_reals{"tick_s", "scale_arcsec"};
+
+std::string in_section(const std::string& name) { return "gyro." + name; }
+
+const std::string* find_in_any_section(const Settings& settings, const std::string& name) {
+    const std::string* value = find_setting(settings, in_section(name));
+    return value != nullptr ? value : find_setting(settings, name);
+}
+
+void check_version(const Source& source) {
+    const auto version = source.real_attribute("format_version");
+    if (!version || *version == static_cast<double>(format_version)) return;
+    throw FormatError(fmt::format("{}: format_version is {}; allowed is {}", source.path(), *version, format_version));
+}
+
+void merge_root(const Source& source, const char* name, bool adds, Settings& settings) {
+    const auto value = source.real_attribute(name);
+    if (!value) return;
+    const std::string* text = find_in_any_section(settings, name);
+    if (text == nullptr) {
+        if (adds) settings.emplace_back(in_section(name), fmt::format("{}", *value));
+        return;
+    }
+    const auto configured = number_in(*text);
+    if (configured && *configured == *value) return;
+    throw FormatError(fmt::format("{}: the attribute {} is {}, but /config says {}; allowed is one value",
+                                  source.path(), name, *value, *text));
+}
+
+// A given tick_s goes before the settings' own.
+void add_settings(TableWriter& table, const Settings& settings, std::optional<double> tick_s) {
+    table.add_text("/config", settings_to_toml(settings));
+    table.set_integer("format_version", format_version);
+    for (const char* name : root_reals) {
+        if (tick_s && name == std::string_view{"tick_s"}) {
+            table.set_real(name, *tick_s);
+        } else if (const std::string* text = find_in_any_section(settings, name)) {
+            if (const auto value = number_in(*text)) table.set_real(name, *value);
+        }
+    }
+}
+
+}  // namespace
+
+void add_settings(TableWriter& table, const Settings& settings) { add_settings(table, settings, std::nullopt); }
+
+void add_angle_settings(TableWriter& table, const Settings& settings, double tick_s) {
+    if (const std::string* text = find_setting(settings, "tick_s")) {
+        const auto value = number_in(*text);
+        if (!value) throw FormatError(fmt::format("the setting tick_s is '{}'; allowed is a number", *text));
+        tick_s = *value;
+    }
+    Settings others = settings;
+    std::erase_if(others, [](const auto& setting) { return setting.first == "flags" || setting.first == "tick_s"; });
+    add_settings(table, others, std::isnan(tick_s) ? std::nullopt : std::optional{tick_s});
+}
+
+Settings read_settings(const Source& source, bool adds_tick) {
+    check_version(source);
+    Settings settings;
+    if (const auto text = source.text("/config")) settings = settings_from_toml(*text, source.path() + ", /config");
+    require_shallow_keys(settings, source.path() + ", /config");
+    for (const char* name : root_reals) {
+        merge_root(source, name, adds_tick || name != std::string_view{"tick_s"}, settings);
+    }
+    return settings;
+}
+
+}  // namespace zlg::logs::hdf5

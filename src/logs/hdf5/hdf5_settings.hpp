@@ -1,0 +1,31 @@
+#pragma once
+// The settings of an HDF5 log: /config and the attributes of the root.
+
+#include "csv/csv_head.hpp"
+#include "hdf5_source.hpp"
+#include "hdf5_table_writer.hpp"
+
+namespace zlg::logs::hdf5 {
+
+inline constexpr std::int64_t format_version = 1;
+
+// Writes /config and format_version, and of the settings tick_s and scale_arcsec, with or without `gyro.`, the attributes
+// of that name.
+//
+// errors  FormatError: a setting that is no text of one line; IoError.
+void add_settings(TableWriter& table, const Settings& settings);
+
+// The same for an angle log: the settings `flags` and `tick_s` have attributes of their own and no line in /config. Without
+// a setting `tick_s` the attribute is the given one, and there is none where that is NaN.
+//
+// errors  FormatError: as above, or a setting `tick_s` that is no number; IoError.
+void add_angle_settings(TableWriter& table, const Settings& settings, double tick_s);
+
+// Reads /config; attributes of the root stand for settings that /config lacks.
+//
+// With `adds_tick` false, tick_s is only compared with /config.
+//
+// errors  FormatError: no TOML, another format_version, an attribute that is no number or contradicts /config.
+[[nodiscard]] Settings read_settings(const Source& source, bool adds_tick = true);
+
+}  // namespace zlg::logs::hdf5

@@ -1,0 +1,99 @@
+#pragma once
+// The angle log: one row per tick, as CSV or HDF5.
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <zlg/core/records.hpp>
+
+namespace zlg::logs {
+
+struct AngleHeader {
+    // `# key = value` or /config, in their order; with the legend of the flags, `flags`, and `tick_s`.
+    std::vector<std::pair<std::string, std::string>> settings;
+    std::vector<std::string> warnings;  // unknown columns that are ignored, one line each
+    bool has_truth = false;             // /truth/dtheta_arcsec
+    bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
+};
+
+// A row and the time at which its tick ends.
+struct TimedAngle {
+    core::AngleRow row;  // relock_arcsec is not in the log and stays 0
+    double t_s = 0.0;
+    double truth_dtheta_arcsec = std::numeric_limits<double>::quiet_NaN();  // what the twin turned; NaN: not in the log
+};
+
+class AngleSource;
+class AngleSink;
+
+// Reads rows in order and checks every one: tick without holes from 0, finite numbers, sigma 0 or more or inf, mode
+// +1/-1. The format is recognised by the content.
+class AngleReader {
+public:
+    // An HDF5 log may be open in a writer, or left behind by one that was killed: its whole rows are there.
+    //
+    // errors  IoError, FormatError (an empty file, no header, a missing or misspelt column, one of a wrong kind).
+    explicit AngleReader(const std::string& path);
+    ~AngleReader();
+    AngleReader(AngleReader&&) noexcept;
+
+    [[nodiscard]] const AngleHeader& header() const;
+
+    // The next row; false at the end. errors FormatError: path, line or row, column, value, what is allowed.
+    bool next(TimedAngle& angle);
+
+    // Looks for rows that have been written since; true: `next` has more. Also renews header().complete.
+    bool refresh();
+
+    // Of the file, 0..1, a buffer ahead of the rows.
+    [[nodiscard]] double fraction_read() const;
+
+private:
+    std::unique_ptr<AngleSource> source_;
+};
+
+struct AngleWriterOptions {
+    bool has_truth = false;  // HDF5: the column /truth/dtheta_arcsec; a CSV log has none
+    // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
+    bool keep_part = false;
+    bool keep_csv_part = false;  // the same of CSV, for what cannot be had again
+};
+
+// Columns tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags, in the format that the suffix says: .csv,
+// .h5 or .hdf5; CSV reals in the shortest form that reads back.
+//
+// The file appears under its name at `close`, whole, or not at all. As HDF5 it grows as PATH.part, which can be read
+// meanwhile and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
+class AngleWriter {
+public:
+    // Settings `flags` and `tick_s`, as a reader hands them out, stand for the writer's own lines, or as HDF5 attributes, of
+    // that name. A `tick_s` of NaN is not known and not written.
+    //
+    // errors  IoError (another suffix included), FormatError (a setting with a line break; HDF5: a tick_s of no number).
+    AngleWriter(const std::string& path, double tick_s,
+                const std::vector<std::pair<std::string, std::string>>& settings, bool force,
+                const AngleWriterOptions& options = {});
+    ~AngleWriter();
+    AngleWriter(AngleWriter&&) noexcept;
+
+    // errors  IoError; FormatError: an angle that is not finite, a sigma that is negative or NaN.
+    void write(const core::AngleRow& row, double truth_dtheta_arcsec = 0.0);
+
+    // With a time of its own, as read from another log.
+    void write_timed(const TimedAngle& angle);
+
+    // Makes all rows so far visible to readers of PATH.part. errors  IoError.
+    void flush();
+    void close();
+
+    [[nodiscard]] const std::string& part_path() const;
+
+private:
+    std::unique_ptr<AngleSink> sink_;
+    double tick_s_;
+};
+
+}  // namespace zlg::logs

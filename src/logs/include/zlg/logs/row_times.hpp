@@ -1,0 +1,51 @@
+#pragma once
+// A column of times: what makes one, how many rows a second it says there are, and where rows are missing.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <zlg/logs/text_columns.hpp>
+
+namespace zlg::logs {
+
+// time, t, Zeit, timestamp and the like, with or without a unit behind.
+[[nodiscard]] bool names_time(std::string_view column_name);
+
+// The values rise by the same from row to row, or without exception over many rows: as times do, and rates do not.
+[[nodiscard]] bool rises_as_time(std::span<const double> values);
+
+struct Hole {
+    std::size_t row = 0;  // the last one before it, from 0
+    std::int64_t n_missing = 0;
+};
+
+struct RowTimes {
+    double step = 0.0;       // between neighbours, holes left out, in the column's unit
+    double tolerance = 0.0;  // relative, of the step
+    std::vector<Hole> holes;
+    std::int64_t n_missing = 0;  // in all of them
+};
+
+// Empty where the column, recognised by its place or its name, does not rise as times do.
+//
+// errors  FormatError: a time that is missing or earlier than the one before, in a column that is said to be one.
+[[nodiscard]] std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said);
+
+// Why these times are not those of so many rows a second; empty where they may be: in the unit that the column's name has,
+// or else in seconds or in thousandths, millionths or milliardths of one. Rows that are merely numbered say nothing.
+[[nodiscard]] std::string contradiction(const TextColumn& column, const RowTimes& times, double rate_hz);
+
+// The unit in which they are, where neither is it in the column's name nor are they seconds; empty else.
+[[nodiscard]] std::string presumed_unit(const TextColumn& column, const RowTimes& times, double rate_hz);
+
+// "column 1, 'time', rises by 0.01 a row, which is 100 Hz in seconds".
+[[nodiscard]] std::string rate_in_words(const TextColumn& column, const RowTimes& times);
+
+// Puts NaN where rows are missing.
+void fill_holes(std::vector<double>& values, const RowTimes& times);
+
+}  // namespace zlg::logs

@@ -1,0 +1,55 @@
+#pragma once
+// Columns of numbers in a plain text file.
+//
+// Columns are parted by blanks, tabs, semicolons, commas or bars; the decimal mark is a point or a comma. Both are
+// recognised together from the first lines, and a file that can be read in two ways is refused. Thousands are not parted.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zlg::logs {
+
+enum class TextSeparator { automatic, blanks, tab, semicolon, comma, bar };
+enum class TextMark { automatic, point, comma };
+
+struct TextLayout {
+    std::vector<std::string> columns;  // by number from 1, or by name; one or more
+    std::string comment = "#";         // lines that begin with it are skipped, as empty ones are
+    std::int64_t skip_lines = 0;       // and so many of those that are left
+    TextSeparator separator = TextSeparator::automatic;
+    TextMark mark = TextMark::automatic;
+    std::string time_column;           // as `columns`; empty: looked for; "0": there is none
+    std::string section = "analysis";  // whose keys `separator`, `decimal`, `skip_lines` messages name
+    std::size_t most_rows = 0;         // 0: any number
+    std::int64_t most_bytes = 0;       // comments and empty lines with them; 0: any number
+};
+
+struct TextColumn {
+    std::int64_t number = 0;     // first is 1
+    std::string name;            // empty: it has none
+    std::vector<double> values;  // NaN where a field is empty, `nan`, `NA` or `null`
+};
+
+struct TextTable {
+    std::vector<TextColumn> columns;  // those asked for, in that order
+    std::optional<TextColumn> times;  // the column of the times of the rows, where one is asked for or recognised
+    std::vector<std::string> names;   // of all columns; empty where there is no header
+    std::int64_t n_columns = 0;
+};
+
+// A line of words above the numbers is their header; the last comment above them is, where it has as many words. Columns of
+// times are recognised by their name, or as a first column without a name that was not asked for.
+//
+// errors  IoError; FormatError: what the file is, where it is no text; lines that can be read in no way or in two; a line
+//         with more or fewer fields than the first; no such column; another word than a finite number; no rows.
+[[nodiscard]] TextTable read_text_table(const std::string& path, const TextLayout& layout);
+
+// The numbers of the columns asked for alone.
+[[nodiscard]] std::vector<std::vector<double>> read_text_columns(const std::string& path, const TextLayout& layout);
+
+// `column`, by the words for messages: "column 2" or "column 2, 'rate'".
+[[nodiscard]] std::string described(const TextColumn& column);
+
+}  // namespace zlg::logs

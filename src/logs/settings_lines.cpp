@@ -1,0 +1,48 @@
+#include "settings_lines.hpp"
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <zlg/logs/error.hpp>
+#include <zlg/text/toml_depth.hpp>
+
+namespace zlg::logs {
+
+void require_one_line(const std::string& key, const std::string& value) {
+    if ((key + value).find_first_of(std::string_view{"\n\r\0", 3}) == std::string::npos) return;
+    throw FormatError(fmt::format("the setting {} cannot be logged: it holds a line break or NUL", key));
+}
+
+void require_shallow_keys(const std::vector<std::pair<std::string, std::string>>& settings, const std::string& place) {
+    for (const auto& [key, value] : settings) {
+        const auto depth = std::ranges::count(key, '.') + 1;
+        if (depth > text::most_toml_levels)
+            throw FormatError(fmt::format("{}: the setting {}... is nested {} deep; allowed is {}", place,
+                                          key.substr(0, 40), depth, text::most_toml_levels));
+    }
+}
+
+void write_settings(TableFile& file, const std::vector<std::pair<std::string, std::string>>& settings) {
+    for (const auto& [key, value] : settings) {
+        require_one_line(key, value);
+        file.append(fmt::format("# {} = {}\n", key, value));
+    }
+}
+
+const std::string* find_setting(const std::vector<std::pair<std::string, std::string>>& settings,
+                                const std::string& key) {
+    const auto found = std::find_if(settings.rbegin(), settings.rend(), [&](const auto& s) { return s.first == key; });
+    return found == settings.rend() ? nullptr : &found->second;
+}
+
+std::optional<double> number_in(std::string text) {
+    std::erase(text, '_');
+    if (text.starts_with('+')) text.erase(0, 1);
+    double value = 0.0;
+    const auto [stop, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,28 @@
+#pragma once
+// The lines `# key = value` above a table.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+#include <zlg/logs/table_file.hpp>
+
+namespace zlg::logs {
+
+// errors  FormatError: a key or a value that does not stay on its line.
+void require_one_line(const std::string& key, const std::string& value);
+
+// errors  FormatError: a dotted key that would be a tree of such a depth as no setting has.
+void require_shallow_keys(const std::vector<std::pair<std::string, std::string>>& settings, const std::string& place);
+
+// errors  FormatError: a key or a value that does not stay on its line; IoError.
+void write_settings(TableFile& file, const std::vector<std::pair<std::string, std::string>>& settings);
+
+// The value of the last setting of that name; null: there is none.
+[[nodiscard]] const std::string* find_setting(const std::vector<std::pair<std::string, std::string>>& settings,
+                                              const std::string& key);
+
+// A number as TOML writes it; empty where it is none.
+[[nodiscard]] std::optional<double> number_in(std::string text);
+
+}  // namespace zlg::logs

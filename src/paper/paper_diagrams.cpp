@@ -1,0 +1,139 @@
+// Figures 2 and 7: the perimeter loop, and the oscillation with the two places of a gap in it.
+
+#include <cmath>
+#include <numbers>
+
+#include <zlg/report/number_text.hpp>
+
+#include "paper_bridge.hpp"
+#include "paper_parts.hpp"
+
+namespace zlg::paper {
+namespace {
+
+using report::Diagram;
+using report::Figure;
+using report::Mark;
+using report::Series;
+
+// --- figure 2 --------------------------------------------------------------------------------------------------------
+
+Diagram loop_diagram() {
+    return {
+        .id = "figure-2",
+        .title = "Perimeter control with reversal of modes",
+        .caption =
+            "Solid: signals of the loop. Dashed: what the processor adds. Shaded: the processor, with its converters.",
+        .boxes = {{.lines = {"Ring", "laser"}, .column = 0, .row = 0, .rows = 2},
+                  {.lines = {"Photodiode,", "amplifier"}, .column = 1, .row = 0},
+                  {.lines = {"Synchronous", "detector"}, .column = 2, .row = 0},
+                  {.lines = {"Integrator", "with", "limiter"}, .column = 3, .row = 0, .rows = 3},
+                  {.lines = {"Processor:", "switching, half-wave voltage"},
+                   .column = 1,
+                   .row = 1,
+                   .columns = 2,
+                   .shaded = true},
+                  {.lines = {"Loop open", "or closed"}, .column = 2, .row = 2},
+                  {.lines = {"Voltage", "amplifier"}, .column = 1, .row = 2},
+                  {.lines = {"Piezo", "mirrors"}, .column = 0, .row = 2}},
+        .arrows = {{.from = 0, .to = 1, .label = "light"},
+                   {.from = 1, .to = 2},
+                   {.from = 2, .to = 3},
+                   {.from = 3, .to = 5},
+                   {.from = 5, .to = 6},
+                   {.from = 6, .to = 7},
+                   {.from = 7, .to = 0, .label = "length"},
+                   {.from = 0, .to = 4, .label = "counts", .dashed = true},
+                   {.from = 1, .to = 4, .label = "ADC", .dashed = true},
+                   {.from = 4, .to = 2, .label = "polarity", .dashed = true},
+                   {.from = 4, .to = 5, .label = "open", .dashed = true},
+                   {.from = 6, .to = 4, .label = "ADC", .dashed = true},
+                   {.from = 4, .to = 6, .label = "DAC", .dashed = true}}};
+}
+
+report::Table parts_table() {
+    return {.caption =
+                "What each block of the print is here. The perimeter can be left to the electronics of the twin or be "
+                "ruled by the processor.",
+            .header = {"block", "in the program"},
+            .rows = {{"synchronous detector", "core, sync_detector; in the twin its analog counterpart"},
+                     {"integrator", "twin, analog loop; core, perimeter_loop for a digital one"},
+                     {"first input, opens the loop", "core, mode_switch"},
+                     {"second input, voltage by DAC", "core, mode_switch, with the estimate of half_wave"},
+                     {"when to switch", "core, switch_schedule"},
+                     {"voltage amplifier, piezo", "twin, slew rate and time constant"}},
+            .prose = true};
+}
+
+// --- figure 7 --------------------------------------------------------------------------------------------------------
+
+// The gap about a moment, as a stretch of the axis in ms.
+report::Band gap_at(double middle_s, double tick_s, const char* name) {
+    const double half_s = 0.5 * paper_gap_ticks * tick_s;
+    return {1e3 * (middle_s - half_s), 1e3 * (middle_s + half_s), name};
+}
+
+Figure oscillation_figure(double tick_s) {
+    const double frequency_hz = paper_frequency_hz(tick_s);
+    const double period_s = 1.0 / frequency_hz;
+    constexpr double start_periods = -0.25;
+    constexpr double end_periods = 1.0;
+    constexpr int n_points = 251;
+    Series rate{.name = "rate A sin 2\u03C0\u03BDt", .x = {}, .y = {}, .y_error = {}};
+    for (int i = 0; i < n_points; ++i) {
+        const double periods = start_periods + (end_periods - start_periods) * i / (n_points - 1);
+        rate.x.push_back(1e3 * periods * period_s);
+        rate.y.push_back(paper_amplitude_arcsec_s * std::sin(2.0 * std::numbers::pi * periods));
+    }
+    Series ticks{.name = "mean over each tick, P/T", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
+    const double w = 2.0 * std::numbers::pi * frequency_hz;
+    // A tick lies in the middle of the zero crossing.
+    for (double t0_s = -2.5 * tick_s; t0_s + tick_s <= end_periods * period_s + 1e-9; t0_s += tick_s) {
+        const double angle = paper_amplitude_arcsec_s / w * (std::cos(w * t0_s) - std::cos(w * (t0_s + tick_s)));
+        ticks.x.push_back(1e3 * (t0_s + 0.5 * tick_s));
+        ticks.y.push_back(angle / tick_s);
+    }
+    return {
+        .id = "figure-7",
+        .title = "Oscillation of the case, and the two places of a gap in it",
+        .caption = fmt::format("Amplitude 12 000 \"/s, {} Hz, ticks of {} ms. A gap of three ticks, 1: where the rate "
+                               "passes zero, figures 8a and 9. 2: where it is at its extremum, figures 8b and 10.",
+                               report::short_number(frequency_hz), report::short_number(1e3 * tick_s)),
+        .x_label = "time, ms",
+        .y_label = "angular rate, arcsec/s",
+        .series = {std::move(rate), std::move(ticks)},
+        .bands = {gap_at(0.0, tick_s, "1"), gap_at(0.75 * period_s, tick_s, "2")}};
+}
+
+}  // namespace
+
+PaperItem paper_figure_2() {
+    return {
+        .number = "figure 2",
+        .section = {.heading = "Figure 2: perimeter control with reversal of modes",
+                    .paragraphs =
+                        {"At a switch the processor opens the loop, turns the polarity of the detector, and steps the "
+                         "high voltage by the half-wave voltage that it has learnt; then it closes the loop again.",
+                         "Agrees with print but for one number: a linear loop whose slow stage takes five periods T or "
+                         "more cannot be back within the four ticks of tables 1 and 2. The twin's integrator is "
+                         "limited, so its settling takes a time in proportion to the miss."},
+                    .tables = {parts_table()},
+                    .figures = {},
+                    .diagrams = {loop_diagram()}}};
+}
+
+PaperItem paper_figure_7(const PaperTask& task) {
+    return {
+        .number = "figure 7",
+        .section = {
+            .heading = "Figure 7: the oscillation, and where a gap may fall",
+            .paragraphs = {"Agrees: the curve and the two places. Does not: the names. Place 1, in print of constant "
+                           "angular velocity, is where the velocity changes fastest and the acceleration is constant; "
+                           "place 2, in print of variable angular velocity, is where the velocity hardly changes.",
+                           "The gyro does not sample the rate. A reading is the angle of a whole tick, and what a "
+                           "polynomial has to follow is the points."},
+            .tables = {},
+            .figures = {oscillation_figure(task.config.gyro.tick_s)}}};
+}
+
+}  // namespace zlg::paper

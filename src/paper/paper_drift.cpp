@@ -1,0 +1,281 @@
+// Figures 4 and 5: drift against the interval between switches, and the best interval.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <zlg/design/interval_formula.hpp>
+#include <zlg/design/switching_interval.hpp>
+#include <zlg/report/number_text.hpp>
+
+#include "paper_parts.hpp"
+#include "paper_readings.hpp"
+
+namespace zlg::paper {
+namespace {
+
+using design::DriftCase;
+using design::IntervalMethod;
+using report::Series;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// The colours of a figure come round after so many series; curves of the same run get the same one.
+constexpr std::size_t n_colours = 7;
+
+std::vector<double> sorted_runs_s(const config::Config& config) {
+    std::vector<double> runs = config.design.run_lengths_s;
+    std::sort(runs.begin(), runs.end());
+    return runs;
+}
+
+std::vector<double> log_spaced(double from, double to, int n) {
+    std::vector<double> x;
+    for (int i = 0; i < n; ++i) x.push_back(from * std::pow(to / from, i / (n - 1.0)));
+    x.back() = to;
+    return x;
+}
+
+// --- figure 4 --------------------------------------------------------------------------------------------------------
+
+struct Range {
+    double from_s = 0.0;
+    double to_s = 0.0;
+};
+
+// A decade to either side of the optima.
+Range interval_range(const config::Config& config, const std::vector<double>& runs_s) {
+    double least = std::numeric_limits<double>::infinity();
+    double greatest = 0.0;
+    for (const double run_s : runs_s) {
+        const double best_s = design::optimum(IntervalMethod::corrected, study::drift_case(config, run_s)).interval_s;
+        least = std::min(least, best_s);
+        greatest = std::max(greatest, best_s);
+    }
+    return {0.1 * least, 10.0 * greatest};
+}
+
+Series drift_curve(IntervalMethod method, const DriftCase& task, Range range, const char* name) {
+    Series s{.name = fmt::format("{} s, {}", report::short_number(task.run_s), name), .x = {}, .y = {}, .y_error = {}};
+    s.dashed = method == IntervalMethod::as_printed;
+    for (const double x : log_spaced(range.from_s, std::min(task.run_s, range.to_s), 160)) {
+        s.x.push_back(x);
+        s.y.push_back(design::drift_arcsec_s(method, task, x));
+    }
+    return s;
+}
+
+std::vector<Series> drift_curves(const config::Config& config, const std::vector<double>& runs_s) {
+    const Range range = interval_range(config, runs_s);
+    std::vector<Series> all;
+    for (const double run_s : runs_s)
+        all.push_back(
+            drift_curve(IntervalMethod::corrected, study::drift_case(config, run_s), range, "corrected (7c)"));
+    // A series without a name and without points uses up a colour and shows nowhere.
+    while (all.size() % n_colours != 0) all.push_back({.name = {}, .x = {}, .y = {}, .y_error = {}});
+    for (const double run_s : runs_s)
+        all.push_back(
+            drift_curve(IntervalMethod::as_printed, study::drift_case(config, run_s), range, "as printed (7)"));
+    Series best{.name = "least drift", .x = {}, .y = {}, .y_error = {}, .mark = report::Mark::points};
+    for (const IntervalMethod method : {IntervalMethod::corrected, IntervalMethod::as_printed})
+        for (const double run_s : runs_s) {
+            const design::Optimum optimum = design::optimum(method, study::drift_case(config, run_s));
+            if (optimum.interval_s > range.to_s) continue;
+            best.x.push_back(optimum.interval_s);
+            best.y.push_back(optimum.drift_arcsec_s);
+        }
+    all.push_back(std::move(best));
+    return all;
+}
+
+report::Table optimum_table(const config::Config& config, const std::vector<double>& runs_s) {
+    report::Table table{
+        .caption =
+            "Least drift, and the interval between switches at which it is reached. A is the "
+            "change of the magnetic drift by a full warm-up.",
+        .header = {"A, \"/s", "run, s", "interval by (7), s", "drift, \"/s", "interval by (7c), s", "drift, \"/s"},
+        .rows = {}};
+    for (const auto& reading : {study::drift_case, drift_case_per_degree})
+        for (const double run_s : runs_s) {
+            const DriftCase task = reading(config, run_s);
+            const auto printed = design::optimum(IntervalMethod::as_printed, task);
+            const auto corrected = design::optimum(IntervalMethod::corrected, task);
+            table.rows.push_back(
+                {report::short_number(task.gyro.magnetic_thermal_arcsec_s), report::short_number(run_s),
+                 report::fixed_number(printed.interval_s, 1), report::fixed_number(printed.drift_arcsec_s, 3),
+                 report::fixed_number(corrected.interval_s, 1), report::fixed_number(corrected.drift_arcsec_s, 3)});
+        }
+    return table;
+}
+
+std::string figure_4_agreement(const config::Config& config, double shortest_s, double longest_s) {
+    const auto first = design::optimum(IntervalMethod::corrected, study::drift_case(config, shortest_s));
+    const auto last = design::optimum(IntervalMethod::corrected, study::drift_case(config, longest_s));
+    return fmt::format(
+        "Agrees: each curve has one minimum between too many switches and too long a sawtooth, and with the length of "
+        "the "
+        "run it falls and moves to longer intervals, from {} \"/s at {} s to {} \"/s at {} s. Runs much shorter than "
+        "the "
+        "thermal time hardly show which formula is right.",
+        report::fixed_number(first.drift_arcsec_s, 3), report::fixed_number(first.interval_s, 1),
+        report::fixed_number(last.drift_arcsec_s, 3), report::fixed_number(last.interval_s, 1));
+}
+
+std::string figure_4_disagreement(const config::Config& config, double longest_s) {
+    const DriftCase task = study::drift_case(config, longest_s);
+    const auto right = design::optimum(IntervalMethod::corrected, task);
+    const auto printed = design::optimum(IntervalMethod::as_printed, task);
+    return fmt::format(
+        "Does not: (7) charges the whole run with the thermal change of its first two segments. In {} s its minimum is "
+        "{} "
+        "\"/s at {} s, the right one {} \"/s at {} s; and however long the run, (7) stays about {} \"/s above the "
+        "non-magnetic drift to which the text and (7c) let it fall.",
+        report::short_number(longest_s), report::fixed_number(printed.drift_arcsec_s, 3),
+        report::fixed_number(printed.interval_s, 1), report::fixed_number(right.drift_arcsec_s, 3),
+        report::fixed_number(right.interval_s, 1), report::fixed_number(printed_floor_arcsec_s(task), 3));
+}
+
+std::string readings(const config::Config& config, double shortest_s, double longest_s) {
+    const auto interval = [&](double run_s) {
+        return design::optimum(IntervalMethod::as_printed, drift_case_per_degree(config, run_s)).interval_s;
+    };
+    return fmt::format(
+        "Reading: the print lists the thermal part of the magnetic drift as {} \"/s and the warming as {} C, and "
+        "multiplies the two in (5). Here {} \"/s is taken for their product. Taken per degree, A is {} \"/s, and even "
+        "(7) "
+        "has its minima at {} s in {} s and {} s in {} s, which is not the figure 5 that rises with the run.",
+        report::short_number(config.drift.magnetic_thermal_arcsec_s),
+        report::short_number(config.gyro.temperature_rise_c),
+        report::short_number(config.drift.magnetic_thermal_arcsec_s),
+        report::short_number(drift_case_per_degree(config, longest_s).gyro.magnetic_thermal_arcsec_s),
+        report::fixed_number(interval(shortest_s), 1), report::short_number(shortest_s),
+        report::fixed_number(interval(longest_s), 1), report::short_number(longest_s));
+}
+
+// --- figure 5 --------------------------------------------------------------------------------------------------------
+
+struct IntervalLaw {
+    const char* name;
+    double (*interval_s)(const DriftCase&);  // NaN where the law gives none
+    bool dashed = false;
+};
+
+double inside(IntervalMethod method, const DriftCase& task) {
+    const design::Optimum best = design::optimum(method, task);
+    return best.status == design::OptimumStatus::inside ? best.interval_s : nan;
+}
+
+double smaller(const design::Roots& roots) { return roots.status == design::RootStatus::found ? roots.smaller_s : nan; }
+
+double closed_form(const DriftCase& task) {
+    const double interval_s = design::closed_form_interval_s(task);
+    return interval_s <= task.run_s ? interval_s : nan;
+}
+
+constexpr IntervalLaw interval_laws[] = {
+    {"least of (7c)", [](const DriftCase& task) { return inside(IntervalMethod::corrected, task); }},
+    {"least of (7) as printed", [](const DriftCase& task) { return inside(IntervalMethod::as_printed, task); }, true},
+    {"root of (9c)", [](const DriftCase& task) { return smaller(design::corrected_roots(task)); }},
+    {"root of (9) as printed, with its t",
+     [](const DriftCase& task) { return smaller(design::roots_as_printed(task)); }, true},
+    {"sqrt(dP t/Om)", closed_form},
+};
+
+// The run lengths of the configuration are among the points.
+std::vector<double> times_s(const std::vector<double>& runs_s) {
+    std::vector<double> times = log_spaced(0.1 * runs_s.front(), 3.0 * runs_s.back(), 150);
+    times.insert(times.end(), runs_s.begin(), runs_s.end());
+    std::sort(times.begin(), times.end());
+    return times;
+}
+
+std::vector<Series> interval_curves(const config::Config& config, const std::vector<double>& runs_s) {
+    std::vector<Series> all;
+    for (const IntervalLaw& law : interval_laws) {
+        Series s{.name = law.name, .x = times_s(runs_s), .y = {}, .y_error = {}, .dashed = law.dashed};
+        for (const double t : s.x) s.y.push_back(law.interval_s(study::drift_case(config, t)));
+        all.push_back(std::move(s));
+    }
+    return all;
+}
+
+report::Table interval_table(const config::Config& config, const std::vector<double>& runs_s) {
+    report::Table table{.caption = "Best interval between switches, s.", .header = {"run, s"}, .rows = {}};
+    for (const IntervalLaw& law : interval_laws) table.header.emplace_back(law.name);
+    for (const double run_s : runs_s) {
+        std::vector<std::string> row{report::short_number(run_s)};
+        for (const IntervalLaw& law : interval_laws)
+            row.push_back(report::fixed_number(law.interval_s(study::drift_case(config, run_s)), 1));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::string end_of_roots(const DriftCase& task) {
+    const double longest_s = design::longest_run_as_printed_s(task.gyro, task.switch_error_arcsec);
+    if (!std::isfinite(longest_s)) return "";
+    return fmt::format(", and for runs above {} s it has no positive root at all", report::short_number(longest_s));
+}
+
+std::vector<std::string> figure_5_text(const config::Config& config, double shortest_s, double longest_s) {
+    const auto at = [&](std::size_t law, double run_s) {
+        return report::fixed_number(interval_laws[law].interval_s(study::drift_case(config, run_s)), 1);
+    };
+    return {
+        fmt::format("Agrees: the best interval grows with the run, and in the shortest one all laws give nearly the "
+                    "same, {} s by (7c) and {} s by the square root in {} s.",
+                    at(0, shortest_s), at(4, shortest_s), report::short_number(shortest_s)),
+        fmt::format("Does not: (9) lacks a factor t on its right side, without which its units do not agree, and has "
+                    "the thermal term with the wrong sign: a warm-up makes its interval longer{}. With the right "
+                    "sign, (9c), it follows (7), mistake included: {} s in {} s, where the least drift is at {} s.",
+                    end_of_roots(study::drift_case(config, longest_s)), at(2, longest_s),
+                    report::short_number(longest_s), at(0, longest_s))};
+}
+
+}  // namespace
+
+PaperItem paper_figure_4(const PaperTask& task) {
+    const config::Config& config = task.config;
+    const std::vector<double> runs_s = sorted_runs_s(config);
+    PaperItem item{.number = "figure 4",
+                   .section = {.heading = "Figure 4: drift against the interval between switches"}};
+    if (runs_s.empty()) return item;
+    item.section.paragraphs = {figure_4_agreement(config, runs_s.front(), runs_s.back()),
+                               figure_4_disagreement(config, runs_s.back()),
+                               readings(config, runs_s.front(), runs_s.back())};
+    item.section.tables = {optimum_table(config, runs_s)};
+    item.section.figures = {{.id = "figure-4",
+                             .title = "Drift against the interval between switches, figure 4 of the paper",
+                             .caption =
+                                 "Full lines: corrected formula. Dashed: as printed, the same colour for the same "
+                                 "length of run. Points: the least drift of each curve.",
+                             .x_label = "interval between switches, s",
+                             .y_label = "drift, \"/s",
+                             .series = drift_curves(config, runs_s),
+                             .bands = {},
+                             .log_x = true}};
+    return item;
+}
+
+PaperItem paper_figure_5(const PaperTask& task) {
+    const config::Config& config = task.config;
+    const std::vector<double> runs_s = sorted_runs_s(config);
+    PaperItem item{.number = "figure 5", .section = {.heading = "Figure 5: best interval against length of run"}};
+    if (runs_s.empty()) return item;
+    item.section.paragraphs = figure_5_text(config, runs_s.front(), runs_s.back());
+    item.section.tables = {interval_table(config, runs_s)};
+    item.section.figures = {{.id = "figure-5",
+                             .title = "Best interval between switches, figure 5 of the paper",
+                             .caption =
+                                 "Minima of the drift budgets, and the formulas that the paper derives for them. A "
+                                 "line ends where its law has no answer.",
+                             .x_label = "length of the run, s",
+                             .y_label = "interval, s",
+                             .series = interval_curves(config, runs_s),
+                             .bands = {},
+                             .log_x = true,
+                             .log_y = true}};
+    return item;
+}
+
+}  // namespace zlg::paper

@@ -1,0 +1,188 @@
+// Figure 1: the bias and the detuning signal, as signals of the twin.
+
+#include <cmath>
+
+#include <zlg/report/number_text.hpp>
+#include <zlg/rig/wiring.hpp>
+#include <zlg/twin/twin.hpp>
+
+#include "paper_parts.hpp"
+
+namespace zlg::paper {
+namespace {
+
+using report::Diagram;
+using report::Figure;
+using report::Mark;
+using report::Series;
+
+// A gyro whose perimeter is held at one detuning, at rest or in slow rotation.
+class HeldGyro {
+public:
+    HeldGyro(const config::Config& config, double detuning_lambda, double rate_arcsec_s = 0.0)
+        : twin_{twin_config(config), twin::Motion::sines(rate_arcsec_s, {})} {
+        const double middle_v = 0.5 * (config.piezo.range_min_v + config.piezo.range_max_v);
+        actuator_.set_point_v[0] = middle_v + 2.0 * config.piezo.half_wave_v * detuning_lambda;
+        // The high-voltage stage takes some milliseconds to get there. The next half has the sign of the first.
+        for (int half = 0; half < settling_halves; ++half) (void)twin_.advance(actuator_);
+    }
+
+    twin::TwinHalf advance() { return twin_.advance(actuator_); }
+
+private:
+    static constexpr int settling_halves = 201;
+
+    static twin::TwinConfig twin_config(const config::Config& config) {
+        twin::TwinConfig c = rig::twin_config(config);
+        c.loop = twin::LoopKind::external;
+        c.miss_lambda = 0.0;
+        c.temperature_rise_c = 0.0;
+        return c;
+    }
+
+    twin::Twin twin_;
+    core::ActuatorFrame actuator_{};
+};
+
+constexpr int shown_halves = 6;
+
+Figure beat_figure(const config::Config& config) {
+    Figure figure{.id = "figure-1-beat",
+                  .title = "The bias of the twin",
+                  .caption =
+                      "Rate of the counter over each half of the tick, gyro at rest, no detuning. The two halves of a "
+                      "tick cancel in its angle and leave the rotation.",
+                  .x_label = "time, ms",
+                  .y_label = "rate of the counter, kHz",
+                  .series = {},
+                  .bands = {}};
+    Series beat{.name = "mean over the half", .x = {}, .y = {}, .y_error = {}, .mark = Mark::steps};
+    HeldGyro gyro{config, 0.0};
+    const double half_s = 0.5 * config.gyro.tick_s;
+    std::uint64_t counter = gyro.advance().sensor.counter;
+    for (int half = 0; half < shown_halves; ++half) {
+        const std::uint64_t next = gyro.advance().sensor.counter;
+        // The counter wraps; as a signed number the difference does not.
+        const auto counts = static_cast<double>(static_cast<std::int64_t>(next - counter));
+        counter = next;
+        beat.x.push_back(1e3 * half_s * half);
+        beat.y.push_back(1e-3 * counts / half_s);
+    }
+    beat.x.push_back(1e3 * half_s * shown_halves);
+    beat.y.push_back(beat.y.back());
+    figure.series.push_back(std::move(beat));
+    return figure;
+}
+
+Series light_of(const config::Config& config, double detuning_lambda) {
+    Series s{.name = "on the centre", .x = {}, .y = {}, .y_error = {}};
+    if (detuning_lambda != 0.0)
+        s.name = fmt::format("{}{} wavelengths", detuning_lambda > 0.0 ? "+" : "\u2212", std::abs(detuning_lambda));
+    HeldGyro gyro{config, detuning_lambda};
+    (void)gyro.advance();  // so that the halves shown have the signs of those of the counter
+    const double half_ms = 500.0 * config.gyro.tick_s;
+    for (int half = 0; half < shown_halves; ++half) {
+        const core::SensorFrame sensor = gyro.advance().sensor;
+        for (std::size_t k = 0; k < sensor.n_light; ++k) {
+            const double sum = double{sensor.light_a[k]} + double{sensor.light_b[k]};
+            s.x.push_back(half_ms * (half + (static_cast<double>(k) + 0.5) / sensor.n_light));
+            s.y.push_back(100.0 * (double{sensor.light_a[k]} - double{sensor.light_b[k]}) / sum);
+        }
+    }
+    return s;
+}
+
+Figure light_figure(const config::Config& config) {
+    Figure figure{.id = "figure-1-light",
+                  .title = "The detuning signal of the twin",
+                  .caption =
+                      "Samples of the light over the same time. Off the centre of the gain contour the beams differ, "
+                      "with the sign of the bias: a modulation of period T. Its phase tells the side, and turns over "
+                      "with the helicity of the mode.",
+                  .x_label = "time, ms",
+                  .y_label = "difference of the beams over their sum, %",
+                  .series = {},
+                  .bands = {}};
+    for (const double detuning : {0.05, 0.0, -0.05}) figure.series.push_back(light_of(config, detuning));
+    return figure;
+}
+
+Figure frequency_figure(const config::Config& config) {
+    constexpr int ticks = 40;
+    // At rest every tick would be rounded alike: 0.382 counts of rotation in a tick spread the rounding evenly.
+    const double rate_arcsec_s = 0.381966 * config.gyro.scale_arcsec / config.gyro.tick_s;
+    Series law{.name = "f\u2080(1 \u2212 \u03C7 \u0394\u03BB\u00B2), eq (2)", .x = {}, .y = {}, .y_error = {}};
+    Series seen{.name = "counted on the twin", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
+    for (int k = -40; k <= 40; ++k) {
+        law.x.push_back(0.005 * k);
+        law.y.push_back(1e-3 * config.gyro.bias_hz * (1.0 - config.gyro.bias_chi * 2.5e-5 * k * k));
+    }
+    for (int k = -4; k <= 4; ++k) {
+        HeldGyro gyro{config, 0.05 * k, rate_arcsec_s};
+        twin::TwinHalf half = gyro.advance();
+        double counts = 0.0;
+        for (int i = 0; i < 2 * ticks; ++i) {
+            const std::uint64_t before = half.sensor.counter;
+            half = gyro.advance();
+            counts +=
+                half.sensor.bias_sign * static_cast<double>(static_cast<std::int64_t>(half.sensor.counter - before));
+        }
+        seen.x.push_back(half.truth.detuning_end_lambda);
+        seen.y.push_back(1e-3 * std::abs(counts) / (ticks * config.gyro.tick_s));
+    }
+    return {.id = "figure-1-frequency",
+            .title = "Bias frequency against detuning",
+            .caption =
+                "Why a gyro that is not yet tuned lies: while the detuning goes down, the two halves of a tick have "
+                "different bias.",
+            .x_label = "detuning, wavelengths",
+            .y_label = "bias frequency, kHz",
+            .series = {std::move(law), std::move(seen)},
+            .bands = {}};
+}
+
+Diagram bias_diagram() {
+    return {.id = "figure-1",
+            .title = "How the bias and the detuning signal come about",
+            .caption =
+                "s is the sign of the field, p the helicity of the mode, \u0394\u03BB the detuning. Shaded: done by "
+                "the processor.",
+            .boxes = {{.lines = {"Bias", "commutator"}, .column = 0, .row = 0, .shaded = true},
+                      {.lines = {"Field in the", "discharge"}, .column = 1, .row = 0},
+                      {.lines = {"Zeeman effect:", "gain contours", "of the beams", "move apart"},
+                       .column = 2,
+                       .row = 0,
+                       .rows = 3},
+                      {.lines = {"Light of", "the beams"}, .column = 1, .row = 1},
+                      {.lines = {"Synchronous", "detector"}, .column = 0, .row = 1, .shaded = true},
+                      {.lines = {"Beat of", "the beams"}, .column = 1, .row = 2},
+                      {.lines = {"Counter"}, .column = 0, .row = 2},
+                      {.lines = {"Perimeter"}, .column = 2, .row = 3}},
+            .arrows = {{.from = 0, .to = 1, .label = "\u00B1 current"},
+                       {.from = 1, .to = 2, .label = "s = \u00B11"},
+                       {.from = 0, .to = 4, .label = "s p"},
+                       {.from = 2, .to = 3, .label = "s p \u0394\u03BB"},
+                       {.from = 3, .to = 4, .label = "samples"},
+                       {.from = 2, .to = 5, .label = "s p f"},
+                       {.from = 5, .to = 6, .label = "fringes"},
+                       {.from = 7, .to = 2, .label = "\u0394\u03BB"}}};
+}
+
+}  // namespace
+
+PaperItem paper_figure_1(const PaperTask& task) {
+    return {
+        .number = "figure 1",
+        .section = {
+            .heading = "Figure 1: the bias and the detuning signal",
+            .paragraphs = {"In print a sketch of signals; here the block diagram and the signals of the twin.",
+                           "Agrees: bias and modulation as described. Does not: (1) divides by the Zeeman shift and "
+                           "puts c in the numerator. The amplitude is proportional to the detuning times the shift, so "
+                           "only A = K \u0394\u03BB is used, with the helicity in the sign. The signal has the period "
+                           "T of the bias, not half of it: at T/2 there is only what is left on the centre."},
+            .tables = {},
+            .figures = {beat_figure(task.config), light_figure(task.config), frequency_figure(task.config)},
+            .diagrams = {bias_diagram()}}};
+}
+
+}  // namespace zlg::paper

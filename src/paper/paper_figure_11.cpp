@@ -1,0 +1,227 @@
+// Figure 11: noise of a replaced gap against its length.
+
+#include <algorithm>
+#include <utility>
+
+#include <zlg/design/substitution_noise.hpp>
+
+#include "paper_bridge_curves.hpp"
+
+namespace zlg::paper {
+namespace {
+
+using design::Fit;
+using design::TickNoise;
+using report::Figure;
+
+constexpr double n_sigmas = 3.0;
+
+design::Substitution substitution(Fit fit, int order, double n) {
+    return {.fit = fit, .order = order, .n = static_cast<int>(std::lround(n)), .points = {}};
+}
+
+double tick_sigma_arcsec(const PaperTask& task) {
+    return design::counter_tick_sigma_arcsec(task.config.gyro.scale_arcsec);
+}
+
+std::vector<double> lengths_of(const BridgePoints& points) {
+    std::vector<double> x;
+    for (const SubstitutionResult& r : points.of_noise) x.push_back(r.interpolation[0].n);
+    return x;
+}
+
+report::Series noise_points(Look look, const BridgePoints& points, Fit fit, int order) {
+    report::Series s{
+        .name = std::move(look.name), .x = lengths_of(points), .y = {}, .y_error = {}, .mark = report::Mark::points};
+    s.colour = look.colour;
+    for (const SubstitutionResult& result : points.of_noise) {
+        const SubstitutionPoint& p = point_of(result, fit, order);
+        s.y.push_back(n_sigmas * p.rms_arcsec);
+        s.y_error.push_back(n_sigmas * p.rms_error);
+    }
+    return s;
+}
+
+// White and counter noise of the same size, and the twin.
+void add_order(Figure& figure, const PaperTask& task, const BridgePoints& points, Fit fit, int order, int colour,
+               const std::string& name) {
+    const double unit = n_sigmas * tick_sigma_arcsec(task);
+    const auto theory = [&](TickNoise noise) {
+        return [&, noise](double n) { return unit * design::sum_gain(substitution(fit, order, n), noise); };
+    };
+    figure.series.push_back(
+        curve({name + ", white noise", colour, true}, lengths_of(points), theory(TickNoise::white)));
+    figure.series.push_back(curve({name + ", counter", colour}, lengths_of(points), theory(TickNoise::counter)));
+    figure.series.push_back(noise_points({name + ", twin", colour}, points, fit, order));
+}
+
+Figure corrected_figure(const PaperTask& task, const BridgePoints& points) {
+    Figure figure{.id = "figure-11",
+                  .title = "Noise of the corrected gap",
+                  .caption =
+                      "Three standard deviations of the sum over the gap. White noise and the rounding of the count "
+                      "have the same size in one tick. The twin has rounding, light noise and random walk.",
+                  .x_label = "replaced ticks n",
+                  .y_label = "3 sigma of the gap, arcsec",
+                  .series = {},
+                  .bands = {},
+                  .log_y = true};
+    for (const int order : sum_orders)
+        add_order(figure, task, points, Fit::interpolation, order, order / 2, sum_order_name(order));
+    figure.series.push_back(curve({"constant as printed, A\u221An/2", 2, true}, lengths_of(points), [&](double n) {
+        return design::constant_noise_as_printed_arcsec(n_sigmas * tick_sigma_arcsec(task),
+                                                        static_cast<int>(std::lround(n)));
+    }));
+    return figure;
+}
+
+Figure delivered_figure(const PaperTask& task, const BridgePoints& points) {
+    Figure figure{.id = "figure-11-delivered",
+                  .title = "Noise of what is delivered in real time",
+                  .caption = "The same for the extrapolation (14) from the four ticks before the gap.",
+                  .x_label = "replaced ticks n",
+                  .y_label = "3 sigma of the gap, arcsec",
+                  .series = {},
+                  .bands = {},
+                  .log_y = true};
+    for (int order = 0; order < 3; ++order)
+        add_order(figure, task, points, Fit::extrapolation, order, order, order_names[static_cast<std::size_t>(order)]);
+    return figure;
+}
+
+double ratio(Fit fit, int order, double n, TickNoise noise) {
+    return design::sum_gain(substitution(fit, order, n), noise) / design::sum_gain(substitution(fit, 0, n), noise);
+}
+
+report::Table ratio_table(const BridgePoints& points) {
+    report::Table table{
+        .caption = "How many times noisier than the constant: white noise / rounding of the count / twin.",
+        .header = {"n", "corrected, quadratic", "in real time, linear", "in real time, quadratic"},
+        .rows = {}};
+    for (const SubstitutionResult& result : points.of_noise) {
+        const int n = result.interpolation[0].n;
+        std::vector<std::string> row{fmt::format("{}", n)};
+        for (const auto& [fit, order] :
+             {std::pair{Fit::interpolation, 2}, std::pair{Fit::extrapolation, 1}, std::pair{Fit::extrapolation, 2}})
+            row.push_back(
+                fmt::format("{} / {} / {}", report::fixed_number(ratio(fit, order, n, TickNoise::white), 2),
+                            report::fixed_number(ratio(fit, order, n, TickNoise::counter), 2),
+                            report::fixed_number(
+                                point_of(result, fit, order).rms_arcsec / point_of(result, fit, 0).rms_arcsec, 2)));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::string range_of_ratio(const BridgePoints& points, Fit fit, int order) {
+    const std::vector<double> x = lengths_of(points);
+    return fmt::format("{} to {}", report::fixed_number(ratio(fit, order, x.front(), TickNoise::white), 2),
+                       report::fixed_number(ratio(fit, order, x.back(), TickNoise::white), 2));
+}
+
+// --- the twin's points of figures 8 to 11 against theory ------------------------------------------------------------
+
+std::vector<SubstitutionPoint> of_motion(const BridgePoints& points, Fit fit, int order) {
+    std::vector<SubstitutionPoint> all;
+    const auto add = [&](const std::vector<SubstitutionResult>& results) {
+        for (const SubstitutionResult& r : results) all.push_back(point_of(r, fit, order));
+    };
+    add(points.by_frequency);
+    add(points.by_length);
+    for (const auto& results : points.by_amplitude) add(results);
+    return all;
+}
+
+struct Estimator {
+    Fit fit;
+    int order;
+    const char* name;
+};
+
+constexpr Estimator estimators[] = {{Fit::interpolation, 0, "corrected, constant = linear"},
+                                    {Fit::interpolation, 2, "corrected, quadratic"},
+                                    {Fit::extrapolation, 0, "in real time, constant"},
+                                    {Fit::extrapolation, 1, "in real time, linear"},
+                                    {Fit::extrapolation, 2, "in real time, quadratic"}};
+
+struct Agreement {
+    ChiSquare motion;
+    ChiSquare noise;
+};
+
+Agreement agreement(const BridgePoints& points, const Estimator& e) {
+    std::vector<SubstitutionPoint> noise;
+    for (const SubstitutionResult& r : points.of_noise) noise.push_back(point_of(r, e.fit, e.order));
+    return {chi2_per_dof(of_motion(points, e.fit, e.order)), rms_chi2_per_dof(noise)};
+}
+
+report::Table agreement_table(const BridgePoints& points) {
+    report::Table table{.caption =
+                            "All points of figures 8 to 11: squared deviation from theory over squared standard error, "
+                            "per point (number of points). The estimators of one experiment share its noise.",
+                        .header = {"estimator", "motion, both regions", "noise"},
+                        .rows = {}};
+    for (const Estimator& e : estimators) {
+        const Agreement a = agreement(points, e);
+        table.rows.push_back({e.name, fmt::format("{} ({})", report::fixed_number(a.motion.per_dof, 2), a.motion.dof),
+                              fmt::format("{} ({})", report::fixed_number(a.noise.per_dof, 2), a.noise.dof)});
+    }
+    return table;
+}
+
+}  // namespace
+
+ChiSquare agreement_of_all(const BridgePoints& points) {
+    ChiSquare all;
+    double sum = 0.0;
+    for (const Estimator& e : estimators) {
+        const Agreement a = agreement(points, e);
+        for (const ChiSquare& part : {a.motion, a.noise}) {
+            sum += part.per_dof * part.dof;
+            all.dof += part.dof;
+        }
+    }
+    if (all.dof > 0) all.per_dof = sum / all.dof;
+    return all;
+}
+
+PaperItem paper_figure_11(const PaperTask& task, const BridgePoints& points) {
+    const double three_sigma = n_sigmas * tick_sigma_arcsec(task);
+    const double lsb_arcsec = task.config.gyro.scale_arcsec;
+    const auto corrected = [&](int order, TickNoise noise) {
+        return report::fixed_number(
+            three_sigma * design::sum_gain(substitution(Fit::interpolation, order, paper_gap_ticks), noise), 2);
+    };
+    PaperItem item{.number = "figure 11",
+                   .section = {.heading = "Figure 11: noise against the number of replaced ticks"}};
+    item.section.paragraphs = {
+        fmt::format("Noise: one count is {} arcsec, so a tick is off by {} arcsec rms and {} arcsec at 3 sigma, "
+                    "triangular within one count. Print names half a count, {} arcsec, as the amplitude A of a tick; "
+                    "the law below takes 3 sigma for A, which is the reading kinder to it.",
+                    report::short_number(lsb_arcsec), report::fixed_number(tick_sigma_arcsec(task), 2),
+                    report::fixed_number(three_sigma, 2), report::fixed_number(0.5 * lsb_arcsec, 2)),
+        "Agrees: the constant is the quietest, and the parabola the worse the longer the gap.",
+        fmt::format(
+            "Does not: the n replaced ticks share one mean, so their errors add up directly and 3 sigma is An/2, not "
+            "A\u221An/2: {} arcsec instead of {} at three ticks of white noise. Rounding is not white: errors of "
+            "neighbouring ticks have opposite signs in part, which helps equal weights and hurts alternating ones. The "
+            "constant comes down from {} to {} arcsec, the parabola goes up from {} to {}.",
+            report::fixed_number(design::constant_noise_arcsec(three_sigma, paper_gap_ticks), 2),
+            report::fixed_number(design::constant_noise_as_printed_arcsec(three_sigma, paper_gap_ticks), 2),
+            corrected(0, TickNoise::white), corrected(0, TickNoise::counter), corrected(2, TickNoise::white),
+            corrected(2, TickNoise::counter)),
+        fmt::format("Does not: print finds the straight line 1.8 to 2.5 times noisier than the constant, the parabola "
+                    "8 to 35 times. In the corrected sum the straight line is the constant, and the parabola is {} "
+                    "times noisier for 1 to {} ticks. Extrapolated, the line is {} and the parabola {} times noisier. "
+                    "No single reading gives both of the printed ranges; near the first is the corrected parabola at "
+                    "up to three ticks, near the second the extrapolated one.",
+                    range_of_ratio(points, Fit::interpolation, 2), points.of_noise.size(),
+                    range_of_ratio(points, Fit::extrapolation, 1), range_of_ratio(points, Fit::extrapolation, 2)),
+        "The last table holds the twin against theory in all points of figures 8 to 11. About 1 is what chance "
+        "allows."};
+    item.section.tables = {ratio_table(points), agreement_table(points)};
+    item.section.figures = {corrected_figure(task, points), delivered_figure(task, points)};
+    return item;
+}
+
+}  // namespace zlg::paper

@@ -1,0 +1,224 @@
+// Figure 3: the angle error of the twin, and what its sawtooth measures.
+
+#include <algorithm>
+#include <cmath>
+
+#include <zlg/design/drift_budget.hpp>
+#include <zlg/design/magnetic_angle.hpp>
+#include <zlg/report/number_text.hpp>
+#include <zlg/study/design_study.hpp>
+
+#include "paper_parts.hpp"
+
+namespace zlg::paper {
+namespace {
+
+using report::Series;
+
+design::GyroDrift gyro_drift(const PaperTask& task) { return study::drift_case(task.config, 1.0).gyro; }
+
+// Between two switches. `clean_s` is where the re-lock is over and only drift is left.
+struct Segment {
+    double from_s = 0.0;
+    double clean_s = 0.0;
+    double to_s = 0.0;
+    int mode = 1;
+};
+
+std::vector<Segment> segments_of(const PaperTask& task, const study::RunResult& run) {
+    Segment next{.mode = run.switches.empty() ? 1 : -run.switches.front().mode};
+    std::vector<Segment> all;
+    for (const study::SwitchLine& line : run.switches) {
+        next.to_s = static_cast<double>(line.tick) * run.tick_s;
+        all.push_back(next);
+        const auto ticks = line.gap_ticks + task.config.compensation.relock_ticks + 1;
+        next = {.from_s = next.to_s, .clean_s = next.to_s + static_cast<double>(ticks) * run.tick_s, .mode = line.mode};
+    }
+    next.to_s = static_cast<double>(run.ticks) * run.tick_s;
+    all.push_back(next);
+    return all;
+}
+
+const study::VariantResult* variant(const study::RunResult& run, const std::string& name) {
+    const auto found = std::find_if(run.variants.begin(), run.variants.end(),
+                                    [&](const study::VariantResult& v) { return v.name == name; });
+    return found == run.variants.end() ? nullptr : &*found;
+}
+
+// The rate of a segment, all of it and of the magnetic drift alone, with the sign of the mode undone.
+struct Rates {
+    double measured_arcsec_s = 0.0;
+    double computed_arcsec_s = 0.0;
+    int mode = 1;
+};
+
+// An even number of them, so that modes are equally many.
+std::vector<Rates> rates_of(const std::vector<Segment>& segments, const study::Curve& curve,
+                            const design::GyroDrift& gyro) {
+    std::vector<Rates> all;
+    std::size_t k = 0;
+    for (const Segment& s : segments) {
+        study::Drift fit;
+        int n = 0;
+        for (; k < curve.t_s.size() && curve.t_s[k] < s.to_s; ++k)
+            if (curve.t_s[k] > s.clean_s) fit.add(curve.t_s[k], curve.error_arcsec[k]), ++n;
+        if (n < 3) continue;
+        const double magnetic = design::magnetic_integral_arcsec(gyro, s.clean_s, s.to_s) / (s.to_s - s.clean_s);
+        all.push_back({fit.slope_arcsec_s(), gyro.nonmagnetic_arcsec_s + s.mode * magnetic, s.mode});
+    }
+    if (all.size() % 2 == 1) all.pop_back();
+    return all;
+}
+
+// What a sawtooth shows: its slope, and the rate of its flanks against that slope.
+struct Sawtooth {
+    double slope_arcsec_s = 0.0;
+    double first_arcsec_s = 0.0;
+    double last_arcsec_s = 0.0;
+    double mean_arcsec_s = 0.0;
+};
+
+Sawtooth sawtooth(const std::vector<Rates>& rates, double Rates::*of) {
+    const auto n = static_cast<double>(rates.size());
+    Sawtooth s;
+    for (const Rates& r : rates) {
+        s.slope_arcsec_s += r.*of / n;
+        s.mean_arcsec_s += r.mode * (r.*of) / n;
+    }
+    s.first_arcsec_s = rates.front().mode * (rates.front().*of - s.slope_arcsec_s);
+    s.last_arcsec_s = rates.back().mode * (rates.back().*of - s.slope_arcsec_s);
+    return s;
+}
+
+double interval_s(const PaperTask& task, const study::RunResult& run) {
+    if (run.switches.size() < 2) return task.config.switching.interval_s;
+    return static_cast<double>(run.switches[1].tick - run.switches[0].tick) * run.tick_s;
+}
+
+Series computed_curve(const study::Curve& curve, const std::vector<Segment>& segments, const design::GyroDrift& gyro) {
+    Series s{.name = "computed", .x = curve.t_s, .y = {}, .y_error = {}, .dashed = true};
+    double before = 0.0;
+    std::size_t k = 0;
+    for (const double t : curve.t_s) {
+        for (; k + 1 < segments.size() && segments[k].to_s <= t; ++k)
+            before += segments[k].mode * design::magnetic_integral_arcsec(gyro, segments[k].from_s, segments[k].to_s);
+        s.y.push_back(gyro.nonmagnetic_arcsec_s * t + before +
+                      segments[k].mode * design::magnetic_integral_arcsec(gyro, segments[k].from_s, t));
+    }
+    return s;
+}
+
+report::Table sawtooth_table(const Sawtooth& measured, const Sawtooth& computed, double interval) {
+    report::Table table{
+        .caption = fmt::format("The sawtooth on the twin. An amplitude is the interval of {} s times the "
+                               "rate of a flank against the slope of the whole.",
+                               report::short_number(interval)),
+        .header = {"", "measured on the twin", "computed"},
+        .rows = {}};
+    const auto row = [&](const char* name, double a, double b, int decimals) {
+        table.rows.push_back({name, report::fixed_number(a, decimals), report::fixed_number(b, decimals)});
+    };
+    row("amplitude, first segment, arcsec", interval * measured.first_arcsec_s, interval * computed.first_arcsec_s, 1);
+    row("amplitude, last segment, arcsec", interval * measured.last_arcsec_s, interval * computed.last_arcsec_s, 1);
+    row("amplitude, mean of the run, arcsec", interval * measured.mean_arcsec_s, interval * computed.mean_arcsec_s, 1);
+    row("slope between switches, \"/s", measured.slope_arcsec_s, computed.slope_arcsec_s, 4);
+    return table;
+}
+
+std::string agreement(const Sawtooth& measured, const Sawtooth& computed, double interval) {
+    constexpr double tolerance = 0.05;
+    const double miss = std::abs(measured.mean_arcsec_s - computed.mean_arcsec_s);
+    const bool agree = miss <= tolerance * std::abs(computed.mean_arcsec_s);
+    return fmt::format(
+        "{}: the amplitude should be the interval times the magnetic drift; it is {} arcsec measured and {} computed. "
+        "The "
+        "slope between switches should be the non-magnetic drift with a trace of the quasi-non-magnetic one; it is {} "
+        "and "
+        "{} \"/s.",
+        agree ? "Agrees" : "Does not agree", report::fixed_number(interval * measured.mean_arcsec_s, 1),
+        report::fixed_number(interval * computed.mean_arcsec_s, 1), report::fixed_number(measured.slope_arcsec_s, 4),
+        report::fixed_number(computed.slope_arcsec_s, 4));
+}
+
+std::string disagreement(const PaperTask& task, const study::RunResult& run, const study::VariantResult& switched,
+                         const Sawtooth& computed, double interval) {
+    const double run_s = static_cast<double>(run.ticks) * run.tick_s;
+    const double bound = design::drift_bound_arcsec_s(study::drift_case(task.config, run_s), std::min(interval, run_s));
+    return fmt::format(
+        "Does not: the amplitude is no constant, for the magnetic drift follows the warm-up of the gyro, here from {} "
+        "to {} "
+        "arcsec. And the steps at the switches do not add up with one sign as eq (3) has it: at the end the error is "
+        "{} "
+        "arcsec or {} \"/s, where (3) with {} arcsec per switch allows {} \"/s. Eq (3) is a bound, not an estimate.",
+        report::fixed_number(interval * computed.first_arcsec_s, 1),
+        report::fixed_number(interval * computed.last_arcsec_s, 1),
+        report::fixed_number(switched.angle_error_arcsec, 1),
+        report::fixed_number(std::abs(switched.angle_error_arcsec) / run_s, 3),
+        report::short_number(task.config.design.switch_error_arcsec), report::fixed_number(bound, 3));
+}
+
+Series curve_of(const study::VariantResult& v, const char* name) {
+    return {.name = name, .x = v.curve.t_s, .y = v.curve.error_arcsec, .y_error = {}};
+}
+
+report::Figure error_figure(std::string id, std::string title, std::string caption) {
+    return {.id = std::move(id),
+            .title = std::move(title),
+            .caption = std::move(caption),
+            .x_label = "time, s",
+            .y_label = "final minus true angle, arcsec",
+            .series = {},
+            .bands = {}};
+}
+
+report::Figure sawtooth_figure(const PaperTask& task, const study::RunResult& run) {
+    report::Figure figure = error_figure("figure-3", "Angle error P(t), figure 3 of the paper",
+                                         "The sign of the magnetic drift changes with the mode: a sawtooth of "
+                                         "amplitude interval times magnetic drift, on "
+                                         "the slope of the non-magnetic drift. Computed is the drift alone, without "
+                                         "noise and without errors of switches.");
+    const auto* switched = variant(run, "configured");
+    if (switched == nullptr) return figure;
+    const design::GyroDrift gyro = gyro_drift(task);
+    figure.series = {curve_of(*switched, "twin"), computed_curve(switched->curve, segments_of(task, run), gyro)};
+    Series slope{.name = "non-magnetic drift", .x = switched->curve.t_s, .y = {}, .y_error = {}, .dashed = true};
+    for (const double t : slope.x) slope.y.push_back(gyro.nonmagnetic_arcsec_s * t);
+    figure.series.push_back(std::move(slope));
+    return figure;
+}
+
+report::Figure one_mode_figure(const study::RunResult& run) {
+    report::Figure figure = error_figure("figure-3-one-mode", "The same with the gyro that is never switched",
+                                         "In one mode the magnetic drift adds up without end.");
+    if (const auto* v = variant(run, "one_mode")) figure.series.push_back(curve_of(*v, "one mode"));
+    if (const auto* v = variant(run, "configured")) figure.series.push_back(curve_of(*v, "switched"));
+    return figure;
+}
+
+void judge(const PaperTask& task, const study::RunResult& run, const study::VariantResult& switched,
+           report::Section& section) {
+    const std::vector<Rates> rates = rates_of(segments_of(task, run), switched.curve, gyro_drift(task));
+    if (rates.empty()) {
+        section.paragraphs.push_back("The run is too short to tell the amplitude of the sawtooth.");
+        return;
+    }
+    const double interval = interval_s(task, run);
+    const Sawtooth measured = sawtooth(rates, &Rates::measured_arcsec_s);
+    const Sawtooth computed = sawtooth(rates, &Rates::computed_arcsec_s);
+    section.paragraphs.push_back(agreement(measured, computed, interval));
+    section.paragraphs.push_back(disagreement(task, run, switched, computed, interval));
+    section.tables.push_back(sawtooth_table(measured, computed, interval));
+}
+
+}  // namespace
+
+PaperItem paper_figure_3(const PaperTask& task, const study::RunResult& run) {
+    PaperItem item{.number = "figure 3", .section = {.heading = "Figure 3: angle error against time of operation"}};
+    item.section.paragraphs = {
+        "Computed from the records of one run of the twin. In print the figure is a sketch without numbers."};
+    if (const auto* switched = variant(run, "configured")) judge(task, run, *switched, item.section);
+    item.section.figures = {sawtooth_figure(task, run), one_mode_figure(run)};
+    return item;
+}
+
+}  // namespace zlg::paper

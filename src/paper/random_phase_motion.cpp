@@ -1,0 +1,51 @@
+#include "random_phase_motion.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_01.hpp>
+
+namespace zlg::paper {
+namespace {
+
+// The twin draws from generators of the same kind: its seeds go through a scrambler, this one must not meet them.
+constexpr std::uint64_t phase_stream = 0x7068617365736565u;
+
+}  // namespace
+
+RandomPhaseMotion::RandomPhaseMotion(const SubstitutionExperiment& e, const SwitchGrid& grid)
+    : grid_{grid},
+      amplitude_arcsec_s_{e.amplitude_arcsec_s > 0.0 ? e.amplitude_arcsec_s : e.slow_rate_arcsec_s},
+      frequency_hz_{e.amplitude_arcsec_s > 0.0 ? e.frequency_hz : 0.0} {
+    boost::random::mt19937_64 engine{e.seed ^ phase_stream};
+    boost::random::uniform_01<double> uniform;
+    for (int k = 0; k < grid.switches + 2; ++k) {
+        const double u = uniform(engine);
+        const double phase = 2.0 * std::numbers::pi * u;
+        about_gap_.push_back(frequency_hz_ > 0.0 ? Quadratures{std::sin(phase), std::cos(phase)}
+                                                 : Quadratures{2.0 * u - 1.0, 0.0});
+    }
+}
+
+// rate = A sin(w t + phase), t = 0 in the middle of the gap. Over a half h about t:
+//
+//   increment = A h sinc(w h/2) [sin phase cos(w t) + cos phase sin(w t)]
+std::vector<double> RandomPhaseMotion::increments_arcsec() const {
+    const double half_s = 0.5 * grid_.tick_s;
+    const double turn = std::numbers::pi * frequency_hz_ * half_s;
+    const double scale_arcsec = amplitude_arcsec_s_ * half_s * (turn > 0.0 ? std::sin(turn) / turn : 1.0);
+    const std::int64_t n_halves = 2 * grid_.ticks();
+    std::vector<double> increments;
+    increments.reserve(static_cast<std::size_t>(n_halves));
+    for (std::int64_t half = 0; half < n_halves; ++half) {
+        // The middle of gap k is the border of halves 2 k I + n; its stretch reaches half an interval to either side.
+        const std::int64_t k = (half - grid_.n + grid_.interval_ticks) / (2 * grid_.interval_ticks);
+        const std::int64_t from_middle = half - 2 * k * grid_.interval_ticks - grid_.n;
+        const double angle = 2.0 * turn * (static_cast<double>(from_middle) + 0.5);
+        increments.push_back(scale_arcsec * (at(k).sine * std::cos(angle) + at(k).cosine * std::sin(angle)));
+    }
+    return increments;
+}
+
+}  // namespace zlg::paper

@@ -1,0 +1,107 @@
+#include <zlg/rig/closed_loop.hpp>
+
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/wiring.hpp>
+
+#include "refusal.hpp"
+
+namespace zlg::rig {
+namespace {
+
+twin::Twin make_twin(const config::Config& config, twin::Motion motion) {
+    try {
+        return twin::Twin{twin_config(config), std::move(motion)};
+    } catch (const std::invalid_argument& error) {
+        throw config::ConfigError{named(config, with_keys(error.what()))};
+    } catch (const std::runtime_error& error) {
+        // A laser without light, or one whose light no table can hold.
+        throw config::ConfigError{
+            named(config, fmt::format("[laser] does not make a gyro: {}", with_keys(error.what())))};
+    }
+}
+
+// Rates that a configuration allows and no counter can follow show only when it runs.
+twin::TwinHalf advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuator, const config::Config& config) {
+    try {
+        return twin.advance(actuator);
+    } catch (const std::overflow_error& error) {
+        refuse_rate(config, error.what());
+    }
+}
+
+// The compensation as it is configured; for a schedule that asks for it, always with an eye on the magnetic drift.
+core::GyroCompensationConfig adviser_config(const config::Config& config) {
+    config::Config watching = config;
+    if (config.switching.schedule == config::Schedule::measured &&
+        watching.compensation.magnetic == core::MagneticMethod::none)
+        watching.compensation.magnetic = core::MagneticMethod::watch;
+    return compensation_config(watching, config.compensation.relock.value_or(core::RelockMethod::mean_square),
+                               config.compensation.bridge);
+}
+
+// Of a run whose last segment is to balance the modes; else 0.
+std::int64_t balanced_end(const config::Config& config, const twin::Motion& motion) {
+    return config.switching.last_segment == config::LastSegment::half ? run_ticks(config, motion) : 0;
+}
+
+}  // namespace
+
+ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion, Processor* processor)
+    : ClosedLoop{config, balanced_end(config, motion), std::move(motion), processor} {}
+
+ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion, Processor* processor)
+    : config_{config},
+      twin_{make_twin(config, std::move(motion))},
+      control_config_{control_config(config)},
+      control_state_{initial_state(control_config_)},
+      actuator_{initial_actuator(control_config_)},
+      processor_{processor} {
+    control_config_.schedule.end_tick = end_tick;
+    if (processor_)
+        actuator_ = processor_->start({control_config_, adviser_config(config)});
+    else if (config.switching.schedule == config::Schedule::measured)
+        adviser_.emplace(Adviser{adviser_config(config)});
+}
+
+LoopHalf ClosedLoop::advance() {
+    const twin::TwinHalf half = advance_twin(twin_, actuator_, config_);
+    sensor_ = half.sensor;
+    LoopHalf out;
+    if (processor_)
+        step_outside(out);
+    else
+        step_here(out);
+    out.record = out.control.record;
+    out.truth = half.truth;
+    actuator_ = out.control.actuator;
+    return out;
+}
+
+void ClosedLoop::step_here(LoopHalf& out) {
+    const core::SwitchAdvice advice = adviser_ ? core::advice(adviser_->config, adviser_->state) : core::SwitchAdvice{};
+    out.control = step(control_config_, control_state_, sensor_, advice);
+    if (adviser_) (void)step(adviser_->config, adviser_->state, out.control.record, light());
+    out.half_wave_v = control_state_.half_wave.estimate_v;
+    out.half_wave_sigma_v = sigma(control_state_.half_wave).value();
+}
+
+void ClosedLoop::step_outside(LoopHalf& out) {
+    const ProcessorHalf half = processor_->half(sensor_);
+    out.control = half.control;
+    out.compensation = half.compensation;
+    out.half_wave_v = half.half_wave.estimate_v;
+    out.half_wave_sigma_v = sigma(half.half_wave).value();
+}
+
+core::LightSamples ClosedLoop::light() const {
+    const std::span a{sensor_.light_a};
+    const std::span b{sensor_.light_b};
+    return {a.first(sensor_.n_light), b.first(sensor_.has_light_b ? sensor_.n_light : 0u)};
+}
+
+}  // namespace zlg::rig

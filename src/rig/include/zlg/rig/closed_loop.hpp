@@ -1,0 +1,64 @@
+#pragma once
+// The loop of twin and control, one half-period at a time.
+
+#include <cstdint>
+#include <optional>
+
+#include <zlg/config/config.hpp>
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/core/gyro_control.hpp>
+#include <zlg/core/records.hpp>
+#include <zlg/rig/processor.hpp>
+#include <zlg/twin/twin.hpp>
+
+namespace zlg::rig {
+
+struct LoopHalf {
+    core::HalfRecord record{};          // what the raw log holds
+    core::GyroControlOutput control{};  // health and switch events beside it
+    twin::TwinTruth truth{};            // what no gyro knows
+    double half_wave_v = 0.0;           // present estimate of U_lambda/2, and its standard deviation
+    double half_wave_sigma_v = 0.0;
+    std::optional<core::CompensationOutput> compensation{};  // of a processor outside, which runs it as well
+};
+
+class ClosedLoop {
+public:
+    // processor  runs the core in place of this program, and outlives the loop; null: this program runs it.
+    //
+    // errors  config::ConfigError where the configuration does not make a gyro, or the motion file cannot be read; those of
+    //         the processor, here and in the other functions.
+    ClosedLoop(const config::Config& config, twin::Motion motion, Processor* processor = nullptr);
+
+    LoopHalf advance();
+
+    // The light samples of the half before, until the next `advance`.
+    [[nodiscard]] core::LightSamples light() const;
+
+    // The sensor frame of the half before; and the control, where this program runs it.
+    [[nodiscard]] const core::SensorFrame& sensor() const { return sensor_; }
+    [[nodiscard]] const core::GyroControlState& control() const { return control_state_; }
+
+private:
+    // Compensation beside the control, for a schedule that asks for what is measured.
+    struct Adviser {
+        core::GyroCompensationConfig config;
+        core::GyroCompensationState state{};
+    };
+
+    ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion, Processor* processor);
+
+    void step_here(LoopHalf& out);
+    void step_outside(LoopHalf& out);
+
+    config::Config config_;  // for messages
+    twin::Twin twin_;
+    core::GyroControlConfig control_config_;
+    core::GyroControlState control_state_;
+    core::ActuatorFrame actuator_;
+    core::SensorFrame sensor_{};
+    std::optional<Adviser> adviser_;
+    Processor* processor_;
+};
+
+}  // namespace zlg::rig

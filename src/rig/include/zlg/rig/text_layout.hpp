@@ -1,0 +1,12 @@
+#pragma once
+// How a configuration describes a text file, for the reader of such files: all but the columns.
+
+#include <zlg/config/config.hpp>
+#include <zlg/logs/text_columns.hpp>
+
+namespace zlg::rig {
+
+[[nodiscard]] logs::TextLayout text_layout(const config::Analysis& analysis);
+[[nodiscard]] logs::TextLayout text_layout(const config::Motion& motion);
+
+}  // namespace zlg::rig

@@ -1,0 +1,47 @@
+#pragma once
+// From one configuration to the parameters of each part, so that twin and core agree by construction.
+
+#include <cstdint>
+#include <string>
+
+#include <zlg/config/config.hpp>
+#include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/core/gyro_control.hpp>
+#include <zlg/twin/motion.hpp>
+#include <zlg/twin/twin.hpp>
+
+namespace zlg::rig {
+
+inline constexpr double timer_hz = 1e7;  // of the gyro's timer
+
+// errors  logs::IoError, logs::FormatError for a motion file.
+[[nodiscard]] twin::Motion motion(const config::Config& config);
+
+// Whole ticks of the run: duration_s where it is set, else 3600 s or the length of the motion file.
+//
+// errors  config::ConfigError where the run is longer than the motion file or shorter than a tick.
+[[nodiscard]] std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion);
+
+[[nodiscard]] twin::TwinConfig twin_config(const config::Config& config);
+
+// From what a slope alone has read of a signal to the detuning at which [perimeter] says that the signal was found; the
+// linear law where it says nothing.
+//
+// slope_per_lambda  with which the signal was read; not 0.
+// errors            config::ConfigError where the points make no curve.
+[[nodiscard]] core::DiscriminatorCurve discriminator_curve(const config::Config& config, double slope_per_lambda);
+
+// errors  config::ConfigError: the part of the core that refuses, and what its check says.
+[[nodiscard]] core::GyroControlConfig control_config(const config::Config& config);
+[[nodiscard]] core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
+                                                               core::BridgeMethod bridge);
+
+// The message, and where it names no key that differs from its default, those that do: of a rule between several keys, the one
+// that was set may be another than the one that the rule is about.
+[[nodiscard]] std::string named(const config::Config& config, const std::string& message);
+
+// A configuration whose gyro stays in its first mode.
+[[nodiscard]] config::Config without_switching(config::Config config);
+
+}  // namespace zlg::rig

@@ -1,0 +1,20 @@
+#pragma once
+// When the gyro switches, and what is told of the drift that switching turns into a sawtooth.
+
+#include <cstdint>
+
+#include <zlg/config/config.hpp>
+#include <zlg/core/compensation/magnetic_drift.hpp>
+#include <zlg/core/control/switch_schedule.hpp>
+
+namespace zlg::rig {
+
+// Whole ticks of a time, 1 at least.
+[[nodiscard]] std::int64_t ticks_of(double time_s, double tick_s);
+
+// errors  config::ConfigError for an interval that is still "optimal".
+[[nodiscard]] core::SwitchScheduleConfig schedule_of(const config::Config& config);
+
+[[nodiscard]] core::MagneticDriftConfig magnetic_of(const config::Config& config);
+
+}  // namespace zlg::rig

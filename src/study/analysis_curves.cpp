@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <zlg/report/number_text.hpp>
+
+#include "analysis_view.hpp"
+
+namespace zlg::study {
+namespace {
+
+using report::Figure;
+using report::Mark;
+using report::Series;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct Span {
+    double low, high;
+};
+
+Span taus_of(const analysis::DeviationCurve& curve) { return {curve.points.front().tau_s, curve.points.back().tau_s}; }
+
+std::vector<double> log_steps(const Span& span, int n) {
+    std::vector<double> x;
+    for (int k = 0; k <= n; ++k) x.push_back(span.low * std::pow(span.high / span.low, static_cast<double>(k) / n));
+    return x;
+}
+
+Series law(const View& v, const Span& span, std::string name, bool dashed, double floor,
+           const std::function<double(double)>& variance) {
+    Series s = named(std::move(name), Mark::line, dashed);
+    if (!(span.high > span.low)) return s;
+    for (const double tau_s : log_steps(span, 240)) {
+        const double y = v.shown(std::sqrt(std::max(0.0, variance(tau_s))));
+        s.x.push_back(tau_s);
+        s.y.push_back(y > floor ? y : none);
+    }
+    return s;
+}
+
+// One fitted term alone.
+analysis::NoiseTerms only(const analysis::FittedTerm& term) {
+    using analysis::NoiseKind;
+    analysis::NoiseTerms t;
+    switch (term.kind) {
+        case NoiseKind::quantisation:
+            t.quantisation_arcsec = term.value;
+            break;
+        case NoiseKind::angle_random_walk:
+            t.angle_random_walk_arcsec_sqrt_s = term.value;
+            break;
+        case NoiseKind::bias_instability:
+            t.bias_instability_arcsec_s = term.value;
+            break;
+        case NoiseKind::rate_random_walk:
+            t.rate_random_walk_arcsec_s_sqrt_s = term.value;
+            break;
+        case NoiseKind::ramp:
+            t.ramp_arcsec_s2 = term.value;
+            break;
+        case NoiseKind::markov:
+            t.markov.push_back({.deviation_arcsec_s = term.value, .time_s = term.second});
+            break;
+        case NoiseKind::sine:
+            t.sines.push_back({.amplitude_arcsec_s = term.value, .frequency_hz = term.second});
+            break;
+    }
+    return t;
+}
+
+double least_of(const Series& s) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double y : s.y) least = std::min(least, y);
+    return least;
+}
+
+void add_terms(const View& v, const Span& span, double floor, Figure& f) {
+    if (!v.axis.fit) return;
+    const analysis::NoiseTerms all = v.axis.fit->terms;
+    f.series.push_back(law(v, span, "fitted terms together", false, floor,
+                           [&all](double tau_s) { return analysis::allan_variance(all, tau_s); }));
+    for (const analysis::FittedTerm& term : v.axis.fit->fitted) {
+        if (!term.found) continue;
+        const analysis::NoiseTerms one = only(term);
+        f.series.push_back(law(v, span, std::string{analysis::name_of(term.kind)}, true, floor,
+                               [&one](double tau_s) { return analysis::allan_variance(one, tau_s); }));
+    }
+}
+
+// Slopes of the classical terms through a point of the curve, as thin guides.
+void add_guides(const View& v, const Span& span, double floor, double ceiling, Figure& f) {
+    const auto& points = v.axis.curves.front().points;
+    const auto& middle = points[points.size() / 2];
+    constexpr std::array<double, 4> slopes{-1.0, -0.5, 0.5, 1.0};
+    constexpr std::array<const char*, 4> names{"slope -1", "slope -1/2", "slope +1/2", "slope +1"};
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+        Series s = named(names[k], Mark::line, true);
+        for (const double tau_s : log_steps(span, 60)) {
+            const double y = v.shown(middle.deviation) * std::pow(tau_s / middle.tau_s, slopes[k]);
+            s.x.push_back(tau_s);
+            s.y.push_back(y > floor && y < ceiling ? y : none);
+        }
+        f.series.push_back(std::move(s));
+    }
+}
+
+}  // namespace
+
+Figure sigma_figure(const View& v) {
+    const auto& curve = v.axis.curves.front();
+    const std::string name{analysis::name_of(curve.kind)};
+    Figure f = report::blank_figure(
+        v.id("sigma"), fmt::format("{} of {}", name, v.axis.name),
+        fmt::format("Points: {} with intervals of {:g} %. Dashed: each fitted term alone, as it stands in the Allan "
+                    "deviation; their sum is drawn full. Sinusoids and ramp are part of the sum.",
+                    name, 100.0 * curve.confidence),
+        "averaging time, s", fmt::format("deviation, {}", v.unit()));
+    f.log_x = f.log_y = true;
+    Series measured = curve_series(v, curve, name);
+    double least = least_of(measured);
+    f.series.push_back(std::move(measured));
+    for (std::size_t k = 1; k < v.axis.curves.size(); ++k)
+        if (v.axis.curves[k].kind != analysis::DeviationKind::tdev)
+            f.series.push_back(
+                curve_series(v, v.axis.curves[k], std::string{analysis::name_of(v.axis.curves[k].kind)}));
+    // The terms are fitted to what is left without the switching.
+    if (v.axis.mode_curves.size() > 2) {
+        Series left = curve_series(v, v.axis.mode_curves[2], "magnetic part taken out");
+        least = std::min(least, least_of(left));
+        f.caption += " The terms are fitted to what is left without the magnetic part.";
+        f.series.push_back(std::move(left));
+    }
+    add_terms(v, taus_of(curve), 0.2 * least, f);
+    if (v.presumed)
+        f.series.push_back(law(v, taus_of(curve), v.presumed->name, false, 0.0,
+                               [&v](double tau_s) { return analysis::allan_variance(v.presumed->terms, tau_s); }));
+    return f;
+}
+
+Figure guide_figure(const View& v) {
+    const auto& curve = v.axis.curves.front();
+    Figure f = report::blank_figure(
+        v.id("slopes"), fmt::format("Slopes of {}", v.axis.name),
+        "The same points with guides: -1 quantisation, -1/2 angle random walk, flat bias instability, "
+        "+1/2 rate random walk, +1 ramp.",
+        "averaging time, s", fmt::format("deviation, {}", v.unit()));
+    f.log_x = f.log_y = true;
+    Series measured = curve_series(v, curve, std::string{analysis::name_of(curve.kind)});
+    const double least = least_of(measured);
+    const double most = *std::ranges::max_element(measured.y);
+    f.series.push_back(std::move(measured));
+    add_guides(v, taus_of(curve), 0.5 * least, 2.0 * most, f);
+    return f;
+}
+
+}  // namespace zlg::study

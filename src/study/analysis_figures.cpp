@@ -1,0 +1,161 @@
+#include <array>
+#include <cmath>
+
+#include <zlg/report/number_text.hpp>
+
+#include "analysis_view.hpp"
+
+namespace zlg::study {
+namespace {
+
+using report::Figure;
+using report::Mark;
+using report::Series;
+
+constexpr int most_points = 600;
+constexpr std::size_t most_bands = 60;
+
+// Means over even steps of the logarithm, so that the many bins of high frequencies are no black band.
+Series spectrum_series(const View& v, const analysis::Spectrum& spectrum, std::string name) {
+    const double scale = v.shown(1.0) * v.shown(1.0), step = std::pow(10.0, 1.0 / 80.0);
+    Series s = named(std::move(name));
+    double edge = 0.0, sum = 0.0, frequency = 0.0, n = 0.0;
+    const auto close = [&] {
+        if (n == 0.0) return;
+        s.x.push_back(frequency / n);
+        s.y.push_back(scale * sum / n);
+        sum = frequency = n = 0.0;
+    };
+    for (std::size_t k = 0; k < spectrum.density.size(); ++k) {
+        if (spectrum.frequency_hz[k] > edge) {
+            close();
+            edge = spectrum.frequency_hz[k] * step;
+        }
+        sum += spectrum.density[k];
+        frequency += spectrum.frequency_hz[k];
+        n += 1.0;
+    }
+    close();
+    return s;
+}
+
+}  // namespace
+
+Figure course_figure(const View& v) {
+    Figure f = report::blank_figure(
+        v.id("course"), fmt::format("Course of {}", v.axis.name),
+        "Mean rate over short stretches; where half of a stretch was not measured the line is broken. "
+        "Shaded: gaps.",
+        "time, s", fmt::format("rate, {}", v.unit()));
+    Series s = named("mean rate");
+    for (const TimeBin& b : v.axis.course) {
+        s.x.push_back(b.time_s);
+        s.y.push_back(v.shown(b.mean_arcsec_s));
+    }
+    f.series.push_back(std::move(s));
+    if (v.axis.gaps.size() <= most_bands)
+        for (const Gap& g : v.axis.gaps) f.bands.push_back({.x0 = g.from_s, .x1 = g.to_s, .name = ""});
+    return f;
+}
+
+Figure spectrum_figure(const View& v) {
+    Figure f = report::blank_figure(
+        v.id("spectrum"), fmt::format("Spectrum of {}", v.axis.name),
+        fmt::format("One-sided, by Welch's method over {} pieces; missing samples weigh nothing. Dashed: "
+                    "the fitted terms without sinusoids.",
+                    v.axis.spectrum.pieces),
+        "frequency, Hz", fmt::format("({})^2/Hz", v.unit()));
+    f.log_x = f.log_y = true;
+    f.series.push_back(spectrum_series(v, v.axis.spectrum, "measured"));
+    if (!v.axis.spectrum_left.density.empty())
+        f.series.push_back(spectrum_series(
+            v, v.axis.spectrum_left, v.axis.modes ? "sinusoids and magnetic part taken out" : "sinusoids taken out"));
+    if (!v.axis.fit) return f;
+    Series fitted = named("fitted", Mark::line, true);
+    for (const double frequency : f.series.front().x) {
+        fitted.x.push_back(frequency);
+        fitted.y.push_back(2.0 * v.shown(1.0) * v.shown(1.0) *
+                           analysis::rate_spectrum(v.axis.fit->terms, frequency, v.axis.rate_hz));
+    }
+    f.series.push_back(std::move(fitted));
+    return f;
+}
+
+// How the noise of a few bands goes on with time: a spectrogram whose numbers can be read.
+Figure bands_figure(const View& v) {
+    const auto& g = v.axis.spectrogram;
+    Figure f = report::blank_figure(
+        v.id("bands"), fmt::format("Noise in time of {}", v.axis.name),
+        "The spectrogram in bands: root of the density, averaged over each band, piece by piece. A "
+        "break is a piece of which too little was measured.",
+        "time, s", fmt::format("{}/sqrt(Hz)", v.unit()));
+    f.log_y = true;
+    constexpr std::size_t n_bands = 4;
+    const std::size_t n = g.frequency_hz.size();
+    for (std::size_t b = 0; b < n_bands; ++b) {
+        // Octaves down from half the rate; the last takes the rest.
+        const std::size_t to = n >> (2 * b), from = b + 1 == n_bands ? 0 : n >> (2 * b + 2);
+        if (to <= from) continue;
+        Series s = named(fmt::format("{} to {} Hz", report::short_number(g.frequency_hz[from]),
+                                     report::short_number(g.frequency_hz[to - 1])));
+        for (std::size_t t = 0; t < g.time_s.size(); ++t) {
+            double sum = 0.0;
+            for (std::size_t k = from; k < to; ++k) sum += g.density[t * n + k];
+            s.x.push_back(g.time_s[t]);
+            s.y.push_back(v.shown(std::sqrt(sum / static_cast<double>(to - from))));
+        }
+        f.series.push_back(report::thin(s, most_points));
+    }
+    return f;
+}
+
+Figure mode_figure(const View& v) {
+    Figure f = report::blank_figure(
+        v.id("modes"), fmt::format("Deviation by mode of {}", v.axis.name),
+        "Each mode by itself, up to averaging times that fit between two switches; and both together "
+        "with the magnetic drift, and with it the switching, taken out.",
+        "averaging time, s", fmt::format("oadev, {}", v.unit()));
+    f.log_x = f.log_y = true;
+    constexpr std::array<const char*, 3> names{"mode +1", "mode -1", "both, magnetic part taken out"};
+    for (std::size_t k = 0; k < v.axis.mode_curves.size() && k < names.size(); ++k)
+        if (!v.axis.mode_curves[k].points.empty()) f.series.push_back(curve_series(v, v.axis.mode_curves[k], names[k]));
+    return f;
+}
+
+Figure split_figure(const View& v) {
+    const analysis::ModeSplit& m = *v.axis.modes;
+    Figure f = report::blank_figure(
+        v.id("split"), fmt::format("Magnetic and non-magnetic drift of {}", v.axis.name),
+        "Half-difference and half-sum of neighbouring segments. Dashed: the warming law that fits best.", "time, s",
+        "deg/h");
+    Series magnetic = named("magnetic", Mark::points), rest = named("non-magnetic", Mark::points),
+           fit = named("magnetic, fitted", Mark::line, true);
+    fit.colour = 0;
+    for (const auto& p : m.points) {
+        magnetic.x.push_back(p.time_s);
+        magnetic.y.push_back(p.magnetic_arcsec_s);
+        rest.x.push_back(p.time_s);
+        rest.y.push_back(p.nonmagnetic_arcsec_s);
+        fit.x.push_back(p.time_s);
+        fit.y.push_back(m.magnetic_at(p.time_s));
+    }
+    f.series = {std::move(magnetic), std::move(rest), std::move(fit)};
+    return f;
+}
+
+Figure switch_figure(const View& v) {
+    Figure f = report::blank_figure(
+        v.id("switches"), fmt::format("Errors of the switches of {}", v.axis.name),
+        "The angle over each gap and the settling after it, less that of the segments beside it: at "
+        "rest the error of the switch.",
+        "time, s", "arcsec");
+    Series s = named("error of a switch", Mark::points);
+    for (const auto& one : v.axis.modes->switches) {
+        s.x.push_back(one.time_s);
+        s.y.push_back(one.error_arcsec);
+    }
+    f.series = {std::move(s)};
+    return f;
+}
+
+}  // namespace zlg::study

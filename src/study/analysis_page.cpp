@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <zlg/analysis/noise_units.hpp>
+#include <zlg/report/number_text.hpp>
+#include <zlg/study/analyze.hpp>
+#include <zlg/study/term_text.hpp>
+
+#include "analysis_view.hpp"
+
+namespace zlg::study {
+namespace {
+
+using report::Figure;
+using report::Mark;
+using report::Series;
+
+report::Table curve_table(const View& v) {
+    const auto& curve = v.axis.curves.front();
+    const bool is_angle = curve.kind == analysis::DeviationKind::tdev;
+    const auto shown = [&](double deviation) { return is_angle ? deviation : v.shown(deviation); };
+    report::Table t{.caption = fmt::format("{} in {}, n differences each; edf: equivalent degrees of freedom.",
+                                           analysis::name_of(curve.kind), is_angle ? "arcsec" : v.unit()),
+                    .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"},
+                    .rows = {}};
+    if (analysis::is_total(curve.kind)) {
+        t.caption += fmt::format(" Bias of mirroring: {} (total_bias); as computed: with it.",
+                                 analysis::name_of(curve.total_bias));
+        t.header.emplace_back("as computed");
+    }
+    const std::size_t step = std::max<std::size_t>(1, curve.points.size() / 30);
+    for (std::size_t k = 0; k < curve.points.size(); k += step) {
+        const auto& p = curve.points[k];
+        t.rows.push_back({report::short_number(p.tau_s), fmt::format("{}", p.terms),
+                          fmt::format("{:.4g}", shown(p.deviation)), fmt::format("{:.4g}", shown(p.low)),
+                          fmt::format("{:.4g}", shown(p.high)), report::short_number(p.law.edf),
+                          fmt::format("f^{}", p.noise)});
+        if (analysis::is_total(curve.kind)) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
+    }
+    return t;
+}
+
+report::Table term_table(const View& v) {
+    report::Table t{.caption = fmt::format(
+                        "Fitted terms with one standard error; below: 95 %. Chi-square {:.3g} of {} "
+                        "degrees of freedom, probability {:.2g}; each variance allowed an error of {:g} % "
+                        "beside chance.",
+                        v.axis.fit->chi2, v.axis.fit->dof, v.axis.fit->probability, 100.0 * v.axis.fit->model_error),
+                    .header = {"term", "value, continuous", "read at tau, s"},
+                    .rows = {},
+                    .prose = true};
+    for (const analysis::FittedTerm& term : v.axis.fit->fitted)
+        t.rows.push_back({std::string{analysis::name_of(term.kind)}, value_text(term),
+                          term.found && std::isfinite(term.read_at_s) ? report::short_number(term.read_at_s) : "-"});
+    return t;
+}
+
+// What a processor's model of one sample needs.
+report::Table discrete_table(const View& v) {
+    const analysis::NoiseTerms& terms = v.axis.fit->terms;
+    const analysis::DiscreteNoise d = analysis::discrete_noise(terms, v.axis.rate_hz);
+    report::Table t{.caption = fmt::format("The same terms, discrete: standard deviations of one sample at {:g} Hz.",
+                                           v.axis.rate_hz),
+                    .header = {"quantity", "value"},
+                    .rows = {},
+                    .prose = true};
+    const auto add = [&t](const char* what, double value, const char* unit) {
+        if (value != 0.0) t.rows.push_back({what, fmt::format("{:.4g} {}", value, unit)});
+    };
+    add("error of an angle (quantisation)", d.angle_error_arcsec, "arcsec");
+    add("white part of a rate (angle random walk)", d.white_rate_arcsec_s, "deg/h");
+    add("white part of an increment", d.white_increment_arcsec, "arcsec");
+    add("step of the bias (rate random walk)", d.walk_step_arcsec_s, "deg/h");
+    add("growth from sample to sample (ramp)", d.ramp_step_arcsec_s, "deg/h");
+    for (std::size_t k = 0; k < d.markov_factor.size(); ++k) {
+        t.rows.push_back({"factor of the exponentially correlated part", fmt::format("{:.8g}", d.markov_factor[k])});
+        add("its step", d.markov_step_arcsec_s[k], "deg/h");
+    }
+    return t;
+}
+
+report::Table readout_table(const View& v) {
+    report::Table t{
+        .caption = fmt::format("Readouts of the measured Allan deviation, {}.", analysis::name_of(v.axis.allan.kind)),
+        .header = {"where", "tau, s", "deviation, " + v.unit()},
+        .rows = {}};
+    for (const Readout& r : v.axis.readouts)
+        t.rows.push_back({r.what, report::short_number(r.tau_s), fmt::format("{:.4g}", v.shown(r.deviation_arcsec_s))});
+    return t;
+}
+
+std::string estimate_text(const analysis::Estimate& e, const char* unit) {
+    return e.determined ? fmt::format("{} {}", with_error(e.value, e.sigma), unit) : "not determined: " + e.reason;
+}
+
+report::Table mode_table(const View& v) {
+    const analysis::ModeSplit& m = *v.axis.modes;
+    report::Table t{.caption = "Drift by mode, and the errors of the switches as of a gyro at rest.",
+                    .header = {"quantity", "value"},
+                    .rows = {{"non-magnetic drift", estimate_text(m.nonmagnetic_arcsec_s, "deg/h")},
+                             {"magnetic drift at the start", estimate_text(m.magnetic_arcsec_s, "deg/h")},
+                             {"its growth by warming", estimate_text(m.magnetic_thermal_arcsec_s, "deg/h")},
+                             {"time of the warming", estimate_text(m.thermal_time_s, "s")}},
+                    .prose = true};
+    const auto& s = m.statistics;
+    if (s.n > 0) {
+        t.rows.push_back({"switches", fmt::format("{}", s.n)});
+        t.rows.push_back({"error per switch, mean", with_error(s.mean_arcsec, s.mean_sigma_arcsec) + " arcsec"});
+        t.rows.push_back({"alternating with the mode", report::short_number(s.mean_by_mode_arcsec) + " arcsec"});
+        t.rows.push_back({"rms, largest", fmt::format("{}, {} arcsec", report::short_number(s.rms_arcsec),
+                                                      report::short_number(s.max_arcsec))});
+    }
+    return t;
+}
+
+std::string summary(const View& v) {
+    return fmt::format(
+        "{}, {:g} Hz: {} samples over {} s, {} of them known, {} gaps. Mean rate {} {}.", v.axis.holds, v.axis.rate_hz,
+        v.axis.n_samples, report::short_number(static_cast<double>(v.axis.n_samples) / v.axis.rate_hz), v.axis.n_known,
+        v.axis.n_gaps, with_error(v.shown(v.axis.mean_arcsec_s), v.shown(v.axis.mean_sigma_arcsec_s)), v.unit());
+}
+
+// A logarithmic axis needs something above zero; tdev is an angle and has a table only.
+bool can_be_drawn(const analysis::DeviationCurve& curve) {
+    const bool is_rate = curve.kind != analysis::DeviationKind::tdev;
+    return is_rate && std::ranges::any_of(curve.points, [](const auto& p) { return p.deviation > 0.0; });
+}
+
+bool was_moved(const AxisResult& axis) { return axis.fit && (!axis.fit->describes || !axis.fit->terms.sines.empty()); }
+
+report::Section section_of(const View& v) {
+    report::Section s{.heading = v.axis.name, .paragraphs = {summary(v)}, .tables = {}, .figures = {}};
+    if (v.axis.fit && !v.axis.fit->describes)
+        s.paragraphs.push_back(
+            "The fitted terms do not describe the record: it was moved, or has noise of another kind. Their errors are "
+            "widened accordingly.");
+    if (v.axis.fit) {
+        s.tables.push_back(term_table(v));
+        s.tables.push_back(discrete_table(v));
+    } else {
+        s.paragraphs.push_back("No terms are fitted: " + v.axis.no_fit + ".");
+    }
+    if (!v.axis.readouts.empty()) s.tables.push_back(readout_table(v));
+    if (can_be_drawn(v.axis.curves.front())) {
+        s.figures.push_back(sigma_figure(v));
+        s.figures.push_back(guide_figure(v));
+    }
+    s.figures.push_back(course_figure(v));
+    if (!v.axis.spectrum.density.empty()) {
+        s.figures.push_back(spectrum_figure(v));
+        s.figures.push_back(bands_figure(v));
+    }
+    if (v.axis.modes && v.axis.modes->segments.size() > 1) {
+        if (was_moved(v.axis))
+            s.paragraphs.push_back("The gyro was moved: the errors per switch hold the motion in the gaps too.");
+        s.tables.push_back(mode_table(v));
+        s.figures.push_back(mode_figure(v));
+        if (!v.axis.modes->points.empty()) s.figures.push_back(split_figure(v));
+        if (!v.axis.modes->switches.empty()) s.figures.push_back(switch_figure(v));
+    }
+    s.tables.push_back(curve_table(v));
+    return s;
+}
+
+report::Section earth_section(const config::Analysis& config, const AnalysisResult& result) {
+    report::Section s{.heading = "Mean rates", .paragraphs = {}, .tables = {}, .figures = {}};
+    report::Table t{.caption = "Mean rates, with what the fitted noise lets them differ by.",
+                    .header = {"axis", "mean, deg/h"},
+                    .rows = {}};
+    for (const AxisResult& axis : result.axes)
+        t.rows.push_back({axis.name, with_error(axis.mean_arcsec_s, axis.mean_sigma_arcsec_s)});
+    for (const EarthLine& line : result.earth)
+        t.rows.push_back({fmt::format("norm of {} axes; the Earth: {:.3f}", line.n_axes, earth_rate_arcsec_s),
+                          with_error(line.norm_arcsec_s, line.sigma_arcsec_s)});
+    s.tables.push_back(std::move(t));
+    if (config.latitude_deg)
+        s.paragraphs.push_back(
+            fmt::format("At latitude {:g} deg the Earth turns {:.3f} deg/h about the vertical, and up to "
+                        "{:.3f} deg/h about a horizontal axis.",
+                        *config.latitude_deg, earth_vertical_arcsec_s(*config.latitude_deg),
+                        earth_horizontal_arcsec_s(*config.latitude_deg)));
+    return s;
+}
+
+report::Section table_section(const config::Analysis& config, const TableResult& test, std::size_t index) {
+    const analysis::RateTable& r = test.table;
+    report::Section s{.heading = test.name, .paragraphs = {test.holds + "."}, .tables = {}, .figures = {}};
+    s.tables.push_back(
+        {.caption = "Straight line through all stages by least squares, as IEEE Std 647 has it.",
+         .header = {"quantity", "value"},
+         .rows = {{"scale factor, units per arcsec", with_error(r.scale_factor.value, r.scale_factor.sigma)},
+                  {"arcsec per unit", with_error(r.arcsec_per_unit.value, r.arcsec_per_unit.sigma)},
+                  {"bias", estimate_text(r.bias_arcsec_s, "deg/h")},
+                  {"asymmetry", estimate_text(r.asymmetry_ppm, "ppm")},
+                  {"nonlinearity, rms", report::short_number(r.nonlinearity_ppm) + " ppm"},
+                  {"largest residual", report::short_number(r.largest_residual_ppm) + " ppm"},
+                  {"largest difference at one input", report::short_number(r.hysteresis_arcsec_s) + " deg/h"}},
+         .prose = true});
+    report::Table stages{
+        .caption = "Stages; residuals in ppm of the output at the largest input.",
+        .header = {"input, " + shown_unit(config.unit), "output, units/s", "its sigma", "samples", "residual, ppm"},
+        .rows = {}};
+    Figure f = report::blank_figure(fmt::format("residuals-{}", index + 1), "Residuals of " + test.name,
+                                    "Output less the straight line.", "input, " + shown_unit(config.unit),
+                                    "residual, ppm of the largest output");
+    Series points = named("stages", Mark::points);
+    for (const analysis::TableStage& stage : r.stages) {
+        stages.rows.push_back({fmt::format("{:.6g}", shown_rate(config.unit, stage.input_arcsec_s)),
+                               fmt::format("{:.9g}", stage.output), report::short_number(stage.output_sigma),
+                               fmt::format("{}", stage.n_samples), report::short_number(stage.residual_ppm)});
+        points.x.push_back(shown_rate(config.unit, stage.input_arcsec_s));
+        points.y.push_back(stage.residual_ppm);
+    }
+    f.series = {std::move(points)};
+    s.figures.push_back(std::move(f));
+    s.tables.push_back(std::move(stages));
+    return s;
+}
+
+}  // namespace
+
+report::Page analysis_page(const config::Analysis& config, const AnalysisResult& result) {
+    report::Page page{.title = "Noise analysis",
+                      .lead =
+                          "Deviations, fitted noise terms, drift by mode and errors of switches of recorded gyros. 1 "
+                          "deg/h is 1 arcsec/s.",
+                      .sections = {}};
+    if (!result.axes.empty()) page.sections.push_back(earth_section(config, result));
+    for (std::size_t k = 0; k < result.axes.size(); ++k)
+        page.sections.push_back(
+            section_of({.config = config, .axis = result.axes[k], .index = k, .presumed = result.presumed}));
+    for (std::size_t k = 0; k < result.tables.size(); ++k)
+        page.sections.push_back(table_section(config, result.tables[k], k));
+    return page;
+}
+
+}  // namespace zlg::study

@@ -1,0 +1,70 @@
+#include <zlg/study/compensated_run.hpp>
+
+#include <array>
+
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wiring.hpp>
+
+#include "gyro_drift.hpp"
+
+namespace zlg::study {
+namespace {
+
+class CompensatedRun {
+public:
+    CompensatedRun(const config::Config& config, std::int64_t stride)
+        : loop_{config, rig::motion(config)},
+          config_{rig::compensation_config(config, config.compensation.relock.value_or(core::RelockMethod::mean_square),
+                                           config.compensation.bridge)},
+          finder_{config.compensation.relock_ticks},
+          meter_{config.gyro.tick_s, stride, gyro_drift(config)} {}
+
+    void tick(std::int64_t tick) {
+        const rig::LoopHalf first = loop_.advance();
+        (void)step(config_, state_, first.record, loop_.light());
+        const rig::LoopHalf second = loop_.advance();
+        finder_.take(tick, first.record, second.record);
+        forget_windows(tick);
+        const double before_arcsec = state_.magnetic.subtracted_arcsec;
+        const core::AngleSample sample = step(config_, state_, second.record, loop_.light()).sample;
+        truth_[static_cast<std::size_t>(tick) % truth_.size()] = {
+            first.truth.dtheta_arcsec + second.truth.dtheta_arcsec, state_.magnetic.subtracted_arcsec - before_arcsec,
+            second.truth.rounding_arcsec};
+        if (sample.has_final) take(sample.final_row);
+    }
+
+    ErrorMeter end() {
+        for (auto out = drain(config_, state_); out.has_row || out.has_gap; out = drain(config_, state_))
+            if (out.has_row) take(out.row);
+        return meter_;
+    }
+
+private:
+    void take(const core::AngleRow& row) {
+        meter_.take(row, truth_[static_cast<std::size_t>(row.tick) % truth_.size()], finder_.windows());
+    }
+
+    void forget_windows(std::int64_t tick) {
+        auto& windows = finder_.windows();
+        while (!windows.empty() && windows.front().gap_is_over() &&
+               windows.front().last_tick < tick - core::history_ticks)
+            windows.pop_front();
+    }
+
+    rig::ClosedLoop loop_;
+    core::GyroCompensationConfig config_;
+    core::GyroCompensationState state_{};
+    SwitchFinder finder_;
+    ErrorMeter meter_;
+    std::array<TickTruth, core::history_ticks> truth_{};
+};
+
+}  // namespace
+
+ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {
+    CompensatedRun run{config, stride};
+    for (std::int64_t tick = 0; tick < ticks; ++tick) run.tick(tick);
+    return run.end();
+}
+
+}  // namespace zlg::study

@@ -1,0 +1,104 @@
+#pragma once
+// The questions of a designer answered for one gyro: how long between switches, which substitution, which loop.
+
+#include <string>
+#include <vector>
+
+#include <zlg/config/config.hpp>
+#include <zlg/design/drift_budget.hpp>
+#include <zlg/design/growing_interval.hpp>
+#include <zlg/design/initial_miss.hpp>
+#include <zlg/design/interval_formula.hpp>
+#include <zlg/design/order_choice.hpp>
+#include <zlg/design/perimeter_response.hpp>
+#include <zlg/design/relock_loop.hpp>
+#include <zlg/design/switching_interval.hpp>
+#include <zlg/report/page.hpp>
+
+namespace zlg::study {
+
+// The best interval of one budget for one length of run.
+struct IntervalLine {
+    double run_s = 0.0;
+    design::IntervalMethod method = design::IntervalMethod::corrected;
+    design::Optimum optimum;
+    design::Sensitivity sensitivity;
+};
+
+// What else there is to say of one length of run.
+struct RunLine {
+    double run_s = 0.0;
+    design::Optimum best;                // with what a switch of this gyro leaves
+    design::DriftTerms terms;            // of (7c) at its best interval
+    design::Optimum half_first_segment;  // worst case
+    design::Roots corrected_roots;       // (9c)
+    design::Roots roots_as_printed;      // (9)
+    double growing_interval_s = 0.0;     // at the end of the run
+    double growing_drift_arcsec_s = 0.0;
+};
+
+struct SubstitutionLine {
+    int order = 0;
+    int gap_ticks = 0;
+    double frequency_hz = 0.0;    // NaN: all the configured motion together
+    double worst_arcsec = 0.0;    // final error of the gap's angle, at the worst phase
+    double rms_arcsec = 0.0;      // over random phase
+    double noise_gain = 0.0;      // white noise: sigma of the gap's angle over that of a tick
+    double counter_arcsec = 0.0;  // sigma of the gap's angle by rounding of the counter
+    double relock_arcsec = 0.0;   // what re-lock leaves in the angle, directly and through the points after the gap
+    double total_arcsec = 0.0;    // eq (19) with that residual: root sum square of rms, rounding and re-lock
+};
+
+struct LoopLine {
+    design::PerimeterLoop loop;
+    design::Margins margins;
+    double tick_over_tau = 0.0;
+    double stability_limit = 0.0;              // of tick_over_tau, for the detector that is sampled
+    std::string stability_note;                // which detector that is
+    std::string relock_note;                   // why there is no time of re-lock; empty where there is one
+    double relock_s = 0.0;                     // from the configured miss to a hundredth of a wavelength
+    double relock_linear_s = 0.0;              // without limiter and slew
+    std::vector<double> step;                  // of the linear loop, per tick
+    std::vector<double> false_drift_arcsec_s;  // per tick after closing
+    double false_angle_arcsec = 0.0;
+    double false_angle_law_arcsec = 0.0;  // (T/4) G(0+)
+    design::InitialMiss miss;
+    double capture_lambda = 0.0;
+};
+
+struct DesignResult {
+    double switch_error_arcsec = 0.0;    // rms: as given, or what a trial of the gyro says
+    bool switch_error_is_given = false;  // by design.switch_error_arcsec
+    std::string switch_error_source;     // in words
+    std::vector<IntervalLine> intervals;
+    std::vector<RunLine> runs;
+    std::vector<SubstitutionLine> substitution;
+    std::vector<std::vector<int>> order_map;  // best order: frequencies by rows, amplitude T over noise by columns
+    std::vector<double> map_frequency_hz;
+    std::vector<double> map_ratio;
+    LoopLine loop;
+};
+
+// The gyro's drift as the theory sees it; the run is that of the configuration.
+[[nodiscard]] design::DriftCase drift_case(const config::Config& config, double run_s);
+
+// The interval that `interval_s = "optimal"` stands for in a run of run_s, but for the shortest that a switch needs: the
+// minimum of what is to be expected of independent switch errors and an end that nobody knows, with the first segment that
+// is configured.
+//
+// The magnetic drift is in it as [drift] has it: what compensation.magnetic = "estimate" takes out of it is not foreseen.
+//
+// switch_error_arcsec  rms, as study::switch_error_arcsec has it.
+[[nodiscard]] design::Optimum best_interval(const config::Config& config, double switch_error_arcsec, double run_s);
+
+// The same configuration with that number in place of "optimal", for its own length of run.
+//
+// errors  as design_gyro; those of rig::motion and rig::run_ticks.
+[[nodiscard]] config::Config with_interval(config::Config config, double switch_error_arcsec);
+
+// errors  design::DesignError for a gyro without a budget, such as one whose switches cost nothing.
+[[nodiscard]] DesignResult design_gyro(const config::Config& config);
+
+[[nodiscard]] report::Page design_page(const config::Config& config, const DesignResult& result);
+
+}  // namespace zlg::study

@@ -1,0 +1,99 @@
+#pragma once
+// One way to compensate a run, and what comes of it.
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/design/magnetic_angle.hpp>
+#include <zlg/study/switch_window.hpp>
+
+namespace zlg::study {
+
+// What stays in the angle for ever, from gap tick 1 to the last tick of the re-lock, without the drift in it, which is no
+// error of the switch:
+//
+//   sum (final - true) + r_before - r_end - T sum nm - T sum_measured (m Om - taken out)
+//
+// with r the rounding of the counter, counter less phase, at the end of the tick before the gap and of the last tick: the
+// next ticks give the latter back, and the former is part of the final angle before. Both edges of the gap keep theirs.
+// m Om is the magnetic drift in the mode m of a measured tick. In the gap it counts as nothing: the mean of the modes
+// before and after. The random walk of these ticks is not known to anyone and stays in. docs/accuracy.md has the same.
+struct SwitchError {
+    SwitchWindow window;
+    double error_arcsec = 0.0;
+    double relock_arcsec = 0.0;  // that was subtracted
+};
+
+// Mean after multiplication by the sign of the false drift, which alternates.
+struct SwitchStatistics {
+    double mean_arcsec = 0.0;
+    double rms_arcsec = 0.0;
+    double max_arcsec = 0.0;
+};
+
+// nullopt without a switch.
+[[nodiscard]] std::optional<SwitchStatistics> statistics(const std::vector<SwitchError>& errors);
+
+// Least-squares slope of the angle error over time, without keeping the points.
+class Drift {
+public:
+    void add(double t_s, double error_arcsec);
+    [[nodiscard]] double slope_arcsec_s() const;  // 0 with fewer than two points
+
+private:
+    double n_ = 0.0;
+    double mean_t_ = 0.0;
+    double mean_e_ = 0.0;
+    double tt_ = 0.0;
+    double te_ = 0.0;
+};
+
+struct Curve {
+    std::vector<double> t_s;
+    std::vector<double> error_arcsec;
+};
+
+// What is true of a tick.
+struct TickTruth {
+    double rotation_arcsec = 0.0;
+    double taken_out_arcsec = 0.0;  // of the magnetic drift, by the compensation
+    double rounding_arcsec = 0.0;   // counter less phase, at the end of the tick; 0 where it is not known
+};
+
+// Compares the final rows of one compensation with the truth.
+class ErrorMeter {
+public:
+    // stride  ticks between two points of the curve.
+    // drift   of the gyro.
+    ErrorMeter(double tick_s, std::int64_t stride, const design::GyroDrift& drift)
+        : tick_s_{tick_s}, stride_{stride}, drift_law_{drift} {}
+
+    // A final row, what is true of its tick, and the switches known by now, oldest first.
+    void take(const core::AngleRow& row, const TickTruth& truth, const std::deque<SwitchWindow>& windows);
+
+    // The run has ended: a switch whose window is not over is dropped.
+    [[nodiscard]] const std::vector<SwitchError>& switches() const { return done_; }
+    [[nodiscard]] double drift_arcsec_s() const { return drift_.slope_arcsec_s(); }
+    [[nodiscard]] double angle_error_arcsec() const { return error_.value(); }
+    [[nodiscard]] const Curve& curve() const { return curve_; }
+
+private:
+    [[nodiscard]] double drift_arcsec(const core::AngleRow& row, const TickTruth& truth,
+                                      const SwitchWindow& window) const;
+
+    double tick_s_;
+    std::int64_t stride_;
+    design::GyroDrift drift_law_;
+    core::ExactSum error_;
+    Drift drift_;
+    Curve curve_;
+    double rounding_before_arcsec_ = 0.0;
+    std::optional<SwitchError> current_;
+    std::vector<SwitchError> done_;
+};
+
+}  // namespace zlg::study

@@ -1,0 +1,68 @@
+#include <zlg/study/variant.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace zlg::study {
+
+std::optional<SwitchStatistics> statistics(const std::vector<SwitchError>& errors) {
+    if (errors.empty()) return std::nullopt;
+    SwitchStatistics s;
+    double sum_sq = 0.0;
+    for (const SwitchError& e : errors) {
+        s.mean_arcsec += e.window.sign_after * e.error_arcsec;
+        sum_sq += e.error_arcsec * e.error_arcsec;
+        s.max_arcsec = std::max(s.max_arcsec, std::abs(e.error_arcsec));
+    }
+    const auto n = static_cast<double>(errors.size());
+    s.mean_arcsec /= n;
+    s.rms_arcsec = std::sqrt(sum_sq / n);
+    return s;
+}
+
+void Drift::add(double t_s, double error_arcsec) {
+    n_ += 1.0;
+    const double dt = t_s - mean_t_;
+    mean_t_ += dt / n_;
+    mean_e_ += (error_arcsec - mean_e_) / n_;
+    tt_ += dt * (t_s - mean_t_);
+    te_ += dt * (error_arcsec - mean_e_);
+}
+
+double Drift::slope_arcsec_s() const { return tt_ > 0.0 ? te_ / tt_ : 0.0; }
+
+double ErrorMeter::drift_arcsec(const core::AngleRow& row, const TickTruth& truth, const SwitchWindow& window) const {
+    const double nonmagnetic_arcsec = drift_law_.nonmagnetic_arcsec_s * tick_s_;
+    const bool is_measured = window.gap_is_over() && row.tick >= window.first_tick + window.n_ticks;
+    if (!is_measured) return nonmagnetic_arcsec;
+    const double start_s = static_cast<double>(row.tick) * tick_s_;
+    const double magnetic_arcsec = design::magnetic_integral_arcsec(drift_law_, start_s, start_s + tick_s_);
+    return nonmagnetic_arcsec + row.mode * magnetic_arcsec - truth.taken_out_arcsec;
+}
+
+void ErrorMeter::take(const core::AngleRow& row, const TickTruth& truth, const std::deque<SwitchWindow>& windows) {
+    const double own = row.dtheta_final_arcsec - truth.rotation_arcsec;
+    error_.add(own);
+    const double t_s = static_cast<double>(row.tick + 1) * tick_s_;
+    drift_.add(t_s, error_.value());
+    if ((row.tick + 1) % stride_ == 0) {
+        curve_.t_s.push_back(t_s);
+        curve_.error_arcsec.push_back(error_.value());
+    }
+    for (const SwitchWindow& window : windows) {
+        if (row.tick < window.first_tick || (window.gap_is_over() && row.tick > window.last_tick)) continue;
+        if (row.tick == window.first_tick) current_ = SwitchError{.error_arcsec = rounding_before_arcsec_};
+        if (!current_) continue;
+        current_->error_arcsec += own - drift_arcsec(row, truth, window);
+        current_->relock_arcsec += row.relock_arcsec;
+        if (window.gap_is_over() && row.tick == window.last_tick) {
+            current_->window = window;
+            current_->error_arcsec -= truth.rounding_arcsec;
+            done_.push_back(*current_);
+            current_.reset();
+        }
+    }
+    rounding_before_arcsec_ = truth.rounding_arcsec;
+}
+
+}  // namespace zlg::study

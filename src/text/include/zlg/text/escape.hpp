@@ -1,0 +1,19 @@
+#pragma once
+// Text from outside, as it may stand on a terminal and in a log of messages.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace zlg::text {
+
+enum class Lines { one, many };  // whether a line feed is an end of line or one more control character
+
+// Control characters (those of Unicode's C1 and its line separators too) and bytes that are no UTF-8 become \uXXXX, as JSON
+// and TOML write them.
+[[nodiscard]] std::string escaped(std::string_view text, Lines lines = Lines::one);
+
+// A message that is far too long loses its middle.
+[[nodiscard]] std::string shortened(std::string text, std::size_t most_bytes = 2000);
+
+}  // namespace zlg::text

@@ -1,0 +1,35 @@
+#pragma once
+// The averaged gyro: the bias counts as its mean, the light as a straight discriminator.
+
+#include "fringe_counter.hpp"
+#include "gyro.hpp"
+#include "housing.hpp"
+#include "laser/bias_area.hpp"
+#include "laser/photodiodes.hpp"
+#include "noise.hpp"
+
+namespace zlg::twin {
+
+class AveragedGyro final : public Gyro {
+public:
+    // config  validated.
+    AveragedGyro(const TwinConfig& config, Motion motion);
+
+    TwinHalf advance(const core::ActuatorFrame& actuator) override;
+
+private:
+    BiasArea live_through_half(int bias_sign, TwinHalf& half);
+    void count(const BiasArea& area, int bias_sign, TwinHalf& half);
+    [[nodiscard]] double bias_hz() const { return config_.bias_hz * housing_.bias_growth(); }
+
+    TwinConfig config_;
+    Motion motion_;
+    Housing housing_;
+    Photodiodes photodiodes_;
+    NoiseStream walk_noise_;
+    NoiseStream dark_noise_;
+    FringeCounter counter_;
+    double garbage_cycles_ = 0.0;
+};
+
+}  // namespace zlg::twin

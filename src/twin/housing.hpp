@@ -1,0 +1,87 @@
+#pragma once
+// What a gyro has whatever its light does: warming, perimeter, slow channels and the clock of halves.
+
+#include <cstdint>
+#include <memory>
+
+#include <zlg/twin/twin.hpp>
+
+#include "converters.hpp"
+#include "counter_limit.hpp"
+#include "faults/fault_frame.hpp"
+#include "faults/fault_light.hpp"
+#include "faults/fault_plan.hpp"
+#include "faults/faulty_half.hpp"
+#include "laser/error_signal.hpp"
+#include "noise.hpp"
+#include "perimeter/perimeter.hpp"
+
+namespace zlg::twin {
+
+// Pieces of one light-sample interval: an odd number, so that the sample lies in the middle of a piece.
+[[nodiscard]] int pieces_per_sample(const TwinConfig& config);
+
+class Housing {
+public:
+    static constexpr double timer_hz = 1e7;
+
+    // config  validated.
+    // signal  what the closed loop sees; null: the linear law of the averaged model.
+    explicit Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> signal = nullptr);
+
+    // Enter the next half under a frame. The perimeter is then stepped 2 pieces light_samples times by the caller.
+    //
+    // errors  std::invalid_argument for a frame that no hardware could obey; nothing has changed then.
+    void begin_half(const core::ActuatorFrame& actuator);
+    // Leave it: the counter was latched `offset_ticks` after the end of the half.
+    void end_half(const core::ActuatorFrame& actuator, std::uint64_t counter, std::int32_t offset_ticks,
+                  TwinHalf& half);
+
+    Perimeter& perimeter() { return perimeter_; }
+
+    [[nodiscard]] double half_s() const { return half_s_; }
+    [[nodiscard]] int n_pieces() const { return n_pieces_; }  // of one light-sample interval
+    // Of the half entered, or if none is, of the next.
+    [[nodiscard]] std::uint64_t index() const { return index_; }
+    [[nodiscard]] double start_s() const { return static_cast<double>(index_) * half_s_; }
+    [[nodiscard]] double end_s() const { return static_cast<double>(index_ + 1) * half_s_; }
+    [[nodiscard]] int bias_sign() const;
+    // Means over the half entered.
+    [[nodiscard]] double bias_growth() const;  // 1 at the reference temperature with the coil's own current
+    [[nodiscard]] double magnetic_arcsec_s() const;
+
+    // What faults do in the half entered.
+    [[nodiscard]] bool light_is_faulty() const { return faults_.dims_light(); }
+    [[nodiscard]] LightParts light_at(double since_start_s) const;
+    [[nodiscard]] double turned_arcsec(double from_s, double to_s) const;  // beyond the motion
+
+private:
+    [[nodiscard]] double warming_at(std::uint64_t half) const;
+    [[nodiscard]] double drift_lambda(double warming, double shock_c) const;
+    [[nodiscard]] double half_wave_v() const;
+    [[nodiscard]] double coil_ratio() const;  // of its current over its own
+    void enter_faults();
+    void read_slow(core::SensorFrame& sensor, double perimeter_v);
+
+    TwinConfig config_;
+    double half_s_;
+    int n_pieces_;
+    Converter adc_;
+    Perimeter perimeter_;
+    NoiseStream adc_noise_;
+    Converter coil_adc_;
+    NoiseStream coil_noise_;
+    CounterLimit counter_limit_;
+    FaultPlan faults_;
+    FrameFaults frame_faults_;
+    FaultyHalf faulty_half_;
+    bool is_faulty_ = false;                // length, light or opening of the half entered
+    std::int32_t offset_before_ticks_ = 0;  // of the latch that began the half
+    std::uint64_t index_ = 0;
+    double warming_start_ = 0.0;  // 1 - exp(-t/thermal_time_s) at the start and the end of the half
+    double warming_end_ = 0.0;
+    double shock_start_c_ = 0.0;  // warming by faults
+    double shock_end_c_ = 0.0;
+};
+
+}  // namespace zlg::twin

@@ -1,0 +1,39 @@
+#pragma once
+// Rotation of the gyro's case, as an angle that is a function of time.
+//
+// Increments are exact differences of that angle, so they add up to it whatever the steps.
+
+#include <memory>
+#include <vector>
+
+namespace zlg::twin {
+
+struct Sine {
+    double amplitude_arcsec_s = 0.0;
+    double frequency_hz = 0.0;
+    double phase_deg = 0.0;  // rate = amplitude * sin(2 pi frequency t + phase)
+};
+
+class Motion {
+public:
+    static Motion rest();
+    // A constant rate plus any number of sines. Numbers that are not finite: std::invalid_argument.
+    static Motion sines(double rate_arcsec_s, std::vector<Sine> sines);
+    // increment k is the rotation from k/rate_hz to (k + 1)/rate_hz; the angle between is a smooth cubic.
+    // errors  std::invalid_argument: no increments, one that is not finite, a rate that is not positive.
+    static Motion from_increments(std::vector<double> increment_arcsec, double rate_hz);
+
+    // Rotation from t0_s to t1_s. Beyond the end of sampled motion the case rests.
+    [[nodiscard]] double increment_arcsec(double t0_s, double t1_s) const;
+
+    // Length of sampled motion; infinite for analytic motion.
+    [[nodiscard]] double duration_s() const;
+
+    class Source;
+
+private:
+    explicit Motion(std::shared_ptr<const Source> source);
+    std::shared_ptr<const Source> source_;
+};
+
+}  // namespace zlg::twin

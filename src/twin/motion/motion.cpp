@@ -1,0 +1,25 @@
+#include <zlg/twin/motion.hpp>
+
+#include <utility>
+
+#include "motion_source.hpp"
+
+namespace zlg::twin {
+
+Motion::Motion(std::shared_ptr<const Source> source) : source_{std::move(source)} {}
+
+Motion Motion::rest() { return sines(0.0, {}); }
+
+Motion Motion::sines(double rate_arcsec_s, std::vector<Sine> sines) {
+    return Motion{make_sines(rate_arcsec_s, std::move(sines))};
+}
+
+Motion Motion::from_increments(std::vector<double> increment_arcsec, double rate_hz) {
+    return Motion{make_sampled(std::move(increment_arcsec), rate_hz)};
+}
+
+double Motion::increment_arcsec(double t0_s, double t1_s) const { return source_->increment_arcsec(t0_s, t1_s); }
+
+double Motion::duration_s() const { return source_->duration_s(); }
+
+}  // namespace zlg::twin

@@ -1,0 +1,25 @@
+#pragma once
+// What a Motion draws on: one class per way of giving the angle of the case.
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <zlg/twin/motion.hpp>
+
+namespace zlg::twin {
+
+class Motion::Source {
+public:
+    Source() = default;
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+    virtual ~Source() = default;
+    [[nodiscard]] virtual double increment_arcsec(double t0_s, double t1_s) const = 0;
+    [[nodiscard]] virtual double duration_s() const { return std::numeric_limits<double>::infinity(); }
+};
+
+std::shared_ptr<const Motion::Source> make_sines(double rate_arcsec_s, std::vector<Sine> sines);
+std::shared_ptr<const Motion::Source> make_sampled(std::vector<double> increment_arcsec, double rate_hz);
+
+}  // namespace zlg::twin

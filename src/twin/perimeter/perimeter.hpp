@@ -1,0 +1,120 @@
+#pragma once
+// Length of the ring: the piezo's part and the block's own, under whoever holds it.
+
+#include <memory>
+#include <vector>
+
+#include <zlg/core/records.hpp>
+#include <zlg/twin/twin.hpp>
+
+#include "analog_loop.hpp"
+#include "converters.hpp"
+#include "faults/faulty_half.hpp"
+#include "high_voltage.hpp"
+#include "laser/laser.hpp"
+#include "piezo_mirror.hpp"
+
+namespace zlg::twin {
+
+class Perimeter {
+public:
+    // n_steps  equal steps in which a half-period is lived through.
+    // signal   of a laser's light, for the analog loop; null: the linear law.
+    Perimeter(const TwinConfig& config, int n_steps, std::shared_ptr<const ErrorSignal> signal = nullptr);
+
+    // Obey a frame from the start of a half on, while the block's own length moves evenly from start to end.
+    //
+    // errors  std::invalid_argument for a frame that no hardware could obey; nothing has changed then.
+    //
+    // faulty  what faults make of the half; null: nothing. It must live as long as the half.
+    void begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda,
+                    const FaultyHalf* faulty = nullptr);
+    // From here on half a wavelength takes another voltage; the voltage stays, the length follows.
+    void take_half_wave(double half_wave_v);
+    void step();
+
+    // The mode that lases now: the nearest.
+    [[nodiscard]] const Mode& mode() const { return mode_; }
+    [[nodiscard]] double length_lambda() const { return v_ + excess_ + drift_; }
+    [[nodiscard]] double voltage_v() const;
+
+private:
+    [[nodiscard]] double drift_at(int step) const {
+        const double drift = drift_start_ + drift_step_ * step;
+        return faulty_ ? drift + faulty_->length_lambda[static_cast<std::size_t>(step)] : drift;
+    }
+    // Throughout the step that ends now.
+    [[nodiscard]] bool is_dark() const {
+        return faulty_ && faulty_->light[static_cast<std::size_t>(steps_done_ - 1)].is_dark();
+    }
+    void take_set_points(const core::ActuatorFrame& frame);
+    void leave(int polarity);
+    void aim();
+    void close();
+    [[nodiscard]] double pinned_at(double piezo_length_lambda) const;
+    void follow_set_points();
+    void follow_exponential();
+
+    TwinConfig config_;
+    int n_steps_;
+    double step_s_;
+    HighVoltage stage_;
+    Converter dac_;
+    AnalogLoop loop_;
+    PiezoMirror piezo_;
+
+    // All lengths in wavelengths; v and command count from the middle of the range.
+    double v_ = 0.0;
+    double excess_ = 0.0;  // of the piezo's length over v
+    double command_ = 0.0;
+    double drift_ = 0.0;
+    double drift_start_ = 0.0;
+    double drift_step_ = 0.0;
+    int steps_done_ = 0;
+    Mode mode_;
+    const FaultyHalf* faulty_ = nullptr;
+    double switch_error_ = 0.0;  // of the last opening
+
+    // A mode nearer to its centre than this, of the helicity that the reference asks for, is held.
+    static constexpr double held_lambda = 0.1;
+
+    bool closed_ = true;
+    int polarity_ = 1;
+    int held_before_ = 0;    // helicity of the mode that the loop held when it opened last; 0: none
+    int missed_from_ = 0;    // the same, of the last move that had a miss
+    bool has_miss_ = false;  // the present move carries the miss that is asked for
+    std::vector<double> set_points_;
+    double injected_ = 0.0;   // error of the second input
+    double direction_ = 1.0;  // of the last move in the open loop
+
+    // The exponential loop: dl = amplitude exp(-t/tau) about a centre.
+    double centre_ = 0.0;
+    double miss_at_closing_ = 0.0;
+    double amplitude_ = 0.0;  // at the start of the half
+    double halves_since_closing_ = 0.0;
+    std::vector<double> decay_;  // after each step of a half
+};
+
+// Lived through dozens of times in a half-period: it belongs into its caller's loop.
+inline void Perimeter::step() {
+    ++steps_done_;
+    const double drift_before = drift_;
+    drift_ = drift_at(steps_done_);
+    if (!closed_ || config_.loop == LoopKind::external) {
+        follow_set_points();
+    } else if (is_dark()) {
+        v_ = stage_.followed(v_, command_, step_s_);  // no error signal: the integrator holds
+    } else if (config_.loop == LoopKind::analog) {
+        // What the piezo adds to the voltage is taken as still for a step of the loop: 1e-4 wavelength in a fast move.
+        const AnalogLoop::State end =
+            loop_.step({command_, v_}, mode_, polarity_, drift_before + excess_, drift_ + excess_);
+        command_ = end.command_lambda;
+        v_ = end.v_lambda;
+    } else {
+        follow_exponential();
+    }
+    if (!piezo_.is_ideal()) excess_ = piezo_.move(v_) - v_;
+    mode_ = lasing_mode(length_lambda());
+}
+
+}  // namespace zlg::twin

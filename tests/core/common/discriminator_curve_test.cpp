@@ -1,0 +1,311 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+#include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/compensation/relock_drift.hpp>
+#include <zlg/core/control/sync_detector.hpp>
+
+namespace zlg::core {
+namespace {
+
+static_assert(check(DiscriminatorCurve{}) == CurveFault::none);
+
+// An expansive discriminator: 1.05, 1.24, 1.8, 3.3 times its linear law at 0.05, 0.10, 0.15, 0.20 wavelength.
+double apparent(double dl) {
+    const double x2 = dl * dl;
+    return dl * (1.0 + 19.0 * x2 + 200.0 * x2 * x2 + 19000.0 * x2 * x2 * x2);
+}
+
+DiscriminatorCurve curve_of(int n) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (int k = 1; k <= n; ++k) {
+        y.push_back(0.24 * k / n);
+        x.push_back(apparent(y.back()));
+    }
+    return discriminator_curve(x, y);
+}
+
+double worst_error(const DiscriminatorCurve& c) {
+    double worst = 0.0;
+    for (double dl = 0.0; dl < 0.24; dl += 1e-4) {
+        worst = std::max(worst, std::abs(true_detuning(c, apparent(dl)).detuning_lambda - dl));
+    }
+    return worst;
+}
+
+TEST(DiscriminatorCurve, WithoutNodesIsTheLinearLawToTheLastBit) {
+    for (const double x : {0.0, 1e-300, -0.123456789, 17.0}) {
+        EXPECT_EQ(true_detuning({}, x).detuning_lambda, x);
+        EXPECT_EQ(true_detuning({}, x).slope, 1.0);
+    }
+    const TrueMoments m = true_moments({}, 0.1, 0.02, 1e-5);
+    EXPECT_EQ(m.mean_lambda, 0.1);
+    EXPECT_EQ(m.mean_sq_lambda2, 0.02);
+}
+
+TEST(DiscriminatorCurve, PassesThroughItsNodesAndIsOdd) {
+    const DiscriminatorCurve c = curve_of(12);
+    ASSERT_EQ(check(c), CurveFault::none);
+    for (int k = 1; k < 12; ++k) {
+        const double dl = 0.24 * k / 12;
+        EXPECT_NEAR(true_detuning(c, apparent(dl)).detuning_lambda, dl, 1e-15);
+        EXPECT_EQ(true_detuning(c, -apparent(dl)).detuning_lambda, -true_detuning(c, apparent(dl)).detuning_lambda);
+    }
+}
+
+TEST(DiscriminatorCurve, ThirtyOneNodesAreGoodToFiveHundredThousandthsOfAWavelength) {
+    EXPECT_LT(worst_error(curve_of(31)), 5e-5);
+    EXPECT_GT(worst_error(curve_of(7)), 2e-4);
+}
+
+TEST(DiscriminatorCurve, HalfTheDistanceLeavesAnEighthOfTheError) {
+    const double ratio = worst_error(curve_of(15)) / worst_error(curve_of(30));
+    EXPECT_GT(ratio, 6.0);
+    EXPECT_LT(ratio, 20.0);
+}
+
+TEST(DiscriminatorCurve, IsMonotoneWhateverGrowsInItsNodes) {
+    const std::array<double, 5> x = {0.1, 0.11, 0.5, 0.50001, 3.0};
+    const std::array<double, 5> y = {1e-6, 0.9, 0.90001, 2.0, 2.00001};
+    const DiscriminatorCurve c = discriminator_curve(x, y);
+    ASSERT_EQ(check(c), CurveFault::none);
+    double last = 0.0;
+    for (double at = 0.0; at < 3.1; at += 1e-4) {
+        const CurvePoint p = true_detuning(c, at);
+        EXPECT_GE(p.detuning_lambda, last);
+        EXPECT_GE(p.slope, 0.0);
+        last = p.detuning_lambda;
+    }
+}
+
+TEST(DiscriminatorCurve, TheSlopeIsTheDerivative) {
+    const DiscriminatorCurve c = curve_of(20);
+    for (const double x : {-0.2, -0.05, 0.013, 0.1, 0.31}) {
+        const double h = 1e-7;
+        const double rise = true_detuning(c, x + h).detuning_lambda - true_detuning(c, x - h).detuning_lambda;
+        EXPECT_NEAR(true_detuning(c, x).slope, rise / (2.0 * h), 1e-6);
+    }
+}
+
+TEST(DiscriminatorCurve, BeyondItsLastNodeItHolds) {
+    const DiscriminatorCurve c = curve_of(20);
+    EXPECT_EQ(true_detuning(c, 50.0).detuning_lambda, 0.24);
+    EXPECT_EQ(true_detuning(c, -50.0).detuning_lambda, -0.24);
+    EXPECT_TRUE(std::isnan(true_detuning(c, std::numeric_limits<double>::quiet_NaN()).detuning_lambda));
+}
+
+// Unlike sides: to the left the curve of above, to the right one that is steeper.
+double right_apparent(double dl) { return dl * (1.1 + 25.0 * dl * dl); }
+
+DiscriminatorCurve curve_of_both_sides(int n) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (int k = -n; k <= n; ++k) {
+        if (k == 0) continue;
+        y.push_back(0.24 * k / n);
+        x.push_back(k < 0 ? apparent(y.back()) : right_apparent(y.back()));
+    }
+    return discriminator_curve(x, y);
+}
+
+TEST(DiscriminatorCurve, EachSideMayHaveItsOwnNodes) {
+    const DiscriminatorCurve c = curve_of_both_sides(31);
+    ASSERT_EQ(check(c), CurveFault::none);
+    EXPECT_EQ(nodes_below(c), 31u);
+    EXPECT_EQ(true_detuning(c, 0.0).detuning_lambda, 0.0);
+    for (double dl = 1e-3; dl < 0.24; dl += 1e-3) {
+        EXPECT_NEAR(true_detuning(c, apparent(-dl)).detuning_lambda, -dl, 3e-4);
+        EXPECT_NEAR(true_detuning(c, right_apparent(dl)).detuning_lambda, dl, 3e-4);
+    }
+    double last = -1.0;
+    for (double x = -4.0; x < 1.0; x += 1e-3) {
+        const CurvePoint p = true_detuning(c, x);
+        EXPECT_GE(p.detuning_lambda, last);
+        last = p.detuning_lambda;
+    }
+    EXPECT_EQ(true_detuning(c, -50.0).detuning_lambda, -0.24);
+    EXPECT_EQ(true_detuning(c, -50.0).slope, 0.0);
+    EXPECT_EQ(true_detuning(c, 50.0).detuning_lambda, 0.24);
+}
+
+TEST(DiscriminatorCurve, TwoEqualSidesAreTheMirroredOne) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (int k = -31; k <= 31; ++k) {
+        if (k == 0) continue;
+        y.push_back(0.24 * k / 31);
+        x.push_back(apparent(y.back()));
+    }
+    const DiscriminatorCurve both = discriminator_curve(x, y);
+    const DiscriminatorCurve one = curve_of(31);
+    for (double at = -3.0; at < 3.0; at += 0.0173)
+        EXPECT_NEAR(true_detuning(both, at).detuning_lambda, true_detuning(one, at).detuning_lambda, 1e-5) << at;
+}
+
+TEST(DiscriminatorCurve, RefusesSidesThatAreNone) {
+    const auto fault = [](std::vector<double> x, std::vector<double> y) { return check(discriminator_curve(x, y)); };
+    EXPECT_EQ(fault({-0.2, -0.1}, {-0.2, -0.1}), CurveFault::size) << "the positive side is missing";
+    EXPECT_EQ(fault({-0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({-0.1, 0.1, 0.05}, {-0.1, 0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({-0.1, 0.1}, {-0.1, 0.1}), CurveFault::none);
+}
+
+// The light turns with the sign of the half before it goes through a curve that is not odd.
+TEST(DiscriminatorCurve, TheSignOfAHalfTurnsTheSignalAndNotTheDetuning) {
+    SyncDetectorConfig config;
+    config.curve = curve_of_both_sides(31);
+    for (const double dl : {-0.2, -0.05, 0.1}) {
+        const double signal = config.discriminator_per_lambda * (dl < 0.0 ? apparent(dl) : right_apparent(dl));
+        for (const int sign : {1, -1}) {
+            std::array<float, 8> a{};
+            std::array<float, 8> b{};
+            a.fill(static_cast<float>(1.0 + sign * signal));
+            b.fill(static_cast<float>(1.0 - sign * signal));
+            SyncDetectorState state;
+            const SyncDetectorOutput out = step(config, state, {.light_a = a, .light_b = b, .sign = sign});
+            ASSERT_TRUE(out.usable);
+            EXPECT_NEAR(out.detuning.value(), dl, 4e-4) << sign;
+        }
+    }
+}
+
+// A bias that is largest at c: what a half lacks is chi <(dl - c)^2>.
+TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
+    RelockDriftConfig config{.method = RelockMethod::mean_square, .bias = Hertz{60e3}, .chi = 3.6};
+    config.centre = Wavelengths{0.02};
+    const double first = 0.15, second = 0.06;
+    for (const double side : {1.0, -1.0}) {
+        RelockDriftState state;
+        enter_gap(state);
+        const RelockDriftOutput out = step(config, state,
+                                           {.detuning_first_lambda = side * first,
+                                            .detuning_second_lambda = side * second,
+                                            .detuning_sq_first_lambda2 = first * first,
+                                            .detuning_sq_second_lambda2 = second * second});
+        const double before = (side * first - 0.02) * (side * first - 0.02);
+        const double after = (side * second - 0.02) * (side * second - 0.02);
+        ASSERT_TRUE(out.tick.known);
+        EXPECT_NEAR(out.tick.value_arcsec, 3.263 * 0.005 * 0.5 * 3.6 * 60e3 * (after - before), 1e-9);
+    }
+}
+
+TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrow) {
+    const auto fault = [](std::vector<double> x, std::vector<double> y) { return check(discriminator_curve(x, y)); };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(fault({}, {}), CurveFault::none);
+    EXPECT_EQ(fault({0.1}, {0.1}), CurveFault::none);
+    EXPECT_EQ(fault({0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({0.1, 0.2}, {0.1, 0.05}), CurveFault::node);
+    EXPECT_EQ(fault({-0.1, 0.2}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({0.1, nan}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({0.1, 2000.0}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({0.1}, {0.1, 0.2}), CurveFault::size);
+    EXPECT_EQ(fault(std::vector<double>(32, 0.1), std::vector<double>(32, 0.1)), CurveFault::size);
+    DiscriminatorCurve steep = curve_of(4);
+    steep.slope[2] = 10.0;
+    EXPECT_EQ(check(steep), CurveFault::slope);
+}
+
+TEST(DiscriminatorCurve, ADeficitTableGivesTheDetuningWithThatDeficit) {
+    const std::array<double, 3> x = {0.05, 0.12, 0.3};
+    const std::array<double, 3> deficit = {0.009, 0.036, 0.16};  // 3.6 times the squares of 0.05, 0.1, 0.2108
+    const DiscriminatorCurve c = curve_from_deficit(x, deficit, 3.6);
+    ASSERT_EQ(check(c), CurveFault::none);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double dl = true_detuning(c, x[k]).detuning_lambda;
+        EXPECT_NEAR(3.6 * dl * dl, deficit[k], 1e-15);
+    }
+}
+
+struct Half {
+    std::array<float, 16> a{};
+    std::array<float, 16> b{};
+};
+
+Half light(double from, double to, int sign) {
+    Half h;
+    for (std::size_t k = 0; k < 16; ++k) {
+        const double dl = from + (to - from) * (static_cast<double>(k) + 0.5) / 16.0;
+        const double signal = sign * 0.332 * apparent(dl);
+        h.a[k] = static_cast<float>(1000.0 * (1.0 + signal));
+        h.b[k] = static_cast<float>(1000.0 * (1.0 - signal));
+    }
+    return h;
+}
+
+SyncDetectorOutput detected(const SyncDetectorConfig& c, double from, double to, int sign) {
+    SyncDetectorState s;
+    const Half h = light(from, to, sign);
+    return step(c, s, {.light_a = h.a, .light_b = h.b, .sign = sign});
+}
+
+TEST(DiscriminatorCurve, TheDetectorReadsTrueDetuningsThroughIt) {
+    SyncDetectorConfig with;
+    with.curve = curve_of(31);
+    ASSERT_EQ(check(with), SyncDetectorFault::none);
+    for (const int sign : {1, -1}) {
+        const SyncDetectorOutput linear = detected({}, -0.2, -0.2, sign);
+        EXPECT_NEAR(linear.detuning.value(), -apparent(0.2), 1e-5);
+        const SyncDetectorOutput read = detected(with, -0.2, -0.1, sign);
+        EXPECT_NEAR(read.detuning.value(), -0.15, 2e-5);
+        EXPECT_NEAR(read.mean_sq_lambda2, 0.15 * 0.15 + 0.01 / 12.0, 2e-5);
+    }
+}
+
+// Halves in which the detuning falls evenly; the truth is (chi f0/2) (<dl^2>_second - <dl^2>_first).
+double relock_ratio(const SyncDetectorConfig& detector, const RelockDriftConfig& config, double miss) {
+    const double middle = 0.6 * miss;
+    const double end = 0.3 * miss;
+    const SyncDetectorOutput first = detected(detector, miss, middle, 1);
+    const SyncDetectorOutput second = detected(detector, middle, end, -1);
+    RelockDriftState s;
+    enter_gap(s);
+    const RelockTick tick{.detuning_first_lambda = first.detuning.value(),
+                          .detuning_second_lambda = second.detuning.value(),
+                          .detuning_sq_first_lambda2 = first.mean_sq_lambda2,
+                          .detuning_sq_second_lambda2 = second.mean_sq_lambda2,
+                          .temperature_c = 20.0};
+    const auto mean_sq = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
+    const double rate_hz = 0.5 * 3.6 * 60e3 * (mean_sq(middle, end) - mean_sq(miss, middle));
+    return step(config, s, tick).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
+}
+
+TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
+    const RelockDriftConfig mean_square{.method = RelockMethod::mean_square, .light_noise = Wavelengths{0.0}};
+    RelockDriftConfig late = mean_square;
+    late.curve = curve_of(31);
+    ASSERT_EQ(check(late), RelockDriftFault::none);
+    SyncDetectorConfig with;
+    with.curve = curve_of(31);
+    for (const double miss : {0.05, 0.1, 0.2}) {
+        EXPECT_NEAR(relock_ratio(with, mean_square, miss), 1.0, 2e-3) << miss;
+        EXPECT_NEAR(relock_ratio({}, late, miss), 1.0, 0.03) << miss;
+        EXPECT_GT(relock_ratio({}, mean_square, miss), 1.0 + 15.0 * miss * miss) << miss;
+    }
+}
+
+TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
+    RelockDriftConfig c{.method = RelockMethod::mean_square, .light_noise = Wavelengths{0.003}};
+    const RelockTick tick{.detuning_first_lambda = 0.1,
+                          .detuning_second_lambda = 0.06,
+                          .detuning_sq_first_lambda2 = 0.1 * 0.1 + 9e-6,
+                          .detuning_sq_second_lambda2 = 0.06 * 0.06 + 9e-6};
+    const auto variance = [&] {
+        RelockDriftState s;
+        enter_gap(s);
+        return step(c, s, tick).tick.variance_arcsec2;
+    };
+    const double linear = variance();
+    const std::array<double, 1> x = {1.0};
+    const std::array<double, 1> half = {0.5};
+    c.curve = discriminator_curve(x, half);  // a straight line of slope 1/2: dl and noise half as large
+    EXPECT_NEAR(variance() / linear, 1.0 / 16.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace zlg::core

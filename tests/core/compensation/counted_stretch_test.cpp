@@ -1,0 +1,87 @@
+#include <zlg/core/compensation/counted_stretch.hpp>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace zlg::core {
+namespace {
+
+constexpr EdgeShiftConfig config{};
+
+HalfRecord missed(std::int8_t sign) { return {.bias_sign = sign, .valid = false}; }
+HalfRecord read(std::int8_t sign, std::int64_t counts, std::int32_t span = 1) {
+    return {.counts = counts, .bias_sign = sign, .span = span};
+}
+
+// What the last tick says, of ticks in a row that were not measured.
+CountedStretch after(const std::vector<HalfRecord>& halves, CountedStretchState state = {}) {
+    CountedStretch out;
+    for (std::size_t h = 0; h + 1 < halves.size(); h += 2) {
+        EdgeShiftState edges;
+        out = step(config, state, halves[h], halves[h + 1], Hertz{60e3}, {}, edges);
+    }
+    return out;
+}
+
+void expect(const CountedStretch& out, std::int64_t n_ticks, std::int64_t counts) {
+    EXPECT_EQ(out.n_ticks, n_ticks);
+    EXPECT_EQ(out.angle_arcsec, n_ticks > 0 ? 3.263 * static_cast<double>(counts) : 0.0);
+}
+
+TEST(CountedStretch, WholeTicksHaveTheSumOfTheirCounts) {
+    expect(after({missed(1), read(-1, 7, 2)}), 1, 7);
+    expect(after({read(1, 150), missed(-1), missed(1), read(-1, -100, 3)}), 2, 50);
+    // A span that ends in the first half of a tick has the tick's second half beside it.
+    expect(after({read(1, 150), missed(-1), read(1, 30, 2), read(-1, -150)}), 2, 30);
+    expect(after({missed(1), missed(-1), read(1, 160, 3), read(-1, -145)}), 2, 15);
+    // Two spans, and no reading at the border between them.
+    expect(after({missed(1), missed(-1), read(1, 10, 3), missed(-1), missed(1), read(-1, -4, 3)}), 3, 6);
+}
+
+TEST(CountedStretch, BeginsAnewAtEveryReadingAtABorder) {
+    expect(after({missed(1), read(-1, 7, 2), missed(1), read(-1, 9, 2)}), 1, 9);
+}
+
+TEST(CountedStretch, NothingIsKnownUntilAReadingCoversAll) {
+    expect(after({missed(1), missed(-1)}), 0, 0);
+    expect(after({missed(1), missed(-1), read(1, 3, 3), missed(-1)}), 0, 0);
+    expect(after({missed(1), missed(-1), missed(1), read(-1, 3, 2)}), 0, 0);
+    expect(after({missed(1), read(-1, 3, 1)}), 0, 0);
+    expect(after({read(1, 150), read(-1, 3, 2)}), 0, 0);
+}
+
+TEST(CountedStretch, AnOpenLoopOrAnotherModeHidesTheBias) {
+    for (int what = 0; what < 2; ++what) {
+        std::vector<HalfRecord> halves{missed(1), missed(-1), missed(1), read(-1, 3, 4)};
+        if (what == 0)
+            halves[1].loop_closed = false;
+        else
+            halves[2].mode = halves[3].mode = -1;
+        expect(after(halves), 0, 0);
+    }
+}
+
+TEST(CountedStretch, AfterAnOpenLoopTheFalseDriftIsNotBoundedBeforeATickWasMeasured) {
+    CountedStretchState state;
+    EdgeShiftState edges;
+    HalfRecord open = read(1, 0);
+    open.loop_closed = false;
+    (void)step(config, state, open, open, Hertz{60e3}, {}, edges);
+    expect(after({missed(1), read(-1, 7, 2)}, state), 0, 0);
+    begin_anew(state, 0.0);
+    expect(after({missed(1), read(-1, 7, 2)}, state), 1, 7);
+}
+
+// 2.5 us more of plateau at 60 kHz is .15 counts, in each half of its own sign.
+TEST(CountedStretch, ShiftedEdgesTakeTheirArea) {
+    CountedStretchState state;
+    EdgeShiftState edges;
+    HalfRecord first = missed(1);
+    first.edge_offset_ticks = 25;
+    const CountedStretch out = step(config, state, first, read(-1, 100, 2), Hertz{60e3}, {}, edges);
+    EXPECT_NEAR(out.angle_arcsec, 3.263 * (100 - 2 * 0.15), 1e-9);
+}
+
+}  // namespace
+}  // namespace zlg::core

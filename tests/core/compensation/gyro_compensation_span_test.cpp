@@ -1,0 +1,241 @@
+// Halves without a reading: what the counter has counted over them is in the angle, however the bridge distributes it.
+
+#include <zlg/core/gyro_compensation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "gyro_compensation_support.hpp"
+
+namespace zlg::core {
+namespace {
+
+using namespace gyro_compensation_support;
+using compensation_test::Random;
+
+GyroCompensationConfig with(BridgeMethod method) {
+    GyroCompensationConfig config;
+    config.bridge.method = method;
+    return config;
+}
+
+constexpr double swing_arcsec = 60.0;  // of a tick
+double turned(std::int64_t tick) { return 5.0 + swing_arcsec * std::sin(0.2209 * static_cast<double>(tick)); }
+
+Halves swing(const GyroCompensationConfig& config, std::int64_t ticks) {
+    Recorder recorder{config, 1, 1};
+    Halves halves;
+    for (std::int64_t t = 0; t < ticks; ++t) recorder.tick_into(halves, turned(t));
+    return halves;
+}
+
+// As a control records halves first .. first + n - 1 that were missed.
+void miss(Halves& halves, std::size_t first, std::size_t n) {
+    HalfRecord& next = halves[first + n];
+    for (std::size_t h = first; h < first + n; ++h) {
+        next.counts += halves[h].counts;
+        next.span += halves[h].span;
+        halves[h].counts = 0;
+        halves[h].span = 1;
+        halves[h].valid = false;
+    }
+}
+
+double count_sum(const Halves& halves) {
+    std::int64_t sum = 0;
+    for (const HalfRecord& half : halves) sum += half.counts;
+    return 3.263 * static_cast<double>(sum);
+}
+
+struct Sums {
+    double delivered = 0.0, final = 0.0;
+};
+
+// Both sums, which must be equal at each correction.
+Sums sums_of(const Delivered& all, bool alone = true) {
+    Sums s;
+    for (const AngleRow& row : all.rows) {
+        s.delivered += row.dtheta_arcsec;
+        s.final += row.dtheta_final_arcsec;
+        if (alone && (row.flags & flag_correction) != 0) {
+            EXPECT_NEAR(s.delivered, s.final, 1e-9) << row.tick;
+        }
+    }
+    return s;
+}
+
+class Span : public testing::TestWithParam<BridgeMethod> {};
+INSTANTIATE_TEST_SUITE_P(GyroCompensation, Span,
+                         testing::Values(BridgeMethod::constant, BridgeMethod::quadratic, BridgeMethod::optimal,
+                                         BridgeMethod::automatic));
+
+TEST_P(Span, TheSumOverAGapIsThatOfTheCounterWhateverItsLength) {
+    const GyroCompensationConfig config = with(GetParam());
+    for (const std::size_t n : {1u, 2u, 3u, 9u, 20u, 30u, 33u, 48u, 70u, 400u, 3001u}) {
+        for (std::size_t first = 800; first < 802; ++first) {
+            Halves halves = swing(config, 2200);
+            miss(halves, first, n);
+            const Delivered all = run(config, halves);
+            const Sums s = sums_of(all);
+            EXPECT_NEAR(s.final, count_sum(halves), 1e-6) << n << " from " << first;
+            EXPECT_NEAR(s.delivered, count_sum(halves), 1e-6) << n << " from " << first;
+            ASSERT_EQ(all.gaps.size(), 1u);
+            EXPECT_NEAR(all.gaps[0].sigma_sum_arcsec, 3.263 / std::sqrt(6.0), 0.1 + 1e-3 * static_cast<double>(n));
+        }
+    }
+}
+
+TEST_P(Span, ATickOfWhichOnlyItsFirstHalfIsMissedIsKnownExactly) {
+    const GyroCompensationConfig config = with(GetParam());
+    Halves halves = swing(config, 500);
+    const double true_arcsec = 3.263 * static_cast<double>(halves[900].counts + halves[901].counts);
+    miss(halves, 900, 1);
+    const AngleRow row = run(config, halves).rows[450];
+    EXPECT_EQ(row.dtheta_final_arcsec, true_arcsec);
+    EXPECT_NEAR(row.sigma_arcsec, 3.263 / std::sqrt(6.0), 0.01);
+    EXPECT_NE(row.dtheta_arcsec, true_arcsec);
+}
+
+TEST_P(Span, NoFrameLostByChanceTakesAngle) {
+    const GyroCompensationConfig config = with(GetParam());
+    for (const double part : {0.1, 0.5, 0.9}) {
+        Random random{7};
+        Halves halves = swing(config, 2000);
+        for (std::size_t h = 600; h + 600 < halves.size(); ++h)
+            if (random.chance(part)) miss(halves, h, 1);
+        const Sums s = sums_of(run(config, halves), false);
+        EXPECT_NEAR(s.final, count_sum(halves), 1e-6) << part;
+        EXPECT_NEAR(s.delivered, count_sum(halves), 1e-6) << part;
+    }
+}
+
+// By the learnt motion: where it is the motion of before, its ticks are within their sigma.
+TEST(GyroCompensationSpan, TicksOfAKnownSumHaveATrueSigma) {
+    const GyroCompensationConfig config = with(BridgeMethod::automatic);
+    for (const std::size_t n : {4u, 11u, 29u}) {
+        double squares = 0.0;
+        double most = 0.0;
+        int rows = 0;
+        for (std::size_t start = 0; start < 25; ++start) {
+            Halves halves = swing(config, 1000);
+            miss(halves, 1600 + start, n);
+            const Delivered all = run(config, halves);
+            for (std::int64_t t = 800; t < 840; ++t) {
+                const AngleRow& row = all.rows[static_cast<std::size_t>(t)];
+                if ((row.flags & flag_extrapolated) == 0) continue;
+                const double z = (row.dtheta_final_arcsec - turned(t)) / row.sigma_arcsec;
+                squares += z * z;
+                most = std::max(most, std::abs(row.dtheta_final_arcsec - turned(t)));
+                ++rows;
+            }
+        }
+        EXPECT_LT(squares / rows, 1.5) << n;
+        EXPECT_GT(squares / rows, 0.05) << n;
+        EXPECT_LT(most, n < 20 ? 8.0 : 30.0) << n;
+    }
+}
+
+// A turn of 450 arcsec within one tick is no motion that was learnt: it may be in any of the gap's ticks.
+TEST(GyroCompensationSpan, AForeignTurnIsWithinTheSigmaOfTheTickItWasIn) {
+    for (const BridgeMethod method : {BridgeMethod::automatic, BridgeMethod::quadratic}) {
+        const GyroCompensationConfig config = with(method);
+        for (const double turn : {100.0, 450.0, 3000.0}) {
+            for (std::int64_t at = 400; at < 404; ++at) {
+                Recorder recorder{config, 1, 1};
+                Halves halves;
+                for (std::int64_t t = 0; t < 500; ++t) recorder.tick_into(halves, 5.0 + (t == at ? turn : 0.0));
+                miss(halves, 800, 7);
+                const Delivered all = run(config, halves);
+                for (std::int64_t t = 400; t < 404; ++t) {
+                    const AngleRow& row = all.rows[static_cast<std::size_t>(t)];
+                    const double error = row.dtheta_final_arcsec - 5.0 - (t == at ? turn : 0.0);
+                    EXPECT_LT(std::abs(error), 5.0 * row.sigma_arcsec) << turn << " " << at << " " << t;
+                }
+            }
+        }
+    }
+}
+
+TEST(GyroCompensationSpan, ALongGapHasASigmaWhereItsRowsHaveNotLeft) {
+    const GyroCompensationConfig config = with(BridgeMethod::automatic);
+    Halves halves = swing(config, 2200);
+    miss(halves, 1000, 400);
+    const Delivered all = run(config, halves);
+    int known = 0;
+    for (std::int64_t t = 500; t < 700; ++t) {
+        const AngleRow& row = all.rows[static_cast<std::size_t>(t)];
+        EXPECT_EQ(std::isinf(row.sigma_arcsec), (row.flags & flag_unrepaired) != 0);
+        if (std::isinf(row.sigma_arcsec)) continue;
+        ++known;
+        EXPECT_LT(std::abs(row.dtheta_final_arcsec - turned(t)), 5.0 * row.sigma_arcsec) << t;
+    }
+    EXPECT_GE(known, max_gap_ticks);
+}
+
+TEST(GyroCompensationSpan, ASwitchWithinTheMissedHalvesIsBridgedAsBefore) {
+    const GyroCompensationConfig config = with(BridgeMethod::quadratic);
+    Halves counted = swing(config, 500);
+    Halves missed = counted;
+    for (Halves* halves : {&counted, &missed})
+        for (std::size_t h = 804; h < 808; ++h) (*halves)[h].loop_closed = false;
+    miss(missed, 800, 10);
+    for (std::size_t h = 800; h < 811; ++h) {
+        counted[h].valid = false;
+        counted[h].counts = 0;
+    }
+    missed[810].valid = false;
+    missed[810].counts = 0;
+    missed[810].span = 1;
+    Halves with_span = missed;
+    with_span[810].valid = true;
+    with_span[810].counts = 12345;
+    with_span[810].span = 11;
+    const Delivered a = run(config, missed);
+    const Delivered b = run(config, with_span);
+    for (std::size_t t = 0; t < a.rows.size(); ++t) {
+        EXPECT_EQ(a.rows[t].dtheta_final_arcsec, b.rows[t].dtheta_final_arcsec) << t;
+        EXPECT_EQ(a.rows[t].dtheta_arcsec, b.rows[t].dtheta_arcsec) << t;
+    }
+}
+
+// Halves that are missed while the loop still settles: the sum of the counter holds what the detuning takes from the bias.
+TEST(GyroCompensationSpan, ASumOfAReLockIsNoSumOfTheRotation) {
+    GyroCompensationConfig config = with(BridgeMethod::automatic);
+    config.relock.method = RelockMethod::mean_square;
+    for (const double q : {0.4, 0.68, 0.85}) {
+        for (std::size_t n = 1; n <= 6; ++n) {
+            Recorder recorder{config, 1, 1};
+            Halves halves;
+            for (int t = 0; t < 600; ++t) recorder.tick_into(halves, 7.3);
+            for (int t = 0; t < 3; ++t) recorder.tick_into(halves, 7.3, false);
+            recorder.flip();
+            const std::size_t closed = halves.size();
+            for (int h = 0; h < 400; ++h)
+                halves.push_back(recorder.half(0.5 * 7.3, 0.22 * 0.22 * std::pow(q, 2 * h) + 1e-6));
+            miss(halves, closed + 2, n);
+            for (std::size_t h = closed + 2; h < closed + 2 + n; ++h)
+                halves[h].detuning_sq_lambda2 = halves[h].detuning_lambda = 0.0;
+            const Delivered all = run(config, halves);
+            double error = 0.0;
+            for (std::size_t t = 600; t < 640; ++t) error += all.rows[t].dtheta_final_arcsec - 7.3;
+            double variance = 0.0;
+            for (const GapReport& gap : all.gaps) variance += gap.sigma_sum_arcsec * gap.sigma_sum_arcsec;
+            EXPECT_LT(std::abs(error), 2.5 * std::sqrt(variance)) << q << ", " << n << " missed";
+            EXPECT_LT(std::abs(error), 4.0) << q << ", " << n << " missed";
+        }
+    }
+}
+
+// `none` bridges nothing: what the counter says is the angle, in the tick in which it says it.
+TEST(GyroCompensationSpan, WithoutABridgeTheCountsAreTheAngle) {
+    const GyroCompensationConfig config = with(BridgeMethod::none);
+    Halves halves = swing(config, 300);
+    miss(halves, 200, 51);
+    const Sums s = sums_of(run(config, halves));
+    EXPECT_NEAR(s.final, count_sum(halves), 1e-6);
+}
+
+}  // namespace
+}  // namespace zlg::core

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <zlg/core/control/bias_monitor.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr BiasMonitorConfig config{.presumed_counts = 150.0};
+static_assert(check(config) == BiasMonitorFault::none);
+static_assert(check(BiasMonitorConfig{.presumed_counts = -1.0}) == BiasMonitorFault::presumed);
+static_assert(check(BiasMonitorConfig{.presumed_counts = std::numeric_limits<double>::quiet_NaN()}) ==
+              BiasMonitorFault::presumed);
+
+// A counter that rounds down, under a bias and a rotation given in counts per half.
+class Counter {
+public:
+    double bias = 150.0;
+    double rate = 0.0;
+    bool settled = true;
+
+    BiasMonitorOutput half(const BiasMonitorConfig& c = config) {
+        sign_ = static_cast<std::int8_t>(-sign_);
+        phase_ += rate + sign_ * bias;
+        const auto now = static_cast<std::int64_t>(std::floor(phase_));
+        const std::int64_t counts = now - last_;
+        last_ = now;
+        return step(c, state, {.counted = true, .counts = counts, .beat_sign = sign_, .settled = settled});
+    }
+    void halves(int n) {
+        for (int k = 0; k < n; ++k) (void)half();
+    }
+
+    BiasMonitorState state;
+
+private:
+    std::int8_t sign_ = -1;
+    double phase_ = 0.3;
+    std::int64_t last_ = 0;
+};
+
+TEST(BiasMonitor, LearnsTheBiasThatIsThereWhateverWasPresumed) {
+    for (const double bias : {60.0, 150.0, 400.0}) {
+        Counter counter;
+        counter.bias = bias;
+        counter.halves(200);
+        EXPECT_NEAR(counter.state.bias_counts, bias, 0.5);
+        const BiasMonitorOutput out = counter.half();
+        EXPECT_TRUE(out.judged && out.in_band);
+        EXPECT_FALSE(out.reversed || out.lost || out.near_rate);
+    }
+}
+
+TEST(BiasMonitor, JudgesNothingWithoutABiasToTell) {
+    Counter counter;
+    counter.bias = 20.0;
+    for (int k = 0; k < 300; ++k) EXPECT_FALSE(counter.half({.presumed_counts = 20.0}).judged);
+    Counter off;
+    for (int k = 0; k < 300; ++k) EXPECT_FALSE(off.half({}).judged);
+}
+
+TEST(BiasMonitor, NoOrdinaryRotationLeavesTheBand) {
+    for (const double frequency_hz : {0.3, 7.03, 20.06, 100.3}) {
+        Counter counter;
+        counter.halves(100);
+        for (int k = 0; k < 20000; ++k) {
+            counter.rate = 12000.0 * 0.0025 / 3.263 * std::sin(2.0 * 3.14159265 * frequency_hz * 0.0025 * k);
+            ASSERT_TRUE(counter.half().in_band) << frequency_hz << " Hz, half " << k;
+        }
+    }
+}
+
+TEST(BiasMonitor, RotationAtTheHighestRateLeavesTheBiasInItsBand) {
+    Counter counter;
+    for (int k = 0; k < 4000; ++k) {
+        counter.rate = 1100.0 * std::sin(1e-3 * k);  // 400 deg/s
+        const BiasMonitorOutput out = counter.half();
+        ASSERT_TRUE(out.in_band || !out.judged) << k;
+    }
+}
+
+TEST(BiasMonitor, AGlitchIsSeenInItsHalf) {
+    for (const double glitch : {-150.0, -40.0, 40.0, 150.0}) {
+        Counter counter;
+        counter.halves(100);
+        counter.rate = glitch;
+        EXPECT_FALSE(counter.half().in_band) << glitch;
+        counter.rate = 0.0;
+        counter.halves(3);
+        EXPECT_TRUE(counter.half().in_band) << glitch;
+    }
+}
+
+TEST(BiasMonitor, TheOtherHelicityIsKnownAfterFourHalves) {
+    Counter counter;
+    counter.halves(100);
+    counter.bias = -150.0;
+    // The first half of the other sign beside one of the old is no bias at all.
+    EXPECT_TRUE(counter.half().lost);
+    for (int k = 0; k < 3; ++k) {
+        const BiasMonitorOutput out = counter.half();
+        EXPECT_FALSE(out.in_band || out.reversed) << k;
+    }
+    EXPECT_TRUE(counter.half().reversed);
+    counter.bias = 150.0;
+    EXPECT_FALSE(counter.half().reversed);
+    counter.halves(2);
+    EXPECT_TRUE(counter.half().in_band);
+    EXPECT_NEAR(counter.state.bias_counts, 150.0, 0.5);
+}
+
+TEST(BiasMonitor, ALostBiasIsNotLearntAndReturns) {
+    Counter counter;
+    counter.halves(100);
+    counter.bias = 0.0;
+    counter.halves(2);
+    for (int k = 0; k < 5000; ++k) {
+        const BiasMonitorOutput out = counter.half();
+        ASSERT_TRUE(out.lost && !out.in_band && !out.reversed);
+    }
+    counter.bias = 150.0;
+    counter.halves(3);
+    EXPECT_TRUE(counter.half().in_band);
+}
+
+// Learnt while the current was faulty: what is presumed tells the better level from the worse one.
+TEST(BiasMonitor, ABiasThatWasLearntOfAFaultIsGivenUp) {
+    for (const double part : {0.4, 0.7, 1.3}) {
+        Counter counter;
+        counter.bias = 150.0 * part;
+        counter.halves(500);
+        EXPECT_NEAR(counter.state.bias_counts, 150.0 * part, 0.5);
+        counter.bias = 150.0;
+        counter.halves(50);
+        for (int k = 0; k < 1000; ++k) ASSERT_TRUE(counter.half().in_band) << part << ", half " << k;
+        EXPECT_NEAR(counter.state.bias_counts, 150.0, 0.5);
+    }
+}
+
+TEST(BiasMonitor, AChangeForGoodIsLearntAfterASecondAndNotBefore) {
+    Counter counter;
+    counter.halves(500);
+    counter.bias = 120.0;
+    for (int k = 0; k < 395; ++k) ASSERT_FALSE(counter.half().in_band);
+    counter.halves(20);
+    for (int k = 0; k < 1000; ++k) ASSERT_TRUE(counter.half().in_band);
+    counter.bias = 150.0;
+    counter.halves(50);
+    EXPECT_TRUE(counter.half().in_band) << "the way back is short";
+}
+
+TEST(BiasMonitor, ABiasThatWasNeverThereIsLost) {
+    Counter counter;
+    counter.bias = 0.0;
+    counter.halves(100);
+    const BiasMonitorOutput out = counter.half();
+    EXPECT_TRUE(out.lost);
+    EXPECT_FALSE(out.judged);
+}
+
+TEST(BiasMonitor, OnTheWayToALockTheBiasMayLackAThird) {
+    Counter counter;
+    counter.halves(100);
+    counter.settled = false;
+    counter.bias = 110.0;
+    counter.halves(2);
+    EXPECT_TRUE(counter.half().in_band);
+    counter.bias = 60.0;
+    counter.halves(2);
+    EXPECT_FALSE(counter.half().in_band);
+}
+
+TEST(BiasMonitor, TheDeficitIsWhatTheBiasLacks) {
+    Counter counter;
+    counter.halves(1000);
+    counter.bias = 147.0;
+    counter.halves(3);
+    EXPECT_NEAR(counter.half().deficit_ratio, 0.02, 0.01);
+}
+
+TEST(BiasMonitor, ARotationThatCancelsTheBiasIsTheLockInZone) {
+    Counter counter;
+    counter.halves(100);
+    counter.rate = 148.0;
+    counter.halves(3);
+    EXPECT_NE(counter.half().near_rate, counter.half().near_rate);
+    counter.rate = 130.0;
+    counter.halves(4);
+    EXPECT_FALSE(counter.half().near_rate || counter.half().near_rate);
+}
+
+TEST(BiasMonitor, HalvesThatWereNotCountedBreakTheRow) {
+    Counter counter;
+    counter.halves(100);
+    EXPECT_FALSE(step(config, counter.state, {.counted = false}).judged);
+    EXPECT_FALSE(counter.half().judged);
+    EXPECT_TRUE(counter.half().judged);
+    const std::int64_t most = std::numeric_limits<std::int64_t>::min();
+    EXPECT_FALSE(step(config, counter.state, {.counted = true, .counts = most}).judged);
+}
+
+}  // namespace
+}  // namespace zlg::core

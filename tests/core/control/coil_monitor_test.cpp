@@ -1,0 +1,187 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <zlg/core/control/coil_monitor.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr CoilMonitorConfig config{.tolerance_ratio = 0.0033};
+static_assert(check(config) == CoilMonitorFault::none);
+static_assert(check(CoilMonitorConfig{.tolerance_ratio = nan_value}) == CoilMonitorFault::tolerance);
+static_assert(check(CoilMonitorConfig{.tolerance_ratio = 1.1}) == CoilMonitorFault::tolerance);
+
+// 1 A with the noise of a converter, by default 0.1 %.
+class Coil {
+public:
+    double positive = 1.0;
+    double negative = 1.0;
+    double noise = 1e-3;
+
+    CoilMonitorOutput half() {
+        sign_ = -sign_;
+        const double now_a = sign_ * (sign_ > 0 ? positive : negative) + noise * normal_(random_);
+        return step(config, state, sign_, now_a);
+    }
+    int n_off(int n) {
+        int off = 0;
+        for (int k = 0; k < n; ++k) off += half().off;
+        return off;
+    }
+    int n_unbalanced(int n) {
+        int unbalanced = 0;
+        for (int k = 0; k < n; ++k) unbalanced += half().unbalanced;
+        return unbalanced;
+    }
+
+    CoilMonitorState state;
+
+private:
+    int sign_ = -1;
+    std::mt19937 random_{7};
+    std::normal_distribution<double> normal_;
+};
+
+TEST(CoilMonitor, AnOrdinaryCurrentIsNeverOff) {
+    for (const double noise : {0.0, 1e-3, 1e-2}) {
+        Coil coil;
+        coil.noise = noise;
+        EXPECT_EQ(coil.n_off(200000), 0) << noise;
+    }
+}
+
+TEST(CoilMonitor, ACurrentThatIsNotMeasuredSaysNothing) {
+    CoilMonitorState s;
+    for (int k = 0; k < 1000; ++k) {
+        const CoilMonitorOutput out = step(config, s, k % 2 == 0 ? 1 : -1, k % 3 == 0 ? nan_value : 0.0);
+        ASSERT_FALSE(out.off || out.unbalanced);
+    }
+    Coil coil;
+    for (int k = 0; k < 1000; ++k) ASSERT_FALSE(step({}, s, 1, k % 2 == 0 ? 1.0 : 3.0).off);
+}
+
+TEST(CoilMonitor, AHalfPerCentOfAsymmetryIsSeenWithinTenHalves) {
+    Coil coil;
+    (void)coil.n_off(500);
+    coil.positive = 1.005;
+    coil.negative = 0.995;
+    int k = 0;
+    while (!coil.half().unbalanced) ASSERT_LT(++k, 10);
+    EXPECT_GE(coil.n_unbalanced(2000), 1990);
+    coil.positive = coil.negative = 1.0;
+    (void)coil.n_off(40);
+    EXPECT_EQ(coil.n_off(1000), 0);
+}
+
+TEST(CoilMonitor, TenPerCentAreSeenAtOnce) {
+    Coil coil;
+    (void)coil.n_off(500);
+    coil.positive = 0.9;
+    EXPECT_EQ(coil.n_unbalanced(100), 100);
+}
+
+// The angle of a tick holds the difference of its halves only.
+TEST(CoilMonitor, ALossInBothSignsIsOffButUnbalancedOnlyWhereItBegins) {
+    Coil coil;
+    (void)coil.n_off(500);
+    coil.positive = coil.negative = 0.5;
+    EXPECT_TRUE(coil.half().unbalanced);
+    EXPECT_EQ(coil.n_unbalanced(300), 0);
+    EXPECT_TRUE(coil.half().off);
+}
+
+TEST(CoilMonitor, ALossInBothSignsThatStaysIsTheNewLevel) {
+    Coil coil;
+    (void)coil.n_off(500);
+    coil.positive = coil.negative = 0.9;
+    (void)coil.n_off(450);
+    EXPECT_EQ(coil.n_off(1000), 0);
+    EXPECT_NEAR(coil.state.level_a[0], 0.9, 2e-3);
+}
+
+TEST(CoilMonitor, AnAsymmetryThatStaysIsNoNewLevel) {
+    Coil coil;
+    (void)coil.n_off(500);
+    coil.positive = 1.02;
+    (void)coil.n_off(5000);
+    EXPECT_EQ(coil.n_unbalanced(100), 100);
+}
+
+TEST(CoilMonitor, ALossOfAllCurrentIsSeen) {
+    Coil coil;
+    (void)coil.n_off(500);
+    coil.positive = coil.negative = 0.0;
+    EXPECT_EQ(coil.n_off(100), 100);
+}
+
+// Whatever the noise, however much was lost, and for however long.
+TEST(CoilMonitor, ACurrentThatComesBackIsTheOldOneAtOnce) {
+    for (const double left : {0.0, 0.01, 0.05, 0.1, 0.3, 0.45}) {
+        for (const int halves : {10, 600, 24000}) {
+            Coil coil;
+            (void)coil.n_off(500);
+            coil.positive = coil.negative = left;
+            EXPECT_EQ(coil.n_off(halves), halves) << left;
+            coil.positive = coil.negative = 1.0;
+            (void)coil.n_off(60);
+            EXPECT_EQ(coil.n_off(5000), 0) << left << " of the current for " << halves;
+        }
+    }
+}
+
+// A level that was learnt while the supply was faulty is not kept when it is mended.
+TEST(CoilMonitor, LevelsLearntOfAFaultyCurrentAreGivenUp) {
+    struct Learnt {
+        double positive, negative;
+    };
+    for (const Learnt learnt : {Learnt{0.3, 0.3}, Learnt{0.03, 0.03}, Learnt{1.08, 0.92}, Learnt{0.99, 1.01}}) {
+        Coil coil;
+        coil.positive = learnt.positive;
+        coil.negative = learnt.negative;
+        (void)coil.n_off(500);
+        coil.positive = coil.negative = 1.0;
+        (void)coil.n_off(1000);
+        EXPECT_EQ(coil.n_off(5000), 0) << learnt.positive << " and " << learnt.negative;
+        EXPECT_NEAR(coil.state.spread, 0.8e-3, 0.2e-3);
+        coil.positive = 1.01;
+        coil.negative = 0.99;
+        (void)coil.n_off(20);
+        EXPECT_EQ(coil.n_unbalanced(1000), 1000);
+    }
+}
+
+// A converter that read another current for a while has taught nothing that lasts.
+TEST(CoilMonitor, ACurrentThatWasReadTooHighIsTheOldOneAgain) {
+    for (const double read : {1.5, 1.9, 2.5, 4.0, 30.0}) {
+        for (const int times : {1, 2}) {
+            Coil coil;
+            (void)coil.n_off(500);
+            for (int k = 1; k <= times; ++k) {
+                coil.positive = coil.negative = std::pow(read, k);
+                (void)coil.n_off(1000);
+            }
+            coil.positive = coil.negative = 1.0;
+            (void)coil.n_off(1000);
+            EXPECT_EQ(coil.n_off(5000), 0) << read << ", " << times;
+            coil.positive = 1.05;
+            (void)coil.n_off(20);
+            EXPECT_EQ(coil.n_unbalanced(100), 100) << read << ", " << times;
+        }
+    }
+}
+
+TEST(CoilMonitor, NoNumberThatCanArriveIsKept) {
+    Coil coil;
+    for (int k = 0; k < 2000; ++k) {
+        (void)step(config, coil.state, 1, k % 7 == 0 ? 1e308 : nan_value);
+        (void)step(config, coil.state, -1, -std::numeric_limits<double>::infinity());
+        (void)coil.half();
+    }
+    EXPECT_TRUE(std::isfinite(coil.state.spread) && std::isfinite(coil.state.odd) && std::isfinite(coil.state.even));
+}
+
+}  // namespace
+}  // namespace zlg::core

@@ -1,0 +1,268 @@
+#include <zlg/core/control/edge_dither.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace zlg::core {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+const EdgeDitherConfig config;
+
+// Shifts of the reversals that begin and end each half of positive bias, ticks.
+struct Edges {
+    std::vector<std::int32_t> up;
+    std::vector<std::int32_t> down;
+};
+
+EdgeDitherConfig always(DitherLaw law) {
+    EdgeDitherConfig c;
+    c.random_above_arcsec_s = law == DitherLaw::paired ? 1e9 : 0.0;
+    c.paired_below_arcsec_s = 0.0;
+    return c;
+}
+
+// Runs with `counts` in every half, plus the bias's own; the first periods, in which the law is found, are left out.
+Edges run(const EdgeDitherConfig& c, EdgeDitherState& s, int n_periods, std::int64_t counts = 0) {
+    Edges edges;
+    for (int i = 0; i < n_periods + 132; ++i) {
+        const EdgeDitherOutput up = step(c, s, {.next_sign = -1, .counted = true, .counts = 150 + counts});
+        const EdgeDitherOutput down = step(c, s, {.next_sign = 1, .counted = true, .counts = -150 + counts});
+        if (i < 132) continue;
+        edges.up.push_back(up.edge_offset_ticks);
+        edges.down.push_back(down.edge_offset_ticks);
+    }
+    return edges;
+}
+
+Edges run(const EdgeDitherConfig& c, int n_periods, std::int64_t counts = 0) {
+    EdgeDitherState s;
+    return run(c, s, n_periods, counts);
+}
+
+// Mean of cos and sin of the place in the turn: both vanish where it is uniform.
+double unevenness(const std::vector<std::int32_t>& ticks, double cycle_ticks) {
+    double c = 0.0, s = 0.0;
+    for (const std::int32_t t : ticks) {
+        c += std::cos(6.283185307179586 * t / cycle_ticks);
+        s += std::sin(6.283185307179586 * t / cycle_ticks);
+    }
+    return std::hypot(c, s) / static_cast<double>(ticks.size());
+}
+
+TEST(EdgeDither, ChecksItsConfiguration) {
+    EXPECT_EQ(check(config), EdgeDitherFault::none);
+    const auto fault = [](auto change) {
+        EdgeDitherConfig c;
+        change(c);
+        return check(c);
+    };
+    EXPECT_EQ(fault([](auto& c) { c.half_ticks = 7; }), EdgeDitherFault::half_ticks);
+    EXPECT_EQ(fault([](auto& c) { c.half_ticks = (std::uint64_t{1} << 30) + 1; }), EdgeDitherFault::half_ticks);
+    EXPECT_EQ(fault([](auto& c) { c.cycle_ticks = 0.9; }), EdgeDitherFault::cycle_ticks);
+    EXPECT_EQ(fault([](auto& c) { c.cycle_ticks = 3126.0; }), EdgeDitherFault::cycle_ticks);
+    EXPECT_EQ(fault([](auto& c) { c.cycle_ticks = nan; }), EdgeDitherFault::cycle_ticks);
+    EXPECT_EQ(fault([](auto& c) { c.tick_s = 0.0; }), EdgeDitherFault::tick);
+    EXPECT_EQ(fault([](auto& c) { c.scale_arcsec = nan; }), EdgeDitherFault::scale);
+    EXPECT_EQ(fault([](auto& c) { c.rate_periods = 0; }), EdgeDitherFault::rate_periods);
+    EXPECT_EQ(fault([](auto& c) { c.random_above_arcsec_s = 39.0; }), EdgeDitherFault::rates);
+    EXPECT_EQ(fault([](auto& c) { c.paired_below_arcsec_s = nan; }), EdgeDitherFault::rates);
+}
+
+TEST(EdgeDither, PairedPeriodsStandHalfACycleApart) {
+    const Edges e = run(always(DitherLaw::paired), 4000);
+    const double half = 0.5 * config.cycle_ticks;
+    for (std::size_t i = 0; i < e.up.size(); i += 4) {
+        EXPECT_EQ(e.up[i], e.up[i + 3]);
+        EXPECT_EQ(e.up[i + 1], e.up[i + 2]);
+        EXPECT_NEAR(e.up[i + 1] - e.up[i], half, 1.0);
+    }
+    EXPECT_LT(unevenness(e.up, config.cycle_ticks), 0.06);
+}
+
+TEST(EdgeDither, PairedHalvesAreAQuarterCycleLongerAndShorterInTurn) {
+    const Edges e = run(always(DitherLaw::paired), 4000);
+    int n_longer_first = 0;
+    for (std::size_t i = 0; i < e.up.size(); ++i) {
+        const std::int32_t swing = e.down[i] - e.up[i];
+        EXPECT_NEAR(std::abs(swing), 0.25 * config.cycle_ticks, 1.0);
+        if (i % 4 != 0) {
+            EXPECT_EQ(swing > 0, e.down[i - 1] < e.up[i - 1]);
+        }
+        if (i % 4 == 0 && swing > 0) ++n_longer_first;
+    }
+    EXPECT_NEAR(n_longer_first, 500, 80);  // of 1000 groups, five standard deviations
+}
+
+TEST(EdgeDither, RandomShiftsFillTheTurnAndLengthsCancelInPairs) {
+    const Edges e = run(always(DitherLaw::random), 4000, 1);
+    double correlation = 0.0;
+    for (std::size_t i = 0; i + 1 < e.up.size(); i += 2) {
+        const std::int32_t first = e.down[i] - e.up[i];
+        const std::int32_t second = e.down[i + 1] - e.up[i + 1];
+        EXPECT_NEAR(first, -second, 2.0);
+        EXPECT_LE(std::abs(first), 0.5 * config.cycle_ticks + 1.0);
+        correlation += e.up[i] * e.up[i + 1] / (config.cycle_ticks * config.cycle_ticks / 12.0);
+    }
+    EXPECT_LT(unevenness(e.up, config.cycle_ticks), 0.05);
+    EXPECT_LT(unevenness(e.down, config.cycle_ticks), 0.05);
+    EXPECT_LT(std::abs(correlation / 2000.0), 0.11);  // five standard deviations
+}
+
+TEST(EdgeDither, NoEdgeMovesByMoreThanACycle) {
+    for (const DitherLaw law : {DitherLaw::paired, DitherLaw::random}) {
+        const Edges e = run(always(law), 20000, 1);
+        const auto largest = [](const std::vector<std::int32_t>& v) {
+            const auto [low, high] = std::minmax_element(v.begin(), v.end());
+            return std::max(-*low, *high);
+        };
+        EXPECT_LE(std::max(largest(e.up), largest(e.down)), 1.01 * config.cycle_ticks);
+        EXPECT_GT(std::max(largest(e.up), largest(e.down)), 0.95 * config.cycle_ticks);
+    }
+}
+
+// Lengths add up to the time between reversals, and the excess is the difference of the halves: in ticks, exactly.
+TEST(EdgeDither, KeepsExactBooksOfLengthAndArea) {
+    EdgeDitherState s;
+    std::int64_t elapsed = 0, area = 0, expected_area = 0;
+    std::int32_t last = 0, before = 0;
+    for (int half = 0; half < 10000; ++half) {
+        const int sign = half % 2 == 0 ? 1 : -1;
+        const EdgeDitherOutput out = step(config, s, {static_cast<std::int8_t>(-sign), 1, true, 150 * sign + 1});
+        elapsed += out.length_ticks;
+        area += out.excess_ticks;
+        expected_area += sign * (out.length_ticks - 25000);
+        EXPECT_EQ(out.excess_ticks, excess_ticks(sign, before, last));
+        EXPECT_EQ(elapsed, 25000 * (half + 1) + last);
+        before = last;
+        last = out.edge_offset_ticks;
+    }
+    EXPECT_EQ(area, expected_area);
+    EXPECT_LE(std::abs(area), 4 * 167);  // it does not accumulate
+}
+
+// A bias of exactly the length's area leaves nothing but the rotation.
+TEST(EdgeDither, TheExcessIsWhatAnIdealBiasAddsToTheCounts) {
+    EdgeDitherState s;
+    double left = 0.0;
+    for (int half = 0; half < 1000; ++half) {
+        const int sign = half % 2 == 0 ? 1 : -1;
+        const EdgeDitherOutput out = step(config, s, {static_cast<std::int8_t>(-sign), 1, true, 0});
+        const double cycles = sign * static_cast<double>(out.length_ticks) / config.cycle_ticks;
+        left += cycles - out.excess_ticks / config.cycle_ticks;
+    }
+    EXPECT_NEAR(left, 0.0, 1e-9);
+}
+
+TEST(EdgeDither, TheSameSeedGivesTheSameEdgesAndAnotherOthers) {
+    EdgeDitherConfig other = config;
+    other.seed = 2;
+    const Edges a = run(config, 100), b = run(config, 100), c = run(other, 100);
+    EXPECT_EQ(a.up, b.up);
+    EXPECT_EQ(a.down, b.down);
+    EXPECT_NE(a.up, c.up);
+}
+
+TEST(EdgeDither, GoesOnFromACopyOfItsState) {
+    EdgeDitherState s;
+    (void)run(config, s, 37);
+    EdgeDitherState copy = s;
+    EXPECT_EQ(run(config, s, 100).down, run(config, copy, 100).down);
+    EXPECT_EQ(s, copy);
+}
+
+// n_fast counts more in each half of a measurement of 128 periods: the rate is 2 K n/T.
+DitherLaw after(EdgeDitherState& s, double rate_arcsec_s, int n_measurements, int helicity, bool counted = true) {
+    const double per_half = rate_arcsec_s * 0.0025 / 3.263;
+    double phase = 0.5;
+    for (int half = 0; half < 256 * n_measurements + 8; ++half) {
+        const int sign = half % 2 == 0 ? 1 : -1;
+        const double length = 150.0 + excess_ticks(1, s.start_ticks, s.end_ticks) / config.cycle_ticks;
+        const double next = phase + per_half + sign * helicity * length;
+        const auto counts = static_cast<std::int64_t>(std::floor(next) - std::floor(phase));
+        phase = next;
+        (void)step(config, s, {static_cast<std::int8_t>(-sign), static_cast<std::int8_t>(helicity), counted, counts});
+    }
+    return s.law;
+}
+
+TEST(EdgeDither, ChangesItsLawWithHysteresis) {
+    for (const int helicity : {1, -1}) {
+        for (const double direction : {1.0, -1.0}) {
+            EdgeDitherState s;
+            EXPECT_EQ(after(s, 0.0, 4, helicity), DitherLaw::paired);
+            EXPECT_EQ(after(s, 50.0 * direction, 4, helicity), DitherLaw::paired);
+            EXPECT_EQ(after(s, 70.0 * direction, 2, helicity), DitherLaw::random);
+            EXPECT_EQ(after(s, 50.0 * direction, 4, helicity), DitherLaw::random);
+            EXPECT_EQ(after(s, 30.0 * direction, 2, helicity), DitherLaw::paired);
+        }
+    }
+}
+
+TEST(EdgeDither, CountsThatCannotBeTrustedLeaveTheLawAlone) {
+    EdgeDitherState s;
+    EXPECT_EQ(after(s, 1e5, 4, 1, false), DitherLaw::paired);
+    EXPECT_EQ(after(s, 1e5, 2, 1, true), DitherLaw::random);
+    EXPECT_EQ(after(s, 0.0, 4, 1, false), DitherLaw::random);
+}
+
+// A change of the helicity within a measurement, with a half that was lost beside it, is not taken for rotation.
+TEST(EdgeDither, AChangeOfTheHelicityIsNoRotation) {
+    EdgeDitherState s;
+    for (int half = 0; half < 256 * 4; ++half) {
+        const int sign = half % 2 == 0 ? 1 : -1;
+        const int helicity = half / 128 % 2 == 0 ? 1 : -1;
+        const std::int64_t counts = 150 * sign * helicity;
+        const bool counted = half % 256 != 128;
+        (void)step(config, s, {static_cast<std::int8_t>(-sign), static_cast<std::int8_t>(helicity), counted, counts});
+        EXPECT_EQ(s.wanted, DitherLaw::paired) << half;
+    }
+}
+
+TEST(EdgeDither, AnyInputLeavesEdgesThatCanBeObeyed) {
+    EdgeDitherState s;
+    std::uint64_t x = 1;
+    for (int i = 0; i < 100000; ++i) {
+        x = x * 6364136223846793005u + 1442695040888963407u;
+        const EdgeDitherInput in{static_cast<std::int8_t>(x >> 56), static_cast<std::int8_t>(x >> 48),
+                                 (x >> 40) % 2 == 0, static_cast<std::int64_t>(x)};
+        const EdgeDitherOutput out = step(config, s, in);
+        ASSERT_LE(std::abs(out.edge_offset_ticks), 169);
+        ASSERT_GT(out.length_ticks, 24000);
+    }
+}
+
+TEST(EdgeDither, ALawThatIsAskedForHoldsFromTheFirstEdgeAtAnyRate) {
+    for (const DitherMethod method : {DitherMethod::paired, DitherMethod::random}) {
+        for (const double rate_arcsec_s : {0.0, 500.0}) {
+            EdgeDitherConfig c = config;
+            c.method = method;
+            EdgeDitherState s;
+            for (int half = 0; half < 2000; ++half) {
+                const int sign = half % 2 == 0 ? 1 : -1;
+                const auto turn = static_cast<std::int64_t>(rate_arcsec_s * 0.0025 / 3.263 * half) -
+                                  static_cast<std::int64_t>(rate_arcsec_s * 0.0025 / 3.263 * (half - 1));
+                (void)step(c, s, {static_cast<std::int8_t>(-sign), 1, true, 150 * sign + turn});
+                if (s.period >= 0) {
+                    EXPECT_EQ(s.law, method == DitherMethod::paired ? DitherLaw::paired : DitherLaw::random) << half;
+                }
+            }
+        }
+    }
+}
+
+TEST(EdgeDither, NoMethodMovesNoEdge) {
+    EdgeDitherConfig c = config;
+    c.method = DitherMethod::none;
+    EdgeDitherState s;
+    for (const std::int32_t t : run(c, s, 100).up) EXPECT_EQ(t, 0);
+    EXPECT_EQ(s, EdgeDitherState{});
+}
+
+}  // namespace
+}  // namespace zlg::core

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <zlg/core/control/half_wave.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
+constexpr HalfWaveConfig config{};
+
+static_assert(check(config) == HalfWaveFault::none);
+static_assert(check(HalfWaveConfig{.presumed = Volts{0.0}}) == HalfWaveFault::presumed);
+static_assert(check(HalfWaveConfig{.presumed = Volts{nan_v}}) == HalfWaveFault::presumed);
+static_assert(check(HalfWaveConfig{.presumed_sigma_ratio = 1.0}) == HalfWaveFault::presumed_sigma);
+static_assert(check(HalfWaveConfig{.measurement_sigma = Volts{0.0}}) == HalfWaveFault::measurement_sigma);
+static_assert(check(HalfWaveConfig{.process_sigma = Volts{-1.0}}) == HalfWaveFault::process_sigma);
+static_assert(check(HalfWaveConfig{.gate = nan_v}) == HalfWaveFault::gate);
+
+TEST(HalfWave, StartsFromThePresumedValueAndItsSigma) {
+    const HalfWaveState s = initial_state(config);
+    EXPECT_EQ(s.estimate_v, 40.0);
+    EXPECT_DOUBLE_EQ(sigma(s).value(), 4.0);
+}
+
+TEST(HalfWave, OneMeasurementIsTheWeightedMeanOfPresumedAndMeasured) {
+    HalfWaveState s = initial_state(config);
+    const HalfWaveOutput out = step(config, s, Volts{42.0});
+    // Inverse variances: presumed 1/(16) (its ceiling: process noise adds nothing), measured 1/(0.09).
+    const double weight_presumed = 1.0 / 16.0;
+    const double weight_measured = 1.0 / 0.09;
+    const double sum = weight_presumed + weight_measured;
+    EXPECT_NEAR(out.half_wave.value(), (40.0 * weight_presumed + 42.0 * weight_measured) / sum, 1e-12);
+    EXPECT_NEAR(sigma(s).value(), std::sqrt(1.0 / sum), 1e-12);
+    EXPECT_EQ(s.n_accepted, 1);
+    EXPECT_FALSE(out.rejected);
+}
+
+TEST(HalfWave, SteadySigmaSolvesTheRiccatiEquation) {
+    HalfWaveState s = initial_state(config);
+    for (int k = 0; k < 300; ++k) (void)step(config, s, Volts{40.0});
+    // P^2 + q P - q r = 0 for the posterior variance P.
+    const double q = 0.01;
+    const double r = 0.09;
+    const double posterior = 0.5 * (-q + std::sqrt(q * q + 4.0 * q * r));
+    EXPECT_NEAR(s.variance_v2, posterior, 1e-12);
+}
+
+TEST(HalfWave, NoisyMeasurementsAreAveragedWithinTheStatedSigma) {
+    std::mt19937_64 random{7};
+    std::normal_distribution<double> noise{0.0, 0.3};
+    const HalfWaveConfig constant{.presumed = Volts{38.0}, .process_sigma = Volts{0.0}};
+    double sum_sq = 0.0;
+    constexpr int n_runs = 400;
+    for (int run = 0; run < n_runs; ++run) {
+        HalfWaveState s = initial_state(constant);
+        for (int k = 0; k < 25; ++k) (void)step(constant, s, Volts{40.0 + noise(random)});
+        sum_sq += (s.estimate_v - 40.0) * (s.estimate_v - 40.0);
+        ASSERT_NEAR(sigma(s).value(), 0.06, 0.001);
+    }
+    EXPECT_NEAR(std::sqrt(sum_sq / n_runs), 0.06, 0.009);  // sigma of an rms of 400 is 3.5 %
+}
+
+TEST(HalfWave, OutliersAreRejectedAndSaid) {
+    HalfWaveState s = initial_state(config);
+    for (int k = 0; k < 20; ++k) (void)step(config, s, Volts{40.0});
+    const double held_v = s.estimate_v;
+    for (const double wrong_v : {nan_v, 1.0 / 0.0, -1.0 / 0.0, 1e300, 0.0, -40.0, 42.0, 19.0, 81.0}) {
+        const double before_v2 = s.variance_v2;
+        EXPECT_TRUE(step(config, s, Volts{wrong_v}).rejected) << wrong_v;
+        EXPECT_EQ(s.estimate_v, held_v);
+        EXPECT_GT(s.variance_v2, before_v2);
+    }
+    EXPECT_EQ(s.n_accepted, 20);
+}
+
+TEST(HalfWave, ASecondOutlierOnTheSameSideIsBelieved) {
+    HalfWaveState s = initial_state(config);
+    for (int k = 0; k < 20; ++k) (void)step(config, s, Volts{34.0});
+    EXPECT_TRUE(step(config, s, Volts{38.0}).rejected);
+    EXPECT_TRUE(step(config, s, Volts{30.0}).rejected);  // the other side begins anew
+    EXPECT_TRUE(step(config, s, Volts{38.0}).rejected);
+    EXPECT_TRUE(step(config, s, Volts{100.0}).rejected);  // another mode is no second one
+    EXPECT_FALSE(step(config, s, Volts{38.5}).rejected);
+    // p = 4.5^2 against 0.3^2.
+    EXPECT_NEAR(s.estimate_v, 34.0 + 4.5 * 20.25 / 20.34, 1e-6);
+    EXPECT_NEAR(sigma(s).value(), std::sqrt(0.09 * 20.25 / 20.34), 1e-7);
+}
+
+TEST(HalfWave, AnotherModeIsNoNeighbourHoweverWideTheGate) {
+    const HalfWaveConfig unsure{.presumed_sigma_ratio = 0.9};
+    HalfWaveState s = initial_state(unsure);
+    EXPECT_TRUE(step(unsure, s, Volts{81.0}).rejected);
+    EXPECT_TRUE(step(unsure, s, Volts{19.0}).rejected);
+    EXPECT_FALSE(step(unsure, s, Volts{79.0}).rejected);
+}
+
+TEST(HalfWave, WithoutMeasurementsTheSigmaGrowsToThatOfThePresumedValue) {
+    HalfWaveState s = initial_state(config);
+    (void)step(config, s, Volts{40.0});
+    for (int k = 0; k < 10000; ++k) (void)step(config, s, Volts{nan_v});
+    EXPECT_DOUBLE_EQ(sigma(s).value(), 4.0);
+}
+
+TEST(HalfWave, DirectionLeadsTowardsTheMiddleOfTheRange) {
+    constexpr PiezoRange range{};
+    EXPECT_EQ(choose_direction(range, Volts{120.0}, Volts{40.0}).sign, 1);
+    EXPECT_EQ(choose_direction(range, Volts{180.0}, Volts{40.0}).sign, -1);
+    EXPECT_EQ(choose_direction(range, Volts{5.0}, Volts{40.0}).sign, 1);
+    EXPECT_EQ(choose_direction(range, Volts{295.0}, Volts{40.0}).sign, -1);
+    EXPECT_FALSE(choose_direction(range, Volts{150.0}, Volts{40.0}).out_of_range);
+}
+
+TEST(HalfWave, WhenNeitherNeighbourKeepsTheMarginTheRoomierIsTakenAndSaid) {
+    constexpr PiezoRange narrow{.min = Volts{0.0}, .max = Volts{80.0}, .margin = Volts{5.0}};
+    const SwitchDirection up = choose_direction(narrow, Volts{38.0}, Volts{40.0});
+    EXPECT_EQ(up.sign, 1);
+    EXPECT_TRUE(up.out_of_range);
+    const SwitchDirection down = choose_direction(narrow, Volts{42.0}, Volts{40.0});
+    EXPECT_EQ(down.sign, -1);
+    EXPECT_TRUE(down.out_of_range);
+    EXPECT_FALSE(choose_direction(narrow, Volts{35.0}, Volts{40.0}).out_of_range);  // lands on the margin itself
+}
+
+}  // namespace
+}  // namespace zlg::core

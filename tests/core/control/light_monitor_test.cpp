@@ -1,0 +1,332 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+#include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/control/light_monitor.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr LightMonitorConfig config{.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
+static_assert(check(config) == LightMonitorFault::none);
+static_assert(check(LightMonitorConfig{.noise = Wavelengths{nan_value}}) == LightMonitorFault::noise);
+static_assert(check(LightMonitorConfig{.bias_chi = -1.0}) == LightMonitorFault::bias_chi);
+static_assert(check(LightMonitorConfig{.most_gain = 0.5}) == LightMonitorFault::most_gain);
+
+// Two beams of 1000, their noise, and what a detector makes of them.
+class Light {
+public:
+    double detuning_lambda = 0.0;
+    double noise_lambda = 0.0033;
+    double share_a = 1.0;  // of beam A that is left
+    bool stuck = false;
+    bool two_way = true;
+    bool dark = false;
+    bool beats = true;
+    bool settled = true;
+    double deficit_ratio = 0.0;
+
+    LightMonitorOutput half(const LightMonitorConfig& c = config) {
+        sign_ = -sign_;
+        if (!stuck) shine();
+        double sum = 0.0;
+        double squares = 0.0;
+        for (std::size_t k = 0; k < a_.size(); ++k) {
+            const double a = static_cast<double>(a_[k]);
+            const double b = static_cast<double>(b_[k]);
+            const double x = sign_ * (a - b) / (a + b) / slope;
+            sum += x;
+            squares += x * x;
+        }
+        return step(c, state,
+                    {.light_a = a_,
+                     .light_b = b_,
+                     .sign = sign_,
+                     .closed = true,
+                     .settled = settled,
+                     .beats = beats,
+                     .deficit_ratio = deficit_ratio,
+                     .two_way = two_way,
+                     .dark = dark,
+                     .light = 2000.0,
+                     .signal_per_lambda = slope,
+                     .usable = two_way,
+                     .detuning = Wavelengths{sum / 16.0},
+                     .mean_sq_lambda2 = squares / 16.0});
+    }
+    LightMonitorOutput halves(int n) {
+        for (int k = 1; k < n; ++k) (void)half();
+        return half();
+    }
+
+    LightMonitorState state;
+
+private:
+    static constexpr double slope = 0.332;
+
+    void shine() {
+        const double noise = std::sqrt(2.0) * 1000.0 * slope * noise_lambda;
+        for (std::size_t k = 0; k < a_.size(); ++k) {
+            const double signal = sign_ * slope * detuning_lambda;
+            a_[k] = static_cast<float>(share_a * 1000.0 * (1.0 + signal) + noise * normal_(random_));
+            b_[k] = static_cast<float>(1000.0 * (1.0 - signal) + noise * normal_(random_));
+        }
+    }
+
+    int sign_ = -1;
+    std::array<float, 16> a_{};
+    std::array<float, 16> b_{};
+    std::mt19937 random_{11};
+    std::normal_distribution<double> normal_;
+};
+
+TEST(LightMonitor, OrdinaryLightIsLeftAsItIs) {
+    Light light;
+    for (int k = 0; k < 100000; ++k) {
+        light.detuning_lambda = 0.01 * std::sin(0.01 * k);
+        const LightMonitorOutput out = light.half();
+        ASSERT_FALSE(out.stuck || out.noisy || out.unbalanced || out.contradicted) << k;
+        ASSERT_TRUE(out.usable && out.has_mean_square) << k;
+        ASSERT_NEAR(out.detuning.value(), light.detuning_lambda, 0.006) << k;
+    }
+}
+
+TEST(LightMonitor, LightWithoutNoiseMayStandStill) {
+    Light light;
+    light.noise_lambda = 0.0;
+    for (int k = 0; k < 100; ++k) {
+        const LightMonitorOutput out = light.half({});
+        ASSERT_TRUE(out.usable && out.has_mean_square && !out.stuck);
+    }
+}
+
+TEST(LightMonitor, AConverterThatStandsStillIsSeenInTwoHalvesAndSteersNothing) {
+    Light light;
+    (void)light.halves(100);
+    light.stuck = true;
+    (void)light.halves(17);  // its samples still differ within the half: it is held as a whole
+    light.stuck = false;
+    EXPECT_FALSE(light.half().stuck);
+
+    LightMonitorState s;
+    const std::array<float, 16> still = [] {
+        std::array<float, 16> x{};
+        x.fill(870.0f);
+        return x;
+    }();
+    LightMonitorInput in{.light_a = still, .light_b = still, .two_way = true, .light = 1740.0, .usable = true};
+    (void)step(config, s, in);
+    EXPECT_FALSE(step(config, s, in).stuck);
+    const LightMonitorOutput out = step(config, s, in);
+    EXPECT_TRUE(out.stuck);
+    EXPECT_FALSE(out.usable || out.has_mean_square);
+}
+
+TEST(LightMonitor, NoiseIsSeenInTwoHalvesAndMakesNoMeanSquare) {
+    Light light;
+    (void)light.halves(100);
+    light.noise_lambda = 0.045;
+    int k = 0;
+    while (!light.half().noisy) ASSERT_LT(++k, 10);
+    light.noise_lambda = 0.2;
+    EXPECT_FALSE(light.halves(3).has_mean_square);
+    light.noise_lambda = 0.0033;
+    EXPECT_FALSE(light.half().has_mean_square);  // it may hold some of it
+    EXPECT_TRUE(light.halves(30).has_mean_square);
+}
+
+TEST(LightMonitor, APerimeterThatSwingsIsNoNoise) {
+    Light light;
+    for (int k = 0; k < 1000; ++k) {
+        light.detuning_lambda = 0.1 * std::sin(2.7 * k);
+        ASSERT_FALSE(light.half().noisy) << k;
+    }
+}
+
+TEST(LightMonitor, ABeamThatFadedLeavesTheDetuningAsTheMeanOfTwoHalves) {
+    Light light;
+    (void)light.halves(100);
+    light.detuning_lambda = 0.01;
+    light.share_a = 0.95;  // of 1.95: the reading is off by 0.077
+    const LightMonitorOutput out = light.halves(12);
+    EXPECT_TRUE(out.unbalanced);
+    EXPECT_TRUE(out.usable);
+    EXPECT_FALSE(out.has_mean_square);
+    EXPECT_NEAR(out.detuning.value(), 0.01, 0.003);
+    light.share_a = 1.0;
+    const LightMonitorOutput again = light.halves(12);
+    EXPECT_FALSE(again.unbalanced);
+    EXPECT_TRUE(again.has_mean_square);
+}
+
+// There what a beam has lost stands in the mean square, times the detuning.
+TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
+    Light light;
+    light.settled = false;
+    light.detuning_lambda = 0.2;
+    for (int k = 0; k < 400; ++k) ASSERT_FALSE(light.half().unbalanced) << k;
+    for (const double lost : {0.03, 0.1, 0.3}) {
+        Light fading;
+        fading.settled = false;
+        fading.detuning_lambda = 0.2;
+        (void)fading.halves(10);
+        fading.share_a = 1.0 - lost;
+        const LightMonitorOutput out = fading.half();
+        EXPECT_TRUE(out.unbalanced) << lost;
+        EXPECT_FALSE(out.has_mean_square) << lost;
+        // It has come back, but the loop has not locked yet.
+        fading.share_a = 1.0;
+        EXPECT_TRUE(fading.halves(8).unbalanced) << lost;
+    }
+}
+
+// Less than one jump shows above the noise.
+TEST(LightMonitor, ABeamThatFadedUnseenIsSeenByAFewJumps) {
+    Light light;
+    light.settled = false;
+    light.detuning_lambda = 0.2;
+    light.share_a = 0.992;
+    EXPECT_TRUE(light.halves(12).unbalanced);
+}
+
+TEST(LightMonitor, ADetuningThatTakesNothingFromTheBiasIsOfABeam) {
+    for (const double deficit_ratio : {0.0, 3.6 * 0.12 * 0.12}) {
+        Light light;
+        (void)light.halves(100);
+        light.detuning_lambda = 0.12;
+        light.deficit_ratio = deficit_ratio;
+        EXPECT_EQ(light.halves(2).unbalanced, deficit_ratio == 0.0);
+    }
+}
+
+// It takes from the beat in one half what it adds in the next; the light knows nothing of it.
+TEST(LightMonitor, ARotationThatChangesIsNoFadedBeam) {
+    Light light;
+    (void)light.halves(100);
+    for (int k = 0; k < 40; ++k) {
+        light.deficit_ratio = k % 2 == 0 ? 0.2 : -0.2;
+        const LightMonitorOutput out = light.half();
+        EXPECT_FALSE(out.unbalanced) << k;
+        EXPECT_TRUE(out.has_mean_square) << k;
+    }
+}
+
+TEST(LightMonitor, TheBeatOverrulesTheLightAfterEightHalvesUnlessItIsDark) {
+    Light light;
+    (void)light.halves(100);
+    light.two_way = false;
+    EXPECT_FALSE(light.halves(7).contradicted);
+    const LightMonitorOutput out = light.half();
+    EXPECT_TRUE(out.contradicted);
+    EXPECT_FALSE(out.usable);
+    light.dark = true;
+    EXPECT_FALSE(light.half().contradicted);
+    light.dark = false;
+    EXPECT_TRUE(light.halves(8).contradicted);
+    light.beats = false;
+    EXPECT_FALSE(light.half().contradicted);
+}
+
+TEST(LightMonitor, NoDetuningIsBeyondTheNextMode) {
+    Light light;
+    light.noise_lambda = 0.0033;
+    light.detuning_lambda = 0.6;
+    light.deficit_ratio = 10.0;
+    EXPECT_FALSE(light.halves(3).usable);
+}
+
+TEST(LightMonitor, WhatItRemembersOfDamagedLightAreNumbers) {
+    LightMonitorState state;
+    const std::array<float, 4> damaged{std::numeric_limits<float>::quiet_NaN(), 1.0f, 1.0f, 1.0f};
+    const std::array<float, 4> endless{std::numeric_limits<float>::infinity(), 1.0f, 1.0f, 1.0f};
+    (void)step(config, state, {.light_a = damaged, .light_b = endless});
+    EXPECT_EQ(state, LightMonitorState{state});
+    EXPECT_EQ(state.last_a, 0.0f);
+    EXPECT_EQ(state.last_b, 0.0f);
+}
+
+// A beam that fades and comes back within a few halves is still on its way in the first half that is lit again.
+TEST(LightMonitor, TheFirstLightAfterADarkHalfIsNoDetuning) {
+    Light light;
+    EXPECT_TRUE(light.halves(20).has_mean_square);
+    light.two_way = false;
+    EXPECT_FALSE(light.halves(3).usable);
+    light.two_way = true;
+    light.share_a = 0.97;
+    const LightMonitorOutput first = light.half();
+    EXPECT_TRUE(first.unbalanced);
+    EXPECT_FALSE(first.has_mean_square || first.usable);
+    light.share_a = 1.0;
+    (void)light.half();
+    const LightMonitorOutput later = light.half();
+    EXPECT_TRUE(later.has_mean_square && later.usable && !later.unbalanced);
+}
+
+// 1.05, 1.24, 1.8, 3.3 times its linear law at 0.05, 0.10, 0.15, 0.20 wavelength.
+double expansive(double dl) {
+    const double x2 = dl * dl;
+    return dl * (1.0 + 19.0 * x2 + 200.0 * x2 * x2 + 19000.0 * x2 * x2 * x2);
+}
+
+// A half on its way to a lock, of which the loop takes a part in every sample from `corner` on, through such a discriminator.
+LightMonitorOutput relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda,
+                                  const LightMonitorConfig& c, std::mt19937& random) {
+    std::vector<double> x;
+    std::vector<double> y;
+    for (int k = 1; k <= 31; ++k) {
+        y.push_back(0.24 * k / 31);
+        x.push_back(expansive(y.back()));
+    }
+    const DiscriminatorCurve curve = discriminator_curve(x, y);
+    std::normal_distribution<double> normal;
+    std::array<float, 16> a{};
+    std::array<float, 16> b{};
+    double dl = start_lambda;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        const double signal = 0.332 * (expansive(dl) + noise_lambda * normal(random));
+        a[k] = static_cast<float>(1000.0 * (1.0 + signal));
+        b[k] = static_cast<float>(1000.0 * (1.0 - signal));
+        if (k >= corner) dl *= 1.0 - part;
+    }
+    LightMonitorState state;
+    return step(c, state,
+                {.light_a = a,
+                 .light_b = b,
+                 .sign = 1,
+                 .beats = true,
+                 .two_way = true,
+                 .light = 2000.0,
+                 .signal_per_lambda = 0.332,
+                 .curve = &curve,
+                 .usable = true,
+                 .detuning = Wavelengths{0.1},
+                 .mean_sq_lambda2 = 0.01});
+}
+
+// However quiet the converters are: the same motion is no noise, and noise is no motion.
+TEST(LightMonitor, AFastWayToALockIsNoNoiseHoweverQuietTheLight) {
+    std::mt19937 random{5};
+    for (const double noise_lambda : {1e-2, 3.3e-3, 1e-3, 5e-4, 2e-4, 1e-4}) {
+        const LightMonitorConfig c{.noise = Wavelengths{noise_lambda}, .bias_chi = 3.6};
+        int noisy = 0;
+        for (const double start_lambda : {-0.22, -0.16, -0.1, 0.05, 0.16, 0.2, 0.22}) {
+            for (const double part : {0.0, 0.05, 0.12, 0.2}) {
+                for (const std::size_t corner : {0U, 3U, 8U, 11U}) {
+                    const LightMonitorOutput out = relocking_half(start_lambda, part, corner, noise_lambda, c, random);
+                    EXPECT_TRUE(out.has_mean_square && !out.withheld)
+                        << noise_lambda << " from " << start_lambda << " by " << part << " from sample " << corner;
+                    noisy += relocking_half(0.3 * start_lambda, part, corner, 20.0 * noise_lambda, c, random).withheld;
+                }
+            }
+        }
+        if (noise_lambda <= 1e-3) EXPECT_GT(noisy, 100) << "of 112, at " << noise_lambda;
+    }
+}
+
+}  // namespace
+}  // namespace zlg::core

@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <zlg/core/control/perimeter_loop.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr PerimeterLoopConfig digital{.kind = LoopKind::digital};
+constexpr PerimeterLoopConfig analog{.kind = LoopKind::analog};
+
+static_assert(check(digital) == PerimeterLoopFault::none);
+constexpr PerimeterLoopFault fault(auto change) {
+    PerimeterLoopConfig c;
+    change(c);
+    return check(c);
+}
+static_assert(fault([](auto& c) { c.range.max = Volts{-1.0}; }) == PerimeterLoopFault::range);
+static_assert(fault([](auto& c) { c.half_wave = Volts{nan_value}; }) == PerimeterLoopFault::half_wave);
+static_assert(fault([](auto& c) { c.half_period = Seconds{0.0}; }) == PerimeterLoopFault::half_period);
+static_assert(fault([](auto& c) { c.time_constant = Seconds{0.002}; }) == PerimeterLoopFault::time_constant);
+static_assert(fault([](auto& c) { c.error_limit = Wavelengths{nan_value}; }) == PerimeterLoopFault::error_limit);
+static_assert(fault([](auto& c) { c.slew_v_s = 0.0; }) == PerimeterLoopFault::slew);
+static_assert(fault([](auto& c) { c.watch_limit = Wavelengths{0.0}; }) == PerimeterLoopFault::watch_limit);
+
+PerimeterLoopInput measured(double detuning_lambda) {
+    return {.usable = true, .detuning = Wavelengths{detuning_lambda}, .piezo = Volts{150.0}};
+}
+
+PerimeterLoopState at(const PerimeterLoopConfig& c, double set_point_v) { return initial_state(c, Volts{set_point_v}); }
+
+TEST(PerimeterLoop, ASmallDetuningDecaysWithTheTimeConstant) {
+    PerimeterLoopConfig slow = digital;
+    slow.time_constant = Seconds{0.25};  // a hundred halves: a sampled integrator is then as good as a continuous one
+    PerimeterLoopState s = at(slow, 150.0);
+    constexpr double kp_lambda_v = 0.5 / 40.0;
+    constexpr double target_v = 152.0;
+    for (int k = 0; k < 100; ++k) (void)step(slow, s, measured(kp_lambda_v * (s.set_point_v - target_v)));
+    EXPECT_NEAR((target_v - s.set_point_v) / 2.0, std::exp(-1.0), 0.003);
+}
+
+TEST(PerimeterLoop, OneHalfMovesTheSetPointByItsShareOfTheDetuning) {
+    PerimeterLoopState s = at(digital, 150.0);
+    // 2.5 ms / 6.5 ms of 0.01 wavelength, 80 V per wavelength, against the detuning.
+    EXPECT_NEAR(step(digital, s, measured(0.01)).set_point.value(), 150.0 - 0.8 * 2.5 / 6.5, 1e-12);
+}
+
+TEST(PerimeterLoop, TheErrorIsLimitedWithEitherSign) {
+    for (const double sign : {1.0, -1.0}) {
+        PerimeterLoopState s = at(digital, 150.0);
+        EXPECT_NEAR(step(digital, s, measured(sign * 0.24)).set_point.value(), 150.0 - sign * 7.2 * 2.5 / 6.5, 1e-12);
+    }
+}
+
+TEST(PerimeterLoop, TheSetPointMovesNoFasterThanTheStageSlews) {
+    PerimeterLoopConfig slow_stage = digital;
+    slow_stage.slew_v_s = 400.0;  // 1 V in a half
+    PerimeterLoopState s = at(slow_stage, 150.0);
+    EXPECT_NEAR(step(slow_stage, s, measured(-0.09)).set_point.value(), 151.0, 1e-12);
+    EXPECT_NEAR(step(slow_stage, s, measured(0.09)).set_point.value(), 150.0, 1e-12);
+}
+
+TEST(PerimeterLoop, TheEndsHoldSayItAndLetGoAtOnce) {
+    for (const double sign : {1.0, -1.0}) {
+        PerimeterLoopState s = at(digital, 150.0);
+        PerimeterLoopOutput out;
+        for (int k = 0; k < 1000; ++k) out = step(digital, s, measured(sign * 0.09));
+        const double end_v = sign > 0.0 ? 0.0 : 300.0;
+        EXPECT_EQ(out.set_point.value(), end_v);
+        EXPECT_TRUE(out.saturated);
+        out = step(digital, s, measured(-sign * 0.01));  // no wind-up: the first error of the other sign acts in full
+        EXPECT_NEAR(std::abs(out.set_point.value() - end_v), 0.8 * 2.5 / 6.5, 1e-12);
+        EXPECT_FALSE(out.saturated);
+    }
+}
+
+TEST(PerimeterLoop, WhatWasNotMeasuredHolds) {
+    PerimeterLoopState s = at(digital, 150.0);
+    const PerimeterLoopState before = s;
+    (void)step(digital, s, measured(nan_value));
+    (void)step(digital, s, measured(1.0 / 0.0));
+    PerimeterLoopInput unusable = measured(0.05);
+    unusable.usable = false;
+    (void)step(digital, s, unusable);
+    PerimeterLoopInput was_open = measured(0.05);
+    was_open.was_closed = false;
+    EXPECT_FALSE(step(digital, s, was_open).over_limit);
+    EXPECT_EQ(s, before);
+}
+
+TEST(PerimeterLoop, TheSecondInputRulesWhileOpenAndPresetsTheLoop) {
+    for (const PerimeterLoopConfig& c : {digital, analog}) {
+        PerimeterLoopState s = at(c, 150.0);
+        PerimeterLoopInput in = measured(0.05);
+        in.close = false;
+        in.second_input = Volts{190.0};
+        EXPECT_EQ(step(c, s, in).set_point, Volts{190.0});
+        in.second_input = Volts{nan_value};
+        EXPECT_EQ(step(c, s, in).set_point, Volts{190.0});
+        in.second_input = Volts{500.0};
+        const PerimeterLoopOutput beyond = step(c, s, in);
+        EXPECT_EQ(beyond.set_point, Volts{300.0});
+        EXPECT_TRUE(beyond.saturated);
+        in.close = true;
+        in.was_closed = false;
+        EXPECT_EQ(step(c, s, in).set_point, Volts{300.0});
+    }
+}
+
+TEST(PerimeterLoop, AnAnalogLoopIsWatchedNotMoved) {
+    PerimeterLoopState s = at(analog, 150.0);
+    EXPECT_TRUE(step(analog, s, measured(0.11)).over_limit);
+    EXPECT_TRUE(step(analog, s, measured(-0.11)).over_limit);
+    EXPECT_FALSE(step(analog, s, measured(0.09)).over_limit);
+    PerimeterLoopInput high = measured(0.0);
+    high.piezo = Volts{295.0};
+    EXPECT_TRUE(step(analog, s, high).near_range_end);
+    high.piezo = Volts{nan_value};
+    EXPECT_FALSE(step(analog, s, high).near_range_end);  // the set-point stands in
+    EXPECT_EQ(s.set_point_v, 150.0);
+}
+
+}  // namespace
+}  // namespace zlg::core

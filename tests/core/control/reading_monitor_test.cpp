@@ -1,0 +1,208 @@
+#include <zlg/core/control/reading_monitor.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace zlg::core {
+namespace {
+
+constexpr std::int64_t bias = 150;
+constexpr std::int64_t limit = 1253;
+
+struct Half {
+    std::int64_t turned = 0;  // counts of the rotation
+    std::int64_t off = 0;     // of the reading at its end
+    bool read = true;
+    bool countable = true;
+    std::int8_t mode = 1;
+};
+
+// A gyro of 150 counts of bias a half, with the band that the bias monitor has: 25 counts and what the rotation has changed.
+struct Readout {
+    std::vector<ReadingMonitorOutput> out;
+    std::int64_t sum = 0;      // of the counts that were trusted
+    std::int64_t covered = 0;  // halves that they go over
+};
+
+Readout run(const std::vector<Half>& halves) {
+    ReadingMonitorState state;
+    Readout all;
+    std::uint64_t counter = 0, last = 0;
+    std::int64_t step_before = 0;
+    bool known = true;
+    for (std::size_t h = 0; h < halves.size(); ++h) {
+        const std::int8_t sign = h % 2 == 0 ? 1 : -1;
+        counter += static_cast<std::uint64_t>(halves[h].turned + sign * bias);
+        const std::uint64_t reading = counter + static_cast<std::uint64_t>(halves[h].off);
+        const auto step_now = static_cast<std::int64_t>(reading - last);
+        const double b = 0.5 * sign * static_cast<double>(step_now - step_before);
+        const bool off = h > 0 && known && (b > bias + 13 || b < bias - 13);
+        const bool beyond = step_now > limit || step_now < -limit;
+        all.out.push_back(step(state, {.read = halves[h].read,
+                                       .countable = halves[h].countable,
+                                       .mode = halves[h].mode,
+                                       .suspicious = off || beyond,
+                                       .agrees = halves[h].read && known && !off && !beyond,
+                                       .reading = reading,
+                                       .most_counts = static_cast<double>(limit),
+                                       .bias_counts = bias,
+                                       .beat_sign = sign}));
+        if (all.out.back().trusted) {
+            all.sum += all.out.back().counts;
+            all.covered += all.out.back().span;
+        }
+        known = halves[h].read;
+        if (known) {
+            step_before = step_now;
+            last = reading;
+        }
+    }
+    return all;
+}
+
+std::vector<Half> turning(std::size_t n, std::int64_t counts) { return std::vector<Half>(n, Half{.turned = counts}); }
+
+TEST(ReadingMonitor, HalvesThatAreReadHaveTheirOwnCounts) {
+    const Readout all = run(turning(20, 3));
+    for (std::size_t h = 0; h < 20; ++h) {
+        EXPECT_TRUE(all.out[h].trusted);
+        EXPECT_EQ(all.out[h].span, 1);
+        EXPECT_EQ(all.out[h].counts, 3 + (h % 2 == 0 ? bias : -bias));
+    }
+}
+
+TEST(ReadingMonitor, TheHalfAfterMissedOnesHasTheWholeDifference) {
+    for (const std::size_t n : {1u, 2u, 7u, 400u, 24000u}) {
+        auto halves = turning(n + 40, 3);
+        for (std::size_t h = 20; h < 20 + n; ++h) halves[h].read = false;
+        const Readout all = run(halves);
+        EXPECT_EQ(all.out[20 + n].span, static_cast<std::int32_t>(n) + 1);
+        EXPECT_EQ(all.covered, static_cast<std::int64_t>(halves.size()));
+        const auto total = static_cast<std::int64_t>(halves.size());
+        EXPECT_EQ(all.sum, 3 * total + (total % 2 != 0 ? bias : 0));
+    }
+}
+
+TEST(ReadingMonitor, AWrongReadingComesBackAndTakesNothing) {
+    for (const std::int64_t off : {30, -64, 100, -150, 256, 1000, -300, 1200, 100'000}) {
+        for (std::size_t n = 1; n <= 3; ++n) {
+            auto halves = turning(60, 3);
+            for (std::size_t h = 20; h < 20 + n; ++h) halves[h].off = off;
+            const Readout all = run(halves);
+            EXPECT_FALSE(all.out[20].trusted) << off << " " << n;
+            EXPECT_EQ(all.covered, 60) << off << " " << n;
+            EXPECT_EQ(all.sum, 180) << off << " " << n;
+            EXPECT_TRUE(all.out[26].trusted) << off << " " << n;
+        }
+    }
+}
+
+TEST(ReadingMonitor, ARotationThatTheNextReadingsConfirmIsKept) {
+    for (const std::int64_t turned : {30, -47, 92, 138, -151, 300, 777, -999}) {
+        for (std::size_t n = 1; n <= 3; ++n) {
+            auto halves = turning(60, 3);
+            for (std::size_t h = 20; h < 20 + n; ++h) halves[h].turned = turned / static_cast<std::int64_t>(h - 19);
+            std::int64_t sum = 0;
+            for (const Half& half : halves) sum += half.turned;
+            const Readout all = run(halves);
+            EXPECT_EQ(all.covered, 60) << turned << " " << n;
+            EXPECT_EQ(all.sum, sum) << turned << " " << n;
+        }
+    }
+}
+
+// A vibration that is out of the bias's band again and again: the readings never agree four times in a row.
+TEST(ReadingMonitor, ASuspicionThatNothingSettlesEnds) {
+    auto halves = turning(4000, 0);
+    for (std::size_t h = 100; h < 3900; ++h)
+        halves[h].turned =
+            std::llround(120.0 * std::sin(2.0 * 3.14159265358979 * 60.0 * 0.0025 * static_cast<double>(h)));
+    std::int64_t sum = 0;
+    for (const Half& half : halves) sum += half.turned;
+    const Readout all = run(halves);
+    EXPECT_EQ(all.covered, 4000);
+    EXPECT_EQ(all.sum, sum);
+    std::int32_t longest = 0;
+    for (const ReadingMonitorOutput& out : all.out) longest = std::max(longest, out.span);
+    EXPECT_LE(longest, 45);
+    EXPECT_GT(longest, 4);
+}
+
+// An error that stays is taken for a rotation, and so is the step back: in the end nothing is left of it.
+TEST(ReadingMonitor, AnErrorOfManyReadingsLeavesTheAngleWhenItEnds) {
+    for (const std::int64_t off : {-40, 128, 512, 1024}) {
+        for (std::size_t n = 4; n < 40; ++n) {
+            auto halves = turning(100, 20);
+            for (std::size_t h = 20; h < 20 + n; ++h) halves[h].off = off;
+            const Readout all = run(halves);
+            EXPECT_EQ(all.covered, 100) << off << " " << n;
+            EXPECT_EQ(all.sum, 2000) << off << " " << n;
+        }
+    }
+}
+
+TEST(ReadingMonitor, AStepThatNoGyroTurnsIsNotAdded) {
+    for (const std::int64_t off : {9000, -1'000'000}) {
+        auto halves = turning(100, 3);
+        for (std::size_t h = 20; h < 100; ++h) halves[h].off = off;
+        const Readout all = run(halves);
+        EXPECT_EQ(all.covered, 95) << off;
+        EXPECT_EQ(all.sum, 3 * 95 - bias) << off;
+    }
+}
+
+TEST(ReadingMonitor, CountsAtTheStopOfTheCounterAreNoAngle) {
+    auto halves = turning(100, 0);
+    for (std::size_t h = 20; h < 24; ++h) halves[h].turned = 1260 - (h % 2 == 0 ? bias : -bias);
+    const Readout all = run(halves);
+    for (std::size_t h = 0; h < 100; ++h) EXPECT_EQ(all.out[h].trusted, h < 20 || h >= 20 + 36) << h;
+    EXPECT_EQ(all.sum, 0);
+}
+
+TEST(ReadingMonitor, OfAnOpenLoopOrAnotherModeNothingIsTakenAcross) {
+    for (const bool opens : {true, false}) {
+        auto halves = turning(60, 3);
+        for (std::size_t h = 20; h < 30; ++h) halves[h].read = false;
+        for (std::size_t h = opens ? 24 : 26; h < (opens ? 27u : 60u); ++h) {
+            if (opens)
+                halves[h].countable = false;
+            else
+                halves[h].mode = -1;
+        }
+        const Readout all = run(halves);
+        EXPECT_FALSE(all.out[30].trusted);
+        EXPECT_EQ(all.out[31].span, 1);
+        EXPECT_EQ(all.covered, 60 - 11);
+    }
+}
+
+TEST(ReadingMonitor, NumbersBegunAnewBeginAnew) {
+    ReadingMonitorState state;
+    ReadingMonitorInput in{.read = true, .countable = true, .reading = 5000, .most_counts = static_cast<double>(limit)};
+    in.follows = false;
+    EXPECT_FALSE(step(state, in).trusted);
+    in.follows = true;
+    in.reading = 5010;
+    const ReadingMonitorOutput next = step(state, in);
+    EXPECT_TRUE(next.trusted);
+    EXPECT_EQ(next.counts, 10);
+}
+
+TEST(ReadingMonitor, TheCounterMayWrap) {
+    ReadingMonitorState state;
+    state.good = state.last = ~std::uint64_t{0} - 3;
+    ReadingMonitorInput in{.read = false, .countable = true, .reading = 0, .most_counts = static_cast<double>(limit)};
+    (void)step(state, in);
+    in.read = true;
+    in.reading = 6;
+    const ReadingMonitorOutput out = step(state, in);
+    EXPECT_EQ(out.span, 2);
+    EXPECT_EQ(out.counts, 10);
+}
+
+}  // namespace
+}  // namespace zlg::core

@@ -1,0 +1,301 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+#include <zlg/core/control/switch_schedule.hpp>
+
+namespace zlg::core {
+namespace {
+
+using Limits = std::numeric_limits<std::int64_t>;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+static_assert(check(SwitchScheduleConfig{}) == SwitchScheduleFault::none);
+static_assert(check(SwitchScheduleConfig{.interval_ticks = 0}) == SwitchScheduleFault::interval);
+static_assert(check(SwitchScheduleConfig{.interval_ticks = -5}) == SwitchScheduleFault::interval);
+static_assert(check(SwitchScheduleConfig{.interval_ticks = std::numeric_limits<std::int64_t>::max()}) ==
+              SwitchScheduleFault::interval);
+
+static_assert(check(SwitchScheduleConfig{.min_ticks = 0}) == SwitchScheduleFault::limits);
+static_assert(check(SwitchScheduleConfig{.min_ticks = 20, .max_ticks = 19}) == SwitchScheduleFault::limits);
+static_assert(check(SwitchScheduleConfig{.max_ticks = Limits::max()}) == SwitchScheduleFault::limits);
+static_assert(check(SwitchScheduleConfig{.tick_s = 0.0}) == SwitchScheduleFault::tick);
+static_assert(check(SwitchScheduleConfig{.presumed = {.switch_error_arcsec = 0.0}}) == SwitchScheduleFault::presumed);
+static_assert(check(SwitchScheduleConfig{.presumed = {1.0, nan}}) == SwitchScheduleFault::presumed);
+static_assert(check(SwitchScheduleConfig{.end_tick = -1}) == SwitchScheduleFault::end);
+
+// Ticks at which the loop opens, when the gyro is ready at all ticks but those of [busy_from, busy_to).
+std::vector<std::int64_t> openings(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t busy_from = 0,
+                                   std::int64_t busy_to = 0) {
+    SwitchScheduleState s = initial_state(c);
+    std::vector<std::int64_t> result;
+    for (std::int64_t tick = 1; tick < n_ticks; ++tick) {
+        if (step(c, s, {.tick = tick, .ready = !(tick >= busy_from && tick < busy_to)}).open) result.push_back(tick);
+    }
+    return result;
+}
+
+TEST(SwitchSchedule, OpensOnTheGridFromAFullFirstSegment) {
+    EXPECT_EQ(openings({.interval_ticks = 7}, 30), (std::vector<std::int64_t>{7, 14, 21, 28}));
+}
+
+TEST(SwitchSchedule, AHalfFirstSegmentIsRoundedDownToTicks) {
+    EXPECT_EQ(openings({.interval_ticks = 7, .first_segment = FirstSegment::half}, 25),
+              (std::vector<std::int64_t>{3, 10, 17, 24}));
+}
+
+TEST(SwitchSchedule, AnOpeningThatHadToWaitDoesNotMoveTheGrid) {
+    EXPECT_EQ(openings({.interval_ticks = 10}, 41, 18, 23), (std::vector<std::int64_t>{10, 23, 30, 40}));
+}
+
+TEST(SwitchSchedule, SeveralThatWaitAreOne) {
+    EXPECT_EQ(openings({.interval_ticks = 10}, 51, 18, 43), (std::vector<std::int64_t>{10, 43, 50}));
+}
+
+TEST(SwitchSchedule, ALateOpeningIsSaidToBeLate) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    EXPECT_FALSE(step(c, s, {.tick = 10, .ready = false}).open);
+    const SwitchScheduleOutput late = step(c, s, {.tick = 11, .ready = true});
+    EXPECT_TRUE(late.open);
+    EXPECT_TRUE(late.late);
+    const SwitchScheduleOutput in_time = step(c, s, {.tick = 20, .ready = true});
+    EXPECT_TRUE(in_time.open);
+    EXPECT_FALSE(in_time.late);
+}
+
+TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnew) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    EXPECT_TRUE(step(c, s, {.tick = 1003, .ready = true}).open);
+    for (std::int64_t tick = 1004; tick < 1013; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .ready = true}).open);
+    EXPECT_TRUE(step(c, s, {.tick = 1013, .ready = true}).open);
+}
+
+TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
+    for (const std::int64_t interval : {std::int64_t{1}, std::int64_t{1} << 53}) {
+        const SwitchScheduleConfig c{.interval_ticks = interval};
+        SwitchScheduleState s = initial_state(c);
+        EXPECT_FALSE(step(c, s, {.tick = Limits::min(), .ready = true}).open);
+        EXPECT_FALSE(step(c, s, {.tick = Limits::max(), .ready = true}).open);
+        EXPECT_TRUE(step(c, s, {.tick = (std::int64_t{1} << 62) - 1, .ready = true}).open);
+        EXPECT_FALSE(step(c, s, {.tick = 0, .ready = true}).open);
+    }
+}
+
+// A gyro whose mode changes at every opening; the time in mode + over that in mode -, in ticks, after each tick.
+struct Course {
+    std::vector<std::int64_t> openings;
+    std::vector<std::int64_t> imbalance;
+};
+
+template <class Advice>
+Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, const Advice& advice, std::int8_t mode = 1) {
+    SwitchScheduleState s = initial_state(c);
+    Course result;
+    std::int64_t sum = 0;
+    for (std::int64_t tick = 0; tick < n_ticks; ++tick) {
+        if (tick > 0 && step(c, s, {.tick = tick, .mode = mode, .advice = advice(tick)}).open) {
+            result.openings.push_back(tick);
+            mode = static_cast<std::int8_t>(-mode);
+        }
+        sum += mode;
+        result.imbalance.push_back(sum);
+    }
+    return result;
+}
+
+Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int8_t mode = 1) {
+    return course(
+        c, n_ticks, [](std::int64_t) { return SwitchAdvice{}; }, mode);
+}
+
+SwitchScheduleConfig growing(FirstSegment first = FirstSegment::half) {
+    return {.first_segment = first,
+            .kind = ScheduleKind::growing,
+            .min_ticks = 100,
+            .max_ticks = 100000,
+            .tick_s = 0.1,
+            .presumed = {.switch_error_arcsec = 3.0, .magnetic_arcsec_s = 0.5}};
+}
+
+TEST(SwitchSchedule, TheBalancedIntervalIsWhereTheVarianceIsLeast) {
+    const SwitchScheduleConfig c = growing();
+    for (const std::int64_t tick : {20000, 300000}) {
+        const double t = 0.1 * static_cast<double>(tick);
+        const auto variance = [&](double l) { return 9.0 * t / l + 0.25 * l * l / 12.0; };
+        const double best = 0.1 * static_cast<double>(balanced_interval(c, {}, tick));
+        EXPECT_LT(variance(best), variance(1.01 * best));
+        EXPECT_LT(variance(best), variance(0.99 * best));
+    }
+}
+
+TEST(SwitchSchedule, TheBalancedIntervalKeepsItsLimitsAndTakesOnlyAdviceThatIsOne) {
+    const SwitchScheduleConfig c = growing();
+    EXPECT_EQ(balanced_interval(c, {1e-6, 1e6}, 1000), 100);
+    EXPECT_EQ(balanced_interval(c, {1e6, 1e-6}, 1000), 100000);
+    EXPECT_EQ(balanced_interval(c, {0.0, -1.0}, 50000), balanced_interval(c, {}, 50000));
+    EXPECT_EQ(balanced_interval(c, {nan, nan}, 50000), balanced_interval(c, {}, 50000));
+    EXPECT_EQ(balanced_interval(c, {}, Limits::min()), 100);
+    // Eight times the time, twice the interval; eight times the error, four times.
+    EXPECT_NEAR(static_cast<double>(balanced_interval(c, {3.0, 0.5}, 400000)),
+                2.0 * static_cast<double>(balanced_interval(c, {3.0, 0.5}, 50000)), 2.0);
+    EXPECT_NEAR(static_cast<double>(balanced_interval(c, {24.0, 0.5}, 50000)),
+                4.0 * static_cast<double>(balanced_interval(c, {3.0, 0.5}, 50000)), 4.0);
+}
+
+TEST(SwitchSchedule, AGrowingIntervalKeepsTheSawtoothCentred) {
+    for (const std::int8_t mode : {std::int8_t{1}, std::int8_t{-1}}) {
+        const SwitchScheduleConfig c = growing();
+        const Course got = course(c, 200000, mode);
+        ASSERT_GT(got.openings.size(), 20u);
+        EXPECT_EQ(got.openings[0], balanced_interval(c, {}, 1) / 2);
+        for (std::size_t k = 1; k < got.openings.size(); ++k) {
+            const std::int64_t interval = balanced_interval(c, {}, got.openings[k - 1]);
+            const auto peak = static_cast<double>(got.imbalance[static_cast<std::size_t>(got.openings[k] - 1)]);
+            EXPECT_LE(std::abs(peak), static_cast<double>(interval / 2) + 1.0) << k;
+            EXPECT_GE(std::abs(peak), static_cast<double>(interval) * 15.0 / 32.0 - 1.0) << k;
+        }
+    }
+}
+
+TEST(SwitchSchedule, NoVibrationKeepsStepWithIntervalsThatAreNotFixed) {
+    SwitchScheduleConfig c = growing();
+    c.min_ticks = c.max_ticks = 1600;
+    const Course got = course(c, 400000);
+    for (const double period_ticks : {10.0, 20.0, 50.0, 100.0}) {
+        double re = 0.0, im = 0.0;
+        for (const std::int64_t tick : got.openings) {
+            re += std::cos(2.0 * std::numbers::pi * static_cast<double>(tick) / period_ticks);
+            im += std::sin(2.0 * std::numbers::pi * static_cast<double>(tick) / period_ticks);
+        }
+        // Of random phases the root of their number is left.
+        const auto n = static_cast<double>(got.openings.size());
+        EXPECT_LT(std::hypot(re, im), 3.0 * std::sqrt(n)) << period_ticks;
+    }
+}
+
+TEST(SwitchSchedule, AFullFirstSegmentPutsTheCentreAtHalfOfIt) {
+    for (const std::int8_t mode : {std::int8_t{1}, std::int8_t{-1}}) {
+        const Course got = course(growing(FirstSegment::full), 200000, mode);
+        EXPECT_EQ(got.openings[0], 100);
+        const auto last = static_cast<std::size_t>(got.openings.back() - 1);
+        const auto before = static_cast<std::size_t>(got.openings[got.openings.size() - 2] - 1);
+        EXPECT_NEAR(static_cast<double>(got.imbalance[last] + got.imbalance[before]) / 2.0, 50.0 * mode, 30.0);
+    }
+}
+
+TEST(SwitchSchedule, OnlyTheMeasuredOneTakesAdvice) {
+    SwitchScheduleConfig c = growing();
+    const auto quiet = [](std::int64_t) { return SwitchAdvice{.switch_error_arcsec = 0.3, .magnetic_arcsec_s = 0.5}; };
+    EXPECT_EQ(course(c, 100000, quiet).openings, course(c, 100000).openings);
+    c.kind = ScheduleKind::measured;
+    // A tenth of the error: 10^(2/3) = 4.6 times as many switches.
+    const auto more = static_cast<double>(course(c, 400000, quiet).openings.size());
+    const auto fewer = static_cast<double>(course(c, 400000).openings.size());
+    EXPECT_NEAR(more / fewer, 4.64, 0.4);
+}
+
+TEST(SwitchSchedule, AdviceThatJumpsDoesNotCarryTheSawtoothAway) {
+    SwitchScheduleConfig c = growing();
+    c.kind = ScheduleKind::measured;
+    const auto jumping = [](std::int64_t tick) {
+        return SwitchAdvice{.switch_error_arcsec = tick / 7919 % 2 == 0 ? 0.5 : 8.0, .magnetic_arcsec_s = 0.5};
+    };
+    // Alternating segments of the same lengths would add their differences up.
+    const std::int64_t longest = balanced_interval(c, {8.0, 0.5}, 400000);
+    std::int64_t farthest = 0;
+    for (const std::int64_t x : course(c, 400000, jumping).imbalance) farthest = std::max(farthest, std::abs(x));
+    EXPECT_LE(farthest, longest / 2 + 1);
+}
+
+TEST(SwitchSchedule, AFailureIsNotPaidBackByMoreThanTheLongestInterval) {
+    SwitchScheduleConfig c = growing();
+    c.max_ticks = 3000;
+    SwitchScheduleState s = initial_state(c);
+    std::int64_t tick = 1;
+    // A gyro that cannot leave its mode tries again and again, but not faster than allowed.
+    std::int64_t openings = 0;
+    for (; tick < 30000; ++tick) openings += step(c, s, {.tick = tick, .mode = 1}).open;
+    EXPECT_LE(openings, 30000 / 94);
+    EXPECT_GE(openings, 200);
+    std::int64_t waited = 0;
+    for (; !step(c, s, {.tick = tick, .mode = -1}).open; ++tick) ++waited;
+    EXPECT_LE(waited, c.max_ticks + balanced_interval(c, {}, tick));
+}
+
+TEST(SwitchSchedule, TheEndIsBalancedWhereItIsKnown) {
+    for (const FirstSegment first : {FirstSegment::full, FirstSegment::half})
+        for (const ScheduleKind kind : {ScheduleKind::fixed, ScheduleKind::growing})
+            for (const std::int64_t end : {37, 150, 999, 1000, 1001, 1049, 1050, 1951, 20000})
+                for (const std::int8_t mode : {std::int8_t{1}, std::int8_t{-1}}) {
+                    SwitchScheduleConfig c = growing(first);
+                    c.kind = kind;
+                    c.interval_ticks = 100;
+                    const std::size_t without = course(c, end, mode).openings.size();
+                    c.end_tick = end;
+                    const Course got = course(c, end, mode);
+                    EXPECT_LE(std::abs(got.imbalance.back()), 1) << end;
+                    EXPECT_LE(got.openings.size(), without + 1) << end;
+                }
+}
+
+// What is set from outside.
+TEST(SwitchSchedule, HeldNothingIsDueAndTheGridGoesOn) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    s.held = true;
+    for (std::int64_t tick = 1; tick < 25; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .ready = tick > 12}).open);
+    s.held = false;
+    for (std::int64_t tick = 25; tick < 30; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
+    EXPECT_TRUE(step(c, s, {.tick = 30}).open);
+}
+
+TEST(SwitchSchedule, HeldByBalanceItIsDueWhenReleased) {
+    const SwitchScheduleConfig c{.kind = ScheduleKind::growing, .min_ticks = 10, .max_ticks = 20};
+    SwitchScheduleState s = initial_state(c);
+    s.held = true;
+    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    s.held = false;
+    EXPECT_TRUE(step(c, s, {.tick = 100}).open);
+}
+
+TEST(SwitchSchedule, AskedItOpensOnceWhenReadyHeldOrNot) {
+    for (const bool held : {false, true}) {
+        const SwitchScheduleConfig c{.interval_ticks = 1000};
+        SwitchScheduleState s = initial_state(c);
+        s.held = held;
+        s.asked = true;
+        EXPECT_FALSE(step(c, s, {.tick = 1, .ready = false}).open);
+        EXPECT_TRUE(step(c, s, {.tick = 2}).open);
+        EXPECT_FALSE(s.asked);
+        EXPECT_EQ(s.opened_tick, 2);
+        EXPECT_FALSE(step(c, s, {.tick = 3}).open);
+    }
+}
+
+TEST(SwitchSchedule, OneThatIsAskedForDoesNotMoveTheGrid) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    s.asked = true;
+    EXPECT_TRUE(step(c, s, {.tick = 4}).open);
+    for (std::int64_t tick = 5; tick < 10; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    EXPECT_TRUE(step(c, s, {.tick = 10}).open);
+}
+
+TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
+    SwitchScheduleConfig c{.interval_ticks = std::int64_t{1} << 40};
+    SwitchScheduleState s = initial_state(c);
+    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    c.interval_ticks = 10;
+    for (std::int64_t tick = 100; tick < 110; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
+    EXPECT_TRUE(step(c, s, {.tick = 110}).open);
+    EXPECT_FALSE(step(c, s, {.tick = 111}).open);
+}
+
+}  // namespace
+}  // namespace zlg::core

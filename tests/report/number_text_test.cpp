@@ -1,0 +1,43 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <zlg/report/number_text.hpp>
+
+namespace {
+
+using namespace zlg::report;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(NumberText, has_the_decimals_that_are_asked_for) {
+    EXPECT_EQ(fixed_number(1.25, 3), "1.250");
+    EXPECT_EQ(fixed_number(-17.0, 0), "-17");
+}
+
+TEST(NumberText, zero_has_no_sign) {
+    EXPECT_EQ(fixed_number(-0.0004, 3), "0.000");
+    EXPECT_EQ(fixed_number(-0.0006, 3), "-0.001");
+}
+
+TEST(NumberText, short_numbers_have_three_digits_and_all_of_the_whole_part) {
+    EXPECT_EQ(short_number(0.0123456), "0.0123");
+    EXPECT_EQ(short_number(123456.7), "123457");
+    EXPECT_EQ(short_number(1.234e12), "1.23e+12");
+}
+
+TEST(NumberText, what_is_no_number_says_so) {
+    EXPECT_EQ(fixed_number(infinity, 1), "none");
+    EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "none");
+}
+
+TEST(NumberText, a_blank_figure_has_its_words_and_no_curve) {
+    const Figure figure = blank_figure("f", "title", "caption", "x", "y");
+    EXPECT_EQ(figure.id, "f");
+    EXPECT_EQ(figure.title, "title");
+    EXPECT_EQ(figure.caption, "caption");
+    EXPECT_EQ(figure.x_label, "x");
+    EXPECT_EQ(figure.y_label, "y");
+    EXPECT_TRUE(figure.series.empty());
+}
+
+}  // namespace

@@ -1,0 +1,173 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/laser_agreement.hpp>
+#include <zlg/rig/laser_calibration.hpp>
+
+namespace {
+
+using namespace zlg;
+
+config::Config laser(std::initializer_list<const char*> settings) {
+    config::Config c;
+    config::apply_set(c, "gyro.fidelity=laser");
+    for (const char* setting : settings) config::apply_set(c, setting);
+    return c;
+}
+
+std::string all(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + '\n';
+    return text;
+}
+
+TEST(LaserAgreement, all_constants_are_taken_together) {
+    const config::Config c = laser({"laser.perimeter_m=0.12"});
+    const rig::LaserAgreement made = rig::agreed_with_laser(c);
+    const config::Config calibrated = rig::calibrated_by_laser(c);
+    EXPECT_EQ(made.config.gyro.bias_hz, calibrated.gyro.bias_hz);
+    EXPECT_EQ(made.config.gyro.bias_chi, calibrated.gyro.bias_chi);
+    EXPECT_EQ(made.config.gyro.discriminator_per_lambda, calibrated.gyro.discriminator_per_lambda);
+    EXPECT_EQ(made.config.perimeter.discriminator_signal, calibrated.perimeter.discriminator_signal);
+    // 4 lambda/L of a square ring, 632.8 nm, in arcsec.
+    EXPECT_NEAR(made.config.gyro.scale_arcsec, 4.0 * 632.8e-9 / 0.12 * 206264.806, 1e-3);
+    EXPECT_TRUE(made.warnings.empty());
+    ASSERT_EQ(made.notes.size(), 1u);
+    for (const char* key :
+         {"gyro.bias_hz = 79", "gyro.bias_chi = 6.37", "gyro.scale_arcsec = 4.35", "discriminator_signal"})
+        EXPECT_NE(made.notes[0].find(key), std::string::npos) << made.notes[0];
+}
+
+// The case of one constant out of four: it agrees, so that the others follow.
+TEST(LaserAgreement, what_is_given_and_agrees_lets_the_others_follow) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(laser({"laser.perimeter_m=0.12", "gyro.bias_hz=79766.7"}));
+    EXPECT_EQ(made.config.gyro.bias_hz, 79766.7);
+    EXPECT_NEAR(made.config.gyro.bias_chi, 6.37, 0.01);
+    EXPECT_TRUE(made.warnings.empty());
+}
+
+TEST(LaserAgreement, a_contradiction_is_named_with_both_values_and_nothing_is_taken) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(laser({"laser.perimeter_m=0.12", "gyro.bias_chi=4.5"}));
+    const config::Config untouched = laser({"gyro.bias_chi=4.5"});
+    EXPECT_EQ(made.config.gyro.bias_hz, untouched.gyro.bias_hz);
+    EXPECT_EQ(made.config.gyro.bias_chi, 4.5);
+    EXPECT_EQ(made.config.gyro.scale_arcsec, untouched.gyro.scale_arcsec);
+    EXPECT_TRUE(made.config.perimeter.discriminator_signal.empty());
+    EXPECT_TRUE(made.notes.empty());
+    const std::string text = all(made.warnings);
+    EXPECT_NE(text.find("gyro.bias_chi = 4.5 is presumed, [laser] makes 6.37"), std::string::npos) << text;
+    EXPECT_NE(text.find("gyro.bias_hz = 60000 is presumed, [laser] makes 79"), std::string::npos) << text;
+    EXPECT_NE(text.find("gyro.scale_arcsec = 3.263 is presumed, [laser] makes 4.35"), std::string::npos) << text;
+    EXPECT_NE(text.find("perimeter.discriminator_signal is unset"), std::string::npos) << text;
+}
+
+TEST(LaserAgreement, a_slope_that_is_given_alone_stays_the_whole_law) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(laser({"gyro.discriminator_per_lambda=0.3315"}));
+    EXPECT_TRUE(made.config.perimeter.discriminator_signal.empty());
+    EXPECT_NE(all(made.warnings).find("perimeter.discriminator_signal is unset"), std::string::npos);
+}
+
+// A value that is given is given, though it be the default.
+TEST(LaserAgreement, a_default_that_is_given_contradicts_like_any_other) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(laser({"laser.perimeter_m=0.12", "gyro.bias_chi=3.6"}));
+    EXPECT_EQ(made.config.gyro.bias_chi, 3.6);
+    EXPECT_NE(all(made.warnings).find("gyro.bias_chi = 3.6 is presumed, [laser] makes 6.37"), std::string::npos);
+}
+
+TEST(LaserAgreement, a_calibrated_processor_agrees) {
+    const config::Config c = rig::calibrated_by_laser(laser({"laser.gain_loss_ratio=1.1"}));
+    const rig::LaserAgreement made = rig::agreed_with_laser(c);
+    EXPECT_EQ(config::to_toml(made.config), config::to_toml(c));
+    EXPECT_TRUE(made.warnings.empty());
+    EXPECT_TRUE(made.notes.empty());
+}
+
+TEST(LaserAgreement, the_curve_of_another_gas_is_a_contradiction) {
+    config::Config c = rig::calibrated_by_laser(laser({}));
+    c.laser.gain_loss_ratio = 1.12;
+    const std::string text = all(rig::agreed_with_laser(c).warnings);
+    EXPECT_NE(text.find("perimeter.discriminator_signal is presumed"), std::string::npos) << text;
+    EXPECT_NE(text.find("gyro.discriminator_per_lambda"), std::string::npos) << text;
+}
+
+TEST(LaserAgreement, the_walk_of_lock_in_and_the_counts_of_a_fringe_follow_too) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(
+        laser({"laser.lock_in_left_hz=300", "laser.lock_in_right_hz=300", "laser.quadrature=x4"}));
+    // docs/physics.md: 0.0047 deg/sqrt(h) at 300 Hz; 60 arcsec/sqrt(s) are a deg/sqrt(h).
+    EXPECT_NEAR(made.config.drift.random_walk_arcsec_sqrt_s, 0.0047 * 60.0, 0.003);
+    EXPECT_NEAR(made.config.gyro.scale_arcsec, 3.263 / 4.0, 1e-9);
+    EXPECT_NEAR(made.config.gyro.bias_hz, 4.0 * 60430.0 * 0.99, 20.0);
+}
+
+// Unequal isotopes make the two sides unlike, and the bias is largest beside where the loop settles.
+TEST(LaserAgreement, the_centre_of_unequal_isotopes_is_taken_with_the_points) {
+    for (const char* share : {"laser.upper_isotope_ratio=0.535", "laser.upper_isotope_ratio=0.47"}) {
+        const config::Config c = laser({share});
+        const config::Config calibrated = rig::calibrated_by_laser(c);
+        ASSERT_NE(calibrated.perimeter.discriminator_centre_lambda, 0.0);
+        const rig::LaserAgreement made = rig::agreed_with_laser(c);
+        EXPECT_EQ(made.config.perimeter.discriminator_signal, calibrated.perimeter.discriminator_signal);
+        EXPECT_EQ(made.config.perimeter.discriminator_centre_lambda, calibrated.perimeter.discriminator_centre_lambda);
+        EXPECT_NE(all(made.notes).find("perimeter.discriminator_centre_lambda = "), std::string::npos);
+        EXPECT_TRUE(made.warnings.empty()) << all(made.warnings);
+        // A calibrated processor of the same laser has nothing to take, and one that lacks the centre alone gets it.
+        EXPECT_TRUE(rig::agreed_with_laser(calibrated).notes.empty());
+        config::Config without = calibrated;
+        without.perimeter.discriminator_centre_lambda = 0.0;
+        EXPECT_EQ(rig::agreed_with_laser(without).config.perimeter.discriminator_centre_lambda,
+                  calibrated.perimeter.discriminator_centre_lambda);
+    }
+}
+
+TEST(LaserAgreement, a_centre_that_is_given_and_wrong_is_a_contradiction) {
+    const rig::LaserAgreement made =
+        rig::agreed_with_laser(laser({"laser.upper_isotope_ratio=0.535", "perimeter.discriminator_centre_lambda=0"}));
+    EXPECT_NE(all(made.warnings).find("perimeter.discriminator_centre_lambda = 0 is presumed, [laser] makes "),
+              std::string::npos)
+        << all(made.warnings);
+    EXPECT_TRUE(made.config.perimeter.discriminator_signal.empty());
+    EXPECT_TRUE(made.notes.empty());
+}
+
+// Points of a curve that are wrong on the negative side alone, at detunings beyond the third wave of the other side.
+TEST(LaserAgreement, both_sides_of_a_curve_are_examined_up_to_the_third_wave_only) {
+    config::Config c = rig::calibrated_by_laser(laser({"laser.upper_isotope_ratio=0.535"}));
+    std::vector<double>& signal = c.perimeter.discriminator_signal;
+    const double outermost = signal.front();
+    signal.front() = 1.5 * outermost;
+    EXPECT_TRUE(rig::agreed_with_laser(c).warnings.empty()) << "no reading there is better than its sign";
+    signal.front() = outermost;
+    for (double& x : signal)
+        if (x < 0.0) x *= 1.3;
+    EXPECT_NE(all(rig::agreed_with_laser(c).warnings).find("perimeter.discriminator_signal is presumed"),
+              std::string::npos);
+}
+
+TEST(LaserAgreement, a_linear_curve_agrees_with_the_averaged_gyro_whatever_the_sign_of_its_slope) {
+    for (const double slope : {1.0, -1.0}) {
+        config::Config c;
+        c.gyro.discriminator_per_lambda *= slope;
+        const double size = std::abs(c.gyro.discriminator_per_lambda);
+        c.perimeter.discriminator_detuning_lambda = {-0.2, -0.1, 0.1, 0.2};
+        c.perimeter.discriminator_signal = {-0.2 * size, -0.1 * size, 0.1 * size, 0.2 * size};
+        EXPECT_TRUE(rig::agreed_with_laser(c).warnings.empty()) << slope;
+        c.perimeter.discriminator_signal[0] *= 1.5;
+        c.perimeter.discriminator_signal[1] *= 1.5;
+        EXPECT_FALSE(rig::agreed_with_laser(c).warnings.empty()) << "wrong below 0 alone, slope " << slope;
+    }
+    config::Config c;
+    c.perimeter.discriminator_centre_lambda = 0.02;
+    EXPECT_NE(all(rig::agreed_with_laser(c).warnings).find("discriminator_centre_lambda = 0.02"), std::string::npos);
+}
+
+TEST(LaserAgreement, the_linear_light_of_an_averaged_gyro_contradicts_the_curve_of_a_laser) {
+    config::Config c = rig::calibrated_by_laser({});
+    EXPECT_NE(all(rig::agreed_with_laser(c).warnings).find("gyro.fidelity = averaged"), std::string::npos);
+    EXPECT_TRUE(rig::agreed_with_laser({}).warnings.empty());
+    EXPECT_EQ(config::to_toml(rig::agreed_with_laser({}).config), config::to_toml({}));
+}
+
+}  // namespace

@@ -1,0 +1,101 @@
+#include <zlg/trials/drift_campaign.hpp>
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <zlg/config/schema.hpp>
+
+namespace zlg::trials {
+namespace {
+
+// A strong drift that does not warm up, on a base at rest, and switches that leave little.
+config::Config gyro() {
+    config::Config c;
+    c.motion.kind = config::MotionKind::rest;
+    c.gyro.scale_arcsec = 0.05;
+    c.gyro.bias_hz = 60e3 * 3.263 / 0.05;
+    c.gyro.counter_max_hz = 1e9;
+    c.gyro.tick_s = 0.05;
+    c.drift = {.magnetic_arcsec_s = 10.0, .magnetic_thermal_arcsec_s = 0.0, .random_walk_arcsec_sqrt_s = 0.14};
+    c.perimeter.miss_lambda = 1e-4;
+    c.perimeter.tau_s = 0.2;
+    c.switching.interval_s = 40.0;
+    return c;
+}
+
+DriftMethod method(core::MagneticMethod magnetic) {
+    DriftMethod m{.name = magnetic == core::MagneticMethod::none ? "alone" : "magnetic", .compensation = {}};
+    m.compensation.bridge = core::BridgeMethod::constant;
+    m.compensation.magnetic = magnetic;
+    return m;
+}
+
+DriftCampaign campaign(std::vector<DriftGyro> gyros) {
+    return {.gyros = std::move(gyros), .times_s = {500.0, 1000.0}, .seeds = 3};
+}
+
+TEST(DriftCampaign, FindsTheSawtoothOfPlainSwitching) {
+    // 1000 s are 25 intervals, so that one segment is left over: 10 arcsec/s for 40 s.
+    const auto figures = run(campaign({{"plain", gyro(), {method(core::MagneticMethod::none)}}}));
+    ASSERT_EQ(figures.size(), 1u);
+    ASSERT_EQ(figures[0].at.size(), 2u);
+    EXPECT_EQ(figures[0].switches, 24.0);
+    EXPECT_NEAR(figures[0].at[1].mean_arcsec_s, 10.0 * 40.0 / 1000.0, 0.02);
+    EXPECT_NEAR(figures[0].at[1].rms_arcsec_s, 0.4, 0.02);
+    EXPECT_GE(figures[0].at[1].max_arcsec_s, figures[0].at[1].rms_arcsec_s);
+    EXPECT_EQ(figures[0].at[1].max_arcsec_s, figures[0].at[1].percentile_95_arcsec_s);
+    // The last 50 s: all between 0 and 400 arcsec.
+    EXPECT_LT(figures[0].at[1].rms_before_arcsec_s, 0.4);
+    EXPECT_GT(figures[0].at[1].rms_before_arcsec_s, 0.1);
+}
+
+TEST(DriftCampaign, AHalfLastSegmentTakesItAwayAtTheEnd) {
+    config::Config c = gyro();
+    c.switching.last_segment = config::LastSegment::half;
+    const auto figures = run(campaign({{"half", c, {method(core::MagneticMethod::none)}}}));
+    EXPECT_LT(figures[0].at[1].rms_arcsec_s, 0.02);
+}
+
+TEST(DriftCampaign, TheMagneticEstimateTakesItAwayAtAnyTime) {
+    const auto figures =
+        run(campaign({{"both", gyro(), {method(core::MagneticMethod::none), method(core::MagneticMethod::estimate)}}}));
+    ASSERT_EQ(figures.size(), 2u);
+    EXPECT_LT(figures[1].at[1].rms_before_arcsec_s, 0.1 * figures[0].at[1].rms_before_arcsec_s);
+    EXPECT_LT(figures[1].at[1].rms_arcsec_s, 0.02);
+}
+
+TEST(DriftCampaign, AMeasuredScheduleMakesUseOfIt) {
+    config::Config c = gyro();
+    c.switching.schedule = config::Schedule::measured;
+    c.switching.first_segment = config::FirstSegment::half;
+    c.switching.interval_max_s = 400.0;
+    const auto figures = run(campaign({{"measured", c, {method(core::MagneticMethod::none)}},
+                                       {"measured", c, {method(core::MagneticMethod::estimate)}}}));
+    // Where the drift is taken out there is less need to switch.
+    EXPECT_LT(figures[1].switches, 0.7 * figures[0].switches);
+    EXPECT_LT(figures[1].at[1].rms_before_arcsec_s, figures[0].at[1].rms_before_arcsec_s);
+}
+
+TEST(DriftCampaign, DoesNotDependOnTheNumberOfThreads) {
+    DriftCampaign c = campaign({{"a", gyro(), {method(core::MagneticMethod::estimate)}}});
+    c.times_s = {100.0};
+    std::int64_t last = 0;
+    const std::string one = markdown(run(c, [&](std::int64_t n) { last = n; }));
+    EXPECT_EQ(last, 3);
+    c.threads = 3;
+    EXPECT_EQ(markdown(run(c)), one);
+    c.first_seed = 2;
+    EXPECT_NE(markdown(run(c)), one);
+}
+
+TEST(DriftCampaign, AGyroThatIsNoneIsSaid) {
+    config::Config c = gyro();
+    c.switching.interval_s = 1e-9;
+    c.piezo.range_max_v = c.piezo.range_min_v;
+    EXPECT_THROW((void)run(campaign({{"none", c, {method(core::MagneticMethod::none)}}})), config::ConfigError);
+}
+
+}  // namespace
+}  // namespace zlg::trials

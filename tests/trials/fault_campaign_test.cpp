@@ -1,0 +1,226 @@
+#include <zlg/trials/fault_campaign.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace zlg::trials {
+namespace {
+
+using twin::FaultKind;
+
+// A part of the campaign whose figures the documentation gives: 5 faults of each kind.
+const std::vector<FaultFigures>& short_campaign() {
+    static const std::vector<FaultFigures> figures = run(FaultCampaign{.faults = 130, .seed = 11, .threads = 2});
+    return figures;
+}
+
+TEST(FaultCampaign, MeetsEveryKindAndGyrosWithoutFault) {
+    const auto& figures = short_campaign();
+    ASSERT_EQ(figures.size(), twin::n_fault_kinds + 3);
+    EXPECT_EQ(figures.front().kind, "none");
+    EXPECT_EQ(figures.back().kind, "all");
+    EXPECT_EQ(figures.back().faults, 135) << "two at once among them";
+    std::set<std::string> kinds;
+    for (const FaultFigures& f : figures) {
+        if (f.kind != "all") EXPECT_EQ(f.faults, 5) << f.kind;
+        kinds.insert(f.kind);
+    }
+    EXPECT_EQ(kinds.size(), figures.size());
+}
+
+TEST(FaultCampaign, NoFaultCrashesOrLetsOutWhatIsNoNumber) {
+    for (const FaultFigures& f : short_campaign()) {
+        EXPECT_EQ(f.crashed, 0) << f.kind;
+        EXPECT_EQ(f.not_finite, 0) << f.kind;
+    }
+}
+
+TEST(FaultCampaign, AGyroWithoutFaultIsValidAndRightAllTheTime) {
+    const FaultFigures& none = short_campaign().front();
+    EXPECT_EQ(none.wrong_ticks, 0);
+    EXPECT_EQ(none.wrong_bridged, 0);
+    EXPECT_EQ(none.recovered, none.faults);
+    EXPECT_GT(none.valid_outside_ratio, 0.99);
+}
+
+TEST(FaultCampaign, GyrosRecoverAndAreValidAfterwards) {
+    for (const FaultFigures& f : short_campaign()) {
+        EXPECT_EQ(f.recovered, f.faults) << f.kind;
+        EXPECT_GE(f.valid_outside_ratio, 0.99) << f.kind;
+    }
+    const FaultFigures& all = short_campaign().back();
+    EXPECT_GE(all.valid_outside_ratio, 0.995);
+    EXPECT_GT(all.mean_sq_ratio, 0.5);
+    EXPECT_LT(all.mean_sq_ratio, 1.5);
+}
+
+// Durations of a fault are those that a gyro may meet, not only those that it outlives at once.
+TEST(FaultCampaign, FaultsLastFromAMillisecondToAMinute) {
+    double shortest_s = 1.0;
+    double longest_s = 1.0;
+    int below_a_second = 0;
+    std::set<config::MotionKind> motions;
+    std::set<config::Loop> loops;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        const FaultTrial trial = random_trial(FaultKind::bias_lost, seed);
+        shortest_s = std::min(shortest_s, trial.fault->duration_s);
+        longest_s = std::max(longest_s, trial.fault->duration_s);
+        below_a_second += trial.fault->duration_s < 1.0;
+        motions.insert(trial.config.motion.kind);
+        loops.insert(trial.config.perimeter.loop);
+    }
+    EXPECT_GE(shortest_s, 1e-3);
+    EXPECT_LT(shortest_s, 1.2e-3);
+    EXPECT_LE(longest_s, 60.0);
+    EXPECT_GT(longest_s, 50.0);
+    EXPECT_NEAR(below_a_second, 1000.0 * std::log(1e3) / std::log(6e4), 60.0) << "four standard deviations";
+    EXPECT_EQ(motions.size(), 3u);
+    EXPECT_EQ(loops.size(), 3u);
+}
+
+// The fault of the review, in the closed loop: what the coil lost for longer than a second was never seen to come back.
+TEST(FaultCampaign, ABiasCurrentLostForLongerThanASecondComesBack) {
+    for (const double size : {0.4, 0.95, 1.0}) {
+        for (const double duration_s : {1.5, 20.0}) {
+            FaultTrial trial = random_trial(FaultKind::bias_lost, 3);
+            trial.fault = twin::Fault{FaultKind::bias_lost, 3.0, duration_s, size};
+            trial.watched_s = 4.0 + duration_s;
+            trial.end_s = 7.5 + duration_s;
+            const FaultOutcome out = run(trial);
+            EXPECT_TRUE(out.recovered) << size << " for " << duration_s << " s";
+            EXPECT_GT(out.valid_after, 0.99 * static_cast<double>(out.ticks_after));
+        }
+    }
+}
+
+// What the processor can know of, it knows of.
+TEST(FaultCampaign, FaultsThatShowAreDetected) {
+    const std::set<std::string> always{"laser_off",       "light_nan",    "piezo_adc_nan",
+                                       "temperature_nan", "frame_missed", "frame_repeated",
+                                       "frame_late",      "bias_lost",    "overspeed"};
+    for (const FaultFigures& f : short_campaign()) {
+        if (always.contains(f.kind)) EXPECT_EQ(f.detected, f.faults) << f.kind;
+    }
+}
+
+// A constant field is a drift like any other: nothing in the gyro tells it.
+TEST(FaultCampaign, AFieldPulseIsNotDetected) {
+    for (const FaultFigures& f : short_campaign()) {
+        if (f.kind == "field_pulse") EXPECT_EQ(f.detected, 0);
+    }
+}
+
+TEST(FaultCampaign, NoValidTickIsWrongButThoseOfAStuckBit) {
+    for (const FaultFigures& f : short_campaign()) {
+        // A bit that is stuck is no different from rotation until it has shown itself in several halves.
+        const std::int64_t allowed = f.kind == "counter_bit_stuck" || f.kind == "all" ? 3 : 0;
+        EXPECT_LE(f.with_wrong_ticks, allowed) << f.kind << ": " << f.worst_sigmas << " sigma";
+    }
+}
+
+TEST(FaultCampaign, TheAngleIsConservedWhereItIsClaimed) {
+    // A field looks like a rotation. A rate beyond the counter's range loses angle, but claims none.
+    std::int64_t of_fields = 0;
+    for (const FaultFigures& f : short_campaign()) {
+        if (f.kind == "field_pulse")
+            of_fields = f.angle_beyond_5;
+        else
+            EXPECT_EQ(f.angle_beyond_5, f.kind == "all" ? of_fields : 0) << f.kind;
+    }
+}
+
+TEST(FaultCampaign, EveryLimitThatIsNotKeptIsNamed) {
+    EXPECT_TRUE(complaints(short_campaign()).empty());
+    const FaultFigures good{
+        .kind = "all", .faults = 9, .valid_outside_ratio = 0.996, .mean_sq_ratio = 0.7, .recovered = 9};
+    EXPECT_TRUE(complaints({good}).empty());
+    const auto lines = [&](auto FaultFigures::*figure, auto value) {
+        FaultFigures bad = good;
+        bad.*figure = value;
+        return complaints({bad}).size();
+    };
+    EXPECT_EQ(lines(&FaultFigures::recovered, 8), 1u);
+    EXPECT_EQ(lines(&FaultFigures::not_finite, 1), 1u);
+    EXPECT_EQ(lines(&FaultFigures::crashed, 1), 1u);
+    EXPECT_EQ(lines(&FaultFigures::valid_outside_ratio, 0.9949), 1u);
+    EXPECT_EQ(lines(&FaultFigures::mean_sq_ratio, 0.49), 1u);
+    EXPECT_EQ(lines(&FaultFigures::mean_sq_ratio, 1.51), 1u);
+    EXPECT_EQ(lines(&FaultFigures::mean_sq_ratio, std::nan("")), 1u);
+    FaultFigures of_a_kind = good;
+    of_a_kind.kind = "shock";
+    of_a_kind.valid_outside_ratio = 0.99;
+    EXPECT_TRUE(complaints({of_a_kind}).empty()) << "few faults of a kind know that by chance only";
+    of_a_kind.recovered = 8;
+    EXPECT_EQ(complaints({of_a_kind}).size(), 1u);
+}
+
+bool same(const FaultFigures& a, const FaultFigures& b) {
+    return a.kind == b.kind && a.faults == b.faults && a.detected == b.detected &&
+           a.median_latency_s == b.median_latency_s && a.valid_outside_ratio == b.valid_outside_ratio &&
+           a.worst_sigmas == b.worst_sigmas && a.angle_rms_arcsec == b.angle_rms_arcsec && a.recovered == b.recovered &&
+           a.claimed == b.claimed;
+}
+
+TEST(FaultCampaign, FiguresDependOnTheSeedAndNotOnTheThreads) {
+    FaultCampaign campaign{.faults = 8, .seed = 3, .threads = 1, .kinds = {FaultKind::laser_off, FaultKind::shock}};
+    const auto alone = run(campaign);
+    campaign.threads = 3;
+    const auto together = run(campaign);
+    ASSERT_EQ(alone.size(), 5u);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_TRUE(same(alone[k], together[k])) << alone[k].kind;
+    campaign.seed = 4;
+    EXPECT_FALSE(same(alone[1], run(campaign)[1]));
+}
+
+TEST(FaultCampaign, ATrialIsDrawnFromItsSeed) {
+    for (const FaultKind kind : twin::all_fault_kinds()) {
+        const FaultTrial trial = random_trial(kind, 42);
+        const FaultTrial again = random_trial(kind, 42);
+        ASSERT_TRUE(trial.fault.has_value());
+        EXPECT_EQ(trial.fault->kind, kind);
+        EXPECT_EQ(trial.fault->size, again.fault->size);
+        EXPECT_EQ(trial.config.run.seed, again.config.run.seed);
+        EXPECT_NE(trial.config.run.seed, random_trial(kind, 43).config.run.seed);
+        // A second for the gyro to come back, and another one in which it must be back.
+        EXPECT_GE(trial.watched_s, trial.fault->at_s + trial.fault->duration_s + 1.0);
+        EXPECT_GT(trial.end_s, trial.watched_s + 1.0);
+    }
+    EXPECT_FALSE(random_trial(std::nullopt, 42).fault.has_value());
+}
+
+// Five frames: known to the half.
+TEST(FaultCampaign, OneTrialTellsWhatWasAsked) {
+    FaultTrial trial = random_trial(FaultKind::frame_missed, 5);
+    trial.fault = twin::Fault{FaultKind::frame_missed, 3.0001, 0.0125, 0.0};
+    trial.watched_s = 4.0125;
+    trial.end_s = 5.5;
+    const FaultOutcome out = run(trial);
+    EXPECT_TRUE(out.detected);
+    EXPECT_NEAR(out.latency_s, 0.0024, 1e-9) << "the half that ends at 3.0025 s is the first whose frame is missed";
+    EXPECT_EQ(out.ticks_outside, 600 + 1100 - 803);
+    EXPECT_TRUE(out.recovered);
+    EXPECT_EQ(out.wrong, 0);
+    EXPECT_LT(std::abs(out.angle_error_arcsec), 5.0 * out.angle_sigma_arcsec);
+}
+
+TEST(FaultCampaign, WhatCannotRunIsACrashThatIsNamed) {
+    FaultTrial trial = random_trial(FaultKind::shock, 5);
+    trial.fault->size = 1e9;
+    EXPECT_NE(run(trial).crash.find("fault shock: faults.size is"), std::string::npos);
+}
+
+TEST(FaultCampaign, TheTableHasARowForEachKind) {
+    const std::string table = markdown(short_campaign());
+    EXPECT_EQ(std::ranges::count(table, '\n'), 2 + 29);
+    EXPECT_NE(table.find("\n| laser_off | 5 | 100.0 % |"), std::string::npos);
+    // As many cells in each line.
+    EXPECT_EQ(std::ranges::count(table, '|') % (2 + 29), 0);
+}
+
+}  // namespace
+}  // namespace zlg::trials

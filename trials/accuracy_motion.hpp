@@ -1,0 +1,61 @@
+#pragma once
+// Motion of the case in exact increments over half-periods.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_01.hpp>
+
+#include "accuracy_law.hpp"
+
+namespace zlg::trials {
+
+class Dice {
+public:
+    explicit Dice(std::uint64_t seed) : engine_{seed} {}
+    double gauss() { return normal_(engine_); }                     // zero mean, unit variance
+    double uniform() { return uniform_(engine_); }                  // [0, 1)
+    double sign() { return uniform_(engine_) < 0.5 ? -1.0 : 1.0; }  // of a coin
+    double exponential();                                           // mean 1
+
+private:
+    boost::random::mt19937_64 engine_;
+    boost::random::normal_distribution<double> normal_;
+    boost::random::uniform_01<double> uniform_;
+};
+
+inline constexpr int tones_per_band = 96;
+
+class CaseMotion {
+public:
+    CaseMotion(const MotionLaw& law, double half_s, std::uint64_t seed);
+
+    // Rotation in the next half, arcsec.
+    double advance();
+
+private:
+    void add_tone(double frequency_hz, double amplitude_arcsec_s, double phase);
+    void add_band(const Band& band);
+    double advance_tones();
+    double advance_shocks();
+
+    Dice dice_;
+    double half_s_;
+    double constant_arcsec_;
+    // Each tone is a phasor that turns by a fixed angle a half: its increment is the imaginary part.
+    std::vector<double> re_, im_, turn_re_, turn_im_;
+    Shocks shocks_;
+    std::array<double, 2> ring_{};  // all blows together, as one decaying phasor: rate in arcsec/s is the second
+    double next_shock_s_ = 0.0;     // from the start of the next half
+};
+
+// Covariance of the increments of two halves that lie 0, 1, ... n - 1 apart; the constant rate is not in it.
+//
+// The expectation of the law itself: a band is integrated, not summed over the tones that stand for it.
+[[nodiscard]] std::vector<double> increment_covariance(const MotionLaw& law, double half_s, std::size_t n);
+
+}  // namespace zlg::trials

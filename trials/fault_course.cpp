@@ -1,0 +1,87 @@
+#include "fault_course.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/wiring.hpp>
+
+namespace zlg::trials {
+namespace {
+
+bool is_finite(const core::HalfRecord& r) {
+    return std::isfinite(r.detuning_lambda) && std::isfinite(r.detuning_sq_lambda2) && std::isfinite(r.piezo_v) &&
+           std::isfinite(r.temperature_c);
+}
+
+bool is_finite(const core::ActuatorFrame& a) {
+    return std::ranges::all_of(a.set_point_v, [](double v) { return std::isfinite(v); });
+}
+
+bool is_finite(const core::AngleRow& r) {
+    return std::isfinite(r.dtheta_arcsec) && std::isfinite(r.dtheta_final_arcsec) && !std::isnan(r.sigma_arcsec);
+}
+
+class Recorder {
+public:
+    Recorder(const config::Config& config, double end_s)
+        : compensation_{rig::compensation_config(config, core::RelockMethod::mean_square, config.compensation.bridge)},
+          loop_{config, rig::motion(config)},
+          n_ticks_{std::llround(end_s / config.gyro.tick_s)} {}
+
+    Course record() {
+        for (std::int64_t tick = 0; tick < n_ticks_; ++tick) take_tick();
+        for (auto out = drain(compensation_, state_); out.has_row || out.has_gap; out = drain(compensation_, state_)) {
+            if (out.has_row) take_row(out.row);
+            if (out.has_gap) course_.gaps.push_back(out.gap);
+        }
+        return std::move(course_);
+    }
+
+private:
+    void take_tick() {
+        double turned_arcsec = 0.0;
+        bool lit = true;
+        double detuning_lambda = 0.0;
+        for (int k = 0; k < 2; ++k) {
+            const rig::LoopHalf half = loop_.advance();
+            course_.health.push_back(half.control.health);
+            course_.half_valid.push_back(half.record.valid);
+            course_.not_finite |= !is_finite(half.record) || !is_finite(half.control.actuator);
+            turned_arcsec += half.truth.dtheta_arcsec;
+            lit = lit && half.truth.lit;
+            detuning_lambda = half.truth.detuning_end_lambda;
+            take(step(compensation_, state_, half.record));
+        }
+        course_.true_arcsec.push_back(turned_arcsec);
+        course_.lit.push_back(lit);
+        course_.detuning_lambda.push_back(detuning_lambda);
+    }
+
+    void take(const core::CompensationOutput& out) {
+        course_.not_finite |= !std::isfinite(out.angle_arcsec);
+        if (!out.has_sample) return;
+        course_.not_finite |= !std::isfinite(out.sample.dtheta_arcsec);
+        if (out.sample.has_final) take_row(out.sample.final_row);
+        if (out.sample.has_gap) course_.gaps.push_back(out.sample.gap);
+    }
+
+    void take_row(const core::AngleRow& row) {
+        course_.not_finite |= !is_finite(row);
+        course_.rows.push_back(row);
+    }
+
+    core::GyroCompensationConfig compensation_;
+    core::GyroCompensationState state_{};
+    rig::ClosedLoop loop_;
+    std::int64_t n_ticks_;
+    Course course_;
+};
+
+}  // namespace
+
+Course course_of(const config::Config& config, double end_s) { return Recorder{config, end_s}.record(); }
+
+}  // namespace zlg::trials

@@ -1,0 +1,214 @@
+#include <zlg/trials/noise_campaign.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace zlg::trials {
+namespace {
+
+using analysis::FittedTerm;
+using analysis::NoiseKind;
+using std::numbers::pi;
+
+constexpr std::size_t n_kinds = 7;
+constexpr std::size_t markov_time = 7, sine_frequency = 8, n_scores = 9;
+constexpr std::array<const char*, n_scores> score_names{
+    "quantisation",      "angle random walk",   "bias instability", "rate random walk",   "ramp",
+    "Markov, deviation", "sinusoid, amplitude", "Markov, time",     "sinusoid, frequency"};
+
+// Random numbers of one gyro.
+class Dice {
+public:
+    explicit Dice(std::uint64_t seed) : engine_(seed) {}
+    double normal() { return normal_(engine_); }
+    double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
+    bool coin() { return uniform(0.0, 1.0) < 0.5; }
+    // Evenly in the logarithm.
+    double scale(double from, double to) { return from * std::exp(uniform(0.0, std::log(to / from))); }
+
+private:
+    std::mt19937_64 engine_;
+    std::normal_distribution<double> normal_;
+};
+
+// One sample a second, angle random walk 1.
+struct RandomGyro {
+    std::array<bool, n_kinds> has{};
+    std::array<double, n_kinds> value{};
+    double time_s = 1.0;
+    double frequency_hz = 0.1;
+
+    [[nodiscard]] bool of(NoiseKind kind) const { return has[static_cast<std::size_t>(kind)]; }
+    double& size(NoiseKind kind) { return value[static_cast<std::size_t>(kind)]; }
+    [[nodiscard]] double size(NoiseKind kind) const { return value[static_cast<std::size_t>(kind)]; }
+};
+
+RandomGyro draw(Dice& dice, double n) {
+    RandomGyro g;
+    for (bool& has : g.has) has = dice.coin();
+    g.has[static_cast<std::size_t>(NoiseKind::angle_random_walk)] = true;
+    if (g.of(NoiseKind::bias_instability) && g.of(NoiseKind::markov))
+        g.has[static_cast<std::size_t>(dice.coin() ? NoiseKind::bias_instability : NoiseKind::markov)] = false;
+    g.size(NoiseKind::angle_random_walk) = 1.0;
+    // 3 Q^2/tau^2 = 1/tau, K^2 tau/3 = 1/tau
+    g.size(NoiseKind::quantisation) = std::sqrt(dice.scale(2.0, 16.0) / 3.0);
+    const double crossing_s = dice.scale(n / 1024.0, n / 64.0);
+    g.size(NoiseKind::rate_random_walk) = std::sqrt(3.0) / crossing_s;
+    const double lowest = g.of(NoiseKind::rate_random_walk) ? 2.0 / crossing_s : 32.0 / n;
+    g.size(NoiseKind::bias_instability) = dice.uniform(1.5, 3.0) * std::sqrt(lowest) / 0.664;
+    g.time_s = dice.scale(16.0, n / 256.0);
+    g.size(NoiseKind::markov) = std::sqrt(dice.uniform(3.0, 30.0) / g.time_s);
+    g.frequency_hz = dice.scale(64.0 / n, 0.4);
+    const analysis::NoiseTerms noise{
+        .angle_random_walk_arcsec_sqrt_s = 1.0,
+        .bias_instability_arcsec_s = g.of(NoiseKind::bias_instability) ? g.size(NoiseKind::bias_instability) : 0.0,
+        .rate_random_walk_arcsec_s_sqrt_s =
+            g.of(NoiseKind::rate_random_walk) ? g.size(NoiseKind::rate_random_walk) : 0.0,
+        .markov = {
+            {.deviation_arcsec_s = g.of(NoiseKind::markov) ? g.size(NoiseKind::markov) : 0.0, .time_s = g.time_s}}};
+    // A line of amplitude A stands against noise of the spectrum S by A^2 T/(2 S); a ramp against the noise of the longest times.
+    g.size(NoiseKind::sine) =
+        dice.uniform(6.0, 40.0) * std::sqrt(2.0 * analysis::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
+    g.size(NoiseKind::ramp) = (dice.coin() ? 1.0 : -1.0) * dice.uniform(6.0, 40.0) * 2.0 *
+                              std::sqrt(analysis::allan_variance(noise, n / 2.0)) / n;
+    return g;
+}
+
+// Means over the samples of an exponentially correlated rate: value and integral together.
+void add_markov(std::vector<double>& rates, double deviation, double time_s, Dice& dice) {
+    const double a = std::exp(-1.0 / time_s), loss = -std::expm1(-1.0 / time_s);
+    const double end_variance = loss * (1.0 + a);
+    const double both = time_s * loss * loss;
+    const double integral_variance = time_s * time_s * (2.0 / time_s - 3.0 + 4.0 * a - a * a);
+    // For long times the difference of nearly equal numbers: to first order.
+    const double inside = time_s > 1e3 ? 1.0 / (6.0 * time_s) : integral_variance - both * both / end_variance;
+    double b = dice.normal();
+    for (double& r : rates) {
+        const double end = std::sqrt(end_variance) * dice.normal();
+        r += deviation *
+             (b * time_s * loss + both / end_variance * end + std::sqrt(std::max(0.0, inside)) * dice.normal());
+        b = a * b + end;
+    }
+}
+
+std::vector<double> simulate(const RandomGyro& g, std::size_t n, Dice& dice) {
+    std::vector<double> rates(n, 0.0);
+    for (double& r : rates) r += dice.normal();
+    if (g.of(NoiseKind::quantisation)) {
+        double before = dice.normal();
+        for (double& r : rates) {
+            const double now = dice.normal();
+            r += g.size(NoiseKind::quantisation) * (now - before);
+            before = now;
+        }
+    }
+    // 1/f is the sum of such processes with times an octave apart, from far below a sample on.
+    if (g.of(NoiseKind::bias_instability))
+        for (double t = 1.0 / 64.0; t < 200.0 * static_cast<double>(n); t *= 2.0)
+            add_markov(rates, g.size(NoiseKind::bias_instability) * std::sqrt(std::numbers::ln2 / pi), t, dice);
+    if (g.of(NoiseKind::rate_random_walk)) {
+        double rate = 0.0;
+        for (double& r : rates) {
+            const double end = dice.normal(), within = dice.normal();
+            r += rate + g.size(NoiseKind::rate_random_walk) * (0.5 * end + within / std::sqrt(12.0));
+            rate += g.size(NoiseKind::rate_random_walk) * end;
+        }
+    }
+    if (g.of(NoiseKind::markov)) add_markov(rates, g.size(NoiseKind::markov), g.time_s, dice);
+    const double phase = dice.uniform(0.0, 2.0 * pi), x = pi * g.frequency_hz;
+    for (std::size_t k = 0; k < n; ++k) {
+        const double t = static_cast<double>(k) + 0.5;
+        if (g.of(NoiseKind::ramp)) rates[k] += g.size(NoiseKind::ramp) * t;
+        if (g.of(NoiseKind::sine))
+            rates[k] += g.size(NoiseKind::sine) * std::sin(x) / x * std::cos(2.0 * x * t + phase);
+    }
+    return rates;
+}
+
+void add_error(TermScore& score, double error) {
+    score.mean += error;
+    score.mean_square += error * error;
+    score.within_1 += std::abs(error) < 1.0 ? 1.0 : 0.0;
+    score.within_2 += std::abs(error) < 2.0 ? 1.0 : 0.0;
+}
+
+void judge_sines(const RandomGyro& g, const analysis::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
+    const auto kind = static_cast<std::size_t>(NoiseKind::sine);
+    TermScore& score = scores[kind];
+    bool found = false, false_found = false;
+    for (const FittedTerm& t : fit.fitted) {
+        if (t.kind != NoiseKind::sine || !t.found) continue;
+        const bool is_it = g.of(NoiseKind::sine) && std::abs(t.second - g.frequency_hz) < 2.0 / n;
+        (is_it ? found : false_found) = true;
+        if (!is_it) continue;
+        add_error(score, (t.value - g.value[kind]) / t.sigma);
+        add_error(scores[sine_frequency], (t.second - g.frequency_hz) / t.second_sigma);
+    }
+    score.present += g.of(NoiseKind::sine) ? 1 : 0;
+    score.found += found ? 1 : 0;
+    score.absent += g.of(NoiseKind::sine) ? 0 : 1;
+    score.false_found += false_found ? 1 : 0;
+}
+
+void judge(const RandomGyro& g, const analysis::NoiseFit& fit, std::vector<TermScore>& scores) {
+    for (const FittedTerm& t : fit.fitted) {
+        if (t.kind == NoiseKind::sine) continue;
+        const auto kind = static_cast<std::size_t>(t.kind);
+        TermScore& score = scores[kind];
+        if (!g.has[kind]) {
+            ++score.absent;
+            score.false_found += t.found ? 1 : 0;
+            continue;
+        }
+        ++score.present;
+        if (!t.found) continue;
+        ++score.found;
+        add_error(score, (t.value - g.value[kind]) / t.sigma);
+        if (t.kind == NoiseKind::markov) add_error(scores[markov_time], (t.second - g.time_s) / t.second_sigma);
+    }
+}
+
+}  // namespace
+
+NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
+    NoiseCampaign campaign;
+    for (const char* name : score_names) campaign.terms.push_back({.name = name});
+    const auto n = static_cast<double>(task.n_samples);
+    for (int k = 0; k < task.n_gyros; ++k) {
+        Dice dice(task.seed * 1'000'003 + static_cast<std::uint64_t>(k));
+        const RandomGyro gyro = draw(dice, n);
+        std::vector<double> rates = simulate(gyro, static_cast<std::size_t>(task.n_samples), dice);
+        const auto fit = analysis::fit_noise_in_place(rates, 1.0);
+        judge(gyro, fit, campaign.terms);
+        judge_sines(gyro, fit, n, campaign.terms);
+        campaign.low_probability += fit.probability < 0.05 ? 1.0 / task.n_gyros : 0.0;
+    }
+    for (const auto& [second, first] :
+         {std::pair{markov_time, NoiseKind::markov}, std::pair{sine_frequency, NoiseKind::sine}}) {
+        const TermScore& of = campaign.terms[static_cast<std::size_t>(first)];
+        campaign.terms[second].present = of.present;
+        campaign.terms[second].found = of.found;
+    }
+    for (TermScore& score : campaign.terms)
+        for (double* sum : {&score.mean, &score.mean_square, &score.within_1, &score.within_2})
+            *sum /= std::max(1, score.found);
+    return campaign;
+}
+
+std::string campaign_text(const NoiseCampaign& campaign) {
+    std::string text =
+        "| term | there | found | not there | found falsely | mean error/sigma | mean square | within 1 | within 2 |\n"
+        "|---|---|---|---|---|---|---|---|---|\n";
+    for (const TermScore& s : campaign.terms)
+        text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} |\n", s.name, s.present,
+                            s.found, s.absent, s.false_found, s.mean, s.mean_square, s.within_1, s.within_2);
+    return text + fmt::format("\nGoodness below 0.05 in {:.3f} of the fits.\n", campaign.low_probability);
+}
+
+}  // namespace zlg::trials
