@@ -19,15 +19,15 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <zlg/analysis/angle_samples.hpp>
-#include <zlg/analysis/averaging.hpp>
-#include <zlg/analysis/deviation.hpp>
+#include <zlg/deviations/angle_samples.hpp>
+#include <zlg/deviations/averaging.hpp>
+#include <zlg/deviations/deviation.hpp>
 #include <zlg/logs/angle_log.hpp>
 
 namespace {
 
 using namespace zlg;
-using namespace zlg::analysis;
+using namespace zlg::deviations;
 
 constexpr double tick_s = 0.005;
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
 #include <mutex>
-#include <thread>
+
+#include <zlg/numeric/parallel.hpp>
 
 #include "accuracy_bound.hpp"
 #include "accuracy_parts.hpp"
@@ -67,7 +67,7 @@ std::vector<CaseFigures> measure_cases(const AccuracyTask& task) {
     std::vector<CourseErrors> errors(jobs.size());
     std::atomic<std::size_t> done = 0;
     std::mutex telling;
-    share_out(jobs.size(), task.threads, [&](std::size_t k) {
+    numeric::in_parallel(jobs.size(), task.threads, [&](std::size_t k) {
         const AccuracyCase& c = cases[jobs[k].of_case];
         errors[k] = run_course(jobs[k].course, methods_for(c.gyro, c.methods));
         const double share = static_cast<double>(++done) / static_cast<double>(jobs.size());
@@ -75,7 +75,7 @@ std::vector<CaseFigures> measure_cases(const AccuracyTask& task) {
         if (task.on_progress) task.on_progress(share);
     });
     std::vector<CaseFigures> figures(cases.size());
-    share_out(cases.size(), task.threads, [&](std::size_t c) {
+    numeric::in_parallel(cases.size(), task.threads, [&](std::size_t c) {
         std::vector<const CourseErrors*> of_case;
         for (std::size_t k = 0; k < jobs.size(); ++k)
             if (jobs[k].of_case == c) of_case.push_back(&errors[k]);
@@ -85,28 +85,6 @@ std::vector<CaseFigures> measure_cases(const AccuracyTask& task) {
 }
 
 }  // namespace
-
-void share_out(std::size_t n, int threads, const std::function<void(std::size_t)>& work) {
-    std::atomic<std::size_t> next = 0;
-    std::exception_ptr failure;
-    std::mutex failing;
-    const auto run = [&] {
-        for (std::size_t k = next++; k < n; k = next++) {
-            try {
-                work(k);
-            } catch (...) {
-                const std::scoped_lock lock{failing};
-                if (!failure) failure = std::current_exception();
-            }
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (int t = 1; t < threads; ++t) others.emplace_back(run);
-        run();
-    }
-    if (failure) std::rethrow_exception(failure);
-}
 
 Accuracy measure_accuracy(const AccuracyTask& task) {
     Accuracy accuracy{

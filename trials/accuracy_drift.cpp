@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <zlg/numeric/parallel.hpp>
 
 #include "accuracy_gyro.hpp"
 #include "accuracy_parts.hpp"
@@ -90,7 +91,7 @@ std::vector<double> rms_of(const DriftOfRuns& runs, std::size_t first, std::size
 std::vector<SwitchingDrift> measure_drift(const AccuracyTask& task) {
     const std::size_t n_runs = task.quick ? 4 : 12;
     DriftOfRuns runs(std::size(courses) * n_runs);
-    share_out(runs.size(), task.threads, [&](std::size_t k) {
+    numeric::in_parallel(runs.size(), task.threads, [&](std::size_t k) {
         const std::uint64_t seed = (task.seed << 40) + (std::uint64_t{1} << 39) + k;
         const DriftRun run = run_of(courses[k / n_runs], task.quick, seed);
         runs[k] = drift_of(run, methods_for(run.gyro, drift_methods()));

@@ -61,7 +61,4 @@ inline constexpr int switches_per_course = 20;
 
 [[nodiscard]] const MethodFigures* find_method(const std::vector<MethodFigures>& methods, const std::string& name);
 
-// Do work(0) ... work(n - 1), each once, on so many threads.
-void share_out(std::size_t n, int threads, const std::function<void(std::size_t)>& work);
-
 }  // namespace zlg::trials

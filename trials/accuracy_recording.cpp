@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include <zlg/core/gyro_compensation.hpp>
+#include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/motion.hpp>
 
@@ -199,7 +200,7 @@ RecordingFigures measure_recording(const Recording& recording) {
 std::vector<RecordingFigures> measure_journeys(const AccuracyTask& task) {
     const std::vector<Journey> all = journeys(task.quick, task.seed);
     std::vector<RecordingFigures> figures(all.size());
-    share_out(all.size(), task.threads, [&](std::size_t k) {
+    numeric::in_parallel(all.size(), task.threads, [&](std::size_t k) {
         const Recording r{.name = all[k].name, .path = {}, .rate_hz = all[k].rate_hz};
         figures[k].name = r.name;
         figures[k].real = false;

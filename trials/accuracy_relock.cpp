@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <zlg/core/compensation/relock_profile.hpp>
+#include <zlg/numeric/parallel.hpp>
 
 #include "accuracy_bound.hpp"
 #include "accuracy_gyro.hpp"
@@ -70,7 +71,7 @@ std::vector<RelockFigures> measure_relock(const AccuracyTask& task) {
     const std::vector<GyroLaw> all = laws();
     const std::size_t trials = task.quick ? 1000 : 10000;
     std::vector<RelockFigures> figures(all.size());
-    share_out(all.size(), task.threads, [&](std::size_t c) {
+    numeric::in_parallel(all.size(), task.threads, [&](std::size_t c) {
         std::vector<SwitchError> errors;
         for (std::size_t k = 0; k < trials; ++k) errors.push_back(trial_of(all[c], (task.seed << 40) + (c << 30) + k));
         figures[c] = {.name = fmt::format("{}, miss {}", loop_name(all[c].loop), all[c].miss_lambda),

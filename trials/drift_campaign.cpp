@@ -1,15 +1,13 @@
 #include <zlg/trials/drift_campaign.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <mutex>
 #include <random>
-#include <thread>
 
 #include <fmt/format.h>
 
+#include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -154,29 +152,13 @@ std::vector<DriftFigures> figures_of(const DriftCampaign& campaign, const std::v
 std::vector<DriftFigures> run(const DriftCampaign& campaign, const std::function<void(std::int64_t)>& done) {
     const auto seeds = static_cast<std::size_t>(campaign.seeds);
     std::vector<RunOfGyro> runs(campaign.gyros.size() * seeds);
-    std::atomic<std::size_t> next = 0;
     std::mutex mutex;
     std::int64_t n_done = 0;
-    std::exception_ptr failure;
-    const auto work = [&] {
-        for (std::size_t k = next++; k < runs.size(); k = next++) {
-            try {
-                runs[k] = run_one(campaign, campaign.gyros[k / seeds], campaign.first_seed + k % seeds);
-            } catch (...) {
-                const std::lock_guard lock{mutex};
-                failure = std::current_exception();
-                next = runs.size();
-            }
-            const std::lock_guard lock{mutex};
-            if (done) done(++n_done);
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (int t = 1; t < campaign.threads; ++t) others.emplace_back(work);
-        work();
-    }
-    if (failure) std::rethrow_exception(failure);
+    numeric::in_parallel(runs.size(), campaign.threads, [&](std::size_t k) {
+        runs[k] = run_one(campaign, campaign.gyros[k / seeds], campaign.first_seed + k % seeds);
+        const std::lock_guard lock{mutex};
+        if (done) done(++n_done);
+    });
     return figures_of(campaign, runs);
 }
 

@@ -1,11 +1,10 @@
 #include <zlg/trials/fault_campaign.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 #include <fmt/format.h>
+#include <zlg/numeric/parallel.hpp>
 
 namespace zlg::trials {
 namespace {
@@ -41,16 +40,9 @@ std::vector<Job> jobs_of(const std::vector<std::optional<twin::FaultKind>>& kind
 
 std::vector<FaultOutcome> outcomes_of(const std::vector<Job>& jobs, int threads, config::Fidelity fidelity) {
     std::vector<FaultOutcome> outcomes(jobs.size());
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t k = next++; k < jobs.size(); k = next++)
-            outcomes[k] = run(random_trial(jobs[k].kind, jobs[k].seed, fidelity, jobs[k].two_at_once));
-    };
-    {
-        std::vector<std::jthread> others;
-        for (int t = 1; t < threads; ++t) others.emplace_back(work);
-        work();
-    }
+    numeric::in_parallel(jobs.size(), threads, [&](std::size_t k) {
+        outcomes[k] = run(random_trial(jobs[k].kind, jobs[k].seed, fidelity, jobs[k].two_at_once));
+    });
     return outcomes;
 }
 

@@ -12,8 +12,8 @@
 namespace zlg::trials {
 namespace {
 
-using analysis::FittedTerm;
-using analysis::NoiseKind;
+using noise::FittedTerm;
+using noise::NoiseKind;
 using std::numbers::pi;
 
 constexpr std::size_t n_kinds = 7;
@@ -65,7 +65,7 @@ RandomGyro draw(Dice& dice, double n) {
     g.time_s = dice.scale(16.0, n / 256.0);
     g.size(NoiseKind::markov) = std::sqrt(dice.uniform(3.0, 30.0) / g.time_s);
     g.frequency_hz = dice.scale(64.0 / n, 0.4);
-    const analysis::NoiseTerms noise{
+    const noise::NoiseTerms noise{
         .angle_random_walk_arcsec_sqrt_s = 1.0,
         .bias_instability_arcsec_s = g.of(NoiseKind::bias_instability) ? g.size(NoiseKind::bias_instability) : 0.0,
         .rate_random_walk_arcsec_s_sqrt_s =
@@ -74,9 +74,9 @@ RandomGyro draw(Dice& dice, double n) {
             {.deviation_arcsec_s = g.of(NoiseKind::markov) ? g.size(NoiseKind::markov) : 0.0, .time_s = g.time_s}}};
     // A line of amplitude A stands against noise of the spectrum S by A^2 T/(2 S); a ramp against the noise of the longest times.
     g.size(NoiseKind::sine) =
-        dice.uniform(6.0, 40.0) * std::sqrt(2.0 * analysis::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
+        dice.uniform(6.0, 40.0) * std::sqrt(2.0 * noise::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
     g.size(NoiseKind::ramp) = (dice.coin() ? 1.0 : -1.0) * dice.uniform(6.0, 40.0) * 2.0 *
-                              std::sqrt(analysis::allan_variance(noise, n / 2.0)) / n;
+                              std::sqrt(noise::allan_variance(noise, n / 2.0)) / n;
     return g;
 }
 
@@ -138,7 +138,7 @@ void add_error(TermScore& score, double error) {
     score.within_2 += std::abs(error) < 2.0 ? 1.0 : 0.0;
 }
 
-void judge_sines(const RandomGyro& g, const analysis::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
+void judge_sines(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
     const auto kind = static_cast<std::size_t>(NoiseKind::sine);
     TermScore& score = scores[kind];
     bool found = false, false_found = false;
@@ -156,7 +156,7 @@ void judge_sines(const RandomGyro& g, const analysis::NoiseFit& fit, double n, s
     score.false_found += false_found ? 1 : 0;
 }
 
-void judge(const RandomGyro& g, const analysis::NoiseFit& fit, std::vector<TermScore>& scores) {
+void judge(const RandomGyro& g, const noise::NoiseFit& fit, std::vector<TermScore>& scores) {
     for (const FittedTerm& t : fit.fitted) {
         if (t.kind == NoiseKind::sine) continue;
         const auto kind = static_cast<std::size_t>(t.kind);
@@ -184,7 +184,7 @@ NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
         Dice dice(task.seed * 1'000'003 + static_cast<std::uint64_t>(k));
         const RandomGyro gyro = draw(dice, n);
         std::vector<double> rates = simulate(gyro, static_cast<std::size_t>(task.n_samples), dice);
-        const auto fit = analysis::fit_noise_in_place(rates, 1.0);
+        const auto fit = noise::fit_noise_in_place(rates, 1.0);
         judge(gyro, fit, campaign.terms);
         judge_sines(gyro, fit, n, campaign.terms);
         campaign.low_probability += fit.probability < 0.05 ? 1.0 / task.n_gyros : 0.0;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "accuracy_gyro.hpp"
@@ -178,7 +179,7 @@ std::vector<SigmaFigures> run_sigma_campaign(const SigmaTask& task) {
         const MotionClass& of = classes[c];
         const auto n = static_cast<std::size_t>(std::max(1.0, std::round(task.share * of.gyros)));
         std::vector<Errors> gyros(n);
-        share_out(n, task.threads, [&](std::size_t k) {
+        numeric::in_parallel(n, task.threads, [&](std::size_t k) {
             gyros[k] = errors_of(of, (task.seed << 40) + (static_cast<std::uint64_t>(c) << 24) + k);
         });
         gather(of, gyros, without_miss, &Errors::without, figures);

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <zlg/analysis/noise_units.hpp>
+#include <zlg/noise/noise_units.hpp>
 #include <zlg/study/term_text.hpp>
 
 #include "analysis_text.hpp"
@@ -13,9 +13,9 @@ using study::AxisResult;
 
 json number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
 
-json curve_json(const analysis::DeviationCurve& curve) {
+json curve_json(const deviations::DeviationCurve& curve) {
     json points = json::array();
-    const bool is_total = analysis::is_total(curve.kind);
+    const bool is_total = deviations::is_total(curve.kind);
     for (const auto& p : curve.points) {
         points.push_back({{"tau_s", p.tau_s},
                           {"m", p.m},
@@ -27,19 +27,19 @@ json curve_json(const analysis::DeviationCurve& curve) {
                           {"noise", p.noise}});
         if (is_total) points.back()["as_computed"] = number(p.as_computed);
     }
-    json j{{"kind", analysis::name_of(curve.kind)},
-           {"unit", curve.kind == analysis::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
+    json j{{"kind", deviations::name_of(curve.kind)},
+           {"unit", curve.kind == deviations::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
            {"confidence", curve.confidence},
            {"points", points}};
-    if (is_total) j["total_bias"] = analysis::name_of(curve.total_bias);
+    if (is_total) j["total_bias"] = deviations::name_of(curve.total_bias);
     return j;
 }
 
-json term_json(const analysis::FittedTerm& term) {
+json term_json(const noise::FittedTerm& term) {
     const study::ShownTerm in = study::shown_term(term.kind);
-    json j{{"term", analysis::name_of(term.kind)},
+    json j{{"term", noise::name_of(term.kind)},
            {"found", term.found},
-           {"unit", analysis::unit_of(term.kind)},
+           {"unit", noise::unit_of(term.kind)},
            {"value", number(term.value)},
            {"sigma", number(term.sigma)},
            {"limit_95", number(term.limit)},
@@ -49,16 +49,16 @@ json term_json(const analysis::FittedTerm& term) {
              {"value", number(term.value * in.factor)},
              {"sigma", number(term.sigma * in.factor)},
              {"limit_95", number(term.limit * in.factor)}}}};
-    if (term.kind == analysis::NoiseKind::markov)
+    if (term.kind == noise::NoiseKind::markov)
         j["time_s"] = number(term.second), j["time_sigma_s"] = number(term.second_sigma);
-    if (term.kind == analysis::NoiseKind::sine)
+    if (term.kind == noise::NoiseKind::sine)
         j["frequency_hz"] = number(term.second), j["frequency_sigma_hz"] = number(term.second_sigma);
     return j;
 }
 
 // Without sinusoids and Markov terms, for which a data sheet has no line.
-json sheet_json(const analysis::NoiseTerms& terms) {
-    const analysis::DataSheet s = analysis::data_sheet(terms);
+json sheet_json(const noise::NoiseTerms& terms) {
+    const noise::DataSheet s = noise::data_sheet(terms);
     return {{"quantisation_arcsec", s.quantisation_arcsec},
             {"angle_random_walk_deg_sqrt_h", s.angle_random_walk_deg_sqrt_h},
             {"bias_instability_deg_h", s.bias_instability_deg_h},
@@ -66,8 +66,8 @@ json sheet_json(const analysis::NoiseTerms& terms) {
             {"ramp_deg_h_h", s.ramp_deg_h_h}};
 }
 
-json discrete_json(const analysis::NoiseTerms& terms, double rate_hz) {
-    const analysis::DiscreteNoise d = analysis::discrete_noise(terms, rate_hz);
+json discrete_json(const noise::NoiseTerms& terms, double rate_hz) {
+    const noise::DiscreteNoise d = noise::discrete_noise(terms, rate_hz);
     return {{"rate_hz", rate_hz},
             {"white_rate_arcsec_s", d.white_rate_arcsec_s},
             {"white_increment_arcsec", d.white_increment_arcsec},
@@ -96,13 +96,13 @@ json fit_json(const AxisResult& axis) {
             {"describes", axis.fit->describes}};
 }
 
-json estimate_json(const analysis::Estimate& e) {
+json estimate_json(const numeric::Estimate& e) {
     if (!e.determined) return {{"determined", false}, {"reason", e.reason}};
     return {{"determined", true}, {"value", e.value}, {"sigma", e.sigma}};
 }
 
 json modes_json(const AxisResult& axis) {
-    const analysis::ModeSplit& m = *axis.modes;
+    const noise::ModeSplit& m = *axis.modes;
     json segments = json::array(), switches = json::array(), curves = json::array();
     for (const auto& s : m.segments)
         segments.push_back({{"mode", s.mode},
@@ -136,7 +136,7 @@ json axis_json(const AxisResult& axis) {
     for (const auto& r : axis.readouts)
         readouts.push_back({{"what", r.what},
                             {"tau_s", r.tau_s},
-                            {"kind", analysis::name_of(axis.allan.kind)},
+                            {"kind", deviations::name_of(axis.allan.kind)},
                             {"deviation", r.deviation_arcsec_s},
                             {"unit", "arcsec/s"}});
     json j{{"name", axis.name},
@@ -156,7 +156,7 @@ json axis_json(const AxisResult& axis) {
 }
 
 json table_json(const study::TableResult& test) {
-    const analysis::RateTable& r = test.table;
+    const calibration::RateTable& r = test.table;
     json stages = json::array();
     for (const auto& s : r.stages)
         stages.push_back({{"input_arcsec_s", s.input_arcsec_s},

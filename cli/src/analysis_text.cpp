@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/analysis/noise_units.hpp>
+#include <zlg/noise/noise_units.hpp>
 #include <zlg/study/term_text.hpp>
 
 #include "output.hpp"
@@ -15,12 +15,12 @@ namespace {
 using study::AxisResult;
 
 // tdev is an angle.
-std::string unit_of(const analysis::DeviationCurve& curve, const config::Analysis& config) {
-    return curve.kind == analysis::DeviationKind::tdev ? "arcsec" : study::shown_unit(config.unit);
+std::string unit_of(const deviations::DeviationCurve& curve, const config::Analysis& config) {
+    return curve.kind == deviations::DeviationKind::tdev ? "arcsec" : study::shown_unit(config.unit);
 }
 
-double shown(const analysis::DeviationCurve& curve, const config::Analysis& config, double value) {
-    return curve.kind == analysis::DeviationKind::tdev ? value : study::shown_rate(config.unit, value);
+double shown(const deviations::DeviationCurve& curve, const config::Analysis& config, double value) {
+    return curve.kind == deviations::DeviationKind::tdev ? value : study::shown_rate(config.unit, value);
 }
 
 std::string head_text(const config::Analysis& config, const AxisResult& axis) {
@@ -34,23 +34,23 @@ std::string head_text(const config::Analysis& config, const AxisResult& axis) {
     return text;
 }
 
-std::string bias_text(analysis::TotalBias bias) {
+std::string bias_text(deviations::TotalBias bias) {
     switch (bias) {
-        case analysis::TotalBias::removed:
+        case deviations::TotalBias::removed:
             return "bias of mirroring removed";
-        case analysis::TotalBias::published:
+        case deviations::TotalBias::published:
             return "bias of mirroring removed as published";
-        case analysis::TotalBias::as_computed:
+        case deviations::TotalBias::as_computed:
             break;
     }
     return "as computed, with the bias of mirroring";
 }
 
-std::string curve_text(const config::Analysis& config, const analysis::DeviationCurve& curve) {
-    const bool is_total = analysis::is_total(curve.kind);
+std::string curve_text(const config::Analysis& config, const deviations::DeviationCurve& curve) {
+    const bool is_total = deviations::is_total(curve.kind);
     std::string text =
         fmt::format("  {}, {}{}; intervals of {:g} %\n  {:>12} {:>10} {:>12} {:>12} {:>12} {:>9} {:>6}{}\n",
-                    analysis::name_of(curve.kind), unit_of(curve, config),
+                    deviations::name_of(curve.kind), unit_of(curve, config),
                     is_total ? ", " + bias_text(curve.total_bias) : "", 100.0 * curve.confidence, "tau, s", "n",
                     "sigma", "low", "high", "edf", "noise", is_total ? fmt::format(" {:>12}", "as computed") : "");
     for (const auto& p : curve.points) {
@@ -68,7 +68,7 @@ std::string fit_text(const AxisResult& axis) {
     for (const auto& term : axis.fit->fitted) {
         const std::string where =
             term.found && std::isfinite(term.read_at_s) ? fmt::format("   read at {:.4g} s", term.read_at_s) : "";
-        text += fmt::format("    {:<24} {}{}\n", analysis::name_of(term.kind), study::value_text(term), where);
+        text += fmt::format("    {:<24} {}{}\n", noise::name_of(term.kind), study::value_text(term), where);
     }
     text += fmt::format("    chi-square {:.3g} of {} degrees of freedom, probability {:.2g}\n", axis.fit->chi2,
                         axis.fit->dof, axis.fit->probability);
@@ -82,21 +82,21 @@ std::string fit_text(const AxisResult& axis) {
 
 std::string readout_text(const config::Analysis& config, const AxisResult& axis) {
     if (axis.readouts.empty()) return "";
-    std::string text = fmt::format("  readouts of {}\n", analysis::name_of(axis.allan.kind));
+    std::string text = fmt::format("  readouts of {}\n", deviations::name_of(axis.allan.kind));
     for (const auto& r : axis.readouts)
         text += fmt::format("    {:<44} tau {:>10.5g} s   {:.4g} {}\n", r.what, r.tau_s,
                             study::shown_rate(config.unit, r.deviation_arcsec_s), study::shown_unit(config.unit));
     return text;
 }
 
-std::string estimate_text(const char* what, const analysis::Estimate& e, const char* unit) {
+std::string estimate_text(const char* what, const numeric::Estimate& e, const char* unit) {
     return e.determined ? fmt::format("    {:<24} {} {}\n", what, study::with_error(e.value, e.sigma), unit)
                         : fmt::format("    {:<24} not determined: {}\n", what, e.reason);
 }
 
 std::string modes_text(const AxisResult& axis) {
     if (!axis.modes || axis.modes->segments.size() < 2) return "";
-    const analysis::ModeSplit& m = *axis.modes;
+    const noise::ModeSplit& m = *axis.modes;
     std::string text = fmt::format("  modes: {} segments\n", m.segments.size());
     text += estimate_text("non-magnetic drift", m.nonmagnetic_arcsec_s, "deg/h");
     text += estimate_text("magnetic, at the start", m.magnetic_arcsec_s, "deg/h");
@@ -129,13 +129,13 @@ std::string earth_text(const config::Analysis& config, const study::AnalysisResu
 }
 
 std::string presumed_text(const study::PresumedNoise& presumed) {
-    const analysis::DataSheet sheet = analysis::data_sheet(presumed.terms);
+    const noise::DataSheet sheet = noise::data_sheet(presumed.terms);
     return fmt::format("{} presumes {:.4g} deg/sqrt(h) and {:.4g} deg/h/sqrt(h)\n", printable(presumed.name),
                        sheet.angle_random_walk_deg_sqrt_h, sheet.rate_random_walk_deg_h_sqrt_h);
 }
 
 std::string table_text(const study::TableResult& test) {
-    const analysis::RateTable& r = test.table;
+    const calibration::RateTable& r = test.table;
     std::string text =
         fmt::format("{}: {}\n  {} stages of a rate table\n", printable(test.name), test.holds, r.stages.size());
     text += fmt::format("  {:>16} {:>18} {:>12} {:>10} {:>14}\n", "input, deg/h", "output, units/s", "sigma", "n",

@@ -9,7 +9,7 @@
 namespace zlg::cli {
 namespace {
 
-using analysis::Constant;
+using calibration::Constant;
 using nlohmann::json;
 
 // No key of a configuration: it says how to renew two of them.
@@ -80,7 +80,7 @@ std::vector<double> signals(const CalibrationResult& result) {
 }
 
 std::string curve_section(const CalibrationResult& result) {
-    const analysis::LossCurve& curve = result.calibration.curve;
+    const calibration::LossCurve& curve = result.calibration.curve;
     if (!curve.determined)
         return fmt::format("# {}: not determined: {}\n", name_of(std::string{curve_name}), curve.reason);
     return "# The inverse discriminator; bias_chi above holds with it, in the wavelengths of "
@@ -90,7 +90,7 @@ std::string curve_section(const CalibrationResult& result) {
 }
 
 std::string curve_text(const CalibrationResult& result) {
-    const analysis::LossCurve& curve = result.calibration.curve;
+    const calibration::LossCurve& curve = result.calibration.curve;
     if (!curve.determined) return fmt::format("{}: not determined: {}\n", curve_name, curve.reason);
     std::string text = fmt::format("\n{:<46}{:>16}{:>12}  lambda\n", "discriminator: signal", "detuning", "+-");
     const std::vector<double> signal = signals(result);
@@ -145,7 +145,7 @@ std::string calibration_text(const CalibrationResult& result) {
         if (!c.estimate.determined) text += fmt::format("{}: not determined: {}\n", c.key, c.estimate.reason);
     text += curve_text(result);
     text += "\ngoodness of fit\n";
-    for (const analysis::Goodness& g : result.calibration.goodness)
+    for (const calibration::Goodness& g : result.calibration.goodness)
         text += fmt::format("{:<46}{:>16.4g}  {}\n", g.name, g.value, g.meaning);
     text += "\nlogs\n";
     for (const CalibrationFile& f : result.files)
@@ -180,7 +180,7 @@ json calibration_json(const CalibrationResult& result) {
         else
             not_determined[c.key] = c.estimate.reason;
     }
-    const analysis::LossCurve& curve = result.calibration.curve;
+    const calibration::LossCurve& curve = result.calibration.curve;
     json discriminator = json::object();
     if (curve.determined)
         discriminator = {{"detuning_lambda", curve.detuning_lambda},
@@ -189,7 +189,7 @@ json calibration_json(const CalibrationResult& result) {
     else
         not_determined[std::string{curve_name}] = curve.reason;
     json goodness = json::object();
-    for (const analysis::Goodness& g : result.calibration.goodness)
+    for (const calibration::Goodness& g : result.calibration.goodness)
         goodness[g.name] = {{"value", g.value}, {"meaning", g.meaning}};
     json files = json::array();
     for (const CalibrationFile& f : result.files) {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <zlg/analysis/calibration.hpp>
+#include <zlg/calibration/calibration.hpp>
 #include <zlg/config/config.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 
@@ -24,7 +24,7 @@ struct CalibrationFile {
 };
 
 struct CalibrationResult {
-    analysis::Calibration calibration;
+    calibration::Calibration calibration;
     std::vector<CalibrationFile> files;
     config::Config config;          // tick, scale and reference temperature are those of the logs
     double slope_per_lambda = 1.0;  // with which their detunings were read

@@ -128,15 +128,15 @@ study::TableResult table_test(const config::Analysis& a, const study::AxisRecord
         throw config::ConfigError{"analysis.column_holds = \"phase\": a rate-table test takes increments or rates"};
     const double settling =
         std::min(std::ceil(a.table_settling_s * axis.rate_hz), static_cast<double>(table_rates.size()));
-    const analysis::RateTableOptions options{.same_rate_ratio = a.table_same_rate_ratio,
-                                             .settling_samples = static_cast<std::int64_t>(settling),
-                                             .earth_arcsec_s = a.table_earth_arcsec_s};
+    const calibration::RateTableOptions options{.same_rate_ratio = a.table_same_rate_ratio,
+                                                .settling_samples = static_cast<std::int64_t>(settling),
+                                                .earth_arcsec_s = a.table_earth_arcsec_s};
     try {
         return {.name = axis.name,
                 .holds = axis.holds,
-                .table = analysis::rate_table(table_rates, axis.rates_arcsec_s, options)};
-    } catch (const analysis::SeriesError& error) {
-        throw analysis::SeriesError{fmt::format("{}: {}", axis.name, error.what())};
+                .table = calibration::rate_table(table_rates, axis.rates_arcsec_s, options)};
+    } catch (const deviations::SeriesError& error) {
+        throw deviations::SeriesError{fmt::format("{}: {}", axis.name, error.what())};
     }
 }
 
@@ -160,9 +160,9 @@ config::Config read_text(const Options& options, const std::string& path, Analys
     }
     const bool is_rate = what.holds == config::TextHolds::rate;
     for (std::size_t c = 0; c < columns.size(); ++c) {
-        const analysis::DataKind kind = what.holds == config::TextHolds::phase ? analysis::DataKind::phase
-                                        : is_rate                              ? analysis::DataKind::rate
-                                                                               : analysis::DataKind::increments;
+        const deviations::DataKind kind = what.holds == config::TextHolds::phase ? deviations::DataKind::phase
+                                          : is_rate                              ? deviations::DataKind::rate
+                                                                                 : deviations::DataKind::increments;
         study::AxisRecord axis;
         axis.name = fmt::format("{}, {}", name_of_file(path), logs::described(columns[c]));
         axis.group = path;
@@ -170,9 +170,10 @@ config::Config read_text(const Options& options, const std::string& path, Analys
         axis.rate_hz = rate_hz;
         std::vector<double>& values = columns[c].values;
         scale(path, axis.name, what.scale_arcsec, values);
-        axis.rates_arcsec_s = analysis::rates_arcsec_s(
-            {.what = {kind, is_rate ? analysis::Unit::arcsec_s : analysis::Unit::arcsec, rate_hz}, .values = values});
-        if (kind == analysis::DataKind::phase) axis.phase_arcsec = std::move(values);
+        axis.rates_arcsec_s = noise::rates_arcsec_s(
+            {.what = {kind, is_rate ? deviations::Unit::arcsec_s : deviations::Unit::arcsec, rate_hz},
+             .values = values});
+        if (kind == deviations::DataKind::phase) axis.phase_arcsec = std::move(values);
         std::vector<double>{}.swap(values);
         if (on_table)
             input.tables.push_back(table_test(config.analysis, axis, table_rates));

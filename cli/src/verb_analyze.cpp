@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include <zlg/analysis/imu_yaml.hpp>
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
+#include <zlg/noise/imu_yaml.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
 
@@ -64,7 +64,7 @@ void check_usage(const AnalyzeOptions& options) {
 std::optional<study::PresumedNoise> presumed(const AnalyzeOptions& options) {
     if (options.compare.empty()) return std::nullopt;
     return study::PresumedNoise{.name = std::filesystem::path{options.compare}.filename().string(),
-                                .terms = analysis::terms_of(analysis::read_imu_yaml(options.compare))};
+                                .terms = noise::terms_of(noise::read_imu_yaml(options.compare))};
 }
 
 struct Output {
@@ -103,7 +103,7 @@ void analyze(const AnalyzeOptions& options) {
     std::vector<Output> outputs;
     if (!options.out.empty()) outputs.push_back({options.out, report::html(study::analysis_page(task.config, result))});
     if (!options.imu_yaml.empty())
-        outputs.push_back({options.imu_yaml, analysis::imu_yaml(study::kalibr_gyro(result.axes))});
+        outputs.push_back({options.imu_yaml, noise::imu_yaml(study::kalibr_gyro(result.axes))});
     write(outputs, options.force);
     print(options.json ? pretty(analysis_json(task.config, result)) : analysis_text(task.config, result));
 }

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/analysis/lab_log.hpp>
+#include <zlg/calibration/lab_log.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
@@ -34,13 +34,13 @@ struct CalibrateOptions : Options {
 };
 
 struct Lab {
-    std::vector<analysis::LabLog> logs;
+    std::vector<calibration::LabLog> logs;
     std::vector<config::Config> configs;   // of each log, with the options over it
     std::vector<config::Config> recorded;  // how its detunings were read
 };
 
-analysis::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s) {
-    analysis::LabReader reader{path, tick_s};
+calibration::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s) {
+    calibration::LabReader reader{path, tick_s};
     Progress progress;
     core::HalfRecord record;
     std::int64_t halves = 0;
@@ -99,7 +99,7 @@ bool read_by_one_slope(const Lab& lab) {
 }
 
 // Of what is to be found, only what the user says is presumed, never what a log says of itself.
-analysis::Presumed presumed(const CalibrateOptions& options, const Lab& lab) {
+calibration::Presumed presumed(const CalibrateOptions& options, const Lab& lab) {
     const config::Config& of_logs = lab.configs.front();
     config::Config said;
     if (!options.config_path.empty()) config::apply_file(said, options.config_path);
@@ -113,9 +113,9 @@ analysis::Presumed presumed(const CalibrateOptions& options, const Lab& lab) {
             .half_wave_temperature_coefficient_per_c = said.piezo.half_wave_temperature_coefficient_per_c};
 }
 
-std::vector<CalibrationFile> files_of(const std::vector<analysis::LabLog>& logs) {
+std::vector<CalibrationFile> files_of(const std::vector<calibration::LabLog>& logs) {
     std::vector<CalibrationFile> files;
-    for (const analysis::LabLog& log : logs)
+    for (const calibration::LabLog& log : logs)
         files.push_back({.path = log.name,
                          .duration_s = static_cast<double>(log.n_ticks) * log.tick_s,
                          .segments = std::ssize(log.segments),
@@ -128,9 +128,10 @@ std::vector<CalibrationFile> files_of(const std::vector<analysis::LabLog>& logs)
 
 // A bias frequency that was carried to the reference temperature from afar by a coefficient that nobody knows; empty
 // where it was not.
-std::string far_reference(const CalibrateOptions& options, const Lab& lab, const analysis::Calibration& calibration) {
+std::string far_reference(const CalibrateOptions& options, const Lab& lab,
+                          const calibration::Calibration& calibration) {
     constexpr double far_c = 5.0;
-    for (const analysis::Constant& c : calibration.constants) {
+    for (const calibration::Constant& c : calibration.constants) {
         if (c.key == "gyro.bias_hz" && !c.estimate.determined) return {};
         if (c.key == bias_coefficient && c.estimate.determined) return {};
     }
@@ -139,7 +140,7 @@ std::string far_reference(const CalibrateOptions& options, const Lab& lab, const
         if (set.starts_with(bias_coefficient)) return {};
     const double reference_c = lab.configs.front().gyro.reference_temperature_c;
     double nearest_c = std::numeric_limits<double>::infinity();
-    for (const analysis::LabLog& log : lab.logs)
+    for (const calibration::LabLog& log : lab.logs)
         if (log.has_temperature())
             nearest_c =
                 std::min(nearest_c, std::max(log.temperature_min_c - reference_c, reference_c - log.temperature_max_c));
@@ -171,8 +172,8 @@ void check_usage(const CalibrateOptions& options) {
     for (const std::string& raw : options.raws) refuse_own_input(raw, options.out);
 }
 
-bool any_determined(const analysis::Calibration& calibration) {
-    for (const analysis::Constant& c : calibration.constants)
+bool any_determined(const calibration::Calibration& calibration) {
+    for (const calibration::Constant& c : calibration.constants)
         if (c.estimate.determined) return true;
     return false;
 }
@@ -198,7 +199,7 @@ void calibrate(const CalibrateOptions& options) {
     check_agreement(options, lab);
     CalibrationResult result{.files = files_of(lab.logs), .config = lab.configs.front()};
     result.slope_per_lambda = std::abs(lab.recorded.front().gyro.discriminator_per_lambda);
-    result.calibration = analysis::calibrate(lab.logs, presumed(options, lab));
+    result.calibration = calibration::calibrate(lab.logs, presumed(options, lab));
     result.warning = far_reference(options, lab, result.calibration);
     if (!result.warning.empty()) complain("warning: " + result.warning);
     write_toml(options, calibration_toml(result));

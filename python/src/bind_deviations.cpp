@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include <zlg/analysis/angle_samples.hpp>
-#include <zlg/analysis/averaging.hpp>
-#include <zlg/analysis/deviation.hpp>
-#include <zlg/analysis/deviation_stream.hpp>
+#include <zlg/deviations/angle_samples.hpp>
+#include <zlg/deviations/averaging.hpp>
+#include <zlg/deviations/deviation.hpp>
+#include <zlg/deviations/deviation_stream.hpp>
 
 #include "analysis_dicts.hpp"
 #include "arrays.hpp"
@@ -11,20 +11,20 @@
 
 namespace zlg::python {
 
-py::dict dict_of(const analysis::DeviationCurve& curve) {
+py::dict dict_of(const deviations::DeviationCurve& curve) {
     const auto& p = curve.points;
     py::dict c;
     c["kind"] = std::string{name_of(curve.kind)};
     c["confidence"] = curve.confidence;
-    c["m"] = column(p, &analysis::DeviationPoint::m);
-    c["tau_s"] = column(p, &analysis::DeviationPoint::tau_s);
-    c["deviation"] = column(p, &analysis::DeviationPoint::deviation);
-    c["low"] = column(p, &analysis::DeviationPoint::low);
-    c["high"] = column(p, &analysis::DeviationPoint::high);
-    c["terms"] = column(p, &analysis::DeviationPoint::terms);
-    c["edf"] = column(p, [](const analysis::DeviationPoint& each) { return each.law.edf; });
-    c["noise"] = column(p, &analysis::DeviationPoint::noise);
-    c["as_computed"] = column(p, &analysis::DeviationPoint::as_computed);
+    c["m"] = column(p, &deviations::DeviationPoint::m);
+    c["tau_s"] = column(p, &deviations::DeviationPoint::tau_s);
+    c["deviation"] = column(p, &deviations::DeviationPoint::deviation);
+    c["low"] = column(p, &deviations::DeviationPoint::low);
+    c["high"] = column(p, &deviations::DeviationPoint::high);
+    c["terms"] = column(p, &deviations::DeviationPoint::terms);
+    c["edf"] = column(p, [](const deviations::DeviationPoint& each) { return each.law.edf; });
+    c["noise"] = column(p, &deviations::DeviationPoint::noise);
+    c["as_computed"] = column(p, &deviations::DeviationPoint::as_computed);
     c["bias"] = std::string{name_of(curve.total_bias)};
     return c;
 }

@@ -1,9 +1,9 @@
-#include <zlg/analysis/imu_yaml.hpp>
-#include <zlg/analysis/mode_split.hpp>
-#include <zlg/analysis/noise_fit.hpp>
-#include <zlg/analysis/noise_units.hpp>
-#include <zlg/analysis/rate_table.hpp>
-#include <zlg/analysis/spectrum.hpp>
+#include <zlg/calibration/rate_table.hpp>
+#include <zlg/noise/imu_yaml.hpp>
+#include <zlg/noise/mode_split.hpp>
+#include <zlg/noise/noise_fit.hpp>
+#include <zlg/noise/noise_units.hpp>
+#include <zlg/noise/spectrum.hpp>
 
 #include "analysis_dicts.hpp"
 #include "arrays.hpp"
@@ -12,9 +12,9 @@
 namespace zlg::python {
 namespace {
 
-py::list fitted(const analysis::NoiseFit& fit) {
+py::list fitted(const noise::NoiseFit& fit) {
     py::list all;
-    for (const analysis::FittedTerm& term : fit.fitted) {
+    for (const noise::FittedTerm& term : fit.fitted) {
         py::dict t;
         t["name"] = std::string{name_of(term.kind)};
         t["unit"] = std::string{unit_of(term.kind)};
@@ -30,13 +30,13 @@ py::list fitted(const analysis::NoiseFit& fit) {
     return all;
 }
 
-py::object of(const analysis::Estimate& e) {
+py::object of(const numeric::Estimate& e) {
     return e.determined ? py::object{py::make_tuple(e.value, e.sigma)} : py::object{py::none()};
 }
 
 }  // namespace
 
-py::dict dict_of(const analysis::ModeSplit& split) {
+py::dict dict_of(const noise::ModeSplit& split) {
     using namespace analysis;
     py::dict d;
     d["segment_time_s"] = column(split.segments, &ModeSegment::time_s);
@@ -56,13 +56,13 @@ py::dict dict_of(const analysis::ModeSplit& split) {
     return d;
 }
 
-py::dict dict_of(const analysis::NoiseFit& fit) {
+py::dict dict_of(const noise::NoiseFit& fit) {
     py::dict d;
     d["terms"] = fit.terms;
     d["fitted"] = fitted(fit);
-    d["tau_s"] = column(fit.points, &analysis::FitPoint::tau_s);
-    d["measured"] = column(fit.points, &analysis::FitPoint::measured);
-    d["fitted_variance"] = column(fit.points, &analysis::FitPoint::fitted);
+    d["tau_s"] = column(fit.points, &noise::FitPoint::tau_s);
+    d["measured"] = column(fit.points, &noise::FitPoint::measured);
+    d["fitted_variance"] = column(fit.points, &noise::FitPoint::fitted);
     d["chi2"] = fit.chi2;
     d["dof"] = fit.dof;
     d["probability"] = fit.probability;

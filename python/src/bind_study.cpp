@@ -119,7 +119,7 @@ struct Axes {
     }
 };
 
-py::list list_of(const std::vector<analysis::DeviationCurve>& curves) {
+py::list list_of(const std::vector<deviations::DeviationCurve>& curves) {
     py::list all;
     for (const auto& curve : curves) all.append(dict_of(curve));
     return all;

@@ -1,17 +1,15 @@
 #include <zlg/paper/substitution_experiment.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/design/error.hpp>
+#include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -207,30 +205,7 @@ void add(ChiSquare& chi2, double value, double error, double theory) {
 std::vector<SubstitutionResult> run_substitution(std::span<const SubstitutionExperiment> experiments, int threads) {
     require(threads >= 1, "threads", threads, "1 or more");
     std::vector<SubstitutionResult> results(experiments.size());
-    std::vector<std::exception_ptr> failures(experiments.size());
-    std::atomic<std::size_t> next{0};
-    std::atomic<bool> failed{false};
-    // Taken in order: whatever comes before a failure has been begun and is finished, so the first failure is certain.
-    const auto work = [&] {
-        while (!failed) {
-            const std::size_t i = next++;
-            if (i >= experiments.size()) return;
-            try {
-                results[i] = run_one(experiments[i]);
-            } catch (...) {
-                failures[i] = std::current_exception();
-                failed = true;
-            }
-        }
-    };
-    {
-        std::vector<std::jthread> helpers;
-        const std::size_t n_workers = std::min(static_cast<std::size_t>(threads), experiments.size());
-        for (std::size_t i = 1; i < n_workers; ++i) helpers.emplace_back(work);
-        work();
-    }
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
+    numeric::in_parallel(experiments.size(), threads, [&](std::size_t k) { results[k] = run_one(experiments[k]); });
     return results;
 }
 

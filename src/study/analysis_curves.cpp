@@ -22,7 +22,9 @@ struct Span {
     double low, high;
 };
 
-Span taus_of(const analysis::DeviationCurve& curve) { return {curve.points.front().tau_s, curve.points.back().tau_s}; }
+Span taus_of(const deviations::DeviationCurve& curve) {
+    return {curve.points.front().tau_s, curve.points.back().tau_s};
+}
 
 std::vector<double> log_steps(const Span& span, int n) {
     std::vector<double> x;
@@ -43,9 +45,9 @@ Series law(const View& v, const Span& span, std::string name, bool dashed, doubl
 }
 
 // One fitted term alone.
-analysis::NoiseTerms only(const analysis::FittedTerm& term) {
-    using analysis::NoiseKind;
-    analysis::NoiseTerms t;
+noise::NoiseTerms only(const noise::FittedTerm& term) {
+    using noise::NoiseKind;
+    noise::NoiseTerms t;
     switch (term.kind) {
         case NoiseKind::quantisation:
             t.quantisation_arcsec = term.value;
@@ -80,14 +82,14 @@ double least_of(const Series& s) {
 
 void add_terms(const View& v, const Span& span, double floor, Figure& f) {
     if (!v.axis.fit) return;
-    const analysis::NoiseTerms all = v.axis.fit->terms;
+    const noise::NoiseTerms all = v.axis.fit->terms;
     f.series.push_back(law(v, span, "fitted terms together", false, floor,
-                           [&all](double tau_s) { return analysis::allan_variance(all, tau_s); }));
-    for (const analysis::FittedTerm& term : v.axis.fit->fitted) {
+                           [&all](double tau_s) { return noise::allan_variance(all, tau_s); }));
+    for (const noise::FittedTerm& term : v.axis.fit->fitted) {
         if (!term.found) continue;
-        const analysis::NoiseTerms one = only(term);
-        f.series.push_back(law(v, span, std::string{analysis::name_of(term.kind)}, true, floor,
-                               [&one](double tau_s) { return analysis::allan_variance(one, tau_s); }));
+        const noise::NoiseTerms one = only(term);
+        f.series.push_back(law(v, span, std::string{noise::name_of(term.kind)}, true, floor,
+                               [&one](double tau_s) { return noise::allan_variance(one, tau_s); }));
     }
 }
 
@@ -112,7 +114,7 @@ void add_guides(const View& v, const Span& span, double floor, double ceiling, F
 
 Figure sigma_figure(const View& v) {
     const auto& curve = v.axis.curves.front();
-    const std::string name{analysis::name_of(curve.kind)};
+    const std::string name{deviations::name_of(curve.kind)};
     Figure f = report::blank_figure(
         v.id("sigma"), fmt::format("{} of {}", name, v.axis.name),
         fmt::format("Points: {} with intervals of {:g} %. Dashed: each fitted term alone, as it stands in the Allan "
@@ -124,9 +126,9 @@ Figure sigma_figure(const View& v) {
     double least = least_of(measured);
     f.series.push_back(std::move(measured));
     for (std::size_t k = 1; k < v.axis.curves.size(); ++k)
-        if (v.axis.curves[k].kind != analysis::DeviationKind::tdev)
+        if (v.axis.curves[k].kind != deviations::DeviationKind::tdev)
             f.series.push_back(
-                curve_series(v, v.axis.curves[k], std::string{analysis::name_of(v.axis.curves[k].kind)}));
+                curve_series(v, v.axis.curves[k], std::string{deviations::name_of(v.axis.curves[k].kind)}));
     // The terms are fitted to what is left without the switching.
     if (v.axis.mode_curves.size() > 2) {
         Series left = curve_series(v, v.axis.mode_curves[2], "magnetic part taken out");
@@ -137,7 +139,7 @@ Figure sigma_figure(const View& v) {
     add_terms(v, taus_of(curve), 0.2 * least, f);
     if (v.presumed)
         f.series.push_back(law(v, taus_of(curve), v.presumed->name, false, 0.0,
-                               [&v](double tau_s) { return analysis::allan_variance(v.presumed->terms, tau_s); }));
+                               [&v](double tau_s) { return noise::allan_variance(v.presumed->terms, tau_s); }));
     return f;
 }
 
@@ -149,7 +151,7 @@ Figure guide_figure(const View& v) {
         "+1/2 rate random walk, +1 ramp.",
         "averaging time, s", fmt::format("deviation, {}", v.unit()));
     f.log_x = f.log_y = true;
-    Series measured = curve_series(v, curve, std::string{analysis::name_of(curve.kind)});
+    Series measured = curve_series(v, curve, std::string{deviations::name_of(curve.kind)});
     const double least = least_of(measured);
     const double most = *std::ranges::max_element(measured.y);
     f.series.push_back(std::move(measured));

@@ -16,7 +16,7 @@ constexpr int most_points = 600;
 constexpr std::size_t most_bands = 60;
 
 // Means over even steps of the logarithm, so that the many bins of high frequencies are no black band.
-Series spectrum_series(const View& v, const analysis::Spectrum& spectrum, std::string name) {
+Series spectrum_series(const View& v, const noise::Spectrum& spectrum, std::string name) {
     const double scale = v.shown(1.0) * v.shown(1.0), step = std::pow(10.0, 1.0 / 80.0);
     Series s = named(std::move(name));
     double edge = 0.0, sum = 0.0, frequency = 0.0, n = 0.0;
@@ -75,7 +75,7 @@ Figure spectrum_figure(const View& v) {
     for (const double frequency : f.series.front().x) {
         fitted.x.push_back(frequency);
         fitted.y.push_back(2.0 * v.shown(1.0) * v.shown(1.0) *
-                           analysis::rate_spectrum(v.axis.fit->terms, frequency, v.axis.rate_hz));
+                           noise::rate_spectrum(v.axis.fit->terms, frequency, v.axis.rate_hz));
     }
     f.series.push_back(std::move(fitted));
     return f;
@@ -123,7 +123,7 @@ Figure mode_figure(const View& v) {
 }
 
 Figure split_figure(const View& v) {
-    const analysis::ModeSplit& m = *v.axis.modes;
+    const noise::ModeSplit& m = *v.axis.modes;
     Figure f = report::blank_figure(
         v.id("split"), fmt::format("Magnetic and non-magnetic drift of {}", v.axis.name),
         "Half-difference and half-sum of neighbouring segments. Dashed: the warming law that fits best.", "time, s",

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/analysis/noise_units.hpp>
+#include <zlg/noise/noise_units.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/analyze.hpp>
 #include <zlg/study/term_text.hpp>
@@ -19,15 +19,15 @@ using report::Series;
 
 report::Table curve_table(const View& v) {
     const auto& curve = v.axis.curves.front();
-    const bool is_angle = curve.kind == analysis::DeviationKind::tdev;
+    const bool is_angle = curve.kind == deviations::DeviationKind::tdev;
     const auto shown = [&](double deviation) { return is_angle ? deviation : v.shown(deviation); };
     report::Table t{.caption = fmt::format("{} in {}, n differences each; edf: equivalent degrees of freedom.",
-                                           analysis::name_of(curve.kind), is_angle ? "arcsec" : v.unit()),
+                                           deviations::name_of(curve.kind), is_angle ? "arcsec" : v.unit()),
                     .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"},
                     .rows = {}};
-    if (analysis::is_total(curve.kind)) {
+    if (deviations::is_total(curve.kind)) {
         t.caption += fmt::format(" Bias of mirroring: {} (total_bias); as computed: with it.",
-                                 analysis::name_of(curve.total_bias));
+                                 deviations::name_of(curve.total_bias));
         t.header.emplace_back("as computed");
     }
     const std::size_t step = std::max<std::size_t>(1, curve.points.size() / 30);
@@ -37,7 +37,7 @@ report::Table curve_table(const View& v) {
                           fmt::format("{:.4g}", shown(p.deviation)), fmt::format("{:.4g}", shown(p.low)),
                           fmt::format("{:.4g}", shown(p.high)), report::short_number(p.law.edf),
                           fmt::format("f^{}", p.noise)});
-        if (analysis::is_total(curve.kind)) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
+        if (deviations::is_total(curve.kind)) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
     }
     return t;
 }
@@ -51,16 +51,16 @@ report::Table term_table(const View& v) {
                     .header = {"term", "value, continuous", "read at tau, s"},
                     .rows = {},
                     .prose = true};
-    for (const analysis::FittedTerm& term : v.axis.fit->fitted)
-        t.rows.push_back({std::string{analysis::name_of(term.kind)}, value_text(term),
+    for (const noise::FittedTerm& term : v.axis.fit->fitted)
+        t.rows.push_back({std::string{noise::name_of(term.kind)}, value_text(term),
                           term.found && std::isfinite(term.read_at_s) ? report::short_number(term.read_at_s) : "-"});
     return t;
 }
 
 // What a processor's model of one sample needs.
 report::Table discrete_table(const View& v) {
-    const analysis::NoiseTerms& terms = v.axis.fit->terms;
-    const analysis::DiscreteNoise d = analysis::discrete_noise(terms, v.axis.rate_hz);
+    const noise::NoiseTerms& terms = v.axis.fit->terms;
+    const noise::DiscreteNoise d = noise::discrete_noise(terms, v.axis.rate_hz);
     report::Table t{.caption = fmt::format("The same terms, discrete: standard deviations of one sample at {:g} Hz.",
                                            v.axis.rate_hz),
                     .header = {"quantity", "value"},
@@ -83,7 +83,7 @@ report::Table discrete_table(const View& v) {
 
 report::Table readout_table(const View& v) {
     report::Table t{
-        .caption = fmt::format("Readouts of the measured Allan deviation, {}.", analysis::name_of(v.axis.allan.kind)),
+        .caption = fmt::format("Readouts of the measured Allan deviation, {}.", deviations::name_of(v.axis.allan.kind)),
         .header = {"where", "tau, s", "deviation, " + v.unit()},
         .rows = {}};
     for (const Readout& r : v.axis.readouts)
@@ -91,12 +91,12 @@ report::Table readout_table(const View& v) {
     return t;
 }
 
-std::string estimate_text(const analysis::Estimate& e, const char* unit) {
+std::string estimate_text(const numeric::Estimate& e, const char* unit) {
     return e.determined ? fmt::format("{} {}", with_error(e.value, e.sigma), unit) : "not determined: " + e.reason;
 }
 
 report::Table mode_table(const View& v) {
-    const analysis::ModeSplit& m = *v.axis.modes;
+    const noise::ModeSplit& m = *v.axis.modes;
     report::Table t{.caption = "Drift by mode, and the errors of the switches as of a gyro at rest.",
                     .header = {"quantity", "value"},
                     .rows = {{"non-magnetic drift", estimate_text(m.nonmagnetic_arcsec_s, "deg/h")},
@@ -123,8 +123,8 @@ std::string summary(const View& v) {
 }
 
 // A logarithmic axis needs something above zero; tdev is an angle and has a table only.
-bool can_be_drawn(const analysis::DeviationCurve& curve) {
-    const bool is_rate = curve.kind != analysis::DeviationKind::tdev;
+bool can_be_drawn(const deviations::DeviationCurve& curve) {
+    const bool is_rate = curve.kind != deviations::DeviationKind::tdev;
     return is_rate && std::ranges::any_of(curve.points, [](const auto& p) { return p.deviation > 0.0; });
 }
 
@@ -185,7 +185,7 @@ report::Section earth_section(const config::Analysis& config, const AnalysisResu
 }
 
 report::Section table_section(const config::Analysis& config, const TableResult& test, std::size_t index) {
-    const analysis::RateTable& r = test.table;
+    const calibration::RateTable& r = test.table;
     report::Section s{.heading = test.name, .paragraphs = {test.holds + "."}, .tables = {}, .figures = {}};
     s.tables.push_back(
         {.caption = "Straight line through all stages by least squares, as IEEE Std 647 has it.",
@@ -206,7 +206,7 @@ report::Section table_section(const config::Analysis& config, const TableResult&
                                     "Output less the straight line.", "input, " + shown_unit(config.unit),
                                     "residual, ppm of the largest output");
     Series points = named("stages", Mark::points);
-    for (const analysis::TableStage& stage : r.stages) {
+    for (const calibration::TableStage& stage : r.stages) {
         stages.rows.push_back({fmt::format("{:.6g}", shown_rate(config.unit, stage.input_arcsec_s)),
                                fmt::format("{:.9g}", stage.output), report::short_number(stage.output_sigma),
                                fmt::format("{}", stage.n_samples), report::short_number(stage.residual_ppm)});

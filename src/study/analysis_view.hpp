@@ -29,7 +29,7 @@ struct View {
     return {.name = std::move(name), .x = {}, .y = {}, .y_error = {}, .mark = mark, .dashed = dashed};
 }
 
-[[nodiscard]] inline report::Series curve_series(const View& v, const analysis::DeviationCurve& curve,
+[[nodiscard]] inline report::Series curve_series(const View& v, const deviations::DeviationCurve& curve,
                                                  std::string name) {
     report::Series s = named(std::move(name), report::Mark::points);
     for (const auto& p : curve.points) {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <zlg/analysis/noise_units.hpp>
 #include <zlg/config/schema.hpp>
+#include <zlg/noise/noise_units.hpp>
 
 #include "axis_curves.hpp"
 
@@ -63,7 +63,7 @@ std::vector<TimeBin> course_of(const AxisRecord& record) {
 }
 
 // On the straight line in log-log between the neighbours.
-std::optional<double> read_curve(const analysis::DeviationCurve& curve, double tau_s) {
+std::optional<double> read_curve(const deviations::DeviationCurve& curve, double tau_s) {
     const auto& p = curve.points;
     for (std::size_t k = 0; k + 1 < p.size(); ++k) {
         if (!(p[k].tau_s <= tau_s && tau_s <= p[k + 1].tau_s)) continue;
@@ -83,22 +83,22 @@ std::vector<Readout> readouts_of(const AxisResult& axis) {
         if (const auto value = read_curve(curve, tau_s)) out.push_back({std::move(what), tau_s, *value});
     };
     add("at 1 s", 1.0);
-    const auto least = std::ranges::min_element(curve.points, {}, &analysis::DeviationPoint::deviation);
+    const auto least = std::ranges::min_element(curve.points, {}, &deviations::DeviationPoint::deviation);
     out.push_back({"least", least->tau_s, least->deviation});
     if (!axis.fit) return out;
-    for (const analysis::FittedTerm& term : axis.fit->fitted)
+    for (const noise::FittedTerm& term : axis.fit->fitted)
         if (term.found && std::isfinite(term.read_at_s) && term.read_at_s != 1.0)
-            add(fmt::format("where {} is read", analysis::name_of(term.kind)), term.read_at_s);
+            add(fmt::format("where {} is read", noise::name_of(term.kind)), term.read_at_s);
     return out;
 }
 
 void take_modes(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     if (record.mode.empty()) return;
-    axis.modes = analysis::split_modes({.rate_hz = record.rate_hz,
-                                        .rates_arcsec_s = record.rates_arcsec_s,
-                                        .bridged_arcsec_s = record.bridged_arcsec_s,
-                                        .mode = record.mode},
-                                       task.settling_samples);
+    axis.modes = noise::split_modes({.rate_hz = record.rate_hz,
+                                     .rates_arcsec_s = record.rates_arcsec_s,
+                                     .bridged_arcsec_s = record.bridged_arcsec_s,
+                                     .mode = record.mode},
+                                    task.settling_samples);
     std::vector<double>{}.swap(record.bridged_arcsec_s);
     for (const int mode : {1, -1}) {
         std::vector<double> one = record.rates_arcsec_s;
@@ -106,10 +106,10 @@ void take_modes(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) 
             if (record.mode[k] != mode) one[k] = none;
         try {
             axis.mode_curves.push_back(octave_oadev(task, record_of(one, record.rate_hz)));
-        } catch (const analysis::SeriesError&) {
+        } catch (const deviations::SeriesError&) {
             // Never in this mode, or not long enough: no curve.
             axis.mode_curves.push_back(
-                {.kind = analysis::DeviationKind::oadev, .confidence = task.config.confidence, .points = {}});
+                {.kind = deviations::DeviationKind::oadev, .confidence = task.config.confidence, .points = {}});
         }
     }
 }
@@ -123,10 +123,10 @@ std::size_t piece_of(std::size_t n) {
 void take_spectra(const AxisRecord& record, AxisResult& axis) {
     const std::size_t n = record.rates_arcsec_s.size();
     try {
-        axis.spectrum = analysis::welch_spectrum(record.rates_arcsec_s, record.rate_hz, piece_of(n));
+        axis.spectrum = noise::welch_spectrum(record.rates_arcsec_s, record.rate_hz, piece_of(n));
         const std::size_t piece = std::clamp<std::size_t>(2 * n / spectrogram_times, 8, 1 << 16);
-        axis.spectrogram = analysis::spectrogram(record.rates_arcsec_s, record.rate_hz, piece);
-    } catch (const analysis::SeriesError&) {
+        axis.spectrogram = noise::spectrogram(record.rates_arcsec_s, record.rate_hz, piece);
+    } catch (const deviations::SeriesError&) {
         // Too short, or too little known: the page goes without.
         axis.spectrum = {};
         axis.spectrogram = {};
@@ -135,7 +135,7 @@ void take_spectra(const AxisRecord& record, AxisResult& axis) {
 
 // Of a switched gyro the curve without the sawtooth of its magnetic drift.
 void take_curve_left(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
-    analysis::take_out_magnetic(*axis.modes, record.mode, record.rate_hz, record.rates_arcsec_s);
+    noise::take_out_magnetic(*axis.modes, record.mode, record.rate_hz, record.rates_arcsec_s);
     if (axis.modes->segments.size() < 2) return;
     axis.mode_curves.push_back(octave_oadev(task, record_of(record.rates_arcsec_s, record.rate_hz)));
 }
@@ -154,12 +154,12 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     try {
         if (axis.modes) take_curve_left(task, record, axis);
         const double mean = mean_of(rates);
-        axis.fit = analysis::fit_noise_in_place(
+        axis.fit = noise::fit_noise_in_place(
             rates, record.rate_hz, {.least_known_ratio = task.config.least_known_ratio, .threads = task.threads});
         if (!axis.fit->terms.sines.empty()) axis.mean_arcsec_s += mean_of(rates) - mean;
         if (axis.modes || !axis.fit->terms.sines.empty())
-            axis.spectrum_left = analysis::welch_spectrum(rates, record.rate_hz, piece_of(rates.size()));
-    } catch (const analysis::SeriesError& error) {
+            axis.spectrum_left = noise::welch_spectrum(rates, record.rate_hz, piece_of(rates.size()));
+    } catch (const deviations::SeriesError& error) {
         if (axis.fit) return;
         const bool is_switched = axis.modes && axis.modes->segments.size() > 1;
         axis.no_fit = fmt::format("{}{}", is_switched ? "without the magnetic drift: " : "", error.what());
@@ -175,10 +175,10 @@ double sigma_of_mean(const AxisResult& axis) {
         const auto& last = axis.allan.points.back();
         return last.deviation * std::sqrt(std::min(1.0, last.tau_s / known_s));
     }
-    analysis::NoiseTerms terms = axis.fit->terms;
+    noise::NoiseTerms terms = axis.fit->terms;
     terms.ramp_arcsec_s2 = 0.0;
     terms.sines.clear();
-    return std::sqrt(analysis::allan_variance(terms, known_s));
+    return std::sqrt(noise::allan_variance(terms, known_s));
 }
 
 AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
@@ -203,8 +203,8 @@ AxisResult analyze_axis(const AnalysisTask& task, AxisRecord record) {
     const std::string name = record.name;
     try {
         return analyzed(task, std::move(record));
-    } catch (const analysis::SeriesError& error) {
-        throw analysis::SeriesError(fmt::format("{}: {}", name, error.what()));
+    } catch (const deviations::SeriesError& error) {
+        throw deviations::SeriesError(fmt::format("{}: {}", name, error.what()));
     }
 }
 

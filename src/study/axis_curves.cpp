@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
-#include <zlg/analysis/averaging.hpp>
 #include <zlg/config/schema.hpp>
+#include <zlg/deviations/averaging.hpp>
 
 namespace zlg::study {
 namespace {
 
-using analysis::AngleRecord;
-using analysis::DeviationKind;
+using deviations::AngleRecord;
+using deviations::DeviationKind;
 
 // mtotdev and htotdev, samples in all pieces: about so many a second, and as many as they are given without being told.
 constexpr double piece_samples_a_second = 1e8;
@@ -29,15 +29,15 @@ DeviationKind kind_of(config::Deviation d) {
 std::vector<std::int64_t> spaced_factors(const config::Analysis& c, std::int64_t largest) {
     switch (c.taus) {
         case config::Taus::decade:
-            return analysis::decade_factors(largest);
+            return deviations::decade_factors(largest);
         case config::Taus::log:
-            return analysis::log_factors(static_cast<int>(c.taus_per_decade), largest);
+            return deviations::log_factors(static_cast<int>(c.taus_per_decade), largest);
         case config::Taus::all:
-            return analysis::all_factors(largest);
+            return deviations::all_factors(largest);
         case config::Taus::octave:
             break;
     }
-    return analysis::octave_factors(largest);
+    return deviations::octave_factors(largest);
 }
 
 // Pieces of 3m samples begin at every sample: what they cost grows with the square of the length.
@@ -49,15 +49,15 @@ void refuse_long_work(DeviationKind kind, const std::vector<std::int64_t>& facto
     throw config::ConfigError(fmt::format(
         "analysis.deviations = \"{}\": of {} samples at {} averaging times it takes about {:.0f} min; say which times, "
         "analysis.taus_s, or take \"{}\"",
-        analysis::name_of(kind), n, factors.size(), samples / piece_samples_a_second / 60.0,
+        deviations::name_of(kind), n, factors.size(), samples / piece_samples_a_second / 60.0,
         kind == DeviationKind::mtotdev ? "mdev" : "ohdev"));
 }
 
 std::vector<std::int64_t> factors_of(const config::Analysis& c, DeviationKind kind, std::int64_t n, double rate_hz) {
-    const std::int64_t largest = analysis::largest_factor(kind, n);
+    const std::int64_t largest = deviations::largest_factor(kind, n);
     if (largest < 1)
-        throw analysis::SeriesError(fmt::format("{} samples are too few for {}", n, analysis::name_of(kind)));
-    if (!c.taus_s.empty()) return analysis::nearest_factors(c.taus_s, rate_hz, largest);
+        throw deviations::SeriesError(fmt::format("{} samples are too few for {}", n, deviations::name_of(kind)));
+    if (!c.taus_s.empty()) return deviations::nearest_factors(c.taus_s, rate_hz, largest);
     const auto factors = spaced_factors(c, largest);
     refuse_long_work(kind, factors, n);
     return factors;
@@ -66,7 +66,7 @@ std::vector<std::int64_t> factors_of(const config::Analysis& c, DeviationKind ki
 // Angles are taken as they were recorded; they are not needed after.
 AngleRecord angle_of(AxisRecord& record) {
     if (record.phase_arcsec.empty()) return record_of(record.rates_arcsec_s, record.rate_hz);
-    return AngleRecord({analysis::DataKind::phase, analysis::Unit::arcsec, record.rate_hz},
+    return AngleRecord({deviations::DataKind::phase, deviations::Unit::arcsec, record.rate_hz},
                        std::move(record.phase_arcsec));
 }
 
@@ -74,20 +74,20 @@ bool is_allan(DeviationKind kind) {
     return kind == DeviationKind::oadev || kind == DeviationKind::adev || kind == DeviationKind::totdev;
 }
 
-analysis::DeviationOptions options_of(const AnalysisTask& task) {
+deviations::DeviationOptions options_of(const AnalysisTask& task) {
     return {.confidence = task.config.confidence,
             .least_known_ratio = task.config.least_known_ratio,
-            .total_bias = static_cast<analysis::TotalBias>(task.config.total_bias),
+            .total_bias = static_cast<deviations::TotalBias>(task.config.total_bias),
             .threads = task.threads};
 }
 
-analysis::DeviationCurve allan_curve(const AnalysisTask& task, const AngleRecord& angle,
-                                     const std::vector<analysis::DeviationCurve>& curves) {
-    const auto asked = std::ranges::find_if(curves, is_allan, &analysis::DeviationCurve::kind);
+deviations::DeviationCurve allan_curve(const AnalysisTask& task, const AngleRecord& angle,
+                                       const std::vector<deviations::DeviationCurve>& curves) {
+    const auto asked = std::ranges::find_if(curves, is_allan, &deviations::DeviationCurve::kind);
     if (asked != curves.end()) return *asked;
     try {
         return octave_oadev(task, angle);
-    } catch (const analysis::SeriesError&) {
+    } catch (const deviations::SeriesError&) {
         // Angles that are known here and there may have another deviation and not this one.
         return {.kind = DeviationKind::oadev, .confidence = task.config.confidence, .points = {}};
     }
@@ -99,19 +99,20 @@ AngleRecord record_of(std::span<const double> rates, double rate_hz) {
     std::vector<double> summed;
     summed.reserve(rates.size() + 1);
     summed.assign(rates.begin(), rates.end());
-    return AngleRecord({analysis::DataKind::rate, analysis::Unit::arcsec_s, rate_hz}, std::move(summed));
+    return AngleRecord({deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, std::move(summed));
 }
 
-analysis::DeviationCurve octave_oadev(const AnalysisTask& task, const AngleRecord& angle) {
-    const auto factors = analysis::octave_factors(analysis::largest_factor(DeviationKind::oadev, angle.n_intervals()));
-    return analysis::deviation(angle, DeviationKind::oadev, factors, options_of(task));
+deviations::DeviationCurve octave_oadev(const AnalysisTask& task, const AngleRecord& angle) {
+    const auto factors =
+        deviations::octave_factors(deviations::largest_factor(DeviationKind::oadev, angle.n_intervals()));
+    return deviations::deviation(angle, DeviationKind::oadev, factors, options_of(task));
 }
 
 void take_curves(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     const AngleRecord angle = angle_of(record);
     for (const config::Deviation d : task.config.deviations) {
         const DeviationKind kind = kind_of(d);
-        axis.curves.push_back(analysis::deviation(
+        axis.curves.push_back(deviations::deviation(
             angle, kind, factors_of(task.config, kind, angle.n_intervals(), record.rate_hz), options_of(task)));
     }
     axis.allan = allan_curve(task, angle, axis.curves);

@@ -11,20 +11,20 @@
 namespace zlg::study {
 namespace {
 
-const analysis::NoiseFit& describing_fit(const AxisResult& axis) {
+const noise::NoiseFit& describing_fit(const AxisResult& axis) {
     if (!axis.fit)
-        throw analysis::SeriesError(fmt::format("imu.yaml: {}: no terms are fitted: {}", axis.name, axis.no_fit));
+        throw deviations::SeriesError(fmt::format("imu.yaml: {}: no terms are fitted: {}", axis.name, axis.no_fit));
     if (!axis.fit->describes)
-        throw analysis::SeriesError(
+        throw deviations::SeriesError(
             fmt::format("imu.yaml: {}: the fitted terms do not describe it; it was moved, or has noise of another kind",
                         axis.name));
     return *axis.fit;
 }
 
 // 0: none.
-double walk_limit(const analysis::NoiseFit& fit) {
-    for (const analysis::FittedTerm& term : fit.fitted)
-        if (term.kind == analysis::NoiseKind::rate_random_walk && std::isfinite(term.limit)) return term.limit;
+double walk_limit(const noise::NoiseFit& fit) {
+    for (const noise::FittedTerm& term : fit.fitted)
+        if (term.kind == noise::NoiseKind::rate_random_walk && std::isfinite(term.limit)) return term.limit;
     return 0.0;
 }
 
@@ -58,12 +58,12 @@ std::vector<EarthLine> earth_lines(const std::vector<AxisResult>& axes) {
     return lines;
 }
 
-analysis::KalibrGyro kalibr_gyro(const std::vector<AxisResult>& axes) {
-    analysis::NoiseTerms most;
+noise::KalibrGyro kalibr_gyro(const std::vector<AxisResult>& axes) {
+    noise::NoiseTerms most;
     double rate_hz = 0.0, limit = 0.0;
     for (std::size_t k = 0; k < axes.size(); ++k) {
         if (k + 1 < axes.size() && axes[k + 1].is_error) continue;
-        const analysis::NoiseFit& fit = describing_fit(axes[k]);
+        const noise::NoiseFit& fit = describing_fit(axes[k]);
         most.angle_random_walk_arcsec_sqrt_s =
             std::max(most.angle_random_walk_arcsec_sqrt_s, fit.terms.angle_random_walk_arcsec_sqrt_s);
         most.rate_random_walk_arcsec_s_sqrt_s =
@@ -72,13 +72,14 @@ analysis::KalibrGyro kalibr_gyro(const std::vector<AxisResult>& axes) {
         rate_hz = axes[k].rate_hz;
     }
     if (most.angle_random_walk_arcsec_sqrt_s == 0.0)
-        throw analysis::SeriesError(
+        throw deviations::SeriesError(
             "imu.yaml: no angle random walk was found; Kalibr's model has nothing else to rest on");
     const bool is_limit = most.rate_random_walk_arcsec_s_sqrt_s == 0.0;
     if (is_limit) most.rate_random_walk_arcsec_s_sqrt_s = limit;
     if (most.rate_random_walk_arcsec_s_sqrt_s == 0.0)
-        throw analysis::SeriesError("imu.yaml: neither rate random walk was found nor a limit of it; Kalibr refuses 0");
-    analysis::KalibrGyro gyro = analysis::kalibr_gyro(most, rate_hz);
+        throw deviations::SeriesError(
+            "imu.yaml: neither rate random walk was found nor a limit of it; Kalibr refuses 0");
+    noise::KalibrGyro gyro = noise::kalibr_gyro(most, rate_hz);
     gyro.random_walk_is_limit = is_limit;
     return gyro;
 }

@@ -7,8 +7,8 @@
 
 namespace zlg::study {
 
-ShownTerm shown_term(analysis::NoiseKind kind) {
-    using analysis::NoiseKind;
+ShownTerm shown_term(noise::NoiseKind kind) {
+    using noise::NoiseKind;
     switch (kind) {
         case NoiseKind::angle_random_walk:
             return {"deg/sqrt(h)", 1.0 / 60.0, "", ""};
@@ -40,7 +40,7 @@ std::string with_error(double value, double sigma) {
     return fmt::format("{:.{}g} +- {:.2g}", value, digits, sigma);
 }
 
-std::string value_text(const analysis::FittedTerm& term) {
+std::string value_text(const noise::FittedTerm& term) {
     const ShownTerm shown = shown_term(term.kind);
     if (!term.found)
         return std::isfinite(term.limit) ? fmt::format("below {:.2g} {}", term.limit * shown.factor, shown.unit)

@@ -29,7 +29,7 @@ study::AxisRecord white(std::size_t n, double mean, double deviation, unsigned s
 std::string complaint(study::AxisRecord axis, const config::Analysis& c = {}) {
     try {
         (void)study::analyze_axis({.config = c}, std::move(axis));
-    } catch (const analysis::SeriesError& error) {
+    } catch (const deviations::SeriesError& error) {
         return error.what();
     }
     return "";
@@ -106,7 +106,7 @@ TEST(Analyze, a_switched_gyro_is_split_and_its_sawtooth_taken_out) {
     EXPECT_NEAR(r.modes->magnetic_arcsec_s.value, 1.0, 4.0 * r.modes->magnetic_arcsec_s.sigma);
     ASSERT_EQ(r.mode_curves.size(), 3u);
     // At one segment's length the sawtooth is all; without it white noise is left.
-    const auto at = [](const analysis::DeviationCurve& c, std::int64_t m) {
+    const auto at = [](const deviations::DeviationCurve& c, std::int64_t m) {
         for (const auto& p : c.points)
             if (p.m == m) return p.deviation;
         return missing;
@@ -121,7 +121,7 @@ TEST(Analyze, deviations_and_taus_are_those_asked_for) {
     c.taus_s = {0.5, 2.0};
     const auto r = study::analyze_axis({.config = c}, white(2000, 0.0, 1.0, 5));
     ASSERT_EQ(r.curves.size(), 2u);
-    EXPECT_EQ(r.curves[0].kind, analysis::DeviationKind::mdev);
+    EXPECT_EQ(r.curves[0].kind, deviations::DeviationKind::mdev);
     ASSERT_EQ(r.curves[1].points.size(), 2u);
     EXPECT_EQ(r.curves[1].points[1].m, 20);
 }
@@ -149,7 +149,8 @@ TEST(Analyze, readouts_are_of_the_allan_deviation_whatever_is_asked_for) {
                 EXPECT_NEAR(readout.deviation_arcsec_s, 1.0, 0.03);
             }
         EXPECT_TRUE(is_read);
-        EXPECT_EQ(r.allan.kind, asked.back() == adev ? analysis::DeviationKind::adev : analysis::DeviationKind::oadev);
+        EXPECT_EQ(r.allan.kind,
+                  asked.back() == adev ? deviations::DeviationKind::adev : deviations::DeviationKind::oadev);
     }
 }
 
@@ -240,9 +241,7 @@ TEST(Analyze, the_error_of_an_angle_is_no_axis_of_the_unit) {
 
 class Kalibr : public ::testing::Test {
 protected:
-    static analysis::FittedTerm walk(double limit) {
-        return {.kind = analysis::NoiseKind::rate_random_walk, .limit = limit};
-    }
+    static noise::FittedTerm walk(double limit) { return {.kind = noise::NoiseKind::rate_random_walk, .limit = limit}; }
     static study::AxisResult axis(double n, double k, double limit) {
         study::AxisResult a;
         a.name = "unit";
@@ -256,7 +255,7 @@ protected:
     static std::string refusal(const std::vector<study::AxisResult>& axes) {
         try {
             (void)study::kalibr_gyro(axes);
-        } catch (const analysis::SeriesError& error) {
+        } catch (const deviations::SeriesError& error) {
             return error.what();
         }
         return "";

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <zlg/analysis/calibration.hpp>
+#include <zlg/calibration/calibration.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -70,9 +70,9 @@ Specimen specimen(int k) {
     return {.config = c, .rate_arcsec_s = rate, .detuning_scale = draw(0.8, 1.25)};
 }
 
-analysis::LabLog record(const Specimen& s) {
+calibration::LabLog record(const Specimen& s) {
     rig::ClosedLoop loop{s.config, rig::motion(s.config)};
-    analysis::LabReader reader{"twin", s.config.gyro.tick_s};
+    calibration::LabReader reader{"twin", s.config.gyro.tick_s};
     const auto halves = std::llround(2.0 * log_s / s.config.gyro.tick_s);
     for (std::int64_t h = 0; h < halves; ++h) {
         core::HalfRecord r = loop.advance().record;
@@ -111,12 +111,12 @@ std::map<std::string, Errors> errors_of_all() {
     std::map<std::string, Errors> errors;
     for (int k = 0; k < n_twins; ++k) {
         const Specimen s = specimen(k);
-        const std::vector<analysis::LabLog> logs{record(s)};
+        const std::vector<calibration::LabLog> logs{record(s)};
         const auto true_value = truth(s);
-        const auto found = analysis::calibrate(
+        const auto found = calibration::calibrate(
             logs,
             {.rate_arcsec_s = s.rate_arcsec_s, .stepped_voltage = s.config.perimeter.loop == config::Loop::digital});
-        for (const analysis::Constant& c : found.constants) {
+        for (const calibration::Constant& c : found.constants) {
             Errors& e = errors[c.key];
             if (!c.estimate.determined) {
                 ++e.refused;

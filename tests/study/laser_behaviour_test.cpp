@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <zlg/analysis/calibration.hpp>
+#include <zlg/calibration/calibration.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
@@ -214,26 +214,26 @@ TEST(LaserBehaviour, corrections_by_the_slope_alone_remove_too_much) {
 }
 
 // A log of a gyro whose switches miss by 0.2.
-analysis::Calibration calibration(double rate_arcsec_s, int n_halves) {
+calibration::Calibration calibration(double rate_arcsec_s, int n_halves) {
     config::Config c = laser_gyro();
     c.motion.kind = config::MotionKind::constant;
     c.motion.rate_arcsec_s = rate_arcsec_s;
     c.switching.interval_s = 2.0;
     c.perimeter.miss_lambda = 0.2;
     rig::ClosedLoop loop{c, rig::motion(c)};
-    analysis::LabReader reader{"laboratory", c.gyro.tick_s};
+    calibration::LabReader reader{"laboratory", c.gyro.tick_s};
     for (int h = 0; h < n_halves; ++h) reader.take(loop.advance().record);
-    const std::vector<analysis::LabLog> logs{reader.finish()};
-    return analysis::calibrate(logs, {.rate_arcsec_s = rate_arcsec_s});
+    const std::vector<calibration::LabLog> logs{reader.finish()};
+    return calibration::calibrate(logs, {.rate_arcsec_s = rate_arcsec_s});
 }
 
 // Turned slowly, its counter does not repeat itself.
 TEST(LaserBehaviour, a_curve_from_laboratory_logs_leaves_as_little) {
-    const analysis::Calibration found = calibration(50.0, 480'000);
+    const calibration::Calibration found = calibration(50.0, 480'000);
     ASSERT_TRUE(found.curve.determined) << found.curve.reason;
 
     config::Config used = laser_gyro();
-    for (const analysis::Constant& constant : found.constants) {
+    for (const calibration::Constant& constant : found.constants) {
         if (constant.key == "gyro.bias_hz") used.gyro.bias_hz = constant.estimate.value;
         if (constant.key == "gyro.bias_chi") used.gyro.bias_chi = constant.estimate.value;
     }
@@ -246,7 +246,7 @@ TEST(LaserBehaviour, a_curve_from_laboratory_logs_leaves_as_little) {
 }
 
 TEST(LaserBehaviour, a_gyro_at_rest_tells_no_curve) {
-    const analysis::Calibration found = calibration(0.0, 48'000);
+    const calibration::Calibration found = calibration(0.0, 48'000);
     EXPECT_FALSE(found.curve.determined);
     EXPECT_NE(found.curve.reason.find("rounds alike"), std::string::npos) << found.curve.reason;
 }

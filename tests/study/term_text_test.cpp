@@ -5,7 +5,7 @@
 namespace {
 
 using namespace zlg;
-using analysis::NoiseKind;
+using noise::NoiseKind;
 
 TEST(TermText, a_value_has_the_digits_that_its_error_allows) {
     EXPECT_EQ(study::with_error(1.23456, 0.012), "1.235 +- 0.012");

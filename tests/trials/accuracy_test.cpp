@@ -92,17 +92,6 @@ TEST(Accuracy, TheQuickCampaignMeetsWhatIsWanted) {
     the_page_stands_by_itself();
 }
 
-TEST(Accuracy, WorkIsSharedOutOnceEach) {
-    std::vector<int> done(1000, 0);
-    share_out(done.size(), 3, [&](std::size_t k) { ++done[k]; });
-    for (int n : done) EXPECT_EQ(n, 1);
-    EXPECT_THROW(share_out(10, 2,
-                           [](std::size_t k) {
-                               if (k == 7) throw std::runtime_error("7");
-                           }),
-                 std::runtime_error);
-}
-
 // A rate that grows evenly is met exactly by every polynomial, for the points lie symmetrically about the gap.
 TEST(AccuracyRecording, ASteadyAccelerationIsMet) {
     const auto path = std::filesystem::path{testing::TempDir()} / "accuracy_recording.txt";

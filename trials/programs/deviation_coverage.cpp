@@ -22,13 +22,13 @@
 #include <unsupported/Eigen/FFT>
 
 #include <fmt/format.h>
-#include <zlg/analysis/averaging.hpp>
-#include <zlg/analysis/deviation.hpp>
-#include <zlg/analysis/deviation_confidence.hpp>
+#include <zlg/deviations/averaging.hpp>
+#include <zlg/deviations/deviation.hpp>
+#include <zlg/deviations/deviation_confidence.hpp>
 
 namespace {
 
-using namespace zlg::analysis;
+using namespace zlg::deviations;
 
 constexpr std::array kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
                            DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,

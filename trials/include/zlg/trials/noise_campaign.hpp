@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <zlg/analysis/noise_fit.hpp>
+#include <zlg/noise/noise_fit.hpp>
 
 namespace zlg::trials {
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include <zlg/analysis/deviation.hpp>
-#include <zlg/analysis/mode_split.hpp>
-#include <zlg/analysis/noise_fit.hpp>
-#include <zlg/analysis/noise_units.hpp>
-#include <zlg/analysis/rate_table.hpp>
-#include <zlg/analysis/spectrum.hpp>
+#include <zlg/calibration/rate_table.hpp>
 #include <zlg/config/config.hpp>
+#include <zlg/deviations/deviation.hpp>
+#include <zlg/noise/mode_split.hpp>
+#include <zlg/noise/noise_fit.hpp>
+#include <zlg/noise/noise_units.hpp>
+#include <zlg/noise/spectrum.hpp>
 #include <zlg/report/page.hpp>
 
 namespace zlg::study {
@@ -59,20 +59,20 @@ struct AxisResult {
     double mean_arcsec_s = 0.0;  // without the sinusoids that were found
     // What the noise lets it differ by: see docs/noise.md, "Mean rate and the Earth". NaN: not known.
     double mean_sigma_arcsec_s = 0.0;
-    std::vector<analysis::DeviationCurve> curves;  // those asked for
+    std::vector<deviations::DeviationCurve> curves;  // those asked for
     // What readouts and the error of the mean are taken from: the first of oadev, adev, totdev that was asked for, or else oadev
     // at octaves. Without points where the record has none.
-    analysis::DeviationCurve allan;
-    std::optional<analysis::NoiseFit> fit;
+    deviations::DeviationCurve allan;
+    std::optional<noise::NoiseFit> fit;
     std::string no_fit;  // why there is none
     std::vector<Readout> readouts;
-    std::optional<analysis::ModeSplit> modes;
-    std::vector<analysis::DeviationCurve> mode_curves;  // mode +1, mode -1, with the magnetic part taken out
+    std::optional<noise::ModeSplit> modes;
+    std::vector<deviations::DeviationCurve> mode_curves;  // mode +1, mode -1, with the magnetic part taken out
     std::vector<TimeBin> course;
     std::vector<Gap> gaps;  // the first `most_gaps`
-    analysis::Spectrum spectrum;
-    analysis::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
-    analysis::Spectrogram spectrogram;
+    noise::Spectrum spectrum;
+    noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
+    noise::Spectrogram spectrogram;
     bool is_error = false;  // as of its record
 };
 
@@ -89,13 +89,13 @@ struct EarthLine {
 // Noise that somebody presumes, to be drawn beside what was measured.
 struct PresumedNoise {
     std::string name;
-    analysis::NoiseTerms terms;
+    noise::NoiseTerms terms;
 };
 
 // A rate-table test of one axis.
 struct TableResult {
     std::string name, holds;
-    analysis::RateTable table;
+    calibration::RateTable table;
 };
 
 struct AnalysisResult {
@@ -108,9 +108,9 @@ struct AnalysisResult {
 // What Kalibr would be told of these axes: the largest angle random walk and rate random walk of them; where none has rate random
 // walk the largest of its 95 % limits, for Kalibr refuses 0. An axis whose error stands behind it does not count, the error does.
 //
-// errors  analysis::SeriesError: no terms are fitted to an axis or they do not describe it; no axis has angle random walk; no rate
+// errors  deviations::SeriesError: no terms are fitted to an axis or they do not describe it; no axis has angle random walk; no rate
 // random walk and no limit of it.
-[[nodiscard]] analysis::KalibrGyro kalibr_gyro(const std::vector<AxisResult>& axes);
+[[nodiscard]] noise::KalibrGyro kalibr_gyro(const std::vector<AxisResult>& axes);
 
 inline constexpr double earth_rate_arcsec_s = 15.041067;
 
@@ -125,7 +125,7 @@ struct AnalysisTask {
 };
 
 // errors  config::ConfigError: no deviation is asked for, or mtotdev or htotdev at averaging times that take many minutes and are not
-// in taus_s; analysis::SeriesError, with the axis' name: nothing known, all equal, too short for a deviation, a tau that it does not have.
+// in taus_s; deviations::SeriesError, with the axis' name: nothing known, all equal, too short for a deviation, a tau that it does not have.
 [[nodiscard]] AxisResult analyze_axis(const AnalysisTask& task, AxisRecord record);
 
 // Axes that are errors are passed over.

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <zlg/analysis/noise_fit.hpp>
+#include <zlg/noise/noise_fit.hpp>
 
 namespace zlg::study {
 
@@ -14,10 +14,10 @@ struct ShownTerm {
     std::string second_unit;
 };
 
-[[nodiscard]] ShownTerm shown_term(analysis::NoiseKind kind);
+[[nodiscard]] ShownTerm shown_term(noise::NoiseKind kind);
 
 // "0.00234 +- 0.00002 deg/sqrt(h)", "below 0.03 deg/h", "not found"
-[[nodiscard]] std::string value_text(const analysis::FittedTerm& term);
+[[nodiscard]] std::string value_text(const noise::FittedTerm& term);
 
 // The value with as many digits as its error allows.
 [[nodiscard]] std::string with_error(double value, double sigma);

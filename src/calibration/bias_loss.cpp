@@ -1,0 +1,170 @@
+#include <zlg/calibration/bias_loss.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+
+#include "relock_borders.hpp"
+#include "settled.hpp"
+
+namespace zlg::calibration {
+namespace {
+
+// So many clusters give a scatter to be relied on.
+constexpr std::int64_t least_clusters = 8;
+
+// The borders of one re-lock: columns of the loss per unit of chi and of parity.
+struct Borders : RelockBorders {
+    double noise_z = 0.0;  // what light noise adds to the sum of squares of the loss about its mean
+
+    Borders(const RelockView& view, const BiasLaw& law, std::size_t transient);
+};
+
+Borders::Borders(const RelockView& view, const BiasLaw& law, std::size_t transient) {
+    const LightNoise light{view.log->square};
+    const Eigen::Index n = halves_used(view, transient);
+    const auto kept = static_cast<Eigen::Index>(transient + 1);
+    Eigen::Index h = 0;
+    const auto loss_of = [&](const core::HalfRecord& r, Eigen::Ref<Eigen::RowVectorXd> loss) {
+        const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c);
+        loss[0] = r.detuning_sq_lambda2 - light.square_lambda2;
+        // This half stands in all observations behind it: in all rows k > h, and in the rest's means by their share.
+        const double rows = static_cast<double>(kept + 2);
+        const double behind = h < kept ? static_cast<double>(kept - 1 - h) + 2.0
+                                       : 2.0 * static_cast<double>(n - h) / static_cast<double>(n + 1 - kept);
+        const double behind_sq = h < kept ? behind : 0.5 * behind * behind;
+        noise_z += light.variance_of(loss[0]) * cycles * cycles * (behind_sq - behind * behind / rows);
+        ++h;
+    };
+    RelockBorders::operator=(relock_borders(view, law, transient, 1, loss_of));
+}
+
+struct Sums {
+    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();  // information, less what light noise adds
+    Eigen::Vector2d c = Eigen::Vector2d::Zero();
+};
+
+Sums sums_of(const Borders& b) {
+    Sums s{b.x.transpose() * b.x, b.x.transpose() * b.y};
+    s.a(0, 0) -= b.noise_z;
+    return s;
+}
+
+// Scatter of the re-locks' own contributions: nothing is presumed of the noise within one of them.
+Eigen::Matrix2d scatter_covariance(const std::vector<Sums>& clusters, const Eigen::Matrix2d& inverse,
+                                   const Eigen::Vector2d& solution) {
+    Eigen::Matrix2d meat = Eigen::Matrix2d::Zero();
+    for (const Sums& s : clusters) {
+        const Eigen::Vector2d score = s.c - s.a * solution;
+        meat += score * score.transpose();
+    }
+    const auto n = static_cast<double>(clusters.size());
+    const double factor = numeric::widened(1.0, n - 2.0);
+    return factor * factor * n / (n - 2.0) * (inverse * meat * inverse);
+}
+
+// Of the residuals about what rounding and light noise make of them.
+double chi2_per_dof(const std::vector<Borders>& all, const Eigen::Vector2d& solution) {
+    double found = 0.0;
+    double expected = -2.0 * rounding_counts2;
+    for (const Borders& b : all) {
+        found += (b.y - b.x * solution).squaredNorm();
+        expected += rounding_counts2 * static_cast<double>(b.y.size() - 1) + solution[0] * solution[0] * b.noise_z;
+    }
+    return found / expected;
+}
+
+numeric::Estimate judged(double chi, double sigma, const BiasLoss& loss) {
+    const numeric::Estimate e = numeric::estimated(chi, sigma);
+    constexpr double least_sigma = 0.1;
+    constexpr double within_sigmas = 2.0;
+    if (e.determined && std::abs(chi) < within_sigmas * sigma && sigma <= least_sigma)
+        return numeric::refused(fmt::format("chi = {:.2g} +- {:.2g}: within its error of 0", chi, sigma));
+    if (e.determined && chi < -within_sigmas * sigma)
+        return numeric::refused(
+            fmt::format("chi = {:.2g} +- {:.2g}: the bias does not fall with the detuning", chi, sigma));
+    if (!e.determined || (sigma <= least_sigma && chi > 0.0) || sigma <= 0.3 * chi) return e;
+    return numeric::refused(
+        fmt::format("chi = {:.2g} +- {:.2g} from {} re-locks whose first half lacks {:.2g} counts; more "
+                    "switches or a larger miss would tell",
+                    chi, sigma, loss.n_relocks, loss.deficit_counts));
+}
+
+// A counter that shows one and the same number after every re-lock tells the counts that the first half lacks to about
+// a count, over how often it could have shown another. Here the deficit is that of chi = 1.
+double resolution(const BiasLoss& loss) {
+    return std::sqrt(rounding_counts2) / (loss.deficit_counts * static_cast<double>(1 + loss.n_relocks));
+}
+
+// Why the column cannot tell chi; empty where it may.
+std::string why_useless(const Relocks& relocks) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    for (const RelockView& view : relocks.views) {
+        for (const core::HalfRecord& r : view.relock->halves) {
+            least = std::fmin(least, r.detuning_sq_lambda2);
+            most = std::fmax(most, r.detuning_sq_lambda2);
+        }
+    }
+    constexpr double most_square_lambda2 = 1e6;
+    if (!(least >= 0.0 && most <= most_square_lambda2))
+        return fmt::format("the column detuning_sq_lambda2 reaches from {:.3g} to {:.3g}; allowed is 0..{:g} lambda^2",
+                           least, most, most_square_lambda2);
+    if (!(most - least > 1e-9 * most))
+        return fmt::format("the column detuning_sq_lambda2 is constant, {:.3g}: no re-lock shows in it", least);
+    return {};
+}
+
+void solve(const std::vector<Borders>& all, BiasLoss& loss) {
+    std::vector<Sums> clusters;
+    Sums total;
+    for (const Borders& b : all) {
+        clusters.push_back(sums_of(b));
+        total.a += clusters.back().a;
+        total.c += clusters.back().c;
+    }
+    const Eigen::Matrix2d inverse = total.a.inverse();
+    const Eigen::Vector2d solution = inverse * total.c;
+    loss.chi2_per_dof = chi2_per_dof(all, solution);
+    const Eigen::Matrix2d covariance =
+        loss.n_relocks >= least_clusters
+            ? Eigen::Matrix2d{scatter_covariance(clusters, inverse, solution) +
+                              inverse * repeated_rounding({all.begin(), all.end()}, solution).covariance * inverse}
+            : Eigen::Matrix2d{std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * inverse};
+    const double sigma = std::fmax(std::sqrt(covariance(0, 0)), resolution(loss));
+    loss.deficit_counts *= std::abs(solution[0]);
+    loss.chi = judged(solution[0], sigma, loss);
+}
+
+}  // namespace
+
+BiasLoss find_bias_loss(std::span<const LabLog> logs, const BiasLaw& law) {
+    BiasLoss loss;
+    const Relocks relocks{logs};
+    loss.n_relocks = std::ssize(relocks.views);
+    if (!law.bias_hz.determined) {
+        loss.chi = numeric::refused("the bias frequency is not determined");
+    } else if (relocks.views.empty()) {
+        loss.chi =
+            numeric::refused(fmt::format("no gap is followed by {} measured ticks with the column detuning_sq_lambda2",
+                                         settled_after_ticks + block_ticks));
+    } else if (const std::string useless = why_useless(relocks); !useless.empty()) {
+        loss.n_relocks = 0;
+        loss.chi = numeric::refused(useless);
+    } else {
+        std::vector<Borders> all;
+        for (const RelockView& view : relocks.views) {
+            all.emplace_back(view, law, relocks.transient_halves);
+            loss.deficit_counts += 0.5 * view.log->tick_s * law.bias_hz.value * relocks.first_square_lambda2 /
+                                   static_cast<double>(relocks.views.size());
+        }
+        solve(all, loss);
+    }
+    return loss;
+}
+
+}  // namespace zlg::calibration

@@ -1,0 +1,277 @@
+#include <zlg/calibration/drift_law.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <zlg/calibration/increment_fit.hpp>
+
+#include <zlg/numeric/minimum.hpp>
+#include "pieces.hpp"
+
+namespace zlg::calibration {
+namespace {
+
+constexpr std::int64_t least_pieces = 8;
+constexpr double wanted_pieces = 500.0;
+constexpr double turned_between = 2.0;     // counts
+constexpr double least_bend_sigmas = 4.0;  // of A, and of a straight growth
+constexpr double most_time_error = 0.2;    // of tau, relative
+
+// Pieces so long that the counter turns on meanwhile: the readings at their borders are then rounded independently.
+std::vector<Piece> turning_pieces(std::span<const LabLog> logs) {
+    double turned_counts = 0.0;
+    for (const Piece& segment : pieces_of(logs, std::numeric_limits<double>::infinity()))
+        turned_counts += std::abs(segment.counts);
+    const double all_s = settled_s(logs);
+    return pieces_of(logs, std::max(all_s / wanted_pieces, turned_between * all_s / std::max(turned_counts, 1.0)));
+}
+
+// Counts that a bias growing with temperature takes from a tick, for the half that comes second has more of it:
+// s (T/4) df/dt a second. They follow the helicity as a magnetic drift does, and are put back.
+double counts_of_warming(const Piece& p, const BiasLaw& bias, double tick_s) {
+    if (!bias.bias_hz.determined || !std::isfinite(p.signed_rise_c)) return 0.0;
+    return 0.25 * tick_s * bias.bias_hz.value * bias.coefficient_taken_per_c * p.signed_rise_c;
+}
+
+// Angles and their laws.
+struct Record {
+    std::vector<Piece> pieces;
+    std::vector<Increment> angles;
+    double border_variance;
+    double span_s = 0.0;  // longest log
+
+    Record(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s, const BiasLaw& bias)
+        : pieces{turning_pieces(logs)}, border_variance{scale_arcsec * scale_arcsec / 12.0} {
+        for (const Piece& p : pieces) {
+            const double counts = p.counts + counts_of_warming(p, bias, logs[p.log].tick_s);
+            angles.push_back({scale_arcsec * counts - rate_arcsec_s * p.length_s, p.length_s, p.chain});
+            span_s = std::max(span_s, p.start_s + p.length_s);
+        }
+    }
+
+    [[nodiscard]] Eigen::Index n() const { return std::ssize(pieces); }
+
+    // Columns: constant of either kind, then `extra` of a piece.
+    template <class Extra>
+    [[nodiscard]] Eigen::MatrixXd laws(Eigen::Index n_extra, Extra extra) const {
+        Eigen::MatrixXd m(n(), 2 + n_extra);
+        for (Eigen::Index p = 0; p < n(); ++p) {
+            const Piece& piece = pieces[static_cast<std::size_t>(p)];
+            m(p, 0) = piece.mode * piece.length_s;
+            m(p, 1) = piece.length_s;
+            extra(piece, m.row(p));
+        }
+        return m;
+    }
+};
+
+// Integral of 1 - exp(-t/tau) over a piece, and its derivative by tau.
+struct Warming {
+    double integral_s;
+    double by_tau;
+
+    Warming(const Piece& p, double tau_s) {
+        const double from = std::exp(-p.start_s / tau_s);
+        const double loss = std::expm1(-p.length_s / tau_s);
+        const double to = from * (1.0 + loss);
+        integral_s = p.length_s + tau_s * from * loss;
+        by_tau = from * loss - from * p.start_s / tau_s + to * (p.start_s + p.length_s) / tau_s;
+    }
+};
+
+Eigen::MatrixXd exponential_laws(const Record& record, double tau_s) {
+    return record.laws(1, [&](const Piece& p, auto row) { row(2) = p.mode * Warming{p, tau_s}.integral_s; });
+}
+
+Eigen::MatrixXd exponential_laws_and_tau(const Record& record, double tau_s, double a_arcsec_s) {
+    return record.laws(2, [&](const Piece& p, auto row) {
+        const Warming w{p, tau_s};
+        row(2) = p.mode * w.integral_s;
+        row(3) = p.mode * a_arcsec_s * w.by_tau;
+    });
+}
+
+Eigen::MatrixXd straight_laws(const Record& record) {
+    return record.laws(1,
+                       [](const Piece& p, auto row) { row(2) = p.mode * p.length_s * (p.start_s + 0.5 * p.length_s); });
+}
+
+double sigma(const IncrementFit& fit, Eigen::Index k) { return std::sqrt(fit.covariance(k, k)); }
+
+struct Exponential {
+    double tau_s = 0.0;
+    IncrementFit fit;  // Om0, Om_nm, A, tau
+    bool determined = false;
+};
+
+// The residual as a function of log tau alone: the other coefficients follow linearly. The walk is found again at the
+// tau found.
+Exponential fit_exponential(const Record& record) {
+    Exponential e;
+    double walk = fit_walk(record.angles, straight_laws(record), record.border_variance).walk_variance_per_s;
+    for (int round = 0; round < 3; ++round) {
+        const auto residual = [&](double log_tau) {
+            const Eigen::MatrixXd laws = exponential_laws(record, std::exp(log_tau));
+            return fit_known(record.angles, laws, record.border_variance, walk).residual;
+        };
+        const double low = std::log(record.span_s / 300.0);
+        const double high = std::log(record.span_s * 10.0);
+        e.tau_s = std::exp(numeric::scanned_minimum(residual, low, high, 50).at);
+        const Eigen::MatrixXd flat = exponential_laws(record, e.tau_s);
+        const double a = fit_known(record.angles, flat, record.border_variance, walk).coefficient[2];
+        e.fit = fit_walk(record.angles, exponential_laws_and_tau(record, e.tau_s, a), record.border_variance);
+        walk = e.fit.walk_variance_per_s;
+    }
+    // The column of tau corrects by less than its tolerance: coefficient 3 is a step of tau.
+    e.tau_s += std::clamp(e.fit.coefficient[3], -0.01 * e.tau_s, 0.01 * e.tau_s);
+    e.determined = std::abs(e.fit.coefficient[2]) > least_bend_sigmas * sigma(e.fit, 2) &&
+                   sigma(e.fit, 3) < most_time_error * e.tau_s;
+    return e;
+}
+
+void refuse_thermal(const std::string& reason, DriftLaw& law) {
+    law.magnetic_thermal_arcsec_s = numeric::refused(reason);
+    law.thermal_time_s = numeric::refused(reason);
+}
+
+void refuse_all(const std::string& reason, DriftLaw& law) {
+    law.magnetic_arcsec_s = numeric::refused(reason);
+    law.nonmagnetic_arcsec_s = numeric::refused(reason);
+    law.random_walk_arcsec_sqrt_s = numeric::refused(reason);
+    refuse_thermal(reason, law);
+}
+
+// Rounding is white where the counter turns on between the ends of the segments; a counter that stands rounds in its
+// own way, which only a walk beyond the rounding outgrows.
+bool walk_shows(const Record& record, double walk) {
+    constexpr double turning_counts = 10.0;
+    double chains = 0.0;
+    double turned_counts = 0.0;
+    double length_s = 0.0;
+    for (std::size_t p = 0; p < record.pieces.size(); ++p) {
+        chains += p == 0 || record.pieces[p].chain != record.pieces[p - 1].chain ? 1.0 : 0.0;
+        turned_counts += std::abs(record.pieces[p].counts);
+        length_s += record.pieces[p].length_s;
+    }
+    const double rounding = 2.0 * record.border_variance;
+    return walk * length_s / chains > (turned_counts / chains > turning_counts ? 0.5 : 1.0) * rounding;
+}
+
+void take(const Record& record, const IncrementFit& fit, DriftLaw& law) {
+    law.magnetic_arcsec_s = numeric::estimated(fit.coefficient[0], sigma(fit, 0));
+    law.nonmagnetic_arcsec_s = numeric::estimated(fit.coefficient[1], sigma(fit, 1));
+    law.chi2_per_dof = fit.residual / static_cast<double>(fit.dof);
+    law.dof = fit.dof;
+    const double walk = std::sqrt(fit.walk_variance_per_s);
+    const double walk_sigma = fit.walk_variance_sigma / (2.0 * walk);
+    // A walk that the rounding hides must not be claimed where its estimate happens to come out large.
+    const double surely = fit.walk_variance_per_s - 2.0 * fit.walk_variance_sigma;
+    if (walk_sigma < 0.3 * walk && walk_shows(record, surely))
+        law.random_walk_arcsec_sqrt_s = numeric::estimated(walk, walk_sigma);
+    else
+        law.random_walk_arcsec_sqrt_s = numeric::refused(
+            "rounding of the counter hides it; a longer record, or longer segments between switches, would tell");
+}
+
+// Why A and tau cannot be separated, or not be found at all.
+std::string why_no_bend(const Record& record, const IncrementFit& straight) {
+    const double slope = straight.coefficient[2];
+    if (!(std::abs(slope) > least_bend_sigmas * sigma(straight, 2)))
+        return fmt::format("over {:.4g} s the magnetic drift does not change by more than its error", record.span_s);
+    return fmt::format(
+        "over {:.4g} s the magnetic drift grows by {:.3g} +- {:.2g} arcsec/s in 1000 s; where it ends is not seen, so "
+        "only "
+        "A/tau is",
+        record.span_s, 1e3 * slope, 1e3 * sigma(straight, 2));
+}
+
+// Om0 and Om_nm where A and tau are not known: the mean over all warmings from 1/20 to 10 times the span, each weighted
+// by how well it fits, with the spread between them.
+IncrementFit mean_over_times(const Record& record, double walk) {
+    constexpr int n_times = 24;
+    const double low = std::log(record.span_s / 20.0);
+    const double high = std::log(record.span_s * 10.0);
+    std::vector<IncrementFit> fits;
+    for (int k = 0; k <= n_times; ++k) {
+        const double tau_s = std::exp(low + (high - low) * k / n_times);
+        fits.push_back(fit_known(record.angles, exponential_laws(record, tau_s), record.border_variance, walk));
+    }
+    double best = fits.front().residual;
+    for (const IncrementFit& f : fits) best = std::min(best, f.residual);
+    // The weights of warmings that do not fit vanish; that of the best is 1.
+    const auto weight = [best](const IncrementFit& f) { return std::exp(-0.5 * (f.residual - best)); };
+    IncrementFit mean = fits.front();
+    mean.residual = best;
+    mean.coefficient.setZero();
+    mean.covariance.setZero();
+    double weights = 0.0;
+    for (const IncrementFit& f : fits) {
+        weights += weight(f);
+        mean.coefficient += weight(f) * f.coefficient;
+    }
+    mean.coefficient /= weights;
+    for (const IncrementFit& f : fits) {
+        const Eigen::VectorXd apart = f.coefficient - mean.coefficient;
+        mean.covariance += weight(f) / weights * (f.covariance + apart * apart.transpose());
+    }
+    return mean;
+}
+
+// return  the walk, arcsec^2/s.
+double find(const Record& record, DriftLaw& law) {
+    const Exponential e = fit_exponential(record);
+    const double walk = e.fit.walk_variance_per_s;
+    if (e.determined) {
+        take(record, e.fit, law);
+        law.magnetic_thermal_arcsec_s = numeric::estimated(e.fit.coefficient[2], sigma(e.fit, 2));
+        law.thermal_time_s = numeric::estimated(e.tau_s, sigma(e.fit, 3));
+        return walk;
+    }
+    refuse_thermal(why_no_bend(record, fit_known(record.angles, straight_laws(record), record.border_variance, walk)),
+                   law);
+    IncrementFit fit = mean_over_times(record, walk);
+    fit.walk_variance_sigma = e.fit.walk_variance_sigma;
+    take(record, fit, law);
+    return walk;
+}
+
+bool has_both_modes(const std::vector<Piece>& pieces) {
+    const auto in_mode = [](int mode) { return [mode](const Piece& p) { return p.mode == mode; }; };
+    return std::any_of(pieces.begin(), pieces.end(), in_mode(1)) &&
+           std::any_of(pieces.begin(), pieces.end(), in_mode(-1));
+}
+
+RestCheck rest_of(std::span<const LabLog> logs, double scale_arcsec, double walk_arcsec2_s) {
+    AngleScatter scatter;
+    for (const LabLog& log : logs) scatter.add(log.scatter);
+    return check_rest(scatter, walk_arcsec2_s * logs.front().tick_s / (scale_arcsec * scale_arcsec));
+}
+
+}  // namespace
+
+DriftLaw find_drift_law(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s, const BiasLaw& bias) {
+    DriftLaw law;
+    const Record record{logs, scale_arcsec, rate_arcsec_s, bias};
+    if (record.n() < least_pieces) {
+        refuse_all(fmt::format("{} pieces of settled record; {} or more are needed", record.n(), least_pieces), law);
+        return law;
+    }
+    if (!has_both_modes(record.pieces)) {
+        refuse_all("one mode only: what follows the helicity cannot be separated from what does not", law);
+        return law;
+    }
+    const double walk = find(record, law);
+    law.rest = rest_of(logs, scale_arcsec, walk);
+    if (!law.rest.at_rest)
+        refuse_all(fmt::format("the gyro was moved: over {} ticks the angle scatters with {:.3g} times the variance of "
+                               "one at rest",
+                               law.rest.worst_ticks, law.rest.worst_ratio),
+                   law);
+    return law;
+}
+
+}  // namespace zlg::calibration

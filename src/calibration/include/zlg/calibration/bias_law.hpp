@@ -1,0 +1,31 @@
+#pragma once
+// Bias frequency of the settled gyro, and how it follows temperature.
+//
+//   (c_first - c_second) s / T = f0 (1 + alpha (T_c - T_ref))        s = bias_sign mode in the first half
+//
+// Means over segments. A gyro that hardly turns shows the same rounding tick after tick, one that turns by some counts
+// runs through it, so segments are weighted by how far they turned; the standard errors come from their scatter.
+
+#include <span>
+
+#include <zlg/calibration/lab_log.hpp>
+#include <zlg/numeric/estimate.hpp>
+
+namespace zlg::calibration {
+
+struct BiasLaw {
+    numeric::Estimate bias_hz;  // at the reference temperature
+    numeric::Estimate temperature_coefficient_per_c;
+    double coefficient_taken_per_c = 0.0;  // the one found, or the one presumed
+    double reference_temperature_c = 20.0;
+    double scatter_ratio = 0.0;  // rms of the segments about the law, over what rounding alone would leave
+    std::int64_t dof = 0;
+
+    [[nodiscard]] double at_hz(double temperature_c) const;
+};
+
+// presumed_per_c  the coefficient where the data determine none.
+[[nodiscard]] BiasLaw find_bias_law(std::span<const LabLog> logs, double reference_temperature_c,
+                                    double presumed_per_c);
+
+}  // namespace zlg::calibration

@@ -1,0 +1,48 @@
+#pragma once
+// All constants that laboratory logs of one gyro determine, in the order in which they rest on each other.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <zlg/calibration/lab_log.hpp>
+#include <zlg/calibration/loss_curve.hpp>
+#include <zlg/numeric/estimate.hpp>
+
+namespace zlg::calibration {
+
+// What is known beforehand. Nothing that is to be found is among it but where the data do not tell it.
+struct Presumed {
+    double scale_arcsec = 3.263;
+    double reference_temperature_c = 20.0;
+    double rate_arcsec_s = 0.0;                       // at which the gyro was turned
+    bool stepped_voltage = false;                     // the perimeter loop is digital
+    bool read_by_slope = true;                        // all detunings, by one and the same
+    double bias_temperature_coefficient_per_c = 0.0;  // used where a single temperature was met; so is the next
+    double half_wave_temperature_coefficient_per_c = 0.0;
+};
+
+struct Constant {
+    std::string key;   // of the configuration; `detuning_scale` has none
+    std::string unit;  // empty for a pure number
+    numeric::Estimate estimate;
+};
+
+// How well a law fits: what the number is, and what it should be.
+struct Goodness {
+    std::string name;
+    double value = 0.0;
+    std::string meaning;
+};
+
+struct Calibration {
+    std::vector<Constant> constants;
+    std::vector<Goodness> goodness;
+    LossCurve curve;  // through which bias_chi and detuning_scale see the logs, where it is determined
+};
+
+// logs    one or more of one gyro, of equal tick; otherwise std::invalid_argument.
+// method  each law's own header says how it is found.
+[[nodiscard]] Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed);
+
+}  // namespace zlg::calibration

@@ -1,0 +1,91 @@
+#include "relock_borders.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace zlg::calibration {
+namespace {
+
+// Rows of the transient as they are; those of the rest as means over even and over odd borders.
+RelockBorders averaged(const RelockBorders& all, Eigen::Index kept) {
+    RelockBorders b{Eigen::VectorXd::Zero(kept + 2), Eigen::MatrixXd::Zero(kept + 2, all.x.cols())};
+    b.y.head(kept) = all.y.head(kept);
+    b.x.topRows(kept) = all.x.topRows(kept);
+    std::array<double, 2> n{};
+    for (Eigen::Index k = kept; k < all.y.size(); ++k) n[static_cast<std::size_t>(k % 2)] += 1.0;
+    for (Eigen::Index k = kept; k < all.y.size(); ++k) {
+        const double share = 1.0 / n[static_cast<std::size_t>(k % 2)];
+        b.y[kept + k % 2] += share * all.y[k];
+        b.x.row(kept + k % 2) += share * all.x.row(k);
+    }
+    return b;
+}
+
+// Of the re-locks of one kind.
+struct Kind {
+    Eigen::MatrixXd x;         // sum
+    Eigen::VectorXd residual;  // sum
+    double squares = 0.0;      // of the residuals
+    double n = 0.0;
+
+    void add(const RelockBorders& b, const Eigen::VectorXd& coefficient) {
+        const Eigen::VectorXd left = b.y - b.x * coefficient;
+        if (n == 0.0) {
+            x = Eigen::MatrixXd::Zero(b.x.rows(), b.x.cols());
+            residual = Eigen::VectorXd::Zero(left.size());
+        }
+        x += b.x;
+        residual += left;
+        squares += left.squaredNorm();
+        n += 1.0;
+    }
+    // About the mean of its row.
+    [[nodiscard]] double scatter() const { return n > 0.0 ? squares - residual.squaredNorm() / n : 0.0; }
+};
+
+}  // namespace
+
+RepeatedRounding repeated_rounding(const std::vector<RelockBorders>& all, const Eigen::VectorXd& coefficient) {
+    std::array<Kind, 4> kinds;
+    for (const RelockBorders& b : all) kinds[static_cast<std::size_t>(b.kind)].add(b, coefficient);
+    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(coefficient.size(), coefficient.size());
+    double scatter = 0.0;
+    double dof = 0.0;
+    for (const Kind& kind : kinds) {
+        if (kind.n == 0.0) continue;
+        shared += kind.x.transpose() * kind.x;
+        scatter += kind.scatter();
+        dof += (kind.n - 1.0) * static_cast<double>(kind.x.rows() - 1);
+    }
+    const double scattered = dof > 0.0 ? scatter / dof : 0.0;
+    const double ratio = std::max(0.0, 1.0 - scattered / rounding_counts2);
+    return {ratio, ratio * rounding_counts2 * shared};
+}
+
+Eigen::Index halves_used(const RelockView& view, std::size_t transient) {
+    return static_cast<Eigen::Index>(std::min(view.relock->halves.size(), 2 * transient + 4));
+}
+
+RelockBorders relock_borders(const RelockView& view, const BiasLaw& law, std::size_t transient, Eigen::Index n_laws,
+                             const LossLaws& losses) {
+    const std::vector<core::HalfRecord>& halves = view.relock->halves;
+    const Eigen::Index n = halves_used(view, transient);
+    RelockBorders all{Eigen::VectorXd::Zero(n + 1), Eigen::MatrixXd::Zero(n + 1, n_laws + 1)};
+    Eigen::RowVectorXd loss = Eigen::RowVectorXd::Zero(n_laws);
+    const double first_sign = halves[0].bias_sign * halves[0].mode;
+    for (Eigen::Index h = 0; h < n; ++h) {
+        const core::HalfRecord& r = halves[static_cast<std::size_t>(h)];
+        const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c) * r.bias_sign * r.mode;
+        losses(r, loss);
+        all.y[h + 1] = all.y[h] + static_cast<double>(r.counts) - cycles - view.counts_per_half;
+        all.x.row(h + 1).head(n_laws) = all.x.row(h).head(n_laws) - cycles * loss;
+        all.x(h + 1, n_laws) = h % 2 == 0 ? first_sign : 0.0;
+    }
+    RelockBorders b = averaged(all, static_cast<Eigen::Index>(transient + 1));
+    b.kind = (first_sign > 0.0 ? 1 : 0) + (halves[0].mode > 0 ? 2 : 0);
+    b.y.array() -= b.y.mean();
+    b.x.rowwise() -= b.x.colwise().mean().eval();
+    return b;
+}
+
+}  // namespace zlg::calibration

@@ -1,0 +1,49 @@
+#pragma once
+// The counts after a re-lock at the borders of its halves, against what each law would make of them.
+//
+//   y_k = sum of the counts before border k, less rotation and an undisturbed bias
+//   x_k = the same sum of -s_h f (T/2) g_h, for the loss g_h that a law gives per unit of its coefficient
+//
+// The counter rounds at each border once, so that the rows are of independent errors. Borders after the transient make
+// one row for each of the two readings that a settled counter repeats. The last column is the parity of the border: an
+// error of f shows there.
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <zlg/calibration/bias_law.hpp>
+
+#include "relock_view.hpp"
+
+namespace zlg::calibration {
+
+inline constexpr double rounding_counts2 = 1.0 / 12.0;  // of one border
+
+struct RelockBorders {
+    Eigen::VectorXd y;
+    Eigen::MatrixXd x;
+    int kind = 0;  // of the re-lock: helicity and first sign of the bias
+};
+
+// As long again as the transient for the rest: every half of it brings light noise.
+[[nodiscard]] Eigen::Index halves_used(const RelockView& view, std::size_t transient);
+
+// The loss of one half by each law, per unit of its coefficient.
+using LossLaws = std::function<void(const core::HalfRecord&, Eigen::Ref<Eigen::RowVectorXd>)>;
+
+// Each column less its mean: the rounding at the first border is common to all.
+[[nodiscard]] RelockBorders relock_borders(const RelockView& view, const BiasLaw& law, std::size_t transient,
+                                           Eigen::Index n_laws, const LossLaws& losses);
+
+// Rounding that does not scatter from one re-lock of a kind to the next: an unknown that all of them share.
+struct RepeatedRounding {
+    double ratio = 0.0;          // of the variance of rounding
+    Eigen::MatrixXd covariance;  // of the sum of x^T y over all
+};
+
+[[nodiscard]] RepeatedRounding repeated_rounding(const std::vector<RelockBorders>& all,
+                                                 const Eigen::VectorXd& coefficient);
+
+}  // namespace zlg::calibration

@@ -1,0 +1,29 @@
+#pragma once
+// The re-locks of all logs that can be compared with each other, and how long their transient lasts.
+
+#include <span>
+#include <vector>
+
+#include <zlg/calibration/lab_log.hpp>
+
+#include "settled.hpp"
+
+namespace zlg::calibration {
+
+struct RelockView {
+    const LabLog* log;
+    const Relock* relock;
+    double counts_per_half = 0.0;  // of the settled rest of the segment: rotation and drift
+};
+
+struct Relocks {
+    std::vector<RelockView> views;
+    std::size_t transient_halves = 0;   // until the mean excess of the mean square is below 1 % of its highest
+    double first_square_lambda2 = 0.0;  // mean excess in the first half
+    double steepest_fall = 1.0;         // least ratio of the mean excess of a half to that before
+
+    // Re-locks with mean squares in every half, and a settled rest that is four times as long as the transient kept.
+    explicit Relocks(std::span<const LabLog> logs);
+};
+
+}  // namespace zlg::calibration

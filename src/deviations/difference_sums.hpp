@@ -1,0 +1,53 @@
+#pragma once
+// Mean squares of second and third differences of a record, for many averaging times in one pass.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <zlg/deviations/angle_record.hpp>
+
+namespace zlg::deviations {
+
+// Sum of squares over so many terms. Of differences of mean rates in units of a sample: of the angle, divided by m.
+struct TermSum {
+    double sum = 0.0;
+    std::int64_t terms = 0;
+
+    void add(const TermSum& other) {
+        sum += other.sum;
+        terms += other.terms;
+    }
+};
+
+// The arrays of a record, and how much of a window must be known. Averaging times m of what follows count entries of the
+// arrays, which may be `stride` intervals apart; then they are sums of as many angles for averaged_sum.
+struct RecordView {
+    const double* angle = nullptr;
+    const std::uint32_t* known = nullptr;  // none: all known, or phase with NaN
+    const double* known_real = nullptr;    // the same as real numbers
+    bool may_be_missing = false;           // an angle may be NaN
+    std::int64_t n_intervals = 0;          // of the array: entries less one
+    double least_known_ratio = 1.0;
+    std::int64_t stride = 1;
+
+    [[nodiscard]] bool has_counts() const { return known != nullptr || known_real != nullptr; }
+};
+
+[[nodiscard]] RecordView view_of(const AngleRecord& record, double least_known_ratio);
+
+// Known intervals that a window of m needs.
+[[nodiscard]] double least_known(std::int64_t m, double ratio);
+
+// Terms begin .. end-1 of one averaging time, `order` 2 or 3: those that begin at border i.
+[[nodiscard]] TermSum difference_sum(const RecordView& view, int order, std::int64_t m, std::int64_t begin,
+                                     std::int64_t end);
+
+// All terms of all averaging times.
+[[nodiscard]] std::vector<TermSum> difference_sums(const RecordView& view, int order,
+                                                   std::span<const std::int64_t> factors, int threads);
+
+// Terms that begin at 0, m, 2m, ...
+[[nodiscard]] TermSum side_by_side_sum(const RecordView& view, int order, std::int64_t m);
+
+}  // namespace zlg::deviations

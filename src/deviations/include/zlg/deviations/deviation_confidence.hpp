@@ -1,0 +1,63 @@
+#pragma once
+// How certain a deviation is: the law that the estimated variance follows.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <zlg/deviations/deviation_kind.hpp>
+
+namespace zlg::deviations {
+
+struct Interval {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+// scale chi2(dof)
+struct ChiSquarePart {
+    double scale = 1.0;
+    double dof = 1.0;
+};
+
+// The law of an estimated variance over its expectation.
+//
+// Few terms, strongly correlated, are a sum of a few squares of unequal weight: `parts`, the eigenvalues of their covariance,
+// are the law itself. Of many terms mean, variance and skewness are enough. Of the chi-square law p = edf; a sum of squares
+// that are correlated is more skew, p < edf.
+struct VarianceLaw {
+    double edf = 1.0;                                           // equivalent degrees of freedom 2 <V>^2/var V
+    double skewness_p = 1.0;                                    // 8/skewness^2
+    std::shared_ptr<const std::vector<ChiSquarePart>> parts{};  // of the mean 1; none: by the moments
+};
+
+// For rate noise of spectrum f^noise.
+//
+// noise   2 white angle (quantisation), 1, 0 white rate (angle random walk), -1 (bias instability), -2 rate random walk,
+//         and for Hadamard deviations -3 and -4 (others: -2 is taken).
+// n_intervals  without gaps.
+// source  the covariances of all pairs of terms, and for the skewness of all triples, as in C. Greenhall, W. Riley,
+//         "Uncertainty of stability variances based on finite differences", PTTI 2003; with parts, and for the total
+//         deviations, the eigenvalues of that covariance.
+[[nodiscard]] VarianceLaw variance_law(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
+
+// Of intervals: beyond it the quantiles of the laws are no numbers.
+inline constexpr double most_confidence = 0.999999;
+
+// errors  SeriesError: a confidence that is not more than 0 and at most most_confidence.
+void check_confidence(double confidence);
+
+// Two-sided, equal tails. From a confidence of 0.37 on it holds the deviation itself.
+//
+// errors  as check_confidence.
+[[nodiscard]] Interval confidence_interval(double deviation, const VarianceLaw& law, double confidence);
+
+// Expectation of the total variance over that of the variance without mirroring; 1 for other kinds. As it is, from the
+// covariance of what is mirrored.
+[[nodiscard]] double total_variance_bias(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
+
+// The same as NIST Special Publication 1065 has it: of long averaging times, by simulation.
+[[nodiscard]] double published_total_variance_bias(DeviationKind kind, int noise, std::int64_t m,
+                                                   std::int64_t n_intervals);
+
+}  // namespace zlg::deviations

@@ -1,0 +1,29 @@
+#pragma once
+// The deviations by name.
+
+#include <string_view>
+
+namespace zlg::deviations {
+
+// Two-sample deviations of the rate averaged over tau, all of which give white rate noise the value sigma/sqrt(tau):
+//
+//   adev, oadev      second differences of the angle at distance tau; side by side, or from every sample
+//   mdev, tdev       second differences of the angle averaged over tau, and the same times tau/sqrt(3): an angle
+//   hdev, ohdev      third differences: a constant drift of the rate drops out
+//   totdev           oadev with the record mirrored at both ends (angle: doubly reflected)
+//   mtotdev          mdev, every piece of 3 tau freed of its mean rate and mirrored
+//   htotdev          ohdev, every piece of 3 tau of the rate freed of its drift and mirrored
+enum class DeviationKind { adev, oadev, mdev, tdev, hdev, ohdev, totdev, mtotdev, htotdev };
+
+[[nodiscard]] std::string_view name_of(DeviationKind kind);
+
+// errors  SeriesError: another name.
+[[nodiscard]] DeviationKind deviation_kind_of(std::string_view name);
+
+// Those that mirror the record or pieces of it.
+[[nodiscard]] bool is_total(DeviationKind kind);
+
+// Order of the differences of the angle: 2, or 3 for the Hadamard deviations.
+[[nodiscard]] int difference_order(DeviationKind kind);
+
+}  // namespace zlg::deviations

@@ -1,0 +1,69 @@
+#include "noise_means.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace zlg::deviations {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t most_angles = 32;  // of a mean angle: enough to tell white from flicker
+constexpr double angle_noise_from = 0.6;  // half way between white rate and flicker angle noise
+
+struct Node {
+    double found, noise;
+};
+
+// What the lag-1 exponent of mean rates is for each law: of -1 to -4 from r1 = 9 ln 3/(8 ln 2) - 2 and its kin, the ratio
+// of the autocovariances of differences of a mean; above 0 of the sampled laws.
+constexpr std::array<Node, 7> of_rates{
+    {{-4.565, -4.0}, {-3.927, -3.0}, {-2.400, -2.0}, {-1.446, -1.0}, {0.0, 0.0}, {1.45, 1.0}, {2.0, 2.0}}};
+// And of mean angles, 2 added; there is no closed form. Chosen so that 0, 1 and 2 come out as what they are.
+constexpr std::array<Node, 3> of_angles{{{-0.45, 0.0}, {0.60, 1.0}, {1.90, 2.0}}};
+
+template <std::size_t n>
+double straight(const std::array<Node, n>& nodes, double found) {
+    if (found <= nodes.front().found) return nodes.front().noise;
+    for (std::size_t k = 1; k < n; ++k)
+        if (found <= nodes[k].found) {
+            const auto& a = nodes[k - 1];
+            const auto& b = nodes[k];
+            return a.noise + (b.noise - a.noise) * (found - a.found) / (b.found - a.found);
+        }
+    return nodes.back().noise;
+}
+
+}  // namespace
+
+void NoiseMeans::interrupt() {
+    rate_.add(missing);
+    angle_.add(missing);
+}
+
+void NoiseMeans::add(const RecordView& view, std::int64_t i) {
+    const std::int64_t intervals = m_ * view.stride;
+    double known = static_cast<double>(intervals);
+    if (view.known != nullptr) known = static_cast<double>(view.known[i + m_] - view.known[i]);
+    if (view.known_real != nullptr) known = view.known_real[i + m_] - view.known_real[i];
+    has_gaps_ = has_gaps_ || view.has_counts();
+    rate_.add(known >= least_known(intervals, view.least_known_ratio) ? (view.angle[i + m_] - view.angle[i]) / known
+                                                                      : missing);
+    if (has_gaps_) return;
+    const std::int64_t n = std::min(m_, most_angles);
+    double sum = 0.0;
+    for (std::int64_t k = 0; k < n; ++k) sum += view.angle[i + k * m_ / n];
+    angle_.add(sum / static_cast<double>(n));
+}
+
+std::optional<NoiseStep> NoiseMeans::step(std::int64_t m_intervals) const {
+    const auto rate = rate_.exponent();
+    if (!rate) return std::nullopt;
+    double noise = straight(of_rates, *rate);
+    if (const auto angle = has_gaps_ || m_intervals == 1 ? std::nullopt : angle_.exponent();
+        angle && noise > angle_noise_from)
+        noise = straight(of_angles, *angle + 2.0);
+    return NoiseStep{.m = m_intervals, .means = rate_.count(), .noise = noise};
+}
+
+}  // namespace zlg::deviations

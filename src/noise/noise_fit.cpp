@@ -1,0 +1,231 @@
+#include <zlg/noise/noise_fit.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include <zlg/deviations/angle_record.hpp>
+#include <zlg/deviations/averaging.hpp>
+#include <zlg/deviations/deviation.hpp>
+
+#include "noise_selection.hpp"
+#include "ramp.hpp"
+#include "sinusoids.hpp"
+
+namespace zlg::noise {
+namespace {
+
+constexpr std::int64_t least_intervals = 64;
+// The longest averaging is so often in the record; beyond it a variance has one degree of freedom and tells nothing.
+constexpr std::int64_t least_lengths = 6;
+constexpr double ramp_chance = 0.002;
+constexpr double one_sided_95 = 1.645;
+
+struct KindText {
+    std::string_view name, unit;
+};
+constexpr std::array<KindText, 7> kinds{{{"quantisation", "arcsec"},
+                                         {"angle random walk", "arcsec/sqrt(s)"},
+                                         {"bias instability", "arcsec/s"},
+                                         {"rate random walk", "arcsec/s/sqrt(s)"},
+                                         {"ramp", "arcsec/s^2"},
+                                         {"exponentially correlated", "arcsec/s"},
+                                         {"sinusoid", "arcsec/s"}}};
+
+HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, const NoiseFitOptions& options) {
+    std::vector<double> summed;
+    summed.reserve(rates.size() + 1);
+    summed.assign(rates.begin(), rates.end());
+    const deviations::AngleRecord record({deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz},
+                                         std::move(summed));
+    const std::int64_t n = record.n_intervals();
+    const auto curve =
+        deviation(record, deviations::DeviationKind::ohdev,
+                  deviations::octave_factors(std::max<std::int64_t>(1, n / least_lengths)),
+                  {.least_known_ratio = options.least_known_ratio, .noise = 0, .threads = options.threads});
+    HadamardPoints points{.tau_0_s = 1.0 / rate_hz, .n_intervals = n};
+    std::vector<double> value, tau, scarcity;
+    for (const deviations::DeviationPoint& p : curve.points) {
+        if (!(p.deviation > 0.0)) continue;
+        points.m.push_back(p.m);
+        tau.push_back(p.tau_s);
+        value.push_back(p.deviation * p.deviation);
+        scarcity.push_back(static_cast<double>(n - 3 * p.m + 1) / static_cast<double>(p.terms));
+    }
+    if (points.m.size() < 4)
+        throw deviations::SeriesError(
+            fmt::format("fit: {} averaging times of which variances are known, 4 or more are needed", points.m.size()));
+    const auto as_vector = [](const std::vector<double>& v) {
+        return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(v.data(), std::ssize(v)));
+    };
+    points.value = as_vector(value);
+    points.tau_s = as_vector(tau);
+    points.scarcity = as_vector(scarcity);
+    return points;
+}
+
+// Where the Allan deviation of the term alone has the value of its coefficient, or its peak.
+double read_at(NoiseKind kind, double second) {
+    switch (kind) {
+        case NoiseKind::quantisation:
+        case NoiseKind::rate_random_walk:
+            return kind == NoiseKind::quantisation ? std::numbers::sqrt3 : 3.0;
+        case NoiseKind::angle_random_walk:
+            return 1.0;
+        case NoiseKind::ramp:
+            return std::numbers::sqrt2;
+        case NoiseKind::markov:
+            return 1.89 * second;
+        case NoiseKind::sine:
+            return 0.371 / second;
+        case NoiseKind::bias_instability:
+            break;
+    }
+    return FittedTerm::none;
+}
+
+FittedTerm smooth_term(const SmoothFit& fit, std::size_t index) {
+    FittedTerm term{.kind = index == markov_index ? NoiseKind::markov : static_cast<NoiseKind>(index)};
+    term.found = fit.found[index];
+    const double sigma2 = fit.square_sigma[index];
+    if (!term.found) {
+        if (index != markov_index) term.limit = std::sqrt(fit.square_freed[index] + one_sided_95 * sigma2);
+        return term;
+    }
+    term.value = std::sqrt(fit.square[index]);
+    const double relative = 0.5 * sigma2 / fit.square[index];
+    term.sigma = term.value * relative;
+    if (index == markov_index) {
+        term.second = fit.markov_time_s;
+        term.second_sigma = fit.markov_time_sigma_s;
+    }
+    return term;
+}
+
+FittedTerm ramp_term(std::span<const double> rates, double rate_hz, const SmoothFit& fit) {
+    const Ramp ramp = find_ramp(rates, rate_hz, terms_of(fit.mean_square, fit.markov_time_s));
+    FittedTerm term{.kind = NoiseKind::ramp};
+    term.found = ramp.chance < ramp_chance;
+    if (term.found) {
+        term.value = ramp.slope_arcsec_s2;
+        term.sigma = ramp.sigma;
+    } else {
+        term.limit = std::abs(ramp.slope_arcsec_s2) + one_sided_95 * ramp.sigma;
+    }
+    return term;
+}
+
+void take_points(const HadamardPoints& points, const SmoothFit& smooth, NoiseFit& fit) {
+    for (Eigen::Index i = 0; i < points.tau_s.size(); ++i)
+        fit.points.push_back({.m = points.m[static_cast<std::size_t>(i)],
+                              .tau_s = points.tau_s[i],
+                              .measured = points.value[i],
+                              .fitted = smooth.fitted[i],
+                              .degrees = smooth.degrees[i]});
+    fit.chi2 = smooth.chi2;
+    fit.dof = smooth.dof;
+}
+
+void take_sinusoids(const std::vector<Sinusoid>& sines, NoiseFit& fit) {
+    for (const Sinusoid& s : sines) {
+        fit.terms.sines.push_back({.amplitude_arcsec_s = s.amplitude_arcsec_s, .frequency_hz = s.frequency_hz});
+        fit.fitted.push_back({.kind = NoiseKind::sine,
+                              .found = true,
+                              .value = s.amplitude_arcsec_s,
+                              .sigma = s.amplitude_sigma,
+                              .second = s.frequency_hz,
+                              .second_sigma = s.frequency_sigma_hz});
+    }
+    if (sines.empty()) fit.fitted.push_back({.kind = NoiseKind::sine});
+}
+
+double probability_of(const SmoothFit& smooth) {
+    if (smooth.dof <= 0) return 1.0;
+    const boost::math::chi_squared law(static_cast<double>(smooth.dof));
+    return boost::math::cdf(boost::math::complement(law, smooth.chi2));
+}
+
+// Allows as much error of the model as it takes, if that is little.
+SmoothFit select(const HadamardPoints& points, bool with_markov, NoiseFit& fit) {
+    constexpr double least_probability = 1e-3;
+    SmoothFit smooth;
+    for (const double model_error : {0.0, 0.02, 0.05, 0.1, 0.2}) {
+        smooth = select_terms(points, with_markov, model_error);
+        fit.model_error = model_error;
+        fit.probability = probability_of(smooth);
+        fit.describes = fit.probability >= least_probability;
+        if (fit.describes) break;
+    }
+    return smooth;
+}
+
+// Terms that do not describe the record say little of what is not among them.
+void widen(NoiseFit& fit) {
+    if (fit.describes) return;
+    const double wider = std::sqrt(fit.chi2 / static_cast<double>(fit.dof));
+    for (FittedTerm& term : fit.fitted) {
+        term.limit = FittedTerm::none;
+        if (term.kind == NoiseKind::sine) continue;
+        term.sigma *= wider;
+        term.second_sigma *= wider;
+    }
+}
+
+void check_known(std::span<const double> rates) {
+    const auto n = std::count_if(rates.begin(), rates.end(), [](double r) { return std::isfinite(r); });
+    if (n < least_intervals)
+        throw deviations::SeriesError(fmt::format("fit: {} known samples, {} or more are needed", n, least_intervals));
+}
+
+}  // namespace
+
+std::string_view name_of(NoiseKind kind) { return kinds[static_cast<std::size_t>(kind)].name; }
+std::string_view unit_of(NoiseKind kind) { return kinds[static_cast<std::size_t>(kind)].unit; }
+
+std::vector<double> rates_arcsec_s(const deviations::Series& series) {
+    check(series);
+    const bool phase = series.what.kind == deviations::DataKind::phase;
+    const double scale =
+        in_arcsec(series.what.unit) * (series.what.kind == deviations::DataKind::rate ? 1.0 : series.what.rate_hz);
+    std::vector<double> rates;
+    rates.reserve(series.values.size());
+    const auto at = [&](std::size_t k) {
+        const bool known = std::isfinite(series.values[k]) && (series.valid.empty() || series.valid[k] != 0);
+        return known ? series.values[k] : FittedTerm::none;
+    };
+    for (std::size_t k = phase ? 1 : 0; k < series.values.size(); ++k)
+        rates.push_back(scale * (phase ? at(k) - at(k - 1) : at(k)));
+    return rates;
+}
+
+NoiseFit fit_noise(const deviations::Series& series, const NoiseFitOptions& options) {
+    std::vector<double> rates = rates_arcsec_s(series);
+    return fit_noise_in_place(rates, series.what.rate_hz, options);
+}
+
+NoiseFit fit_noise_in_place(std::span<double> rates, double rate_hz, const NoiseFitOptions& options) {
+    check(
+        deviations::Series{.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
+    check_known(rates);
+    NoiseFit fit;
+    const auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines);
+    const HadamardPoints points = hadamard_points(rates, rate_hz, options);
+    const SmoothFit smooth = select(points, options.markov, fit);
+    fit.terms = terms_of(smooth.square, smooth.markov_time_s);
+    for (std::size_t index = 0; index < markov_index; ++index) fit.fitted.push_back(smooth_term(smooth, index));
+    fit.fitted.push_back(ramp_term(rates, rate_hz, smooth));
+    if (fit.fitted.back().found) fit.terms.ramp_arcsec_s2 = fit.fitted.back().value;
+    fit.fitted.push_back(smooth_term(smooth, markov_index));
+    take_sinusoids(sines, fit);
+    for (FittedTerm& term : fit.fitted) term.read_at_s = read_at(term.kind, term.second);
+    take_points(points, smooth, fit);
+    widen(fit);
+    return fit;
+}
+
+}  // namespace zlg::noise

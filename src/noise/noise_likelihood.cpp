@@ -1,0 +1,151 @@
+#include "noise_likelihood.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace zlg::noise {
+namespace {
+
+constexpr int most_steps = 60;
+constexpr double enough = 1e-7;        // of the objective
+constexpr double farthest_step = 2.0;  // of a logarithm
+constexpr double least_correlation = 1e-3;
+
+Eigen::ArrayXd scale_of(const MeasuredVariances& v) { return (2.0 / (9.0 * v.degrees.array())).sqrt(); }
+
+// A set of coefficients and all that follows from it.
+struct State {
+    Eigen::VectorXd coefficient;
+    double log_time = 0.0;
+    Eigen::MatrixXd columns;
+    Eigen::VectorXd expected;
+    Eigen::VectorXd root;      // (V/E)^(1/3)
+    Eigen::VectorXd whitened;  // W z
+    double objective = 0.0;
+};
+
+class Likelihood {
+public:
+    Likelihood(const MeasuredVariances& v, const Eigen::MatrixXd& columns, const TimedColumn& timed)
+        : v_(v), columns_(columns), timed_(timed) {}
+
+    [[nodiscard]] Eigen::MatrixXd all_columns(double log_time) const {
+        if (!timed_.at) return columns_;
+        Eigen::MatrixXd all(v_.value.size(), columns_.cols() + 1);
+        all << columns_, timed_.at(log_time);
+        return all;
+    }
+
+    [[nodiscard]] State at(const Eigen::VectorXd& coefficient, double log_time) const {
+        State now{.coefficient = coefficient, .log_time = log_time, .columns = all_columns(log_time)};
+        now.expected = now.columns * coefficient;
+        now.root = (v_.value.array() / now.expected.array()).pow(1.0 / 3.0);
+        const Eigen::ArrayXd s = scale_of(v_);
+        now.whitened = v_.whitening * ((now.root.array() - 1.0 + s * s) / s).matrix();
+        now.objective = now.whitened.squaredNorm() + 2.0 / 3.0 * now.expected.array().log().sum();
+        return now;
+    }
+
+    // Under the measured curve by half: each term as large as it can be.
+    [[nodiscard]] State start() const {
+        const Eigen::MatrixXd columns = all_columns(timed_.log_time);
+        Eigen::VectorXd coefficient(columns.cols());
+        for (Eigen::Index k = 0; k < columns.cols(); ++k)
+            coefficient[k] = 0.5 * (v_.value.array() / columns.col(k).array()).minCoeff();
+        return at(coefficient, timed_.log_time);
+    }
+
+    // What each parameter does to the logarithms of the expected variances: logarithms of the coefficients, and of the
+    // time.
+    [[nodiscard]] Eigen::MatrixXd shares(const State& now) const {
+        Eigen::MatrixXd share = now.expected.cwiseInverse().asDiagonal() * now.columns * now.coefficient.asDiagonal();
+        if (!timed_.at) return share;
+        constexpr double step = 1e-3;
+        const Eigen::VectorXd slope = (timed_.at(now.log_time + step) - timed_.at(now.log_time - step)) / (2.0 * step);
+        share.conservativeResize(Eigen::NoChange, share.cols() + 1);
+        share.rightCols<1>() = now.coefficient.tail<1>()[0] * slope.cwiseQuotient(now.expected);
+        return share;
+    }
+
+    [[nodiscard]] Eigen::MatrixXd information(const Eigen::MatrixXd& share) const {
+        const Eigen::MatrixXd j = v_.whitening * (v_.degrees.array() / 2.0).sqrt().matrix().asDiagonal() * share;
+        return j.transpose() * j;
+    }
+
+    [[nodiscard]] Eigen::VectorXd gradient(const Eigen::MatrixXd& share, const State& now) const {
+        const Eigen::VectorXd pull = v_.whitening.transpose() * now.whitened;
+        const Eigen::ArrayXd by_log = -2.0 / 3.0 * now.root.array() / scale_of(v_) * pull.array() + 2.0 / 3.0;
+        return share.transpose() * by_log.matrix();
+    }
+
+    [[nodiscard]] State moved(const State& now, Eigen::VectorXd move) const {
+        const double length = move.cwiseAbs().maxCoeff();
+        if (length > farthest_step) move *= farthest_step / length;
+        const Eigen::VectorXd coefficient = now.coefficient.array() * move.head(now.coefficient.size()).array().exp();
+        double log_time = now.log_time;
+        if (timed_.at) log_time = std::clamp(log_time + move.tail<1>()[0], timed_.low, timed_.high);
+        return at(coefficient, log_time);
+    }
+
+private:
+    const MeasuredVariances& v_;
+    const Eigen::MatrixXd& columns_;
+    const TimedColumn& timed_;
+};
+
+// Of the coefficients themselves, and of the logarithm of the time. A coefficient that has become too small to matter has
+// next to no information.
+Eigen::MatrixXd covariance(const Eigen::MatrixXd& information, const Eigen::VectorXd& coefficient) {
+    const Eigen::MatrixXd whole =
+        information + 1e-12 * Eigen::MatrixXd::Identity(information.rows(), information.cols());
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(whole.rows());
+    scale.head(coefficient.size()) = coefficient;
+    return scale.asDiagonal() * whole.ldlt().solve(Eigen::MatrixXd::Identity(whole.rows(), whole.cols())) *
+           scale.asDiagonal();
+}
+
+}  // namespace
+
+void take_scatter(const Eigen::MatrixXd& relative, MeasuredVariances& variances) {
+    const Eigen::VectorXd deviation = relative.diagonal().cwiseSqrt();
+    variances.degrees = 2.0 * relative.diagonal().cwiseInverse();
+    const Eigen::MatrixXd correlation =
+        deviation.cwiseInverse().asDiagonal() * relative * deviation.cwiseInverse().asDiagonal();
+    // Where far neighbours were left out the matrix may miss being positive by a little.
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(correlation);
+    const Eigen::VectorXd value = parts.eigenvalues().cwiseMax(least_correlation);
+    variances.whitening = value.cwiseSqrt().cwiseInverse().asDiagonal() * parts.eigenvectors().transpose();
+}
+
+TermFit fit_terms(const MeasuredVariances& v, const Eigen::MatrixXd& columns, const TimedColumn& timed) {
+    const Likelihood likelihood(v, columns, timed);
+    State now = likelihood.start();
+    Eigen::MatrixXd share = likelihood.shares(now);
+    double damping = 1e-3;
+    for (int step = 0; step < most_steps && damping < 1e8; ++step) {
+        Eigen::MatrixXd information = likelihood.information(share);
+        information.diagonal() += (damping * information.diagonal().array() + 1e-12).matrix();
+        State there = likelihood.moved(now, information.ldlt().solve(-0.5 * likelihood.gradient(share, now)));
+        if (!(there.objective <= now.objective)) {
+            damping *= 10.0;
+            continue;
+        }
+        const double gain = now.objective - there.objective;
+        now = std::move(there);
+        share = likelihood.shares(now);
+        damping = std::max(1e-9, 0.1 * damping);
+        if (gain < enough) break;
+    }
+    return {.coefficient = now.coefficient,
+            .log_time = now.log_time,
+            .expected = now.expected,
+            .covariance = covariance(likelihood.information(share), now.coefficient),
+            .objective = now.objective,
+            .chi2 = now.whitened.squaredNorm()};
+}
+
+}  // namespace zlg::noise

@@ -1,0 +1,111 @@
+#include <zlg/noise/spectrum.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include <zlg/deviations/series.hpp>
+
+#include "fourier.hpp"
+
+namespace zlg::noise {
+namespace {
+
+class Pieces {
+public:
+    Pieces(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio)
+        : rates_(rates), rate_hz_(rate_hz), least_known_(least_known_ratio) {
+        if (!(rate_hz > 0.0) || !std::isfinite(rate_hz))
+            throw deviations::SeriesError(fmt::format("spectrum: rate {} Hz, allowed is a positive number", rate_hz));
+        if (piece < 8 || rates.size() < 8)
+            throw deviations::SeriesError(
+                fmt::format("spectrum: pieces of {} of {} samples, allowed is from 8", piece, rates.size()));
+        length_ = std::min(piece, rates.size());
+        padded_ = quick_length(length_);
+        for (std::size_t k = 0; k < length_; ++k)
+            window_.push_back(
+                1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(length_)));
+    }
+
+    [[nodiscard]] std::size_t count() const { return (rates_.size() - length_) / step() + 1; }
+    [[nodiscard]] std::size_t step() const { return std::max<std::size_t>(1, length_ / 2); }
+    [[nodiscard]] double middle_s(std::size_t p) const {
+        return (static_cast<double>(p * step()) + 0.5 * static_cast<double>(length_)) / rate_hz_;
+    }
+    [[nodiscard]] std::vector<double> frequencies() const {
+        std::vector<double> f;
+        for (std::size_t k = 1; k <= padded_ / 2; ++k)
+            f.push_back(static_cast<double>(k) * rate_hz_ / static_cast<double>(padded_));
+        return f;
+    }
+
+    // Empty where too little is known.
+    [[nodiscard]] std::vector<double> density(std::size_t p) const {
+        const auto values = rates_.subspan(p * step(), length_);
+        double weight = 0.0, weighted = 0.0, squares = 0.0;
+        std::size_t n = 0;
+        for (std::size_t k = 0; k < length_; ++k) {
+            if (!std::isfinite(values[k])) continue;
+            ++n;
+            weight += window_[k];
+            weighted += window_[k] * values[k];
+            squares += window_[k] * window_[k];
+        }
+        if (n < 8 || static_cast<double>(n) < least_known_ * static_cast<double>(length_)) return {};
+        std::vector<double> windowed(padded_, 0.0);
+        for (std::size_t k = 0; k < length_; ++k)
+            if (std::isfinite(values[k])) windowed[k] = window_[k] * (values[k] - weighted / weight);
+        std::vector<double> out;
+        const auto transformed = half_spectrum(windowed);
+        for (std::size_t k = 1; k <= padded_ / 2; ++k) {
+            // Both signs of the frequency are one line, except at half the rate.
+            const double sides = 2 * k == padded_ ? 1.0 : 2.0;
+            out.push_back(sides * std::norm(transformed[k]) / (squares * rate_hz_));
+        }
+        return out;
+    }
+
+private:
+    std::span<const double> rates_;
+    double rate_hz_;
+    double least_known_;
+    std::size_t length_ = 0;
+    std::size_t padded_ = 0;
+    std::vector<double> window_;
+};
+
+}  // namespace
+
+Spectrum welch_spectrum(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio) {
+    const Pieces pieces(rates, rate_hz, piece, least_known_ratio);
+    Spectrum mean{.frequency_hz = pieces.frequencies(), .density = {}};
+    mean.density.assign(mean.frequency_hz.size(), 0.0);
+    for (std::size_t p = 0; p < pieces.count(); ++p) {
+        const auto one = pieces.density(p);
+        if (one.empty()) continue;
+        ++mean.pieces;
+        for (std::size_t k = 0; k < one.size(); ++k) mean.density[k] += one[k];
+    }
+    if (mean.pieces == 0)
+        throw deviations::SeriesError(
+            fmt::format("spectrum: no piece of {} samples of which {} is known", piece, least_known_ratio));
+    for (double& d : mean.density) d /= static_cast<double>(mean.pieces);
+    return mean;
+}
+
+Spectrogram spectrogram(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio) {
+    const Pieces pieces(rates, rate_hz, piece, least_known_ratio);
+    Spectrogram all{.time_s = {}, .frequency_hz = pieces.frequencies(), .density = {}};
+    for (std::size_t p = 0; p < pieces.count(); ++p) {
+        auto one = pieces.density(p);
+        if (one.empty()) one.assign(all.frequency_hz.size(), std::numeric_limits<double>::quiet_NaN());
+        all.time_s.push_back(pieces.middle_s(p));
+        all.density.insert(all.density.end(), one.begin(), one.end());
+    }
+    return all;
+}
+
+}  // namespace zlg::noise

@@ -1,0 +1,23 @@
+#include <zlg/deviations/deviation_kind.hpp>
+
+#include <gtest/gtest.h>
+#include <zlg/deviations/series.hpp>
+
+using namespace zlg::deviations;
+
+TEST(DeviationKind, is_known_by_its_name) {
+    for (const auto kind :
+         {DeviationKind::adev, DeviationKind::oadev, DeviationKind::mdev, DeviationKind::tdev, DeviationKind::hdev,
+          DeviationKind::ohdev, DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev})
+        EXPECT_EQ(deviation_kind_of(name_of(kind)), kind);
+    EXPECT_EQ(name_of(DeviationKind::tdev), "tdev");
+    EXPECT_THROW((void)deviation_kind_of("avar"), SeriesError);
+}
+
+TEST(DeviationKind, has_third_differences_where_a_drift_must_drop_out) {
+    EXPECT_EQ(difference_order(DeviationKind::oadev), 2);
+    EXPECT_EQ(difference_order(DeviationKind::mtotdev), 2);
+    EXPECT_EQ(difference_order(DeviationKind::hdev), 3);
+    EXPECT_EQ(difference_order(DeviationKind::ohdev), 3);
+    EXPECT_EQ(difference_order(DeviationKind::htotdev), 3);
+}

@@ -1,0 +1,170 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <zlg/deviations/series.hpp>
+#include <zlg/noise/noise_fit.hpp>
+
+#include "ramp.hpp"
+#include "simulated_noise.hpp"
+
+namespace {
+
+using namespace zlg;
+using namespace zlg::noise;
+
+const FittedTerm& term(const NoiseFit& fit, NoiseKind kind) {
+    for (const FittedTerm& t : fit.fitted)
+        if (t.kind == kind) return t;
+    throw std::runtime_error("no such term");
+}
+
+int n_found(const NoiseFit& fit) {
+    int n = 0;
+    for (const FittedTerm& t : fit.fitted) n += t.found ? 1 : 0;
+    return n;
+}
+
+void expect_found(const NoiseFit& fit, NoiseKind kind, double truth) {
+    const FittedTerm& t = term(fit, kind);
+    ASSERT_TRUE(t.found) << name_of(kind);
+    EXPECT_NEAR(t.value, truth, 4.0 * t.sigma) << name_of(kind);
+    EXPECT_LT(t.sigma, 0.4 * std::abs(truth)) << name_of(kind);
+}
+
+TEST(NoiseFit, white_noise_is_angle_random_walk_and_nothing_else) {
+    SimulatedNoise gyro(1 << 14, 10.0, 1);
+    gyro.add_white(0.3);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 10.0);
+    expect_found(fit, NoiseKind::angle_random_walk, 0.3);
+    EXPECT_EQ(n_found(fit), 1);
+    EXPECT_GT(fit.probability, 1e-3);
+    // A variance of N samples of white noise is known to sqrt(2/N), N to half of that; octaves know nearly as much.
+    EXPECT_NEAR(term(fit, NoiseKind::angle_random_walk).sigma, 0.3 / std::sqrt(2.0 * (1 << 14)), 0.3 * 0.002);
+}
+
+TEST(NoiseFit, every_smooth_term_that_is_there_is_found) {
+    SimulatedNoise gyro(1 << 16, 1.0, 2);
+    gyro.add_quantisation(2.0);
+    gyro.add_white(1.0);
+    gyro.add_random_walk(0.02);
+    gyro.add_ramp(0.001);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 1.0);
+    expect_found(fit, NoiseKind::quantisation, 2.0);
+    expect_found(fit, NoiseKind::angle_random_walk, 1.0);
+    expect_found(fit, NoiseKind::rate_random_walk, 0.02);
+    expect_found(fit, NoiseKind::ramp, 0.001);
+    EXPECT_EQ(n_found(fit), 4);
+}
+
+TEST(NoiseFit, bias_instability_beside_white_noise) {
+    SimulatedNoise gyro(1 << 16, 1.0, 3);
+    gyro.add_white(1.0);
+    gyro.add_flicker(0.2);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 1.0);
+    expect_found(fit, NoiseKind::angle_random_walk, 1.0);
+    expect_found(fit, NoiseKind::bias_instability, 0.2);
+    EXPECT_EQ(n_found(fit), 2);
+}
+
+TEST(NoiseFit, an_exponentially_correlated_term_with_its_time) {
+    SimulatedNoise gyro(1 << 16, 1.0, 4);
+    gyro.add_white(1.0);
+    gyro.add_markov(0.5, 60.0);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 1.0);
+    expect_found(fit, NoiseKind::markov, 0.5);
+    const FittedTerm& t = term(fit, NoiseKind::markov);
+    EXPECT_NEAR(t.second, 60.0, 4.0 * t.second_sigma);
+    EXPECT_LT(t.second_sigma, 15.0);
+    EXPECT_EQ(n_found(fit), 2);
+}
+
+TEST(NoiseFit, a_sinusoid_with_its_frequency_and_gaps_left_out) {
+    SimulatedNoise gyro(1 << 15, 100.0, 5);
+    gyro.add_white(0.1);
+    gyro.add_sine(0.5, 7.03);
+    for (std::size_t k = 0; k < gyro.rates.size(); ++k)
+        if (k % 900 < 20) gyro.rates[k] = std::numeric_limits<double>::quiet_NaN();
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 100.0);
+    const FittedTerm& t = term(fit, NoiseKind::sine);
+    ASSERT_TRUE(t.found);
+    EXPECT_NEAR(t.value, 0.5, 4.0 * t.sigma);
+    EXPECT_NEAR(t.second, 7.03, 4.0 * t.second_sigma);
+    EXPECT_LT(t.second_sigma, 1e-4);
+    expect_found(fit, NoiseKind::angle_random_walk, 0.1);
+    EXPECT_EQ(n_found(fit), 2);
+}
+
+TEST(NoiseFit, kind_and_unit_of_the_input_do_not_matter) {
+    SimulatedNoise gyro(4096, 10.0, 6);
+    gyro.add_white(0.3);
+    std::vector<double> increments_deg, phase_rad{1.0};
+    for (const double r : gyro.rates) {
+        increments_deg.push_back(r / 10.0 / 3600.0);
+        phase_rad.push_back(phase_rad.back() + r / 10.0 * std::numbers::pi / 648000.0);
+    }
+    const double n = fit_noise_in_place(gyro.rates, 10.0).terms.angle_random_walk_arcsec_sqrt_s;
+    const auto fitted = [](deviations::DataKind kind, deviations::Unit unit, const std::vector<double>& values) {
+        return fit_noise(deviations::Series{.what = {kind, unit, 10.0}, .values = values})
+            .terms.angle_random_walk_arcsec_sqrt_s;
+    };
+    EXPECT_NEAR(fitted(deviations::DataKind::increments, deviations::Unit::deg, increments_deg), n, 1e-9);
+    EXPECT_NEAR(fitted(deviations::DataKind::phase, deviations::Unit::rad, phase_rad), n, 1e-6);
+}
+
+TEST(NoiseFit, an_absent_term_has_a_limit) {
+    SimulatedNoise gyro(1 << 14, 1.0, 7);
+    gyro.add_white(1.0);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 1.0);
+    for (const NoiseKind kind :
+         {NoiseKind::quantisation, NoiseKind::bias_instability, NoiseKind::rate_random_walk, NoiseKind::ramp}) {
+        EXPECT_FALSE(term(fit, kind).found);
+        EXPECT_GT(term(fit, kind).limit, 0.0) << name_of(kind);
+    }
+    EXPECT_LT(term(fit, NoiseKind::bias_instability).limit, 0.1);
+}
+
+TEST(NoiseFit, leaves_the_rates_without_the_sinusoids_found) {
+    SimulatedNoise gyro(1 << 14, 10.0, 8);
+    gyro.add_white(1.0);
+    gyro.add_sine(50.0, 1.3);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 10.0);
+    ASSERT_EQ(fit.terms.sines.size(), 1u);
+    // What is left is white: of deviation 1/sqrt(0.1 s).
+    double squares = 0.0;
+    for (const double r : gyro.rates) squares += r * r;
+    EXPECT_NEAR(squares / static_cast<double>(gyro.rates.size()), 10.0, 0.5);
+}
+
+TEST(NoiseFit, a_correlation_longer_than_the_record_is_a_random_walk) {
+    SimulatedNoise gyro(1 << 15, 1.0, 9);
+    gyro.add_white(1.0);
+    const double time_s = 4.0 * (1 << 15);
+    gyro.add_markov(0.02 * std::sqrt(time_s / 2.0), time_s);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 1.0);
+    EXPECT_FALSE(term(fit, NoiseKind::markov).found);
+    const FittedTerm& walk = term(fit, NoiseKind::rate_random_walk);
+    ASSERT_TRUE(walk.found);
+    EXPECT_NEAR(walk.value, 0.02, 4.0 * walk.sigma);
+    EXPECT_LT(walk.sigma, 0.004);
+}
+
+TEST(NoiseFit, refuses_what_tells_nothing) {
+    const auto refuses = [](std::vector<double> rates, double rate_hz) {
+        EXPECT_THROW((void)fit_noise_in_place(rates, rate_hz), deviations::SeriesError);
+    };
+    refuses(std::vector<double>(10, 1.0), 1.0);
+    refuses(std::vector<double>(1000, 1.0), 1.0);
+    refuses(std::vector<double>(1000, std::nan("")), 1.0);
+    refuses(std::vector<double>(1000, 1.0), 0.0);
+}
+
+TEST(NoiseFit, a_ramp_that_nothing_can_be_weighed_against_is_refused) {
+    // Without noise and without steps no covariance is positive: all weights were 0/0, and the limit NaN.
+    EXPECT_THROW((void)find_ramp(std::vector<double>(640, 5.0), 1.0, {}), deviations::SeriesError);
+    EXPECT_THROW((void)find_ramp(std::vector<double>(640, 0.0), 1.0, {}), deviations::SeriesError);
+}
+
+}  // namespace
