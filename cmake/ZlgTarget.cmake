@@ -18,6 +18,23 @@ function(zlg_flags target)
     endif()
 endfunction()
 
+# zlg_precompile(target HEADER...): read what most files of the target include once instead of once a file.
+#
+# -fpch-preprocess: what ccache needs to know such a file again.
+function(zlg_precompile target)
+    if(ARGN)
+        target_precompile_headers(${target} PRIVATE ${ARGN})
+    endif()
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(${target} PRIVATE -fpch-preprocess)
+    endif()
+endfunction()
+
+# zlg_quick_to_compile(target): what spends its time in other libraries is compiled with -O1, in two thirds of the time.
+function(zlg_quick_to_compile target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # zlg_library(name SOURCES ... USES ...): library zlg_<name> of the folder src/<name>/, seeing only the include roots it USES. Its own
 # private headers in other rooms than the source's are named from that folder: "common/bounds.hpp".
 function(zlg_library name)

@@ -1,0 +1,1 @@
+// The library of precompiled headers must have a file.
