@@ -57,7 +57,7 @@ double expected_counts2(const Reading& r) {
     return 1.0 / (6.0 * (1.0 + 60.0 * sweep * sweep));
 }
 
-// A counter that shows one and the same number tells f0 to about a count, over how often it could have shown another:
+// A counter that shows one and the same number gives f0 to about a count, over how often it could have shown another:
 // once a reading, and once for each count that the angle has passed.
 double resolution_counts(const std::vector<Reading>& readings) {
     double chances = 2.0;

@@ -94,7 +94,7 @@ numeric::Estimate judged(double chi, double sigma, const BiasLoss& loss) {
                     chi, sigma, loss.n_relocks, loss.deficit_counts));
 }
 
-// A counter that shows one and the same number after every re-lock tells the counts that the first half lacks to about
+// A counter that shows one and the same number after every re-lock gives the counts that the first half lacks to about
 // a count, over how often it could have shown another. Here the deficit is that of chi = 1.
 double resolution(const BiasLoss& loss) {
     return std::sqrt(rounding_counts2) / (loss.deficit_counts * static_cast<double>(1 + loss.n_relocks));

@@ -16,9 +16,9 @@ constexpr std::int64_t least_clusters = 4;
 
 // Of the mean over a half by the cubic: (1 + 169 + 169 + 1)/576 of the variance of a reading.
 constexpr double cubic_noise = 340.0 / 576.0;
-// Of what the cubic corrects the straight line by, this part may be missing to the true course.
+// Of what the cubic corrects the straight line by, this part may be missing from the true transient.
 constexpr double cubic_uncertainty = 0.1;
-// Beyond this part of the scale even the cubic does not follow the course: an exponential that falls to 0.6 in a half is
+// Beyond this part of the scale even the cubic does not follow the transient: an exponential that falls to 0.6 in a half is
 // corrected by 2 %, and by 1 part in 1000 wrongly.
 constexpr double most_correction = 0.025;
 

@@ -73,7 +73,7 @@ double step_error_v(double quantum_v, double reading_variance_v2) {
     return quantum_v * std::sqrt(sum);
 }
 
-// A converter that meets the same steps at every switch tells the voltage no better, however often it is read. It meets
+// A converter that meets the same steps at every switch gives the voltage no better, however often it is read. It meets
 // others where the voltage goes on from switch to switch.
 double resolution_v(std::span<const LabLog> logs, const std::vector<Step>& steps) {
     double quantum_v = 0.0;

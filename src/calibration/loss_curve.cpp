@@ -19,7 +19,7 @@ constexpr std::int64_t least_relocks = 20;
 constexpr int n_points = 24;
 constexpr double least_bend_sigmas = 6.0;
 constexpr double least_bend_ratio = 0.05;
-// Of the variance of rounding: a counter at rest that repeats itself more than this tells a few numbers, not many.
+// Of the variance of rounding: a counter at rest that repeats itself more than this gives a few numbers, not many.
 constexpr double most_repeated_ratio = 0.5;
 // Of the loss at any point beyond a quarter of the last: a curve that is worse than this is none.
 constexpr double most_uncertainty_ratio = 0.1;

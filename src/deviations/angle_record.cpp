@@ -19,7 +19,7 @@ struct Known {
     bool constant = true;
 };
 
-// What is missing becomes NaN, so that one test tells it.
+// What is missing becomes NaN, so that one test finds it.
 Known mark_missing(std::span<double> values, std::span<const std::uint8_t> valid) {
     Known known;
     double first = 0.0, sum = 0.0;

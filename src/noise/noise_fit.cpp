@@ -21,7 +21,7 @@ namespace zlg::noise {
 namespace {
 
 constexpr std::int64_t least_intervals = 64;
-// The longest averaging is so often in the record; beyond it a variance has one degree of freedom and tells nothing.
+// The longest averaging time fits into the record so many times; beyond it a variance has one degree of freedom, too few for a weight.
 constexpr std::int64_t least_lengths = 6;
 constexpr double ramp_chance = 0.002;
 constexpr double one_sided_95 = 1.645;

@@ -18,7 +18,7 @@ struct Presumed {
     double rate_arcsec_s = 0.0;                       // at which the gyro was turned
     bool stepped_voltage = false;                     // the perimeter loop is digital
     bool read_by_slope = true;                        // all detunings, by one and the same
-    double bias_temperature_coefficient_per_c = 0.0;  // used where a single temperature was met; so is the next
+    double bias_temperature_coefficient_per_c = 0.0;  // used where the logs hold a single temperature
     double half_wave_temperature_coefficient_per_c = 0.0;
 };
 
