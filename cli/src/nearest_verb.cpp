@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/config/spelling.hpp>
+#include <zlg/text/spelling.hpp>
 
 namespace zlg::cli {
 
@@ -15,7 +15,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error, int a
     const std::string first = argc > 1 ? argv[1] : "";
     const bool known = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
     if (!known && !first.empty() && first[0] != '-') {
-        const auto apart = [&](const std::string& verb) { return config::letters_apart(first, verb); };
+        const auto apart = [&](const std::string& verb) { return text::letters_apart(first, verb); };
         return fmt::format("unknown verb '{}'; did you mean '{}'? (zlg --help lists all)", first,
                            *std::ranges::min_element(verbs, {}, apart));
     }

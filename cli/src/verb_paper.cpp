@@ -39,17 +39,11 @@ bool agrees(const paper::Paper& paper) {
     return paper.chi2_per_dof >= least_chi2_per_dof && paper.chi2_per_dof <= most_chi2_per_dof;
 }
 
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string{c};
-    return out + "\"";
-}
-
 std::string claims_table(const std::vector<paper::Claim>& claims) {
     std::string text = "where,claim,verdict,finding\n";
     for (const paper::Claim& c : claims)
-        text += fmt::format("{},{},{},{}\n", quoted(c.where), quoted(c.claim), paper::verdict_name(c.verdict),
-                            quoted(c.finding));
+        text += fmt::format("{},{},{},{}\n", report::csv_quoted(c.where), report::csv_quoted(c.claim),
+                            paper::verdict_name(c.verdict), report::csv_quoted(c.finding));
     return text;
 }
 

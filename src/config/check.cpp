@@ -5,9 +5,9 @@
 #include <functional>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/text/toml_text.hpp>
 
 #include "key.hpp"
-#include "toml_text.hpp"
 
 namespace zlg::config {
 
@@ -72,8 +72,8 @@ void check_motion(const Motion& m) {
 void require_growth(std::string_view name, const std::vector<double>& values) {
     const auto fallen = std::ranges::adjacent_find(values, std::greater_equal{});
     if (fallen == values.end()) return;
-    throw ConfigError(
-        fmt::format("perimeter.{}: {} after {}; allowed is growth", name, toml_real(fallen[1]), toml_real(*fallen)));
+    throw ConfigError(fmt::format("perimeter.{}: {} after {}; allowed is growth", name, text::toml_real(fallen[1]),
+                                  text::toml_real(*fallen)));
 }
 
 // A curve through the origin, of the side above it or of both: as many of each, growing, of the same sign.
@@ -96,7 +96,7 @@ void check_discriminator(const Perimeter& p) {
         throw ConfigError(
             fmt::format("perimeter: discriminator_signal is {} at discriminator_detuning_lambda {}; allowed is the "
                         "same sign, and not 0",
-                        toml_real(signal[k]), toml_real(detuning[k])));
+                        text::toml_real(signal[k]), text::toml_real(detuning[k])));
     }
     if (n_below > 0 && n_above == 0)
         throw ConfigError(
@@ -125,7 +125,7 @@ void check_faults(const Faults& f) {
 void check_times(const Gyro& gyro, const Switching& switching) {
     if (!(gyro.bias_edge_s < gyro.tick_s / 2.0)) {
         throw ConfigError(fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}",
-                                      toml_real(gyro.bias_edge_s), toml_real(gyro.tick_s)));
+                                      text::toml_real(gyro.bias_edge_s), text::toml_real(gyro.tick_s)));
     }
     if (switching.gap_min_ticks > switching.gap_ticks) {
         throw ConfigError(fmt::format("switching.gap_min_ticks = {}: allowed is up to switching.gap_ticks = {}",
@@ -135,8 +135,8 @@ void check_times(const Gyro& gyro, const Switching& switching) {
     if (!switching.interval_optimal && !(switching.interval_s >= least_ticks * gyro.tick_s)) {
         throw ConfigError(fmt::format(
             "switching.interval_s = {}: allowed is from switching.gap_ticks + 2 = {} ticks of gyro.tick_s = {} s: {} s",
-            toml_real(switching.interval_s), least_ticks, toml_real(gyro.tick_s),
-            toml_real(least_ticks * gyro.tick_s)));
+            text::toml_real(switching.interval_s), least_ticks, text::toml_real(gyro.tick_s),
+            text::toml_real(least_ticks * gyro.tick_s)));
     }
 }
 
@@ -146,11 +146,11 @@ void check_interval_limits(const Gyro& gyro, const Switching& s) {
         throw ConfigError(fmt::format(
             "switching.interval_min_s = {}: allowed is from switching.gap_ticks + 2 ticks of gyro.tick_s = {} s, "
             "{} s, where switching.schedule is not fixed",
-            toml_real(s.interval_min_s), toml_real(gyro.tick_s), toml_real(least_s)));
+            text::toml_real(s.interval_min_s), text::toml_real(gyro.tick_s), text::toml_real(least_s)));
     }
     if (!(s.interval_min_s <= s.interval_max_s)) {
         throw ConfigError(fmt::format("switching.interval_min_s = {}: allowed is up to switching.interval_max_s = {}",
-                                      toml_real(s.interval_min_s), toml_real(s.interval_max_s)));
+                                      text::toml_real(s.interval_min_s), text::toml_real(s.interval_max_s)));
     }
 }
 
@@ -174,7 +174,8 @@ void check(const Config& config) {
     check_faults(config.faults);
     if (!(config.piezo.range_min_v < config.piezo.range_max_v)) {
         throw ConfigError(fmt::format("piezo.range_min_v = {}: allowed is below piezo.range_max_v = {}",
-                                      toml_real(config.piezo.range_min_v), toml_real(config.piezo.range_max_v)));
+                                      text::toml_real(config.piezo.range_min_v),
+                                      text::toml_real(config.piezo.range_max_v)));
     }
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <zlg/config/schema.hpp>
+#include <zlg/text/toml_text.hpp>
 
 #include "key.hpp"
-#include "toml_text.hpp"
 
 namespace zlg::config {
 
@@ -20,19 +20,19 @@ template <class... F>
 Overload(F...) -> Overload<F...>;
 
 std::string list_text(const std::vector<double>& values) {
-    if (values.size() == 1) return toml_real(values.front());
+    if (values.size() == 1) return text::toml_real(values.front());
     std::string text = "[";
-    for (const double value : values) text += (text.size() > 1 ? ", " : "") + toml_real(value);
+    for (const double value : values) text += (text.size() > 1 ? ", " : "") + text::toml_real(value);
     return text + "]";
 }
 
 std::string interval_text(const Switching& switching) {
-    return switching.interval_optimal ? toml_string("optimal") : toml_real(switching.interval_s);
+    return switching.interval_optimal ? text::toml_string("optimal") : text::toml_real(switching.interval_s);
 }
 
 std::string choice_text(const Choice& slot, const Config& config) {
     const int index = slot.get(config);
-    return index < 0 ? std::string{} : toml_string(slot.names[static_cast<std::size_t>(index)]);
+    return index < 0 ? std::string{} : text::toml_string(slot.names[static_cast<std::size_t>(index)]);
 }
 
 std::string choices_text(const ChoiceList& slot, const Config& config) {
@@ -40,7 +40,7 @@ std::string choices_text(const ChoiceList& slot, const Config& config) {
     if (indices.empty()) return {};
     std::string text;
     for (const int index : indices)
-        text += (text.empty() ? "" : ", ") + toml_string(slot.names[static_cast<std::size_t>(index)]);
+        text += (text.empty() ? "" : ", ") + text::toml_string(slot.names[static_cast<std::size_t>(index)]);
     return indices.size() == 1 ? text : "[" + text + "]";
 }
 
@@ -58,7 +58,7 @@ bool is_column(const std::string& column, bool may_be_none) {
 }
 
 std::string column_text(const std::string& column) {
-    return column.empty() || is_number(column) ? column : toml_string(column);
+    return column.empty() || is_number(column) ? column : text::toml_string(column);
 }
 
 std::string columns_text(const std::vector<std::string>& columns) {
@@ -111,11 +111,11 @@ std::string value_text(const Key& key, const Config& config) {
     // The table names members of a mutable Config; it is only read here.
     Config copy = config;
     return std::visit(
-        Overload{[&](const Real& s) { return toml_real(s.value(copy)); },
-                 [&](const OptionalReal& s) { return s.value(copy) ? toml_real(*s.value(copy)) : std::string{}; },
+        Overload{[&](const Real& s) { return text::toml_real(s.value(copy)); },
+                 [&](const OptionalReal& s) { return s.value(copy) ? text::toml_real(*s.value(copy)) : std::string{}; },
                  [&](const Integer& s) { return fmt::format("{}", s.value(copy)); },
                  [&](const Sign& s) { return fmt::format("{}", s.value(copy)); },
-                 [&](const Text& s) { return toml_string(s.value(copy)); },
+                 [&](const Text& s) { return text::toml_string(s.value(copy)); },
                  [&](const RealList& s) {
                      return s.may_be_empty && s.value(copy).empty() ? std::string{} : list_text(s.value(copy));
                  },

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 #include <zlg/text/toml_document.hpp>
+#include <zlg/text/toml_text.hpp>
 #include <zlg/text/whole_file.hpp>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 
 #include "assign.hpp"
 #include "nearest.hpp"
-#include "toml_text.hpp"
 
 namespace zlg::config {
 
@@ -72,7 +72,7 @@ toml::table parse_value(const std::string& place, std::string_view text) {
         // A bare word such as quadratic, or a path.
     }
     try {
-        return text::parse_toml(fmt::format("value = {}", toml_string(text)));
+        return text::parse_toml(fmt::format("value = {}", text::toml_string(text)));
     } catch (const toml::parse_error& error) {
         fail(place, fmt::format("a value cannot be read as text: {}", error.description()));
     }

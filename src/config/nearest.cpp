@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/config/spelling.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "key.hpp"
 
@@ -15,13 +15,6 @@ namespace {
 
 // A name of a megabyte is no misspelling of anything.
 constexpr std::size_t longest_name = 100;
-
-std::string lower_case(std::string_view text) {
-    std::string lower{text};
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower;
-}
 
 std::vector<std::string_view> sections() {
     std::vector<std::string_view> names;
@@ -35,17 +28,18 @@ std::vector<std::string_view> sections() {
 std::optional<std::string_view> misspelt_section(std::string_view name) {
     static const std::vector<std::string_view> known = sections();
     if (name.size() > longest_name || std::ranges::find(known, name) != known.end()) return std::nullopt;
-    const std::string lower = lower_case(name);
+    const std::string lower = text::lower_case(name);
     for (const std::string_view section : known) {
         const std::size_t longer = std::max(section.size(), lower.size());
-        if (longer - std::min(section.size(), lower.size()) <= 1 && letters_apart(lower, section) <= 1) return section;
+        if (longer - std::min(section.size(), lower.size()) <= 1 && text::letters_apart(lower, section) <= 1)
+            return section;
     }
     return std::nullopt;
 }
 
 std::string nearest_section(std::string_view section) {
     section = section.substr(0, longest_name);
-    const auto apart = [&](const Key& key) { return letters_apart(section, key.section); };
+    const auto apart = [&](const Key& key) { return text::letters_apart(section, key.section); };
     return std::string{std::ranges::min_element(all_keys(), {}, apart)->section};
 }
 
@@ -54,7 +48,7 @@ std::string nearest_key(std::string_view section, std::string_view name) {
     // Among equals the key of the same section is meant; the right name in the wrong section is nearer than a
     // misspelling.
     const auto apart = [&](const Key& key) {
-        return 2 * letters_apart(name, key.name) + (key.section == section ? 0 : 1);
+        return 2 * text::letters_apart(name, key.name) + (key.section == section ? 0 : 1);
     };
     const Key& nearest = *std::ranges::min_element(all_keys(), {}, apart);
     return nearest.section == section ? std::string{nearest.name}

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <zlg/logs/error.hpp>
+#include <zlg/text/spelling.hpp>
 
 namespace zlg::logs {
 
@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t misspelt_letters = 2;
 
 void refuse_misspelt(std::span<const Column> columns, const std::string& name, const std::string& place) {
-    const auto apart = [&](const Column& column) { return letters_apart(name, column.name); };
+    const auto apart = [&](const Column& column) { return text::letters_apart(name, column.name); };
     const Column& nearest = *std::ranges::min_element(columns, {}, apart);
     if (apart(nearest) <= misspelt_letters) {
         throw FormatError(fmt::format("{}: unknown column '{}'; did you mean '{}'?", place, name, nearest.name));
@@ -29,21 +29,6 @@ void refuse_missing(std::span<const Column> columns, const ColumnMap& map, const
 }
 
 }  // namespace
-
-std::size_t letters_apart(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row[b.size()];
-}
 
 ColumnMap map_columns(std::span<const Column> columns, const std::vector<std::string>& names,
                       const std::string& place) {

@@ -27,7 +27,4 @@ struct ColumnMap {
 [[nodiscard]] ColumnMap map_columns(std::span<const Column> columns, const std::vector<std::string>& names,
                                     const std::string& place);
 
-// The least number of letters to insert, delete or replace that makes one word of the other (Levenshtein).
-[[nodiscard]] std::size_t letters_apart(std::string_view a, std::string_view b);
-
 }  // namespace zlg::logs

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 #include <zlg/text/toml_document.hpp>
+#include <zlg/text/toml_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,21 +42,6 @@ std::string_view letters(std::string_view line, std::size_t first, std::size_t e
     return line.substr(begin, byte_of(end) - begin);
 }
 
-std::string quoted(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\') {
-            result += {'\\', c};
-        } else if (code < 0x20 || code == 0x7f) {
-            result += fmt::format("\\u{:04X}", code);
-        } else {
-            result += c;
-        }
-    }
-    return result + "\"";
-}
-
 std::string real(double value) {
     std::string text = fmt::format("{}", value);
     const bool is_real = text.find_first_of(".eni") != std::string::npos;
@@ -71,11 +57,11 @@ std::string spelled(const toml::node& node) {
     }
     if (const toml::table* table = node.as_table()) {
         for (const auto& [key, value] : *table) {
-            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", quoted(key.str()), spelled(value));
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", text::toml_string(key.str()), spelled(value));
         }
         return "{" + text + "}";
     }
-    if (const auto* string = node.as_string()) return quoted(string->get());
+    if (const auto* string = node.as_string()) return text::toml_string(string->get());
     if (const auto* number = node.as_floating_point()) return real(number->get());
     std::ostringstream other;
     node.visit([&](const auto& value) { other << value; });

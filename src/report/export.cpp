@@ -22,15 +22,9 @@ std::string comment(std::string_view key, std::string text) {
     return text.empty() ? "" : fmt::format("# {}: {}\n", key, text);
 }
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string{c};
-    return out + "\"";
-}
-
 std::string rows(const Series& series) {
-    const std::string name = quoted(series.name);
+    const bool is_plain = series.name.find_first_of(",\"\r\n") == std::string::npos;
+    const std::string name = is_plain ? series.name : csv_quoted(series.name);
     std::string out;
     for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
         const std::string error = i < series.y_error.size() ? fmt::format("{}", series.y_error[i]) : "";
@@ -52,6 +46,12 @@ std::string csv(const Figure& figure) {
     out += "series,x,y,y_error\n";
     for (const Series& series : figure.series) out += rows(series);
     return out;
+}
+
+std::string csv_quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string{c};
+    return out + "\"";
 }
 
 }  // namespace zlg::report

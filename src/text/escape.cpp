@@ -63,4 +63,11 @@ std::string shortened(std::string text, std::size_t most_bytes) {
     return text.substr(0, end) + std::string{mark} + text.substr(begin);
 }
 
+std::string excerpt(std::string_view text, std::size_t most_bytes, char replacement) {
+    std::string shown{text.substr(0, most_bytes)};
+    for (char& c : shown)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = replacement;
+    return text.size() > most_bytes ? shown + "..." : shown;
+}
+
 }  // namespace zlg::text

@@ -105,3 +105,5 @@ TEST(Csv, comments_say_what_the_axes_are_and_stay_comments) {
     EXPECT_EQ(lines[4], "# band: 1 to 2.5, gap");
     EXPECT_EQ(body_of(csv(f)).size(), 2U);
 }
+
+TEST(CsvQuoted, doubles_the_quotes_within) { EXPECT_EQ(zlg::report::csv_quoted("a \"b\", c"), "\"a \"\"b\"\", c\""); }

@@ -38,5 +38,14 @@ TEST(Escape, OnlyTheMiddleOfALongTextIsLost) {
     EXPECT_TRUE(cut.ends_with("xend"));
 }
 
+TEST(Escape, AnExcerptIsOneLineThatSaysWhetherItIsWhole) {
+    EXPECT_EQ(excerpt("12\t\x7f"
+                      "3\n",
+                      6, '?'),
+              "12??3?");
+    EXPECT_EQ(excerpt("1234567", 6, ' '), "123456...");
+    EXPECT_EQ(excerpt("", 6, ' '), "");
+}
+
 }  // namespace
 }  // namespace zlg::text

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <zlg/logs/error.hpp>
+#include <zlg/text/escape.hpp>
 
 #include "row_rules.hpp"
 #include "settings_lines.hpp"
@@ -17,14 +18,7 @@ namespace zlg::logs {
 namespace {
 
 // A value as it can stand in a one-line message.
-std::string quoted(std::string_view text) {
-    constexpr std::size_t longest = 40;
-    std::string shown{text.substr(0, longest)};
-    for (char& c : shown) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    }
-    return fmt::format("'{}{}'", shown, text.size() > longest ? "..." : "");
-}
+std::string quoted(std::string_view value) { return fmt::format("'{}'", text::excerpt(value, 40, '?')); }
 
 // `+1` is how a sign is written by hand; the parsers do not know it.
 std::string_view without_plus(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <string_view>
+#include <zlg/text/spelling.hpp>
 
 namespace zlg::logs {
 
@@ -116,10 +117,7 @@ bool is_unit(std::string_view name) {
     const bool is_of_latin_1 = name.front() == '\xC2';  // the degree and the micro sign, in UTF-8
     if (is_of_latin_1 || (!is_letter(name.front()) && (static_cast<unsigned char>(name.front()) & 0x80) == 0))
         return true;
-    return std::ranges::any_of(units, [name](std::string_view unit) {
-        return std::ranges::equal(name, unit,
-                                  [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
-    });
+    return std::ranges::find(units, text::lower_case(name)) != units.end();
 }
 
 // The columns that the header names without leaving their number open: none where a unit stands for itself among the names,

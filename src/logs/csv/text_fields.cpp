@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <zlg/text/spelling.hpp>
 
 namespace zlg::logs {
 
@@ -139,10 +140,7 @@ std::optional<Number> number_of(std::string_view text, Mark mark) {
 
 bool says_missing(std::string_view text) {
     constexpr std::array<std::string_view, 7> words{"nan", "-nan", "na", "n/a", "null", "#n/a", "#nv"};
-    return text.empty() || std::ranges::any_of(words, [text](std::string_view word) {
-               return std::ranges::equal(
-                   text, word, [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
-           });
+    return text.empty() || std::ranges::find(words, text::lower_case(text)) != words.end();
 }
 
 FieldKind kind_of(const Field& field, Mark mark) {

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <limits>
 #include <zlg/logs/error.hpp>
+#include <zlg/text/escape.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "column_map.hpp"
 
@@ -202,24 +204,14 @@ private:
 
 }  // namespace
 
-std::string shown(std::string_view text) {
-    std::string line{text.substr(0, 60)};
-    std::ranges::replace_if(
-        line, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-    return text.size() > 60 ? line + "..." : line;
-}
+std::string shown(std::string_view line) { return text::excerpt(line, 60, ' '); }
 
 namespace {
 
-std::string in_small_letters(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 // The name that is nearly the one asked for, or all names.
 std::string nearest(const std::string& column, const std::vector<std::string>& names) {
-    const auto apart = [asked = in_small_letters(column)](const std::string& name) {
-        return letters_apart(asked, in_small_letters(name));
+    const auto apart = [asked = text::lower_case(column)](const std::string& name) {
+        return text::letters_apart(asked, text::lower_case(name));
     };
     const std::string& best = *std::ranges::min_element(names, {}, apart);
     if (apart(best) <= std::max<std::size_t>(2, column.size() / 3))

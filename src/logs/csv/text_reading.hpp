@@ -26,6 +26,6 @@ struct Reading {
                               const TextLayout& layout);
 
 // As much of a line as a message holds.
-[[nodiscard]] std::string shown(std::string_view text);
+[[nodiscard]] std::string shown(std::string_view line);
 
 }  // namespace zlg::logs

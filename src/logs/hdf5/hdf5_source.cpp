@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <zlg/logs/error.hpp>
+#include <zlg/text/escape.hpp>
 #include <zlg/text/inputs.hpp>
 
 #include "hdf5_input.hpp"
@@ -92,15 +93,6 @@ std::optional<std::string> read_text(const Handle& type, const Handle& space, Re
     if (read(type.get(), text.data()) < 0) return std::nullopt;
     const std::string whole = up_to_nul(text.data(), size);
     return H5Tget_strpad(type.get()) == H5T_STR_SPACEPAD ? whole.substr(0, whole.find_last_not_of(' ') + 1) : whole;
-}
-
-// For a message of one line.
-std::string printable(std::string text) {
-    constexpr std::size_t longest = 40;
-    if (text.size() > longest) text.replace(longest, std::string::npos, "...");
-    std::ranges::replace_if(
-        text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return text;
 }
 
 struct Members {
@@ -205,7 +197,7 @@ std::optional<double> Source::real_attribute(const char* name) const {
         const auto text = read_text(type, space, [&](hid_t memory_type, void* buffer) {
             return H5Aread(attribute.get(), memory_type, buffer);
         });
-        refuse(text ? fmt::format("the text '{}'", printable(*text)) : "not one text");
+        refuse(text ? fmt::format("the text '{}'", zlg::text::excerpt(*text, 40, '?')) : "not one text");
     }
     if (kind != H5T_FLOAT && kind != H5T_INTEGER) refuse("of a type that holds no number");
     if (!is_one_value(space.get())) {

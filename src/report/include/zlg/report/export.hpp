@@ -16,4 +16,7 @@ namespace zlg::report {
 // bands. Reals in the shortest form that reads back; an error that a point does not have is an empty field.
 [[nodiscard]] std::string csv(const Figure& figure);
 
+// A field of a CSV row in quotes, with those within doubled.
+[[nodiscard]] std::string csv_quoted(const std::string& text);
+
 }  // namespace zlg::report

@@ -16,4 +16,7 @@ enum class Lines { one, many };  // whether a line feed is an end of line or one
 // A message that is far too long loses its middle.
 [[nodiscard]] std::string shortened(std::string text, std::size_t most_bytes = 2000);
 
+// The first letters of a text, with a replacement for each control character, and dots where there is more of it.
+[[nodiscard]] std::string excerpt(std::string_view text, std::size_t most_bytes, char replacement);
+
 }  // namespace zlg::text

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace zlg::config {
+namespace zlg::text {
 
 // The shortest form that reads back to the same number; a whole number may come without a point.
 [[nodiscard]] std::string toml_real(double value);
@@ -12,4 +12,4 @@ namespace zlg::config {
 // Quoted, on one line whatever it holds.
 [[nodiscard]] std::string toml_string(std::string_view text);
 
-}  // namespace zlg::config
+}  // namespace zlg::text

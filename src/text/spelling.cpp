@@ -1,10 +1,10 @@
-#include <zlg/config/spelling.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
-namespace zlg::config {
+namespace zlg::text {
 
 std::size_t letters_apart(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -21,4 +21,11 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-}  // namespace zlg::config
+std::string lower_case(std::string_view text) {
+    std::string lower{text};
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
+}
+
+}  // namespace zlg::text

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <zlg/config/spelling.hpp>
+#include <zlg/text/spelling.hpp>
 
 namespace {
 
-using zlg::config::letters_apart;
+using zlg::text::letters_apart;
 
 TEST(LettersApart, counts_insertions_deletions_and_replacements) {
     EXPECT_EQ(letters_apart("interval_s", "interval_s"), 0u);
@@ -15,5 +15,7 @@ TEST(LettersApart, counts_insertions_deletions_and_replacements) {
 }
 
 TEST(LettersApart, is_symmetric) { EXPECT_EQ(letters_apart("flaw", "lawn"), letters_apart("lawn", "flaw")); }
+
+TEST(LowerCase, changes_the_letters_a_to_z_alone) { EXPECT_EQ(zlg::text::lower_case("aZ_9 µÄ"), "az_9 µÄ"); }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "toml_text.hpp"
+#include <zlg/text/toml_text.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace zlg::config {
+namespace zlg::text {
 
 std::string toml_real(double value) {
     // An integer has no negative zero, so its text must show that it is a real number.
@@ -28,4 +28,4 @@ std::string toml_string(std::string_view text) {
     return quoted + "\"";
 }
 
-}  // namespace zlg::config
+}  // namespace zlg::text
