@@ -47,25 +47,29 @@ inline constexpr std::array<Column, 14> hdf5_columns = [] {
     return all;
 }();
 
+struct OptionalColumn {
+    std::size_t column;
+    bool RawColumns::*is_there;
+};
+
+inline constexpr std::array<OptionalColumn, 7> optional_columns{{{valid, &RawColumns::has_valid},
+                                                                 {detuning_lambda, &RawColumns::has_detuning},
+                                                                 {detuning_sq_lambda2, &RawColumns::has_detuning_sq},
+                                                                 {piezo_v, &RawColumns::has_piezo},
+                                                                 {temperature_c, &RawColumns::has_temperature},
+                                                                 {edge_offset_ticks, &RawColumns::has_edge_offset},
+                                                                 {span, &RawColumns::has_span}}};
+
 constexpr bool is_written(const RawColumns& written, std::size_t column) {
-    switch (column) {
-        case valid:
-            return written.has_valid;
-        case detuning_lambda:
-            return written.has_detuning;
-        case detuning_sq_lambda2:
-            return written.has_detuning_sq;
-        case piezo_v:
-            return written.has_piezo;
-        case temperature_c:
-            return written.has_temperature;
-        case edge_offset_ticks:
-            return written.has_edge_offset;
-        case span:
-            return written.has_span;
-        default:
-            return true;
-    }
+    for (const OptionalColumn& optional : optional_columns)
+        if (optional.column == column) return written.*optional.is_there;
+    return true;
+}
+
+// Which of them a table has.
+template <class Table>
+void note_columns(const Table& table, RawColumns& columns) {
+    for (const OptionalColumn& optional : optional_columns) columns.*optional.is_there = table.has(optional.column);
 }
 
 }  // namespace zlg::logs::raw

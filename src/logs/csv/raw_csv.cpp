@@ -22,13 +22,7 @@ class RawCsvSource final : public RawSource {
 public:
     explicit RawCsvSource(const std::string& path) : csv_{path, raw::csv_columns} {
         header_.settings = csv_.settings();
-        header_.has_valid = csv_.has(raw::valid);
-        header_.has_detuning = csv_.has(raw::detuning_lambda);
-        header_.has_detuning_sq = csv_.has(raw::detuning_sq_lambda2);
-        header_.has_piezo = csv_.has(raw::piezo_v);
-        header_.has_temperature = csv_.has(raw::temperature_c);
-        header_.has_edge_offset = csv_.has(raw::edge_offset_ticks);
-        header_.has_span = csv_.has(raw::span);
+        raw::note_columns(csv_, header_);
         if (header_.has_edge_offset) header_.timer_hz = take_timer_hz(header_.settings, std::nullopt, path);
         header_.warnings = csv_.warnings();
     }

@@ -60,17 +60,6 @@ private:
 };
 
 template <class T>
-hid_t memory_type() {
-    if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
-    if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
-    if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
-    if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
-    if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
-    if constexpr (std::is_same_v<T, std::int8_t>) return H5T_NATIVE_INT8;
-    if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
-}
-
-template <class T>
 class Column : public DataSet {
 public:
     Column() = default;

@@ -3,7 +3,9 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace zlg::logs::hdf5 {
@@ -31,6 +33,17 @@ private:
     hid_t id_ = -1;
     Closer closer_ = nullptr;
 };
+
+template <class T>
+hid_t memory_type() {
+    if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+    if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+    if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+    if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+    if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
+    if constexpr (std::is_same_v<T, std::int8_t>) return H5T_NATIVE_INT8;
+    if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
+}
 
 // The library would print every failure to stderr, also one that is expected and handled. Once per thread.
 void keep_quiet();

@@ -43,10 +43,17 @@ TableWriter::TableWriter(const std::string& path, bool force, bool keep_part)
 // A log that was not closed must not look like one that was: the library's closing marks would make it complete. What
 // holds no row holds nothing worth keeping.
 TableWriter::~TableWriter() {
+    if (is_open() && keep_part_ && is_started_) {
+        try {
+            flush();
+        } catch (const IoError&) {
+            // What was appended before stays readable, and nobody is left to be informed.
+        }
+    }
     storage_.stop();
     columns_.clear();
     file_.close();
-    if (keeps_part() && rows_ > 0) part_.keep();
+    if (keep_part_ && is_started_ && rows_ > 0) part_.keep();
 }
 
 void TableWriter::fail(const char* what) const {
@@ -64,8 +71,8 @@ void TableWriter::add_group(const std::string& path) {
     if (!group.is_open()) fail("create");
 }
 
-void TableWriter::add_column(const std::string& group, const ColumnLayout& layout) {
-    const auto width = static_cast<hsize_t>(layout.width);
+void TableWriter::add_column(const std::string& group, const zlg::logs::Column& column, Column&& added) {
+    const hsize_t width = added.width;
     const int rank = width > 0 ? 2 : 1;
     const std::array<hsize_t, 2> size{0, width};
     const std::array<hsize_t, 2> limit{H5S_UNLIMITED, width};
@@ -75,13 +82,13 @@ void TableWriter::add_column(const std::string& group, const ColumnLayout& layou
     H5Pset_chunk(creation.get(), rank, chunk.data());
     const Handle access{H5Pcreate(H5P_DATASET_ACCESS), &H5Pclose};
     H5Pset_chunk_cache(access.get(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, no_cache, H5D_CHUNK_CACHE_W0_DEFAULT);
-    const std::string path = group + "/" + layout.name;
-    Handle set{
-        H5Dcreate2(file_.get(), path.c_str(), layout.type, space.get(), H5P_DEFAULT, creation.get(), access.get()),
+    const std::string path = fmt::format("{}/{}", group, column.name);
+    added.set = {
+        H5Dcreate2(file_.get(), path.c_str(), added.type, space.get(), H5P_DEFAULT, creation.get(), access.get()),
         &H5Dclose};
-    if (!set.is_open()) fail("create");
-    columns_.push_back({std::move(set), layout.type, layout.buffer, width});
-    set_text(path, "unit", layout.unit);
+    if (!added.set.is_open()) fail("create");
+    columns_.push_back(std::move(added));
+    set_text(path, "unit", column.unit);
 }
 
 void TableWriter::add_text(const std::string& path, const std::string& text) {
@@ -152,7 +159,15 @@ void TableWriter::append(std::size_t n) {
     rows_ += n;
 }
 
+void TableWriter::flush() {
+    require_open();
+    const std::size_t n = std::exchange(n_, 0);
+    if (n > 0) append(n);
+    room_ = block_rows - rows_ % block_rows;
+}
+
 void TableWriter::close() {
+    flush();
     columns_.clear();
     const bool closed = file_.close();
     try {

@@ -1,10 +1,13 @@
 #pragma once
 // A growing HDF5 file of columns: one writer, any number of readers meanwhile.
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "column_map.hpp"
 #include "hdf5_handle.hpp"
 #include "hdf5_storage.hpp"
 #include "part_file.hpp"
@@ -14,16 +17,16 @@ namespace zlg::logs::hdf5 {
 // Rows that are written at once, and the length of a chunk: large enough that a call costs nothing beside the bytes.
 inline constexpr std::size_t block_rows = 16384;
 
-struct ColumnLayout {
-    std::string name;    // within its group
-    hid_t type;          // in memory and in the file
-    const char* unit;    // attribute
-    const void* buffer;  // of block_rows rows, owned by the caller
-    int width = 0;       // values in a row of a two-dimensional column; 0: one-dimensional
-};
-
-// Made in three steps: objects are added, `start` opens the file for readers, rows follow.
+// Made in three steps: objects are added, `start` opens the file for readers, rows follow: each is written into the buffers
+// of the columns, at row(), and ended.
 class TableWriter {
+    struct Column {
+        Handle set;
+        hid_t type;
+        const void* buffer;
+        hsize_t width;  // 0: one-dimensional
+    };
+
 public:
     // errors  IoError: see PartFile.
     TableWriter(const std::string& path, bool force, bool keep_part);
@@ -31,40 +34,55 @@ public:
     TableWriter(TableWriter&&) = delete;
 
     void add_group(const std::string& path);
-    void add_column(const std::string& group, const ColumnLayout& layout);
+
+    // A column of T, in memory and in the file, and its buffer; `width` values in a row of a two-dimensional column.
+    template <class T>
+    T* add_column(const std::string& group, const zlg::logs::Column& column, int width = 0) {
+        T* const rows = add_buffer<T>(width > 0 ? static_cast<std::size_t>(width) : 1);
+        add_column(group, column, {{}, memory_type<T>(), rows, static_cast<hsize_t>(width)});
+        return rows;
+    }
+
+    // Room for block_rows rows of T, which stays as long as the writer.
+    template <class T>
+    T* add_buffer(std::size_t width = 1) {
+        buffers_.push_back(std::make_unique<std::byte[]>(block_rows * width * sizeof(T)));
+        return reinterpret_cast<T*>(buffers_.back().get());
+    }
+
     void add_text(const std::string& path, const std::string& text);
     void set_text(const std::string& object, const char* name, const std::string& text);
     void set_real(const char* name, double value);  // of the root
     void set_integer(const char* name, std::int64_t value);
     void start();
 
-    // How many rows the buffers take before they must be appended.
-    [[nodiscard]] std::size_t room() const { return block_rows - rows_ % block_rows; }
+    // Where the next row belongs in the buffers.
+    [[nodiscard]] std::size_t row() const { return n_; }
 
-    // Appends the first `n` rows of all buffers, and makes them visible to readers.
+    // It stands there. A block that is full is flushed. errors  as flush.
+    void end_row() {
+        if (++n_ == room_) flush();
+    }
+
+    // Appends the rows of all buffers, and makes them visible to readers. Rows that could not be written are lost; a later
+    // call fails for the same reason.
     //
     // errors  IoError: names PATH.part and the system's reason; what was appended before stays readable.
-    void append(std::size_t n);
+    void flush();
 
     [[nodiscard]] bool is_open() const { return part_.is_open(); }
     void require_open() const {
         if (!is_open()) refuse_closed();
     }
-    [[nodiscard]] bool keeps_part() const { return keep_part_ && is_started_; }  // once it has rows
     [[nodiscard]] const std::string& part_path() const { return part_.part(); }
 
-    // Closes the HDF5 file and gives it its name; without that it stays marked as not complete. errors  IoError.
+    // Flushes, closes the HDF5 file and gives it its name; without that it stays marked as not complete. errors  IoError.
     void close();
 
 private:
-    struct Column {
-        Handle set;
-        hid_t type;
-        const void* buffer;
-        hsize_t width;
-    };
-
     [[noreturn]] void refuse_closed() const;
+    void add_column(const std::string& group, const zlg::logs::Column& column, Column&& added);
+    void append(std::size_t n);
     void extend(const Column& column, std::size_t n);
     void check_storage();
     [[noreturn]] void fail(const char* what) const;
@@ -73,8 +91,11 @@ private:
     Storage storage_;
     bool keep_part_;
     bool is_started_ = false;
-    hsize_t rows_ = 0;
+    hsize_t rows_ = 0;               // in the file
+    std::size_t n_ = 0;              // in the buffers
+    std::size_t room_ = block_rows;  // for so many, until the chunk is full
     Handle file_;
+    std::vector<std::unique_ptr<std::byte[]>> buffers_;
     std::vector<Column> columns_;
 };
 
