@@ -1,13 +1,12 @@
 #include "hdf5_global_heap.hpp"
 
-#include <sys/types.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "hdf5_driver.hpp"
 
 namespace zlg::logs::hdf5 {
 
@@ -19,13 +18,7 @@ constexpr std::size_t size_at = 8;
 constexpr std::size_t max_collection_bytes = std::size_t{64} << 20;
 
 bool read_all(int fd, std::uint64_t address, std::span<unsigned char> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t n = ::pread(fd, bytes.data(), bytes.size(), static_cast<off_t>(address));
-        if (n <= 0) return false;
-        address += static_cast<std::uint64_t>(n);
-        bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
-    return true;
+    return read_at(fd, address, bytes.size(), bytes.data()) == static_cast<ssize_t>(bytes.size());
 }
 
 std::uint64_t little_endian(std::span<const unsigned char> bytes) {

@@ -7,41 +7,16 @@
 #include <cstring>
 #include <zlg/logs/error.hpp>
 
+#include "hdf5_driver.hpp"
+
 namespace zlg::logs::hdf5 {
 
 namespace {
 
-constexpr haddr_t max_address = (haddr_t{1} << 62) - 1;
-
 // The superblock stands first in the file; without its signature nobody takes the file for a log.
 constexpr std::size_t superblock_bytes = 48;
 
-struct DriverInfo {
-    Storage* storage;
-};
-
-// What the library hands to every call of the driver; its own part comes first.
-struct File {
-    H5FD_t library_part;
-    Storage* storage;
-    haddr_t end_of_allocation;
-};
-
-File& of(H5FD_t* file) { return *reinterpret_cast<File*>(file); }
-const File& of(const H5FD_t* file) { return *reinterpret_cast<const File*>(file); }
-
-H5FD_t* open_storage(const char*, unsigned, hid_t access, haddr_t) {
-    const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(access));
-    if (info == nullptr) return nullptr;
-    File* file = new (std::nothrow) File{};
-    if (file != nullptr) file->storage = info->storage;
-    return reinterpret_cast<H5FD_t*>(file);
-}
-
-herr_t close_storage(H5FD_t* file) {
-    delete &of(file);
-    return 0;
-}
+using File = DriverFile<Storage*>;
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
     *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
@@ -49,29 +24,23 @@ herr_t query(const H5FD_t*, unsigned long* flags) {
     return 0;
 }
 
-haddr_t get_eoa(const H5FD_t* file, H5FD_mem_t) { return of(file).end_of_allocation; }
-haddr_t get_eof(const H5FD_t* file, H5FD_mem_t) { return of(file).storage->end(); }
-
-herr_t set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t address) {
-    of(file).end_of_allocation = address;
-    return 0;
-}
+haddr_t get_eof(const H5FD_t* file, H5FD_mem_t) { return File::of(file).subject->end(); }
 
 herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, void* buffer) try {
-    return of(file).storage->read(address, size, buffer) ? 0 : -1;
+    return File::of(file).subject->read(address, size, buffer) ? 0 : -1;
 } catch (...) {
     return -1;
 }
 
 herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, const void* buffer) try {
-    of(file).storage->write(address, size, buffer);
+    File::of(file).subject->write(address, size, buffer);
     return 0;
 } catch (...) {
     return -1;
 }
 
 herr_t truncate(H5FD_t* file, hid_t, hbool_t) try {
-    of(file).storage->resize(of(file).end_of_allocation);
+    File::of(file).subject->resize(File::of(file).end_of_allocation);
     return 0;
 } catch (...) {
     return -1;
@@ -83,38 +52,15 @@ herr_t lock(H5FD_t*, hbool_t) { return 0; }
 herr_t unlock(H5FD_t*) { return 0; }
 
 hid_t register_driver() {
-    static H5FD_class_t driver{};
-    driver.name = "zlg log";
-    driver.maxaddr = max_address;
-    driver.fc_degree = H5F_CLOSE_STRONG;
-    driver.fapl_size = sizeof(DriverInfo);
-    driver.open = &open_storage;
-    driver.close = &close_storage;
+    H5FD_class_t driver = driver_of<Storage*>("zlg log", H5F_CLOSE_STRONG);
     driver.query = &query;
-    driver.get_eoa = &get_eoa;
-    driver.set_eoa = &set_eoa;
     driver.get_eof = &get_eof;
     driver.read = &read;
     driver.write = &write;
     driver.truncate = &truncate;
     driver.lock = &lock;
     driver.unlock = &unlock;
-    constexpr H5FD_mem_t kinds[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
-    std::ranges::copy(kinds, driver.fl_map);
     return H5FDregister(&driver);
-}
-
-// Number of bytes that were read before the end of the file, or -1.
-ssize_t read_from_file(int fd, haddr_t address, size_t size, char* buffer) {
-    std::size_t done = 0;
-    while (done < size) {
-        const ssize_t n = ::pread(fd, buffer + done, size - done, static_cast<off_t>(address + done));
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return -1;
-        if (n == 0) break;
-        done += static_cast<std::size_t>(n);
-    }
-    return static_cast<ssize_t>(done);
 }
 
 }  // namespace
@@ -138,7 +84,7 @@ bool Storage::read(haddr_t address, size_t size, void* buffer) {
         if (address < image_.size()) std::memcpy(bytes, &image_[address], std::min(size, image_.size() - address));
         return true;
     }
-    const bool good = read_from_file(fd_, address, size, bytes) >= 0;
+    const bool good = read_at(fd_, address, size, bytes) >= 0;
     for (const auto& [begin, lost] : lost_) {
         const haddr_t from = std::max(begin, address);
         const haddr_t to = std::min(begin + lost.size(), address + size);
@@ -192,12 +138,9 @@ void Storage::write_to_file(haddr_t address, size_t size, const char* bytes) {
 
 Handle access_to(Storage& storage) {
     static const hid_t driver = register_driver();
-    Handle access{H5Pcreate(H5P_FILE_ACCESS), &H5Pclose};
-    const DriverInfo info{&storage};
-    if (driver < 0 || H5Pset_driver(access.get(), driver, &info) < 0 ||
-        H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST) < 0) {
-        throw IoError("the HDF5 library refuses the driver of a growing log: " + last_failure().reason);
-    }
+    Handle access = access_of(driver, &storage);
+    if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST) < 0)
+        throw IoError("the HDF5 library refuses the format of a growing log: " + last_failure().reason);
     return access;
 }
 
