@@ -58,12 +58,7 @@ Timed timed(const Work& work, const Reference& reference) {
 
 double times_real_time(int ticks, double seconds) { return ticks * tick_s / seconds; }
 
-twin::TwinConfig gyro() {
-    twin::TwinConfig config;
-    config.beats.lock_left_hz = lock_hz;
-    config.beats.lock_right_hz = lock_hz;
-    return config;
-}
+constexpr twin::BeatConfig beat_config{.lock_left_hz = lock_hz, .lock_right_hz = lock_hz};
 
 // In one piece, as the twin lives while the perimeter is controlled.
 void live(twin::LaserBeats& beats, const Part& part) {
@@ -74,7 +69,7 @@ void live(twin::LaserBeats& beats, const Part& part) {
 
 // From wherever the phase stands, tick by tick.
 Error error_of_twin(const twin::LaserTable& table) {
-    twin::LaserBeats beats{gyro(), table};
+    twin::LaserBeats beats{beat_config, 1, table};
     Error worst;
     for (int tick = 0; tick < 12; ++tick) {
         const twin::Turns start = beats.beats().left();
@@ -93,7 +88,7 @@ Error error_of_twin(const twin::LaserTable& table) {
 }
 
 void run_twin_phases(const twin::LaserTable& table, int n) {
-    twin::LaserBeats beats{gyro(), table};
+    twin::LaserBeats beats{beat_config, 1, table};
     for (int tick = 0; tick < n; ++tick) {
         for (const Part& part : tick_parts) live(beats, part);
     }

@@ -1,12 +1,14 @@
 #pragma once
 // The averaged gyro: the bias counts as its mean, the light as a straight discriminator.
 
+#include <zlg/twin/motion.hpp>
+
 #include "fringe_counter.hpp"
 #include "gyro.hpp"
 #include "housing.hpp"
 #include "laser/bias_area.hpp"
-#include "laser/photodiodes.hpp"
 #include "noise.hpp"
+#include "photodiodes.hpp"
 
 namespace zlg::twin {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What every fidelity of the twin answers to.
 
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_half.hpp>
 
 namespace zlg::twin {
 

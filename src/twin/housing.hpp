@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <memory>
 
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_config.hpp>
+#include <zlg/twin/twin_half.hpp>
 
 #include "converters.hpp"
 #include "counter_limit.hpp"

@@ -60,7 +60,7 @@ LaserGyro::LaserGyro(const TwinConfig& config, Motion motion)
       signal_{std::make_shared<const ErrorSignal>(table_, config.laser.bias_field_g)},
       housing_{config_, signal_},
       course_{2 * housing_.n_pieces() * config.light_samples, housing_.half_s()},
-      beats_{config_, table_},
+      beats_{config_.beats, config_.seed, table_},
       // The difference of two beams has sqrt(2) times the noise of one, over a sum of two levels.
       light_noise_{std::sqrt(2.0) * level * std::abs(signal_->averaged().discriminator_per_lambda) *
                    config.light_noise_lambda},

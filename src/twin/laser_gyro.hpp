@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <zlg/twin/laser_table.hpp>
+#include <zlg/twin/motion.hpp>
 
 #include "gyro.hpp"
 #include "housing.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_config.hpp>
 
 namespace zlg::twin {
 

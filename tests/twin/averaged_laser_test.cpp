@@ -51,19 +51,6 @@ TEST(AveragedLaser, UnequalIsotopesMoveThePlaceWhereTheLoopSettles) {
     EXPECT_NEAR(laser.at(a.settled_lambda + 1e-4, 15.0).discriminator(), 1e-4 * a.discriminator_per_lambda, 1e-7);
 }
 
-TEST(AveragedLaser, TheTwinIsToldTheMeanOfAHalfWithItsEdges) {
-    TwinConfig config;
-    config.tick_s = 0.005;
-    config.bias_edge_s = 50e-6;
-    const AveragedLaser a{.bias_hz = 60000.0, .bias_chi = 3.5, .discriminator_per_lambda = 0.3};
-    const TwinConfig told = with_laser(config, a);
-    // A half of 2500 us loses a quarter of the 50 us at each of its ends.
-    EXPECT_NEAR(told.bias_hz, 60000.0 * (2500.0 - 25.0) / 2500.0, 1e-9);
-    EXPECT_EQ(told.bias_chi, 3.5);
-    EXPECT_EQ(told.discriminator_per_lambda, 0.3);
-    EXPECT_EQ(told.half_wave_v, config.half_wave_v);
-}
-
 TEST(AveragedLaser, RefusesWhatHasNoAverage) {
     const FourWave laser{LaserConfig{}};
     EXPECT_THROW((void)averaged_laser(laser, 0.0), std::invalid_argument);

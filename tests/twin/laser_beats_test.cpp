@@ -24,9 +24,9 @@ struct Case {
     double field_g = 15.0;
 };
 
-TwinConfig config_of(const Case& c) {
-    TwinConfig config;
-    config.beats.lock_left_hz = c.lock_hz;
+BeatConfig config_of(const Case& c) {
+    BeatConfig config;
+    config.lock_left_hz = c.lock_hz;
     return config;
 }
 
@@ -59,7 +59,7 @@ double stepped_turns(const Case& c, LaserBeats& beats, int n_pieces) {
 
 double error_rad(const Case& c, int n_pieces) {
     const LaserTable table{LaserConfig{}, c.field_g};
-    LaserBeats beats{config_of(c), table};
+    LaserBeats beats{config_of(c), 1, table};
     double worst = 0.0;
     for (int run = 0; run < 12; ++run) {
         const double start = beats.beats().left().part;
@@ -91,7 +91,7 @@ TEST(LaserBeats, AnEdgeOfADetunedGyroIsRightToATenthOfAMilliradian) {
 TEST(LaserBeats, APlateauTurnsByTheMeanOfItsBias) {
     constexpr double field_g = 15.0;
     const LaserTable table{LaserConfig{}, field_g};
-    LaserBeats beats{config_of({0.0, 0.0, 0.0}), table};
+    LaserBeats beats{config_of({0.0, 0.0, 0.0}), 1, table};
     Stretch s{.perimeter_lambda = {0.02, 0.06, 0.10}, .duration_s = 1e-3, .common_hz = 100.0, .helicity_hz = 7.0};
     s.field_g.fill(field_g);
     const Turns before = beats.beats().left();
@@ -106,7 +106,7 @@ TEST(LaserBeats, APlateauTurnsByTheMeanOfItsBias) {
 TEST(LaserBeats, TheLargerBeatIsFollowedAndNoneOfTwoEqualOnes) {
     constexpr double field_g = 15.0;
     const LaserTable table{LaserConfig{}, field_g};
-    LaserBeats beats{TwinConfig{}, table};
+    LaserBeats beats{BeatConfig{}, 1, table};
     const auto followed_at = [&](double perimeter) {
         Stretch s{.duration_s = 1e-5};
         s.perimeter_lambda.fill(perimeter);

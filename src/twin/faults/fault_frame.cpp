@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "fault_light.hpp"
 #include "fault_plan.hpp"
-#include "laser/photodiodes.hpp"
 
 namespace zlg::twin {
 namespace {
@@ -39,12 +39,12 @@ void FrameFaults::spoil_light(const Fault& fault, double start_s, double end_s, 
             if (fault.size != 1.0) a = before(sensor.light_a, latched_.light_a, k);
             if (fault.size >= 1.0) b = before(sensor.light_b, latched_.light_b, k);
         } else if (fault.kind == FaultKind::light_noisy) {
-            const double noise = fault.size * Photodiodes::level;
+            const double noise = fault.size * light_level;
             a += static_cast<float>(noise * light_noise_.gauss());
             b += static_cast<float>(noise * light_noise_.gauss());
         } else if (fault.kind == FaultKind::light_saturated) {
-            a = std::min(a, static_cast<float>(fault.size * Photodiodes::level));
-            b = std::min(b, static_cast<float>(fault.size * Photodiodes::level));
+            a = std::min(a, static_cast<float>(fault.size * light_level));
+            b = std::min(b, static_cast<float>(fault.size * light_level));
         } else if (fault.kind == FaultKind::light_nan) {
             a = b = not_a_number;
         }

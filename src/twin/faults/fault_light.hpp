@@ -7,6 +7,9 @@
 
 namespace zlg::twin {
 
+// Of each beam at the centre; any unit, only ratios of light mean anything.
+inline constexpr double light_level = 1000.0;
+
 // What is left of each beam.
 struct LightParts {
     double a = 1.0;

@@ -18,8 +18,8 @@ Backscatter scatter(double lock_hz, double phase_rad) {
     return {each_hz, each_hz, phase_rad, 0.0};
 }
 
-OpticalBeats beats_of(const TwinConfig& config, double threshold) {
-    NoiseStream start{config.seed, NoiseCause::start_phase};
+OpticalBeats beats_of(std::uint64_t seed, double threshold) {
+    NoiseStream start{seed, NoiseCause::start_phase};
     Turns left;
     left.part = start.uniform();
     Turns right;
@@ -29,14 +29,14 @@ OpticalBeats beats_of(const TwinConfig& config, double threshold) {
 
 }  // namespace
 
-LaserBeats::LaserBeats(const TwinConfig& config, const LaserTable& table)
+LaserBeats::LaserBeats(const BeatConfig& config, std::uint64_t seed, const LaserTable& table)
     : table_{table},
-      left_{scatter(config.beats.lock_left_hz, config.beats.scatter_phase_rad)},
-      right_{scatter(config.beats.lock_right_hz, config.beats.scatter_phase_rad)},
-      threshold_{2.0 * config.beats.comparator_threshold * table.exact().centre_intensity()},
+      left_{scatter(config.lock_left_hz, config.scatter_phase_rad)},
+      right_{scatter(config.lock_right_hz, config.scatter_phase_rad)},
+      threshold_{2.0 * config.comparator_threshold * table.exact().centre_intensity()},
       least_light_{faint_ratio * table.exact().centre_intensity()},
-      counts_quarters_{config.beats.counts_per_turn == 4},
-      beats_{beats_of(config, threshold_)},
+      counts_quarters_{config.counts_per_turn == 4},
+      beats_{beats_of(seed, threshold_)},
       end_light_{table_.at(0.0, 0.0)} {}
 
 LaserBeats::Lights LaserBeats::lights(const Stretch& s) {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
+#include <zlg/twin/laser_config.hpp>
 #include <zlg/twin/laser_table.hpp>
 #include <zlg/twin/optical_beats.hpp>
-#include <zlg/twin/twin.hpp>
 
 namespace zlg::twin {
 
@@ -34,7 +34,8 @@ struct Followed {
 
 class LaserBeats {
 public:
-    LaserBeats(const TwinConfig& config, const LaserTable& table);
+    // seed  of the phases that the beats start with.
+    LaserBeats(const BeatConfig& config, std::uint64_t seed, const LaserTable& table);
 
     // The bias hardly changes: each beat has its mean throughout.
     Followed plateau(const Stretch& stretch);

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <memory>
 
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_config.hpp>
 
 #include "high_voltage.hpp"
 #include "laser/error_signal.hpp"

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_config.hpp>
 
 namespace zlg::twin {
 

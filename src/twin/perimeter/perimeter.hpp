@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_config.hpp>
 
 #include "analog_loop.hpp"
 #include "converters.hpp"

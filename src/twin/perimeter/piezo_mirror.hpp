@@ -12,7 +12,7 @@
 
 #include <array>
 
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_config.hpp>
 
 namespace zlg::twin {
 

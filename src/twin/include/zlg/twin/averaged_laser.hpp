@@ -2,7 +2,6 @@
 // What the averaged twin is told of the laser, derived from the four-wave equations.
 
 #include <zlg/twin/four_wave.hpp>
-#include <zlg/twin/twin.hpp>
 
 namespace zlg::twin {
 
@@ -23,8 +22,5 @@ struct AveragedLaser {
 //                   detuning is not lit both ways, or its beams are nowhere equal.
 // cost              about 20 ms.
 [[nodiscard]] AveragedLaser averaged_laser(const FourWave& laser, double field_g, double fit_range_lambda = 0.1);
-
-// The averaged twin's own keys from the laser's: the mean bias over a half, edges included, in counts; chi; the slope.
-[[nodiscard]] TwinConfig with_laser(TwinConfig config, const AveragedLaser& laser);
 
 }  // namespace zlg::twin

@@ -7,10 +7,10 @@
 
 #include <cmath>
 
-#include <zlg/twin/twin.hpp>
+#include <zlg/twin/twin_config.hpp>
 
 #include "faults/fault_light.hpp"
-#include "laser.hpp"
+#include "laser/laser.hpp"
 #include "noise.hpp"
 
 namespace zlg::twin {
@@ -25,15 +25,13 @@ public:
     explicit Photodiodes(const TwinConfig& config)
         : slope_per_lambda_{config.discriminator_per_lambda},
           // The difference of two beams has sqrt(2) times the noise of one, over a sum of two levels.
-          noise_{std::sqrt(2.0) * level * std::abs(config.discriminator_per_lambda) * config.light_noise_lambda},
+          noise_{std::sqrt(2.0) * light_level * std::abs(config.discriminator_per_lambda) * config.light_noise_lambda},
           stream_{config.seed, NoiseCause::light} {}
-
-    static constexpr double level = 1000.0;  // of each beam at the centre; any unit, only ratios of light mean anything
 
     Beams sample(const Mode& mode, int bias_sign, const LightParts& left = {}) {
         const double signal = bias_sign * mode.helicity() * slope_per_lambda_ * mode.detuning_lambda;
-        const double a = level * left.a;
-        const double b = level * left.b;
+        const double a = light_level * left.a;
+        const double b = light_level * left.b;
         if (mode.two_way()) return noisy(a * (1.0 + signal), b * (1.0 - signal));
         return signal > 0.0 ? noisy(a, 0.0) : noisy(0.0, b);
     }

@@ -1,5 +1,7 @@
 // What the twin refuses, and what it must not refuse.
 
+#include <zlg/twin/twin_config.hpp>
+
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -7,6 +9,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <zlg/twin/averaged_laser.hpp>
 
 #include "quiet_gyro.hpp"
 
@@ -120,6 +124,19 @@ TEST(Twin, AFrameThatHardwareCannotObeyIsRefused) {
     const TwinHalf half = twin.advance(frame(true, 1));
     EXPECT_EQ(half.sensor.sequence, 0u);
     EXPECT_EQ(half.sensor.counter, untouched.advance(frame(true, 1)).sensor.counter);
+}
+
+TEST(TwinConfig, TheTwinIsToldTheMeanOfAHalfWithItsEdges) {
+    TwinConfig config;
+    config.tick_s = 0.005;
+    config.bias_edge_s = 50e-6;
+    const AveragedLaser a{.bias_hz = 60000.0, .bias_chi = 3.5, .discriminator_per_lambda = 0.3};
+    const TwinConfig told = with_laser(config, a);
+    // A half of 2500 us loses a quarter of the 50 us at each of its ends.
+    EXPECT_NEAR(told.bias_hz, 60000.0 * (2500.0 - 25.0) / 2500.0, 1e-9);
+    EXPECT_EQ(told.bias_chi, 3.5);
+    EXPECT_EQ(told.discriminator_per_lambda, 0.3);
+    EXPECT_EQ(told.half_wave_v, config.half_wave_v);
 }
 
 }  // namespace
