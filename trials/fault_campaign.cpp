@@ -108,7 +108,7 @@ void conclude(Sums& sums, FaultFigures& f) {
 std::vector<FaultFigures> run(const FaultCampaign& campaign) {
     std::vector<std::optional<twin::FaultKind>> kinds{std::nullopt};
     if (campaign.kinds.empty()) {
-        for (const twin::FaultKind kind : twin::all_fault_kinds()) kinds.emplace_back(kind);
+        for (const twin::FaultKind kind : twin::all_fault_kinds) kinds.emplace_back(kind);
     }
     for (const twin::FaultKind kind : campaign.kinds) kinds.emplace_back(kind);
     const std::vector<Job> jobs = jobs_of(kinds, campaign);

@@ -43,15 +43,6 @@ void set_motion(Draw& draw, config::Motion& motion) {
     motion.phase_deg = {draw.within(0.0, 360.0)};
 }
 
-// The loop that is a formula knows neither light nor length nor what becomes of a switch.
-bool is_known_to_the_formula(twin::FaultKind kind) {
-    using enum twin::FaultKind;
-    constexpr std::array known{light_stuck,   light_noisy,     light_saturated,   light_nan,    piezo_adc_stuck,
-                               piezo_adc_nan, temperature_nan, counter_bit_stuck, frame_missed, frame_repeated,
-                               frame_late,    bias_lost,       bias_asymmetric,   field_pulse,  overspeed};
-    return std::ranges::find(known, kind) != known.end();
-}
-
 config::Config random_gyro(Draw& draw, bool formula) {
     config::Config c;
     c.run.seed = static_cast<std::int64_t>(draw.below(1'000'000'000));
@@ -94,7 +85,8 @@ FaultTrial random_trial(std::optional<twin::FaultKind> kind, std::uint64_t seed,
                         bool two_at_once) {
     Draw draw{seed};
     const bool averaged = fidelity == config::Fidelity::averaged;
-    FaultTrial trial{.config = random_gyro(draw, averaged && kind && !two_at_once && is_known_to_the_formula(*kind)),
+    FaultTrial trial{.config = random_gyro(draw, averaged && kind && !two_at_once &&
+                                                     twin::facts(*kind).acts_on == twin::FaultActs::elsewhere),
                      .watched_s = 4.0,
                      .end_s = 7.5};
     trial.config.gyro.fidelity = fidelity;
@@ -103,8 +95,7 @@ FaultTrial random_trial(std::optional<twin::FaultKind> kind, std::uint64_t seed,
     trial.fault = drawn_fault(draw, *kind, seed);
     trial.watched_s = end_s(*trial.fault) + grace_s;
     if (two_at_once) {
-        constexpr auto all = twin::all_fault_kinds();
-        trial.other = drawn_fault(draw, all.at(draw.below(all.size())), seed + 1);
+        trial.other = drawn_fault(draw, twin::all_fault_kinds.at(draw.below(twin::n_fault_kinds)), seed + 1);
         trial.watched_s = std::max(trial.watched_s, end_s(*trial.other) + grace_s);
     }
     // Ends half-way between two switches.

@@ -135,7 +135,7 @@ FaultOutcome run(const FaultTrial& trial) {
     config::Config met = trial.config;
     for (const auto& fault : {trial.fault, trial.other}) {
         if (!fault) continue;
-        met.faults.kind.push_back(static_cast<config::FaultKind>(fault->kind));
+        met.faults.kind.push_back(fault->kind);
         met.faults.at_s.push_back(fault->at_s);
         met.faults.duration_s.push_back(fault->duration_s);
         met.faults.size.push_back(fault->size);

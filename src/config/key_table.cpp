@@ -296,7 +296,7 @@ const Key table[] = {
      Column{at<&C::motion, &Motion::time_column>, true}},
 
     {"faults", "kind", "", "what breaks in a simulated gyro, fault by fault",
-     choice_list<&C::faults, &Faults::kind>(fault_kind_names)},
+     choice_list<&C::faults, &Faults::kind>(twin::fault_kind_names)},
     {"faults", "at_s", "s", "when each begins", RealList{at<&C::faults, &Faults::at_s>, fault_time, true}},
     {"faults", "duration_s", "s", "how long each lasts",
      RealList{at<&C::faults, &Faults::duration_s>, fault_time, true}},
@@ -309,7 +309,7 @@ const Key table[] = {
     {"faults", "random_seed", "", "seed of their moments, kinds, durations and sizes",
      Integer{at<&C::faults, &Faults::random_seed>, 0, int64_max}},
     {"faults", "random_kinds", "", "their kinds; none: all",
-     choice_list<&C::faults, &Faults::random_kinds>(fault_kind_names)},
+     choice_list<&C::faults, &Faults::random_kinds>(twin::fault_kind_names)},
 
     {"design", "switch_error_arcsec", "arcsec",
      "error of the angle that one switch leaves: the dP of the paper's budgets; given, also the rms for interval_s = "

@@ -8,6 +8,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/laser_calibration.hpp>
+#include <zlg/twin/fault_kinds.hpp>
 
 namespace zlg::processor {
 namespace {
@@ -101,14 +102,14 @@ void draw_motion(Draw& draw, config::Config& c) {
 
 // One kind of fault after the other from scenario to scenario, and then all of them at once.
 std::string draw_faults(Draw& draw, std::int64_t k, config::Config& c) {
-    constexpr std::size_t n_kinds = config::fault_kind_names.size();
+    constexpr std::size_t n_kinds = twin::n_fault_kinds;
     const auto choice = static_cast<std::size_t>(k) % (n_kinds + 2);
     if (choice == n_kinds) return "no fault";
     c.faults.random_seed = static_cast<std::int64_t>(draw.below(1'000'000'000));
     c.faults.random_per_hour = 600.0;
     if (choice > n_kinds) return "faults of all kinds";
-    c.faults.random_kinds = {static_cast<config::FaultKind>(choice)};
-    return std::string{config::fault_kind_names[choice]};
+    c.faults.random_kinds = {twin::all_fault_kinds[choice]};
+    return std::string{twin::fault_kind_names[choice]};
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,21 +15,14 @@ using config::ConfigError;
 
 constexpr double default_duration_s = 3600.0;
 
-// The twin's kinds in the order of the configuration's: both lists have the same names.
-static_assert(config::fault_kind_names.size() == twin::n_fault_kinds);
-
-twin::FaultKind twin_kind(config::FaultKind kind) { return static_cast<twin::FaultKind>(kind); }
-
 void add_random(const config::Config& config, std::vector<twin::Fault>& faults) {
     const config::Faults& f = config.faults;
     if (f.random_per_hour == 0.0) return;
     if (!config.run.duration_s && config.motion.kind == config::MotionKind::file)
         throw ConfigError{"faults.random_per_hour: with a motion file, run.duration_s must say how long they come"};
-    std::vector<twin::FaultKind> kinds;
-    std::ranges::transform(f.random_kinds, std::back_inserter(kinds), twin_kind);
     try {
         const auto random = twin::random_faults(f.random_per_hour, config.run.duration_s.value_or(default_duration_s),
-                                                static_cast<std::uint64_t>(f.random_seed), kinds);
+                                                static_cast<std::uint64_t>(f.random_seed), f.random_kinds);
         faults.insert(faults.end(), random.begin(), random.end());
     } catch (const std::invalid_argument& error) {
         throw ConfigError{fmt::format("faults.random_per_hour: {}", error.what())};
@@ -45,7 +37,7 @@ std::vector<twin::Fault> faults_of(const config::Config& config) {
     if (f.at_s.size() != n || f.duration_s.size() != n || f.size.size() != n)
         throw ConfigError{"faults: kind, at_s, duration_s and size are not equally many"};
     std::vector<twin::Fault> faults;
-    for (std::size_t k = 0; k < n; ++k) faults.push_back({twin_kind(f.kind[k]), f.at_s[k], f.duration_s[k], f.size[k]});
+    for (std::size_t k = 0; k < n; ++k) faults.push_back({f.kind[k], f.at_s[k], f.duration_s[k], f.size[k]});
     add_random(config, faults);
     return faults;
 }

@@ -148,11 +148,6 @@ void validate_laser(const TwinConfig& c) {
     require_within("1 + bias_temperature_coefficient_per_c * temperature_rise_c", warm, 1e-3, 1e3);
 }
 
-bool needs_real_loop(FaultKind kind) {
-    return kind <= FaultKind::piezo_step || kind == FaultKind::thermal_shock || kind == FaultKind::vibration ||
-           kind == FaultKind::shock;
-}
-
 void validate_fault(const Fault& fault, LoopKind loop) {
     if (static_cast<std::size_t>(fault.kind) >= n_fault_kinds) {
         refuse("fault kind", static_cast<double>(fault.kind), fmt::format("0..{}", n_fault_kinds - 1));
@@ -161,8 +156,8 @@ void validate_fault(const Fault& fault, LoopKind loop) {
     const auto member = [&](const char* name) { return fmt::format("fault {}: {}", known.name, name); };
     require_within(member("at_s").c_str(), fault.at_s, 0.0, 1e9);
     require_within(member("duration_s").c_str(), fault.duration_s, 0.0, 1e9);
-    require_within(member("size").c_str(), fault.size, known.min_size, known.max_size);
-    if (loop != LoopKind::exponential || !needs_real_loop(fault.kind)) return;
+    require_within(member("size").c_str(), fault.size, known.size.least, known.size.most);
+    if (loop != LoopKind::exponential || known.acts_on == FaultActs::elsewhere) return;
     throw std::invalid_argument(fmt::format(
         "twin: fault {}: the exponential loop is a formula that no light or length moves: allowed is loop analog or "
         "external",

@@ -17,6 +17,7 @@ using namespace zlg::config;
 using zlg::core::BridgeMethod;
 using zlg::core::DitherMethod;
 using zlg::core::RelockMethod;
+using zlg::twin::FaultKind;
 
 namespace {
 
@@ -676,15 +677,6 @@ TEST(Schema, faults_are_lists_of_equal_length) {
     expect_contains(set_complaint("faults.at_s=[1, -1]"), "faults.at_s = [1, -1]: allowed is");
     expect_contains(set_complaint("faults.random_per_hour=-1"), "allowed is 0..1e6");
     EXPECT_EQ(with({"faults.kind=[]"}).faults.kind.size(), 0u);
-}
-
-TEST(Schema, every_kind_of_fault_has_its_name) {
-    for (std::size_t k = 0; k < fault_kind_names.size(); ++k) {
-        const Config c = with({"faults.kind=" + std::string{fault_kind_names[k]}});
-        EXPECT_EQ(c.faults.kind, std::vector<FaultKind>{static_cast<FaultKind>(k)});
-    }
-    EXPECT_EQ(with({"faults.kind=overspeed"}).faults.kind.front(), FaultKind::overspeed);
-    EXPECT_EQ(with({"faults.kind=light_nan"}).faults.kind.front(), FaultKind::light_nan);
 }
 
 TEST(Schema, edges_are_shifted_only_in_a_gyro_that_obeys) {

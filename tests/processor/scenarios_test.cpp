@@ -37,7 +37,7 @@ TEST(Scenarios, choose_every_method_and_every_fault) {
     std::set<core::MagneticMethod> magnetics;
     std::set<core::DitherMethod> dithers;
     std::set<config::Schedule> schedules;
-    std::set<config::FaultKind> faults;
+    std::set<twin::FaultKind> faults;
     bool all_faults = false;
     bool none = false;
     for (std::int64_t k = 0; k < 120; ++k) {
@@ -56,7 +56,7 @@ TEST(Scenarios, choose_every_method_and_every_fault) {
     EXPECT_EQ(magnetics.size(), 3u);
     EXPECT_EQ(dithers.size(), 4u);
     EXPECT_EQ(schedules.size(), 3u);
-    EXPECT_EQ(faults.size(), config::fault_kind_names.size());
+    EXPECT_EQ(faults.size(), twin::fault_kind_names.size());
     EXPECT_TRUE(all_faults);
     EXPECT_TRUE(none);
 }

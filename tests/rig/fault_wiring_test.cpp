@@ -28,13 +28,6 @@ std::string complaint(const config::Config& c) {
     return "none";
 }
 
-TEST(FaultWiring, KeysAndTwinHaveTheSameNames) {
-    for (const twin::FaultKind kind : twin::all_fault_kinds()) {
-        const auto k = static_cast<std::size_t>(kind);
-        EXPECT_EQ(config::fault_kind_names[k], twin::facts(kind).name);
-    }
-}
-
 TEST(FaultWiring, FaultsThatAreToldReachTheTwin) {
     const auto faults = rig::faults_of(with({"faults.kind=[\"shock\", \"frame_late\"]", "faults.at_s=[1, 2]",
                                              "faults.duration_s=[0.01, 0.1]", "faults.size=[-0.1, 0]"}));

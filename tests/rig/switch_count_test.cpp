@@ -32,7 +32,7 @@ TEST(SwitchCount, counts_the_switches_of_a_sound_gyro) {
 TEST(SwitchCount, counts_what_fails) {
     config::Config c = every_second();
     c.perimeter.miss_lambda = 0.0;
-    c.faults.kind = {config::FaultKind::switch_no_mode};
+    c.faults.kind = {twin::FaultKind::switch_no_mode};
     c.faults.at_s = {1.9};
     c.faults.duration_s = {0.2};
     c.faults.size = {0.25};
@@ -70,7 +70,7 @@ TEST(SwitchCount, a_switch_that_is_under_way_has_not_failed) {
 
 TEST(SwitchCount, a_gyro_whose_light_goes_out_in_a_switch_has_failed_by_the_time_its_control_gives_up) {
     config::Config c = every_second();
-    c.faults.kind = {config::FaultKind::laser_off};
+    c.faults.kind = {twin::FaultKind::laser_off};
     c.faults.at_s = {1.001};
     c.faults.duration_s = {100.0};
     c.faults.size = {1.0};

@@ -38,7 +38,7 @@ TEST(SwitchTrial, a_drift_or_a_fault_of_the_run_is_none_of_it) {
     config::Config c = at_rest();
     const double alone = study::try_switches(c).rms_arcsec;
     c.drift.magnetic_arcsec_s = 50.0;
-    c.faults.kind = {config::FaultKind::laser_off};
+    c.faults.kind = {twin::FaultKind::laser_off};
     c.faults.at_s = {3.0};
     c.faults.duration_s = {20.0};
     c.faults.size = {1.0};

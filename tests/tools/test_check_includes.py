@@ -32,7 +32,7 @@ BROKEN = {
     "twin sees records only": ("src/twin/twin.cpp", "#include <zlg/core/compensation/angle.hpp>", "twin sees of core only"),
     "twin sees no controller": ("src/twin/twin.cpp", "#include <zlg/rig/rig.hpp>", "twin may not include rig"),
     "logs see records only": ("src/logs/raw_log.cpp", "#include <zlg/core/methods.hpp>", "logs sees of core only"),
-    "config sees core only": ("src/config/schema.cpp", "#include <zlg/twin/twin.hpp>", "config may not include twin"),
+    "config sees core only": ("src/config/schema.cpp", "#include <zlg/twin/twin.hpp>", "config sees of twin only"),
     "rig below study": ("src/rig/rig.cpp", "#include <zlg/study/run.hpp>", "rig may not include study"),
     "report sees tables only": ("src/report/page.cpp", "#include <zlg/core/records.hpp>", "report may not include core"),
     "rig without report": ("src/rig/rig.cpp", "#include <zlg/report/page.hpp>", "rig may not include report"),

@@ -63,7 +63,7 @@ TEST(Faults, NoneChangesNothingBeforeItBegins) {
         TwinConfig without;
         without.fidelity = fidelity;
         without.bias_temperature_coefficient_per_c = -5e-4;
-        for (const FaultKind kind : all_fault_kinds()) {
+        for (const FaultKind kind : all_fault_kinds) {
             // Its table must reach farther from the start on; its light is the same to 1e-4 only.
             if (fidelity == Fidelity::laser && kind != FaultKind::shock) continue;
             TwinConfig with = without;
@@ -74,7 +74,7 @@ TEST(Faults, NoneChangesNothingBeforeItBegins) {
 }
 
 TEST(Faults, EachKindMakesADifferenceAndTheSameAgain) {
-    for (const FaultKind kind : all_fault_kinds()) {
+    for (const FaultKind kind : all_fault_kinds) {
         // At an opening of the loop, and long enough to hold one.
         Fault fault = random_fault(kind, 0.4 * half_s, 5);
         fault.duration_s = std::max(fault.duration_s, 1.5);
@@ -412,23 +412,19 @@ TEST(Faults, ALaserObeysTheSameFaults) {
     EXPECT_NEAR(light_ratio(faded[9].sensor, 0), light_ratio(good[9].sensor, 0), 1e-6);
 }
 
-TEST(Faults, EachHasItsNameAndRandomOnesAreAllowed) {
-    std::set<std::string_view> names;
-    for (const FaultKind kind : all_fault_kinds()) {
+TEST(Faults, RandomOnesAreAllowed) {
+    for (const FaultKind kind : all_fault_kinds) {
         const FaultFacts& f = facts(kind);
-        EXPECT_TRUE(names.insert(f.name).second) << f.name;
         for (std::uint64_t seed = 0; seed < 200; ++seed) {
             const Fault fault = random_fault(kind, 1.5, seed);
             ASSERT_EQ(fault.kind, kind);
             ASSERT_EQ(fault.at_s, 1.5);
-            ASSERT_TRUE(fault.duration_s >= f.least_s && fault.duration_s <= f.most_s) << f.name;
-            ASSERT_TRUE(fault.size >= f.min_size && fault.size <= f.max_size) << f.name;
-            ASSERT_TRUE(std::abs(fault.size) >= f.least_size && std::abs(fault.size) <= f.most_size) << f.name;
+            ASSERT_TRUE(fault.duration_s >= f.random_s.least && fault.duration_s <= f.random_s.most) << f.name;
+            ASSERT_TRUE(fault.size >= f.size.least && fault.size <= f.size.most) << f.name;
+            ASSERT_TRUE(std::abs(fault.size) >= f.random_size.least && std::abs(fault.size) <= f.random_size.most)
+                << f.name;
         }
     }
-    EXPECT_EQ(names.size(), n_fault_kinds);
-    EXPECT_EQ(facts(FaultKind::overspeed).name, "overspeed");
-    EXPECT_EQ(facts(FaultKind::light_nan).name, "light_nan");
 }
 
 TEST(Faults, RandomOnesComeAsOftenAsAskedAndFromTheirSeed) {

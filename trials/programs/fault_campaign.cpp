@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
                                    .seed = static_cast<std::uint64_t>(number(2, 1)),
                                    .threads = static_cast<int>(number(3, 2))};
     if (argc > 4 && std::string_view{argv[4]} == "laser") campaign.fidelity = config::Fidelity::laser;
-    for (const twin::FaultKind kind : twin::all_fault_kinds()) {
+    for (const twin::FaultKind kind : twin::all_fault_kinds) {
         if (argc > 5 && twin::facts(kind).name == std::string_view{argv[5]}) campaign.kinds = {kind};
     }
     if (campaign.faults < 1 || campaign.threads < 1 || (argc > 5 && campaign.kinds.empty())) {

@@ -19,10 +19,6 @@ struct LightParts {
     [[nodiscard]] bool is_dark() const { return !(a > 0.01 && b > 0.01); }
 };
 
-[[nodiscard]] inline bool dims(const Fault& fault) {
-    return fault.kind == FaultKind::laser_off || fault.kind == FaultKind::beam_fades;
-}
-
 [[nodiscard]] LightParts light_parts(std::span<const Fault> active, double time_s);
 
 }  // namespace zlg::twin

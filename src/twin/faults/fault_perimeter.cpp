@@ -7,19 +7,6 @@
 
 namespace zlg::twin {
 
-bool moves(const Fault& fault) {
-    switch (fault.kind) {
-        case FaultKind::mode_hop:
-        case FaultKind::piezo_step:
-        case FaultKind::perimeter_ramp:
-        case FaultKind::vibration:
-        case FaultKind::shock:
-            return true;
-        default:
-            return false;
-    }
-}
-
 double length_lambda(const Fault& fault, double time_s, double vibration_hz) {
     const double part = progress(fault, time_s);
     switch (fault.kind) {

@@ -7,8 +7,6 @@
 
 namespace zlg::twin {
 
-[[nodiscard]] bool moves(const Fault& fault);
-
 // What one of these adds to the length; outside its time what it leaves.
 [[nodiscard]] double length_lambda(const Fault& fault, double time_s, double vibration_hz);
 [[nodiscard]] double length_lambda(std::span<const Fault> active, double time_s, double vibration_hz);

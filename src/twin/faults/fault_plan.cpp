@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "fault_light.hpp"
 #include "fault_perimeter.hpp"
 
 namespace zlg::twin {
@@ -20,13 +19,16 @@ void FaultPlan::enter(double start_s, double end_s) {
         if (over) settle(fault);
         return over;
     });
-    moves_perimeter_ = settled_lambda_ != 0.0 || std::ranges::any_of(active_, moves);
-    dims_light_ = std::ranges::any_of(active_, dims);
+    const auto any_on = [&](FaultActs thing) {
+        return std::ranges::any_of(active_, [&](const Fault& fault) { return facts(fault.kind).acts_on == thing; });
+    };
+    moves_perimeter_ = settled_lambda_ != 0.0 || any_on(FaultActs::length);
+    dims_light_ = any_on(FaultActs::light);
 }
 
 void FaultPlan::settle(const Fault& fault) {
     const double end_s = fault.at_s + fault.duration_s;
-    if (moves(fault)) settled_lambda_ += length_lambda(fault, end_s, 0.0);
+    if (facts(fault.kind).acts_on == FaultActs::length) settled_lambda_ += length_lambda(fault, end_s, 0.0);
     if (fault.kind == FaultKind::thermal_shock) settled_c_ += fault.size;
 }
 
