@@ -1,74 +1,241 @@
 #include <zlg/wire/parameters.hpp>
 
+#include <array>
+#include <bit>
 #include <limits>
+#include <tuple>
+#include <type_traits>
 
 #include <zlg/wire/crc.hpp>
 
 #include "packing.hpp"
-#include "parameter_places.hpp"
 
 namespace zlg::wire {
 namespace {
 
-using enum ParameterAccess;
+constexpr auto rw = ParameterAccess::read_write;
+constexpr auto ro = ParameterAccess::read_only;
 
-constexpr std::array table{
-    ParameterInfo{0x0101, read_write}, ParameterInfo{0x0102, read_write}, ParameterInfo{0x0103, read_write},
-    ParameterInfo{0x0104, read_write}, ParameterInfo{0x0201, read_only},  ParameterInfo{0x0202, read_only},
-    ParameterInfo{0x0203, read_only},  ParameterInfo{0x0204, read_write}, ParameterInfo{0x0205, read_only},
-    ParameterInfo{0x0206, read_only},  ParameterInfo{0x0207, read_write}, ParameterInfo{0x0208, read_write},
-    ParameterInfo{0x0209, read_write}, ParameterInfo{0x020A, read_write}, ParameterInfo{0x020B, read_write},
-    ParameterInfo{0x020C, read_write}, ParameterInfo{0x0301, read_write}, ParameterInfo{0x0302, read_write},
-    ParameterInfo{0x0303, read_write}, ParameterInfo{0x0401, read_only},  ParameterInfo{0x0402, read_write},
-    ParameterInfo{0x0403, read_write}, ParameterInfo{0x0404, read_write}, ParameterInfo{0x0405, read_write},
-    ParameterInfo{0x0406, read_write}, ParameterInfo{0x0501, read_write}, ParameterInfo{0x0502, read_write},
-    ParameterInfo{0x0503, read_write}, ParameterInfo{0x0504, read_write}, ParameterInfo{0x0505, read_write},
-    ParameterInfo{0x0506, read_write}, ParameterInfo{0x0507, read_write}, ParameterInfo{0x0601, read_only},
-    ParameterInfo{0x0602, read_write}, ParameterInfo{0x0603, read_write}, ParameterInfo{0x0604, read_only},
-    ParameterInfo{0x0605, read_write}, ParameterInfo{0x0606, read_write}, ParameterInfo{0x0701, read_write},
-    ParameterInfo{0x0702, read_write}, ParameterInfo{0x0703, read_write}, ParameterInfo{0x0704, read_write},
-    ParameterInfo{0x0705, read_write}, ParameterInfo{0x0706, read_write}, ParameterInfo{0x0707, read_write},
-    ParameterInfo{0x0708, read_write}, ParameterInfo{0x0709, read_write}, ParameterInfo{0x1001, read_only},
-    ParameterInfo{0x1002, read_write}, ParameterInfo{0x1003, read_only},  ParameterInfo{0x1004, read_write},
-    ParameterInfo{0x1005, read_write}, ParameterInfo{0x1006, read_write}, ParameterInfo{0x1007, read_write},
-    ParameterInfo{0x1008, read_write}, ParameterInfo{0x1009, read_write}, ParameterInfo{0x100A, read_only},
-    ParameterInfo{0x1101, read_only},  ParameterInfo{0x1102, read_only},  ParameterInfo{0x1103, read_only},
-    ParameterInfo{0x1104, read_only},  ParameterInfo{0x1201, read_write}, ParameterInfo{0x1202, read_only},
-    ParameterInfo{0x1301, read_only},  ParameterInfo{0x1302, read_only},  ParameterInfo{0x1303, read_only},
-    ParameterInfo{0x1304, read_write},
+// `at` gives the place of a parameter in a section, or by std::tie the places that must agree, of which the first is read.
+template <auto Section, class At>
+struct Parameter {
+    ParameterInfo info;
+    std::string_view name;
+    At at;
 };
 
-const ParameterInfo* find(std::uint16_t key) noexcept {
-    for (const ParameterInfo& info : table)
-        if (info.key == key) return &info;
-    return nullptr;
+template <class At>
+constexpr Parameter<&GyroSettings::control, At> control(std::uint16_t key, ParameterAccess access,
+                                                        std::string_view name, At at) {
+    return {{key, access}, name, at};
+}
+template <class At>
+constexpr Parameter<&GyroSettings::compensation, At> compensation(std::uint16_t key, ParameterAccess access,
+                                                                  std::string_view name, At at) {
+    return {{key, access}, name, at};
+}
+template <class At>
+constexpr Parameter<nullptr, At> anywhere(std::uint16_t key, ParameterAccess access, std::string_view name, At at) {
+    return {{key, access}, name, at};
+}
+
+// clang-format off
+constexpr std::tuple table{
+    control(0x0101, rw, "detector.discriminator_per_lambda",
+            [](auto& c) -> auto& { return c.detector.discriminator_per_lambda; }),
+    control(0x0102, rw, "detector.dark_fraction", [](auto& c) -> auto& { return c.detector.dark_fraction; }),
+    control(0x0103, rw, "detector.level_min", [](auto& c) -> auto& { return c.detector.level_min; }),
+    control(0x0104, rw, "detector.level_ticks", [](auto& c) -> auto& { return c.detector.level_ticks; }),
+    control(0x0201, ro, "loop.kind", [](auto& c) -> auto& { return c.loop.kind; }),
+    control(0x0202, ro, "loop.range_min_v",
+            [](auto& c) { return std::tie(c.loop.range.min, c.mode_switch.range.min, c.stroke.range.min); }),
+    control(0x0203, ro, "loop.range_max_v",
+            [](auto& c) { return std::tie(c.loop.range.max, c.mode_switch.range.max, c.stroke.range.max); }),
+    control(0x0204, rw, "loop.range_margin_v",
+            [](auto& c) { return std::tie(c.loop.range.margin, c.mode_switch.range.margin, c.stroke.range.margin); }),
+    control(0x0205, ro, "loop.half_wave_v", [](auto& c) -> auto& { return c.loop.half_wave; }),
+    control(0x0206, ro, "loop.half_period_s", [](auto& c) -> auto& { return c.loop.half_period; }),
+    control(0x0207, rw, "loop.time_constant_s", [](auto& c) -> auto& { return c.loop.time_constant; }),
+    control(0x0208, rw, "loop.error_limit_lambda", [](auto& c) -> auto& { return c.loop.error_limit; }),
+    control(0x0209, rw, "loop.slew_v_s", [](auto& c) -> auto& { return c.loop.slew_v_s; }),
+    control(0x020A, rw, "loop.watch_limit_lambda", [](auto& c) -> auto& { return c.loop.watch_limit; }),
+    control(0x020B, rw, "loop.relock_halves", [](auto& c) -> auto& { return c.loop.relock_halves; }),
+    control(0x020C, rw, "loop.relock_gain", [](auto& c) -> auto& { return c.loop.relock_gain; }),
+    control(0x0301, rw, "half_wave.measurement_sigma_v",
+            [](auto& c) -> auto& { return c.half_wave.measurement_sigma; }),
+    control(0x0302, rw, "half_wave.process_sigma_v", [](auto& c) -> auto& { return c.half_wave.process_sigma; }),
+    control(0x0303, rw, "half_wave.gate", [](auto& c) -> auto& { return c.half_wave.gate; }),
+    control(0x0401, ro, "schedule.kind", [](auto& c) -> auto& { return c.schedule.kind; }),
+    control(0x0402, rw, "schedule.interval_ticks", [](auto& c) -> auto& { return c.schedule.interval_ticks; }),
+    control(0x0403, rw, "schedule.min_ticks", [](auto& c) -> auto& { return c.schedule.min_ticks; }),
+    control(0x0404, rw, "schedule.max_ticks", [](auto& c) -> auto& { return c.schedule.max_ticks; }),
+    control(0x0405, rw, "schedule.presumed_switch_error_arcsec",
+            [](auto& c) -> auto& { return c.schedule.presumed.switch_error_arcsec; }),
+    control(0x0406, rw, "schedule.presumed_magnetic_arcsec_s",
+            [](auto& c) -> auto& { return c.schedule.presumed.magnetic_arcsec_s; }),
+    control(0x0501, rw, "mode_switch.gap_ticks", [](auto& c) -> auto& { return c.mode_switch.gap_ticks; }),
+    control(0x0502, rw, "mode_switch.gap_min_ticks", [](auto& c) -> auto& { return c.mode_switch.gap_min_ticks; }),
+    control(0x0503, rw, "mode_switch.settle_ticks", [](auto& c) -> auto& { return c.mode_switch.settle_ticks; }),
+    control(0x0504, rw, "mode_switch.lock_timeout_ticks",
+            [](auto& c) -> auto& { return c.mode_switch.lock_timeout_ticks; }),
+    control(0x0505, rw, "mode_switch.dark_ticks", [](auto& c) -> auto& { return c.mode_switch.dark_ticks; }),
+    control(0x0506, rw, "mode_switch.lock_tolerance_lambda",
+            [](auto& c) -> auto& { return c.mode_switch.lock_tolerance; }),
+    control(0x0507, rw, "mode_switch.arrival_tolerance_lambda",
+            [](auto& c) -> auto& { return c.mode_switch.arrival_tolerance; }),
+    control(0x0601, ro, "commutator.half_ticks", [](auto& c) -> auto& { return c.commutator.half_ticks; }),
+    control(0x0602, rw, "commutator.tolerance_ticks", [](auto& c) -> auto& { return c.commutator.tolerance_ticks; }),
+    control(0x0603, rw, "commutator.latch_ticks", [](auto& c) -> auto& { return c.commutator.latch_ticks; }),
+    control(0x0604, ro, "commutator.dither.method", [](auto& c) -> auto& { return c.commutator.dither.method; }),
+    control(0x0605, rw, "commutator.dither.random_above_arcsec_s",
+            [](auto& c) -> auto& { return c.commutator.dither.random_above_arcsec_s; }),
+    control(0x0606, rw, "commutator.dither.paired_below_arcsec_s",
+            [](auto& c) -> auto& { return c.commutator.dither.paired_below_arcsec_s; }),
+    control(0x0701, rw, "health.counts_limit", [](auto& c) -> auto& { return c.health.counts_limit; }),
+    control(0x0702, rw, "bias_monitor.presumed_counts",
+            [](auto& c) -> auto& { return c.bias_monitor.presumed_counts; }),
+    control(0x0703, rw, "coil_monitor.tolerance_ratio",
+            [](auto& c) -> auto& { return c.coil_monitor.tolerance_ratio; }),
+    control(0x0704, rw, "counter_monitor.watches", [](auto& c) -> auto& { return c.counter_monitor.watches; }),
+    control(0x0705, rw, "light_monitor.noise_lambda", [](auto& c) -> auto& { return c.light_monitor.noise; }),
+    control(0x0706, rw, "light_monitor.bias_chi", [](auto& c) -> auto& { return c.light_monitor.bias_chi; }),
+    control(0x0707, rw, "light_monitor.most_gain", [](auto& c) -> auto& { return c.light_monitor.most_gain; }),
+    control(0x0708, rw, "detuning_monitor.most_change_lambda2",
+            [](auto& c) -> auto& { return c.detuning_monitor.most_change_lambda2; }),
+    control(0x0709, rw, "detuning_monitor.relock_ticks",
+            [](auto& c) -> auto& { return c.detuning_monitor.relock_ticks; }),
+    compensation(0x1001, ro, "relock.method", [](auto& c) -> auto& { return c.relock.method; }),
+    compensation(0x1002, rw, "relock.ticks", [](auto& c) -> auto& { return c.relock.ticks; }),
+    compensation(0x1003, ro, "relock.tick_s", [](auto& c) -> auto& { return c.relock.tick; }),
+    anywhere(0x1004, rw, "relock.scale_arcsec",
+            [](auto& s) {
+                auto& c = s.compensation;
+                return std::tie(c.relock.scale, c.bridge.count, c.bridge.optimal.counter_step, c.magnetic.count,
+                                s.control.commutator.dither.scale_arcsec);
+            }),
+    compensation(0x1005, rw, "relock.bias_hz", [](auto& c) -> auto& { return c.relock.bias; }),
+    compensation(0x1006, rw, "relock.chi", [](auto& c) -> auto& { return c.relock.chi; }),
+    compensation(0x1007, rw, "relock.temperature_coefficient_per_c",
+            [](auto& c) -> auto& { return c.relock.temperature_coefficient_per_c; }),
+    compensation(0x1008, rw, "relock.reference_temperature_c",
+            [](auto& c) -> auto& { return c.relock.reference_temperature; }),
+    compensation(0x1009, rw, "relock.light_noise_lambda", [](auto& c) -> auto& { return c.relock.light_noise; }),
+    compensation(0x100A, ro, "relock.light_samples", [](auto& c) -> auto& { return c.relock.light_samples; }),
+    compensation(0x1101, ro, "bridge.method", [](auto& c) -> auto& { return c.bridge.method; }),
+    compensation(0x1102, ro, "bridge.extrapolation_points",
+            [](auto& c) -> auto& { return c.bridge.extrapolation_points; }),
+    compensation(0x1103, ro, "bridge.points_before", [](auto& c) -> auto& { return c.bridge.points_before; }),
+    compensation(0x1104, ro, "bridge.points_after", [](auto& c) -> auto& { return c.bridge.points_after; }),
+    compensation(0x1201, rw, "random_walk_arcsec_sqrt_s",
+            [](auto& c) { return std::tie(c.random_walk, c.magnetic.walk); }),
+    compensation(0x1202, ro, "timer_hz", [](auto& c) -> auto& { return c.timer; }),
+    compensation(0x1301, ro, "magnetic.method", [](auto& c) -> auto& { return c.magnetic.method; }),
+    compensation(0x1302, ro, "magnetic.presumed_arcsec_s",
+            [](auto& c) -> auto& { return c.magnetic.presumed_arcsec_s; }),
+    compensation(0x1303, ro, "magnetic.presumed_sigma_arcsec_s",
+            [](auto& c) -> auto& { return c.magnetic.presumed_sigma_arcsec_s; }),
+    compensation(0x1304, rw, "magnetic.thermal_time_s", [](auto& c) -> auto& { return c.magnetic.thermal_time; })};
+// clang-format on
+
+template <class Unit>
+constexpr double as_number(core::Quantity<Unit> x) noexcept {
+    return x.value();
+}
+template <class T>
+requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+constexpr double as_number(T x) noexcept { return static_cast<double>(x); }
+
+// False where the place cannot hold that number, which then stays as it was.
+template <class Unit>
+constexpr bool put_number(core::Quantity<Unit>& place, double x) noexcept {
+    if (!is_number(x)) return false;
+    place = core::Quantity<Unit>{x};
+    return true;
+}
+constexpr bool put_number(double& place, double x) noexcept {
+    if (!is_number(x)) return false;
+    place = x;
+    return true;
+}
+constexpr bool put_number(bool& place, double x) noexcept {
+    if (!(x == 0.0 || x == 1.0)) return false;
+    place = x == 1.0;
+    return true;
+}
+template <class Integer>
+requires std::is_integral_v<Integer>
+constexpr bool put_number(Integer& place, double x) noexcept {
+    // Whole numbers up to 2^53 are exact in a double.
+    constexpr double most = sizeof(Integer) > 4 ? 0x1p53 : 0x1p31 - 1.0;
+    constexpr double least = std::is_signed_v<Integer> ? -most : 0.0;
+    if (!(x >= least && x <= most)) return false;
+    const auto whole = static_cast<Integer>(x);
+    if (static_cast<double>(whole) != x) return false;
+    place = whole;
+    return true;
+}
+template <class Choice>
+requires std::is_enum_v<Choice>
+constexpr bool put_number(Choice&, double) noexcept { return false; }
+
+template <class Settings, auto Section, class At>
+constexpr auto places(Settings& settings, const Parameter<Section, At>& parameter) noexcept {
+    const auto tied = [](auto&& at) {
+        if constexpr (std::is_lvalue_reference_v<decltype(at)>)
+            return std::tie(at);
+        else
+            return at;
+    };
+    if constexpr (std::is_null_pointer_v<decltype(Section)>)
+        return tied(parameter.at(settings));
+    else
+        return tied(parameter.at(settings.*Section));
+}
+
+// Call `take` with the row of a key; not at all for an unknown one.
+template <class Take>
+void with_row(std::uint16_t key, const Take& take) noexcept {
+    std::apply([&](const auto&... row) { (void)((row.info.key == key && (take(row), true)) || ...); }, table);
 }
 
 }  // namespace
 
-std::span<const ParameterInfo> parameters() noexcept { return table; }
+std::span<const ParameterInfo> parameters() noexcept {
+    static constexpr auto infos = std::apply([](const auto&... row) { return std::array{row.info...}; }, table);
+    return infos;
+}
+
+std::string_view parameter_name(std::uint16_t key) noexcept {
+    std::string_view name;
+    with_row(key, [&](const auto& row) { name = row.name; });
+    return name;
+}
 
 double parameter(const GyroSettings& settings, std::uint16_t key) noexcept {
     double value = std::numeric_limits<double>::quiet_NaN();
-    at_places(settings, key, [&value](const auto& first, const auto&...) { value = as_number(first); });
+    with_row(key, [&](const auto& row) { value = as_number(std::get<0>(places(settings, row))); });
     return value;
 }
 
 CommandResult put_parameter(GyroSettings& settings, std::uint16_t key, double value) noexcept {
-    const ParameterInfo* const info = find(key);
-    if (info == nullptr) return CommandResult::unknown_key;
-    if (info->access == read_only) return CommandResult::read_only;
-    bool fits = false;
-    at_places(settings, key, [&fits, value](auto&... places) { fits = (put_number(places, value) && ...); });
-    return fits ? CommandResult::done : CommandResult::not_a_value;
+    CommandResult result = CommandResult::unknown_key;
+    with_row(key, [&](const auto& row) {
+        const auto put = [value](auto&... place) { return (put_number(place, value) && ...); };
+        if (row.info.access == ro)
+            result = CommandResult::read_only;
+        else
+            result = std::apply(put, places(settings, row)) ? CommandResult::done : CommandResult::not_a_value;
+    });
+    return result;
 }
 
 std::uint32_t settings_crc(const GyroSettings& settings) noexcept {
-    static_assert(8 * table.size() <= 1024);
-    std::array<std::uint8_t, 8 * table.size()> bytes{};
-    for (std::size_t k = 0; k < table.size(); ++k) {
-        const auto bits = std::bit_cast<std::uint64_t>(parameter(settings, table[k].key));
-        for (std::size_t i = 0; i < 8; ++i) bytes[8 * k + i] = static_cast<std::uint8_t>(bits >> (8 * i));
+    std::array<std::uint8_t, 8 * std::tuple_size_v<decltype(table)>> bytes{};
+    static_assert(bytes.size() <= 1024);
+    auto next = bytes.begin();
+    for (const ParameterInfo& info : parameters()) {
+        const auto bits = std::bit_cast<std::uint64_t>(parameter(settings, info.key));
+        for (unsigned i = 0; i < 8; ++i) *next++ = static_cast<std::uint8_t>(bits >> (8 * i));
     }
     return crc32c(bytes);
 }
