@@ -58,7 +58,7 @@ Timed timed(const Work& work, const Reference& reference) {
 
 double times_real_time(int ticks, double seconds) { return ticks * tick_s / seconds; }
 
-constexpr twin::BeatConfig beat_config{.lock_left_hz = lock_hz, .lock_right_hz = lock_hz};
+constexpr twin::BeatConfig beat_config{.lock_in_left_hz = lock_hz, .lock_in_right_hz = lock_hz};
 
 // In one piece, as the twin lives while the perimeter is controlled.
 void live(twin::LaserBeats& beats, const Part& part) {

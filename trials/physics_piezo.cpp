@@ -84,7 +84,7 @@ double at(const Series& s, double volts) {
 
 Figure loops(PhysicsPictures& made) {
     twin::TwinConfig config = quiet();
-    config.piezo_hysteresis = hysteresis;
+    config.hysteresis = hysteresis;
     Bench bench{config};
     Series first = driven(bench, middle_v, 300.0, "first move");
     Series down = driven(bench, 300.0, 0.0, "full range");
@@ -106,7 +106,7 @@ Figure loops(PhysicsPictures& made) {
 
 Figure creep(PhysicsPictures& made) {
     twin::TwinConfig config = quiet();
-    config.piezo_creep_per_decade = creep_per_decade;
+    config.creep_per_decade = creep_per_decade;
     Bench bench{config};
     Series seen = line("after a step of 40 V");
     Series law = line("1.5 % a decade", true);

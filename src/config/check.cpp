@@ -13,25 +13,10 @@ namespace zlg::config {
 
 namespace {
 
-// A polynomial of order m goes through m + 1 points; none and constant need one point.
-int bridge_order(core::BridgeMethod bridge) {
-    switch (bridge) {
-        case core::BridgeMethod::linear:
-            return 1;
-        case core::BridgeMethod::quadratic:
-        case core::BridgeMethod::optimal:  // where the motion is not known
-        case core::BridgeMethod::automatic:
-            return 2;
-        case core::BridgeMethod::none:
-        case core::BridgeMethod::constant:
-            break;
-    }
-    return 0;
-}
-
 void check_bridge(const Config& config) {
     const Compensation& c = config.compensation;
-    const int order = bridge_order(c.bridge);
+    // A polynomial of order m goes through m + 1 points.
+    const int order = order_of(c.bridge);
     const auto complain = [&](std::string_view where, std::int64_t points) {
         throw ConfigError(fmt::format("compensation.bridge = {}: a bridge of order {} needs {} points, but {} is {}",
                                       value_text(*find_key("compensation", "bridge"), config), order, order + 1, where,

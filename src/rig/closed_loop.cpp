@@ -17,11 +17,10 @@ twin::Twin make_twin(const config::Config& config, twin::Motion motion) {
     try {
         return twin::Twin{twin_config(config), std::move(motion)};
     } catch (const std::invalid_argument& error) {
-        throw config::ConfigError{named(config, with_keys(error.what()))};
+        throw config::ConfigError{named(config, error.what())};
     } catch (const std::runtime_error& error) {
         // A laser without light, or one whose light no table can hold.
-        throw config::ConfigError{
-            named(config, fmt::format("[laser] does not make a gyro: {}", with_keys(error.what())))};
+        throw config::ConfigError{named(config, fmt::format("[laser] does not make a gyro: {}", error.what()))};
     }
 }
 

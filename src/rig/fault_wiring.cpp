@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/rig/wiring.hpp>
 
 namespace zlg::rig {
 namespace {
 
 using config::ConfigError;
-
-constexpr double default_duration_s = 3600.0;
 
 void add_random(const config::Config& config, std::vector<twin::Fault>& faults) {
     const config::Faults& f = config.faults;

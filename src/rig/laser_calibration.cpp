@@ -176,12 +176,11 @@ LaserCalibration calibration_of_laser(const config::Config& config) {
     try {
         return calibrate(config);
     } catch (const std::logic_error& error) {
-        throw config::ConfigError{named(config, with_keys(error.what()))};
+        throw config::ConfigError{named(config, error.what())};
     } catch (const config::ConfigError&) {
         throw;
     } catch (const std::runtime_error& error) {
-        throw config::ConfigError{
-            named(config, fmt::format("[laser] does not make a gyro: {}", with_keys(error.what())))};
+        throw config::ConfigError{named(config, fmt::format("[laser] does not make a gyro: {}", error.what()))};
     }
 }
 

@@ -23,8 +23,8 @@ twin::LaserConfig laser_of(const config::Laser& l) {
 
 twin::BeatConfig beats_of(const config::Config& config) {
     const config::Laser& l = config.laser;
-    return {.lock_left_hz = l.lock_in_left_hz,
-            .lock_right_hz = l.lock_in_right_hz,
+    return {.lock_in_left_hz = l.lock_in_left_hz,
+            .lock_in_right_hz = l.lock_in_right_hz,
             .scatter_phase_rad = l.scatter_phase_deg * std::numbers::pi / 180.0,
             .comparator_threshold = l.comparator_threshold,
             .counts_per_turn = counts_per_fringe(config)};

@@ -11,9 +11,6 @@
 
 namespace zlg::rig {
 
-// A message of the twin with keys in place of its own parameters.
-[[nodiscard]] std::string with_keys(std::string_view twin_message);
-
 // errors  config::ConfigError, always: `key = value, key = value: allowed is ...`, with what `named` adds.
 [[noreturn]] void refuse(const config::Config& config, std::initializer_list<std::string_view> keys,
                          std::string_view allowed);

@@ -22,8 +22,6 @@ namespace {
 
 using config::ConfigError;
 
-constexpr double default_duration_s = 3600.0;
-
 twin::LoopKind twin_loop(config::Loop loop) {
     switch (loop) {
         case config::Loop::analog:
@@ -131,21 +129,21 @@ twin::TwinConfig twin_config(const config::Config& config) {
             .nonmagnetic_arcsec_s = d.nonmagnetic_arcsec_s,
             .random_walk_arcsec_sqrt_s = d.random_walk_arcsec_sqrt_s,
             .loop = twin_loop(p.loop),
-            .loop_tau_s = p.tau_s,
-            .loop_limit_lambda = p.limit_lambda,
+            .tau_s = p.tau_s,
+            .limit_lambda = p.limit_lambda,
             .miss_lambda = p.miss_lambda,
             .expansion_lambda_per_c = p.expansion_lambda_per_c,
             .half_wave_v = z.half_wave_v,
             .half_wave_temperature_coefficient_per_c = z.half_wave_temperature_coefficient_per_c,
-            .piezo_hysteresis = z.hysteresis,
-            .piezo_hysteresis_stroke_v = z.hysteresis_stroke_v,
-            .piezo_creep_per_decade = z.creep_per_decade,
+            .hysteresis = z.hysteresis,
+            .hysteresis_stroke_v = z.hysteresis_stroke_v,
+            .creep_per_decade = z.creep_per_decade,
             .mirror_hz = z.mirror_hz,
             .mirror_damping = z.mirror_damping,
-            .high_voltage_rc_s = z.rc_s,
+            .rc_s = z.rc_s,
             .slew_v_s = z.slew_v_s,
-            .piezo_min_v = z.range_min_v,
-            .piezo_max_v = z.range_max_v,
+            .range_min_v = z.range_min_v,
+            .range_max_v = z.range_max_v,
             .dac_bits = static_cast<int>(z.dac_bits),
             .adc_bits = static_cast<int>(z.adc_bits),
             .adc_noise_v = z.adc_noise_v,
@@ -208,6 +206,12 @@ core::RelockProfileConfig profile_of(const config::Config& config, core::RelockM
            "rates whose squares, in a tick, are numbers above 0");
 }
 
+// errors  config::ConfigError where the configured points do not carry the polynomial of that bridge.
+void require_points(config::Config config, core::BridgeMethod bridge) {
+    config.compensation.bridge = bridge;
+    check_compensation(config);
+}
+
 }  // namespace
 
 core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
@@ -243,10 +247,8 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
             return made;
         case core::GyroCompensationFault::bridge:
             if (check(made.bridge) == core::GapBridgeFault::optimal) refuse_optimal(config, made.bridge.optimal);
-            throw ConfigError{
-                fmt::format("compensation: a polynomial of order {} needs more points than its order; "
-                            "extrapolation_points = {}, points_before + points_after = {}",
-                            order_of(bridge), c.extrapolation_points, c.points_before + c.points_after)};
+            require_points(config, bridge);
+            [[fallthrough]];
         case core::GyroCompensationFault::edges:
         case core::GyroCompensationFault::relock:
             refuse(config, {"gyro.tick_s", "gyro.scale_arcsec", "gyro.bias_hz", "gyro.bias_chi", "gyro.bias_edge_s"},

@@ -21,7 +21,7 @@ int pieces_per_sample(const TwinConfig& config) {
     constexpr double max_piece_s = 200e-6;
     constexpr int max_pieces = 4096;
     const double interval_s = 0.5 * config.tick_s / config.light_samples;
-    const double wanted = std::ceil(interval_s / std::min(max_piece_s, config.loop_tau_s / 20.0));
+    const double wanted = std::ceil(interval_s / std::min(max_piece_s, config.tau_s / 20.0));
     const int pieces = static_cast<int>(std::clamp(wanted, 1.0, max_pieces / double{core::max_light_samples}));
     return pieces | 1;
 }
@@ -30,7 +30,7 @@ Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> si
     : config_{config},
       half_s_{0.5 * config.tick_s},
       n_pieces_{pieces_per_sample(config)},
-      adc_{config.piezo_min_v, config.piezo_max_v, config.adc_bits},
+      adc_{config.range_min_v, config.range_max_v, config.adc_bits},
       perimeter_{config, 2 * n_pieces_ * config.light_samples, std::move(signal)},
       adc_noise_{config.seed, NoiseCause::adc},
       coil_adc_{-coil_adc_range_a, coil_adc_range_a, coil_adc_bits},

@@ -24,8 +24,6 @@ namespace zlg::twin {
 
 class Housing {
 public:
-    static constexpr double timer_hz = 1e7;
-
     // config  validated.
     // signal  what the closed loop sees; null: the linear law of the averaged model.
     explicit Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> signal = nullptr);

@@ -44,7 +44,7 @@ double largest_field_g(const TwinConfig& c) {
 
 // A reversal that would meet its neighbour is none.
 void check_offset(std::int32_t offset_ticks, double half_s, double edge_s) {
-    const double most_ticks = 0.5 * (half_s - edge_s) * Housing::timer_hz;
+    const double most_ticks = 0.5 * (half_s - edge_s) * timer_hz;
     if (std::abs(static_cast<double>(offset_ticks)) <= most_ticks) return;
     throw std::invalid_argument(fmt::format("actuator frame: edge_offset_ticks is {}, allowed is within +-{}",
                                             offset_ticks, std::floor(most_ticks)));
@@ -84,8 +84,8 @@ BiasHalf LaserGyro::enter(const core::ActuatorFrame& actuator) {
     course_.live(housing_.perimeter());
     const double plateau_g = config_.laser.bias_field_g * housing_.bias_growth();
     if (plateau_g != reference_.plateau_g) take_reference(plateau_g);
-    return {housing_.bias_sign() * plateau_g, config_.bias_edge_s, offset_ticks_ / Housing::timer_hz,
-            half_s + actuator.edge_offset_ticks / Housing::timer_hz};
+    return {housing_.bias_sign() * plateau_g, config_.bias_edge_s, offset_ticks_ / timer_hz,
+            half_s + actuator.edge_offset_ticks / timer_hz};
 }
 
 void LaserGyro::take_reference(double plateau_g) {
@@ -93,7 +93,7 @@ void LaserGyro::take_reference(double plateau_g) {
     reference_.plateau_g = plateau_g;
     reference_.plateau_hz = bias_hz(1.0);
     reference_.whole_edge_hz = mean_of({bias_hz(0.0), bias_hz(0.5), reference_.plateau_hz});
-    const double lock_hz = std::max(config_.beats.lock_left_hz, config_.beats.lock_right_hz);
+    const double lock_hz = std::max(config_.beats.lock_in_left_hz, config_.beats.lock_in_right_hz);
     const double tau = 2.0 * std::numbers::pi;
     reference_.slip_rad = tau * lock_hz * std::sqrt(0.5 * config_.bias_edge_s / std::abs(reference_.plateau_hz));
     reference_.bend_rad = tau * 0.5 * config_.bias_edge_s * std::abs(bias_hz(0.5) - 0.5 * reference_.plateau_hz);

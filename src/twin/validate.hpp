@@ -6,7 +6,7 @@ namespace zlg::twin {
 
 // Refuse what the arithmetic cannot carry.
 //
-// errors  std::invalid_argument: member, value, allowed.
+// errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
 void validate(const TwinConfig& config);
 
 }  // namespace zlg::twin

@@ -56,8 +56,8 @@ TEST(Wiring, the_laser_of_the_twin_is_that_of_the_configuration) {
     EXPECT_EQ(made.laser.zeeman_hz_per_g, 1.8e6);
     EXPECT_EQ(made.laser.opposite_sigma_coupling, 0.7);
     EXPECT_EQ(made.laser.bias_field_g, 12.0);
-    EXPECT_EQ(made.beats.lock_left_hz, 200.0);
-    EXPECT_EQ(made.beats.lock_right_hz, 210.0);
+    EXPECT_EQ(made.beats.lock_in_left_hz, 200.0);
+    EXPECT_EQ(made.beats.lock_in_right_hz, 210.0);
     EXPECT_NEAR(made.beats.scatter_phase_rad, 0.5, 1e-15);
     EXPECT_EQ(made.beats.comparator_threshold, 0.2);
     EXPECT_EQ(made.beats.counts_per_turn, 4);

@@ -461,8 +461,9 @@ std::string complaint(const Fault& fault, LoopKind loop = LoopKind::analog) {
 
 TEST(Faults, WhatCannotBeIsRefused) {
     EXPECT_EQ(complaint({FaultKind::beam_fades, 1.0, 1.0, 1.5}),
-              "twin: fault beam_fades: size is 1.5, allowed is 0..1");
-    EXPECT_EQ(complaint({FaultKind::shock, -1.0, 1.0, 0.1}), "twin: fault shock: at_s is -1, allowed is 0..1000000000");
+              "fault beam_fades: faults.size is 1.5, allowed is 0..1");
+    EXPECT_EQ(complaint({FaultKind::shock, -1.0, 1.0, 0.1}),
+              "fault shock: faults.at_s is -1, allowed is 0..1000000000");
     EXPECT_NE(complaint({FaultKind::shock, 0.0, std::nan(""), 0.1}), "none");
     EXPECT_NE(complaint({FaultKind::counter_bit_stuck, 0.0, 1.0, 64.0}), "none");
     EXPECT_NE(complaint({static_cast<FaultKind>(99), 0.0, 1.0, 0.0}), "none");

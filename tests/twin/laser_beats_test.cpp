@@ -26,7 +26,7 @@ struct Case {
 
 BeatConfig config_of(const Case& c) {
     BeatConfig config;
-    config.lock_left_hz = c.lock_hz;
+    config.lock_in_left_hz = c.lock_hz;
     return config;
 }
 

@@ -52,7 +52,7 @@ TEST(LaserConfig, NoMemberMayBeANumberThatIsNone) {
 TEST(LaserConfig, ARefusalTellsMemberValueAndWhatIsAllowed) {
     LaserConfig config;
     config.upper_isotope_ratio = 1.5;
-    EXPECT_EQ(refusal(config), "laser: upper_isotope_ratio is 1.5, allowed is 0..1");
+    EXPECT_EQ(refusal(config), "laser.upper_isotope_ratio is 1.5, allowed is 0..1");
 }
 
 // Four waves are two neighbouring modes. At gain/loss 1.7408 (independent computation: the ratio of the unsaturated

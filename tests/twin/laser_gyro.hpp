@@ -7,8 +7,8 @@ namespace zlg::twin {
 
 inline TwinConfig as_laser(TwinConfig config, double lock_hz = 0.0) {
     config.fidelity = Fidelity::laser;
-    config.beats.lock_left_hz = lock_hz;
-    config.beats.lock_right_hz = lock_hz;
+    config.beats.lock_in_left_hz = lock_hz;
+    config.beats.lock_in_right_hz = lock_hz;
     return config;
 }
 

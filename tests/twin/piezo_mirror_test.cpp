@@ -15,8 +15,8 @@ constexpr double step_s = 78.125e-6;
 
 TwinConfig with_hysteresis(double hysteresis, double stroke_v) {
     TwinConfig c;
-    c.piezo_hysteresis = hysteresis;
-    c.piezo_hysteresis_stroke_v = stroke_v;
+    c.hysteresis = hysteresis;
+    c.hysteresis_stroke_v = stroke_v;
     return c;
 }
 
@@ -83,7 +83,7 @@ TEST(PiezoMirror, TheFirstMoveOfAllIsLonger) {
 // A unit step of the stroke, from the sum of exponentials computed apart.
 TEST(PiezoMirror, CreepGrowsByItsFigureEachDecade) {
     TwinConfig c;
-    c.piezo_creep_per_decade = 0.015;
+    c.creep_per_decade = 0.015;
     PiezoMirror piezo{c, 1e-3};
     double length = piezo.move(0.5);
     double after_1_s = 0.0;
@@ -101,7 +101,7 @@ TEST(PiezoMirror, CreepGrowsByItsFigureEachDecade) {
 
 TEST(PiezoMirror, CreepIsTheSameInLargeAndSmallStepsOfAnEvenMotion) {
     TwinConfig c;
-    c.piezo_creep_per_decade = 0.015;
+    c.creep_per_decade = 0.015;
     PiezoMirror coarse{c, 0.01};
     PiezoMirror fine{c, 0.0001};
     for (int k = 1; k <= 50; ++k) {
@@ -135,7 +135,7 @@ TEST(PiezoMirror, TheMirrorRingsAsAnOscillatorOfSecondOrder) {
 
 TEST(PiezoMirror, TheVoltageForALengthLeadsThere) {
     TwinConfig c = with_hysteresis(0.12, 40.0);
-    c.piezo_creep_per_decade = 0.015;
+    c.creep_per_decade = 0.015;
     PiezoMirror piezo{c, step_s};
     double v = 0.0;
     move_to(piezo, v, 0.4);
@@ -149,7 +149,7 @@ TEST(PiezoMirror, TheVoltageForALengthLeadsThere) {
 
 TEST(PiezoMirror, EveryLengthGrowsWithTheHalfWave) {
     TwinConfig c = with_hysteresis(0.12, 40.0);
-    c.piezo_creep_per_decade = 0.015;
+    c.creep_per_decade = 0.015;
     c.mirror_hz = 5000.0;
     PiezoMirror piezo{c, step_s};
     PiezoMirror grown{c, step_s};
@@ -166,11 +166,11 @@ TEST(PiezoMirror, TheMissIsPutInPlaceThroughHysteresisAndCreep) {
     for (const LoopKind kind : {LoopKind::analog, LoopKind::external}) {
         TwinConfig c = quiet_gyro();
         c.loop = kind;
-        c.loop_tau_s = 0.05;
+        c.tau_s = 0.05;
         c.miss_lambda = 0.17;
-        c.piezo_hysteresis = 0.12;
-        c.piezo_hysteresis_stroke_v = 40.0;
-        c.piezo_creep_per_decade = 0.015;
+        c.hysteresis = 0.12;
+        c.hysteresis_stroke_v = 40.0;
+        c.creep_per_decade = 0.015;
         c.mirror_hz = 5000.0;
         Twin twin{c, Motion::rest()};
         int polarity = 1;
@@ -193,9 +193,9 @@ TEST(PiezoMirror, TheMissIsPutInPlaceThroughHysteresisAndCreep) {
 TEST(PiezoMirror, TheAnalogLoopPullsInThroughAllOfIt) {
     TwinConfig c = quiet_gyro();
     c.miss_lambda = 0.2;
-    c.piezo_hysteresis = 0.12;
-    c.piezo_hysteresis_stroke_v = 40.0;
-    c.piezo_creep_per_decade = 0.015;
+    c.hysteresis = 0.12;
+    c.hysteresis_stroke_v = 40.0;
+    c.creep_per_decade = 0.015;
     c.mirror_hz = 5000.0;
     const std::vector<TwinHalf> halves = relocked(c, 190.0, 80);
     EXPECT_LT(std::abs(halves[19].truth.detuning_end_lambda), 0.02);
@@ -208,10 +208,10 @@ TEST(PiezoMirror, RefusesWhatNoPlayOperatorsGiveAndTheIdealisedLoop) {
         change(c);
         EXPECT_THROW((Twin{c, Motion::rest()}), std::invalid_argument);
     };
-    refused([](TwinConfig& c) { c.piezo_hysteresis = 0.41; });
-    refused([](TwinConfig& c) { c.piezo_hysteresis = -0.01; });
-    refused([](TwinConfig& c) { c.piezo_hysteresis_stroke_v = 0.0; });
-    refused([](TwinConfig& c) { c.piezo_creep_per_decade = 0.06; });
+    refused([](TwinConfig& c) { c.hysteresis = 0.41; });
+    refused([](TwinConfig& c) { c.hysteresis = -0.01; });
+    refused([](TwinConfig& c) { c.hysteresis_stroke_v = 0.0; });
+    refused([](TwinConfig& c) { c.creep_per_decade = 0.06; });
     refused([](TwinConfig& c) { c.mirror_hz = 50.0; });
     refused([](TwinConfig& c) { c.mirror_damping = 0.0; });
     refused([](TwinConfig& c) {
@@ -219,8 +219,8 @@ TEST(PiezoMirror, RefusesWhatNoPlayOperatorsGiveAndTheIdealisedLoop) {
         c.mirror_hz = 5000.0;
     });
     refused([](TwinConfig& c) {
-        c.piezo_hysteresis = 0.1;
-        c.piezo_max_v = 110.0;
+        c.hysteresis = 0.1;
+        c.range_max_v = 110.0;
     });
 }
 

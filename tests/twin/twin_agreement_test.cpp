@@ -80,7 +80,7 @@ TEST(TwinAgreement, TenMinutesCountTheSameWhereNothingLocks) {
     config.nonmagnetic_arcsec_s = 0.05;
     config.expansion_lambda_per_c = 0.025;
     config.light_samples = 2;
-    config.loop_tau_s = 0.05;  // fewer pieces
+    config.tau_s = 0.05;  // fewer pieces
     Twin laser{config, Motion::sines(1000.0, {{500.0, 0.3, 0.0}})};
     config.fidelity = Fidelity::averaged;
     Twin averaged{told(config), Motion::sines(1000.0, {{500.0, 0.3, 0.0}})};
@@ -134,7 +134,7 @@ TEST(TwinAgreement, LockInIsTheRandomWalkAndTheScaleErrorOfTheFormulas) {
 double dead_zone_arcsec_s(const TwinConfig& config) {
     const double bias_hz = averaged_laser(FourWave{config.laser}, config.laser.bias_field_g).bias_hz;
     const double slip_rad =
-        2.0 * std::numbers::pi * config.beats.lock_left_hz * std::sqrt(config.bias_edge_s / (2.0 * bias_hz));
+        2.0 * std::numbers::pi * config.beats.lock_in_left_hz * std::sqrt(config.bias_edge_s / (2.0 * bias_hz));
     const double cycles = 0.5 * bias_hz * (config.tick_s - config.bias_edge_s);
     return config.scale_arcsec / (std::numbers::pi * config.tick_s) * slip_rad *
            std::abs(std::cos(std::numbers::pi * (cycles - 0.25)));

@@ -46,16 +46,16 @@ TEST(Twin, AConfigurationThatArithmeticCannotCarryIsRefusedByName) {
                                             ZLG_MEMBER(thermal_time_s, nan, 0.0),
                                             ZLG_MEMBER(nonmagnetic_arcsec_s, nan),
                                             ZLG_MEMBER(random_walk_arcsec_sqrt_s, nan, -1.0),
-                                            ZLG_MEMBER(loop_tau_s, nan, 0.0),
-                                            ZLG_MEMBER(loop_limit_lambda, nan, 0.0),
+                                            ZLG_MEMBER(tau_s, nan, 0.0),
+                                            ZLG_MEMBER(limit_lambda, nan, 0.0),
                                             ZLG_MEMBER(miss_lambda, nan, -0.1, 0.24),
                                             ZLG_MEMBER(expansion_lambda_per_c, nan),
                                             ZLG_MEMBER(half_wave_v, nan, 0.0, -40.0, 151.0),
                                             ZLG_MEMBER(half_wave_temperature_coefficient_per_c, nan, -0.06, 0.15),
-                                            ZLG_MEMBER(high_voltage_rc_s, nan, 0.0),
+                                            ZLG_MEMBER(rc_s, nan, 0.0),
                                             ZLG_MEMBER(slew_v_s, nan, 0.0),
-                                            ZLG_MEMBER(piezo_min_v, nan),
-                                            ZLG_MEMBER(piezo_max_v, nan, 0.0, -10.0),
+                                            ZLG_MEMBER(range_min_v, nan),
+                                            ZLG_MEMBER(range_max_v, nan, 0.0, -10.0),
                                             ZLG_MEMBER(adc_noise_v, nan, -1.0)};
     for (const BadMember& member : members) {
         for (const double bad : member.bad) {

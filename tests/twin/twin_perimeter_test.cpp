@@ -14,7 +14,7 @@ namespace {
 
 TEST(TwinPerimeter, AMoveOfOneHalfWaveIsSlewLimitedAndTakesTenMilliseconds) {
     TwinConfig config = held_gyro();
-    config.high_voltage_rc_s = 1e-6;
+    config.rc_s = 1e-6;
     Twin twin{config, Motion::rest()};
     const std::vector<TwinHalf> halves = advance(twin, frame(false, -1, 190.0), 5);
     for (std::size_t h = 0; h < 4; ++h) {
@@ -60,7 +60,7 @@ TEST(TwinPerimeter, SetPointsHaveTheStepsAndTheRangeOfTheirConverter) {
 
 TEST(TwinPerimeter, SetPointsFollowOneAnotherEquallySpaced) {
     TwinConfig config = held_gyro();
-    config.high_voltage_rc_s = 1e-6;
+    config.rc_s = 1e-6;
     config.slew_v_s = 1e9;
     config.light_samples = 6;
     Twin twin{config, Motion::rest()};
@@ -81,7 +81,7 @@ TEST(TwinPerimeter, ASetPointMayChangeBetweenTheStepsOfTheModel) {
     TwinConfig config = held_gyro();
     config.slew_v_s = 1e9;
     config.light_samples = 6;
-    config.loop_tau_s = 1.0;
+    config.tau_s = 1.0;
     config.tick_s = 0.0024;
     Twin twin{config, Motion::rest()};
     core::ActuatorFrame actuator = frame(true, 1);
@@ -90,7 +90,7 @@ TEST(TwinPerimeter, ASetPointMayChangeBetweenTheStepsOfTheModel) {
     double expected_v = 150.0;
     for (std::size_t k = 0; k < 5; ++k) {
         const double target_v = actuator.set_point_v[k];
-        expected_v = target_v + (expected_v - target_v) * std::exp(-0.0012 / 5.0 / config.high_voltage_rc_s);
+        expected_v = target_v + (expected_v - target_v) * std::exp(-0.0012 / 5.0 / config.rc_s);
     }
     EXPECT_NEAR(twin.advance(actuator).truth.perimeter_v, expected_v, 2e-5);
 }
@@ -268,7 +268,7 @@ TEST(TwinPerimeter, TheInjectedErrorOfAnExternalLoopStaysUntilTheNextOpening) {
 TEST(TwinPerimeter, WithoutAnInjectedMissTheLoopClosesWhereTheVoltageIs) {
     TwinConfig config = quiet_gyro();
     config.miss_lambda = 0.0;
-    config.loop_tau_s = 1e9;
+    config.tau_s = 1e9;
     config.dac_bits = 24;
     const TwinHalf half = relocked(config, 186.0, 1).back();
     const double settled_v = 186.0 - 4.0 * std::exp(-(15.0 - 8.0));
@@ -280,8 +280,8 @@ TEST(TwinPerimeter, WithoutAnInjectedMissTheLoopClosesWhereTheVoltageIs) {
 TEST(TwinPerimeter, WhereTheMissLiesOutOfRangeTheNextModeOfThatHelicityTakesIt) {
     for (const double longer : {0.06, -0.06}) {
         TwinConfig config = quiet_gyro();
-        config.piezo_max_v = 80.0;
-        config.loop_tau_s = 1e9;
+        config.range_max_v = 80.0;
+        config.tau_s = 1e9;
         config.miss_lambda = 0.02;
         config.expansion_lambda_per_c = longer / config.temperature_rise_c;
         config.thermal_time_s = 0.01;
@@ -296,7 +296,7 @@ TEST(TwinPerimeter, WhereTheMissLiesOutOfRangeTheNextModeOfThatHelicityTakesIt) 
 
 TEST(TwinPerimeter, TheMissIsAimedAnewWhenTheReferenceTurnsAfterTheOpening) {
     TwinConfig config = quiet_gyro();
-    config.loop_tau_s = 1e9;
+    config.tau_s = 1e9;
     Twin twin{config, Motion::rest()};
     advance(twin, frame(false, 1, 150.0), 2);
     EXPECT_NEAR(advance(twin, frame(false, -1, 110.0), 16).back().truth.detuning_end_lambda, 0.22, 1e-3);
@@ -318,7 +318,7 @@ TEST(TwinPerimeter, AClosingBeforeTheMoveIsDoneStillHasTheMissOfTheModeAhead) {
     for (const LoopKind loop : {LoopKind::analog, LoopKind::external}) {
         TwinConfig config = quiet_gyro();
         config.loop = loop;
-        config.loop_tau_s = 1e9;
+        config.tau_s = 1e9;
         config.miss_lambda = 0.2;
         Twin twin{config, Motion::rest()};
         // 10 V of the 40 V to the mode ahead.

@@ -49,7 +49,7 @@ TEST(TwinRelock, UnderASteadyExpansionTheLoopLagsByItsTimeConstant) {
     config.thermal_time_s = 100.0;
     Twin twin{config, Motion::rest()};
     const double lag = advance(twin, frame(true, 1), 800).back().truth.detuning_end_lambda;
-    const double expected = config.loop_tau_s * 0.5 / 100.0 * std::exp(-2.0 / 100.0);
+    const double expected = config.tau_s * 0.5 / 100.0 * std::exp(-2.0 / 100.0);
     EXPECT_NEAR(lag, expected, 1e-3 * expected);
 }
 
@@ -67,7 +67,7 @@ TEST(TwinRelock, TheFalseDriftAfterRelockDecaysAsMeasured) {
 
 TEST(TwinRelock, WithoutTheHighVoltageLagTheFirstTickIsLargerAndTheThirdSmaller) {
     TwinConfig config = quiet_gyro();
-    config.high_voltage_rc_s = 2e-6;
+    config.rc_s = 2e-6;
     config.slew_v_s = 1e6;
     const std::vector<double> drift = false_drift_deg_h(relocked(config, 190.0, 8), 0.005);
     EXPECT_NEAR(drift[0], 4523.0, 0.03 * 4523.0);
@@ -89,7 +89,7 @@ TEST(TwinRelock, ASmallMissGivesAFalseAngleThatGrowsWithItsSquare) {
 TEST(TwinRelock, TheExponentialLoopGivesTheClosedForm) {
     TwinConfig config = quiet_gyro();
     config.loop = LoopKind::exponential;
-    config.loop_tau_s = 3.5 * 0.005;
+    config.tau_s = 3.5 * 0.005;
     config.bias_edge_s = 0.0;
     config.expansion_lambda_per_c = 0.025;
     const std::vector<double> drift = false_drift_deg_h(relocked(config, 190.0, 40), 0.005);
@@ -135,11 +135,11 @@ private:
     void move(double dt) {
         const double kp = 0.5 / c_.half_wave_v;
         const auto command_rate = [&](double dl) {
-            return -std::min(std::max(dl, -c_.loop_limit_lambda), c_.loop_limit_lambda) / c_.loop_tau_s;
+            return -std::min(std::max(dl, -c_.limit_lambda), c_.limit_lambda) / c_.tau_s;
         };
         const auto dl_rate = [&](double command, double dl) {
             const double slew = kp * c_.slew_v_s;
-            return std::min(std::max((command - dl) / c_.high_voltage_rc_s, -slew), slew);
+            return std::min(std::max((command - dl) / c_.rc_s, -slew), slew);
         };
         const double c1 = command_rate(dl_);
         const double d1 = dl_rate(command_, dl_);

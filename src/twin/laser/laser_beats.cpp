@@ -31,8 +31,8 @@ OpticalBeats beats_of(std::uint64_t seed, double threshold) {
 
 LaserBeats::LaserBeats(const BeatConfig& config, std::uint64_t seed, const LaserTable& table)
     : table_{table},
-      left_{scatter(config.lock_left_hz, config.scatter_phase_rad)},
-      right_{scatter(config.lock_right_hz, config.scatter_phase_rad)},
+      left_{scatter(config.lock_in_left_hz, config.scatter_phase_rad)},
+      right_{scatter(config.lock_in_right_hz, config.scatter_phase_rad)},
       threshold_{2.0 * config.comparator_threshold * table.exact().centre_intensity()},
       least_light_{faint_ratio * table.exact().centre_intensity()},
       counts_quarters_{config.counts_per_turn == 4},

@@ -36,8 +36,8 @@ void exponential(double tau_s, double rc_s, double t_s, double (&result)[2][2]) 
 AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s,
                        std::shared_ptr<const ErrorSignal> signal)
     : stage_{stage},
-      tau_s_{config.loop_tau_s},
-      limit_lambda_{config.loop_limit_lambda},
+      tau_s_{config.tau_s},
+      limit_lambda_{config.limit_lambda},
       step_s_{step_s},
       steps_per_s_{1.0 / step_s},
       n_substeps_{1},

@@ -9,9 +9,9 @@
 namespace zlg::twin {
 
 HighVoltage::HighVoltage(const TwinConfig& config, double usual_step_s)
-    : middle_v_{0.5 * config.piezo_min_v + 0.5 * config.piezo_max_v},
-      half_range_v_{0.5 * (config.piezo_max_v - config.piezo_min_v)},
-      rc_s_{config.high_voltage_rc_s},
+    : middle_v_{0.5 * config.range_min_v + 0.5 * config.range_max_v},
+      half_range_v_{0.5 * (config.range_max_v - config.range_min_v)},
+      rc_s_{config.rc_s},
       slew_v_s_{config.slew_v_s},
       usual_step_s_{usual_step_s},
       usual_decay_{std::exp(-usual_step_s / rc_s_)} {

@@ -38,14 +38,14 @@ Perimeter::Perimeter(const TwinConfig& config, int n_steps, std::shared_ptr<cons
       n_steps_{n_steps},
       step_s_{0.5 * config.tick_s / n_steps},
       stage_{config, step_s_},
-      dac_{config.piezo_min_v, config.piezo_max_v, config.dac_bits},
+      dac_{config.range_min_v, config.range_max_v, config.dac_bits},
       loop_{config, stage_, step_s_, std::move(signal)},
       piezo_{config, step_s_} {
     set_points_.reserve(core::max_set_points);
-    for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.loop_tau_s));
+    for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.tau_s));
 }
 
-double Perimeter::voltage_v() const { return std::clamp(stage_.volts(v_), config_.piezo_min_v, config_.piezo_max_v); }
+double Perimeter::voltage_v() const { return std::clamp(stage_.volts(v_), config_.range_min_v, config_.range_max_v); }
 
 void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda,
                            const FaultyHalf* faulty) {
@@ -65,7 +65,7 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
     if (uses_set_points(frame, config_.loop)) take_set_points(frame);
     if (aims) aim();
     if (config_.loop == LoopKind::exponential && closed_) {
-        amplitude_ = miss_at_closing_ * std::exp(-halves_since_closing_ * (0.5 * config_.tick_s) / config_.loop_tau_s);
+        amplitude_ = miss_at_closing_ * std::exp(-halves_since_closing_ * (0.5 * config_.tick_s) / config_.tau_s);
         halves_since_closing_ += 1.0;
     }
     mode_ = lasing_mode(length_lambda());

@@ -16,11 +16,11 @@ double clipped(double x, double low, double high) {
 }  // namespace
 
 PiezoMirror::PiezoMirror(const TwinConfig& config, double step_s)
-    : is_ideal_{!(config.piezo_hysteresis > 0.0 || config.piezo_creep_per_decade > 0.0 || config.mirror_hz > 0.0)},
+    : is_ideal_{!(config.hysteresis > 0.0 || config.creep_per_decade > 0.0 || config.mirror_hz > 0.0)},
       step_s_{step_s} {
     const double lambda_per_v = 0.5 / config.half_wave_v;
-    set_plays(config.piezo_hysteresis, 0.5 * lambda_per_v * config.piezo_hysteresis_stroke_v, 0.5);
-    set_creep(config.piezo_creep_per_decade);
+    set_plays(config.hysteresis, 0.5 * lambda_per_v * config.hysteresis_stroke_v, 0.5);
+    set_creep(config.creep_per_decade);
     set_mirror(config.mirror_hz, config.mirror_damping);
 }
 

@@ -13,7 +13,9 @@
 
 namespace zlg::rig {
 
-inline constexpr double timer_hz = 1e7;  // of the gyro's timer
+using twin::timer_hz;
+
+inline constexpr double default_duration_s = 3600.0;  // of a run whose motion has no end
 
 // errors  logs::IoError, logs::FormatError for a motion file.
 [[nodiscard]] twin::Motion motion(const config::Config& config);

@@ -22,8 +22,8 @@ struct LaserConfig {
 
 // What turns the light of both directions into counts.
 struct BeatConfig {
-    double lock_left_hz = 150.0;  // beat frequency below which equal waves lock, of either helicity
-    double lock_right_hz = 150.0;
+    double lock_in_left_hz = 150.0;  // beat frequency below which equal waves lock, of either helicity
+    double lock_in_right_hz = 150.0;
     double scatter_phase_rad = 0.0;     // eps: by how much the waves scattered back miss each other's phase
     double comparator_threshold = 0.1;  // in parts of the beat's amplitude at zero detuning and zero field
     int counts_per_turn = 1;            // of the quadrature counter: 1 or 4; the scale of the twin is that of a count
@@ -31,10 +31,10 @@ struct BeatConfig {
 
 // Refuse what the arithmetic cannot carry, and gas in which more than two neighbouring modes have gain.
 //
-// errors  std::invalid_argument: member, value, allowed.
+// errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
 void validate(const LaserConfig& config);
 
-// errors  std::invalid_argument: member, value, allowed.
+// errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
 void validate(const BeatConfig& config);
 
 }  // namespace zlg::twin

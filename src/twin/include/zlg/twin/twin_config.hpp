@@ -12,6 +12,8 @@ namespace zlg::twin {
 
 struct AveragedLaser;
 
+inline constexpr double timer_hz = 1e7;  // of the gyro's timer, which stamps and shifts reversals
+
 // Who closes the perimeter loop.
 enum class LoopKind {
     analog,       // electronics: integrator with a limiter, then the high-voltage stage
@@ -24,6 +26,7 @@ enum class Fidelity {
     laser,     // the four-wave laser and the phases of its beats, from which these follow
 };
 
+// Members are named as the keys of a configuration, whose sections are [gyro], [drift], [perimeter], [piezo] and [faults].
 struct TwinConfig {
     std::uint64_t seed = 1;
     double tick_s = 0.005;  // bias commutation period T
@@ -49,22 +52,22 @@ struct TwinConfig {
     double random_walk_arcsec_sqrt_s = 0.14;
 
     LoopKind loop = LoopKind::analog;
-    double loop_tau_s = 0.0065;
-    double loop_limit_lambda = 0.09;
-    double miss_lambda = 0.22;  // |detuning| at the moment of closing; 0: what comes of itself
+    double tau_s = 0.0065;       // of the loop
+    double limit_lambda = 0.09;  // of its error signal
+    double miss_lambda = 0.22;   // |detuning| at the moment of closing; 0: what comes of itself
     double expansion_lambda_per_c = 0.025;
 
     double half_wave_v = 40.0;                             // at the reference temperature
     double half_wave_temperature_coefficient_per_c = 0.0;  // relative; V = middle of the range is where nothing changes
-    double piezo_hysteresis = 0.0;                         // width of a voltage loop over its height; 0: none
-    double piezo_hysteresis_stroke_v = 300.0;              // of that loop
-    double piezo_creep_per_decade = 0.0;  // growth of a stroke per decade of time, from 10 ms to 10^4 s
-    double mirror_hz = 0.0;               // resonance of the mirror; 0: rigid
-    double mirror_damping = 0.05;         // of that resonance, as a part of the critical
-    double high_voltage_rc_s = 0.001;
+    double hysteresis = 0.0;                               // width of a voltage loop over its height; 0: none
+    double hysteresis_stroke_v = 300.0;                    // of that loop
+    double creep_per_decade = 0.0;  // growth of a stroke per decade of time, from 10 ms to 10^4 s
+    double mirror_hz = 0.0;         // resonance of the mirror; 0: rigid
+    double mirror_damping = 0.05;   // of that resonance, as a part of the critical
+    double rc_s = 0.001;            // of the high-voltage stage
     double slew_v_s = 4000.0;
-    double piezo_min_v = 0.0;
-    double piezo_max_v = 300.0;
+    double range_min_v = 0.0;  // of the piezo
+    double range_max_v = 300.0;
     int dac_bits = 12;
     int adc_bits = 12;
     double adc_noise_v = 0.02;
