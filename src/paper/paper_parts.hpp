@@ -1,7 +1,7 @@
 #pragma once
 // The parts of the recomputed paper, one function per figure or table.
 
-#include <zlg/paper/paper.hpp>
+#include <zlg/paper/paper_item.hpp>
 #include <zlg/study/run.hpp>
 
 namespace zlg::paper {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <zlg/paper/substitution_experiment.hpp>
+#include <zlg/paper/substitution_setup.hpp>
 
 namespace zlg::paper {
 

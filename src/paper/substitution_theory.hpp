@@ -1,7 +1,7 @@
 #pragma once
 // What theory says of one fit of one experiment on the substitution of a gap.
 
-#include <zlg/paper/substitution_experiment.hpp>
+#include <zlg/paper/substitution_setup.hpp>
 
 #include "random_phase_motion.hpp"
 

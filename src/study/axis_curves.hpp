@@ -4,7 +4,7 @@
 #include <span>
 
 #include <zlg/deviations/angle_record.hpp>
-#include <zlg/study/analyze.hpp>
+#include <zlg/study/axis.hpp>
 
 namespace zlg::study {
 

@@ -1,8 +1,9 @@
 #pragma once
 // The parts of a design: substitution and loop, each from one configuration.
 
+#include <zlg/config/config.hpp>
 #include <zlg/design/substitution.hpp>
-#include <zlg/study/design_study.hpp>
+#include <zlg/study/design_lines.hpp>
 
 namespace zlg::study {
 

@@ -1,11 +1,12 @@
 #pragma once
 // Keeps the last ticks of a run and sets one switch aside, to be shown magnified.
 
+#include <cstdint>
 #include <deque>
 #include <vector>
 
 #include <zlg/rig/closed_loop.hpp>
-#include <zlg/study/run.hpp>
+#include <zlg/study/switch_window.hpp>
 
 namespace zlg::study {
 

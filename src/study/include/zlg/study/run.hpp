@@ -3,7 +3,6 @@
 //
 // All compensations take the records of ONE run of the twin, so they differ by nothing but the method.
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -14,6 +13,7 @@
 #include <zlg/core/records.hpp>
 #include <zlg/rig/processor.hpp>
 #include <zlg/rig/switch_count.hpp>
+#include <zlg/study/switch_window.hpp>
 #include <zlg/study/variant.hpp>
 
 namespace zlg::study {
@@ -39,19 +39,6 @@ struct SwitchLine {
     double relock_arcsec = 0.0;      // false angle subtracted
     double sigma_arcsec = 0.0;       // of the gap's final angle
     double true_error_arcsec = 0.0;  // NaN where the run ended before the re-lock did
-};
-
-// One tick of the switch that is shown magnified.
-struct MagnifiedTick {
-    std::int64_t tick = 0;
-    bool measured = true;
-    double read_arcsec = 0.0;  // what the counter read
-    double dtheta_arcsec = 0.0;
-    double final_arcsec = 0.0;
-    double true_arcsec = 0.0;
-    std::array<double, 2> detuning_lambda{};       // measured, mean of each half
-    std::array<double, 2> true_detuning_lambda{};  // at the end of each half
-    std::array<double, 2> piezo_v{};
 };
 
 struct RunResult {

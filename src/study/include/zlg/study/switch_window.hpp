@@ -1,6 +1,7 @@
 #pragma once
 // Where the switches of a run are: found from the records alone, as compensation finds them.
 
+#include <array>
 #include <cstdint>
 #include <deque>
 
@@ -17,6 +18,19 @@ struct SwitchWindow {
     int mode_after = 1;
 
     [[nodiscard]] bool gap_is_over() const { return n_ticks > 0; }
+};
+
+// One tick of the switch that is shown magnified.
+struct MagnifiedTick {
+    std::int64_t tick = 0;
+    bool measured = true;
+    double read_arcsec = 0.0;  // what the counter read
+    double dtheta_arcsec = 0.0;
+    double final_arcsec = 0.0;
+    double true_arcsec = 0.0;
+    std::array<double, 2> detuning_lambda{};       // measured, mean of each half
+    std::array<double, 2> true_detuning_lambda{};  // at the end of each half
+    std::array<double, 2> piezo_v{};
 };
 
 // Follows the records, tick by tick, and keeps the switches: gaps across which the helicity changes.
