@@ -250,8 +250,8 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
         take(config.profile, state.joint, taken, light, taken.loop_closed && taken.valid, state.bridge.next_tick);
         take_profile(config, state, taken);
     }
-    // No angle is due in this half: it bears a part of what the other one would have to do.
-    if (state.bridge.n_pending > 0 || is_folding(state.bridge.learning.moments)) prepare(config.bridge, state.bridge);
+    // No angle is due in this half: there is room for the estimate of a gap.
+    if (state.bridge.n_pending > 0 && is_estimated(config.bridge)) advance_estimate(config.bridge, state.bridge);
     return {};
 }
 

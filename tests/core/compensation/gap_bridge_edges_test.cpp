@@ -186,26 +186,4 @@ TEST(GapBridgeEdges, EqualGapsHaveEqualReportsHoweverManyCameBefore) {
     for (const GapReport& report : got.gaps) EXPECT_EQ(report.sigma_sum_arcsec, got.gaps[0].sigma_sum_arcsec);
 }
 
-// What was begun for a gap is part of the state, as far as its last number; a variance may be no number.
-TEST(GapBridgeEdges, SumsAreEqualWhereEveryNumberIs) {
-    GapSums sums;
-    sums.variance_arcsec2.fill(not_a_number);
-    EXPECT_EQ(sums, GapSums{sums});
-    const auto differs = [&](auto change) {
-        GapSums other = sums;
-        change(other);
-        return !(other == sums);
-    };
-    for (unsigned j = 0; j < max_gap_ticks; ++j) {
-        EXPECT_TRUE(differs([&](GapSums& s) { s.value_arcsec[j] = 1.0; })) << j;
-        EXPECT_TRUE(differs([&](GapSums& s) { s.variance_arcsec2[j] = 1.0; })) << j;
-        EXPECT_TRUE(differs([&](GapSums& s) { s.last_weight[j] = 1.0; })) << j;
-    }
-    EXPECT_TRUE(differs([](GapSums& s) { s.first_tick = 7; }));
-    EXPECT_TRUE(differs([](GapSums& s) { s.fit = PolynomialFit{{0, 1}, 2, 1}; }));
-    EXPECT_TRUE(differs([](GapSums& s) { s.n_added = 1; }));
-    EXPECT_TRUE(differs([](GapSums& s) { s.angle_variance_arcsec2 = 1.0; }));
-    EXPECT_TRUE(differs([](GapSums& s) { s.last_angle_weight = 1.0; }));
-}
-
 }  // namespace

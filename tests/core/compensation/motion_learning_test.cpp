@@ -60,8 +60,6 @@ TEST(MotionLearning, HalvesMakeTheSameTicks) {
         step(ticks, by_ticks, {true, first + second}, true);
         step(halves, by_halves, {true, first, second}, true);
     }
-    finish_folding(MotionMomentsConfig{false}, by_ticks.moments);
-    finish_folding(MotionMomentsConfig{true}, by_halves.moments);
     for (unsigned m = 0; m < 2; ++m) {
         // The prior and the rounding part are taken out: the moments alone.
         const auto& a = by_ticks.moments.moments[m];
@@ -78,20 +76,14 @@ TEST(MotionLearning, HalvesMakeTheSameTicks) {
     }
 }
 
-TEST(MotionLearning, AnEstimateThatWaitsKeepsTheProblem) {
+TEST(MotionLearning, WeightsWaitUntilNoGapDoes) {
     Random random{8};
     const OptimalBridgeConfig config;
     MotionLearningState state;
-    learn_noise(config, state, random, 130);
-    ASSERT_TRUE(state.weighing);
-    learn_noise(config, state, random, 1, false);
-    EXPECT_FALSE(state.weighing);
-    state.problem = GapProblem{.n_gap = 7, .n_side = 6};
-    const GapProblem kept = state.problem;
-    learn_noise(config, state, random, 40, false);
-    EXPECT_EQ(state.problem, kept);
+    learn_noise(config, state, random, 180, false);
+    EXPECT_TRUE(is_ready(config, state));
     EXPECT_FALSE(state.scores.weights[fast_memory].known);
-    learn_noise(config, state, random, 30);
+    learn_noise(config, state, random, 1);
     EXPECT_TRUE(state.scores.weights[fast_memory].known);
 }
 
@@ -129,9 +121,9 @@ TEST(MotionLearning, ReadyAfterFiftyWindowsOrWithAGivenPrior) {
     Random random{9};
     const OptimalBridgeConfig config;
     MotionLearningState state;
-    learn_noise(config, state, random, 118);  // the first block is full, and not yet folded
+    learn_noise(config, state, random, 117);
     EXPECT_FALSE(is_ready(config, state));
-    learn_noise(config, state, random, 8);
+    learn_noise(config, state, random, 1);  // the first block is full
     EXPECT_TRUE(is_ready(config, state));
     OptimalBridgeConfig given;
     given.learns = false;

@@ -31,7 +31,6 @@ MotionMomentsState learn(const MotionMomentsConfig& config, const std::vector<do
     for (unsigned k = 0; k + stride <= samples.size(); k += stride)
         (void)step(config, state, {true, samples[k], stride == 2 ? samples[k + 1] : 0.0});
     (void)step(config, state, MotionTick{});
-    finish_folding(config, state);
     return state;
 }
 
@@ -94,43 +93,9 @@ TEST_P(MotionMoments, WhatIsNoAngleIsNotUsable) {
     for (const double bad : {compensation_test::not_a_number, compensation_test::infinite, -1e16}) {
         MotionMomentsState state;
         for (int t = 0; t < 40; ++t) (void)step(config, state, {true, t == 25 ? bad : 1.0, 1.0});
-        finish_folding(config, state);
         EXPECT_TRUE(std::isfinite(state.moments[fast_memory].sum[0]));
         EXPECT_EQ(state.n_recent, 14 * samples_per_tick(config));
     }
-}
-
-TEST_P(MotionMoments, FoldingAheadIsSeenByNobody) {
-    const MotionMomentsConfig config{GetParam()};
-    MotionMomentsState plain, ahead;
-    Random random{7};
-    int n_ahead = 0;
-    for (int k = 0; k < 400; ++k) {
-        const MotionTick tick{k % 150 != 149, 100.0 * random.normal(), 100.0 * random.normal()};
-        (void)step(config, plain, tick);
-        (void)step(config, ahead, tick);
-        fold_ahead(config, ahead);
-        ASSERT_EQ(is_folding(plain), is_folding(ahead)) << k;
-        ASSERT_EQ(plain.moments[fast_memory].scatter, ahead.moments[fast_memory].scatter) << k;
-        if (!is_folding(plain)) ASSERT_TRUE(plain == ahead) << k;
-        n_ahead += ahead.folded_rows > plain.folded_rows;
-    }
-    EXPECT_GE(n_ahead, 6);
-}
-
-TEST_P(MotionMoments, FoldingInPiecesIsFoldingAtOnce) {
-    const MotionMomentsConfig config{GetParam()};
-    Random random{3};
-    MotionMomentsState pieces;
-    MotionMomentsState at_once;
-    for (int t = 0; t < 1000; ++t) {
-        const MotionTick tick{random.chance(0.99), random.normal(), random.normal()};
-        (void)step(config, pieces, tick);
-        (void)step(config, at_once, tick);
-        finish_folding(config, at_once);
-    }
-    finish_folding(config, pieces);
-    EXPECT_EQ(pieces.moments, at_once.moments);
 }
 
 INSTANTIATE_TEST_SUITE_P(TicksAndHalves, MotionMoments, testing::Bool());

@@ -132,16 +132,12 @@ inline RelockProfileConfig config_of(const Gyro& gyro) {
     return config;
 }
 
-// Halves after the 16th until the profile is ready.
-inline constexpr int halves_to_wait = 4;
-
 inline RelockProfileState estimated(const RelockProfileConfig& config, const std::vector<HalfSeen>& halves,
                                     bool with_b = true) {
     RelockProfileState state;
     enter_gap(state);
     for (const HalfSeen& half : halves)
         take(config, state, half.record, {half.a, with_b ? std::span<const float>{half.b} : std::span<const float>{}});
-    for (int k = 0; k < halves_to_wait; ++k) advance(config, state);
     return state;
 }
 

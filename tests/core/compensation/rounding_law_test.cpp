@@ -69,7 +69,6 @@ MotionMomentsState learnt(double rate_counts, double step_arcsec) {
         phase += rate_counts;
         (void)step(MotionMomentsConfig{}, state, {true, step_arcsec * (std::floor(phase) - before), 0.0});
     }
-    finish_folding(MotionMomentsConfig{}, state);
     return state;
 }
 

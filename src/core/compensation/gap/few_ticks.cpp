@@ -11,10 +11,10 @@
 namespace zlg::core {
 namespace {
 
-constexpr int side_points = 6;
+constexpr int side_points = 4;
 
 // Rates with the spectrum 1/(1 + (f/f0)^4) + floor, f in 1/tick, integrated over half-ticks; by distance in half-ticks, for a
-// tick of variance 1. f0 = 0.0125, floor 1e-7; f0 = 0.05, floor 1e-4; white.
+// tick of variance 1. f0 = 0.0125, floor 1e-7; smooth_prior; white.
 constexpr Window slow{0.250094854613, 0.249905145387, 0.249352888616, 0.248456464975, 0.247235809882, 0.245710269843,
                       0.243898603518, 0.241818985348, 0.239489009849, 0.236925696555, 0.234145495553, 0.231164293568,
                       0.227997420574, 0.224659656871, 0.221165240619, 0.217527875761, 0.213760740335, 0.209876495116,
@@ -22,107 +22,213 @@ constexpr Window slow{0.250094854613, 0.249905145387, 0.249352888616, 0.24845646
                       0.180366840282, 0.175942503599, 0.171493283801, 0.167027198479, 0.162551857394, 0.158074473124,
                       0.153601871526, 0.149140502793, 0.144696451707, 0.14027544799,  0.135882878298, 0.131523794151,
                       0.1272029253,   0.122924687945};
-constexpr Window rough{0.5};
+constexpr TickWindow slow_ticks = of_ticks(slow);
+constexpr TickWindow smooth_ticks = of_ticks(smooth_prior);
+constexpr TickWindow rough_ticks{1.0};
 
 // Sizes of each, over the scatter of the ticks: of a slow motion they show little.
 struct Shape {
-    const Window* by_halves;
+    const TickWindow* by_distance;
     double least;
     double step;
     int n;
 };
-constexpr Shape shapes[] = {{&slow, 1.0, 100.0, 3}, {&smooth_prior, 0.1, 10.0, 4}, {&rough, 0.1, 10.0, 2}};
+constexpr Shape shapes[] = {{&slow_ticks, 1.0, 100.0, 3}, {&smooth_ticks, 0.1, 10.0, 4}, {&rough_ticks, 0.1, 10.0, 2}};
 
-using Data = GapDataOf<some_unknowns>;
+using Numbers = ColumnOf<few_unknowns>;
 
+// The ticks beside the gap, in places from n_side before it on.
 struct Places {
+    int n_gap = 0, n_side = 0;
     int n = 0;
-    std::array<int, some_unknowns> index{};
-    std::array<double, some_unknowns> relock_arcsec2{};
+    std::array<int, few_unknowns> index{};
+    Numbers value_arcsec{};
+    Numbers relock_arcsec2{};
+    double sum_relock_arcsec2 = 0.0;
 };
 
-Places places_of(const GapBridgeState& state, const Gap& gap, std::int64_t end, int n_side, Data& data) noexcept {
-    Places p;
+Places places_of(const GapBridgeState& state, const Gap& gap, std::int64_t end, int n_side) noexcept {
+    Places p{.n_gap = static_cast<int>(gap.n), .n_side = n_side};
     for (int k = 0; k < 2 * n_side; ++k) {
-        const int place = place_of(k, n_side, static_cast<int>(gap.n));
+        const int place = place_of(k, n_side, p.n_gap);
         const std::int64_t tick = gap.first_tick - n_side + place;
         if (tick < 0 || tick >= end || tick < end - history_ticks) continue;
         const HistoryTick& entry = at(state, tick);
         if (!entry.measured || !is_finite(entry.variance_arcsec2)) continue;
         const auto n = static_cast<unsigned>(p.n++);
         p.index[n] = place;
-        data.value[n] = entry.row.dtheta_final_arcsec;
+        p.value_arcsec[n] = entry.row.dtheta_final_arcsec;
         if (k < n_side) continue;
         p.relock_arcsec2[n] = entry.relock_variance_arcsec2;
-        data.error_with_all[n] = entry.relock_variance_arcsec2;
-        data.error_variance += entry.relock_variance_arcsec2;
+        p.sum_relock_arcsec2 += entry.relock_variance_arcsec2;
     }
     return p;
 }
 
-// One motion: what it says, and the logarithm of how probable it makes the points.
-struct Member {
-    GapEstimateOf<some_unknowns> estimate{};
-    double log_evidence = 0.0;
-};
-
-Member solve_member(const OptimalBridgeConfig& config, const GapBridgeState& state, int n_gap, int n_side,
-                    const Places& places, const Data& data) noexcept {
-    GapProblemOf<some_unknowns> problem{.n_gap = n_gap, .n_side = n_side};
-    const MotionCovariance covariance{config, state.learning.moments, fast_memory, 1.0};
-    double diagonal = 1.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(places.n); ++k) {
-        ColumnOf<some_unknowns> error{};
-        error[k] = places.relock_arcsec2[k];
-        add_point(covariance, problem, places.index[k], error);
-        if (problem.failed) return {};
-        diagonal *= problem.factor.lower[k * (k + 3) / 2];
-    }
-    GapSolutionOf<some_unknowns> solution;
-    while (!solution.done) advance(covariance, problem, data, solution);
-    Member m{.estimate = solution.estimate};
-    const double squares = m.estimate.innovation_ratio * (places.n - 1);
-    m.log_evidence =
-        natural_log(diagonal * diagonal / (solution.rates.information > 0.0 ? solution.rates.information : 1.0)) -
-        squares;
-    return m;
+// Ticks from a point to the nearest one of the gap.
+int distance(const Places& p, unsigned k) noexcept {
+    return p.index[k] < p.n_side ? p.n_side - p.index[k] : p.index[k] - (p.n_side + p.n_gap) + 1;
 }
 
-// Sum of a mixture whose weights are known only up to a factor.
-class Mixture {
-public:
-    void add(const Member& member, const Gap& gap, const std::array<double, max_gap_ticks>& value_arcsec) noexcept {
-        if (!member.estimate.known || !is_finite(member.log_evidence)) return;
-        if (!(total_ > 0.0) || member.log_evidence > most_) {
-            const double keep = total_ > 0.0 ? exponential(0.5 * (most_ - member.log_evidence)) : 0.0;
-            total_ *= keep;
-            sum_ *= keep;
-            for (double& x : ticks_) x *= keep;
-            most_ = member.log_evidence;
-        }
-        const double weight = exponential(0.5 * (member.log_evidence - most_));
-        total_ += weight;
-        double beside = 0.0;
-        for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j) {
-            const double off = member.estimate.value_arcsec[j] - value_arcsec[j];
-            beside += off;
-            ticks_[j] += weight * (member.estimate.variance_arcsec2[j] + off * off);
-        }
-        sum_ += weight * (member.estimate.sum_variance_arcsec2 + beside * beside);
-    }
+// Covariance of two ticks as they are read, by their distance.
+TickWindow as_read(const TickWindow& shape, double size, double step_arcsec) noexcept {
+    TickWindow c{};
+    for (unsigned k = 0; k < c.size(); ++k) c[k] = size * shape[k];
+    const double rounding = step_arcsec * step_arcsec / 6.0;
+    c[0] += rounding;
+    c[1] -= 0.5 * rounding;
+    return c;
+}
 
-    [[nodiscard]] FewTicks result() const noexcept {
-        FewTicks out{.known = total_ > 0.0 && is_finite(sum_)};
-        if (!out.known) return out;
-        out.sum_variance_arcsec2 = sum_ / total_;
-        for (unsigned j = 0; j < ticks_.size(); ++j) out.variance_arcsec2[j] = ticks_[j] / total_;
-        return out;
-    }
+// What is solved for each motion, point by point: L^-1 of these, C = L L^T the covariance of the points.
+enum PointColumn : unsigned { of_ones, of_values, of_gap, of_relock, n_columns };
+using PointColumns = std::array<double, n_columns>;
 
-private:
-    double total_ = 0.0, sum_ = 0.0, most_ = 0.0;
-    std::array<double, max_gap_ticks> ticks_{};
+// One motion beside the ticks.
+struct Member {
+    bool known = false;
+    CholeskyFactorOf<few_unknowns> factor{};
+    std::array<PointColumns, few_unknowns> column{};
+    double information = 0.0;  // of the rate
+    double rate_arcsec = 0.0;
+    double log_evidence = 0.0;  // twice the logarithm of how probable it makes the points
 };
+
+double sum_over(const Member& m, PointColumn a, PointColumn b) noexcept {
+    double sum = 0.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(m.factor.n); ++k) sum += m.column[k][a] * m.column[k][b];
+    return sum;
+}
+
+// The row of the factor that was added last, for all columns.
+void eliminate(Member& m) noexcept {
+    const auto k = static_cast<unsigned>(m.factor.n - 1);
+    const double* const row = m.factor.lower.data() + k * (k + 1) / 2;
+    PointColumns x = m.column[k];
+    for (unsigned i = 0; i < k; ++i)
+        for (unsigned c = 0; c < n_columns; ++c) x[c] -= row[i] * m.column[i][c];
+    for (unsigned c = 0; c < n_columns; ++c) m.column[k][c] = row[k] * x[c];
+}
+
+// The rate, and what is left of the values without it.
+void fit_rate(double diagonal, Member& m) noexcept {
+    m.information = sum_over(m, of_ones, of_ones);
+    m.rate_arcsec = sum_over(m, of_ones, of_values) / m.information;
+    for (unsigned k = 0; k < static_cast<unsigned>(m.factor.n); ++k)
+        m.column[k][of_values] -= m.rate_arcsec * m.column[k][of_ones];
+    m.log_evidence = natural_log(diagonal * diagonal / m.information) - sum_over(m, of_values, of_values);
+    m.known = is_finite(m.log_evidence);
+}
+
+// below  sums of the covariance over distances below k.
+void factorize(const TickWindow& covariance, const std::array<double, window_ticks + 1>& below, const Places& places,
+               Member& m) noexcept {
+    m.known = false;
+    m.factor.n = 0;
+    double diagonal = 1.0;
+    Numbers row{};
+    for (unsigned k = 0; k < static_cast<unsigned>(places.n); ++k) {
+        for (unsigned i = 0; i <= k; ++i) row[i] = covariance[static_cast<unsigned>(places.index[k] - places.index[i])];
+        row[k] += places.relock_arcsec2[k];
+        if (!add_row(m.factor, row)) return;
+        diagonal *= m.factor.lower[k * (k + 3) / 2];
+        const auto nearest = static_cast<unsigned>(distance(places, k));
+        const double with_gap = below[nearest + static_cast<unsigned>(places.n_gap)] - below[nearest];
+        m.column[k] = {1.0, places.value_arcsec[k], with_gap, places.relock_arcsec2[k]};
+        eliminate(m);
+    }
+    fit_rate(diagonal, m);
+}
+
+struct Target {
+    double value_arcsec = 0.0, variance_arcsec2 = 0.0;
+};
+
+// The angle of the gap; its variance less the errors of the re-lock correction after it.
+Target solve(const TickWindow& covariance, const Places& places, Member& m) noexcept {
+    std::array<double, window_ticks + 1> below{};
+    for (unsigned k = 0; k < covariance.size(); ++k) below[k + 1] = below[k] + covariance[k];
+    factorize(covariance, below, places, m);
+    if (!m.known) return {};
+    double variance = places.n_gap * covariance[0] + places.sum_relock_arcsec2;
+    for (int k = 1; k < places.n_gap; ++k) variance += 2.0 * (places.n_gap - k) * covariance[static_cast<unsigned>(k)];
+    const double value = places.n_gap * m.rate_arcsec + sum_over(m, of_gap, of_values);
+    for (unsigned k = 0; k < static_cast<unsigned>(places.n); ++k) m.column[k][of_gap] -= m.column[k][of_relock];
+    const double gain = places.n_gap - sum_over(m, of_gap, of_ones);
+    return {value, variance - sum_over(m, of_gap, of_gap) + gain * gain / m.information};
+}
+
+Target tick_of_gap(const TickWindow& covariance, const Places& places, const Member& m, int j) noexcept {
+    Numbers with{};
+    for (unsigned k = 0; k < static_cast<unsigned>(places.n); ++k) {
+        const int distance = places.index[k] - (places.n_side + j);
+        with[k] = covariance[static_cast<unsigned>(distance < 0 ? -distance : distance)];
+    }
+    const Numbers g = forward(m.factor, with);
+    double value = m.rate_arcsec;
+    double gain = 1.0;
+    for (unsigned k = 0; k < static_cast<unsigned>(places.n); ++k) {
+        value += g[k] * m.column[k][of_values];
+        gain -= g[k] * m.column[k][of_ones];
+    }
+    return {value, covariance[0] - product(g, g, places.n) + gain * gain / m.information};
+}
+
+// Mean square of what may be wrong with an angle, by motions whose weights are known only up to a factor, and the most
+// probable of them.
+struct Mixture {
+    double total = 0.0, sum_arcsec2 = 0.0;
+    Member best{};
+    TickWindow best_covariance{};
+    double best_arcsec2 = 0.0;
+
+    void add(const TickWindow& covariance, const Member& m, double mean_sq_arcsec2) noexcept {
+        if (!m.known || !is_finite(mean_sq_arcsec2)) return;
+        if (!best.known || m.log_evidence > best.log_evidence) {
+            const double keep = best.known ? exponential(0.5 * (best.log_evidence - m.log_evidence)) : 0.0;
+            total *= keep;
+            sum_arcsec2 *= keep;
+            best = m;
+            best_covariance = covariance;
+            best_arcsec2 = mean_sq_arcsec2;
+        }
+        const double weight = exponential(0.5 * (m.log_evidence - best.log_evidence));
+        total += weight;
+        sum_arcsec2 += weight * mean_sq_arcsec2;
+    }
+};
+
+// The ticks of the gap are known in the proportions of the most probable motion.
+FewTicks result_of(const Mixture& mixture, const Places& places,
+                   const std::array<double, max_gap_ticks>& value_arcsec) noexcept {
+    if (!mixture.best.known) return {};
+    FewTicks out{.known = true, .sum_variance_arcsec2 = mixture.sum_arcsec2 / mixture.total};
+    const double scale = out.sum_variance_arcsec2 / mixture.best_arcsec2;
+    for (int j = 0; j < places.n_gap; ++j) {
+        const Target tick = tick_of_gap(mixture.best_covariance, places, mixture.best, j);
+        const double off = tick.value_arcsec - value_arcsec[static_cast<unsigned>(j)];
+        out.variance_arcsec2[static_cast<unsigned>(j)] = scale * (tick.variance_arcsec2 + off * off);
+    }
+    return out;
+}
+
+FewTicks mixture_of(const Places& places, double step_arcsec, double scatter_arcsec2,
+                    const std::array<double, max_gap_ticks>& value_arcsec) noexcept {
+    double angle = 0.0;
+    for (int j = 0; j < places.n_gap; ++j) angle += value_arcsec[static_cast<unsigned>(j)];
+    Mixture mixture;
+    Member m;
+    for (const Shape& shape : shapes) {
+        double size = shape.least * scatter_arcsec2;
+        for (int k = 0; k < shape.n; ++k, size *= shape.step) {
+            const TickWindow covariance = as_read(*shape.by_distance, size, step_arcsec);
+            const Target gap = solve(covariance, places, m);
+            const double off = gap.value_arcsec - angle;
+            mixture.add(covariance, m, gap.variance_arcsec2 + off * off);
+        }
+    }
+    return result_of(mixture, places, value_arcsec);
+}
 
 // Ticks before the gap without a break, as prefix sums.
 struct Run {
@@ -250,24 +356,13 @@ double relock_beyond(const GapBridgeState& state, const Gap& gap, std::int64_t e
 FewTicks judge_by_few(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end,
                       const PolynomialFit& fit, const std::array<double, max_gap_ticks>& value_arcsec) noexcept {
     if (gap.n > max_solved_gap) return {};
-    const int n_gap = static_cast<int>(gap.n);
-    const int n_side = points_a_side(n_gap) < side_points ? points_a_side(n_gap) : side_points;
-    Data data;
-    const Places places = places_of(state, gap, end, n_side, data);
+    const int room = points_a_side(static_cast<int>(gap.n));
+    const int n_side = room < side_points ? room : side_points;
+    const Places places = places_of(state, gap, end, n_side);
     if (places.n < 2) return {};
     const double step = config.optimal.counter_step.value();
-    const double seen = scatter(data.value.data(), places.n) + 1e-4 * step * step;
-    OptimalBridgeConfig presumed{.learns = false, .counter_step = config.optimal.counter_step};
-    Mixture mixture;
-    for (const Shape& shape : shapes) {
-        double size = shape.least * seen;
-        for (int k = 0; k < shape.n; ++k, size *= shape.step) {
-            for (unsigned i = 0; i < presumed.prior_arcsec2.size(); ++i)
-                presumed.prior_arcsec2[i] = size * (*shape.by_halves)[i];
-            mixture.add(solve_member(presumed, state, n_gap, n_side, places, data), gap, value_arcsec);
-        }
-    }
-    FewTicks found = mixture.result();
+    const double seen = scatter(places.value_arcsec.data(), places.n) + 1e-4 * step * step;
+    FewTicks found = mixture_of(places, step, seen, value_arcsec);
     if (!found.known) return found;
     const Run run = run_before(state, gap, end);
     const RoundingLaw law = law_of_run(run, step);

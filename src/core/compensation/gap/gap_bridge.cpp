@@ -127,15 +127,6 @@ void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInp
     state.gap = OpenGap{};
 }
 
-// The whole sums of a gap: what `prepare` has left to do of them is done here.
-GapSums& completed_sums(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
-                        int order) noexcept {
-    GapSums& sums = state.sums[state.sums[1].first_tick == gap.first_tick ? 1 : 0];
-    if (sums.first_tick != gap.first_tick) begin_sums(config, state, gap, end, order, sums);
-    add_points(config, state, gap, sums.fit.n(), sums);
-    return sums;
-}
-
 // Give a gap its final rows.
 //
 // more_arcsec2  variance of each that the fit does not know of.
@@ -161,7 +152,7 @@ ExactSum interpolate(GapBridgeState& state, const Gap& gap, const GapSums& sums,
 // return  final minus delivered.
 ExactSum fit(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
              const EstimatedAngle& found, GapReport& report) noexcept {
-    GapSums& sums = completed_sums(config, state, gap, end, found.order);
+    GapSums sums = sums_of(config, state, gap, end, found.order);
     const bool in_place = is_estimated(config) && !found.has_history;
     if (in_place && config.optimal.learns) {
         const FewTicks few = judge_by_few(config, state, gap, end, sums.fit, sums.value_arcsec);
@@ -179,7 +170,7 @@ ExactSum fit(const GapBridgeConfig& config, GapBridgeState& state, const Gap& ga
 }
 
 // In the tick that needs it, of what an estimate has left to do; and at the end of a log, where time does not matter.
-constexpr int last_work = 8;
+constexpr int last_work = 6;
 constexpr int all_work = 1000;
 
 // Give a gap its final values from the ticks before `end`, and its lump.
@@ -312,8 +303,9 @@ AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const Tic
         sample.has_final = true;
         sample.final_row = at(state, state.next_final++).row;
     }
-    if (is_estimated(config)) learn(config, state, input);
-    if (state.n_pending > 0 && !resolved) prepare_after(config, state, input.measured);
+    if (!is_estimated(config)) return sample;
+    learn(config, state, input, !resolved && !state.gap.open && state.n_pending == 0);
+    if (state.n_pending > 0 && !resolved) advance_estimate(config, state);
     return sample;
 }
 

@@ -44,16 +44,15 @@ void presume(const BridgeScoresState& scores, GapProblemOf<capacity>& problem) n
     problem.scale = variance_ratio(scores, problem.memory);
 }
 
-void begin(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, bool halves) noexcept {
-    finish_folding(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
+void begin(GapBridgeState& state, const Gap& gap, bool halves) noexcept {
     // In place: a state that is assigned would stand on the stack first.
-    std::construct_at(&state.estimate);
-    state.estimate.first_tick = gap.first_tick;
-    state.estimate.end_tick = gap.first_tick + gap.n;
-    const int n = static_cast<int>(gap.n);
-    begin_problem(n, points_a_side(n), state.learning.problem);
-    presume(state.learning.scores, state.learning.problem);
-    state.learning.problem.halves = halves;
+    EstimatedGap& e = *std::construct_at(&state.estimate);
+    e.first_tick = gap.first_tick;
+    e.end_tick = gap.first_tick + gap.n;
+    e.problem.n_gap = static_cast<int>(gap.n);
+    e.problem.n_side = points_a_side(e.problem.n_gap);
+    e.problem.halves = halves;
+    presume(state.learning.scores, e.problem);
 }
 
 bool is_solvable(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap) noexcept {
@@ -74,7 +73,7 @@ void begin_or_change(const GapBridgeConfig& config, GapBridgeState& state, const
     const bool wanted = config.optimal.halves && gap.n <= longest_joint_gap && !is_given_up(state, gap) &&
                         (!at_end || is_profile_of(state, gap));
     const bool begun = state.estimate.first_tick == gap.first_tick;
-    if (!begun || (state.learning.problem.halves && !wanted)) begin(config, state, gap, wanted);
+    if (!begun || (state.estimate.problem.halves && !wanted)) begin(state, gap, wanted);
 }
 
 // Add points of ticks before `end`, then solve, as far as `work` goes: a point is 1, a stage of ticks 1, of half-ticks 2.
@@ -83,7 +82,7 @@ void begin_or_change(const GapBridgeConfig& config, GapBridgeState& state, const
 void work_on(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, int work, std::int64_t end,
              bool last) noexcept {
     EstimatedGap& e = state.estimate;
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     const MotionCovariance covariance = covariance_of(config.optimal, state.learning, problem);
     for (; work > 0 && e.n_tried < n_places(problem) && tick_of(e, problem, e.n_tried) < end; --work) {
         if (problem.halves && is_after(e, problem, e.n_tried) && !is_profile_of(state, gap)) return;
@@ -123,7 +122,7 @@ void apply(GapBridgeState& state, const Gap& gap, const GapEstimate& found, doub
         out.gap_arcsec.add(row.dtheta_final_arcsec);
         out.gap_arcsec.add(-row.dtheta_arcsec);
     }
-    if (state.learning.problem.halves)
+    if (state.estimate.problem.halves)
         correct_halves(state, found, out.after_arcsec);
     else
         correct_ticks(state, found, out.after_arcsec);
@@ -145,16 +144,15 @@ double relock_variance(const GapBridgeState& state, const Gap& gap) noexcept {
 //
 // variance  claimed by the estimate.
 bool choose_polynomial(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
-                       double variance, double misfit, EstimatedAngle& out) noexcept {
+                       const RoundingLaw& law, double variance, double misfit, EstimatedAngle& out) noexcept {
     const MotionLearningState& learning = state.learning;
     const bool rough = is_rough(scatter_of_points(state), learning.moments.moments[fast_memory].scatter);
-    const BridgeCandidate choice = choose(learning.scores, learning.problem.memory, rough);
+    const BridgeCandidate choice = choose(learning.scores, state.estimate.problem.memory, rough);
     if (is_learnt(choice)) return false;
     // A line has the angle of a constant, and in a ramp the right ticks too.
     const int order = choice == by_constant ? 1 : 2;
-    begin_sums(config, state, gap, end, order, state.sums[0]);
-    const RoundingLaw law = law_of(config, state, false);
-    const RoundingSums rounding = rounding_of_fit(config, state, gap, state.sums[0].fit, law);
+    const PolynomialFit fit = fit_of(config, state, gap, end, order);
+    const RoundingSums rounding = rounding_of_fit(config, state, gap, fit, law);
     // It knows of a misfit no more than the estimate does.
     const double usual = loss_of(learning.scores, choice, rough);
     const double grown = growth(order == 1 ? 0 : 2, gap.n);
@@ -163,10 +161,7 @@ bool choose_polynomial(const GapBridgeConfig& config, GapBridgeState& state, con
     const double expected = misfit * (lost * grown + relock) + rounding.broken_arcsec2;
     const double unexpected = (misfit - 1.0) * (usual * grown + relock);
     const double claimed = unexpected > expected ? unexpected : expected;
-    if (!(claimed < variance)) {
-        state.sums[0].first_tick = -1;
-        return false;
-    }
+    if (!(claimed < variance)) return false;
     out.order = order;
     out.polynomial_variance_arcsec2 = claimed;
     return true;
@@ -181,7 +176,6 @@ int order_in_place(const GapBridgeConfig& config, const GapBridgeState& state) n
 }
 
 void predict_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept {
-    finish_folding(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
     if (!is_ready(config.optimal, state.learning)) return;
     PredictionProblem problem{.n_gap = predicted_ticks, .n_side = max_points_a_side};
     presume(state.learning.scores, problem);
@@ -206,49 +200,24 @@ void predict_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int6
 
 namespace {
 
-// Where gaps crowd, one is begun when another is done with, and less time is left for it.
-//
-// return  work of the next half, where `work` is the usual one.
-int hurried(const GapBridgeState& state, const PendingGap& waiting, int work) noexcept {
-    constexpr int most_work = 5;
-    const GapProblem& problem = state.learning.problem;
-    const int left = n_places(problem) - state.estimate.n_tried + (problem.n_gap + 3) * stride_of(problem);
-    const std::int64_t halves_left = 2 * (waiting.due_tick - state.next_tick);
-    return left > work * halves_left ? most_work : work;
-}
-
 // Ticks before this one will not be amended any more: the first after a gap may be by the next.
 std::int64_t end_of_amended(const GapBridgeState& state) noexcept {
     const std::int64_t last = state.next_tick - 1;
     return last > 0 && at(state, last - 1).measured ? last + 1 : last;
 }
 
-// work  points, or stages of the solution; a stage of half-ticks is 2.
-void go_on(const GapBridgeConfig& config, GapBridgeState& state, int work) noexcept {
-    const PendingGap* waiting = nullptr;
-    for (int k = 0; k < state.n_pending && waiting == nullptr; ++k)
-        if (!state.pending[static_cast<unsigned>(k)].resolved) waiting = &state.pending[static_cast<unsigned>(k)];
-    if (waiting == nullptr || !is_solvable(config, state, waiting->gap)) return;
-    // The moments of the ticks before the gap come first.
-    if (is_folding(state.learning.moments)) return;
-    begin_or_change(config, state, waiting->gap, false);
-    work_on(config, state, waiting->gap, hurried(state, *waiting, work), end_of_amended(state), false);
-}
-
-// At the end of a tick, and of half-ticks, which cost more, always; of whole ticks in the middle of one.
-constexpr int usual_work = 2;
-constexpr int work_between = 5;
+// Of one half: all 32 half-ticks are solved in ten.
+constexpr int work_a_half = 6;
 
 }  // namespace
 
 void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
-    go_on(config, state, usual_work);
-}
-
-void prepare_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
-    if (state.n_pending > 0) return go_on(config, state, config.optimal.halves ? usual_work : work_between);
-    // A gap that waits may see moments that are not whole: then they must be those of their time.
-    fold_ahead(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
+    const PendingGap* waiting = nullptr;
+    for (int k = 0; k < state.n_pending && waiting == nullptr; ++k)
+        if (!state.pending[static_cast<unsigned>(k)].resolved) waiting = &state.pending[static_cast<unsigned>(k)];
+    if (waiting == nullptr || !is_solvable(config, state, waiting->gap)) return;
+    begin_or_change(config, state, waiting->gap, false);
+    work_on(config, state, waiting->gap, work_a_half, end_of_amended(state), false);
 }
 
 EstimatedAngle estimate(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
@@ -257,7 +226,7 @@ EstimatedAngle estimate(const GapBridgeConfig& config, GapBridgeState& state, co
     if (!is_solvable(config, state, gap)) return out;
     begin_or_change(config, state, gap, true);
     work_on(config, state, gap, work, end, true);
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     if (problem.factor.n < fewest_points) return out;
     const GapEstimate& found = state.estimate.solution.estimate;
     if (!found.known) return out;
@@ -265,28 +234,30 @@ EstimatedAngle estimate(const GapBridgeConfig& config, GapBridgeState& state, co
     learn_scale(state);
     const double misfit = inflation(problem.scale, found.innovation_ratio);
     double variance = misfit * found.sum_variance_arcsec2;
+    const RoundingLaw law = law_of(config, state, problem.halves);
     if (config.optimal.learns) {
-        const RoundingSums rounding = rounding_of_estimate(state, gap, law_of(config, state, problem.halves));
+        const RoundingSums rounding = rounding_of_estimate(state, gap, law);
         const double expected =
             misfit * motion_in(learnt_variance(problem, found, rounding), rounding) + rounding.broken_arcsec2;
         // Beyond chance, what does not fit is as large as all that was expected, whatever of that is the counter's.
         const double unexpected = misfit > certain_misfit ? variance : 0.0;
         variance = unexpected > expected ? unexpected : expected;
     }
-    if (config.method == BridgeMethod::automatic && choose_polynomial(config, state, gap, end, variance, misfit, out))
+    if (config.method == BridgeMethod::automatic &&
+        choose_polynomial(config, state, gap, end, problem.halves ? of_whole_ticks(law) : law, variance, misfit, out))
         return out;
     apply(state, gap, found, misfit, variance, out);
     return out;
 }
 
-void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick) noexcept {
+void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick, bool idle) noexcept {
     const double value = tick.value_arcsec;
     MotionTick motion{.usable = tick.measured && tick.settled && is_finite(tick.variance_arcsec2), .first = value};
     if (config.optimal.halves) {
         motion.first = 0.5 * (value + tick.half_excess_arcsec);
         motion.second = 0.5 * (value - tick.half_excess_arcsec);
     }
-    step(config.optimal, state.learning, motion, !state.gap.open && state.n_pending == 0);
+    step(config.optimal, state.learning, motion, idle);
 }
 
 bool needs_profile(const GapBridgeState& state) noexcept {

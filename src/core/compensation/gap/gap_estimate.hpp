@@ -13,12 +13,6 @@ inline constexpr int predicted_ticks = 4;
 // A gap begins at `tick`: predict it from the ticks before, if the motion is known.
 void predict_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept;
 
-// Go on with the gap that waits longest, at the end of a tick: points of the ticks that have passed, then the solution.
-void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
-
-// The same between two ticks, where there is more room; where no gap waits, with what has been learnt.
-void prepare_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
-
 struct EstimatedAngle {
     bool known = false;                        // rows have their final values
     bool has_history = false;                  // false: nothing is known of the motion
@@ -36,7 +30,9 @@ struct EstimatedAngle {
                                       std::int64_t end, int work) noexcept;
 
 // Learn from one tick.
-void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick) noexcept;
+//
+// idle  no gap lasts, waits or was resolved in this tick.
+void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick, bool idle) noexcept;
 
 // Order of the polynomial that stands in for the estimate.
 [[nodiscard]] int order_in_place(const GapBridgeConfig& config, const GapBridgeState& state) noexcept;

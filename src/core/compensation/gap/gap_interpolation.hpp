@@ -40,16 +40,20 @@ struct Points {
     return variance >= 0.0 ? square_root(variance) : infinity;
 }
 
-// Make `sums`, of `state`, empty ones of a gap of at most 16 ticks, with its fit through the ticks before `end`, of which
-// one at least was measured.
-void begin_sums(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end, int order,
-                GapSums& sums) noexcept;
+// Eq (15) for each tick of one gap.
+struct GapSums {
+    PolynomialFit fit{};  // position 0 is the tick before the gap
+    std::array<double, max_gap_ticks> value_arcsec{};
+    std::array<double, max_gap_ticks> variance_arcsec2{};
+    double angle_variance_arcsec2 = 0.0;  // of the whole gap's angle
+};
 
-// Let the sums of a gap grow to the first `n_points` points of their fit.
-void add_points(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, int n_points,
-                GapSums& sums) noexcept;
+// Of a gap of at most 16 ticks, through the ticks before `end`, of which one at least was measured.
+[[nodiscard]] GapSums sums_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,
+                              std::int64_t end, int order) noexcept;
 
-// What `prepare` does, at the end of a tick that did not resolve a gap itself.
-void prepare_after(const GapBridgeConfig& config, GapBridgeState& state, bool measured) noexcept;
+// The fit alone.
+[[nodiscard]] PolynomialFit fit_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,
+                                   std::int64_t end, int order) noexcept;
 
 }  // namespace zlg::core

@@ -113,7 +113,6 @@ void solve(const Problem& p, double level, double scale, KnownEstimate& out) noe
 
 double tick_variance(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
     if (!is_estimated(config) || !is_ready(config.optimal, state.learning)) return infinity;
-    finish_folding(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
     const MotionMemory memory = better_memory(state.learning.scores);
     const double scale = variance_ratio(state.learning.scores, memory);
     const MotionCovariance covariance{config.optimal, state.learning.moments, memory, scale > 1.0 ? scale : 1.0};
@@ -125,7 +124,6 @@ KnownEstimate estimate_known(const GapBridgeConfig& config, GapBridgeState& stat
     KnownEstimate out;
     if (!is_estimated(config) || !is_ready(config.optimal, state.learning)) return out;
     if (gap.n < 2 || gap.n > max_solved_gap) return out;
-    finish_folding(MotionMomentsConfig{config.optimal.halves}, state.learning.moments);
     const int n_gap = static_cast<int>(gap.n);
     const int room = points_a_side(n_gap);
     Problem p{.n_gap = n_gap, .n_side = room < most_points_a_side ? room : most_points_a_side};

@@ -44,8 +44,8 @@ int half_after(const EstimatedGap& e, const GapProblem& problem, unsigned point)
     return e.index[point] - problem.n_side * stride_of(problem);
 }
 
-void add_tick(const MotionCovariance& covariance, const HistoryTick& tick, int k, EstimatedGap& e,
-              GapProblem& problem) noexcept {
+void add_tick(const MotionCovariance& covariance, const HistoryTick& tick, int k, EstimatedGap& e) noexcept {
+    GapProblem& problem = e.problem;
     const auto n = static_cast<unsigned>(problem.factor.n);
     Column error{};
     error[n] = tick.relock_variance_arcsec2;
@@ -57,7 +57,7 @@ void add_tick(const MotionCovariance& covariance, const HistoryTick& tick, int k
 
 void add_half(const MotionCovariance& covariance, GapBridgeState& state, const HistoryTick& tick, int k) noexcept {
     EstimatedGap& e = state.estimate;
-    GapProblem& problem = state.learning.problem;
+    GapProblem& problem = state.estimate.problem;
     const auto n = static_cast<unsigned>(problem.factor.n);
     e.index[n] = static_cast<std::int8_t>(k);
     e.data.value[n] = half_value(tick, k % 2);
@@ -86,14 +86,14 @@ void set_final(HistoryTick& tick, double value_arcsec, double relock_arcsec, Exa
 
 void try_point(const MotionCovariance& covariance, GapBridgeState& state) noexcept {
     EstimatedGap& e = state.estimate;
-    GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = e.problem;
     const int k = e.n_tried++;
     const std::int64_t tick = tick_of(e, problem, k);
     if (tick < 0 || !is_point(at(state, tick))) return;
     if (problem.halves)
         add_half(covariance, state, at(state, tick), k);
     else
-        add_tick(covariance, at(state, tick), k, e, problem);
+        add_tick(covariance, at(state, tick), k, e);
 }
 
 PredictionData points_before(const MotionCovariance& covariance, const GapBridgeState& state, std::int64_t tick,
@@ -114,7 +114,7 @@ PredictionData points_before(const MotionCovariance& covariance, const GapBridge
 
 void begin_solution(GapBridgeState& state) noexcept {
     EstimatedGap& e = state.estimate;
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     const auto n = static_cast<unsigned>(problem.factor.n);
     e.solving = true;
     e.data.level = state.learning.moments.level;
@@ -133,7 +133,7 @@ void begin_solution(GapBridgeState& state) noexcept {
 }
 
 double scatter_of_points(const GapBridgeState& state) noexcept {
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     const auto& value = state.estimate.data.value;
     if (!problem.halves) return scatter(value.data(), problem.factor.n);
     Column ticks{};
@@ -144,7 +144,7 @@ double scatter_of_points(const GapBridgeState& state) noexcept {
 
 FalseReading false_reading(const GapBridgeState& state, unsigned point) noexcept {
     const EstimatedGap& e = state.estimate;
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     if (!problem.halves)
         return {at(state, tick_of(e, problem, e.index[point])).row.relock_arcsec, e.relock_variance_arcsec2[point]};
     const int after = half_after(e, problem, point);
@@ -155,7 +155,7 @@ FalseReading false_reading(const GapBridgeState& state, unsigned point) noexcept
 
 void correct_ticks(GapBridgeState& state, const GapEstimate& found, ExactSum& change) noexcept {
     const EstimatedGap& e = state.estimate;
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     for (unsigned k = 0; k < static_cast<unsigned>(problem.factor.n); ++k) {
         if (half_after(e, problem, k) < 0 || !(e.relock_variance_arcsec2[k] > 0.0)) continue;
         HistoryTick& tick = at(state, tick_of(e, problem, e.index[k]));
@@ -166,7 +166,7 @@ void correct_ticks(GapBridgeState& state, const GapEstimate& found, ExactSum& ch
 
 void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& change) noexcept {
     const EstimatedGap& e = state.estimate;
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     const auto n = static_cast<unsigned>(problem.factor.n);
     for (unsigned k = 0; k + 1 < n; k += 2) {
         const int first = half_after(e, problem, k);
@@ -187,7 +187,7 @@ void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& c
 }
 
 void learn_scale(GapBridgeState& state) noexcept {
-    if (!state.learning.problem.halves) return;
+    if (!state.estimate.problem.halves) return;
     BiasScale& scale = state.bias_scale;
     const GapEstimate& found = state.estimate.solution.estimate;
     if (!(found.innovation_ratio <= believable_innovation)) return;

@@ -26,7 +26,7 @@ RoundingLaw law_of(const GapBridgeConfig& config, const GapBridgeState& state, b
 }
 
 RoundingSums rounding_of_estimate(const GapBridgeState& state, const Gap& gap, const RoundingLaw& law) noexcept {
-    const GapProblem& problem = state.learning.problem;
+    const GapProblem& problem = state.estimate.problem;
     const int stride = stride_of(problem);
     BorderWeights weights{.gap_begin = stride * problem.n_side, .gap_end = stride * (problem.n_side + problem.n_gap)};
     const EstimatedGap& e = state.estimate;

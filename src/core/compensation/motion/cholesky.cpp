@@ -16,9 +16,9 @@ template <std::size_t capacity>
 bool add_row(CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& covariance) noexcept {
     const auto n = static_cast<unsigned>(factor.n);
     double* const row = factor.lower.data() + row_start(factor.n);
+    const double* other = factor.lower.data();
     double pivot = covariance[n];
-    for (unsigned k = 0; k < n; ++k) {
-        const double* const other = factor.lower.data() + row_start(static_cast<int>(k));
+    for (unsigned k = 0; k < n; other += ++k) {
         double x = covariance[k];
 #pragma GCC unroll 4
         for (unsigned i = 0; i < k; ++i) x -= row[i] * other[i];
@@ -37,8 +37,8 @@ bool add_row(CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& covar
 template <std::size_t capacity>
 ColumnOf<capacity> forward(const CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& x) noexcept {
     ColumnOf<capacity> y{};
-    for (unsigned k = 0; k < static_cast<unsigned>(factor.n); ++k) {
-        const double* const row = factor.lower.data() + row_start(static_cast<int>(k));
+    const double* row = factor.lower.data();
+    for (unsigned k = 0; k < static_cast<unsigned>(factor.n); row += ++k) {
         double sum = x[k];
 #pragma GCC unroll 4
         for (unsigned i = 0; i < k; ++i) sum -= row[i] * y[i];
@@ -50,8 +50,9 @@ ColumnOf<capacity> forward(const CholeskyFactorOf<capacity>& factor, const Colum
 template <std::size_t capacity>
 ColumnOf<capacity> backward(const CholeskyFactorOf<capacity>& factor, const ColumnOf<capacity>& x) noexcept {
     ColumnOf<capacity> y = x;
+    const double* row = factor.lower.data() + row_start(factor.n);
     for (auto k = static_cast<unsigned>(factor.n); k-- > 0;) {
-        const double* const row = factor.lower.data() + row_start(static_cast<int>(k));
+        row -= k + 1;
         y[k] *= row[k];
 #pragma GCC unroll 4
         for (unsigned i = 0; i < k; ++i) y[i] -= row[i] * y[k];
@@ -78,12 +79,5 @@ template bool add_row(FewRows&, const FewNumbers&) noexcept;
 template FewNumbers forward(const FewRows&, const FewNumbers&) noexcept;
 template FewNumbers backward(const FewRows&, const FewNumbers&) noexcept;
 template double product(const FewNumbers&, const FewNumbers&, int) noexcept;
-
-using SomeRows = CholeskyFactorOf<some_unknowns>;
-using SomeNumbers = ColumnOf<some_unknowns>;
-template bool add_row(SomeRows&, const SomeNumbers&) noexcept;
-template SomeNumbers forward(const SomeRows&, const SomeNumbers&) noexcept;
-template SomeNumbers backward(const SomeRows&, const SomeNumbers&) noexcept;
-template double product(const SomeNumbers&, const SomeNumbers&, int) noexcept;
 
 }  // namespace zlg::core

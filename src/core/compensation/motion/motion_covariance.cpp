@@ -9,18 +9,6 @@ namespace {
 // a tone of 12 000 arcsec/s brings a prior of 0.2 windows to the level of a counter of 0.8 arcsec.
 constexpr std::array<double, 2> prior_windows{10.0, 0.002};
 
-constexpr double of_ticks_by_halves(const Window& halves, int distance) noexcept {
-    const auto lag = static_cast<unsigned>(2 * distance);
-    return 2.0 * halves[lag] + (lag + 1 < halves.size() ? halves[lag + 1] : halves[lag]) +
-           halves[lag > 0 ? lag - 1 : 1];
-}
-
-// The same of ticks.
-constexpr std::array<double, window_ticks> of_ticks(const Window& halves) noexcept {
-    std::array<double, window_ticks> w{};
-    for (int lag = 0; lag < window_ticks; ++lag) w[static_cast<unsigned>(lag)] = of_ticks_by_halves(halves, lag);
-    return w;
-}
 constexpr auto smooth_prior_of_ticks = of_ticks(smooth_prior);
 
 // A product and a halving for each element otherwise.

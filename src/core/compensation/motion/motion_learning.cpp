@@ -6,8 +6,6 @@
 namespace zlg::core {
 namespace {
 
-constexpr int points_a_tick = 2;
-
 // Fewer say more of the moment than of the motion.
 constexpr double enough_windows = 50.0;
 
@@ -30,40 +28,23 @@ bool is_familiar(const OptimalBridgeConfig& config, MotionLearningState& state, 
     return state.foreign >= foreign_at_most;
 }
 
-void begin_pseudo_gap(MotionMemory memory, GapProblem& problem) noexcept {
-    begin_problem(scored_gap, points_a_side(scored_gap), problem);
-    problem.memory = memory;
-}
-
-void add_points(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
-    GapProblem& problem = state.problem;
+GapWeights weights_of_pseudo_gap(const OptimalBridgeConfig& config, const MotionLearningState& state,
+                                 MotionMemory memory) noexcept {
+    GapProblem problem{.n_gap = scored_gap, .n_side = points_a_side(scored_gap), .memory = memory};
     const MotionCovariance covariance = covariance_of(config, state, problem);
-    const int all = 2 * problem.n_side;
-    for (int k = 0; k < points_a_tick && problem.factor.n < all && !problem.failed; ++k)
-        add_point(covariance, problem, place_of(problem.factor.n, problem.n_side, problem.n_gap), Column{});
-}
-
-// Weights of the whole pseudo-gap.
-void take_weights(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
-    state.scores.weights[state.problem.memory] = weights(covariance_of(config, state, state.problem), state.problem);
-    state.weighing = false;
+    for (int k = 0; k < 2 * problem.n_side; ++k)
+        add_point(covariance, problem, place_of(k, problem.n_side, problem.n_gap), Column{});
+    return weights(covariance, problem);
 }
 
 // Of four blocks the fast memory is weighed after two, the slow one after one.
-void begin_weighing(MotionLearningState& state) noexcept {
+void weigh(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
     const int block = state.moments.n_folded;
+    if (state.n_weighed == block) return;
     state.n_weighed = block;
     if (block % 4 == 0) return;
-    begin_pseudo_gap(block % 2 != 0 ? fast_memory : slow_memory, state.problem);
-    state.weighing = true;
-}
-
-void weigh(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
-    if (state.n_weighed != state.moments.n_folded) begin_weighing(state);
-    if (!state.weighing) return;
-    const GapProblem& problem = state.problem;
-    if (problem.failed || problem.factor.n == 2 * problem.n_side) return take_weights(config, state);
-    add_points(config, state);
+    const MotionMemory memory = block % 2 != 0 ? fast_memory : slow_memory;
+    state.scores.weights[memory] = weights_of_pseudo_gap(config, state, memory);
 }
 
 void judge(MotionLearningState& state, WindowTicks ticks) noexcept {
@@ -86,28 +67,16 @@ bool is_judged_now(const MotionMomentsState& moments) noexcept { return moments.
 
 void step(const OptimalBridgeConfig& config, MotionLearningState& state, const MotionTick& tick, bool idle) noexcept {
     if (!config.learns) return;
+    // Of the blocks before this tick: one that ends now is work enough.
+    if (idle) weigh(config, state);
     MotionTick learnt = tick;
     learnt.usable = tick.usable && is_familiar(config, state, tick);
     const MotionMomentsOutput out = step(MotionMomentsConfig{config.halves}, state.moments, learnt);
     if (out.has_window && is_judged_now(state.moments)) judge(config, state);
-    // A gap takes the problem over, and weights of half of it are none: they are begun anew.
-    if (!idle && state.weighing) state.n_weighed = -1;
-    if (!idle) state.weighing = false;
-    if (idle && !is_folding(state.moments)) weigh(config, state);
 }
 
 bool is_ready(const OptimalBridgeConfig& config, const MotionLearningState& state) noexcept {
     return !config.learns || state.moments.moments[fast_memory].n_windows >= enough_windows;
-}
-
-void begin_problem(int n_gap, int n_side, GapProblem& problem) noexcept {
-    problem.halves = false;
-    problem.n_gap = n_gap;
-    problem.n_side = n_side;
-    problem.memory = fast_memory;
-    problem.scale = 1.0;
-    problem.failed = false;
-    problem.factor.n = 0;
 }
 
 MotionCovariance covariance_of(const OptimalBridgeConfig& config, const MotionLearningState& state,

@@ -6,10 +6,6 @@ namespace zlg::core {
 namespace {
 
 constexpr int block_windows = 100;
-constexpr int rows_a_tick = 4;  // of ticks; of half-ticks twice as many
-
-// A gap that begins in the next tick needs the whole moments there: of half-ticks three quarters of the work are then done.
-constexpr int rows_ahead = 20;
 
 // An exponential memory has as much scatter as a sliding one of twice the length.
 constexpr std::array<double, 2> memory_windows{500.0, 3000.0};
@@ -61,8 +57,8 @@ void add_window(const MotionMomentsConfig& config, MotionMomentsState& state) no
     ++block.n_windows;
 }
 
-// Rows r.. of the block that is folded, from the rows before them.
-void unfold(const MotionMomentsConfig& config, MotionBlock& block, int r) noexcept {
+// Row r of the block's matrix, in the place of the last one of its kind.
+void unfold(const MotionMomentsConfig& config, const Window& last, MotionBlock& block, int r) noexcept {
     const int stride = samples_per_tick(config);
     const auto window = static_cast<unsigned>(window_of(config));
     Window& row = block.row[static_cast<unsigned>(r % stride)];
@@ -70,74 +66,63 @@ void unfold(const MotionMomentsConfig& config, MotionBlock& block, int r) noexce
     const auto s = static_cast<unsigned>(stride);
 #pragma GCC unroll 4
     for (unsigned b = window - 1; b >= to; --b)
-        row[b] = row[b - s] + block.last[to] * block.last[b] - block.first[to - s] * block.first[b - s];
+        row[b] = row[b - s] + last[to] * last[b] - block.first[to - s] * block.first[b - s];
 }
 
-void fold_row(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
-    const int window = window_of(config);
-    const int r = state.folded_rows++;
-    MotionBlock& block = state.folding;
-    if (r >= samples_per_tick(config)) unfold(config, block, r);
-    const Window& row = block.row[static_cast<unsigned>(r % samples_per_tick(config))];
-    // Both memories together: the row is then read once.
+// Add row r of the block to both memories.
+void add_row(int window, int r, const Window& row, const std::array<double, 2>& keep,
+             MotionMomentsState& state) noexcept {
     const int start = moment_index(window, r, 0);
     double* const fast = state.moments[fast_memory].sum.data() + start;
     double* const slow = state.moments[slow_memory].sum.data() + start;
-    const auto [keep_fast, keep_slow] = state.keep;
-    double total_fast = 0.0;
-    double total_slow = 0.0;
-#pragma GCC unroll 2
+#pragma GCC unroll 4
     for (int b = r; b < window; ++b) {
         const double x = row[static_cast<unsigned>(b)];
-        const double of_fast = keep_fast * fast[b] + x;
-        const double of_slow = keep_slow * slow[b] + x;
-        fast[b] = of_fast;
-        slow[b] = of_slow;
-        total_fast += of_fast;
-        total_slow += of_slow;
+        fast[b] = keep[fast_memory] * fast[b] + x;
+        slow[b] = keep[slow_memory] * slow[b] + x;
     }
-    state.trace[fast_memory] += fast[r];
-    state.trace[slow_memory] += slow[r];
-    state.total[fast_memory] += 2.0 * total_fast - fast[r];
-    state.total[slow_memory] += 2.0 * total_slow - slow[r];
 }
 
-// The last row is folded: the moments are those of a time.
-void complete(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
+double scatter_of(const MotionMomentsConfig& config, const Moments& moments) noexcept {
     const int window = window_of(config);
-    MotionBlock& block = state.folding;
-    for (unsigned m = 0; m < state.moments.size(); ++m) {
+    const double* element = moments.sum.data();
+    double trace = 0.0;
+    double beside = 0.0;
+    for (int a = 0; a < window; ++a) {
+        trace += *element++;
+        for (int b = a + 1; b < window; ++b) beside += *element++;
+    }
+    // Half-ticks: as if both halves of a tick turned alike.
+    const double of_samples = trace / window - (trace + 2.0 * beside) / (window * window);
+    const double stride = samples_per_tick(config);
+    return stride * stride * (of_samples > 0.0 ? of_samples : 0.0) / moments.n_windows;
+}
+
+// Add the block, which ends with the recent samples, to both memories.
+void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
+    const int stride = samples_per_tick(config);
+    MotionBlock& block = state.block;
+    std::array<double, 2> keep;
+    for (unsigned m = 0; m < keep.size(); ++m) keep[m] = exponential(-block.n_windows / memory_windows[m]);
+    for (int r = 0; r < window_of(config); ++r) {
+        if (r >= stride) unfold(config, state.recent, block, r);
+        add_row(window_of(config), r, block.row[static_cast<unsigned>(r % stride)], keep, state);
+    }
+    for (unsigned m = 0; m < keep.size(); ++m) {
         Moments& moments = state.moments[m];
-        moments.n_windows = state.keep[m] * moments.n_windows + block.n_windows;
-        // Half-ticks: as if both halves of a tick turned alike.
-        const double of_samples = state.trace[m] / window - state.total[m] / (window * window);
-        const double stride = samples_per_tick(config);
-        moments.scatter = stride * stride * (of_samples > 0.0 ? of_samples : 0.0) / moments.n_windows;
+        moments.n_windows = keep[m] * moments.n_windows + block.n_windows;
+        moments.scatter = scatter_of(config, moments);
     }
     state.n_folded = (state.n_folded + 1) % 0x10000;
-    state.trace = {};
-    state.total = {};
-    block = MotionBlock{};
-    state.folded_rows = 0;
-    state.due_rows = 0;
-}
-
-void fold_due(const MotionMomentsConfig& config, MotionMomentsState& state, int n_rows) noexcept {
-    state.due_rows += n_rows;
-    while (state.folded_rows < window_of(config) && state.folded_rows < state.due_rows) fold_row(config, state);
-    if (state.due_rows >= window_of(config)) complete(config, state);
 }
 
 void close_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
-    finish_folding(config, state);
+    fold(config, state);
     const double n = state.block.n_windows;
-    for (unsigned m = 0; m < state.keep.size(); ++m) state.keep[m] = exponential(-n / memory_windows[m]);
     if (state.n_levels < level_blocks) state.n_levels += n / block_windows;
     const double part = n / block_windows / (state.n_levels > 1.0 ? state.n_levels : 1.0);
     const double moved = part * (state.block_sum / n);
     state.level += moved;
-    state.folding = state.block;
-    state.folding.last = state.recent;
     state.block = MotionBlock{};
     state.block_sum = 0.0;
     // The samples at hand move to the new level.
@@ -154,7 +139,6 @@ MotionMomentsOutput step(const MotionMomentsConfig& config, MotionMomentsState& 
                          const MotionTick& tick) noexcept {
     MotionMomentsOutput out;
     const bool usable = tick.usable && is_possible(tick.first) && is_possible(tick.second);
-    if (is_folding(state)) fold_due(config, state, rows_a_tick * samples_per_tick(config));
     if (!usable) end_block(config, state);
     if (!usable) return out;
     if (state.n_levels == 0.0 && state.n_recent == 0)
@@ -165,15 +149,6 @@ MotionMomentsOutput step(const MotionMomentsConfig& config, MotionMomentsState& 
     add_window(config, state);
     if (state.block.n_windows == block_windows) close_block(config, state);
     return out;
-}
-
-void finish_folding(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
-    if (is_folding(state)) fold_due(config, state, window_of(config));
-}
-
-void fold_ahead(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
-    const int most_rows = window_of(config) < rows_ahead ? window_of(config) : rows_ahead;
-    while (is_folding(state) && state.folded_rows < most_rows) fold_row(config, state);
 }
 
 void end_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {

@@ -224,11 +224,6 @@ template void add_point(const MotionCovariance&, GapProblemOf<few_unknowns>&, in
 template void advance(const MotionCovariance&, const GapProblemOf<few_unknowns>&, const GapDataOf<few_unknowns>&,
                       GapSolutionOf<few_unknowns>&) noexcept;
 
-template void add_point(const MotionCovariance&, GapProblemOf<some_unknowns>&, int,
-                        const ColumnOf<some_unknowns>&) noexcept;
-template void advance(const MotionCovariance&, const GapProblemOf<some_unknowns>&, const GapDataOf<some_unknowns>&,
-                      GapSolutionOf<some_unknowns>&) noexcept;
-
 GapWeights weights(const MotionCovariance& covariance, const GapProblem& problem) noexcept {
     const auto rates = rates_of(problem);
     GapWeights out;

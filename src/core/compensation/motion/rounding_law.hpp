@@ -28,7 +28,7 @@ struct RoundingLaw {
     double step_arcsec = 0.0;
     double rate_counts = 0.0;  // a sample
     double bias_counts = 0.0;  // that the first half of a tick has more; 0 where borders are those of ticks
-    std::array<double, max_window + 1> scatter_counts2{};
+    std::array<double, max_window + 1> left_arcsec2{};  // what the scatter leaves of R = 1
     // [0]: the earlier one begins a tick; [1]: it lies in the middle of one. Where the bias is negative in the first half they
     // change places.
     std::array<std::array<double, max_window + 1>, 2> arcsec2{};
@@ -50,6 +50,9 @@ struct RoundingLaw {
 // bias_arcsec  what the bias adds to the first half of a tick where its sign is positive.
 [[nodiscard]] RoundingLaw rounding_law(const OptimalBridgeConfig& config, const MotionMomentsState& moments,
                                        bool halves, double bias_arcsec) noexcept;
+
+// The same at the borders of whole ticks.
+[[nodiscard]] RoundingLaw of_whole_ticks(const RoundingLaw& halves) noexcept;
 
 // Weights of readings at the borders of a window: what the points of an estimate, and the edges of its gap, make of them.
 struct BorderWeights {

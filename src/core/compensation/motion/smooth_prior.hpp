@@ -1,9 +1,24 @@
 #pragma once
 // Motion that is smooth, where nothing better is known of it.
 
+#include <array>
+
 #include <zlg/core/compensation/motion_moments.hpp>
 
 namespace zlg::core {
+
+using TickWindow = std::array<double, window_ticks>;
+
+// Covariance of two ticks by their distance, from that of half-ticks.
+constexpr TickWindow of_ticks(const Window& halves) noexcept {
+    TickWindow w{};
+    for (unsigned tick = 0; tick < w.size(); ++tick) {
+        const unsigned lag = 2 * tick;
+        w[tick] = 2.0 * halves[lag] + (lag + 1 < halves.size() ? halves[lag + 1] : halves[lag]) +
+                  halves[lag > 0 ? lag - 1 : 1];
+    }
+    return w;
+}
 
 // Weak prior of a learnt covariance: rates with the spectrum 1/(1 + (f/0.05)^4) + 1e-4, f in 1/tick, integrated over
 // half-ticks; by distance in half-ticks, for a tick of variance 1.

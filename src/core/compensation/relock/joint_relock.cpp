@@ -12,8 +12,7 @@ double sign_of(unsigned half) noexcept { return half % 2 == 0 ? 1.0 : -1.0; }
 void take(const RelockProfileConfig& config, JointRelockState& state, const HalfRecord& half, LightSamples light,
           bool measured, std::int64_t tick) noexcept {
     if (!measured) return enter_gap(state.profile);
-    if (state.profile.n_halves >= profile_halves) return advance(config, state.profile);
-    if (!state.profile.armed) return;
+    if (!state.profile.armed || state.profile.n_halves >= profile_halves) return;
     if (state.profile.n_halves == 0) {
         state.first_tick = tick;
         state.sign = half.bias_sign * half.mode;
@@ -24,7 +23,7 @@ void take(const RelockProfileConfig& config, JointRelockState& state, const Half
 
 bool is_due(const JointRelockState& state) noexcept {
     const bool broken_off = state.profile.n_halves == 0;
-    return !state.told && (broken_off || (state.profile.n_halves >= profile_halves && !is_pending(state.profile)));
+    return !state.told && (broken_off || state.profile.n_halves >= profile_halves);
 }
 
 void tell(const RelockDriftConfig& config, JointRelockState& state, Celsius temperature, JointRelock& out) noexcept {

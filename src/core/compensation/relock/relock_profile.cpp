@@ -11,18 +11,11 @@
 namespace zlg::core {
 namespace {
 
-// The portions of an estimate, in their order. What comes before the moments needs the first five halves: later ones say
-// no more of the first tick. What comes after them needs all.
+// The first halves, which decide on the moment: later ones say no more of the first tick.
 constexpr std::int32_t halves_for_moments = 5;
-constexpr std::int32_t moment_portions = 10;
-constexpr std::int32_t backward_task = 1 + moment_portions;
-constexpr std::int32_t all_tasks = backward_task + 5;
 
-// The moments of a portion begin here: four, or two of the costly last ones.
-constexpr std::int32_t first_moment(std::int32_t portion) noexcept {
-    return 1 + (portion < 6 ? 4 * portion : 12 + 2 * portion);
-}
-static_assert(first_moment(moment_portions) == relock_moments);
+// Moments that are tried with the last of them; the others, each of which costs more, in the next half.
+constexpr std::int32_t first_moments = 18;
 
 // Beyond so many standard deviations a sum of squared residuals is not noise. A false alarm costs little.
 constexpr double most_deviation = 2.0;
@@ -45,7 +38,6 @@ double deviation(double residual_sq, double freedom, double noise_sq) noexcept {
 
 void use_records(RelockProfileState& s) noexcept {
     s.n_samples = 0;
-    s.task = all_tasks;
     s.profile.known = s.columns_known && s.n_halves == profile_halves;
 }
 
@@ -82,7 +74,19 @@ bool find_noise(RelockProfileState& s, double residual_sq) noexcept {
     return true;
 }
 
-// The halves after the first tick, backwards, and the first of the moments. False: no such course.
+// Does the best of the moments explain the first halves?
+bool is_explained(const RelockProfileState& s) noexcept {
+    const double freedom = halves_for_moments * s.n_samples - (halves_for_moments + 2.0);
+    const double residual_sq = weighted_sum_sq(s, 0, halves_for_moments) - s.information.fitted_sq -
+                               2.0 * s.noise_sq_lambda2 * s.mixture.log_best;
+    return deviation(residual_sq, freedom, s.noise_sq_lambda2) < most_deviation;
+}
+
+void try_moments(RelockProfileState& s, std::int32_t from, std::int32_t to) noexcept {
+    for (std::int32_t i = from; i < to; ++i) try_moment(s, i);
+}
+
+// The halves after the first tick, backwards, and the first moments. False: no such course.
 bool begin_moments(RelockProfileState& s) noexcept {
     s.scale_lambda = square_root(s.halves[0].sum_sq / s.n_samples + s.noise_sq_lambda2 + 1e-24);
     s.information = {};
@@ -92,26 +96,20 @@ bool begin_moments(RelockProfileState& s) noexcept {
         weighted_sum_sq(s, 2, halves_for_moments) - s.information.fitted_sq - explained(s.information);
     if (!find_noise(s, residual_sq)) return false;
     s.mixture = {};
-    try_moment(s, 0);
+    try_moments(s, 0, first_moments);
     return true;
 }
 
-void try_moments(RelockProfileState& s, std::int32_t portion) noexcept {
-    for (std::int32_t i = first_moment(portion); i < first_moment(portion + 1); ++i) try_moment(s, i);
-}
-
-// Does the best of the moments explain the first halves?
-bool is_explained(const RelockProfileState& s) noexcept {
-    const double freedom = halves_for_moments * s.n_samples - (halves_for_moments + 2.0);
-    const double residual_sq = weighted_sum_sq(s, 0, halves_for_moments) - s.information.fitted_sq -
-                               2.0 * s.noise_sq_lambda2 * s.mixture.log_best;
-    return deviation(residual_sq, freedom, s.noise_sq_lambda2) < most_deviation;
+// The other moments.
+bool end_moments(RelockProfileState& s) noexcept {
+    try_moments(s, first_moments, relock_moments);
+    return is_explained(s);
 }
 
 // The chain forwards: each half's mean square and its covariance with all before it.
-void pass_halves(RelockProfileState& s, std::size_t begin, std::size_t end) noexcept {
+void pass_halves(RelockProfileState& s) noexcept {
     auto& covariance = s.profile.covariance_lambda4;
-    for (std::size_t k = begin; k < end; ++k) {
+    for (std::size_t k = 2; k < profile_halves; ++k) {
         const PassedHalf passed = pass(s.gains[k], s.noise_sq_lambda2, s.link);
         s.profile.mean_sq_lambda2[k] = passed.mean_sq_lambda2;
         covariance[k][k] = passed.variance_lambda4;
@@ -123,24 +121,14 @@ void pass_halves(RelockProfileState& s, std::size_t begin, std::size_t end) noex
     }
 }
 
-void after_moments(RelockProfileState& s) noexcept {
-    switch (s.task - backward_task) {
-        case 0:
-            s.information = {};
-            for (std::size_t k = profile_halves; k-- > 2;)
-                s.gains[k] = absorb(s.halves[k], s.powers, cubic_ridge(s), s.information);
-            return;
-        case 1:
-            average_moments(s);
-            return pass_halves(s, 2, 6);
-        case 2:
-            return pass_halves(s, 6, 10);
-        case 3:
-            return pass_halves(s, 10, 13);
-        default:
-            pass_halves(s, 13, profile_halves);
-            s.profile.known = true;
-    }
+// The later halves backwards, and forwards from the mean of the moments.
+void smooth(RelockProfileState& s) noexcept {
+    s.information = {};
+    for (std::size_t k = profile_halves; k-- > 2;)
+        s.gains[k] = absorb(s.halves[k], s.powers, cubic_ridge(s), s.information);
+    average_moments(s);
+    pass_halves(s);
+    s.profile.known = true;
 }
 
 // Sums of u^p over the samples of a half.
@@ -219,8 +207,6 @@ void enter_gap(RelockProfileState& state) noexcept {
     state.armed = true;
 }
 
-bool is_pending(const RelockProfileState& state) noexcept { return state.armed && state.task < all_tasks; }
-
 void take(const RelockProfileConfig& config, RelockProfileState& state, const HalfRecord& half,
           LightSamples light) noexcept {
     if (!state.armed || state.n_halves == profile_halves) return;
@@ -230,30 +216,19 @@ void take(const RelockProfileConfig& config, RelockProfileState& state, const Ha
     }
     const RecordedSquare recorded = recorded_square(config, half);
     take_record(recorded, state);
-    if (state.task < all_tasks) {
+    if (state.n_halves == 0 || state.n_samples > 0) {
         DetuningSamples samples;
         if (!recorded.refused) read_samples(config, half, light, samples);
         take_light(samples, state);
     }
     ++state.n_halves;
-    if (state.task < all_tasks)
-        advance(config, state);
-    else if (state.n_samples == 0)
+    if (state.n_samples > 0 && state.n_halves == halves_for_moments && !begin_moments(state)) use_records(state);
+    if (state.n_samples > 0 && state.n_halves == halves_for_moments + 1 && !end_moments(state)) use_records(state);
+    if (state.n_halves < profile_halves) return;
+    if (state.n_samples > 0)
+        smooth(state);
+    else
         use_records(state);
-}
-
-void advance(const RelockProfileConfig&, RelockProfileState& s) noexcept {
-    if (!is_pending(s)) return;
-    if (s.n_halves < halves_for_moments || (s.task >= backward_task && s.n_halves < profile_halves)) return;
-    if (s.task == 0) {
-        if (!begin_moments(s)) return use_records(s);
-    } else if (s.task < backward_task) {
-        try_moments(s, s.task - 1);
-        if (s.task + 1 == backward_task && !is_explained(s)) return use_records(s);
-    } else {
-        after_moments(s);
-    }
-    ++s.task;
 }
 
 }  // namespace zlg::core

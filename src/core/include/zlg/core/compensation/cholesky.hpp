@@ -3,7 +3,7 @@
 //
 //   C = L L^T
 //
-// A row costs i^2/2 products, so that a system of 32 unknowns can be spread over as many half-periods as are at hand.
+// A row costs i^2/2 products.
 
 #include <array>
 #include <cstddef>
@@ -11,8 +11,7 @@
 namespace zlg::core {
 
 inline constexpr std::size_t max_unknowns = 32;
-inline constexpr std::size_t few_unknowns = 8;    // of a small problem, which has room on a small stack
-inline constexpr std::size_t some_unknowns = 12;  // of one that is solved many times
+inline constexpr std::size_t few_unknowns = 8;  // of a small problem, which has room on a small stack
 
 template <std::size_t capacity>
 using ColumnOf = std::array<double, capacity>;
@@ -27,7 +26,7 @@ struct CholeskyFactorOf {
 };
 using CholeskyFactor = CholeskyFactorOf<max_unknowns>;
 
-// Add a row, n < capacity. There are functions for the capacities 8, 12 and 32.
+// Add a row, n < capacity. There are functions for the capacities 8 and 32.
 //
 // covariance  of the new unknown with the n earlier ones and, at index n, with itself.
 // return      false, and nothing added, where the matrix would not be positive definite (within 1e-12 of the

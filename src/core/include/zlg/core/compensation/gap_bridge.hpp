@@ -52,8 +52,8 @@ enum class GapBridgeFault : unsigned char {
     return c.method == BridgeMethod::optimal || c.method == BridgeMethod::automatic;
 }
 
-// Of half-ticks the estimate takes some more ticks: the detuning's profile 2, the solution 10.
-inline constexpr int joint_ticks = 12;
+// Ticks that the estimate of half-ticks takes after the last point.
+inline constexpr int joint_ticks = 5;
 
 // Measured ticks after a gap before the one that carries its correction.
 [[nodiscard]] constexpr int ticks_to_correction(const GapBridgeConfig& c) noexcept {
@@ -61,7 +61,7 @@ inline constexpr int joint_ticks = 12;
     return c.optimal.halves ? max_points_a_side + joint_ticks : max_points_a_side;
 }
 
-// Ticks between a tick and its final value: nothing about it changes later. At most 36.
+// Ticks between a tick and its final value: nothing about it changes later. At most 29.
 [[nodiscard]] constexpr int final_delay_ticks(const GapBridgeConfig& c) noexcept {
     const int wait = ticks_to_correction(c);
     return max_gap_ticks + (c.extrapolation_points > wait ? c.extrapolation_points : wait);
@@ -94,15 +94,15 @@ struct TickInput {
 //
 // return  dtheta of this tick; the final row of the tick `final_delay_ticks` ago, once there is one; the report of a gap
 //         that was resolved now.
-// cost    bounded: where a gap is resolved 16 ticks by 16 points, or by what `prepare` has left of them.
+// cost    bounded: where a gap is resolved 16 ticks by 16 points.
 [[nodiscard]] AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick) noexcept;
 
 // The profile that was told last is that of a gap which is not yet resolved.
 [[nodiscard]] bool needs_profile(const GapBridgeState& state) noexcept;
 
-// Do some of the next tick's work that depends on earlier ticks alone. To be called once between two ticks, or not: no
-// output depends on it, but that an estimate which is not ready in time leaves its gap to the polynomial.
-void prepare(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
+// Go on with the estimate of a gap that waits, from earlier ticks alone: once between two ticks. An estimate of half-ticks that is
+// not ready in time leaves its gap to the polynomial.
+void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept;
 
 struct DrainOutput {
     bool has_row = false, has_gap = false;

@@ -66,19 +66,6 @@ struct PendingGap {
     friend bool operator==(const PendingGap&, const PendingGap&) = default;
 };
 
-// The sums of eq (15) for each tick of one gap; they grow point by point.
-struct GapSums {
-    std::int64_t first_tick = -1;  // of the gap; -1: of none yet
-    PolynomialFit fit{};           // position 0 is the tick before the gap
-    int n_added = 0;               // points of the fit that are in the sums
-    std::array<double, max_gap_ticks> value_arcsec{};
-    std::array<double, max_gap_ticks> variance_arcsec2{};
-    std::array<double, max_gap_ticks> last_weight{};               // of the point that was added last
-    double angle_variance_arcsec2 = 0.0, last_angle_weight = 0.0;  // the same of the whole gap's angle
-
-    friend bool operator==(const GapSums& a, const GapSums& b) noexcept;
-};
-
 // The gap that lasts, as far as the covariance of the motion predicts it.
 struct GapPrediction {
     std::int64_t first_tick = -1;  // of the gap; -1: of none
@@ -102,6 +89,7 @@ struct EstimatedGap {
     std::int64_t end_tick = 0;     // the first one after it
     int n_tried = 0;               // points that were added, or found not to be measured
     bool solving = false;
+    GapProblem problem{};
     std::array<std::int8_t, max_unknowns> index{};  // of those that were added, in order of time with the missing ones
     Column relock_variance_arcsec2{};               // of ticks
     GapData data{};
@@ -115,7 +103,6 @@ struct GapBridgeState {
     OpenGap gap{};
     int n_pending = 0;
     std::array<PendingGap, max_pending_gaps> pending{};
-    std::array<GapSums, 2> sums{};  // of gaps that were resolved last, or are in the next tick: no more than two
     MotionLearningState learning{};
     GapPrediction prediction{};
     EstimatedGap estimate{};

@@ -1,8 +1,8 @@
 #pragma once
 // What is learnt of the motion between gaps: its moments, and how well each way to bridge a gap would have done.
 //
-// After a block of the moments the weights of a pseudo-gap are computed anew for one of the memories, a little at each tick in
-// which no gap waits for its estimate.
+// After a block of the moments the weights of a pseudo-gap are computed anew for one of the memories, in a tick in which no gap
+// waits for its estimate.
 
 #include <cstdint>
 
@@ -15,10 +15,8 @@ namespace zlg::core {
 struct MotionLearningState {
     MotionMomentsState moments{};
     BridgeScoresState scores{};
-    int n_weighed = 0;      // blocks in the moments when the last weights were begun
-    int foreign = 0;        // ticks of late that were no such motion, weighted
-    bool weighing = false;  // `problem` is a pseudo-gap
-    GapProblem problem{};   // of a pseudo-gap, or of the gap that waits for its estimate
+    int n_weighed = 0;  // blocks in the moments when the last weights were computed
+    int foreign = 0;    // ticks of late that were no such motion, weighted
 
     friend bool operator==(const MotionLearningState&, const MotionLearningState&) = default;
 };
@@ -26,8 +24,8 @@ struct MotionLearningState {
 // Take one tick.
 //
 // tick  usable: measured, with final values.
-// idle  no gap lasts or waits, so that the problem is free.
-// cost  beside that of the moments: two points of a problem, or the weights of one.
+// idle  no gap lasts or waits: there is time for weights.
+// cost  beside that of the moments: the weights of a pseudo-gap, where a block has ended.
 void step(const OptimalBridgeConfig& config, MotionLearningState& state, const MotionTick& tick, bool idle) noexcept;
 
 // The moments hold enough windows to be believed, or the prior is given.
@@ -36,9 +34,6 @@ void step(const OptimalBridgeConfig& config, MotionLearningState& state, const M
 // The covariance that a problem presumes.
 [[nodiscard]] MotionCovariance covariance_of(const OptimalBridgeConfig& config, const MotionLearningState& state,
                                              const GapProblem& problem) noexcept;
-
-// Begin a problem with no points. What an earlier one has left of its factor has no meaning.
-void begin_problem(int n_gap, int n_side, GapProblem& problem) noexcept;
 
 // Place of the k-th of the points around a gap, in ticks from the start of the window.
 [[nodiscard]] constexpr int place_of(int k, int n_side, int n_gap) noexcept { return k < n_side ? k : k + n_gap; }

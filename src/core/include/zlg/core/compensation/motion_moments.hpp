@@ -7,8 +7,8 @@
 //
 //   C_(a+s)(b+s) = C_ab + e_(a+s) e_(b+s) - f_a f_b,   s samples a tick, f the first and e the last window of the block
 //
-// A tick costs s rows of products instead of the whole matrix. A block that is over (100 windows, or a gap) is unfolded a few
-// rows at a tick and added to two matrices that forget exponentially.
+// A tick costs s rows of products instead of the whole matrix. A block that is over (100 windows, or a gap) is unfolded row by
+// row and added to two matrices that forget exponentially.
 
 #include <array>
 
@@ -39,11 +39,11 @@ struct Moments {
     friend bool operator==(const Moments&, const Moments&) = default;
 };
 
-// A block of windows that is over.
+// A block of windows.
 struct MotionBlock {
     int n_windows = 0;
-    Window first{}, last{};
-    std::array<Window, 2> row{};  // the first rows of its matrix, then those that were unfolded last
+    Window first{};
+    std::array<Window, 2> row{};  // the first rows of its matrix
 
     friend bool operator==(const MotionBlock&, const MotionBlock&) = default;
 };
@@ -56,14 +56,8 @@ struct MotionMomentsState {
     double level = 0.0;  // slow mean of a tick, taken from every sample
     double n_levels = 0.0;
     double block_sum = 0.0;
-    MotionBlock block{};    // grows
-    MotionBlock folding{};  // is being added to the moments
-    int folded_rows = 0;
-    int due_rows =
-        0;  // that are folded by now whether or not some were folded ahead; all of them: the moments are whole
+    MotionBlock block{};
     int n_folded = 0;  // blocks so far, modulo 2^16
-    std::array<double, 2> keep{};
-    std::array<double, 2> trace{}, total{};  // of the rows that were folded
     std::array<Moments, 2> moments{};
 
     friend bool operator==(const MotionMomentsState&, const MotionMomentsState&) = default;
@@ -82,22 +76,12 @@ struct MotionMomentsOutput {
 
 // Take one tick.
 //
-// cost  38 products a tick, or 76 for halves; while a block is folded 4 rows of it in addition.
+// cost  19 products a tick, or 76 for halves; where a block ends, three for each of the 190, or 741, elements of the matrix
+//       and one for each memory.
 [[nodiscard]] MotionMomentsOutput step(const MotionMomentsConfig& config, MotionMomentsState& state,
                                        const MotionTick& tick) noexcept;
 
-// A block is being added: the moments are not those of any one time.
-[[nodiscard]] inline bool is_folding(const MotionMomentsState& state) noexcept { return state.folding.n_windows > 0; }
-
-// Fold some rows before they are due. What `step` returns and when the moments are whole does not depend on it.
-//
-// cost  20 rows, of half-ticks 570 elements of each matrix.
-void fold_ahead(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept;
-
-// Add at once what is left of the block that is being added: the moments are then whole.
-void finish_folding(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept;
-
-// The row of usable ticks is broken: the block ends, however short, and begins to be added.
+// The row of usable ticks is broken: the block ends, however short, and is added.
 void end_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept;
 
 // Mean product of samples a and b of a window, a <= b; 0 before the first window.

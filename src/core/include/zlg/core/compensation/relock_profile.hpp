@@ -105,7 +105,6 @@ struct RelockProfileState {
     std::int32_t n_halves = 0;
     std::int32_t n_samples = 0;      // a half; 0: the light cannot be used
     bool columns_known = false;      // of every half so far
-    std::int32_t task = 0;           // next portion of the estimate
     double noise_sq_lambda2 = 0.0;   // of one sample: as configured, or larger where the samples say so
     double scale_lambda = 0.0;       // size of the detuning at first
     std::array<double, 7> powers{};  // sums of u^p over the samples of a half
@@ -130,15 +129,8 @@ void enter_gap(RelockProfileState& state) noexcept;
 // light    both beams; one beam alone needs the half's recorded mean and has sqrt(2) times the noise; 4..64 samples, as many
 //          in each half. Where there is none, or where it is damaged (not finite, dark, stuck, no smooth course), the
 //          profile comes from the recorded mean squares, and is known with the 16th half; without these it is not known.
-// cost     a portion of the estimate included, see `advance`.
+// cost     with the fifth half all moments are tried, with the 16th the profile is smoothed.
 void take(const RelockProfileConfig& config, RelockProfileState& state, const HalfRecord& half,
           LightSamples light) noexcept;
-
-// One portion of the estimate: call it once in every later half. Four after the 16th the profile is known. Without a task
-// it does nothing.
-void advance(const RelockProfileConfig& config, RelockProfileState& state) noexcept;
-
-// `advance` has something to do, now or after further halves.
-[[nodiscard]] bool is_pending(const RelockProfileState& state) noexcept;
 
 }  // namespace zlg::core
