@@ -19,7 +19,7 @@ using namespace zlg::core;
 using zlg::fuzz::Bytes;
 using zlg::fuzz::claim;
 
-constexpr int most_delay_ticks = 36;  // of `joint`
+constexpr int most_delay_ticks = 29;  // of `joint`
 
 RelockDriftConfig relock_config(Bytes& bytes) {
     RelockDriftConfig c;

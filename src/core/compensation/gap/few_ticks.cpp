@@ -96,6 +96,7 @@ struct Member {
 
 double sum_over(const Member& m, PointColumn a, PointColumn b) noexcept {
     double sum = 0.0;
+#pragma GCC unroll 4
     for (unsigned k = 0; k < static_cast<unsigned>(m.factor.n); ++k) sum += m.column[k][a] * m.column[k][b];
     return sum;
 }
@@ -105,8 +106,11 @@ void eliminate(Member& m) noexcept {
     const auto k = static_cast<unsigned>(m.factor.n - 1);
     const double* const row = m.factor.lower.data() + k * (k + 1) / 2;
     PointColumns x = m.column[k];
-    for (unsigned i = 0; i < k; ++i)
+    for (unsigned i = 0; i < k; ++i) {
+#pragma GCC unroll 4
         for (unsigned c = 0; c < n_columns; ++c) x[c] -= row[i] * m.column[i][c];
+    }
+#pragma GCC unroll 4
     for (unsigned c = 0; c < n_columns; ++c) m.column[k][c] = row[k] * x[c];
 }
 
