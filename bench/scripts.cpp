@@ -113,7 +113,7 @@ Script crowded(int ticks_between, RelockMethod relock) {
 
 std::vector<Script> estimating_scripts() {
     std::vector<Script> all;
-    for (const int n : {2, 3, 8, 15})
+    for (const int n : {2, 3, 8, 11, 15})
         all.push_back(estimated(fmt::format("auto, gap of {}", n), n, 16, RelockMethod::mean_square));
     for (const int n : {2, 3, 8})
         all.push_back(estimated(fmt::format("joint, gap of {}", n), n, 16, RelockMethod::joint));

@@ -72,7 +72,7 @@ int distance(const Places& p, unsigned k) noexcept {
 
 // Covariance of two ticks as they are read, by their distance.
 TickWindow as_read(const TickWindow& shape, double size, double step_arcsec) noexcept {
-    TickWindow c{};
+    TickWindow c;
     for (unsigned k = 0; k < c.size(); ++k) c[k] = size * shape[k];
     const double rounding = step_arcsec * step_arcsec / 6.0;
     c[0] += rounding;
@@ -132,7 +132,8 @@ void factorize(const TickWindow& covariance, const std::array<double, window_tic
     double diagonal = 1.0;
     Numbers row{};
     for (unsigned k = 0; k < static_cast<unsigned>(places.n); ++k) {
-        for (unsigned i = 0; i <= k; ++i) row[i] = covariance[static_cast<unsigned>(places.index[k] - places.index[i])];
+        const double* const from = covariance.data() + places.index[k];
+        for (unsigned i = 0; i <= k; ++i) row[i] = from[-places.index[i]];
         row[k] += places.relock_arcsec2[k];
         if (!add_row(m.factor, row)) return;
         diagonal *= m.factor.lower[k * (k + 3) / 2];
@@ -150,7 +151,8 @@ struct Target {
 
 // The angle of the gap; its variance less the errors of the re-lock correction after it.
 Target solve(const TickWindow& covariance, const Places& places, Member& m) noexcept {
-    std::array<double, window_ticks + 1> below{};
+    std::array<double, window_ticks + 1> below;
+    below[0] = 0.0;
     for (unsigned k = 0; k < covariance.size(); ++k) below[k + 1] = below[k] + covariance[k];
     factorize(covariance, below, places, m);
     if (!m.known) return {};

@@ -171,11 +171,11 @@ double in_stretch(const RoundingLaw& law, const BorderWeights& w, const Lags& le
     return sum;
 }
 
-// The same over all later borders, without false angles.
-double in_window(const RoundingLaw& law, const BorderWeights& w, unsigned a, int sign) noexcept {
+// The same over all later borders before `end`, without false angles.
+double in_window(const RoundingLaw& law, const BorderWeights& w, unsigned a, unsigned end, int sign) noexcept {
     const Lags& row = from_border(law, a, sign);
     double sum = 0.5 * w.weight[a] * row[0];
-    for (unsigned b = a + 1; b < w.weight.size(); ++b) sum += w.weight[b] * row[b - a];
+    for (unsigned b = a + 1; b < end; ++b) sum += w.weight[b] * row[b - a];
     return sum;
 }
 
@@ -185,11 +185,12 @@ RoundingSums rounding_of(const RoundingLaw& law, const BorderWeights& w, int sig
     RoundingSums sums;
     if (!(law.step_arcsec > 0.0)) return sums;
     const Lags left = left_by_false(law, w);
-    for (unsigned a = 0; a < w.weight.size(); ++a) {
+    const auto end = static_cast<unsigned>((w.next > w.gap_end ? w.next : w.gap_end) + 1);
+    for (unsigned a = 0; a < end; ++a) {
         if (w.weight[a] == 0.0) continue;
         const int sign = a <= static_cast<unsigned>(w.gap_begin) ? sign_before : sign_after;
         sums.white_arcsec2 += w.weight[a] * w.weight[a] * law.step_arcsec * law.step_arcsec / 12.0;
-        sums.continuing_arcsec2 += 2.0 * w.weight[a] * in_window(law, w, a, sign_before);
+        sums.continuing_arcsec2 += 2.0 * w.weight[a] * in_window(law, w, a, end, sign_before);
         sums.broken_arcsec2 += 2.0 * w.weight[a] * in_stretch(law, w, left, a, sign);
     }
     return sums;
