@@ -2,7 +2,7 @@
 //
 // usage: zlg_magnetic_gate [INTERVAL_S [RUN_S [SEEDS]]]
 // A gyro with 0.7 arcsec/s that grow by 0.7 with 3000 s, a random walk of 0.14 arcsec/sqrt(s) and counts of 3.263 arcsec.
-// Only the magnetic part of the angle is judged, over the last two intervals of runs that end at random.
+// Only the magnetic part of the angle is judged, over the last two intervals of runs that end at draw.
 
 #include <cmath>
 #include <cstdint>
@@ -10,13 +10,13 @@
 #include <functional>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <zlg/core/compensation/magnetic_drift.hpp>
+#include <zlg/numeric/draw.hpp>
 
 namespace {
 
@@ -25,17 +25,13 @@ using namespace zlg::core;
 constexpr double tick_s = 0.005;
 constexpr double count_arcsec = 3.263;
 
-struct Random {
-    std::mt19937_64 bits;
-    double normal() { return std::normal_distribution<>{}(bits); }
-    double uniform() { return std::uniform_real_distribution<>{}(bits); }
-};
+using zlg::numeric::Draw;
 
 using Rate = std::function<double(double t_s)>;
 
 struct Base {
     std::string name;
-    std::function<Rate(Random&)> make;
+    std::function<Rate(Draw&)> make;
 };
 
 Rate sine(double amplitude, double frequency_hz, double phase) {
@@ -44,53 +40,53 @@ Rate sine(double amplitude, double frequency_hz, double phase) {
 
 // Gauss and Markov: correlated over `time_s`; infinite: a random walk of sigma a root second.
 Rate wandering(double sigma, double time_s, std::uint64_t seed) {
-    const auto random = std::make_shared<Random>(Random{std::mt19937_64{seed}});
+    const auto draw = std::make_shared<Draw>(Draw{seed});
     const bool walks = !std::isfinite(time_s);
-    const auto rate = std::make_shared<double>(walks ? 0.0 : sigma * random->normal());
+    const auto rate = std::make_shared<double>(walks ? 0.0 : sigma * draw->normal());
     const double step = sigma * std::sqrt(walks ? tick_s : 2.0 * tick_s / time_s);
-    return [=](double) { return *rate += step * random->normal() - (walks ? 0.0 : *rate * tick_s / time_s); };
+    return [=](double) { return *rate += step * draw->normal() - (walks ? 0.0 : *rate * tick_s / time_s); };
 }
 
 // Turns of up to 90 degrees in 3 to 8 s, a minute apart, and a rough road.
 Rate vehicle(std::uint64_t seed) {
     struct State {
-        Random random;
+        Draw draw;
         double left_s = 0.0, rate = 0.0;
     };
-    const auto s = std::make_shared<State>(State{Random{std::mt19937_64{seed}}});
+    const auto s = std::make_shared<State>(State{.draw = Draw{seed}});
     return [s](double) {
         if ((s->left_s -= tick_s) <= 0.0) {
             const bool turns = s->rate == 0.0;
-            s->left_s = turns ? 3.0 + 5.0 * s->random.uniform() : 2.0 - 60.0 * std::log(1.0 - s->random.uniform());
-            s->rate = turns ? (s->random.uniform() - 0.5) * 2.0 * 90.0 * 3600.0 / s->left_s : 0.0;
+            s->left_s = turns ? 3.0 + 5.0 * s->draw.uniform() : 2.0 - 60.0 * std::log(1.0 - s->draw.uniform());
+            s->rate = turns ? (s->draw.uniform() - 0.5) * 2.0 * 90.0 * 3600.0 / s->left_s : 0.0;
         }
-        return s->rate + 1500.0 * s->random.normal();
+        return s->rate + 1500.0 * s->draw.normal();
     };
 }
 
 std::vector<Base> bases() {
-    std::vector<Base> all{{"rest", [](Random&) { return sine(0.0, 0.0, 0.0); }},
-                          {"15 arcsec/s", [](Random&) { return [](double) { return 15.0; }; }},
+    std::vector<Base> all{{"rest", [](Draw&) { return sine(0.0, 0.0, 0.0); }},
+                          {"15 arcsec/s", [](Draw&) { return [](double) { return 15.0; }; }},
                           {"coning: 3 arcsec/s that sway by 1 in 600 s",
-                           [](Random& r) {
+                           [](Draw& r) {
                                const Rate slow = sine(1.0, 1.0 / 600.0, r.uniform());
                                return [=](double t_s) { return 3.0 + slow(t_s); };
                            }},
-                          {"vehicle", [](Random& r) { return vehicle(r.bits()); }}};
+                          {"vehicle", [](Draw& r) { return vehicle(r.bits()); }}};
     for (const double hz : {20.06, 7.03})
         all.push_back(
-            {fmt::format("12 000 arcsec/s at {} Hz", hz), [=](Random& r) { return sine(12000.0, hz, r.uniform()); }});
+            {fmt::format("12 000 arcsec/s at {} Hz", hz), [=](Draw& r) { return sine(12000.0, hz, r.uniform()); }});
     for (const double amplitude : {0.5, 2.0, 5.0, 10.0})
         for (const double hz : {0.5, 0.05, 0.011, 0.003})
             all.push_back({fmt::format("sway of {} arcsec/s at {} Hz", amplitude, hz),
-                           [=](Random& r) { return sine(amplitude, hz * (0.8 + 0.4 * r.uniform()), r.uniform()); }});
+                           [=](Draw& r) { return sine(amplitude, hz * (0.8 + 0.4 * r.uniform()), r.uniform()); }});
     for (const double sigma : {0.01, 0.1, 1.0, 10.0})
         all.push_back({fmt::format("random walk of the rate, {} arcsec/s a root second", sigma),
-                       [=](Random& r) { return wandering(sigma, INFINITY, r.bits()); }});
+                       [=](Draw& r) { return wandering(sigma, INFINITY, r.bits()); }});
     for (const double sigma : {0.1, 1.0, 10.0, 100.0})
         for (const double time_s : {5.0, 60.0, 600.0})
             all.push_back({fmt::format("random rate of {} arcsec/s over {} s", sigma, time_s),
-                           [=](Random& r) { return wandering(sigma, time_s, r.bits()); }});
+                           [=](Draw& r) { return wandering(sigma, time_s, r.bits()); }});
     return all;
 }
 
@@ -100,12 +96,12 @@ struct Sums {
 };
 
 void run(const Base& base, double interval_s, double run_s, std::uint64_t seed, Sums& sums) {
-    Random random{std::mt19937_64{seed}};
-    const Rate rate = base.make(random);
+    Draw draw{seed};
+    const Rate rate = base.make(draw);
     const MagneticDriftConfig config{.method = MagneticMethod::estimate};
     MagneticDriftState state;
     const auto interval = std::llround(interval_s / tick_s);
-    const auto end = std::llround((run_s + 2.0 * interval_s * random.uniform()) / tick_s);
+    const auto end = std::llround((run_s + 2.0 * interval_s * draw.uniform()) / tick_s);
     double magnetic = 0.0, left = 0.0, angle = 0.0, read = 0.0, drift = 0.0;
     for (std::int64_t k = 0; k < end; ++k) {
         const double t_s = static_cast<double>(k) * tick_s;
@@ -114,7 +110,7 @@ void run(const Base& base, double interval_s, double run_s, std::uint64_t seed, 
         const auto mode = static_cast<std::int8_t>(segment % 2 == 0 ? 1 : -1);
         drift = 0.7 + 0.7 * (1.0 - std::exp(-t_s / 3000.0));
         const double turned = mode * drift * tick_s;
-        angle += rate(t_s) * tick_s + turned + 0.14 * std::sqrt(tick_s) * random.normal();
+        angle += rate(t_s) * tick_s + turned + 0.14 * std::sqrt(tick_s) * draw.normal();
         const double now = count_arcsec * std::floor(angle / count_arcsec);
         const double taken = step(config, state, {measured, mode, now - read});
         read = now;

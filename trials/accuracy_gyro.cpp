@@ -13,16 +13,16 @@ constexpr std::int64_t lit_halves = 64;
 SyntheticGyro::SyntheticGyro(const GyroLaw& law, const MotionLaw& motion, std::uint64_t seed)
     : law_{law},
       motion_{motion, 0.5 * law.tick_s, 2 * seed},
-      dice_{2 * seed + 1},
+      draw_{2 * seed + 1},
       course_{loop_course(law.loop, law.light_samples)},
-      first_sign_{static_cast<std::int8_t>(dice_.sign())},
+      first_sign_{static_cast<std::int8_t>(draw_.sign())},
       since_closing_{static_cast<std::int64_t>(course_.size())},
-      phase_counts_{dice_.uniform()} {}
+      phase_counts_{draw_.uniform()} {}
 
 void SyntheticGyro::open() {
     blind_left_ = 2 * law_.gap_ticks;
     mode_ = static_cast<std::int8_t>(-mode_);
-    miss_lambda_ = law_.miss_lambda * dice_.sign();
+    miss_lambda_ = law_.miss_lambda * draw_.sign();
     since_closing_ = 0;
 }
 
@@ -52,10 +52,10 @@ SyntheticHalf SyntheticGyro::advance() {
 void SyntheticGyro::blind(SyntheticHalf& half) {
     --blind_left_;
     half.record.loop_closed = false;
-    half.record.counts = static_cast<std::int64_t>(2000.0 * (dice_.uniform() - 0.5));
-    half.record.detuning_lambda = 0.5 * (dice_.uniform() - 0.5);
-    half.record.detuning_sq_lambda2 = 0.1 * dice_.uniform();
-    phase_counts_ = 1e4 * dice_.uniform();
+    half.record.counts = static_cast<std::int64_t>(2000.0 * (draw_.uniform() - 0.5));
+    half.record.detuning_lambda = 0.5 * (draw_.uniform() - 0.5);
+    half.record.detuning_sq_lambda2 = 0.1 * draw_.uniform();
+    phase_counts_ = 1e4 * draw_.uniform();
 }
 
 void SyntheticGyro::watch(SyntheticHalf& half) {
@@ -84,7 +84,7 @@ void SyntheticGyro::shine(SyntheticHalf& half, std::size_t k) {
     double sum = 0.0;
     double sum_sq = 0.0;
     for (std::size_t j = 0; j < n; ++j) {
-        const double dl = miss_lambda_ * course_[k].samples[j] + law_.light_noise_lambda * dice_.gauss();
+        const double dl = miss_lambda_ * course_[k].samples[j] + law_.light_noise_lambda * draw_.normal();
         light_a_[j] = static_cast<float>(1000.0 * (1.0 + slope * dl));
         light_b_[j] = static_cast<float>(1000.0 * (1.0 - slope * dl));
         sum += dl;

@@ -42,7 +42,7 @@ private:
 
     GyroLaw law_;
     CaseMotion motion_;
-    Dice dice_;
+    numeric::Draw draw_;
     std::vector<LoopHalfCourse> course_;
     std::int64_t half_ = 0;
     int blind_left_ = 0;  // halves

@@ -49,14 +49,14 @@ std::vector<Vehicle> vehicles() {
 
 // One axis: stretches of the regimes in turn, faded into each other over two seconds.
 std::vector<double> axis_of(const Vehicle& vehicle, double rate_hz, std::int64_t rows, std::uint64_t seed) {
-    Dice dice{seed};
+    numeric::Draw draw{seed};
     const double row_s = 1.0 / rate_hz;
     std::vector<CaseMotion> motions;
     for (const Regime& r : vehicle.regimes) motions.emplace_back(r.motion, row_s, seed + 1000 * (motions.size() + 1));
     std::vector<double> share(motions.size(), 0.0);
     std::size_t now = 0;
     share[0] = 1.0;
-    double left_s = vehicle.regimes[0].longest_s * (0.25 + 0.75 * dice.uniform());
+    double left_s = vehicle.regimes[0].longest_s * (0.25 + 0.75 * draw.uniform());
     std::vector<double> increments(static_cast<std::size_t>(rows));
     for (double& x : increments) {
         for (std::size_t k = 0; k < motions.size(); ++k) {
@@ -64,11 +64,11 @@ std::vector<double> axis_of(const Vehicle& vehicle, double rate_hz, std::int64_t
             const double part = motions[k].advance();
             x += share[k] * part;
         }
-        if (vehicle.noise_arcsec > 0.0) x += vehicle.noise_arcsec * dice.gauss();
+        if (vehicle.noise_arcsec > 0.0) x += vehicle.noise_arcsec * draw.normal();
         left_s -= row_s;
         if (left_s > 0.0) continue;
         now = (now + 1) % motions.size();
-        left_s = vehicle.regimes[now].longest_s * (0.25 + 0.75 * dice.uniform());
+        left_s = vehicle.regimes[now].longest_s * (0.25 + 0.75 * draw.uniform());
     }
     return increments;
 }

@@ -45,15 +45,13 @@ double band_covariance(const Band& band, double half_s, double lag_s) {
 
 }  // namespace
 
-double Dice::exponential() { return -std::log(1.0 - uniform()); }
-
 CaseMotion::CaseMotion(const MotionLaw& law, double half_s, std::uint64_t seed)
-    : dice_{seed}, half_s_{half_s}, constant_arcsec_{0.0}, shocks_{law.shocks} {
-    const double spread = law.rate_spread_arcsec_s * (2.0 * dice_.uniform() - 1.0);
+    : draw_{seed}, half_s_{half_s}, constant_arcsec_{0.0}, shocks_{law.shocks} {
+    const double spread = law.rate_spread_arcsec_s * (2.0 * draw_.uniform() - 1.0);
     constant_arcsec_ = (law.rate_arcsec_s + spread) * half_s;
-    for (const Tone& tone : law.tones) add_tone(tone.frequency_hz, tone.amplitude_arcsec_s, 2.0 * pi * dice_.uniform());
+    for (const Tone& tone : law.tones) add_tone(tone.frequency_hz, tone.amplitude_arcsec_s, 2.0 * pi * draw_.uniform());
     for (const Band& band : law.bands) add_band(band);
-    if (shocks_.per_s > 0.0) next_shock_s_ = dice_.exponential() / shocks_.per_s;
+    if (shocks_.per_s > 0.0) next_shock_s_ = draw_.exponential() / shocks_.per_s;
 }
 
 void CaseMotion::add_tone(double frequency_hz, double amplitude_arcsec_s, double phase) {
@@ -70,9 +68,9 @@ void CaseMotion::add_tone(double frequency_hz, double amplitude_arcsec_s, double
 void CaseMotion::add_band(const Band& band) {
     const double cell = (band.high_hz - band.low_hz) / tones_per_band;
     for (int i = 0; i < tones_per_band; ++i) {
-        const double frequency = band.low_hz + cell * (i + dice_.uniform());
-        const double a = dice_.gauss();
-        const double b = dice_.gauss();
+        const double frequency = band.low_hz + cell * (i + draw_.uniform());
+        const double a = draw_.normal();
+        const double b = draw_.normal();
         add_tone(frequency, band.rms_arcsec_s / std::sqrt(double{tones_per_band}) * std::hypot(a, b), std::atan2(b, a));
     }
 }
@@ -97,10 +95,10 @@ double CaseMotion::advance_shocks() {
     ring *= turn;
     while (next_shock_s_ < half_s_) {
         const double left = half_s_ - next_shock_s_;
-        const double sign = dice_.sign();
+        const double sign = draw_.sign();
         sum += sign * integral_of_blow(shocks_, 0.0, left);
         ring += sign * shocks_.rate_arcsec_s * std::exp(p * left);
-        next_shock_s_ += dice_.exponential() / shocks_.per_s;
+        next_shock_s_ += draw_.exponential() / shocks_.per_s;
     }
     next_shock_s_ -= half_s_;
     ring_ = {ring.real(), ring.imag()};

@@ -6,27 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/normal_distribution.hpp>
-#include <boost/random/uniform_01.hpp>
+#include <zlg/numeric/draw.hpp>
 
 #include "accuracy_law.hpp"
 
 namespace zlg::trials {
-
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : engine_{seed} {}
-    double gauss() { return normal_(engine_); }                     // zero mean, unit variance
-    double uniform() { return uniform_(engine_); }                  // [0, 1)
-    double sign() { return uniform_(engine_) < 0.5 ? -1.0 : 1.0; }  // of a coin
-    double exponential();                                           // mean 1
-
-private:
-    boost::random::mt19937_64 engine_;
-    boost::random::normal_distribution<double> normal_;
-    boost::random::uniform_01<double> uniform_;
-};
 
 inline constexpr int tones_per_band = 96;
 
@@ -43,7 +27,7 @@ private:
     double advance_tones();
     double advance_shocks();
 
-    Dice dice_;
+    numeric::Draw draw_;
     double half_s_;
     double constant_arcsec_;
     // Each tone is a phasor that turns by a fixed angle a half: its increment is the imaginary part.

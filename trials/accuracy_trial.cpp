@@ -15,13 +15,13 @@ constexpr std::int64_t trail_ticks = 56;
 constexpr std::int64_t drain_ticks = 80;  // until every final value is known
 
 std::vector<std::int64_t> openings_of(const TrialCourse& course) {
-    Dice dice{course.seed ^ 0x5f3759df};
+    numeric::Draw draw{course.seed ^ 0x5f3759df};
     std::vector<std::int64_t> openings;
     std::int64_t tick = course.learn_ticks;
     for (int k = 0; k < course.switches; ++k) {
         openings.push_back(tick);
         tick += course.interval_ticks +
-                static_cast<std::int64_t>(static_cast<double>(course.interval_ticks) / 8.0 * dice.uniform());
+                static_cast<std::int64_t>(static_cast<double>(course.interval_ticks) / 8.0 * draw.uniform());
     }
     return openings;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <random>
 
 #include <fmt/format.h>
 
+#include <zlg/numeric/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -56,8 +56,8 @@ config::Config drawn(const DriftGyro& gyro, std::uint64_t seed, double run_s) {
     config.compensation = gyro.methods.front().compensation;
     config.run.seed = static_cast<std::int64_t>(seed);
     config.run.duration_s = run_s;
-    std::mt19937_64 random{seed};
-    for (double& phase : config.motion.phase_deg) phase = 360.0 * static_cast<double>(random() >> 11U) * 0x1p-53;
+    numeric::Draw draw{seed};
+    for (double& phase : config.motion.phase_deg) phase = 360.0 * draw.uniform();
     return config;
 }
 

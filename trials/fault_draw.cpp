@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <random>
 
+#include <zlg/numeric/draw.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/trials/fault_campaign.hpp>
 
@@ -18,26 +18,17 @@ constexpr double longest_s = 60.0;
 
 constexpr double most_ramp_lambda = 4.0;
 
-// Numbers of a trial, one for each thing that is drawn.
-class Draw {
-public:
-    explicit Draw(std::uint64_t seed) : engine_{seed} {}
-    double within(double least, double most) {
-        return least + (most - least) * std::ldexp(static_cast<double>(engine_() >> 11), -53);
-    }
-    double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
-    std::size_t below(std::size_t n) { return engine_() % n; }
-
-private:
-    std::mt19937_64 engine_;
-};
+using numeric::Draw;
 
 // Slow enough for the polynomial of a gap.
 void set_motion(Draw& draw, config::Motion& motion) {
     const std::size_t kind = draw.below(3);
     motion.kind =
         kind == 0 ? config::MotionKind::rest : (kind == 1 ? config::MotionKind::constant : config::MotionKind::sine);
-    motion.rate_arcsec_s = kind == 1 ? draw.sign() * std::pow(10.0, draw.within(1.0, 5.0)) : 0.0;
+    if (kind == 1) {
+        const double sign = draw.below(2) == 0 ? 1.0 : -1.0;
+        motion.rate_arcsec_s = sign * std::pow(10.0, draw.within(1.0, 5.0));
+    }
     motion.amplitude_arcsec_s = {draw.within(100.0, 3000.0)};
     motion.frequency_hz = {draw.within(0.05, 0.3)};
     motion.phase_deg = {draw.within(0.0, 360.0)};

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include <zlg/numeric/draw.hpp>
 
 namespace zlg::trials {
 namespace {
 
 using noise::FittedTerm;
 using noise::NoiseKind;
+using numeric::Draw;
 using std::numbers::pi;
 
 constexpr std::size_t n_kinds = 7;
@@ -21,21 +23,6 @@ constexpr std::size_t markov_time = 7, sine_frequency = 8, n_scores = 9;
 constexpr std::array<const char*, n_scores> score_names{
     "quantisation",      "angle random walk",   "bias instability", "rate random walk",   "ramp",
     "Markov, deviation", "sinusoid, amplitude", "Markov, time",     "sinusoid, frequency"};
-
-// Random numbers of one gyro.
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : engine_(seed) {}
-    double normal() { return normal_(engine_); }
-    double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
-    bool coin() { return uniform(0.0, 1.0) < 0.5; }
-    // Evenly in the logarithm.
-    double scale(double from, double to) { return from * std::exp(uniform(0.0, std::log(to / from))); }
-
-private:
-    std::mt19937_64 engine_;
-    std::normal_distribution<double> normal_;
-};
 
 // One sample a second, angle random walk 1.
 struct RandomGyro {
@@ -49,22 +36,22 @@ struct RandomGyro {
     [[nodiscard]] double size(NoiseKind kind) const { return value[static_cast<std::size_t>(kind)]; }
 };
 
-RandomGyro draw(Dice& dice, double n) {
+RandomGyro random_gyro(Draw& draw, double n) {
     RandomGyro g;
-    for (bool& has : g.has) has = dice.coin();
+    for (bool& has : g.has) has = draw.is_one_in(2);
     g.has[static_cast<std::size_t>(NoiseKind::angle_random_walk)] = true;
     if (g.of(NoiseKind::bias_instability) && g.of(NoiseKind::markov))
-        g.has[static_cast<std::size_t>(dice.coin() ? NoiseKind::bias_instability : NoiseKind::markov)] = false;
+        g.has[static_cast<std::size_t>(draw.is_one_in(2) ? NoiseKind::bias_instability : NoiseKind::markov)] = false;
     g.size(NoiseKind::angle_random_walk) = 1.0;
     // 3 Q^2/tau^2 = 1/tau, K^2 tau/3 = 1/tau
-    g.size(NoiseKind::quantisation) = std::sqrt(dice.scale(2.0, 16.0) / 3.0);
-    const double crossing_s = dice.scale(n / 1024.0, n / 64.0);
+    g.size(NoiseKind::quantisation) = std::sqrt(draw.within_log(2.0, 16.0) / 3.0);
+    const double crossing_s = draw.within_log(n / 1024.0, n / 64.0);
     g.size(NoiseKind::rate_random_walk) = std::sqrt(3.0) / crossing_s;
     const double lowest = g.of(NoiseKind::rate_random_walk) ? 2.0 / crossing_s : 32.0 / n;
-    g.size(NoiseKind::bias_instability) = dice.uniform(1.5, 3.0) * std::sqrt(lowest) / 0.664;
-    g.time_s = dice.scale(16.0, n / 256.0);
-    g.size(NoiseKind::markov) = std::sqrt(dice.uniform(3.0, 30.0) / g.time_s);
-    g.frequency_hz = dice.scale(64.0 / n, 0.4);
+    g.size(NoiseKind::bias_instability) = draw.within(1.5, 3.0) * std::sqrt(lowest) / 0.664;
+    g.time_s = draw.within_log(16.0, n / 256.0);
+    g.size(NoiseKind::markov) = std::sqrt(draw.within(3.0, 30.0) / g.time_s);
+    g.frequency_hz = draw.within_log(64.0 / n, 0.4);
     const noise::NoiseTerms noise{
         .angle_random_walk_arcsec_sqrt_s = 1.0,
         .bias_instability_arcsec_s = g.of(NoiseKind::bias_instability) ? g.size(NoiseKind::bias_instability) : 0.0,
@@ -74,36 +61,36 @@ RandomGyro draw(Dice& dice, double n) {
             {.deviation_arcsec_s = g.of(NoiseKind::markov) ? g.size(NoiseKind::markov) : 0.0, .time_s = g.time_s}}};
     // A line of amplitude A stands against noise of the spectrum S by A^2 T/(2 S); a ramp against the noise of the longest times.
     g.size(NoiseKind::sine) =
-        dice.uniform(6.0, 40.0) * std::sqrt(2.0 * noise::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
-    g.size(NoiseKind::ramp) = (dice.coin() ? 1.0 : -1.0) * dice.uniform(6.0, 40.0) * 2.0 *
-                              std::sqrt(noise::allan_variance(noise, n / 2.0)) / n;
+        draw.within(6.0, 40.0) * std::sqrt(2.0 * noise::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
+    g.size(NoiseKind::ramp) =
+        draw.sign() * draw.within(6.0, 40.0) * 2.0 * std::sqrt(noise::allan_variance(noise, n / 2.0)) / n;
     return g;
 }
 
 // Means over the samples of an exponentially correlated rate: value and integral together.
-void add_markov(std::vector<double>& rates, double deviation, double time_s, Dice& dice) {
+void add_markov(std::vector<double>& rates, double deviation, double time_s, Draw& draw) {
     const double a = std::exp(-1.0 / time_s), loss = -std::expm1(-1.0 / time_s);
     const double end_variance = loss * (1.0 + a);
     const double both = time_s * loss * loss;
     const double integral_variance = time_s * time_s * (2.0 / time_s - 3.0 + 4.0 * a - a * a);
     // For long times the difference of nearly equal numbers: to first order.
     const double inside = time_s > 1e3 ? 1.0 / (6.0 * time_s) : integral_variance - both * both / end_variance;
-    double b = dice.normal();
+    double b = draw.normal();
     for (double& r : rates) {
-        const double end = std::sqrt(end_variance) * dice.normal();
+        const double end = std::sqrt(end_variance) * draw.normal();
         r += deviation *
-             (b * time_s * loss + both / end_variance * end + std::sqrt(std::max(0.0, inside)) * dice.normal());
+             (b * time_s * loss + both / end_variance * end + std::sqrt(std::max(0.0, inside)) * draw.normal());
         b = a * b + end;
     }
 }
 
-std::vector<double> simulate(const RandomGyro& g, std::size_t n, Dice& dice) {
+std::vector<double> simulate(const RandomGyro& g, std::size_t n, Draw& draw) {
     std::vector<double> rates(n, 0.0);
-    for (double& r : rates) r += dice.normal();
+    for (double& r : rates) r += draw.normal();
     if (g.of(NoiseKind::quantisation)) {
-        double before = dice.normal();
+        double before = draw.normal();
         for (double& r : rates) {
-            const double now = dice.normal();
+            const double now = draw.normal();
             r += g.size(NoiseKind::quantisation) * (now - before);
             before = now;
         }
@@ -111,17 +98,17 @@ std::vector<double> simulate(const RandomGyro& g, std::size_t n, Dice& dice) {
     // 1/f is the sum of such processes with times an octave apart, from far below a sample on.
     if (g.of(NoiseKind::bias_instability))
         for (double t = 1.0 / 64.0; t < 200.0 * static_cast<double>(n); t *= 2.0)
-            add_markov(rates, g.size(NoiseKind::bias_instability) * std::sqrt(std::numbers::ln2 / pi), t, dice);
+            add_markov(rates, g.size(NoiseKind::bias_instability) * std::sqrt(std::numbers::ln2 / pi), t, draw);
     if (g.of(NoiseKind::rate_random_walk)) {
         double rate = 0.0;
         for (double& r : rates) {
-            const double end = dice.normal(), within = dice.normal();
+            const double end = draw.normal(), within = draw.normal();
             r += rate + g.size(NoiseKind::rate_random_walk) * (0.5 * end + within / std::sqrt(12.0));
             rate += g.size(NoiseKind::rate_random_walk) * end;
         }
     }
-    if (g.of(NoiseKind::markov)) add_markov(rates, g.size(NoiseKind::markov), g.time_s, dice);
-    const double phase = dice.uniform(0.0, 2.0 * pi), x = pi * g.frequency_hz;
+    if (g.of(NoiseKind::markov)) add_markov(rates, g.size(NoiseKind::markov), g.time_s, draw);
+    const double phase = draw.within(0.0, 2.0 * pi), x = pi * g.frequency_hz;
     for (std::size_t k = 0; k < n; ++k) {
         const double t = static_cast<double>(k) + 0.5;
         if (g.of(NoiseKind::ramp)) rates[k] += g.size(NoiseKind::ramp) * t;
@@ -181,9 +168,9 @@ NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
     for (const char* name : score_names) campaign.terms.push_back({.name = name});
     const auto n = static_cast<double>(task.n_samples);
     for (int k = 0; k < task.n_gyros; ++k) {
-        Dice dice(task.seed * 1'000'003 + static_cast<std::uint64_t>(k));
-        const RandomGyro gyro = draw(dice, n);
-        std::vector<double> rates = simulate(gyro, static_cast<std::size_t>(task.n_samples), dice);
+        Draw draw(task.seed * 1'000'003 + static_cast<std::uint64_t>(k));
+        const RandomGyro gyro = random_gyro(draw, n);
+        std::vector<double> rates = simulate(gyro, static_cast<std::size_t>(task.n_samples), draw);
         const auto fit = noise::fit_noise_in_place(rates, 1.0);
         judge(gyro, fit, campaign.terms);
         judge_sines(gyro, fit, n, campaign.terms);

@@ -19,51 +19,50 @@ namespace {
 
 using core::BridgeMethod;
 using core::RelockMethod;
+using numeric::Draw;
 
 constexpr double least_nev = 0.7;
 constexpr double most_nev = 1.4;
 
-struct Draw {
+struct GyroAndMotion {
     GyroLaw gyro;
     MotionLaw motion;
 };
 
-using MakeMotion = MotionLaw (*)(Dice&);
+using MakeMotion = MotionLaw (*)(Draw&);
 
-double log_uniform(Dice& dice, double from, double to) { return from * std::pow(to / from, dice.uniform()); }
+MotionLaw rest(Draw&) { return {}; }
 
-MotionLaw rest(Dice&) { return {}; }
-
-MotionLaw steady(Dice& dice) {
+MotionLaw steady(Draw& draw) {
     MotionLaw m;
-    m.rate_arcsec_s = dice.sign() * log_uniform(dice, 1e-3, 3e5);
+    m.rate_arcsec_s = draw.sign() * draw.within_log(1e-3, 3e5);
     return m;
 }
 
-MotionLaw tone(Dice& dice) {
+MotionLaw tone(Draw& draw) {
     MotionLaw m;
-    m.rate_arcsec_s = 100.0 * (dice.uniform() - 0.5);
-    m.tones = {{log_uniform(dice, 0.1, 80.0), log_uniform(dice, 1.0, 1e5)}};
+    m.rate_arcsec_s = 100.0 * (draw.uniform() - 0.5);
+    m.tones = {{draw.within_log(0.1, 80.0), draw.within_log(1.0, 1e5)}};
     return m;
 }
 
 // Whole ticks of 5 ms a period, or two periods: readings repeat.
-MotionLaw repeating(Dice& dice) {
+MotionLaw repeating(Draw& draw) {
     MotionLaw m;
-    const double ticks = 4.0 + std::floor(77.0 * dice.uniform());
-    m.tones = {{(dice.uniform() < 0.5 ? 200.0 : 400.0) / ticks, log_uniform(dice, 10.0, 3e4)}};
+    const double ticks = 4.0 + std::floor(77.0 * draw.uniform());
+    m.tones = {{(draw.uniform() < 0.5 ? 200.0 : 400.0) / ticks, draw.within_log(10.0, 3e4)}};
     return m;
 }
 
-MotionLaw twenty(Dice&) {
+MotionLaw twenty(Draw&) {
     MotionLaw m;
     m.tones = {{20.0, 12000.0}};
     return m;
 }
 
-MotionLaw band(Dice& dice) {
+MotionLaw band(Draw& draw) {
     MotionLaw m;
-    m.bands = {{0.0, log_uniform(dice, 0.5, 30.0), log_uniform(dice, 1.0, 1e4)}};
+    m.bands = {{0.0, draw.within_log(0.5, 30.0), draw.within_log(1.0, 1e4)}};
     return m;
 }
 
@@ -102,11 +101,11 @@ constexpr Method with_miss[] = {{"mean square, optimal", RelockMethod::mean_squa
                                 {"joint, optimal", RelockMethod::joint, BridgeMethod::optimal},
                                 {"joint, auto", RelockMethod::joint, BridgeMethod::automatic}};
 
-GyroLaw draw_gyro(Dice& dice) {
+GyroLaw draw_gyro(Draw& draw) {
     GyroLaw g;
-    g.scale_arcsec = log_uniform(dice, 0.3, 4.35);
-    g.bias_hz *= 3.263 / g.scale_arcsec * (1.0 + 0.01 * dice.uniform());
-    g.gap_ticks = 1 + static_cast<int>(10.0 * dice.uniform());
+    g.scale_arcsec = draw.within_log(0.3, 4.35);
+    g.bias_hz *= 3.263 / g.scale_arcsec * (1.0 + 0.01 * draw.uniform());
+    g.gap_ticks = 1 + static_cast<int>(10.0 * draw.uniform());
     return g;
 }
 
@@ -128,10 +127,10 @@ struct Errors {
 };
 
 Errors errors_of(const MotionClass& of, std::uint64_t seed) {
-    Dice dice{seed};
-    GyroLaw gyro = draw_gyro(dice);
-    const MotionLaw motion = of.make(dice);
-    const int start = of.least_start + static_cast<int>((of.most_start - of.least_start) * dice.uniform());
+    Draw draw{seed};
+    GyroLaw gyro = draw_gyro(draw);
+    const MotionLaw motion = of.make(draw);
+    const int start = of.least_start + static_cast<int>((of.most_start - of.least_start) * draw.uniform());
     const auto run = [&](const auto& methods) {
         std::vector<AccuracyMethod> made;
         for (const Method& m : methods) made.push_back(method_of(gyro, m));

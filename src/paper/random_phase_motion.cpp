@@ -3,8 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/uniform_01.hpp>
+#include <zlg/numeric/draw.hpp>
 
 namespace zlg::paper {
 namespace {
@@ -18,10 +17,9 @@ RandomPhaseMotion::RandomPhaseMotion(const SubstitutionExperiment& e, const Swit
     : grid_{grid},
       amplitude_arcsec_s_{e.amplitude_arcsec_s > 0.0 ? e.amplitude_arcsec_s : e.slow_rate_arcsec_s},
       frequency_hz_{e.amplitude_arcsec_s > 0.0 ? e.frequency_hz : 0.0} {
-    boost::random::mt19937_64 engine{e.seed ^ phase_stream};
-    boost::random::uniform_01<double> uniform;
+    numeric::Draw draw{e.seed ^ phase_stream};
     for (int k = 0; k < grid.switches + 2; ++k) {
-        const double u = uniform(engine);
+        const double u = draw.uniform();
         const double phase = 2.0 * std::numbers::pi * u;
         about_gap_.push_back(frequency_hz_ > 0.0 ? Quadratures{std::sin(phase), std::cos(phase)}
                                                  : Quadratures{2.0 * u - 1.0, 0.0});

@@ -2,36 +2,18 @@
 
 #include <array>
 #include <cstddef>
-#include <random>
 
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/numeric/draw.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/twin/fault_kinds.hpp>
 
 namespace zlg::processor {
 namespace {
 
-// The draws of one scenario; the same on every machine.
-class Draw {
-public:
-    Draw(std::uint64_t seed, std::int64_t k)
-        : engine_{seed ^ (0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(k + 1))} {}
-
-    std::size_t below(std::size_t n) { return engine_() % n; }
-    bool is_one_in(std::size_t n) { return below(n) == 0; }
-    double within(double least, double most) {
-        return least + (most - least) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-    }
-    template <class Choice, std::size_t n>
-    Choice one_of(const std::array<Choice, n>& choices) {
-        return choices[below(n)];
-    }
-
-private:
-    std::mt19937_64 engine_;
-};
+using numeric::Draw;
 
 constexpr std::array relocks{core::RelockMethod::none, core::RelockMethod::frequency, core::RelockMethod::detuning,
                              core::RelockMethod::mean_square, core::RelockMethod::joint};
@@ -115,7 +97,8 @@ std::string draw_faults(Draw& draw, std::int64_t k, config::Config& c) {
 }  // namespace
 
 Scenario scenario(std::uint64_t seed, std::int64_t k, double duration_s) {
-    Draw draw{seed, k};
+    // Scenarios of one seed have nothing in common.
+    Draw draw{seed ^ (0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(k + 1))};
     config::Config c;
     c.run.duration_s = duration_s;
     draw_gyro(draw, c);

@@ -15,7 +15,6 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -25,6 +24,7 @@
 #include <zlg/deviations/averaging.hpp>
 #include <zlg/deviations/deviation.hpp>
 #include <zlg/deviations/deviation_confidence.hpp>
+#include <zlg/numeric/draw.hpp>
 
 namespace {
 
@@ -43,7 +43,7 @@ constexpr double allowed_percent = 3.0;
 class PowerLawNoise {
 public:
     PowerLawNoise(int noise, std::size_t samples, unsigned seed)
-        : samples_(samples), size_(std::bit_ceil(8 * samples)), is_summed_(noise < 0), engine_(seed) {
+        : samples_(samples), size_(std::bit_ceil(8 * samples)), is_summed_(noise < 0), draw_(seed) {
         const double order = -0.5 * noise - (is_summed_ ? 1.0 : 0.0);
         std::vector<double> weight(size_, 0.0);
         weight[0] = 1.0;
@@ -54,7 +54,7 @@ public:
 
     std::vector<double> next() {
         std::vector<double> values(size_);
-        for (auto& value : values) value = normal_(engine_);
+        for (auto& value : values) value = draw_.normal();
         std::vector<std::complex<double>> spectrum;
         transform_.fwd(spectrum, values);
         for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k];
@@ -86,8 +86,7 @@ public:
 private:
     std::size_t samples_, size_;
     bool is_summed_;
-    std::mt19937_64 engine_;
-    std::normal_distribution<double> normal_;
+    zlg::numeric::Draw draw_;
     Eigen::FFT<double> transform_;
     std::vector<std::complex<double>> response_;
 };
