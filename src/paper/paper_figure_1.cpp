@@ -142,30 +142,34 @@ Figure frequency_figure(const config::Config& config) {
 }
 
 Diagram bias_diagram() {
-    return {.id = "figure-1",
-            .title = "How the bias and the detuning signal come about",
-            .caption =
-                "s is the sign of the field, p the helicity of the mode, \u0394\u03BB the detuning. Shaded: done by "
-                "the processor.",
-            .boxes = {{.lines = {"Bias", "commutator"}, .column = 0, .row = 0, .shaded = true},
-                      {.lines = {"Field in the", "discharge"}, .column = 1, .row = 0},
-                      {.lines = {"Zeeman effect:", "gain contours", "of the beams", "move apart"},
-                       .column = 2,
-                       .row = 0,
-                       .rows = 3},
-                      {.lines = {"Light of", "the beams"}, .column = 1, .row = 1},
-                      {.lines = {"Synchronous", "detector"}, .column = 0, .row = 1, .shaded = true},
-                      {.lines = {"Beat of", "the beams"}, .column = 1, .row = 2},
-                      {.lines = {"Counter"}, .column = 0, .row = 2},
-                      {.lines = {"Perimeter"}, .column = 2, .row = 3}},
-            .arrows = {{.from = 0, .to = 1, .label = "\u00B1 current"},
-                       {.from = 1, .to = 2, .label = "s = \u00B11"},
-                       {.from = 0, .to = 4, .label = "s p"},
-                       {.from = 2, .to = 3, .label = "s p \u0394\u03BB"},
-                       {.from = 3, .to = 4, .label = "samples"},
-                       {.from = 2, .to = 5, .label = "s p f"},
-                       {.from = 5, .to = 6, .label = "fringes"},
-                       {.from = 7, .to = 2, .label = "\u0394\u03BB"}}};
+    return {
+        .id = "figure-1",
+        .title = "How the bias and the detuning signal come about",
+        .caption =
+            "s is the sign of the field, p the helicity of the mode, \u0394\u03BB the detuning. Shaded: done by "
+            "the processor.",
+        .height = 386,
+        .boxes =
+            {{.lines = {"Bias", "commutator"}, .left = 6, .top = 6, .width = 156, .height = 64, .shaded = true},
+             {.lines = {"Field in the", "discharge"}, .left = 262, .top = 6, .width = 156, .height = 64},
+             {.lines = {"Zeeman effect:", "gain contours", "of the beams", "move apart"},
+              .left = 518,
+              .top = 6,
+              .width = 156,
+              .height = 284},
+             {.lines = {"Light of", "the beams"}, .left = 262, .top = 116, .width = 156, .height = 64},
+             {.lines = {"Synchronous", "detector"}, .left = 6, .top = 116, .width = 156, .height = 64, .shaded = true},
+             {.lines = {"Beat of", "the beams"}, .left = 262, .top = 226, .width = 156, .height = 64},
+             {.lines = {"Counter"}, .left = 6, .top = 226, .width = 156, .height = 64},
+             {.lines = {"Perimeter"}, .left = 518, .top = 336, .width = 156, .height = 44}},
+        .arrows = {{.from = {162, 38}, .to = {262, 38}, .label = "\u00B1 current"},
+                   {.from = {418, 38}, .to = {518, 38}, .label = "s = \u00B11"},
+                   {.from = {84, 70}, .to = {84, 116}, .label = "s p"},
+                   {.from = {518, 148}, .to = {418, 148}, .label = "s p \u0394\u03BB"},
+                   {.from = {262, 148}, .to = {162, 148}, .label = "samples"},
+                   {.from = {518, 258}, .to = {418, 258}, .label = "s p f"},
+                   {.from = {262, 258}, .to = {162, 258}, .label = "fringes"},
+                   {.from = {596, 336}, .to = {596, 290}, .label = "\u0394\u03BB"}}};
 }
 
 }  // namespace

@@ -1,65 +1,72 @@
 #include <zlg/report/diagram.hpp>
 
-#include <algorithm>
+#include <cstddef>
 
 #include <fmt/format.h>
 
-#include "diagram_layout.hpp"
 #include "drawing.hpp"
 #include "text.hpp"
 
 namespace zlg::report {
 namespace {
 
+static_assert(diagram_width == figure_width);
+
+constexpr double row_height = 20.0;
+constexpr double below_middle = 5.5;  // the foot of a letter whose middle stands on a line
+constexpr double label_air = 6.0;
 constexpr double head_length = 9.0;
 constexpr double head_half_width = 4.5;
 
-std::string box(const PlacedBox& placed) {
-    const Rectangle& r = placed.rectangle;
+std::string drawn(const Box& box) {
     std::string out = fmt::format(
         "<rect class=\"box\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\" fill=\"{}\" stroke=\"#444\" "
         "stroke-width=\"1.3\"/>\n",
-        coordinate(r.left), coordinate(r.top), coordinate(r.right - r.left), coordinate(r.bottom - r.top),
-        placed.shaded ? "#dce9f3" : "#fff");
-    for (const Line& line : placed.lines) out += text_at(line, "middle");
+        coordinate(box.left), coordinate(box.top), coordinate(box.width), coordinate(box.height),
+        box.shaded ? "#dce9f3" : "#fff");
+    double y = box.top + 0.5 * box.height + below_middle;
+    y -= 0.5 * row_height * (static_cast<double>(box.lines.size()) - 1.0);
+    for (const std::string& line : box.lines) {
+        out += text_at({box.left + 0.5 * box.width, y, small_font_size, line}, "middle");
+        y += row_height;
+    }
     return out;
 }
 
-// A head that points along the last stretch, so that it needs no shared definition in the page.
-std::string head(const Place& before, const Place& end) {
-    const double dx = end.x > before.x ? 1.0 : end.x < before.x ? -1.0 : 0.0;
-    const double dy = end.y > before.y ? 1.0 : end.y < before.y ? -1.0 : 0.0;
-    const double back_x = end.x - dx * head_length;
-    const double back_y = end.y - dy * head_length;
+double sign(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0); }
+
+// A head that needs no shared definition in the page.
+std::string head_of(const Arrow& arrow) {
+    const Place& end = arrow.to;
+    const double dx = sign(end.x - arrow.from.x), dy = sign(end.y - arrow.from.y);
+    const Place back{end.x - dx * head_length, end.y - dy * head_length};
     return fmt::format("<path class=\"head\" d=\"M{},{}L{},{}L{},{}z\" fill=\"#444\"/>\n", coordinate(end.x),
-                       coordinate(end.y), coordinate(back_x + dy * head_half_width),
-                       coordinate(back_y + dx * head_half_width), coordinate(back_x - dy * head_half_width),
-                       coordinate(back_y - dx * head_half_width));
+                       coordinate(end.y), coordinate(back.x + dy * head_half_width),
+                       coordinate(back.y + dx * head_half_width), coordinate(back.x - dy * head_half_width),
+                       coordinate(back.y - dx * head_half_width));
 }
 
-const char* anchor_name(Anchor anchor) {
-    return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
+std::string label_of(const Arrow& arrow) {
+    const double x = 0.5 * (arrow.from.x + arrow.to.x), y = 0.5 * (arrow.from.y + arrow.to.y);
+    if (arrow.from.y == arrow.to.y) return text_at({x, y - label_air, small_font_size, arrow.label}, "middle");
+    const double side = arrow.label_left ? -label_air : label_air;
+    return text_at({x + side, y + below_middle, small_font_size, arrow.label}, arrow.label_left ? "end" : "start");
 }
 
-std::string arrow(const PlacedArrow& placed) {
-    std::string path;
-    for (const Place& at : placed.path)
-        path += fmt::format("{}{},{}", path.empty() ? 'M' : 'L', coordinate(at.x), coordinate(at.y));
-    std::string out =
-        fmt::format("<path class=\"arrow\" d=\"{}\" fill=\"none\" stroke=\"#444\" stroke-width=\"1.5\"{}/>\n", path,
-                    placed.dashed ? " stroke-dasharray=\"6 4\"" : "");
-    out += head(placed.path[placed.path.size() - 2], placed.path.back());
-    if (!placed.label.text.empty()) out += text_at(placed.label, anchor_name(placed.anchor));
-    return out;
+std::string drawn(const Arrow& arrow) {
+    const std::string line =
+        fmt::format("<path class=\"arrow\" d=\"M{},{}L{},{}\" fill=\"none\" stroke=\"#444\" stroke-width=\"1.5\"{}/>\n",
+                    coordinate(arrow.from.x), coordinate(arrow.from.y), coordinate(arrow.to.x), coordinate(arrow.to.y),
+                    arrow.dashed ? " stroke-dasharray=\"6 4\"" : "");
+    return line + head_of(arrow) + (arrow.label.empty() ? "" : label_of(arrow));
 }
 
 }  // namespace
 
 std::string svg(const Diagram& diagram) {
-    const DiagramLayout layout = layout_of(diagram);
-    std::string out = opening(clean_id(diagram.id, "diagram"), layout.height, diagram.title, diagram.caption);
-    for (const PlacedBox& placed : layout.boxes) out += box(placed);
-    for (const PlacedArrow& placed : layout.arrows) out += arrow(placed);
+    std::string out = opening(clean_id(diagram.id, "diagram"), diagram.height, diagram.title, diagram.caption);
+    for (const Box& box : diagram.boxes) out += drawn(box);
+    for (const Arrow& arrow : diagram.arrows) out += drawn(arrow);
     return out + "</svg>\n";
 }
 

@@ -1,27 +1,36 @@
 #pragma once
-// Block diagrams as static SVG: boxes on a grid, arrows between them.
+// Block diagrams as static SVG: boxes and arrows, where the drawing puts them.
+//
+// Places are in units of the viewBox: x to the right, y down. A drawing is `diagram_width` wide; letters are 16 units high.
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace zlg::report {
 
+inline constexpr double diagram_width = 680.0;
+
 struct Box {
-    std::vector<std::string> lines;
-    int column = 0;  // from the left, from 0
-    int row = 0;     // from the top
-    int columns = 1;
-    int rows = 1;
+    std::vector<std::string> lines;  // centred, 20 units from one to the next
+    double left = 0.0;
+    double top = 0.0;
+    double width = 0.0;
+    double height = 0.0;
     bool shaded = false;  // what that means stands in the caption
 };
 
-// Straight where the boxes face each other; several between the same two share that side. Otherwise along the row of
-// `from`, then along the column of `to`. What stands in the way is not avoided.
+struct Place {
+    double x = 0.0;
+    double y = 0.0;
+};
+
+// A straight line with a head at its end, level or upright. The label stands above a level line, and to the right of an upright
+// one or to its left.
 struct Arrow {
-    std::size_t from = 0;  // index of a box
-    std::size_t to = 0;
+    Place from;
+    Place to;
     std::string label;
+    bool label_left = false;
     bool dashed = false;
 };
 
@@ -29,12 +38,12 @@ struct Diagram {
     std::string id;  // letters, digits and dashes
     std::string title;
     std::string caption;
+    double height = 0.0;
     std::vector<Box> boxes;
     std::vector<Arrow> arrows;
 };
 
-// The diagram as an SVG element for an HTML page, as wide as a figure. An arrow from or to no box, to its own box or
-// between boxes that overlap is not drawn.
+// The diagram as an SVG element for an HTML page, as wide as a figure. All numbers of it are finite.
 [[nodiscard]] std::string svg(const Diagram& diagram);
 
 }  // namespace zlg::report
