@@ -4,24 +4,18 @@
 
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 
+#include <zlg/logs/table_file.hpp>
 #include <zlg/trials/physics_pictures.hpp>
 
 namespace {
 
-// Whole or not at all.
 void write(const std::filesystem::path& path, const std::string& text) {
-    const std::filesystem::path part = path.string() + ".part";
-    {
-        std::ofstream out{part, std::ios::binary};
-        out.exceptions(std::ios::badbit | std::ios::failbit);
-        out << text;
-        out.close();
-    }
-    std::filesystem::rename(part, path);
+    zlg::logs::TableFile file{path.string(), true};
+    file.append(text);
+    file.close();
 }
 
 void write_all(const std::filesystem::path& folder) {

@@ -38,6 +38,8 @@ const Recipe& recipe_of(const std::string& name) {
     throw std::invalid_argument("no such method: " + name);
 }
 
+}  // namespace
+
 config::Config config_of(const GyroLaw& law) {
     config::Config c;
     c.gyro.tick_s = law.tick_s;
@@ -49,8 +51,6 @@ config::Config config_of(const GyroLaw& law) {
     c.gyro.discriminator_per_lambda = synthetic_discriminator_per_lambda;
     return c;
 }
-
-}  // namespace
 
 bool is_of_paper(const std::string& method) { return recipe_of(method).of_paper; }
 

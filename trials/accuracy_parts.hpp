@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <zlg/config/config.hpp>
 #include <zlg/trials/accuracy.hpp>
 
 #include "accuracy_law.hpp"
@@ -29,6 +30,9 @@ inline constexpr const char* uncorrected = "none, quadratic";
 }  // namespace method_name
 
 [[nodiscard]] bool is_of_paper(const std::string& method);
+
+// The configuration of such a gyro.
+[[nodiscard]] config::Config config_of(const GyroLaw& gyro);
 
 // For a gyro that is as it is presumed to be.
 [[nodiscard]] std::vector<AccuracyMethod> methods_for(const GyroLaw& gyro, const std::vector<std::string>& names);

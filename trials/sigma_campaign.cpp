@@ -110,14 +110,7 @@ GyroLaw draw_gyro(Draw& draw) {
 }
 
 AccuracyMethod method_of(const GyroLaw& law, const Method& m) {
-    config::Config c;
-    c.gyro.tick_s = law.tick_s;
-    c.gyro.scale_arcsec = law.scale_arcsec;
-    c.gyro.bias_hz = law.bias_hz;
-    c.gyro.bias_chi = law.chi;
-    c.gyro.light_noise_lambda = law.light_noise_lambda;
-    c.gyro.light_samples = law.light_samples;
-    c.gyro.discriminator_per_lambda = synthetic_discriminator_per_lambda;
+    config::Config c = config_of(law);
     c.drift.random_walk_arcsec_sqrt_s = 0.0;
     return {m.name, rig::compensation_config(c, m.relock, m.bridge)};
 }

@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -20,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include <zlg/logs/table_file.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/trials/accuracy.hpp>
 
@@ -104,14 +104,10 @@ Call call_of(int argc, char** argv) {
     return call;
 }
 
-// Whole or not at all.
 void write(const std::filesystem::path& path, const std::string& text) {
-    const std::filesystem::path part = path.string() + ".part";
-    std::ofstream out{part, std::ios::binary};
-    out.exceptions(std::ios::badbit | std::ios::failbit);
-    out << text;
-    out.close();
-    std::filesystem::rename(part, path);
+    logs::TableFile file{path.string(), true};
+    file.append(text);
+    file.close();
 }
 
 int run(Call call) {
