@@ -31,7 +31,7 @@ py::dict dict_of(const deviations::DeviationCurve& curve) {
 
 namespace {
 
-using namespace analysis;
+using namespace deviations;
 
 SeriesKind kind_of(const std::string& data_type, const std::string& unit, double rate_hz) {
     return {data_kind_of(data_type), unit_of(unit), rate_hz};

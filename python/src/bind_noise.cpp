@@ -37,7 +37,7 @@ py::object of(const numeric::Estimate& e) {
 }  // namespace
 
 py::dict dict_of(const noise::ModeSplit& split) {
-    using namespace analysis;
+    using namespace noise;
     py::dict d;
     d["segment_time_s"] = column(split.segments, &ModeSegment::time_s);
     d["segment_mode"] = column(split.segments, &ModeSegment::mode);
@@ -73,7 +73,9 @@ py::dict dict_of(const noise::NoiseFit& fit) {
 
 namespace {
 
-using namespace analysis;
+using namespace calibration;
+using namespace deviations;
+using namespace noise;
 
 py::dict fit(const In<double>& values, double rate_hz, const std::string& data_type, const std::string& unit,
              const std::optional<In<std::uint8_t>>& valid, bool markov, int most_sines, double least_known_ratio,
