@@ -15,8 +15,6 @@ constexpr std::int64_t start_ticks(std::size_t k) { return settled_after_ticks <
 
 int bias_and_mode(const core::HalfRecord& r) { return r.bias_sign * r.mode; }
 
-bool measured(const core::HalfRecord& r) { return is_measured(r); }
-
 void add_reading(PiezoLevel& level, const core::HalfRecord& r) {
     if (!std::isfinite(r.piezo_v)) return;
     ++level.n;
@@ -70,7 +68,7 @@ LabLog LabReader::finish() {
 }
 
 void LabReader::take_tick(const core::HalfRecord& first, const core::HalfRecord& second) {
-    const bool good = measured(first) && measured(second) && first.mode == second.mode;
+    const bool good = is_measured(first, second) && first.mode == second.mode;
     if (!good) {
         end_segment();
         gap_before_ = true;

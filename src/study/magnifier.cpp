@@ -8,7 +8,7 @@ MagnifiedTick shown_tick(std::int64_t tick, double scale_arcsec, const rig::Loop
                          const rig::LoopHalf& second) {
     const auto counts = static_cast<double>(first.record.counts + second.record.counts);
     return {.tick = tick,
-            .measured = is_measured(first.record) && is_measured(second.record),
+            .measured = is_measured(first.record, second.record),
             .read_arcsec = scale_arcsec * counts,
             .true_arcsec = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
             .detuning_lambda = {first.record.detuning_lambda, second.record.detuning_lambda},

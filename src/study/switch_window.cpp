@@ -23,8 +23,7 @@ void SwitchFinder::end_gap(std::int64_t tick, const core::HalfRecord& first) {
 }
 
 void SwitchFinder::take(std::int64_t tick, const core::HalfRecord& first, const core::HalfRecord& second) {
-    const bool measured = is_measured(first) && is_measured(second);
-    if (!measured) {
+    if (!is_measured(first, second)) {
         if (!in_gap_) begin_gap(tick);
         return;
     }

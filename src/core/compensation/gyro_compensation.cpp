@@ -40,7 +40,7 @@ TickInput assemble(const GyroCompensationConfig& config, const HalfRecord& first
     const double count = config.relock.scale.value();
     const double walk = config.random_walk.value();
     TickInput tick;
-    tick.measured = is_measured(first) && is_measured(second);
+    tick.measured = is_measured(first, second);
     tick.value_arcsec = value_arcsec;
     // The difference of two counter readings, each rounded uniformly: count^2/6.
     tick.variance_arcsec2 = count * count / 6.0 + walk * walk * config.relock.tick.value();

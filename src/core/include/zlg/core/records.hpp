@@ -86,6 +86,11 @@ struct HalfRecord {
     return half.loop_closed && half.valid && half.span == 1;
 }
 
+// The same of the tick that both halves make.
+[[nodiscard]] constexpr bool is_measured(const HalfRecord& first, const HalfRecord& second) noexcept {
+    return is_measured(first) && is_measured(second);
+}
+
 // Light samples of one half-period as they were latched, beside its record; empty where there are none.
 struct LightSamples {
     std::span<const float> a{};  // beam A, up to max_light_samples
