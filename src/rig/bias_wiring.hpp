@@ -1,5 +1,5 @@
 #pragma once
-// What the control presumes of the bias: when it is reversed, and what its beat must look like.
+// What is presumed of the bias: its plateau, how fast its fringes are counted, when it is reversed.
 
 #include <zlg/config/config.hpp>
 #include <zlg/core/gyro_control.hpp>
@@ -9,10 +9,10 @@ namespace zlg::rig {
 // Plateau of the bias over its mean in a half with linear edges.
 [[nodiscard]] double plateau_ratio(const config::Gyro& gyro);
 
+// Fringe rate that the counter follows: a hundredth above 400 deg/s and the bias, unless it is given.
+[[nodiscard]] double counter_max_hz(const config::Gyro& gyro);
+
 // errors  config::ConfigError where a half has no room for the shifts of gyro.dither.
 [[nodiscard]] core::BiasCommutatorConfig commutator_of(const config::Config& config);
-
-// Arm the monitors. What of the bias and of the perimeter would be one count of a tick is not let pass.
-void add_monitors(const config::Config& config, core::GyroControlConfig& made);
 
 }  // namespace zlg::rig

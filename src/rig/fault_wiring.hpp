@@ -14,7 +14,4 @@ namespace zlg::rig {
 //         for and only a motion file tells how long the run is.
 [[nodiscard]] std::vector<twin::Fault> faults_of(const config::Config& config);
 
-// Fringe rate that the counter follows: a hundredth above 400 deg/s and the bias, unless told.
-[[nodiscard]] double counter_max_hz(const config::Gyro& gyro);
-
 }  // namespace zlg::rig

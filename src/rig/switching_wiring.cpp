@@ -26,19 +26,6 @@ std::int64_t ticks_of(double time_s, double tick_s) {
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(time_s / tick_s)));
 }
 
-core::MagneticDriftConfig magnetic_of(const config::Config& config) {
-    const config::Compensation& c = config.compensation;
-    return {.method = c.magnetic,
-            .tick = core::Seconds{config.gyro.tick_s},
-            .walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s},
-            .count = core::Arcsec{config.gyro.scale_arcsec},
-            .presumed_arcsec_s = c.magnetic_arcsec_s,
-            .presumed_sigma_arcsec_s = c.magnetic_sigma_arcsec_s,
-            .warming_arcsec_s = c.magnetic_thermal_arcsec_s,
-            .warming_sigma_arcsec_s = c.magnetic_thermal_sigma_arcsec_s,
-            .thermal_time = core::Seconds{c.magnetic_thermal_time_s}};
-}
-
 core::SwitchScheduleConfig schedule_of(const config::Config& config) {
     if (config.switching.interval_optimal)
         throw config::ConfigError{

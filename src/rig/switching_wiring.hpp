@@ -1,10 +1,9 @@
 #pragma once
-// When the gyro switches, and what is told of the drift that switching turns into a sawtooth.
+// When the gyro switches.
 
 #include <cstdint>
 
 #include <zlg/config/config.hpp>
-#include <zlg/core/compensation/magnetic_drift.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
 
 namespace zlg::rig {
@@ -14,7 +13,5 @@ namespace zlg::rig {
 
 // errors  config::ConfigError for an interval that is still "optimal".
 [[nodiscard]] core::SwitchScheduleConfig schedule_of(const config::Config& config);
-
-[[nodiscard]] core::MagneticDriftConfig magnetic_of(const config::Config& config);
 
 }  // namespace zlg::rig

@@ -12,6 +12,7 @@
 #include "bias_wiring.hpp"
 #include "fault_wiring.hpp"
 #include "laser_wiring.hpp"
+#include "monitor_wiring.hpp"
 #include "motion_file.hpp"
 #include "motion_prior.hpp"
 #include "refusal.hpp"
@@ -194,6 +195,19 @@ core::RelockProfileConfig profile_of(const config::Config& config, core::RelockM
             .centre = core::Wavelengths{config.perimeter.discriminator_centre_lambda},
             .light_noise = core::Wavelengths{std::min(g.light_noise_lambda, 1e3)},
             .light_samples = static_cast<int>(g.light_samples)};
+}
+
+core::MagneticDriftConfig magnetic_of(const config::Config& config) {
+    const config::Compensation& c = config.compensation;
+    return {.method = c.magnetic,
+            .tick = core::Seconds{config.gyro.tick_s},
+            .walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s},
+            .count = core::Arcsec{config.gyro.scale_arcsec},
+            .presumed_arcsec_s = c.magnetic_arcsec_s,
+            .presumed_sigma_arcsec_s = c.magnetic_sigma_arcsec_s,
+            .warming_arcsec_s = c.magnetic_thermal_arcsec_s,
+            .warming_sigma_arcsec_s = c.magnetic_thermal_sigma_arcsec_s,
+            .thermal_time = core::Seconds{c.magnetic_thermal_time_s}};
 }
 
 [[noreturn]] void refuse_optimal(const config::Config& config, const core::OptimalBridgeConfig& optimal) {

@@ -54,16 +54,6 @@ TEST(FaultWiring, RandomOnesLastAsLongAsTheRun) {
               rig::faults_of(with({"faults.random_per_hour=10"})).front().at_s);
 }
 
-TEST(FaultWiring, TheCounterFollowsTheBiasAndFourHundredDegreesASecond) {
-    // 60 kHz/(1 - 0.01) + 1 440 000/3.263 Hz.
-    EXPECT_NEAR(rig::counter_max_hz(config::Gyro{}), 1.01 * (60606.06 + 441311.68), 0.01);
-    EXPECT_EQ(rig::counter_max_hz(with({"gyro.counter_max_hz=1e5"}).gyro), 1e5);
-    config::Config c = with({"gyro.counter_max_hz=1e5", "motion.kind=constant", "motion.rate_arcsec_s=1e6"});
-    rig::ClosedLoop loop{c, rig::motion(c)};
-    (void)loop.advance();
-    EXPECT_EQ(loop.sensor().counter, 250u);
-}
-
 TEST(FaultWiring, AFaultIsFeltInTheLoopAndInItsRecords) {
     const config::Config c =
         with({"faults.kind=frame_missed", "faults.at_s=0.1001", "faults.duration_s=0.005", "faults.size=0"});
