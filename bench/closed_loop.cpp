@@ -10,6 +10,7 @@
 #include <boost/random/normal_distribution.hpp>
 #include <zlg/config/config.hpp>
 #include <zlg/core/gyro_compensation.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -51,8 +52,7 @@ void run_loop(const config::Config& config) {
 
 void run_loop_and_compensation(const config::Config& config) {
     rig::ClosedLoop loop{config, rig::motion(config)};
-    const auto compensation =
-        rig::compensation_config(config, core::RelockMethod::mean_square, config.compensation.bridge);
+    const auto compensation = rig::asked_compensation(config);
     core::GyroCompensationState state;
     double sum = 0.0;
     for (int k = 0; k < n_halves; ++k) sum += step(compensation, state, loop.advance().record).angle_arcsec;

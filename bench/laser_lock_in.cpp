@@ -11,9 +11,10 @@
 
 #include <fmt/format.h>
 #include <zlg/config/config.hpp>
-#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 
 namespace {
@@ -47,27 +48,23 @@ struct Reading {
 
 class Run {
 public:
-    explicit Run(const config::Config& c)
-        : loop_{c, rig::motion(c)},
-          compensation_{rig::compensation_config(c, core::RelockMethod::mean_square, c.compensation.bridge)} {}
+    explicit Run(const config::Config& c) : loop_{c, rig::motion(c)}, replay_{rig::asked_compensation(c)} {}
 
     // Angle read less angle turned.
     double error_arcsec(int ticks) {
         double turned = 0.0;
-        const double before = angle_;
+        const double before = replay_.angle_arcsec();
         for (int h = 0; h < 2 * ticks; ++h) {
             const rig::LoopHalf half = loop_.advance();
             turned += half.truth.dtheta_arcsec;
-            angle_ = step(compensation_, state_, half.record).angle_arcsec;
+            replay_.take(half.record);
         }
-        return angle_ - before - turned;
+        return replay_.angle_arcsec() - before - turned;
     }
 
 private:
     rig::ClosedLoop loop_;
-    core::GyroCompensationConfig compensation_;
-    core::GyroCompensationState state_;
-    double angle_ = 0.0;
+    rig::Replay replay_;
 };
 
 Reading read(const config::Config& c, double seconds) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <zlg/rig/replay.hpp>
+
 #include "accuracy_gyro.hpp"
 
 namespace zlg::trials {
@@ -61,7 +63,7 @@ struct TickTruth {
 class Judge {
 public:
     Judge(const AccuracyMethod& method, const std::vector<std::int64_t>& openings, int gap_ticks)
-        : config_{method.config},
+        : replay_{method.config},
           windows_{openings, gap_ticks},
           openings_{openings},
           gap_ticks_{gap_ticks},
@@ -70,18 +72,9 @@ public:
     }
 
     void take(const SyntheticHalf& half) {
-        const core::CompensationOutput out = step(config_, state_, half.record, half.light);
-        if (!out.has_sample) return;
-        if (out.sample.has_gap) report(out.sample.gap);
-        if (!out.sample.has_final) return;
-        const core::AngleRow& row = out.sample.final_row;
-        const std::ptrdiff_t k = windows_.of(row.tick);
-        if (k < 0) return;
-        SwitchError& e = errors_[static_cast<std::size_t>(k)];
-        e.error_arcsec += row.dtheta_final_arcsec;
-        e.relock_error_arcsec += row.relock_arcsec;
-        const std::int64_t opening = openings_[static_cast<std::size_t>(k)];
-        if (row.tick >= opening && row.tick < opening + gap_ticks_) judge_tick(row, e);
+        replay_.take(
+            half.record, half.light, [this](const core::AngleRow& row) { judge(row); },
+            [this](const core::GapReport& gap) { report(gap); });
     }
 
     // What the tick has truly turned, before it is judged.
@@ -102,6 +95,16 @@ public:
 private:
     static constexpr std::size_t remembered = 128;
 
+    void judge(const core::AngleRow& row) {
+        const std::ptrdiff_t k = windows_.of(row.tick);
+        if (k < 0) return;
+        SwitchError& e = errors_[static_cast<std::size_t>(k)];
+        e.error_arcsec += row.dtheta_final_arcsec;
+        e.relock_error_arcsec += row.relock_arcsec;
+        const std::int64_t opening = openings_[static_cast<std::size_t>(k)];
+        if (row.tick >= opening && row.tick < opening + gap_ticks_) judge_tick(row, e);
+    }
+
     void judge_tick(const core::AngleRow& row, SwitchError& e) const {
         if (!(row.sigma_arcsec > 0.0 && std::isfinite(row.sigma_arcsec))) return;
         const double error = row.dtheta_final_arcsec - true_arcsec_[static_cast<std::size_t>(row.tick) % remembered];
@@ -115,8 +118,7 @@ private:
             errors_[at_gap_].sigma_arcsec = gap.sigma_sum_arcsec;
     }
 
-    const core::GyroCompensationConfig config_;
-    core::GyroCompensationState state_{};
+    rig::Replay replay_;
     Windows windows_;
     const std::vector<std::int64_t>& openings_;
     int gap_ticks_;

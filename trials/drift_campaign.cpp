@@ -8,7 +8,9 @@
 
 #include <zlg/numeric/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 
 namespace zlg::trials {
@@ -29,24 +31,12 @@ struct RunOfMethod {
 
 using RunOfGyro = std::vector<RunOfMethod>;
 
-struct Compensated {
-    core::GyroCompensationConfig config;
-    core::GyroCompensationState state{};
-    double angle_arcsec = 0.0;
-
-    void take(const core::HalfRecord& record, const core::LightSamples& light) {
-        const core::CompensationOutput out = step(config, state, record, light);
-        if (out.has_sample) angle_arcsec = out.angle_arcsec;
-    }
-};
-
-std::vector<Compensated> compensations(const DriftGyro& gyro) {
-    std::vector<Compensated> all;
+std::vector<rig::Replay> compensations(const DriftGyro& gyro) {
+    std::vector<rig::Replay> all;
     for (const DriftMethod& method : gyro.methods) {
         config::Config config = gyro.config;
         config.compensation = method.compensation;
-        const auto relock = method.compensation.relock.value_or(core::RelockMethod::mean_square);
-        all.push_back({rig::compensation_config(config, relock, method.compensation.bridge)});
+        all.emplace_back(rig::asked_compensation(config));
     }
     return all;
 }
@@ -82,7 +72,7 @@ std::vector<Moment> moments(const DriftCampaign& campaign, double tick_s) {
 RunOfGyro run_one(const DriftCampaign& campaign, const DriftGyro& gyro, std::uint64_t seed) {
     const config::Config config = drawn(gyro, seed, campaign.times_s.back());
     rig::ClosedLoop loop{config, rig::motion(config)};
-    std::vector<Compensated> compensated = compensations(gyro);
+    std::vector<rig::Replay> compensated = compensations(gyro);
     RunOfGyro result(compensated.size(), RunOfMethod{std::vector<Left>(campaign.times_s.size()), 0.0});
     core::ExactSum truth;
     std::int64_t tick = 0, switches = 0;
@@ -92,13 +82,13 @@ RunOfGyro run_one(const DriftCampaign& campaign, const DriftGyro& gyro, std::uin
                 const rig::LoopHalf now = loop.advance();
                 truth.add(now.truth.dtheta_arcsec);
                 switches += now.control.has_event;
-                for (Compensated& c : compensated) c.take(now.record, loop.light());
+                for (rig::Replay& c : compensated) c.take(now.record, loop.light());
             }
         }
         const double t_s = static_cast<double>(tick) * config.gyro.tick_s;
         for (std::size_t m = 0; m < compensated.size(); ++m) {
             const double excess =
-                (compensated[m].angle_arcsec - truth.value()) / t_s - config.drift.nonmagnetic_arcsec_s;
+                (compensated[m].angle_arcsec() - truth.value()) / t_s - config.drift.nonmagnetic_arcsec_s;
             Left& left = result[m].at[moment.time];
             left.sum_sq_before += excess * excess;
             if (moment.is_end) left.end_arcsec_s = excess;

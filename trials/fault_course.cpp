@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 
 namespace zlg::trials {
@@ -27,16 +28,14 @@ bool is_finite(const core::AngleRow& r) {
 class Recorder {
 public:
     Recorder(const config::Config& config, double end_s)
-        : compensation_{rig::compensation_config(config, core::RelockMethod::mean_square, config.compensation.bridge)},
+        : replay_{rig::asked_compensation(config)},
           loop_{config, rig::motion(config)},
           n_ticks_{std::llround(end_s / config.gyro.tick_s)} {}
 
     Course record() {
         for (std::int64_t tick = 0; tick < n_ticks_; ++tick) take_tick();
-        for (auto out = drain(compensation_, state_); out.has_row || out.has_gap; out = drain(compensation_, state_)) {
-            if (out.has_row) take_row(out.row);
-            if (out.has_gap) course_.gaps.push_back(out.gap);
-        }
+        replay_.end([this](const core::AngleRow& row) { take(row); },
+                    [this](const core::GapReport& gap) { course_.gaps.push_back(gap); });
         return std::move(course_);
     }
 
@@ -53,28 +52,22 @@ private:
             turned_arcsec += half.truth.dtheta_arcsec;
             lit = lit && half.truth.lit;
             detuning_lambda = half.truth.detuning_end_lambda;
-            take(step(compensation_, state_, half.record));
+            const core::CompensationOutput out = replay_.take(
+                half.record, {}, [this](const core::AngleRow& row) { take(row); },
+                [this](const core::GapReport& gap) { course_.gaps.push_back(gap); });
+            course_.not_finite |= !std::isfinite(out.angle_arcsec) || !std::isfinite(out.sample.dtheta_arcsec);
         }
         course_.true_arcsec.push_back(turned_arcsec);
         course_.lit.push_back(lit);
         course_.detuning_lambda.push_back(detuning_lambda);
     }
 
-    void take(const core::CompensationOutput& out) {
-        course_.not_finite |= !std::isfinite(out.angle_arcsec);
-        if (!out.has_sample) return;
-        course_.not_finite |= !std::isfinite(out.sample.dtheta_arcsec);
-        if (out.sample.has_final) take_row(out.sample.final_row);
-        if (out.sample.has_gap) course_.gaps.push_back(out.sample.gap);
-    }
-
-    void take_row(const core::AngleRow& row) {
+    void take(const core::AngleRow& row) {
         course_.not_finite |= !is_finite(row);
         course_.rows.push_back(row);
     }
 
-    core::GyroCompensationConfig compensation_;
-    core::GyroCompensationState state_{};
+    rig::Replay replay_;
     rig::ClosedLoop loop_;
     std::int64_t n_ticks_;
     Course course_;

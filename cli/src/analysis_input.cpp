@@ -10,12 +10,11 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/rig/replay.hpp>
 
 #include "failure.hpp"
-#include "log_compensation.hpp"
 #include "output.hpp"
 #include "text_input.hpp"
 
@@ -112,22 +111,20 @@ config::Config read_angles(const Options& options, const std::string& path, std:
 config::Config read_raw(const Options& options, const std::string& path, std::vector<study::AxisRecord>& axes) {
     logs::RawReader raw{path};
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
-    const config::Config config = load_log_config(options, raw.header().settings, path);
-    const auto compensation = compensation_of(config, choose_relock(config, raw.header(), path), raw.header(), path);
-    TickRates ticks(path, config.gyro.tick_s, config.analysis.angles);
-    core::GyroCompensationState state;
+    const rig::LogCompensation asked = log_compensation(options, raw.header(), path);
+    TickRates ticks(path, asked.config.gyro.tick_s, asked.config.analysis.angles);
+    rig::Replay replay{asked.compensation};
+    const auto take = [&](const core::AngleRow& row) { ticks.take(row); };
     core::HalfRecord record;
     Progress progress;
-    for (std::int64_t n = 1; raw.next(record); ++n) {
-        const core::CompensationOutput out = step(compensation, state, record, raw.light());
-        if (out.has_sample && out.sample.has_final) ticks.take(out.sample.final_row);
-        if (n % 100'000 == 0) progress.show(raw.fraction_read());
+    while (raw.next(record)) {
+        replay.take(record, raw.light(), take);
+        if (replay.halves() % 100'000 == 0) progress.show(raw.fraction_read());
     }
-    for (auto out = drain(compensation, state); out.has_row || out.has_gap; out = drain(compensation, state))
-        if (out.has_row) ticks.take(out.row);
-    if (ticks.empty()) throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", path)};
+    replay.end(take);
+    replay.require_a_tick(path);
     ticks.finish(axes);
-    return config;
+    return asked.config;
 }
 
 config::Config read_one(const Options& options, const std::string& path, AnalysisInput& input) {

@@ -71,10 +71,12 @@ config::Config load_log_config(const Options& options, const config::Settings& l
     return config;
 }
 
-config::Config as_recorded(config::Config config, const config::Settings& log_settings, const std::string& log_path) {
-    config.perimeter = {};
-    config::apply_log(config, config::checked_log_settings(log_settings, log_path), log_path);
-    return config;
+rig::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log, const std::string& log_path) {
+    rig::LogCompensation made =
+        rig::asked_compensation(load_log_config(options, log.settings, log_path), log, log_path);
+    for (const std::string& note : made.notes) complain("note: " + note);
+    for (const std::string& warning : made.warnings) complain("warning: " + warning);
+    return made;
 }
 
 void add_config_argument(CLI::App& verb, Options& options) {
@@ -105,15 +107,6 @@ void refuse_own_input(const std::string& input, const std::string& output, const
     if (std::filesystem::equivalent(input, output + ".part", ignored))
         throw UsageError{
             fmt::format("{} {}: would grow as {}, which is the input; name another file", option, output, input)};
-}
-
-config::Settings angle_settings(const config::Config& config) {
-    config::Settings settings;
-    for (const auto& setting : config::to_settings(config))
-        if (setting.first.starts_with("gyro.") || setting.first.starts_with("compensation.") ||
-            setting.first == "drift.random_walk_arcsec_sqrt_s" || setting.first.starts_with("perimeter.discriminator_"))
-            settings.push_back(setting);
-    return settings;
 }
 
 logs::LogFormat log_format(const std::string& path) {

@@ -12,6 +12,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/study/resolved.hpp>
 
@@ -50,9 +51,11 @@ enum class LogFacts { none, tick, tick_and_scale };
 [[nodiscard]] config::Config load_log_config(const Options& options, const config::Settings& log_settings,
                                              const std::string& log_path, LogFacts used = LogFacts::tick_and_scale);
 
-// How the detunings of a log were read: the curve that it names, or none, and its slope, or that of the configuration.
-[[nodiscard]] config::Config as_recorded(config::Config config, const config::Settings& log_settings,
-                                         const std::string& log_path);
+// The compensation of a raw log, with a line on standard error for each note and warning.
+//
+// errors  those of load_log_config and of rig::asked_compensation.
+[[nodiscard]] rig::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log,
+                                                    const std::string& log_path);
 
 // As study::resolved, with a line on standard error for each note and warning.
 //
@@ -64,9 +67,6 @@ void refuse_a_run_without_switches(const rig::SwitchTally& tally);
 
 // errors  UsageError where both are the same file; `option` names the output.
 void refuse_own_input(const std::string& input, const std::string& output, const char* option = "--out");
-
-// What an angle log says of itself: the settings on which compensation rests.
-[[nodiscard]] config::Settings angle_settings(const config::Config& config);
 
 // The path of a log to be written: its suffix chooses the format.
 //

@@ -95,10 +95,7 @@ void RunFiles::open(const config::Config& config, int light_samples) {
     raw_.emplace(
         path(names_[raw_file]), config::to_settings(config), force_, raw_columns(config),
         logs::RawWriterOptions{.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true});
-    // The raw log has the columns for it, so this is what an unset method means; the angle log says what was done.
-    config::Config done = config;
-    done.compensation.relock = config.compensation.relock.value_or(core::RelockMethod::mean_square);
-    angles_.emplace(path(names_[angles_file]), config.gyro.tick_s, angle_settings(done), force_,
+    angles_.emplace(path(names_[angles_file]), config.gyro.tick_s, rig::angle_settings(config), force_,
                     logs::AngleWriterOptions{.has_truth = true, .keep_part = true});
     health_.emplace(path(names_[health_file]), force_);
     health_->append(health_head());

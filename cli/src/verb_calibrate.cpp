@@ -62,7 +62,7 @@ Lab read_all(const CalibrateOptions& options) {
         if (raw.header().has_edge_offset)
             complain(fmt::format("warning: {}: the shifts of the bias edges are left in its counts, as noise", path));
         lab.configs.push_back(load_log_config(options, raw.header().settings, path));
-        lab.recorded.push_back(as_recorded(lab.configs.back(), raw.header().settings, path));
+        lab.recorded.push_back(rig::as_recorded(lab.configs.back(), raw.header().settings, path));
         lab.logs.push_back(read(raw, path, lab.configs.back().gyro.tick_s));
     }
     return lab;

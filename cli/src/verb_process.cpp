@@ -8,16 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/rig/replay.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
-#include "log_compensation.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -32,7 +31,6 @@ struct ProcessOptions : Options {
 };
 
 struct Summary {
-    std::int64_t halves = 0;
     std::int64_t ticks = 0;
     std::int64_t gaps = 0;
     double angle_arcsec = 0.0;
@@ -77,31 +75,24 @@ bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& a
     return wait_for_rows(raw, options, interruptible) && raw.next(record);
 }
 
-Summary compensate(logs::RawReader& raw, const core::GyroCompensationConfig& config, logs::AngleWriter& angles,
-                   const ProcessOptions& options, const Interruptible& interruptible) {
+Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter& angles, const ProcessOptions& options,
+                   const Interruptible& interruptible) {
     Summary summary;
-    core::GyroCompensationState state;
     core::HalfRecord record;
     Progress progress{angles.part_path()};
     const bool has_light = raw.header().light_samples > 0;
+    const auto write = [&](const core::AngleRow& row) {
+        summary.take(row);
+        angles.write(row);
+    };
     while (raw.next(record) || (options.follow && follow(raw, record, angles, options, progress, interruptible))) {
-        if (++summary.halves % stride_halves == 0) {
-            interruptible.check();
-            progress.show(raw.fraction_read());
-        }
-        const core::CompensationOutput out =
-            step(config, state, record, has_light ? raw.light() : core::LightSamples{});
-        if (!out.has_sample) continue;
-        summary.angle_arcsec = out.angle_arcsec;
-        if (!out.sample.has_final) continue;
-        summary.take(out.sample.final_row);
-        angles.write(out.sample.final_row);
+        replay.take(record, has_light ? raw.light() : core::LightSamples{}, write);
+        if (replay.halves() % stride_halves != 0) continue;
+        interruptible.check();
+        progress.show(raw.fraction_read());
     }
-    for (auto out = drain(config, state); out.has_row || out.has_gap; out = drain(config, state)) {
-        if (!out.has_row) continue;
-        summary.take(out.row);
-        angles.write(out.row);
-    }
+    replay.end(write);
+    summary.angle_arcsec = replay.angle_arcsec();
     return summary;
 }
 
@@ -132,27 +123,21 @@ void process(const ProcessOptions& options) {
         throw UsageError{
             fmt::format("--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.raw)};
     logs::RawReader raw{options.raw};
-    config::Config config = load_log_config(options, raw.header().settings, options.raw);
-    const core::RelockMethod relock = choose_relock(config, raw.header(), options.raw);
-    const auto compensation = compensation_of(config, relock, raw.header(), options.raw);
+    const rig::LogCompensation asked = log_compensation(options, raw.header(), options.raw);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
-    config.compensation.relock = relock;
+    rig::Replay replay{asked.compensation};
     const Interruptible interruptible;
-    logs::AngleWriter angles{options.out, config.gyro.tick_s, angle_settings(config), options.force};
-    const Summary summary = compensate(raw, compensation, angles, options, interruptible);
-    if (summary.ticks == 0)
-        throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", options.raw)};
-    if (summary.halves % 2 != 0)
-        complain(fmt::format(
-            "warning: {}: the last half-period ({}) is the first of a tick whose other half is missing; dropped",
-            options.raw, summary.halves - 1));
+    logs::AngleWriter angles{options.out, asked.config.gyro.tick_s, rig::angle_settings(asked.config), options.force};
+    const Summary summary = compensate(raw, replay, angles, options, interruptible);
+    replay.require_a_tick(options.raw);
+    if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
     if (!raw.header().complete && !options.follow)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.raw));
     if (!raw.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.raw));
     angles.close();
-    print(options.json ? pretty(json(summary, options, config)) : text(summary, options));
+    print(options.json ? pretty(json(summary, options, asked.config)) : text(summary, options));
 }
 
 }  // namespace

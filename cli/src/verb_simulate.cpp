@@ -36,7 +36,7 @@ class LineRecording {
 public:
     LineRecording(const SimulateOptions& options, const config::Config& config) {
         if (options.wire.empty()) return;
-        stream_.emplace(config, core::RelockMethod::mean_square);
+        stream_.emplace(config);
         file_.emplace(options.wire, options.force);
     }
 

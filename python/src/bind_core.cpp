@@ -1,8 +1,9 @@
 #include <zlg/config/config.hpp>
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
-#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
+#include <zlg/rig/asked_compensation.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "bind.hpp"
@@ -48,68 +49,33 @@ void bind_control(py::module_& m) {
             py::arg("frame"));
 }
 
-// The configuration as it was when the detunings were read: what the log does not tell is presumed.
-config::Config as_recorded(config::Config config, const config::Settings& recorded_settings) {
-    config.perimeter = {};
-    config::apply_log(config, recorded_settings, "the log");
-    return config;
-}
-
-// The inverse discriminator of [perimeter], for a log whose detunings were read by the slope alone; linear where they were
-// not, or none is known.
-core::DiscriminatorCurve curve_of(const config::Config& config, const config::Settings& recorded_settings,
-                                  std::vector<std::string>& warnings) {
-    const config::Perimeter& asked = config.perimeter;
-    if (asked.discriminator_signal.empty() && asked.discriminator_detuning_lambda.empty()) return {};
-    const config::Config recorded = as_recorded(config, recorded_settings);
-    const config::Perimeter& with = recorded.perimeter;
-    if (with.discriminator_signal.empty())
-        return rig::discriminator_curve(config, recorded.gyro.discriminator_per_lambda);
-    if (with.discriminator_signal != asked.discriminator_signal ||
-        with.discriminator_detuning_lambda != asked.discriminator_detuning_lambda)
-        warnings.emplace_back(
-            "the detunings of the log were read through a discriminator curve of its own; the other one, of "
-            "perimeter.discriminator_signal, is not applied to them");
-    return {};
-}
-
-core::GyroCompensationConfig compensation_of(const config::Config& config, const config::Settings& recorded_settings,
-                                             const RawView& raw, double timer_hz, std::vector<std::string>& warnings) {
-    auto made = rig::compensation_config(config, config.compensation.relock.value_or(core::RelockMethod::none),
-                                         config.compensation.bridge);
-    made.relock.curve = curve_of(config, recorded_settings, warnings);
-    made.profile.record_curve = made.relock.curve;
-    if (!raw.has_edge_offset()) return made;
-    if (!(timer_hz >= 1.0 && timer_hz <= 1e15))
-        throw config::ConfigError{"timer_hz = " + std::to_string(timer_hz) +
-                                  ": allowed is 1..1e15, where there are edge_offset_ticks"};
-    made.timer = core::Hertz{timer_hz};
-    return made;
-}
-
 py::dict compensate(const py::dict& columns, const config::Config& config, const config::Settings& settings,
                     double timer_hz, const py::object& progress) {
     const RawView raw{columns};
-    const config::Settings recorded_settings = config::checked_log_settings(settings, "the log");
-    config::check_against_log(config, recorded_settings, "the log");
-    std::vector<std::string> warnings;
-    const core::GyroCompensationConfig made = compensation_of(config, recorded_settings, raw, timer_hz, warnings);
+    logs::RawHeader log = header_of(columns, timer_hz);
+    log.settings = config::checked_log_settings(settings, "the log");
+    config::check_against_log(config, log.settings, "the log");
+    rig::LogCompensation asked = rig::asked_compensation(config, log, "the log");
+    rig::Replay replay{asked.compensation};
     const Progress tell{progress};
     AngleCollector angles;
     {
         const py::gil_scoped_release released;
-        core::GyroCompensationState state;
+        const auto add = [&](const core::AngleRow& row) { angles.add(row); };
         angles.reserve(raw.size() / 2);
         for (std::size_t row = 0; row < raw.size(); ++row) {
-            const auto out = core::step(made, state, raw.record(row), raw.light(row));
-            if (out.has_sample && out.sample.has_final) angles.add(out.sample.final_row);
+            replay.take(raw.record(row), raw.light(row), add);
             if (row % 65536 == 0) tell(static_cast<double>(row) / static_cast<double>(raw.size()));
         }
-        for (auto out = drain(made, state); out.has_row || out.has_gap; out = drain(made, state))
-            if (out.has_row) angles.add(out.row);
+        replay.end(add);
     }
+    replay.require_a_tick("the log");
+    std::vector<std::string> warnings = std::move(asked.warnings);
+    warnings.insert(warnings.end(), asked.notes.begin(), asked.notes.end());
+    if (raw.size() % 2 != 0) warnings.push_back(replay.odd_half("the log"));
     py::dict result = angles.take_out();
     result["warnings"] = warnings;
+    result["settings"] = rig::angle_settings(asked.config);
     return result;
 }
 

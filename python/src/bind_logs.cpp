@@ -68,15 +68,7 @@ void write_raw(const std::string& path, const py::dict& columns, const config::S
                bool force, const py::object& progress) {
     const RawView rows{columns};
     const Progress tell{progress};
-    const auto has = [&](const char* name) { return columns.contains(name) && !columns[name].is_none(); };
-    const logs::RawColumns kept{.has_valid = true,
-                                .has_detuning = has("detuning_lambda"),
-                                .has_detuning_sq = has("detuning_sq_lambda2"),
-                                .has_piezo = has("piezo_v"),
-                                .has_temperature = has("temperature_c"),
-                                .has_edge_offset = has("edge_offset_ticks"),
-                                .timer_hz = timer_hz,
-                                .has_span = has("span")};
+    const logs::RawColumns kept = header_of(columns, timer_hz);
     const py::gil_scoped_release released;
     logs::RawWriter writer{
         path, settings, force, kept, {.light_samples = rows.light_samples(), .light_b = rows.has_light_b()}};

@@ -1,4 +1,5 @@
 #include <zlg/config/config.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -89,6 +90,7 @@ void bind_rig(py::module_& m) {
         py::arg("config"));
     m.def("calibrated_by_laser", &rig::calibrated_by_laser, py::arg("config"),
           py::call_guard<py::gil_scoped_release>());
+    m.def("angle_settings", &rig::angle_settings, py::arg("config"));
     m.def("without_switching", &rig::without_switching, py::arg("config"));
     m.attr("timer_hz") = rig::timer_hz;
 }

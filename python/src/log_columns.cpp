@@ -50,6 +50,21 @@ py::dict RawCollector::take_out() {
     return columns;
 }
 
+logs::RawHeader header_of(const py::dict& columns, double timer_hz) {
+    const auto has = [&](const char* name) { return columns.contains(name) && !columns[name].is_none(); };
+    logs::RawHeader header;
+    header.has_valid = true;
+    header.has_detuning = has("detuning_lambda");
+    header.has_detuning_sq = has("detuning_sq_lambda2");
+    header.has_piezo = has("piezo_v");
+    header.has_temperature = has("temperature_c");
+    header.has_edge_offset = has("edge_offset_ticks");
+    header.timer_hz = timer_hz;
+    header.has_span = has("span");
+    header.light_samples = has("light_a") ? 1 : 0;
+    return header;
+}
+
 template <class T>
 std::span<const T> RawView::hold(const py::dict& columns, const char* name) {
     if (!columns.contains(name) || columns[name].is_none()) return {};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
+#include <zlg/logs/raw_log.hpp>
 
 #include "arrays.hpp"
 
@@ -25,6 +26,9 @@ private:
     std::vector<std::int32_t> edge_offset_, span_;
     std::vector<float> light_a_, light_b_;
 };
+
+// Which columns a raw log has; its settings stay empty.
+[[nodiscard]] logs::RawHeader header_of(const py::dict& columns, double timer_hz);
 
 // The columns of a raw log as Python holds them, to be read where the interpreter is released.
 class RawView {

@@ -185,9 +185,3 @@ def resolved(config: Optional[Config]) -> tuple[_zlg.CheckedConfig, list[str]]:
     for line in contradictions:
         warnings.warn(line, stacklevel=3)
     return made, contradictions
-
-
-def angle_settings(config: _zlg.CheckedConfig) -> list[tuple[str, str]]:
-    """The settings that stand above an angle log: what its angles depend on."""
-    kept = ("gyro.", "compensation.", "drift.random_walk_arcsec_sqrt_s", "perimeter.discriminator_")
-    return [pair for pair in config.settings() if pair[0].startswith(kept)]

@@ -7,7 +7,7 @@ from typing import Optional
 from . import _zlg
 from ._columns import Progress, columns_of, made_of, tell
 from ._zlg import ActuatorFrame, ControlOutput, HalfRecord, SensorFrame
-from .config import Config, angle_settings, checked, resolved
+from .config import Config, checked, resolved
 from .logs import AngleLog, RawLog
 
 __all__ = ["Control", "ControlOutput", "HalfRecord", "angle_flags", "compensate", "flag_names", "health_bits"]
@@ -58,22 +58,6 @@ def compensate(raw: RawLog, config: Optional[Config] = None, progress: Progress 
     """
     used = raw.config if config is None else config
     _require_facts(raw.config, used)
-    if used.compensation.relock is None:
-        used = used.with_(compensation={"relock": "none" if raw.detuning_sq_lambda2 is None else "mean_square"})
-    if used.compensation.relock in ("detuning", "mean_square", "joint"):
-        needed = "detuning_lambda" if used.compensation.relock == "detuning" else "detuning_sq_lambda2"
-        if getattr(raw, needed) is None:
-            raise _zlg.ConfigError(
-                f'compensation.relock = "{used.compensation.relock}" needs the column {needed}, which the log lacks; '
-                'allowed without it: "none", "frequency"'
-            )
     columns = _zlg.compensate(columns_of(raw), checked(used), raw.settings, raw.timer_hz, progress)
-    if len(raw) < 2:
-        raise _zlg.FormatError("the log holds no whole tick, which is two half-periods")
-    lines = list(columns["warnings"])
-    if used.compensation.relock == "joint" and raw.light_a is None:
-        lines.append('the log holds no light samples; compensation.relock = "joint" takes the mean squares of the detuning')
-    if len(raw) % 2:
-        lines.append(f"the last half-period ({len(raw) - 1}) is the first of a tick whose other half is missing; dropped")
-    tell(lines)
-    return made_of(AngleLog, {**columns, "tick_s": used.gyro.tick_s, "settings": angle_settings(checked(used))})
+    tell(columns["warnings"])
+    return made_of(AngleLog, {**columns, "tick_s": used.gyro.tick_s})

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from . import _zlg
 from ._columns import Progress, floats, made_of, signs
 from .analysis import Deviations, FittedTerm, ModeSplit, NoiseFit
-from .config import Config, angle_settings, checked, resolved
+from .config import Config, checked, resolved
 from .logs import AngleLog, RawLog
 
 __all__ = [
@@ -114,10 +114,7 @@ def run(
     raw, angles, page  what to keep beside the figures.
     Raises ConfigError, IoError and FormatError for a motion file.
     """
-    asked = Config() if config is None else config
-    if asked.compensation.relock is None:
-        asked = asked.with_(compensation={"relock": "mean_square"})
-    used, contradictions = resolved(asked)
+    used, contradictions = resolved(config)
     result = _zlg.run(used, contradictions, raw, angles, page, threads, progress)
     result["variants"] = [made_of(Variant, each) for each in result["variants"]]
     result["switches"] = made_of(Switches, result["switches"])
@@ -125,7 +122,7 @@ def run(
         facts = {"settings": used.settings(), "timer_hz": _zlg.timer_hz}
         result["raw"] = made_of(RawLog, {**result["raw"], **facts})
     if angles:
-        known = {"settings": angle_settings(used), "tick_s": result["tick_s"]}
+        known = {"settings": _zlg.angle_settings(used), "tick_s": result["tick_s"]}
         result["angles"] = made_of(AngleLog, {**result["angles"], **known})
     return made_of(RunResult, result)
 

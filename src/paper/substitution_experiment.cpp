@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include <zlg/design/error.hpp>
 #include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "phase_regression.hpp"
@@ -75,8 +77,8 @@ class Run {
 public:
     Run(const SubstitutionExperiment& e, const SwitchGrid& grid)
         : grid_{grid}, gyro_{gyro_of(e, grid)}, errors_{Errors{grid}, Errors{grid}, Errors{grid}} {
-        for (std::size_t order = 0; order < methods.size(); ++order)
-            configs_[order] = rig::compensation_config(gyro_, core::RelockMethod::mean_square, methods[order]);
+        for (const core::BridgeMethod method : methods)
+            replays_.emplace_back(rig::compensation_config(gyro_, core::RelockMethod::mean_square, method));
     }
 
     const std::array<Errors, 3>& errors(const RandomPhaseMotion& motion) {
@@ -86,8 +88,8 @@ public:
             const rig::LoopHalf second = loop.advance();
             take_truth(tick, first.truth.dtheta_arcsec + second.truth.dtheta_arcsec);
             for (std::size_t order = 0; order < methods.size(); ++order) {
-                (void)step(configs_[order], states_[order], first.record);
-                const core::AngleSample sample = step(configs_[order], states_[order], second.record).sample;
+                replays_[order].take(first.record);
+                const core::AngleSample sample = replays_[order].take(second.record).sample;
                 if (sample.has_final) take_row(order, sample.final_row);
                 if (sample.has_gap && order == 0) check_gap(sample.gap);
             }
@@ -141,8 +143,7 @@ private:
 
     SwitchGrid grid_;
     config::Config gyro_;
-    std::array<core::GyroCompensationConfig, 3> configs_{};
-    std::array<core::GyroCompensationState, 3> states_{};
+    std::vector<rig::Replay> replays_;
     std::array<Errors, 3> errors_;
     std::int64_t switched_ = 0;
 };

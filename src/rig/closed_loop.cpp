@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "refusal.hpp"
@@ -39,8 +40,7 @@ core::GyroCompensationConfig adviser_config(const config::Config& config) {
     if (config.switching.schedule == config::Schedule::measured &&
         watching.compensation.magnetic == core::MagneticMethod::none)
         watching.compensation.magnetic = core::MagneticMethod::watch;
-    return compensation_config(watching, config.compensation.relock.value_or(core::RelockMethod::mean_square),
-                               config.compensation.bridge);
+    return asked_compensation(watching);
 }
 
 // Of a run whose last segment is to balance the modes; else 0.
@@ -64,7 +64,7 @@ ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin
     if (processor_)
         actuator_ = processor_->start({control_config_, adviser_config(config)});
     else if (config.switching.schedule == config::Schedule::measured)
-        adviser_.emplace(Adviser{adviser_config(config)});
+        adviser_.emplace(adviser_config(config));
 }
 
 LoopHalf ClosedLoop::advance() {
@@ -82,9 +82,10 @@ LoopHalf ClosedLoop::advance() {
 }
 
 void ClosedLoop::step_here(LoopHalf& out) {
-    const core::SwitchAdvice advice = adviser_ ? core::advice(adviser_->config, adviser_->state) : core::SwitchAdvice{};
+    const core::SwitchAdvice advice =
+        adviser_ ? core::advice(adviser_->config(), adviser_->state()) : core::SwitchAdvice{};
     out.control = step(control_config_, control_state_, sensor_, advice);
-    if (adviser_) (void)step(adviser_->config, adviser_->state, out.control.record, light());
+    if (adviser_) adviser_->take(out.control.record, light());
     out.half_wave_v = control_state_.half_wave.estimate_v;
     out.half_wave_sigma_v = sigma(control_state_.half_wave).value();
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <zlg/rig/wiring.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 
 namespace zlg::rig {
 namespace {
@@ -15,8 +15,8 @@ void append(const wire::Frame& frame, std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-WireStream::WireStream(const config::Config& config, core::RelockMethod relock, std::uint16_t session)
-    : config_{compensation_config(config, config.compensation.relock.value_or(relock), config.compensation.bridge)},
+WireStream::WireStream(const config::Config& config, std::uint16_t session)
+    : replay_{asked_compensation(config)},
       sender_{.session = session},
       report_{.tick_s = config.gyro.tick_s},
       status_ticks_{std::max<std::int64_t>(1, std::llround(std::min(1.0 / config.gyro.tick_s, 1e9)))} {}
@@ -27,7 +27,7 @@ void WireStream::take(const ClosedLoop& loop, const LoopHalf& half, std::vector<
         const bool switched = half.control.event.outcome == core::SwitchOutcome::switched;
         ++(switched ? status_.n_switches : status_.n_failed);
     }
-    const core::CompensationOutput out = step(config_, state_, half.record, loop.light());
+    const core::CompensationOutput out = replay_.take(half.record, loop.light());
     if (out.has_sample) take_tick(loop, half, out.sample, bytes);
     health_before_ = half.control.health;
 }
@@ -48,7 +48,7 @@ void WireStream::take_tick(const ClosedLoop& loop, const LoopHalf& half, const c
 }
 
 void WireStream::send_status(const ClosedLoop& loop, std::vector<std::uint8_t>& bytes) {
-    wire::Status now = wire::status_of(loop.control(), state_, config_);
+    wire::Status now = wire::status_of(loop.control(), replay_.state(), replay_.config());
     now.health = report_.health;
     now.n_switches = status_.n_switches;
     now.n_failed = status_.n_failed;
@@ -56,8 +56,8 @@ void WireStream::send_status(const ClosedLoop& loop, std::vector<std::uint8_t>& 
 }
 
 void WireStream::end(std::vector<std::uint8_t>& bytes) {
-    for (auto out = drain(config_, state_); out.has_row || out.has_gap; out = drain(config_, state_))
-        if (out.has_row) append(frame_of(sender_, telemetry_of(telemetry_, out.row, report_)), bytes);
+    replay_.end(
+        [&](const core::AngleRow& row) { append(frame_of(sender_, telemetry_of(telemetry_, row, report_)), bytes); });
 }
 
 }  // namespace zlg::rig

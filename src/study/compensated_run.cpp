@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "gyro_drift.hpp"
@@ -14,28 +16,26 @@ class CompensatedRun {
 public:
     CompensatedRun(const config::Config& config, std::int64_t stride)
         : loop_{config, rig::motion(config)},
-          config_{rig::compensation_config(config, config.compensation.relock.value_or(core::RelockMethod::mean_square),
-                                           config.compensation.bridge)},
+          replay_{rig::asked_compensation(config)},
           finder_{config.compensation.relock_ticks},
           meter_{config.gyro.tick_s, stride, gyro_drift(config)} {}
 
     void tick(std::int64_t tick) {
         const rig::LoopHalf first = loop_.advance();
-        (void)step(config_, state_, first.record, loop_.light());
+        replay_.take(first.record, loop_.light());
         const rig::LoopHalf second = loop_.advance();
         finder_.take(tick, first.record, second.record);
         forget_windows(tick);
-        const double before_arcsec = state_.magnetic.subtracted_arcsec;
-        const core::AngleSample sample = step(config_, state_, second.record, loop_.light()).sample;
+        const double before_arcsec = replay_.state().magnetic.subtracted_arcsec;
+        const core::AngleSample sample = replay_.take(second.record, loop_.light()).sample;
         truth_[static_cast<std::size_t>(tick) % truth_.size()] = {
-            first.truth.dtheta_arcsec + second.truth.dtheta_arcsec, state_.magnetic.subtracted_arcsec - before_arcsec,
-            second.truth.rounding_arcsec};
-        if (sample.has_final) take(sample.final_row);
+            first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
+            replay_.state().magnetic.subtracted_arcsec - before_arcsec, second.truth.rounding_arcsec};
+        rig::hand_over(sample, [this](const core::AngleRow& row) { take(row); });
     }
 
     ErrorMeter end() {
-        for (auto out = drain(config_, state_); out.has_row || out.has_gap; out = drain(config_, state_))
-            if (out.has_row) take(out.row);
+        replay_.end([this](const core::AngleRow& row) { take(row); });
         return meter_;
     }
 
@@ -52,8 +52,7 @@ private:
     }
 
     rig::ClosedLoop loop_;
-    core::GyroCompensationConfig config_;
-    core::GyroCompensationState state_{};
+    rig::Replay replay_;
     SwitchFinder finder_;
     ErrorMeter meter_;
     std::array<TickTruth, core::history_ticks> truth_{};

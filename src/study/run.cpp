@@ -8,7 +8,9 @@
 #include <thread>
 
 #include <zlg/core/common/maths.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -30,9 +32,8 @@ std::int64_t curve_stride(std::int64_t ticks) { return std::max<std::int64_t>(1,
 // One compensation of the records, with its error meter.
 struct Variant {
     std::string name;
-    core::GyroCompensationConfig config;
+    rig::Replay replay;
     ErrorMeter meter;
-    core::GyroCompensationState state{};
     std::array<double, core::history_ticks> taken_out_arcsec{};  // of the magnetic drift, by tick
 
     [[nodiscard]] VariantResult result() const {
@@ -51,7 +52,6 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride)
         RelockMethod relock;
         BridgeMethod bridge;
     };
-    const RelockMethod relock = config.compensation.relock.value_or(RelockMethod::mean_square);
     const std::array choices{
         Choice{"switching", RelockMethod::none, BridgeMethod::none},
         Choice{"relock_frequency", RelockMethod::frequency, BridgeMethod::quadratic},
@@ -60,7 +60,7 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride)
         Choice{"bridge_constant", RelockMethod::detuning, BridgeMethod::constant},
         Choice{"bridge_linear", RelockMethod::detuning, BridgeMethod::linear},
         Choice{"bridge_quadratic", RelockMethod::detuning, BridgeMethod::quadratic},
-        Choice{"configured", relock, config.compensation.bridge},
+        Choice{"configured", rig::asked_relock(config), config.compensation.bridge},
     };
     // The named variants are the paper's, with its points; only the last takes those of the configuration.
     config::Config paper = config;
@@ -72,7 +72,7 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride)
     std::vector<Variant> all;
     for (const Choice& c : choices) {
         const config::Config& of = &c == &choices.back() ? config : paper;
-        all.push_back({c.name, rig::compensation_config(of, c.relock, c.bridge),
+        all.push_back({c.name, rig::Replay{rig::compensation_config(of, c.relock, c.bridge)},
                        ErrorMeter{config.gyro.tick_s, stride, gyro_drift(config)}});
     }
     return all;
@@ -96,7 +96,7 @@ public:
     // The first half of a tick, while its light is there.
     void first_half(const rig::LoopHalf& first, const core::LightSamples& light) {
         for (Variant& v : variants_)
-            if (is_stepped(v)) (void)step(v.config, v.state, first.record, light);
+            if (is_stepped(v)) v.replay.take(first.record, light);
     }
 
     void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second,
@@ -114,19 +114,21 @@ public:
             if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
         }
         for (Variant& v : variants_) {
-            const core::AngleSample sample = step_here_or_outside(v, tick, second, light_second);
-            if (sample.has_final) take_row(v, sample.final_row);
-            if (sample.has_gap && is_configured(v)) gaps_[sample.gap.first_tick] = sample.gap;
+            rig::hand_over(
+                step_here_or_outside(v, tick, second, light_second),
+                [&](const core::AngleRow& row) { take_row(v, row); },
+                [&](const core::GapReport& gap) { take_gap(v, gap); });
         }
     }
 
     void end() {
         for (Variant& v : variants_) {
-            const auto owed = [&] { return is_outside(v) ? task_.processor->drain() : drain(v.config, v.state); };
-            for (core::DrainOutput out = owed(); out.has_row || out.has_gap; out = owed()) {
-                if (out.has_row) take_row(v, out.row);
-                if (out.has_gap && is_configured(v)) gaps_[out.gap.first_tick] = out.gap;
-            }
+            const auto on_row = [&](const core::AngleRow& row) { take_row(v, row); };
+            const auto on_gap = [&](const core::GapReport& gap) { take_gap(v, gap); };
+            if (is_outside(v))
+                rig::hand_over_rest([this] { return task_.processor->drain(); }, on_row, on_gap);
+            else
+                v.replay.end(on_row, on_gap);
         }
     }
 
@@ -146,19 +148,23 @@ private:
 
     // Of a processor outside no more is known than its rows: what it takes out of the angle is what ours would.
     [[nodiscard]] bool is_stepped(const Variant& v) const {
-        return !is_outside(v) || v.config.magnetic.method == core::MagneticMethod::estimate;
+        return !is_outside(v) || v.replay.config().magnetic.method == core::MagneticMethod::estimate;
     }
 
     core::AngleSample step_here_or_outside(Variant& v, std::int64_t tick, const rig::LoopHalf& second,
                                            const core::LightSamples& light) {
         core::AngleSample sample;
         if (is_stepped(v)) {
-            const double before_arcsec = v.state.magnetic.subtracted_arcsec;
-            sample = step(v.config, v.state, second.record, light).sample;
+            const double before_arcsec = v.replay.state().magnetic.subtracted_arcsec;
+            sample = v.replay.take(second.record, light).sample;
             v.taken_out_arcsec[static_cast<std::size_t>(tick) % v.taken_out_arcsec.size()] =
-                v.state.magnetic.subtracted_arcsec - before_arcsec;
+                v.replay.state().magnetic.subtracted_arcsec - before_arcsec;
         }
         return is_outside(v) ? second.compensation.value_or(core::CompensationOutput{}).sample : sample;
+    }
+
+    void take_gap(const Variant& v, const core::GapReport& gap) {
+        if (is_configured(v)) gaps_[gap.first_tick] = gap;
     }
 
     void take_row(Variant& v, const core::AngleRow& row) {
@@ -240,7 +246,8 @@ private:
 VariantResult one_mode(const config::Config& config, const twin::Motion& motion, std::int64_t ticks) {
     const config::Config still = rig::without_switching(config);
     rig::ClosedLoop loop{still, motion};
-    Variant variant{"one_mode", rig::compensation_config(still, RelockMethod::none, still.compensation.bridge),
+    Variant variant{"one_mode",
+                    rig::Replay{rig::compensation_config(still, RelockMethod::none, still.compensation.bridge)},
                     ErrorMeter{still.gyro.tick_s, curve_stride(ticks), gyro_drift(still)}};
     std::array<double, core::history_ticks> truth{};
     const std::deque<SwitchWindow> no_windows;
@@ -251,13 +258,10 @@ VariantResult one_mode(const config::Config& config, const twin::Motion& motion,
         const rig::LoopHalf first = loop.advance();
         const rig::LoopHalf second = loop.advance();
         truth[static_cast<std::size_t>(tick) % truth.size()] = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec;
-        (void)step(variant.config, variant.state, first.record);
-        const core::AngleSample sample = step(variant.config, variant.state, second.record).sample;
-        if (sample.has_final) take(sample.final_row);
+        variant.replay.take(first.record);
+        variant.replay.take(second.record, {}, take);
     }
-    for (auto out = drain(variant.config, variant.state); out.has_row || out.has_gap;
-         out = drain(variant.config, variant.state))
-        if (out.has_row) take(out.row);
+    variant.replay.end(take);
     return variant.result();
 }
 

@@ -102,7 +102,7 @@ config::Config gyro() {
 
 std::vector<wire::Telemetry> told_by_this_program(int halves) {
     rig::ClosedLoop loop{gyro(), rig::motion(gyro())};
-    rig::WireStream stream{gyro(), core::RelockMethod::mean_square};
+    rig::WireStream stream{gyro()};
     std::vector<std::uint8_t> bytes;
     for (int k = 0; k < halves; ++k) stream.take(loop, loop.advance(), bytes);
     Heard heard;

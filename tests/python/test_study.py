@@ -33,6 +33,30 @@ def test_the_same_bits_as_the_program(tmp_path):
         assert np.array_equal(angles.flags, log.flags)
         assert log.settings == [pair for pair in angles.settings if "." in pair[0]]
     assert np.array_equal(zlg.simulate(SHORT).raw.counts, raw.counts)
+    assert result.raw.settings == [pair for pair in raw.settings if "." in pair[0]]
+
+
+POINTS = ("perimeter.discriminator_detuning_lambda=[0.1,0.2,0.3]", "perimeter.discriminator_signal=[0.033,0.07,0.12]")
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.skipif(not PROGRAM.exists(), reason="the program was not built")
+@pytest.mark.parametrize("recorded", [(), POINTS], ids=["by the slope", "by a curve"])
+@pytest.mark.parametrize("asked", [(), POINTS, (*POINTS[:1], "perimeter.discriminator_signal=[0.033,0.08,0.15]")])
+@pytest.mark.parametrize("relock", ["detuning", "mean_square", "joint"])
+def test_the_same_angles_of_a_log_as_the_program_whatever_curve_it_has(recorded, asked, relock, tmp_path):
+    config = zlg.Config.of("run.duration_s=20", "switching.interval_s=5", *recorded)
+    zlg.logs.write_raw(tmp_path / "raw.h5", zlg.simulate(config, light=True).raw)
+    asked = (*asked, f"compensation.relock={relock}")
+    sets = [word for setting in asked for word in ("--set", setting)]
+    command = [PROGRAM, "process", tmp_path / "raw.h5", *sets, "--out", tmp_path / "angles.h5"]
+    subprocess.run(command, check=True, capture_output=True)
+    theirs = zlg.logs.read_angles(tmp_path / "angles.h5")
+    raw = zlg.logs.read_raw(tmp_path / "raw.h5")
+    ours = zlg.compensate(raw, raw.config.with_(*asked))
+    assert np.array_equal(theirs.dtheta_final_arcsec, ours.dtheta_final_arcsec)
+    assert np.array_equal(theirs.sigma_arcsec, ours.sigma_arcsec)
+    assert ours.settings == [pair for pair in theirs.settings if "." in pair[0]]
 
 
 LASER = ("gyro.fidelity=laser", "laser.perimeter_m=0.12")

@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -141,8 +142,7 @@ void run(const config::Config& config) {
     (void)rig::run_ticks(config, motion);
     for (const auto relock : {core::RelockMethod::none, core::RelockMethod::mean_square})
         (void)rig::compensation_config(config, relock, config.compensation.bridge);
-    const auto made = rig::compensation_config(
-        config, config.compensation.relock.value_or(core::RelockMethod::mean_square), config.compensation.bridge);
+    const auto made = rig::asked_compensation(config);
     core::GyroCompensationState state;
     rig::ClosedLoop loop{config, motion};
     for (int half = 0; half < 80; ++half) {

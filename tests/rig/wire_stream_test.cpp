@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 #include <zlg/config/schema.hpp>
-#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/logs/wire_rows.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/wire_stream.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -29,19 +29,17 @@ struct Made {
 Made made(const config::Config& config) {
     Made all;
     ClosedLoop loop{config, motion(config)};
-    WireStream stream{config, core::RelockMethod::mean_square, 9};
-    const auto compensation = compensation_config(config, core::RelockMethod::mean_square, config.compensation.bridge);
-    core::GyroCompensationState state;
+    WireStream stream{config, 9};
+    Replay beside{asked_compensation(config)};
+    const auto add = [&](const core::AngleRow& row) { all.rows.push_back(row); };
     for (int half = 0; half < 12000; ++half) {
         const LoopHalf now = loop.advance();
         stream.take(loop, now, all.bytes);
-        const auto out = step(compensation, state, now.record, loop.light());
+        const auto out = beside.take(now.record, loop.light(), add);
         if (out.has_sample) all.stamps_ticks.push_back(loop.sensor().timer_ticks);
-        if (out.has_sample && out.sample.has_final) all.rows.push_back(out.sample.final_row);
     }
     stream.end(all.bytes);
-    for (auto out = drain(compensation, state); out.has_row || out.has_gap; out = drain(compensation, state))
-        if (out.has_row) all.rows.push_back(out.row);
+    beside.end(add);
     for (core::AngleRow& row : all.rows) row.relock_arcsec = 0.0;
     return all;
 }

@@ -9,6 +9,7 @@
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/rig/processor.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/twin/twin.hpp>
 
 namespace zlg::rig {
@@ -40,12 +41,6 @@ public:
     [[nodiscard]] const core::GyroControlState& control() const { return control_state_; }
 
 private:
-    // Compensation beside the control, for a schedule that asks for what is measured.
-    struct Adviser {
-        core::GyroCompensationConfig config;
-        core::GyroCompensationState state{};
-    };
-
     ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion, Processor* processor);
 
     void step_here(LoopHalf& out);
@@ -57,7 +52,7 @@ private:
     core::GyroControlState control_state_;
     core::ActuatorFrame actuator_;
     core::SensorFrame sensor_{};
-    std::optional<Adviser> adviser_;
+    std::optional<Replay> adviser_;  // compensation beside the control, for a schedule that asks for what is measured
     Processor* processor_;
 };
 

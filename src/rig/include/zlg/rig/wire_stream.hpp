@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <zlg/config/config.hpp>
-#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/wire/status.hpp>
 #include <zlg/wire/telemetry.hpp>
 
@@ -17,11 +17,10 @@ inline constexpr std::uint64_t pulse_ticks = 10'000'000;
 
 class WireStream {
 public:
-    // relock   of the compensation, where the configuration leaves it open.
     // session  number of this start of the gyro.
     //
     // errors  config::ConfigError.
-    WireStream(const config::Config& config, core::RelockMethod relock, std::uint16_t session = 1);
+    WireStream(const config::Config& config, std::uint16_t session = 1);
 
     // Append to `bytes` what is sent after this half, the one that `loop` has just made: a message at the end of each tick,
     // another one of the state each second.
@@ -35,8 +34,7 @@ private:
                    std::vector<std::uint8_t>& bytes);
     void send_status(const ClosedLoop& loop, std::vector<std::uint8_t>& bytes);
 
-    core::GyroCompensationConfig config_;
-    core::GyroCompensationState state_{};
+    Replay replay_;
     wire::Sender sender_;
     wire::TelemetryState telemetry_{};
     wire::TickReport report_{};
