@@ -469,7 +469,7 @@ TEST(Schema, kinds_and_choices_are_those_of_the_members) {
     EXPECT_EQ(known.at("motion.kind").choices, (std::vector<std::string>{"rest", "constant", "sine", "sum", "file"}));
     EXPECT_EQ(known.at("compensation.relock").kind, optional_choice);
     EXPECT_EQ(known.at("faults.kind").kind, choices);
-    EXPECT_EQ(known.at("faults.kind").choices.size(), fault_kind_names.size());
+    EXPECT_EQ(known.at("faults.kind").choices.size(), zlg::twin::n_fault_kinds);
     EXPECT_TRUE(known.at("gyro.tick_s").choices.empty());
 }
 

@@ -178,7 +178,7 @@ TEST(FaultCampaign, FiguresDependOnTheSeedAndNotOnTheThreads) {
 }
 
 TEST(FaultCampaign, ATrialIsDrawnFromItsSeed) {
-    for (const FaultKind kind : twin::all_fault_kinds()) {
+    for (const FaultKind kind : twin::all_fault_kinds) {
         const FaultTrial trial = random_trial(kind, 42);
         const FaultTrial again = random_trial(kind, 42);
         ASSERT_TRUE(trial.fault.has_value());
