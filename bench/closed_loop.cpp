@@ -21,7 +21,7 @@ namespace {
 using namespace zlg;
 
 constexpr int n_halves = 400'000;
-constexpr double most_times_noise = 12.0;
+constexpr double max_times_noise = 12.0;
 volatile double sink = 0.0;  // what is computed must not be left out
 
 double halves_in_real_time(const config::Config& config) { return 2.0 / config.gyro.tick_s; }
@@ -66,7 +66,7 @@ double measure(const char* what, const config::Config& config, void (*work)(cons
     const double real_s = n_halves / halves_in_real_time(config);
     const double times = real_s / result.work_s;
     fmt::print("{:<44}{:>6.0f} times real time, {:>5.0f} ns a half-period, {:.2f} times its noise ({:.2f}..{:.2f})\n",
-               what, times, 1e9 * result.work_s / n_halves, result.ratio, result.least_ratio, result.most_ratio);
+               what, times, 1e9 * result.work_s / n_halves, result.ratio, result.min_ratio, result.max_ratio);
     return result.ratio;
 }
 
@@ -84,6 +84,6 @@ int main() {
     config.gyro.fidelity = config::Fidelity::averaged;
     config.gyro.light_samples = 64;
     measure("twin + control + compensation, 64 samples", config, run_loop_and_compensation);
-    fmt::print("allowed: {:.0f} times its noise with 16 samples\n", most_times_noise);
-    return loop <= most_times_noise && all <= most_times_noise ? 0 : 1;
+    fmt::print("allowed: {:.0f} times its noise with 16 samples\n", max_times_noise);
+    return loop <= max_times_noise && all <= max_times_noise ? 0 : 1;
 }

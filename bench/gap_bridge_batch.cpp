@@ -61,7 +61,7 @@ int main() {
         });
     constexpr double bytes = n_ticks * (sizeof(core::TickInput) + sizeof(core::AngleRow));
     fmt::print("gap_bridge, {} ticks, {} rows out: {:.2f} times copying them ({:.2f}..{:.2f}); allowed 3\n", n_ticks, n,
-               result.ratio, result.least_ratio, result.most_ratio);
+               result.ratio, result.min_ratio, result.max_ratio);
     fmt::print("  {:.1f} ns a tick; copying {:.1f} ns, which is {:.1f} GB/s read and as much written\n",
                1e9 * result.work_s / n_ticks, 1e9 * result.reference_s / n_ticks, 1e-9 * bytes / result.reference_s);
     return n == n_ticks && result.ratio <= 3.0 ? 0 : 1;

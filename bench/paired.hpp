@@ -24,8 +24,8 @@ inline double median(std::vector<double> values) {
 
 struct Paired {
     double ratio = 0.0;  // median of work over reference
-    double least_ratio = 0.0;
-    double most_ratio = 0.0;
+    double min_ratio = 0.0;
+    double max_ratio = 0.0;
     double work_s = 0.0;  // least
     double reference_s = 0.0;
 };
@@ -45,8 +45,8 @@ Paired paired(int n, Work&& work, Reference&& reference) {
         references.push_back(reference_s);
     }
     return {.ratio = median(ratios),
-            .least_ratio = *std::min_element(ratios.begin(), ratios.end()),
-            .most_ratio = *std::max_element(ratios.begin(), ratios.end()),
+            .min_ratio = *std::min_element(ratios.begin(), ratios.end()),
+            .max_ratio = *std::max_element(ratios.begin(), ratios.end()),
             .work_s = *std::min_element(works.begin(), works.end()),
             .reference_s = *std::min_element(references.begin(), references.end())};
 }

@@ -31,7 +31,7 @@ Script script(std::string name, std::string ticks, int halves, int light_samples
     s.control.coil_monitor.tolerance_ratio = 0.5 / 150.0;
     s.control.counter_monitor.watches = true;
     s.control.light_monitor = {.noise = core::Wavelengths{0.0033}, .bias_chi = 3.6};
-    s.control.detuning_monitor.most_change_lambda2 = 1.0 / 540.0;
+    s.control.detuning_monitor.max_change_lambda2 = 1.0 / 540.0;
     s.compensation.relock.method = RelockMethod::mean_square;
     return s;
 }

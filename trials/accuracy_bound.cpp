@@ -119,7 +119,7 @@ LinearModel model_of(const GyroLaw& g, const MotionLaw& motion, double constant_
     return m;
 }
 
-double least_error(const LinearModel& m, const MatrixXd& seen) {
+double min_error(const LinearModel& m, const MatrixXd& seen) {
     MatrixXd of_seen = seen * m.covariance * seen.transpose();
     const VectorXd with_target = seen * m.covariance * m.target;
     const double variance = m.target.dot(m.covariance * m.target);
@@ -144,9 +144,9 @@ SwitchBound bound_of(const GyroLaw& gyro, const MotionLaw& motion) {
     constexpr double unknown_arcsec_s = 1e5;
     const LinearModel free_rate = model_of(gyro, motion, unknown_arcsec_s);
     const LinearModel known_rate = model_of(gyro, motion, 0.0);
-    return {.ticks_arcsec = least_error(free_rate, pairs_of(free_rate.seen)),
-            .halves_arcsec = least_error(free_rate, free_rate.seen),
-            .known_rate_arcsec = least_error(known_rate, known_rate.seen),
+    return {.ticks_arcsec = min_error(free_rate, pairs_of(free_rate.seen)),
+            .halves_arcsec = min_error(free_rate, free_rate.seen),
+            .known_rate_arcsec = min_error(known_rate, known_rate.seen),
             .relock_arcsec = alternating_sum_sigma(false_angle_covariance(gyro))};
 }
 

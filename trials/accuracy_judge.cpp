@@ -13,7 +13,7 @@ constexpr double chance = 2.0;
 
 bool is_x1(const CaseFigures& c) { return c.name.ends_with("x1"); }
 
-double least_bound(const CaseFigures& c) { return c.bound.halves; }
+double min_bound(const CaseFigures& c) { return c.bound.halves; }
 
 // The worst over cases of what one method makes of them, where, and what is left of it without what chance may have added.
 struct Worst {
@@ -65,8 +65,8 @@ public:
 
     Worst ratio(const std::string& groups, const std::string& method) const {
         return worst(groups, method, [&](const CaseFigures& c, const MethodFigures& m, Worst& w) {
-            if (!(least_bound(c) > 0.0)) return;
-            w.see(m.whole.rms_arcsec / least_bound(c), chance * rms_error(m.whole) / least_bound(c), c.name);
+            if (!(min_bound(c) > 0.0)) return;
+            w.see(m.whole.rms_arcsec / min_bound(c), chance * rms_error(m.whole) / min_bound(c), c.name);
         });
     }
 

@@ -130,9 +130,9 @@ std::vector<FaultFigures> run(const FaultCampaign& campaign) {
 }
 
 std::vector<std::string> complaints(const std::vector<FaultFigures>& figures) {
-    constexpr double least_valid = 0.995;
-    constexpr double least_mean_sq = 0.5;
-    constexpr double most_mean_sq = 1.5;
+    constexpr double min_valid = 0.995;
+    constexpr double min_mean_sq = 0.5;
+    constexpr double max_mean_sq = 1.5;
     std::vector<std::string> found;
     for (const FaultFigures& f : figures) {
         if (f.recovered != f.faults)
@@ -142,12 +142,12 @@ std::vector<std::string> complaints(const std::vector<FaultFigures>& figures) {
                 fmt::format("{}: {} with NaN, {} crashed, allowed is none", f.kind, f.not_finite, f.crashed));
         const bool is_sum = f.kind == "all";
         if (!is_sum && f.kind != "none" && f.kind != "two at once") continue;
-        if (f.faults > 0 && !(f.valid_outside_ratio >= least_valid))
+        if (f.faults > 0 && !(f.valid_outside_ratio >= min_valid))
             found.push_back(fmt::format("{}: {:.2f} % of the ticks outside valid, allowed is {:.1f} and more", f.kind,
-                                        100.0 * f.valid_outside_ratio, 100.0 * least_valid));
-        if (is_sum && !(f.mean_sq_ratio >= least_mean_sq && f.mean_sq_ratio <= most_mean_sq))
+                                        100.0 * f.valid_outside_ratio, 100.0 * min_valid));
+        if (is_sum && !(f.mean_sq_ratio >= min_mean_sq && f.mean_sq_ratio <= max_mean_sq))
             found.push_back(fmt::format("{}: mean square of error over sigma {:.2f}, allowed is {} to {}", f.kind,
-                                        f.mean_sq_ratio, least_mean_sq, most_mean_sq));
+                                        f.mean_sq_ratio, min_mean_sq, max_mean_sq));
     }
     return found;
 }

@@ -16,7 +16,7 @@ constexpr double grace_s = 1.0;  // after a fault, in which a gyro may still be 
 constexpr double shortest_s = 1e-3;
 constexpr double longest_s = 60.0;
 
-constexpr double most_ramp_lambda = 4.0;
+constexpr double max_ramp_lambda = 4.0;
 
 using numeric::Draw;
 
@@ -64,7 +64,7 @@ twin::Fault drawn_fault(Draw& draw, twin::FaultKind kind, std::uint64_t seed) {
         fault.duration_s = std::max(0.02, fault.duration_s);
     }
     if (kind == twin::FaultKind::perimeter_ramp)
-        fault.size = std::copysign(std::min(std::abs(fault.size), most_ramp_lambda / fault.duration_s), fault.size);
+        fault.size = std::copysign(std::min(std::abs(fault.size), max_ramp_lambda / fault.duration_s), fault.size);
     return fault;
 }
 

@@ -21,8 +21,8 @@ using core::BridgeMethod;
 using core::RelockMethod;
 using numeric::Draw;
 
-constexpr double least_nev = 0.7;
-constexpr double most_nev = 1.4;
+constexpr double min_nev = 0.7;
+constexpr double max_nev = 1.4;
 
 struct GyroAndMotion {
     GyroLaw gyro;
@@ -71,7 +71,7 @@ struct MotionClass {
     MakeMotion make;
     int gyros;
     int switches;
-    int least_start, most_start;  // ticks before the first switch
+    int min_start, max_start;  // ticks before the first switch
 };
 
 constexpr MotionClass classes[] = {
@@ -123,7 +123,7 @@ Errors errors_of(const MotionClass& of, std::uint64_t seed) {
     Draw draw{seed};
     GyroLaw gyro = draw_gyro(draw);
     const MotionLaw motion = of.make(draw);
-    const int start = of.least_start + static_cast<int>((of.most_start - of.least_start) * draw.uniform());
+    const int start = of.min_start + static_cast<int>((of.max_start - of.min_start) * draw.uniform());
     const auto run = [&](const auto& methods) {
         std::vector<AccuracyMethod> made;
         for (const Method& m : methods) made.push_back(method_of(gyro, m));
@@ -183,7 +183,7 @@ std::vector<SigmaFigures> run_sigma_campaign(const SigmaTask& task) {
 bool is_true(const SigmaFigures& f) {
     if (f.whole.n == 0 || f.whole.claimed != f.whole.n) return false;
     const double chance = 2.0 * std::sqrt(2.0 / static_cast<double>(f.whole.claimed));
-    return f.whole.nev > least_nev - chance && f.whole.nev < most_nev + chance;
+    return f.whole.nev > min_nev - chance && f.whole.nev < max_nev + chance;
 }
 
 std::string campaign_text(const std::vector<SigmaFigures>& figures) {

@@ -72,8 +72,8 @@ double estimated_s(std::int64_t ticks, const std::function<void(std::int64_t)>& 
     // No tick of any twin or processor lasts 3 ms.
     if (ticks < 20 * few) return 0.0;
     const double few_s = measured_s(work, few);
-    const double most_s = few_s * static_cast<double>(ticks) / static_cast<double>(few);
-    if (most_s < announced_s) return most_s;
+    const double max_s = few_s * static_cast<double>(ticks) / static_cast<double>(few);
+    if (max_s < announced_s) return max_s;
     // What comes before the first tick is in both measurements; the first of them may have waited for the disk.
     const std::int64_t more = std::min<std::int64_t>(4000, ticks / 10);
     const double more_s = measured_s(work, more);
@@ -102,11 +102,11 @@ Growth::Growth(std::string part) : part_{std::move(part)}, is_watched_{!part_.em
 
 double Growth::expected_bytes(double fraction) {
     // Less may be the beginning of the file, or a block that is not yet full.
-    constexpr double least_bytes = 2e6;
+    constexpr double min_bytes = 2e6;
     std::error_code is_missing;
     const auto size = std::filesystem::file_size(part_, is_missing);
     const double written_bytes = is_missing ? 0.0 : static_cast<double>(size);
-    if (written_bytes < least_bytes) return 0.0;
+    if (written_bytes < min_bytes) return 0.0;
     const double bytes = written_bytes / fraction;
     const std::optional<double> room = free_bytes(part_);
     if (room && certain * bytes - written_bytes > *room)

@@ -22,7 +22,7 @@ namespace zlg::cli {
 namespace {
 
 // By the times of their rows: a month at 100 Hz is more than a record that anybody has.
-constexpr std::int64_t most_missing = std::int64_t{1} << 28;
+constexpr std::int64_t max_missing = std::int64_t{1} << 28;
 
 std::string name_of_file(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
@@ -90,8 +90,8 @@ double checked_rate_hz(const TextAxes& what, logs::TextTable& table, const std::
     if (!check.presumption.empty()) complain("warning: " + check.presumption);
     if (!check.times || check.times->n_missing == 0) return *what.rate_hz;
     const std::string missing = logs::missing_in_words(table, path, *check.times);
-    if (check.times->n_missing > most_missing)
-        throw logs::FormatError{fmt::format("{}; allowed is {}", missing, most_missing)};
+    if (check.times->n_missing > max_missing)
+        throw logs::FormatError{fmt::format("{}; allowed is {}", missing, max_missing)};
     complain(fmt::format("warning: {}; they count as missing samples", missing));
     for (logs::TextColumn& column : table.columns) logs::fill_holes(column.values, *check.times);
     return *what.rate_hz;

@@ -25,7 +25,7 @@ namespace zlg::cli {
 namespace {
 
 constexpr std::string_view bias_coefficient = "gyro.bias_temperature_coefficient_per_c";
-constexpr double most_rate_arcsec_s = 1e9;
+constexpr double max_rate_arcsec_s = 1e9;
 
 struct CalibrateOptions : Options {
     std::vector<std::string> raws;
@@ -152,7 +152,7 @@ std::string far_reference(const CalibrateOptions& options, const Lab& lab,
 }
 
 void check_usage(const CalibrateOptions& options) {
-    if (!(std::abs(options.rate_arcsec_s) <= most_rate_arcsec_s))
+    if (!(std::abs(options.rate_arcsec_s) <= max_rate_arcsec_s))
         throw UsageError{
             fmt::format("--rate-arcsec-s {}: allowed is -1e9..1e9, more than any gyro turns", options.rate_arcsec_s)};
     if (options.from_laser && !options.raws.empty())

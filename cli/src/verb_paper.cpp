@@ -29,14 +29,14 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 // Outside of this the points measured on the twin and their theory do not belong together.
-constexpr double least_chi2_per_dof = 0.7;
-constexpr double most_chi2_per_dof = 1.4;
+constexpr double min_chi2_per_dof = 0.7;
+constexpr double max_chi2_per_dof = 1.4;
 
 constexpr const char* page_name = "paper.html";
 constexpr const char* claims_name = "claims.csv";
 
 bool agrees(const paper::Paper& paper) {
-    return paper.chi2_per_dof >= least_chi2_per_dof && paper.chi2_per_dof <= most_chi2_per_dof;
+    return paper.chi2_per_dof >= min_chi2_per_dof && paper.chi2_per_dof <= max_chi2_per_dof;
 }
 
 std::string claims_table(const std::vector<paper::Claim>& claims) {
@@ -155,7 +155,7 @@ std::string text(const paper::Paper& paper, const std::string& folder, std::size
         "{}\ntwin against theory: chi-square {:.3f} per point, {} points (those of one experiment share its noise), "
         "allowed {} to {}\n{} claims: "
         "{}\nwritten to {}: {} and {} more files\n",
-        lines, paper.chi2_per_dof, paper.degrees_of_freedom, least_chi2_per_dof, most_chi2_per_dof, paper.claims.size(),
+        lines, paper.chi2_per_dof, paper.degrees_of_freedom, min_chi2_per_dof, max_chi2_per_dof, paper.claims.size(),
         paper::verdict_counts(paper.claims), printable(folder), page_name, n_files);
 }
 
@@ -185,7 +185,7 @@ void run(const Options& options) {
     if (agrees(paper)) return;
     complain(
         fmt::format("the twin does not agree with theory: chi-square {:.3f} per degree of freedom, allowed is {} to {}",
-                    paper.chi2_per_dof, least_chi2_per_dof, most_chi2_per_dof));
+                    paper.chi2_per_dof, min_chi2_per_dof, max_chi2_per_dof));
     throw CLI::RuntimeError{result_says_no};
 }
 

@@ -7,8 +7,8 @@ namespace {
 
 constexpr double rounding_counts2 = 0.25;
 // A variance from this many pairs is known to a third.
-constexpr std::int64_t least_pairs = 16;
-constexpr double most_ratio = 4.0;
+constexpr std::int64_t min_pairs = 16;
+constexpr double max_ratio = 4.0;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ RestCheck check_rest(const AngleScatter& scatter, double walk_counts2_per_tick) 
     RestCheck result;
     double worst = 0.0;
     for (int scale = 0; scale < scatter_scales; ++scale) {
-        if (scatter.pairs(scale) < least_pairs) continue;
+        if (scatter.pairs(scale) < min_pairs) continue;
         const std::int64_t ticks = std::int64_t{1} << scale;
         const double walk = walk_counts2_per_tick * static_cast<double>(ticks);
         const double ratio = scatter.variance(scale) / (rounding_counts2 + walk);
@@ -59,7 +59,7 @@ RestCheck check_rest(const AngleScatter& scatter, double walk_counts2_per_tick) 
         if (!(distance > worst)) continue;
         worst = distance;
         result = {
-            .at_rest = !(ratio > most_ratio || ratio < 1.0 / most_ratio), .worst_ratio = ratio, .worst_ticks = ticks};
+            .at_rest = !(ratio > max_ratio || ratio < 1.0 / max_ratio), .worst_ratio = ratio, .worst_ticks = ticks};
     }
     return result;
 }

@@ -14,7 +14,7 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr std::int64_t least_readings = 8;
+constexpr std::int64_t min_readings = 8;
 constexpr double many_readings = 40.0;
 
 // The mean difference of a segment, or of a part of one where there are few segments: the counter begins each of them
@@ -139,11 +139,11 @@ double BiasLaw::at_hz(double temperature_c) const {
 BiasLaw find_bias_law(std::span<const LabLog> logs, double reference_temperature_c, double presumed_per_c) {
     BiasLaw law{.reference_temperature_c = reference_temperature_c};
     const std::vector<Reading> readings = readings_of(logs);
-    if (std::ssize(readings) < least_readings) {
+    if (std::ssize(readings) < min_readings) {
         law.bias_hz =
             numeric::refused(fmt::format("{} stretches of settled record; {} or more are needed ({} ticks after each "
                                          "re-lock do not count)",
-                                         readings.size(), least_readings, settled_after_ticks));
+                                         readings.size(), min_readings, settled_after_ticks));
         law.temperature_coefficient_per_c = law.bias_hz;
         return law;
     }

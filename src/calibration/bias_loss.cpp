@@ -15,7 +15,7 @@ namespace zlg::calibration {
 namespace {
 
 // So many clusters give a scatter to be relied on.
-constexpr std::int64_t least_clusters = 8;
+constexpr std::int64_t min_clusters = 8;
 
 // The borders of one re-lock: columns of the loss per unit of chi and of parity.
 struct Borders : RelockBorders {
@@ -80,14 +80,14 @@ double chi2_per_dof(const std::vector<Borders>& all, const Eigen::Vector2d& solu
 
 numeric::Estimate judged(double chi, double sigma, const BiasLoss& loss) {
     const numeric::Estimate e = numeric::estimated(chi, sigma);
-    constexpr double least_sigma = 0.1;
+    constexpr double min_sigma = 0.1;
     constexpr double within_sigmas = 2.0;
-    if (e.determined && std::abs(chi) < within_sigmas * sigma && sigma <= least_sigma)
+    if (e.determined && std::abs(chi) < within_sigmas * sigma && sigma <= min_sigma)
         return numeric::refused(fmt::format("chi = {:.2g} +- {:.2g}: within its error of 0", chi, sigma));
     if (e.determined && chi < -within_sigmas * sigma)
         return numeric::refused(
             fmt::format("chi = {:.2g} +- {:.2g}: the bias does not fall with the detuning", chi, sigma));
-    if (!e.determined || (sigma <= least_sigma && chi > 0.0) || sigma <= 0.3 * chi) return e;
+    if (!e.determined || (sigma <= min_sigma && chi > 0.0) || sigma <= 0.3 * chi) return e;
     return numeric::refused(
         fmt::format("chi = {:.2g} +- {:.2g} from {} re-locks whose first half lacks {:.2g} counts; more "
                     "switches or a larger miss would tell",
@@ -110,10 +110,10 @@ std::string why_useless(const Relocks& relocks) {
             most = std::fmax(most, r.detuning_sq_lambda2);
         }
     }
-    constexpr double most_square_lambda2 = 1e6;
-    if (!(least >= 0.0 && most <= most_square_lambda2))
+    constexpr double max_square_lambda2 = 1e6;
+    if (!(least >= 0.0 && most <= max_square_lambda2))
         return fmt::format("the column detuning_sq_lambda2 reaches from {:.3g} to {:.3g}; allowed is 0..{:g} lambda^2",
-                           least, most, most_square_lambda2);
+                           least, most, max_square_lambda2);
     if (!(most - least > 1e-9 * most))
         return fmt::format("the column detuning_sq_lambda2 is constant, {:.3g}: no re-lock shows in it", least);
     return {};
@@ -131,7 +131,7 @@ void solve(const std::vector<Borders>& all, BiasLoss& loss) {
     const Eigen::Vector2d solution = inverse * total.c;
     loss.chi2_per_dof = chi2_per_dof(all, solution);
     const Eigen::Matrix2d covariance =
-        loss.n_relocks >= least_clusters
+        loss.n_relocks >= min_clusters
             ? Eigen::Matrix2d{scatter_covariance(clusters, inverse, solution) +
                               inverse * repeated_rounding({all.begin(), all.end()}, solution).covariance * inverse}
             : Eigen::Matrix2d{std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * inverse};

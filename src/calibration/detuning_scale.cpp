@@ -12,7 +12,7 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr std::int64_t least_clusters = 4;
+constexpr std::int64_t min_clusters = 4;
 
 // Of the mean over a half by the cubic: (1 + 169 + 169 + 1)/576 of the variance of a reading.
 constexpr double cubic_noise = 340.0 / 576.0;
@@ -20,11 +20,11 @@ constexpr double cubic_noise = 340.0 / 576.0;
 constexpr double cubic_uncertainty = 0.1;
 // Beyond this part of the scale even the cubic does not follow the transient: an exponential that falls to 0.6 in a half is
 // corrected by 2 %, and by 1 part in 1000 wrongly.
-constexpr double most_correction = 0.025;
+constexpr double max_correction = 0.025;
 
 // A digital loop that brings the mean square of the detuning down to less than this from one half to the next goes by
 // steps of which the readings at their ends tell too little.
-constexpr double least_stepped_fall = 0.13;
+constexpr double min_stepped_fall = 0.13;
 
 // Logged mean detunings of one re-lock against columns of travel, as sums of products; less what the noise of the
 // readings adds.
@@ -130,7 +130,7 @@ Fit fit(const Relocks& relocks, const HalfWaveLaw& law, Eigen::Index columns, Ma
         total.add(c);
     }
     Fit result{.n_relocks = std::ssize(clusters)};
-    if (result.n_relocks < least_clusters) return result;
+    if (result.n_relocks < min_clusters) return result;
     const Eigen::MatrixXd inverse = total.xx.inverse();
     const Eigen::VectorXd solution = inverse * total.xy;
     Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(columns, columns);
@@ -158,27 +158,27 @@ DetuningScale find_detuning_scale(std::span<const LabLog> logs, const HalfWaveLa
     const Relocks relocks{logs};
     const Fit f = stepped_voltage ? fit(relocks, law, 2, stepped_cluster) : fit(relocks, law, 1, cubic_cluster);
     result.n_relocks = f.n_relocks;
-    if (result.n_relocks < least_clusters) {
+    if (result.n_relocks < min_clusters) {
         result.scale = numeric::refused(
             fmt::format("{} re-locks with the columns detuning_lambda and piezo_v; {} or more are needed",
-                        result.n_relocks, least_clusters));
+                        result.n_relocks, min_clusters));
         return result;
     }
-    if (stepped_voltage && relocks.steepest_fall < least_stepped_fall) {
+    if (stepped_voltage && relocks.steepest_fall < min_stepped_fall) {
         result.scale = numeric::refused(
             fmt::format("the mean square of the detuning falls to {:.2g} of it from one half to the next, "
                         "allowed is {:g} for a digital "
                         "loop: its course within a half is not seen; a slower loop would tell",
-                        relocks.steepest_fall, least_stepped_fall));
+                        relocks.steepest_fall, min_stepped_fall));
         return result;
     }
     const double of_ruler = f.scale * law.half_wave_v.sigma / law.half_wave_v.value;
     const double corrected = stepped_voltage ? 0.0 : f.scale - fit(relocks, law, 1, straight_cluster).scale;
-    if (std::abs(corrected) > most_correction * std::abs(f.scale)) {
+    if (std::abs(corrected) > max_correction * std::abs(f.scale)) {
         result.scale = numeric::refused(fmt::format(
             "the re-lock is over within {} halves: its course within one is not seen (the cubic corrects by {:.2g} %, "
             "allowed is {:g} %); a shorter tick would tell",
-            relocks.transient_halves, 100.0 * std::abs(corrected / f.scale), 100.0 * most_correction));
+            relocks.transient_halves, 100.0 * std::abs(corrected / f.scale), 100.0 * max_correction));
         return result;
     }
     const double of_course = cubic_uncertainty * corrected;

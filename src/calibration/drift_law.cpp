@@ -15,11 +15,11 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr std::int64_t least_pieces = 8;
+constexpr std::int64_t min_pieces = 8;
 constexpr double wanted_pieces = 500.0;
-constexpr double turned_between = 2.0;     // counts
-constexpr double least_bend_sigmas = 4.0;  // of A, and of a straight growth
-constexpr double most_time_error = 0.2;    // of tau, relative
+constexpr double turned_between = 2.0;   // counts
+constexpr double min_bend_sigmas = 4.0;  // of A, and of a straight growth
+constexpr double max_time_error = 0.2;   // of tau, relative
 
 // Pieces so long that the counter turns on meanwhile: the readings at their borders are then rounded independently.
 std::vector<Piece> turning_pieces(std::span<const LabLog> logs) {
@@ -128,8 +128,8 @@ Exponential fit_exponential(const Record& record) {
     }
     // The column of tau corrects by less than its tolerance: coefficient 3 is a step of tau.
     e.tau_s += std::clamp(e.fit.coefficient[3], -0.01 * e.tau_s, 0.01 * e.tau_s);
-    e.determined = std::abs(e.fit.coefficient[2]) > least_bend_sigmas * sigma(e.fit, 2) &&
-                   sigma(e.fit, 3) < most_time_error * e.tau_s;
+    e.determined = std::abs(e.fit.coefficient[2]) > min_bend_sigmas * sigma(e.fit, 2) &&
+                   sigma(e.fit, 3) < max_time_error * e.tau_s;
     return e;
 }
 
@@ -180,7 +180,7 @@ void take(const Record& record, const IncrementFit& fit, DriftLaw& law) {
 // Why A and tau cannot be separated, or not be found at all.
 std::string why_no_bend(const Record& record, const IncrementFit& straight) {
     const double slope = straight.coefficient[2];
-    if (!(std::abs(slope) > least_bend_sigmas * sigma(straight, 2)))
+    if (!(std::abs(slope) > min_bend_sigmas * sigma(straight, 2)))
         return fmt::format("over {:.4g} s the magnetic drift does not change by more than its error", record.span_s);
     return fmt::format(
         "over {:.4g} s the magnetic drift grows by {:.3g} +- {:.2g} arcsec/s in 1000 s; where it ends is not seen, so "
@@ -256,8 +256,8 @@ RestCheck rest_of(std::span<const LabLog> logs, double scale_arcsec, double walk
 DriftLaw find_drift_law(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s, const BiasLaw& bias) {
     DriftLaw law;
     const Record record{logs, scale_arcsec, rate_arcsec_s, bias};
-    if (record.n() < least_pieces) {
-        refuse_all(fmt::format("{} pieces of settled record; {} or more are needed", record.n(), least_pieces), law);
+    if (record.n() < min_pieces) {
+        refuse_all(fmt::format("{} pieces of settled record; {} or more are needed", record.n(), min_pieces), law);
         return law;
     }
     if (!has_both_modes(record.pieces)) {

@@ -14,7 +14,7 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr std::int64_t least_switches = 4;
+constexpr std::int64_t min_switches = 4;
 
 struct Step {
     std::size_t log = 0;
@@ -158,16 +158,16 @@ HalfWaveLaw find_half_wave_law(std::span<const LabLog> logs, double reference_te
     std::erase_if(steps, [](const Step& s) { return !std::isfinite(s.voltage_v); });
     if (!steps.empty()) divide_by_multiple(steps);
     law.n_switches = std::ssize(steps);
-    if (law.n_switches < least_switches) {
+    if (law.n_switches < min_switches) {
         law.half_wave_v = numeric::refused(
             fmt::format("{} switches with the column piezo_v, at rest before and after ({:.4g} ticks after a "
                         "re-lock); {} or more are needed",
-                        law.n_switches, longest_rest_ticks(logs), least_switches));
+                        law.n_switches, longest_rest_ticks(logs), min_switches));
         law.temperature_coefficient_per_c = law.half_wave_v;
         return law;
     }
     const std::string too_few = too_few_temperatures(logs);
-    const bool with_law = too_few.empty() && law.n_switches > least_switches;
+    const bool with_law = too_few.empty() && law.n_switches > min_switches;
     if (!with_law) law.temperature_coefficient_per_c = numeric::refused(too_few.empty() ? "too few switches" : too_few);
     fit(steps, with_law, resolution_v(logs, steps), law);
     return law;

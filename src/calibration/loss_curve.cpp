@@ -15,14 +15,14 @@ namespace zlg::calibration {
 namespace {
 
 constexpr Eigen::Index n_terms = 4;
-constexpr std::int64_t least_relocks = 20;
+constexpr std::int64_t min_relocks = 20;
 constexpr int n_points = 24;
-constexpr double least_bend_sigmas = 6.0;
-constexpr double least_bend_ratio = 0.05;
+constexpr double min_bend_sigmas = 6.0;
+constexpr double min_bend_ratio = 0.05;
 // Of the variance of rounding: a counter at rest that repeats itself more than this gives a few numbers, not many.
-constexpr double most_repeated_ratio = 0.5;
+constexpr double max_repeated_ratio = 0.5;
 // Of the loss at any point beyond a quarter of the last: a curve that is worse than this is none.
-constexpr double most_uncertainty_ratio = 0.1;
+constexpr double max_uncertainty_ratio = 0.1;
 // What one term less makes of a point, of this part of that the point itself may be wrong.
 constexpr double uncertainty_of_terms = 0.3;
 // x0 over the last point.
@@ -167,10 +167,10 @@ struct Bend {
 
 // Why the fit is no curve; empty where it is one.
 std::string fault_of(const Fit& fit, double last_lambda) {
-    if (fit.repeats > most_repeated_ratio)
+    if (fit.repeats > max_repeated_ratio)
         return "the counter rounds alike after every switch; a slow rotation at a known rate would tell";
     const Bend bend{fit, last_lambda};
-    if (!(bend.ratio > least_bend_ratio && bend.in_sigmas > least_bend_sigmas))
+    if (!(bend.ratio > min_bend_ratio && bend.in_sigmas > min_bend_sigmas))
         return fmt::format("up to {:.3g} logged wavelengths the loss of bias does not tell it from a straight line",
                            last_lambda);
     if (!(fit.chi() > 0.0)) return "the loss of bias at small detunings is lost in the rounding of the counter";
@@ -191,7 +191,7 @@ void add_points(const Fit& fit, const Fit& coarse, double last_lambda, LossCurve
             found.reason = fmt::format("the loss of bias does not grow with the logged detuning at {:.3g}", x);
             return;
         }
-        if (x > 0.25 * last_lambda && !(uncertainty < most_uncertainty_ratio)) {
+        if (x > 0.25 * last_lambda && !(uncertainty < max_uncertainty_ratio)) {
             found.reason = fmt::format(
                 "the loss of bias at a logged detuning of {:.3g} is known to {:.2g} of it only; "
                 "more switches would tell",
@@ -220,10 +220,10 @@ LossCurve find_loss_curve(std::span<const LabLog> logs, const BiasLaw& law) {
     if (!law.bias_hz.determined) return refused_curve("the bias frequency is not determined");
     const Relocks relocks{logs};
     const std::int64_t n = std::ssize(relocks.views);
-    if (n < least_relocks || !has_detunings(relocks))
+    if (n < min_relocks || !has_detunings(relocks))
         return refused_curve(
             fmt::format("{} re-locks with the columns detuning_lambda and detuning_sq_lambda2; {} or more are needed",
-                        has_detunings(relocks) ? n : 0, least_relocks));
+                        has_detunings(relocks) ? n : 0, min_relocks));
     const double last_lambda = farthest_lambda(relocks);
     if (!(last_lambda > 0.0 && last_lambda < 1e3)) return refused_curve("no re-lock shows in the detuning");
     const Fit fit = best_fit(relocks, law, n_terms, last_lambda);

@@ -5,7 +5,7 @@ namespace {
 
 struct Merging {
     std::vector<Piece> pieces;
-    double least_s;
+    double min_s;
     std::int64_t chain = -1;
     std::int64_t segment = -1;
 
@@ -14,7 +14,7 @@ struct Merging {
             segment = block.segment;
             ++chain;
             begin(log, index, block);
-        } else if (pieces.back().length_s >= least_s) {
+        } else if (pieces.back().length_s >= min_s) {
             begin(log, index, block);
         }
         Piece& piece = pieces.back();
@@ -44,8 +44,8 @@ double settled_s(std::span<const LabLog> logs) {
     return sum_s;
 }
 
-std::vector<Piece> pieces_of(std::span<const LabLog> logs, double least_s) {
-    Merging merging{.pieces = {}, .least_s = least_s};
+std::vector<Piece> pieces_of(std::span<const LabLog> logs, double min_s) {
+    Merging merging{.pieces = {}, .min_s = min_s};
     for (std::size_t index = 0; index < logs.size(); ++index) {
         merging.segment = -1;
         for (const Block& block : logs[index].blocks) merging.take(logs[index], index, block);

@@ -21,8 +21,8 @@ struct Piece {
     double signed_rise_c = 0.0;  // of the temperature, with the sign of the bias in the first half of each tick
 };
 
-// least_s  a piece goes on until it is so long or its segment ends.
-[[nodiscard]] std::vector<Piece> pieces_of(std::span<const LabLog> logs, double least_s);
+// min_s  a piece goes on until it is so long or its segment ends.
+[[nodiscard]] std::vector<Piece> pieces_of(std::span<const LabLog> logs, double min_s);
 
 // Length of the settled record.
 [[nodiscard]] double settled_s(std::span<const LabLog> logs);

@@ -36,7 +36,7 @@ std::optional<TableStage> stage_of(std::span<const double> input, std::span<cons
         out.add(y);
         part[k * parts / n].add(y);
     }
-    if (out.n < static_cast<double>(std::max<std::int64_t>(options.least_samples, 2))) return std::nullopt;
+    if (out.n < static_cast<double>(std::max<std::int64_t>(options.min_samples, 2))) return std::nullopt;
     Mean squares;
     for (const Mean& p : part)
         if (p.n > 0.0) squares.add((p.value - out.value) * (p.value - out.value));
@@ -151,7 +151,7 @@ RateTable rate_table(std::span<const double> input, std::span<const double> outp
     if (table.stages.size() < 3)
         throw deviations::SeriesError(
             fmt::format("rate table: {} stages of {} samples or more at one rate, 3 or more are needed",
-                        table.stages.size(), options.least_samples));
+                        table.stages.size(), options.min_samples));
     const auto line = line_of(table.stages, [](double) { return true; });
     if (!line || line->slope == 0.0)
         throw deviations::SeriesError("rate table: all stages have one rate, a scale factor needs two");

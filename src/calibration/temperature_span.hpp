@@ -11,7 +11,7 @@
 
 namespace zlg::calibration {
 
-inline constexpr double least_span_c = 1.0;
+inline constexpr double min_span_c = 1.0;
 
 inline bool has_temperature(std::span<const LabLog> logs) {
     return !logs.empty() && std::all_of(logs.begin(), logs.end(), [](const LabLog& l) { return l.has_temperature(); });
@@ -26,8 +26,8 @@ inline std::string too_few_temperatures(std::span<const LabLog> logs) {
         all.temperature_max_c = std::max(all.temperature_max_c, log.temperature_max_c);
     }
     const double span_c = all.temperature_max_c - all.temperature_min_c;
-    if (span_c >= least_span_c) return {};
-    return fmt::format("the temperature spans {:.2g} C; {} C or more determine a law", span_c, least_span_c);
+    if (span_c >= min_span_c) return {};
+    return fmt::format("the temperature spans {:.2g} C; {} C or more determine a law", span_c, min_span_c);
 }
 
 }  // namespace zlg::calibration

@@ -116,22 +116,22 @@ void check_times(const Gyro& gyro, const Switching& switching) {
         throw ConfigError(fmt::format("switching.gap_min_ticks = {}: allowed is up to switching.gap_ticks = {}",
                                       switching.gap_min_ticks, switching.gap_ticks));
     }
-    const auto least_ticks = static_cast<double>(switching.gap_ticks + 2);
-    if (!switching.interval_optimal && !(switching.interval_s >= least_ticks * gyro.tick_s)) {
+    const auto min_ticks = static_cast<double>(switching.gap_ticks + 2);
+    if (!switching.interval_optimal && !(switching.interval_s >= min_ticks * gyro.tick_s)) {
         throw ConfigError(fmt::format(
             "switching.interval_s = {}: allowed is from switching.gap_ticks + 2 = {} ticks of gyro.tick_s = {} s: {} s",
-            text::toml_real(switching.interval_s), least_ticks, text::toml_real(gyro.tick_s),
-            text::toml_real(least_ticks * gyro.tick_s)));
+            text::toml_real(switching.interval_s), min_ticks, text::toml_real(gyro.tick_s),
+            text::toml_real(min_ticks * gyro.tick_s)));
     }
 }
 
 void check_interval_limits(const Gyro& gyro, const Switching& s) {
-    const double least_s = static_cast<double>(s.gap_ticks + 2) * gyro.tick_s;
-    if (s.schedule != Schedule::fixed && !(s.interval_min_s >= least_s)) {
+    const double min_s = static_cast<double>(s.gap_ticks + 2) * gyro.tick_s;
+    if (s.schedule != Schedule::fixed && !(s.interval_min_s >= min_s)) {
         throw ConfigError(fmt::format(
             "switching.interval_min_s = {}: allowed is from switching.gap_ticks + 2 ticks of gyro.tick_s = {} s, "
             "{} s, where switching.schedule is not fixed",
-            text::toml_real(s.interval_min_s), text::toml_real(gyro.tick_s), text::toml_real(least_s)));
+            text::toml_real(s.interval_min_s), text::toml_real(gyro.tick_s), text::toml_real(min_s)));
     }
     if (!(s.interval_min_s <= s.interval_max_s)) {
         throw ConfigError(fmt::format("switching.interval_min_s = {}: allowed is up to switching.interval_max_s = {}",

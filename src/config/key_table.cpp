@@ -49,7 +49,7 @@ constexpr Range presumed_drift{.min = -1e6, .max = 1e6};
 
 constexpr Range curve_node{.min = -1e3, .max = 1e3};
 constexpr Range curve_centre{.min = -0.2, .max = 0.2};
-constexpr Range slope{.min = -1e6, .max = 1e6, .least_size = 1e-6};
+constexpr Range slope{.min = -1e6, .max = 1e6, .min_size = 1e-6};
 constexpr Range within_a_million{.min = -1e6, .max = 1e6, .without_min = true, .without_max = true};
 
 // Ranges are those in which the arithmetic has a meaning, not those of a typical gyro.

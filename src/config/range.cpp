@@ -22,7 +22,7 @@ std::string short_number(double value) {
 bool contains(const Range& range, double value) {
     if (!std::isfinite(value)) return false;
     if (range.or_zero && value == 0.0) return true;
-    if (!(std::abs(value) >= range.least_size)) return false;
+    if (!(std::abs(value) >= range.min_size)) return false;
     const bool above = range.without_min ? value > range.min : value >= range.min;
     const bool below = range.without_max ? value < range.max : value <= range.max;
     return above && below && !(range.without_zero && value == 0.0);
@@ -32,8 +32,8 @@ std::string in_words(const Range& range) {
     const bool has_min = std::isfinite(range.min);
     const bool has_max = std::isfinite(range.max);
     if (!has_min && !has_max) return range.without_zero ? "any finite number but 0" : "any finite number";
-    if (range.least_size > 0.0)
-        return fmt::format("{0}..{1} or -{1}..-{0}", short_number(range.least_size), short_number(range.max));
+    if (range.min_size > 0.0)
+        return fmt::format("{0}..{1} or -{1}..-{0}", short_number(range.min_size), short_number(range.max));
     if (has_min && has_max && !range.without_min && !range.without_max && range.or_zero)
         return fmt::format("0 or {}..{}", short_number(range.min), short_number(range.max));
     if (has_min && has_max && !range.without_min && !range.without_max) {

@@ -15,8 +15,8 @@ struct Range {
     bool without_min = false;
     bool without_max = false;
     bool without_zero = false;
-    double least_size = 0.0;  // of a number of either sign
-    bool or_zero = false;     // 0 besides them
+    double min_size = 0.0;  // of a number of either sign
+    bool or_zero = false;   // 0 besides them
 };
 
 inline constexpr Range any_finite{};

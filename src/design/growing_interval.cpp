@@ -18,8 +18,8 @@ void check(const DriftCase& task, double growth) {
 
 double excess_ratio(const DriftCase& task, double drift_arcsec_s) {
     const double nonmagnetic_arcsec_s = std::abs(task.gyro.nonmagnetic_arcsec_s);
-    const double least_arcsec_s = optimum(IntervalMethod::worst_case, task).drift_arcsec_s;
-    return (drift_arcsec_s - nonmagnetic_arcsec_s) / (least_arcsec_s - nonmagnetic_arcsec_s);
+    const double min_arcsec_s = optimum(IntervalMethod::worst_case, task).drift_arcsec_s;
+    return (drift_arcsec_s - nonmagnetic_arcsec_s) / (min_arcsec_s - nonmagnetic_arcsec_s);
 }
 
 }  // namespace

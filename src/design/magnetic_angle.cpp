@@ -76,12 +76,12 @@ std::vector<double> segments_s(double interval_s, FirstSegment first, double run
     require(run_s / interval_s < max_segments, where, "run_s / interval_s", run_s / interval_s, "below 1e7");
     const double first_s = first == FirstSegment::half ? interval_s / 2.0 : interval_s;
     // A run that ends at a switch, but for rounding, has no splinter of a segment behind it.
-    const double least_s = 1e-9 * interval_s;
+    const double min_s = 1e-9 * interval_s;
     std::vector<double> lengths;
     double begin_s = 0.0;
-    while (run_s - begin_s > least_s) {
+    while (run_s - begin_s > min_s) {
         const double end_s = first_s + static_cast<double>(lengths.size()) * interval_s;
-        lengths.push_back(end_s < run_s + least_s ? end_s - begin_s : run_s - begin_s);
+        lengths.push_back(end_s < run_s + min_s ? end_s - begin_s : run_s - begin_s);
         begin_s = end_s;
     }
     return lengths;

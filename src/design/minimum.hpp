@@ -28,7 +28,7 @@ double rising_zero(const Slope& slope, double low, double high) {
 // A search on values alone ends at the root of the rounding error, 1e-8 at best; the slope gives the point to full
 // precision. value, slope  of x; slope has the sign of the derivative.
 template <class Value, class Slope>
-double least_point(const Value& value, const Slope& slope, double low, double high) {
+double min_point(const Value& value, const Slope& slope, double low, double high) {
     double best = high;
     double best_value = std::numeric_limits<double>::infinity();
     const auto consider = [&](double x) {

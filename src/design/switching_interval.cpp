@@ -104,11 +104,11 @@ OptimumStatus status_of(double interval_s, double run_s, bool magnetic_drift) {
 }
 
 // Below this interval the switches alone cost more than a run without any.
-double least_of_one_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
+double min_of_one_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
     return task.switch_error_arcsec / whole_run_arcsec_s;
 }
 
-double least_of_random_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
+double min_of_random_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
     const double ratio_s = task.switch_error_arcsec / whole_run_arcsec_s;
     return ratio_s * ratio_s / task.run_s;
 }
@@ -121,12 +121,11 @@ Optimum searched(const DriftCase& task, const Drift& drift, const Slope& slope, 
     // The nonmagnetic drift is the same everywhere and would only blur the comparison of minima.
     const DriftCase excess = without_nonmagnetic(task);
     const double whole_run_arcsec_s = drift(excess, task.run_s);
-    const double least_s = std::min(least(excess, whole_run_arcsec_s), task.run_s);
-    require(std::isfinite(whole_run_arcsec_s) && std::isfinite(task.run_s / least_s), where, "drift over the whole run",
+    const double min_s = std::min(least(excess, whole_run_arcsec_s), task.run_s);
+    require(std::isfinite(whole_run_arcsec_s) && std::isfinite(task.run_s / min_s), where, "drift over the whole run",
             whole_run_arcsec_s, "what numbers can hold");
-    const double interval_s =
-        least_point([&](double length_s) { return drift(excess, length_s); },
-                    [&](double length_s) { return slope(excess, length_s); }, least_s, task.run_s);
+    const double interval_s = min_point([&](double length_s) { return drift(excess, length_s); },
+                                        [&](double length_s) { return slope(excess, length_s); }, min_s, task.run_s);
     return {status_of(interval_s, task.run_s, has_magnetic_drift(task.gyro)), interval_s, drift(task, interval_s)};
 }
 
@@ -194,7 +193,7 @@ Optimum worst_case_optimum(const DriftCase& task, FirstSegment first) {
         task,
         [first](const DriftCase& t, double interval_s) { return worst_case_drift_arcsec_s(t, interval_s, first); },
         [first](const DriftCase& t, double interval_s) { return slope_worst_case(t, interval_s, first); },
-        least_of_one_sign_s);
+        min_of_one_sign_s);
 }
 
 Optimum random_sign_optimum(const DriftCase& task, FirstSegment first) {
@@ -202,14 +201,14 @@ Optimum random_sign_optimum(const DriftCase& task, FirstSegment first) {
         task,
         [first](const DriftCase& t, double interval_s) { return random_sign_drift_arcsec_s(t, interval_s, first); },
         [first](const DriftCase& t, double interval_s) { return slope_random_sign(t, interval_s, first); },
-        least_of_random_sign_s);
+        min_of_random_sign_s);
 }
 
 Optimum expected_optimum(const DriftCase& task, FirstSegment first) {
     return searched(
         task, [first](const DriftCase& t, double interval_s) { return expected_drift_arcsec_s(t, interval_s, first); },
         [first](const DriftCase& t, double interval_s) { return slope_expected(t, interval_s, first); },
-        least_of_random_sign_s);
+        min_of_random_sign_s);
 }
 
 Optimum optimum(IntervalMethod method, const DriftCase& task) {
@@ -218,9 +217,9 @@ Optimum optimum(IntervalMethod method, const DriftCase& task) {
     };
     switch (method) {
         case IntervalMethod::corrected:
-            return searched(task, drift, slope_corrected, least_of_one_sign_s);
+            return searched(task, drift, slope_corrected, min_of_one_sign_s);
         case IntervalMethod::as_printed:
-            return searched(task, drift, slope_as_printed, least_of_one_sign_s);
+            return searched(task, drift, slope_as_printed, min_of_one_sign_s);
         case IntervalMethod::worst_case:
             return worst_case_optimum(task, FirstSegment::full);
         case IntervalMethod::closed_form:

@@ -126,7 +126,7 @@ TermSum sum_of_known_phase(const RecordView& view, std::int64_t m, std::int64_t 
         window.known += in ? 1.0 : -1.0;
     };
     for (std::int64_t j = begin; j < begin + m; ++j) move(j, true);
-    const double least = least_known(m, view.least_known_ratio);
+    const double least = min_known(m, view.least_known_ratio);
     const double whole = static_cast<double>(m * view.stride);
     TermSum total;
     for (std::int64_t i = begin; i < end; ++i) {

@@ -59,13 +59,13 @@ double nearly_constant(std::span<const ChiSquarePart> parts) {
 
 // Along s0 + iy - b y^2 both halves are conjugate. Poles and branch points lie several steps away.
 double integral(std::span<const ChiSquarePart> parts, double x, double s0) {
-    constexpr double steps_a_width = 4.0, least_share = 1e-10;
-    constexpr int most_steps = 4000;
+    constexpr double steps_a_width = 4.0, min_share = 1e-10;
+    constexpr int max_steps = 4000;
     const Cumulants k = cumulants(parts, s0);
     const double bend = x > nearly_constant(parts) ? -k.third / (6.0 * k.second) : 0.0;
     const double step = 1.0 / (steps_a_width * std::sqrt(k.second + 1.0 / (s0 * s0)));
     double sum = 0.0, largest = 0.0;
-    for (int n = 0; n < most_steps; ++n) {
+    for (int n = 0; n < max_steps; ++n) {
         const double y = static_cast<double>(n) * step;
         const double re = s0 - bend * y * y;
         double size = re * x, angle = y * x;
@@ -81,7 +81,7 @@ double integral(std::span<const ChiSquarePart> parts, double x, double s0) {
         sum += n == 0 ? 0.5 * value : value;
         const double most = size * std::hypot(along_re, along_im);
         largest = std::max(largest, most);
-        if (most < least_share * largest) break;
+        if (most < min_share * largest) break;
     }
     return sum * step / std::numbers::pi;
 }

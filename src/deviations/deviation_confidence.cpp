@@ -91,7 +91,7 @@ VarianceLaw law_of_differences(DeviationKind kind, int noise, std::int64_t m, st
     const std::int64_t starts = n_intervals - span + 1;
     const auto terms = static_cast<double>(side_by_side ? (starts - 1) / m + 1 : starts);
     const double averagings = side_by_side ? terms : terms / static_cast<double>(m);
-    const bool in_parts = averagings <= most_averagings;
+    const bool in_parts = averagings <= max_averagings;
     const DifferenceTerms all{
         .noise = noise, .d = d, .is_modified = modified, .is_side_by_side = side_by_side, .m = m, .starts = starts};
     if (noise == 2 && !modified)
@@ -126,10 +126,10 @@ double power_quantile(double edf, double p, double z) {
 // 1 + (chi2(p) - p)/sqrt(p edf) ends too early below, chi-square times what skewness changes in the power law too late.
 // The weighted geometric mean is nearly right, see bench/deviation_coverage, where degrees of freedom are not few.
 double quantile_by_moments(const VarianceLaw& law, double probability) {
-    constexpr double least_p = 6.0;  // below, moments do not say enough
+    constexpr double min_p = 6.0;  // below, moments do not say enough
     const double p = law.skewness_p;
     const auto chi2 = [&](double dof) { return boost::math::quantile(boost::math::chi_squared(dof), probability); };
-    if (p < least_p) return chi2(law.edf) / law.edf;
+    if (p < min_p) return chi2(law.edf) / law.edf;
     const double shifted = 1.0 + (chi2(p) - p) / std::sqrt(p * law.edf);
     const double z = boost::math::quantile(boost::math::normal(), probability);
     const double plain = power_quantile(law.edf, law.edf, z), skew = power_quantile(law.edf, p, z);
@@ -161,9 +161,9 @@ struct Question {
 };
 
 Question simplified(const Question& asked) {
-    constexpr std::int64_t most_m = 64, most_flicker_m = 512;
+    constexpr std::int64_t max_m = 64, max_flicker_m = 512;
     const bool averages = is_modified(asked.kind);
-    const std::int64_t m = asked.noise > 0 && !averages ? most_flicker_m : most_m;
+    const std::int64_t m = asked.noise > 0 && !averages ? max_flicker_m : max_m;
     if (asked.m <= m || (asked.noise == 2 && !averages)) return asked;
     if (is_side_by_side(asked.kind)) return {asked.kind, asked.noise, m, m * (asked.n_intervals / asked.m)};
     const auto thinned = [&](std::int64_t n) {
@@ -176,14 +176,14 @@ Question simplified(const Question& asked) {
     return {asked.kind, asked.noise, m, starts + spans * m - one};
 }
 
-constexpr std::size_t most_remembered = 4096;
+constexpr std::size_t max_remembered = 4096;
 
 // The records of a campaign, or the times of a curve, ask for the same laws again and again.
 VarianceLaw remembered_law(const Question& asked) {
     thread_local std::map<Question, VarianceLaw> known;
     const Question question = simplified(asked);
     if (const auto found = known.find(question); found != known.end()) return found->second;
-    if (known.size() >= most_remembered) known.clear();
+    if (known.size() >= max_remembered) known.clear();
     return known[question] = at_least_one(law_of_all(question.kind, question.noise, question.m, question.n_intervals));
 }
 
@@ -204,7 +204,7 @@ Interval remembered_interval(const VarianceLaw& law, double confidence) {
     if (!law.parts) return variance_interval(law, confidence);
     const std::pair key{law.parts.get(), confidence};
     if (const auto found = known.find(key); found != known.end()) return found->second.interval;
-    if (known.size() >= most_remembered) known.clear();
+    if (known.size() >= max_remembered) known.clear();
     return known.emplace(key, Known{law.parts, variance_interval(law, confidence)}).first->second.interval;
 }
 
@@ -217,9 +217,9 @@ VarianceLaw variance_law(DeviationKind kind, int noise, std::int64_t m, std::int
 }
 
 void check_confidence(double confidence) {
-    if (!(confidence > 0.0 && confidence <= most_confidence))
+    if (!(confidence > 0.0 && confidence <= max_confidence))
         throw SeriesError(
-            fmt::format("confidence: {}, allowed is more than 0 and at most {}", confidence, most_confidence));
+            fmt::format("confidence: {}, allowed is more than 0 and at most {}", confidence, max_confidence));
 }
 
 Interval confidence_interval(double deviation, const VarianceLaw& law, double confidence) {

@@ -16,18 +16,18 @@
 namespace zlg::deviations {
 namespace {
 
-constexpr std::int64_t least_window = 64;
-constexpr std::int64_t most_window = std::int64_t{1} << 24;
-constexpr std::int64_t most_factor = std::int64_t{1} << 46;  // counts of its samples, summed over it, stay exact
+constexpr std::int64_t min_window = 64;
+constexpr std::int64_t max_window = std::int64_t{1} << 24;
+constexpr std::int64_t max_factor = std::int64_t{1} << 46;  // counts of its samples, summed over it, stay exact
 constexpr std::size_t piece_samples = 65536;
 
 void check(const StreamConfig& config) {
     constexpr std::array one_sample{0.0};
     check(Series{.what = config.what, .values = one_sample});
     const auto window = static_cast<std::uint64_t>(config.window);
-    if (config.window < least_window || config.window > most_window || !std::has_single_bit(window))
-        throw SeriesError(fmt::format("window: {}, allowed is a power of two from {} to {}", config.window,
-                                      least_window, most_window));
+    if (config.window < min_window || config.window > max_window || !std::has_single_bit(window))
+        throw SeriesError(
+            fmt::format("window: {}, allowed is a power of two from {} to {}", config.window, min_window, max_window));
     if (config.kinds.empty()) throw SeriesError("stream: 0 kinds of deviation, allowed is 1 or more");
     for (const auto kind : config.kinds)
         if (kind != DeviationKind::oadev && kind != DeviationKind::mdev && kind != DeviationKind::tdev &&
@@ -36,8 +36,8 @@ void check(const StreamConfig& config) {
                 fmt::format("stream: {} needs the whole record, allowed are oadev, mdev, tdev, ohdev", name_of(kind)));
     if (config.factors.empty()) throw SeriesError("averaging times: 0 are given, allowed is 1 or more");
     for (const auto m : config.factors)
-        if (m < 1 || m > most_factor)
-            throw SeriesError(fmt::format("averaging time: {} intervals, allowed is 1 to {}", m, most_factor));
+        if (m < 1 || m > max_factor)
+            throw SeriesError(fmt::format("averaging time: {} intervals, allowed is 1 to {}", m, max_factor));
     check(DeviationOptions{.least_known_ratio = config.least_known_ratio});
 }
 

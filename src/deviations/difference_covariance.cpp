@@ -8,11 +8,11 @@
 namespace zlg::deviations {
 namespace {
 
-constexpr std::int64_t most_sampled = 64;
-constexpr std::int64_t most_flicker_steps = 512;  // of flicker of the angle, which depends on the sampling as ln m
+constexpr std::int64_t max_sampled = 64;
+constexpr std::int64_t max_flicker_steps = 512;  // of flicker of the angle, which depends on the sampling as ln m
 
 std::int64_t steps_of(int noise, bool is_averaged, std::int64_t m) {
-    return std::min(m, noise == 1 && !is_averaged ? most_flicker_steps : most_sampled);
+    return std::min(m, noise == 1 && !is_averaged ? max_flicker_steps : max_sampled);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ DifferenceCovariance::DifferenceCovariance(int noise, int d, bool is_averaged, s
     : noise_(noise),
       d_(d),
       is_averaged_(is_averaged),
-      is_sampled_(m <= most_sampled),
+      is_sampled_(m <= max_sampled),
       steps_(steps_of(noise, is_averaged, m)) {
     // The differences reach d or, of the averaged angle, d + 1 averaging times farther.
     if (is_sampled_) sampled_ = sampled_covariance(noise - (is_averaged ? 2 : 0), (reach + d + 2) * m);

@@ -131,7 +131,7 @@ RecordView view_of(const AngleRecord& record, double least_known_ratio) {
             .least_known_ratio = least_known_ratio};
 }
 
-double least_known(std::int64_t m, double ratio) {
+double min_known(std::int64_t m, double ratio) {
     // Rounding of ratio * m must not ask for one more than ratio says.
     return std::max(1.0, std::ceil(ratio * static_cast<double>(m) * (1.0 - 1e-12)));
 }
@@ -141,7 +141,7 @@ TermSum difference_sum(const RecordView& view, int order, std::int64_t m, std::i
     if (n <= 0) return {};
     const double* a = view.angle + begin;
     const std::int64_t intervals = m * view.stride;
-    const double least = least_known(intervals, view.least_known_ratio), whole = static_cast<double>(intervals);
+    const double least = min_known(intervals, view.least_known_ratio), whole = static_cast<double>(intervals);
     if (view.known != nullptr) return squares_of_means(a, view.known + begin, order, m, n, least, whole);
     if (view.known_real != nullptr)
         return squares_of_means_in_stream(a, view.known_real + begin, order, m, n, least, whole);

@@ -37,7 +37,7 @@ struct RecordView {
 [[nodiscard]] RecordView view_of(const AngleRecord& record, double least_known_ratio);
 
 // Known intervals that a window of m needs.
-[[nodiscard]] double least_known(std::int64_t m, double ratio);
+[[nodiscard]] double min_known(std::int64_t m, double ratio);
 
 // Terms begin .. end-1 of one averaging time, `order` 2 or 3: those that begin at border i.
 [[nodiscard]] TermSum difference_sum(const RecordView& view, int order, std::int64_t m, std::int64_t begin,

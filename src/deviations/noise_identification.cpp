@@ -8,15 +8,15 @@
 namespace zlg::deviations {
 namespace {
 
-constexpr std::int64_t least_means = 30;
+constexpr std::int64_t min_means = 30;
 // So many means tell the exponent to a few hundredths; they are taken in runs spread over the record.
-constexpr std::int64_t most_means = 1 << 14;
+constexpr std::int64_t max_means = 1 << 14;
 constexpr std::int64_t run_means = 1 << 10;
 constexpr std::size_t steps_of_mean = 3;
 
 std::optional<NoiseStep> step_of(const RecordView& view, std::int64_t m) {
     const std::int64_t n_means = view.n_intervals / m;
-    const std::int64_t n_runs = n_means <= most_means ? 1 : most_means / run_means;
+    const std::int64_t n_runs = n_means <= max_means ? 1 : max_means / run_means;
     const std::int64_t length = n_runs == 1 ? n_means : run_means;
     NoiseMeans means(m);
     for (std::int64_t run = 0; run < n_runs; ++run) {
@@ -58,7 +58,7 @@ void LagOne::add_to(std::size_t order, double value) {
 std::optional<double> LagOne::exponent() const {
     for (std::size_t d = 0; d < level_.size(); ++d) {
         const auto& level = level_[d];
-        if (level.n + static_cast<std::int64_t>(d) < least_means || level.pairs < 1) return std::nullopt;
+        if (level.n + static_cast<std::int64_t>(d) < min_means || level.pairs < 1) return std::nullopt;
         const auto n = static_cast<double>(level.n), pairs = static_cast<double>(level.pairs);
         const double mean = level.sum / n;
         const double variance = level.square - n * mean * mean;
@@ -74,7 +74,7 @@ std::optional<double> LagOne::exponent() const {
 std::vector<NoiseStep> noise_steps(const AngleRecord& record, double least_known_ratio) {
     const auto view = view_of(record, least_known_ratio);
     std::vector<NoiseStep> steps;
-    for (std::int64_t m = 1; m <= view.n_intervals / least_means; m *= 2)
+    for (std::int64_t m = 1; m <= view.n_intervals / min_means; m *= 2)
         if (const auto step = step_of(view, m)) steps.push_back(*step);
     return steps;
 }

@@ -8,7 +8,7 @@ namespace zlg::deviations {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t most_angles = 32;  // of a mean angle: enough to tell white from flicker
+constexpr std::int64_t max_angles = 32;   // of a mean angle: enough to tell white from flicker
 constexpr double angle_noise_from = 0.6;  // half way between white rate and flicker angle noise
 
 struct Node {
@@ -47,10 +47,10 @@ void NoiseMeans::add(const RecordView& view, std::int64_t i) {
     if (view.known != nullptr) known = static_cast<double>(view.known[i + m_] - view.known[i]);
     if (view.known_real != nullptr) known = view.known_real[i + m_] - view.known_real[i];
     has_gaps_ = has_gaps_ || view.has_counts();
-    rate_.add(known >= least_known(intervals, view.least_known_ratio) ? (view.angle[i + m_] - view.angle[i]) / known
-                                                                      : missing);
+    rate_.add(known >= min_known(intervals, view.least_known_ratio) ? (view.angle[i + m_] - view.angle[i]) / known
+                                                                    : missing);
     if (has_gaps_) return;
-    const std::int64_t n = std::min(m_, most_angles);
+    const std::int64_t n = std::min(m_, max_angles);
     double sum = 0.0;
     for (std::int64_t k = 0; k < n; ++k) sum += view.angle[i + k * m_ / n];
     angle_.add(sum / static_cast<double>(n));

@@ -18,8 +18,8 @@
 namespace zlg::deviations {
 namespace {
 
-constexpr std::int64_t most_steps = 64;                             // into which an averaging time is divided
-constexpr double most_values = 160.0, most_flicker_values = 272.0;  // of the record that is taken apart
+constexpr std::int64_t max_steps = 64;                            // into which an averaging time is divided
+constexpr double max_values = 160.0, max_flicker_values = 272.0;  // of the record that is taken apart
 
 // Mean square of what is not mirrored.
 double plain_variance(const Thinned& thin) {
@@ -73,7 +73,7 @@ Parts mirrored_parts(const Thinned& thin, std::int64_t n_thinned) {
         rows * toeplitz(second_difference_covariance(thin, rows.cols()), rows.cols()) * rows.transpose();
     if (thin.noise != 1 || thin.steps == thin.m) return parts_of_covariance(covariance);
     // The noise of either end is in all that is mirrored there; that of the others is averaged.
-    const double between = static_cast<double>(std::min(thin.m, most_flicker_m)) / static_cast<double>(thin.steps);
+    const double between = static_cast<double>(std::min(thin.m, max_flicker_m)) / static_cast<double>(thin.steps);
     const auto averaged = flicker_means_covariance(thin, n_thinned, between, between),
                of_end = flicker_means_covariance(thin, n_thinned, 1.0, between),
                of_ends = flicker_means_covariance(thin, n_thinned, 1.0, 1.0);
@@ -102,7 +102,7 @@ Parts piecewise_parts(const Thinned& thin, double starts, std::int64_t n_thinned
     const Eigen::VectorXd thinned = second_difference_covariance(thin, n);
     if (!thin.of_rates() || thin.noise != 1 || thin.steps == thin.m) return parts_with(thinned);
     const double between =
-        std::min(static_cast<double>(std::min(thin.m, most_flicker_m)) / static_cast<double>(thin.steps),
+        std::min(static_cast<double>(std::min(thin.m, max_flicker_m)) / static_cast<double>(thin.steps),
                  starts / static_cast<double>(n_thinned));
     const auto averaged = flicker_means_covariance(thin, n + 4, between, between);
     return with_rest(parts_with(second_difference_covariance(thin, n, averaged)),
@@ -141,7 +141,7 @@ double averagings(DeviationKind kind, std::int64_t m, std::int64_t n_intervals) 
 std::int64_t steps_for(DeviationKind kind, int noise, std::int64_t m, double n_averagings) {
     const double whole = n_averagings + (kind == DeviationKind::totdev ? 0.0 : 3.0);
     const auto most =
-        std::min({m, most_steps, static_cast<std::int64_t>((noise == 1 ? most_flicker_values : most_values) / whole)});
+        std::min({m, max_steps, static_cast<std::int64_t>((noise == 1 ? max_flicker_values : max_values) / whole)});
     if (most == m) return m;
     std::int64_t best = most;
     double least = 1.0;
@@ -165,9 +165,9 @@ VarianceLaw law_at(DeviationKind kind, int noise, std::int64_t m, double n_avera
 
 double exact_total_bias(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals) {
     const bool depends_on_sampling = kind == DeviationKind::totdev && noise > 0;
-    const std::int64_t steps = std::min(m, most_steps);
+    const std::int64_t steps = std::min(m, max_steps);
     const double end = remembered(
-        {.kind = kind, .noise = noise, .m = depends_on_sampling ? std::min(m, most_flicker_m) : steps, .steps = steps});
+        {.kind = kind, .noise = noise, .m = depends_on_sampling ? std::min(m, max_flicker_m) : steps, .steps = steps});
     if (kind != DeviationKind::totdev) return end;
     // Sums become integrals where thinned.
     const double mirrored = static_cast<double>(m) / static_cast<double>(steps) * (end + 0.5) - 0.5;
@@ -177,10 +177,10 @@ double exact_total_bias(DeviationKind kind, int noise, std::int64_t m, std::int6
 
 VarianceLaw total_law(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals) {
     const double ratio = averagings(kind, m, n_intervals);
-    if (ratio <= most_averagings) return law_at(kind, noise, m, ratio);
+    if (ratio <= max_averagings) return law_at(kind, noise, m, ratio);
     constexpr double nearer = 10.0;
-    const VarianceLaw a = law_at(kind, noise, m, nearer), b = law_at(kind, noise, m, most_averagings);
-    const double way = (ratio - nearer) / (most_averagings - nearer);
+    const VarianceLaw a = law_at(kind, noise, m, nearer), b = law_at(kind, noise, m, max_averagings);
+    const double way = (ratio - nearer) / (max_averagings - nearer);
     return {.edf = a.edf + way * (b.edf - a.edf), .skewness_p = a.skewness_p + way * (b.skewness_p - a.skewness_p)};
 }
 

@@ -30,7 +30,7 @@ TermSum mirrored_term(const RecordView& view, std::int64_t m, std::int64_t centr
     }
     const double here = view.known[centre];
     const double n1 = here - mirrored(view.known, centre - m, last), n2 = mirrored(view.known, centre + m, last) - here;
-    const double least = least_known(m, view.least_known_ratio);
+    const double least = min_known(m, view.least_known_ratio);
     if (!(n1 >= least && n2 >= least)) return {};
     const double d = after / n2 - before / n1;
     return {d * d * (2.0 * n1 * n2) / (whole * (n1 + n2)), 1};

@@ -23,7 +23,7 @@ double flicker_between(double lag) {
 std::vector<double> flicker_means_covariance(const Thinned& thin, std::int64_t n, double width_a, double width_b) {
     const auto n_a = std::max<std::int64_t>(1, std::lround(width_a)),
                n_b = std::max<std::int64_t>(1, std::lround(width_b));
-    const double spacing = static_cast<double>(std::min(thin.m, most_flicker_m)) / static_cast<double>(thin.steps);
+    const double spacing = static_cast<double>(std::min(thin.m, max_flicker_m)) / static_cast<double>(thin.steps);
     std::vector<double> g;
     for (std::int64_t k = 0; k <= n; ++k) {
         double sum = 0.0;

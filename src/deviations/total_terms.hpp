@@ -11,7 +11,7 @@
 
 namespace zlg::deviations {
 
-inline constexpr std::int64_t most_flicker_m = 512;  // flicker of the angle depends on the sampling, up to there
+inline constexpr std::int64_t max_flicker_m = 512;  // flicker of the angle depends on the sampling, up to there
 
 // The record thinned to `steps` values in an averaging time of m: angles, or mean rates of what lies between them.
 struct Thinned {

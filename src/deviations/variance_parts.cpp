@@ -14,8 +14,8 @@
 namespace zlg::deviations {
 namespace {
 
-constexpr std::size_t most_parts = 24;
-constexpr double most_cells = 128.0;
+constexpr std::size_t max_parts = 24;
+constexpr double max_cells = 128.0;
 
 Eigen::MatrixXd covariance_by_lag(Eigen::Index n, const std::function<double(std::int64_t)>& covariance) {
     Eigen::VectorXd of_lag(n);
@@ -25,7 +25,7 @@ Eigen::MatrixXd covariance_by_lag(Eigen::Index n, const std::function<double(std
 
 // White noise of the angle: only terms whole averaging times apart are correlated, so the starts fall into chains.
 Parts parts_of_white_angle(const DifferenceTerms& terms) {
-    const DifferenceCovariance covariance(2, terms.d, false, 1, static_cast<std::int64_t>(most_averagings) + 3);
+    const DifferenceCovariance covariance(2, terms.d, false, 1, static_cast<std::int64_t>(max_averagings) + 3);
     const std::int64_t whole = terms.starts / terms.m, longer = terms.starts % terms.m;
     Parts parts;
     for (const auto& [length, chains] : {std::pair{whole + 1, longer}, std::pair{whole, terms.m - longer}}) {
@@ -41,17 +41,17 @@ Parts parts_of_white_angle(const DifferenceTerms& terms) {
 Parts parts_side_by_side(const DifferenceTerms& terms) {
     // Whole averaging times apart, white noise of the angle is correlated alike at any m.
     const DifferenceCovariance covariance(terms.noise, terms.d, terms.is_modified, terms.noise == 2 ? 1 : terms.m,
-                                          static_cast<std::int64_t>(most_averagings) + 3);
+                                          static_cast<std::int64_t>(max_averagings) + 3);
     return parts_of_covariance(covariance_by_lag((terms.starts - 1) / terms.m + 1,
                                                  [&](std::int64_t k) { return covariance(k * covariance.steps()); }));
 }
 
 Parts parts_of_cells(const DifferenceTerms& terms, double edf) {
     const DifferenceCovariance covariance(terms.noise, terms.d, terms.is_modified, terms.m,
-                                          static_cast<std::int64_t>(most_averagings) + 3);
+                                          static_cast<std::int64_t>(max_averagings) + 3);
     const double steps =
         static_cast<double>(terms.starts) / static_cast<double>(terms.m) * static_cast<double>(covariance.steps());
-    const auto in_cell = static_cast<std::int64_t>(std::max(1.0, std::ceil(steps / most_cells)));
+    const auto in_cell = static_cast<std::int64_t>(std::max(1.0, std::ceil(steps / max_cells)));
     const auto cells = std::max<Eigen::Index>(1, std::lround(steps / static_cast<double>(in_cell)));
     const double variance = covariance(0), square = static_cast<double>(in_cell * in_cell);
     const auto of_cells = [&](std::int64_t k) {
@@ -92,11 +92,11 @@ Parts condensed(Parts parts) {
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const double share = parts[k].scale * parts[k].dof;
         mean += share;
-        if (k < most_parts) continue;
+        if (k < max_parts) continue;
         rest += share;
         squares += share * parts[k].scale;
     }
-    if (parts.size() > most_parts) parts.resize(most_parts);
+    if (parts.size() > max_parts) parts.resize(max_parts);
     if (rest > 1e-12 * mean) parts.push_back({.scale = squares / rest, .dof = rest * rest / squares});
     std::erase_if(parts, [&](const ChiSquarePart& part) { return !(part.scale > 1e-12 * parts.front().scale); });
     for (auto& part : parts) part.scale /= mean;

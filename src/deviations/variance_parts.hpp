@@ -12,7 +12,7 @@
 namespace zlg::deviations {
 
 // How many averaging times the starts of its differences may span for a variance to be taken apart.
-inline constexpr double most_averagings = 14.0;
+inline constexpr double max_averagings = 14.0;
 
 using Parts = std::vector<ChiSquarePart>;
 

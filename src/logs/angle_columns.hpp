@@ -3,7 +3,7 @@
 
 #include <array>
 #include <string>
-#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/angle_layout.hpp>
 
 #include "column_map.hpp"
 

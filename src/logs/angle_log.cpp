@@ -7,8 +7,8 @@
 
 #include "angle_columns.hpp"
 #include "angle_log_io.hpp"
-#include "csv/text_source.hpp"
 #include "signature.hpp"
+#include "text_source.hpp"
 
 namespace zlg::logs {
 
@@ -43,8 +43,7 @@ bool AngleReader::next(TimedAngle& angle) { return source_->next(angle); }
 bool AngleReader::refresh() { return source_->refresh(); }
 double AngleReader::fraction_read() const { return source_->fraction_read(); }
 
-AngleWriter::AngleWriter(const std::string& path, double tick_s,
-                         const std::vector<std::pair<std::string, std::string>>& settings, bool force,
+AngleWriter::AngleWriter(const std::string& path, double tick_s, const Settings& settings, bool force,
                          const AngleWriterOptions& options)
     : sink_{format_of(path) == LogFormat::hdf5 ? create_angle_hdf5(path, tick_s, settings, force, options)
                                                : create_angle_csv(path, tick_s, settings, force, options)},

@@ -2,9 +2,7 @@
 // What an angle log can do, whatever its format.
 
 #include <memory>
-#include <zlg/logs/angle_log.hpp>
-
-#include "csv/csv_head.hpp"
+#include <zlg/logs/angle_layout.hpp>
 
 namespace zlg::logs {
 

@@ -2,7 +2,7 @@
 // The columns of a raw log.
 
 #include <array>
-#include <zlg/logs/raw_log.hpp>
+#include <zlg/logs/raw_layout.hpp>
 
 #include "column_map.hpp"
 

@@ -5,11 +5,11 @@
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 
-#include "csv/text_source.hpp"
 #include "raw_log_io.hpp"
 #include "raw_timer.hpp"
 #include "row_rules.hpp"
 #include "signature.hpp"
+#include "text_source.hpp"
 
 namespace zlg::logs {
 
@@ -74,8 +74,8 @@ bool RawReader::refresh() { return source_->refresh(); }
 bool RawReader::line_is_ended() const { return source_->line_is_ended(); }
 double RawReader::fraction_read() const { return source_->fraction_read(); }
 
-RawWriter::RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings,
-                     bool force, const RawColumns& columns, const RawWriterOptions& options)
+RawWriter::RawWriter(const std::string& path, const Settings& settings, bool force, const RawColumns& columns,
+                     const RawWriterOptions& options)
     : sink_{create(path, settings, force, columns, options)} {}
 RawWriter::~RawWriter() = default;
 RawWriter::RawWriter(RawWriter&&) noexcept = default;

@@ -2,9 +2,8 @@
 // What a raw log can do, whatever its format.
 
 #include <memory>
-#include <zlg/logs/raw_log.hpp>
-
-#include "csv/csv_head.hpp"
+#include <zlg/core/records.hpp>
+#include <zlg/logs/raw_layout.hpp>
 
 namespace zlg::logs {
 

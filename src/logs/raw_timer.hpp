@@ -3,8 +3,7 @@
 
 #include <optional>
 #include <string>
-
-#include "csv/csv_head.hpp"
+#include <zlg/logs/settings.hpp>
 
 namespace zlg::logs {
 

@@ -22,16 +22,16 @@ std::string beyond_missed(const MissedRows& missed) {
 
 std::string no_detuning(double lambda) {
     if (!is_finite(lambda)) return std::string{not_finite};
-    return out_of_range(fmt::format("{:g}..{:g} wavelengths", -most_detuning_lambda, most_detuning_lambda));
+    return out_of_range(fmt::format("{:g}..{:g} wavelengths", -max_detuning_lambda, max_detuning_lambda));
 }
 
 std::string no_detuning_sq(double lambda2, double mean_lambda) {
     if (!is_finite(lambda2)) return std::string{not_finite};
-    const double least = least_detuning_sq(mean_lambda);
-    if (!(least > 0.0)) return out_of_range(fmt::format("0..{:g} wavelengths^2", most_detuning_sq_lambda2));
+    const double least = min_detuning_sq(mean_lambda);
+    if (!(least > 0.0)) return out_of_range(fmt::format("0..{:g} wavelengths^2", max_detuning_sq_lambda2));
     return out_of_range(
         fmt::format("0 (not known) or {:.4g}..{:g} wavelengths^2, for the mean, detuning_lambda, is {:g}", least,
-                    most_detuning_sq_lambda2, mean_lambda));
+                    max_detuning_sq_lambda2, mean_lambda));
 }
 
 std::string range(std::int64_t min, std::int64_t max) { return fmt::format("{}..{}", min, max); }

@@ -19,22 +19,22 @@ inline constexpr std::string_view not_a_number = "is not a number; allowed is a 
 inline constexpr std::string_view sigma_below_zero = "is negative; allowed is 0 or more, or inf";
 
 // Detunings beyond this are none of a perimeter that is held: the light's discriminator ends before one wavelength.
-inline constexpr double most_detuning_lambda = 30.0;
-inline constexpr double most_detuning_sq_lambda2 = most_detuning_lambda * most_detuning_lambda;
+inline constexpr double max_detuning_lambda = 30.0;
+inline constexpr double max_detuning_sq_lambda2 = max_detuning_lambda * max_detuning_lambda;
 
 [[nodiscard]] constexpr bool is_detuning(double lambda) {
-    return lambda >= -most_detuning_lambda && lambda <= most_detuning_lambda;
+    return lambda >= -max_detuning_lambda && lambda <= max_detuning_lambda;
 }
 
 // A square below that of the mean is not refused: the two columns of a foreign log may be of different samples.
-[[nodiscard]] constexpr double least_detuning_sq(double mean_lambda) {
+[[nodiscard]] constexpr double min_detuning_sq(double mean_lambda) {
     (void)mean_lambda;
     return 0.0;
 }
 
 // Also 0, which says that it is not known.
 [[nodiscard]] constexpr bool is_detuning_sq(double lambda2, double mean_lambda) {
-    return lambda2 == 0.0 || (lambda2 >= least_detuning_sq(mean_lambda) && lambda2 <= most_detuning_sq_lambda2);
+    return lambda2 == 0.0 || (lambda2 >= min_detuning_sq(mean_lambda) && lambda2 <= max_detuning_sq_lambda2);
 }
 
 [[nodiscard]] std::string no_detuning(double lambda);

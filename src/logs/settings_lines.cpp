@@ -14,24 +14,23 @@ void require_one_line(const std::string& key, const std::string& value) {
     throw FormatError(fmt::format("the setting {} cannot be logged: it holds a line break or NUL", key));
 }
 
-void require_shallow_keys(const std::vector<std::pair<std::string, std::string>>& settings, const std::string& place) {
+void require_shallow_keys(const Settings& settings, const std::string& place) {
     for (const auto& [key, value] : settings) {
         const auto depth = std::ranges::count(key, '.') + 1;
-        if (depth > text::most_toml_levels)
+        if (depth > text::max_toml_levels)
             throw FormatError(fmt::format("{}: the setting {}... is nested {} deep; allowed is {}", place,
-                                          key.substr(0, 40), depth, text::most_toml_levels));
+                                          key.substr(0, 40), depth, text::max_toml_levels));
     }
 }
 
-void write_settings(TableFile& file, const std::vector<std::pair<std::string, std::string>>& settings) {
+void write_settings(TableFile& file, const Settings& settings) {
     for (const auto& [key, value] : settings) {
         require_one_line(key, value);
         file.append(fmt::format("# {} = {}\n", key, value));
     }
 }
 
-const std::string* find_setting(const std::vector<std::pair<std::string, std::string>>& settings,
-                                const std::string& key) {
+const std::string* find_setting(const Settings& settings, const std::string& key) {
     const auto found = std::find_if(settings.rbegin(), settings.rend(), [&](const auto& s) { return s.first == key; });
     return found == settings.rend() ? nullptr : &found->second;
 }

@@ -3,8 +3,7 @@
 
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
+#include <zlg/logs/settings.hpp>
 #include <zlg/logs/table_file.hpp>
 
 namespace zlg::logs {
@@ -13,14 +12,13 @@ namespace zlg::logs {
 void require_one_line(const std::string& key, const std::string& value);
 
 // errors  FormatError: a dotted key that would be a tree of such a depth as no setting has.
-void require_shallow_keys(const std::vector<std::pair<std::string, std::string>>& settings, const std::string& place);
+void require_shallow_keys(const Settings& settings, const std::string& place);
 
 // errors  FormatError: a key or a value that does not stay on its line; IoError.
-void write_settings(TableFile& file, const std::vector<std::pair<std::string, std::string>>& settings);
+void write_settings(TableFile& file, const Settings& settings);
 
 // The value of the last setting of that name; null: there is none.
-[[nodiscard]] const std::string* find_setting(const std::vector<std::pair<std::string, std::string>>& settings,
-                                              const std::string& key);
+[[nodiscard]] const std::string* find_setting(const Settings& settings, const std::string& key);
 
 // A number as TOML writes it; empty where it is none.
 [[nodiscard]] std::optional<double> number_in(std::string text);

@@ -7,8 +7,7 @@
 
 #include <string>
 #include <string_view>
-
-#include "csv/csv_head.hpp"
+#include <zlg/logs/settings.hpp>
 
 namespace zlg::logs {
 

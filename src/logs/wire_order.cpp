@@ -17,7 +17,7 @@ constexpr std::size_t max_others = 256;
 constexpr int max_between = 4;
 
 // A run is longer than the numbers that can be compared.
-constexpr std::uint32_t most_behind = std::uint32_t{1} << 30;
+constexpr std::uint32_t max_behind = std::uint32_t{1} << 30;
 
 // Signed, for both wrap.
 std::int32_t steps(std::uint32_t from, std::uint32_t to) { return static_cast<std::int32_t>(to - from); }
@@ -28,8 +28,8 @@ bool WireOrder::continues(const Arrival& before, const Arrival& after) {
     if (after.session != before.session || after.telemetry.tick_s != before.telemetry.tick_s) return false;
     const std::int32_t messages = steps(before.sequence, after.sequence);
     const std::int32_t ticks = steps(before.telemetry.tick, after.telemetry.tick);
-    const std::int32_t least_ticks = after.telemetry.has_tick ? 1 : 0;
-    return messages >= 1 && messages <= max_lost_rows && ticks >= least_ticks && ticks <= max_lost_rows;
+    const std::int32_t min_ticks = after.telemetry.has_tick ? 1 : 0;
+    return messages >= 1 && messages <= max_lost_rows && ticks >= min_ticks && ticks <= max_lost_rows;
 }
 
 bool WireOrder::may_have_sent(const Run& run, const Arrival& a) {
@@ -162,7 +162,7 @@ void WireOrder::count_lost(const Arrival& a) {
 void WireOrder::remember(const Arrival& a) {
     Run& run = runs_.back();
     run.last = a.sequence;
-    if (run.last - run.first > most_behind) run.first = run.last - most_behind;
+    if (run.last - run.first > max_behind) run.first = run.last - max_behind;
     if (a.sequence >= head_messages) return;
     run.head.resize(head_messages);
     run.head[a.sequence] = is_there | a.check;

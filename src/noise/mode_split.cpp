@@ -14,9 +14,9 @@
 namespace zlg::noise {
 namespace {
 
-constexpr std::size_t least_segments = 6;
-constexpr double least_bend_sigmas = 4.0;  // of A
-constexpr double most_time_error = 0.2;    // of tau, relative
+constexpr std::size_t min_segments = 6;
+constexpr double min_bend_sigmas = 4.0;  // of A
+constexpr double max_time_error = 0.2;   // of tau, relative
 
 // Samples of one mode without a switch between them.
 struct Stretch {
@@ -116,7 +116,7 @@ void take_warming(ModeSplit& split) {
     const double a = fit_segments(s, laws_of(s, tau_s, 0.0)).coefficient[2];
     if (a == 0.0) return;
     const SegmentFit fit = fit_segments(s, laws_of(s, tau_s, a));
-    if (!(std::abs(a) > least_bend_sigmas * sigma(fit, 2)) || !(sigma(fit, 3) < most_time_error * tau_s)) return;
+    if (!(std::abs(a) > min_bend_sigmas * sigma(fit, 2)) || !(sigma(fit, 3) < max_time_error * tau_s)) return;
     const double dof = static_cast<double>(s.size()) - 4.0;
     split.nonmagnetic_arcsec_s = numeric::estimated(fit.coefficient[0], numeric::widened(sigma(fit, 0), dof));
     split.magnetic_arcsec_s = numeric::estimated(fit.coefficient[1], numeric::widened(sigma(fit, 1), dof));
@@ -194,10 +194,9 @@ ModeSplit split_modes(const ModeRecord& record, std::int64_t settling) {
                                                   split.segments[k].rate_arcsec_s, split.segments[k + 1].rate_arcsec_s,
                                                   settling));
     split.statistics = statistics_of(split.switches);
-    if (split.segments.size() < least_segments) {
-        refuse(
-            fmt::format("{} segments between switches; {} or more are needed", split.segments.size(), least_segments),
-            split);
+    if (split.segments.size() < min_segments) {
+        refuse(fmt::format("{} segments between switches; {} or more are needed", split.segments.size(), min_segments),
+               split);
         return split;
     }
     take_constant(split);

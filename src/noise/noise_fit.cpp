@@ -20,9 +20,9 @@
 namespace zlg::noise {
 namespace {
 
-constexpr std::int64_t least_intervals = 64;
+constexpr std::int64_t min_intervals = 64;
 // The longest averaging time fits into the record so many times; beyond it a variance has one degree of freedom, too few for a weight.
-constexpr std::int64_t least_lengths = 6;
+constexpr std::int64_t min_lengths = 6;
 constexpr double ramp_chance = 0.002;
 constexpr double one_sided_95 = 1.645;
 
@@ -46,7 +46,7 @@ HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, co
     const std::int64_t n = record.n_intervals();
     const auto curve =
         deviation(record, deviations::DeviationKind::ohdev,
-                  deviations::octave_factors(std::max<std::int64_t>(1, n / least_lengths)),
+                  deviations::octave_factors(std::max<std::int64_t>(1, n / min_lengths)),
                   {.least_known_ratio = options.least_known_ratio, .noise = 0, .threads = options.threads});
     HadamardPoints points{.tau_0_s = 1.0 / rate_hz, .n_intervals = n};
     std::vector<double> value, tau, scarcity;
@@ -152,13 +152,13 @@ double probability_of(const SmoothFit& smooth) {
 
 // Allows as much error of the model as it takes, if that is little.
 SmoothFit select(const HadamardPoints& points, bool with_markov, NoiseFit& fit) {
-    constexpr double least_probability = 1e-3;
+    constexpr double min_probability = 1e-3;
     SmoothFit smooth;
     for (const double model_error : {0.0, 0.02, 0.05, 0.1, 0.2}) {
         smooth = select_terms(points, with_markov, model_error);
         fit.model_error = model_error;
         fit.probability = probability_of(smooth);
-        fit.describes = fit.probability >= least_probability;
+        fit.describes = fit.probability >= min_probability;
         if (fit.describes) break;
     }
     return smooth;
@@ -178,8 +178,8 @@ void widen(NoiseFit& fit) {
 
 void check_known(std::span<const double> rates) {
     const auto n = std::count_if(rates.begin(), rates.end(), [](double r) { return std::isfinite(r); });
-    if (n < least_intervals)
-        throw deviations::SeriesError(fmt::format("fit: {} known samples, {} or more are needed", n, least_intervals));
+    if (n < min_intervals)
+        throw deviations::SeriesError(fmt::format("fit: {} known samples, {} or more are needed", n, min_intervals));
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 namespace zlg::noise {
 namespace {
 
-constexpr int most_steps = 60;
+constexpr int max_steps = 60;
 constexpr double enough = 1e-7;        // of the objective
 constexpr double farthest_step = 2.0;  // of a logarithm
-constexpr double least_correlation = 1e-3;
+constexpr double min_correlation = 1e-3;
 
 Eigen::ArrayXd scale_of(const MeasuredVariances& v) { return (2.0 / (9.0 * v.degrees.array())).sqrt(); }
 
@@ -117,7 +117,7 @@ void take_scatter(const Eigen::MatrixXd& relative, MeasuredVariances& variances)
         deviation.cwiseInverse().asDiagonal() * relative * deviation.cwiseInverse().asDiagonal();
     // Where far neighbours were left out the matrix may miss being positive by a little.
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(correlation);
-    const Eigen::VectorXd value = parts.eigenvalues().cwiseMax(least_correlation);
+    const Eigen::VectorXd value = parts.eigenvalues().cwiseMax(min_correlation);
     variances.whitening = value.cwiseSqrt().cwiseInverse().asDiagonal() * parts.eigenvectors().transpose();
 }
 
@@ -126,7 +126,7 @@ TermFit fit_terms(const MeasuredVariances& v, const Eigen::MatrixXd& columns, co
     State now = likelihood.start();
     Eigen::MatrixXd share = likelihood.shares(now);
     double damping = 1e-3;
-    for (int step = 0; step < most_steps && damping < 1e8; ++step) {
+    for (int step = 0; step < max_steps && damping < 1e8; ++step) {
         Eigen::MatrixXd information = likelihood.information(share);
         information.diagonal() += (damping * information.diagonal().array() + 1e-12).matrix();
         State there = likelihood.moved(now, information.ldlt().solve(-0.5 * likelihood.gradient(share, now)));

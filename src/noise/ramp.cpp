@@ -14,7 +14,7 @@
 namespace zlg::noise {
 namespace {
 
-constexpr std::size_t most_blocks = 64;
+constexpr std::size_t max_blocks = 64;
 constexpr double odds_of_none = 1.0 / 3.0;  // that a slow term is not there: to miss one is worse
 constexpr int n_sizes = 11;                 // of each slow term, in either of two rounds
 // Below the largest a logarithm of weight this far counts for nothing; on a coarse grid the largest may lie between.
@@ -34,7 +34,7 @@ struct Blocks {
 };
 
 Blocks blocks_of(std::span<const double> rates, double rate_hz) {
-    const std::size_t length = std::max<std::size_t>(1, (rates.size() + most_blocks - 1) / most_blocks);
+    const std::size_t length = std::max<std::size_t>(1, (rates.size() + max_blocks - 1) / max_blocks);
     Blocks all{.block = {}, .length = static_cast<double>(length)};
     for (std::size_t from = 0; from + length <= rates.size(); from += length) {
         Block b{.begin = static_cast<double>(from)};

@@ -20,12 +20,12 @@ namespace {
 using std::numbers::pi;
 
 constexpr std::size_t longest_piece = std::size_t{1} << 19;
-constexpr std::size_t first_bin = 8;     // periods in a piece
-constexpr std::size_t line_width = 4;    // bins of a Hann window's line, to either side
-constexpr std::size_t most_around = 48;  // bins of comparison to either side
-constexpr double chance = 0.002;         // of a line in noise, anywhere in the record
-constexpr double least_of_first = 1e-9;  // beside a line of 1: what is left of it by rounding
-constexpr double least_known = 0.05;     // of a piece
+constexpr std::size_t first_bin = 8;    // periods in a piece
+constexpr std::size_t line_width = 4;   // bins of a Hann window's line, to either side
+constexpr std::size_t max_around = 48;  // bins of comparison to either side
+constexpr double chance = 0.002;        // of a line in noise, anywhere in the record
+constexpr double min_of_first = 1e-9;   // beside a line of 1: what is left of it by rounding
+constexpr double min_known = 0.05;      // of a piece
 
 struct Peak {
     std::size_t bin = 0;
@@ -40,7 +40,7 @@ struct Surroundings {
 };
 
 Surroundings around(const std::vector<double>& density, std::size_t bin, std::size_t pieces) {
-    const std::size_t reach = std::min(most_around + line_width, std::max<std::size_t>(bin / 2, line_width + 3));
+    const std::size_t reach = std::min(max_around + line_width, std::max<std::size_t>(bin / 2, line_width + 3));
     const std::size_t from = bin > reach ? bin - reach : 0, to = std::min(density.size(), bin + reach + 1);
     std::vector<double> others;
     for (std::size_t k = from; k < to; ++k)
@@ -217,7 +217,7 @@ void take_sigmas(Sinusoid& s, double level, double known_s, double span_s) {
 }
 
 std::optional<Sinusoid> strongest(std::span<const double> rates, double rate_hz, double& step_hz) {
-    const Spectrum spectrum = welch_spectrum(rates, rate_hz, std::min(rates.size(), longest_piece), least_known);
+    const Spectrum spectrum = welch_spectrum(rates, rate_hz, std::min(rates.size(), longest_piece), min_known);
     if (spectrum.density.size() < 4 * first_bin) return std::nullopt;
     const Peak peak = highest_peak(spectrum);
     if (!(peak.probability < chance)) return std::nullopt;
@@ -239,7 +239,7 @@ std::vector<Sinusoid> take_out_sinusoids(std::span<double> rates, double rate_hz
     while (most > 0) {
         double step_hz = 0.0;
         const auto next = strongest(rates, rate_hz, step_hz);
-        if (!next || next->amplitude_arcsec_s < least_of_first * first) break;
+        if (!next || next->amplitude_arcsec_s < min_of_first * first) break;
         first = std::max(first, next->amplitude_arcsec_s);
         const auto beside = std::find_if(found.begin(), found.end(), [&](const Sinusoid& s) {
             return std::abs(s.frequency_hz - next->frequency_hz) < 2.0 * static_cast<double>(line_width) * step_hz;

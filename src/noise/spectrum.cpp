@@ -17,7 +17,7 @@ namespace {
 class Pieces {
 public:
     Pieces(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio)
-        : rates_(rates), rate_hz_(rate_hz), least_known_(least_known_ratio) {
+        : rates_(rates), rate_hz_(rate_hz), min_known_(least_known_ratio) {
         if (!(rate_hz > 0.0) || !std::isfinite(rate_hz))
             throw deviations::SeriesError(fmt::format("spectrum: rate {} Hz, allowed is a positive number", rate_hz));
         if (piece < 8 || rates.size() < 8)
@@ -54,7 +54,7 @@ public:
             weighted += window_[k] * values[k];
             squares += window_[k] * window_[k];
         }
-        if (n < 8 || static_cast<double>(n) < least_known_ * static_cast<double>(length_)) return {};
+        if (n < 8 || static_cast<double>(n) < min_known_ * static_cast<double>(length_)) return {};
         std::vector<double> windowed(padded_, 0.0);
         for (std::size_t k = 0; k < length_; ++k)
             if (std::isfinite(values[k])) windowed[k] = window_[k] * (values[k] - weighted / weight);
@@ -71,7 +71,7 @@ public:
 private:
     std::span<const double> rates_;
     double rate_hz_;
-    double least_known_;
+    double min_known_;
     std::size_t length_ = 0;
     std::size_t padded_ = 0;
     std::vector<double> window_;

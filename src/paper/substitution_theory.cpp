@@ -57,7 +57,7 @@ double magnetic_arcsec_s(const SubstitutionExperiment& e, const SwitchGrid& grid
 //
 // 1/12 for d = 0, nothing for fast motion.
 double rounding_covariance(const SubstitutionExperiment& e, const SwitchGrid& grid, double time_s) {
-    constexpr int most_terms = 10'000;  // without a random walk they fall as 1/m^2 or faster
+    constexpr int max_terms = 10'000;  // without a random walk they fall as 1/m^2 or faster
     const Swing swing{e};
     const double turns = 2.0 * std::numbers::pi / e.base.gyro.scale_arcsec;
     const double motion = turns * swing.rotation_arcsec(time_s);
@@ -65,7 +65,7 @@ double rounding_covariance(const SubstitutionExperiment& e, const SwitchGrid& gr
     const double alternating = turns * magnetic_arcsec_s(e, grid) * time_s;
     const double walk = square(turns * e.base.drift.random_walk_arcsec_sqrt_s) * time_s;
     double sum = 0.0;
-    for (int m = 1; m <= most_terms; ++m) {
+    for (int m = 1; m <= max_terms; ++m) {
         const double blurred = std::exp(-0.5 * walk * m * m);
         if (blurred < 1e-9) break;
         sum += swing.mean_cosine(m * motion) * std::cos(m * constant) * std::cos(m * alternating) * blurred /

@@ -11,8 +11,8 @@
 namespace zlg::report {
 namespace {
 
-constexpr int most_intervals = 8;
-constexpr std::size_t most_fine_lines = 56;  // denser, the fine grid is a grey field
+constexpr int max_intervals = 8;
+constexpr std::size_t max_fine_lines = 56;  // denser, the fine grid is a grey field
 
 // Multiples of a step of 1, 2 or 5 times a power of ten, at most n_intervals + 1 of them, within the extent.
 std::vector<Decimal> round_numbers(Extent extent, int n_intervals) {
@@ -91,7 +91,7 @@ Ticks linear_ticks(const Scale& scale, int n_intervals) {
 }
 
 Ticks fitting_linear_ticks(const Scale& scale, Side side) {
-    for (int n = most_intervals; n > 2; --n) {
+    for (int n = max_intervals; n > 2; --n) {
         Ticks ticks = linear_ticks(scale, n);
         if (fits(ticks.major, side)) return ticks;
     }
@@ -118,7 +118,7 @@ std::vector<double> fine_grid(const Scale& scale, int stride) {
     const std::vector<int> factors = stride == 1 ? std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9} : std::vector<int>{1};
     std::vector<double> out;
     for (const Tick& tick : decade_ticks(scale, 1, factors)) out.push_back(tick.at);
-    if (out.size() > most_fine_lines) out.clear();
+    if (out.size() > max_fine_lines) out.clear();
     return out;
 }
 

@@ -42,12 +42,12 @@ core::BiasCommutatorConfig commutator_of(const config::Config& config) {
                         "half",
                         g.bias_hz, made.dither.cycle_ticks, timer_hz, static_cast<double>(made.half_ticks) / 8.0)};
     // A shift must leave each half its plateau.
-    const double most_ticks = 0.5 * (0.5 * g.tick_s - g.bias_edge_s) * timer_hz;
-    if (1.01 * made.dither.cycle_ticks > most_ticks)
+    const double max_ticks = 0.5 * (0.5 * g.tick_s - g.bias_edge_s) * timer_hz;
+    if (1.01 * made.dither.cycle_ticks > max_ticks)
         throw config::ConfigError{fmt::format(
             "gyro.dither: shifts reversals by up to {} ticks of the timer, a cycle of gyro.bias_hz = {}; "
             "gyro.bias_edge_s = {} and gyro.tick_s = {} allow {}",
-            std::ceil(1.01 * made.dither.cycle_ticks), g.bias_hz, g.bias_edge_s, g.tick_s, std::floor(most_ticks))};
+            std::ceil(1.01 * made.dither.cycle_ticks), g.bias_hz, g.bias_edge_s, g.tick_s, std::floor(max_ticks))};
     return made;
 }
 

@@ -26,20 +26,20 @@ constexpr double reading_tolerance_lambda = 0.01;
 constexpr double centre_tolerance_lambda = 0.001;
 constexpr auto centre_key = "perimeter.discriminator_centre_lambda";
 // The circle encloses most, the triangle least of the rings in use; of a square of the same perimeter.
-constexpr double least_scale = 0.25 * std::numbers::pi * 0.995;
-constexpr double most_scale = 0.75 * std::numbers::sqrt3 * 1.005;
+constexpr double min_scale = 0.25 * std::numbers::pi * 0.995;
+constexpr double max_scale = 0.75 * std::numbers::sqrt3 * 1.005;
 
 // Two constants of one key, and whether they agree.
 struct Comparison {
     const char* key;
     double presumed;
     double by_laser;
-    double least_ratio;
-    double most_ratio;
+    double min_ratio;
+    double max_ratio;
 
     [[nodiscard]] bool agrees() const {
         const double ratio = presumed / by_laser;
-        return ratio >= least_ratio && ratio <= most_ratio;
+        return ratio >= min_ratio && ratio <= max_ratio;
     }
 };
 
@@ -69,7 +69,7 @@ std::vector<Comparison> comparisons(const config::Config& presumed, const config
             within("gyro.bias_chi", mine.bias_chi, its.bias_chi, chi_tolerance),
             within("gyro.discriminator_per_lambda", mine.discriminator_per_lambda, its.discriminator_per_lambda,
                    slope_tolerance),
-            {"gyro.scale_arcsec", mine.scale_arcsec, its.scale_arcsec, least_scale, most_scale}};
+            {"gyro.scale_arcsec", mine.scale_arcsec, its.scale_arcsec, min_scale, max_scale}};
 }
 
 // What the processor reads where the light is that of a known curve, largest error up to a detuning.

@@ -26,13 +26,13 @@ namespace {
 constexpr int n_before_kink = 20;
 constexpr int n_beyond_kink = 11;
 
-std::vector<double> nodes(double kink_lambda, double most_lambda) {
-    const double first = std::min(kink_lambda, most_lambda);
+std::vector<double> nodes(double kink_lambda, double max_lambda) {
+    const double first = std::min(kink_lambda, max_lambda);
     std::vector<double> at;
     for (int k = 1; k <= n_before_kink; ++k) at.push_back(first * std::sin(0.5 * std::numbers::pi * k / n_before_kink));
-    if (!(most_lambda > first)) return at;
+    if (!(max_lambda > first)) return at;
     for (int k = 1; k <= n_beyond_kink; ++k) {
-        at.push_back(first + (most_lambda - first) * k * k / (n_beyond_kink * n_beyond_kink));
+        at.push_back(first + (max_lambda - first) * k * k / (n_beyond_kink * n_beyond_kink));
     }
     return at;
 }
@@ -44,12 +44,12 @@ public:
     Settled(const twin::FourWave& laser, double field_g, const twin::AveragedLaser& averaged)
         : laser_{laser}, field_g_{field_g}, settled_lambda_{averaged.settled_lambda}, chi_{averaged.bias_chi} {
         if (settled_lambda_ != 0.0) vertex_lambda_ = largest_bias();
-        most_bias_hz_ = bias_hz(vertex_lambda_);
+        max_bias_hz_ = bias_hz(vertex_lambda_);
         centre_lambda_ = 0.0 - from_centre(0.0);
     }
 
     [[nodiscard]] double signal(double dl) const { return light(dl).discriminator(); }
-    [[nodiscard]] double most_bias_hz() const { return most_bias_hz_; }
+    [[nodiscard]] double max_bias_hz() const { return max_bias_hz_; }
     // Of the largest bias, on the scale of `detuning`.
     [[nodiscard]] double centre_lambda() const { return centre_lambda_; }
     // The one of which chi (detuning - centre)^2 is what the bias lacks.
@@ -61,7 +61,7 @@ private:
 
     [[nodiscard]] double from_centre(double dl) const {
         if (dl == vertex_lambda_) return 0.0;
-        const double deficit = std::max(0.0, 1.0 - bias_hz(dl) / most_bias_hz_);
+        const double deficit = std::max(0.0, 1.0 - bias_hz(dl) / max_bias_hz_);
         return std::copysign(std::sqrt(deficit / chi_), dl - vertex_lambda_);
     }
 
@@ -85,7 +85,7 @@ private:
     double settled_lambda_;
     double chi_;
     double vertex_lambda_ = 0.0;
-    double most_bias_hz_ = 0.0;
+    double max_bias_hz_ = 0.0;
     double centre_lambda_ = 0.0;
 };
 
@@ -105,11 +105,11 @@ double third_wave_lambda(const twin::FourWave& laser, double field_g, double sig
 struct Side {
     double sign;
     double kink_lambda;
-    double most_lambda;
+    double max_lambda;
 };
 
 void add_nodes(const Settled& laser, const Side& side, config::Perimeter& perimeter) {
-    for (const double dl : nodes(side.kink_lambda, side.most_lambda)) {
+    for (const double dl : nodes(side.kink_lambda, side.max_lambda)) {
         perimeter.discriminator_detuning_lambda.push_back(laser.detuning(side.sign * dl));
         perimeter.discriminator_signal.push_back(laser.signal(side.sign * dl));
     }
@@ -141,7 +141,7 @@ LaserCalibration calibrate(const config::Config& config) {
     made.config.gyro.discriminator_per_lambda = told.discriminator_per_lambda;
 
     const Settled settled{laser, field_g, averaged};
-    made.config.gyro.bias_hz *= settled.most_bias_hz() / averaged.bias_hz;
+    made.config.gyro.bias_hz *= settled.max_bias_hz() / averaged.bias_hz;
     const twin::DiscriminatorCurve inverse = twin::discriminator_curve(laser, field_g);
     const double at = averaged.settled_lambda;
     const Side above{1.0, third_wave_lambda(laser, field_g, 1.0) - at, inverse.max_detuning_lambda() - at};
@@ -157,14 +157,14 @@ LaserCalibration calibrate(const config::Config& config) {
     }
     add_nodes(settled, above, perimeter);
 
-    made.third_wave_lambda = std::min({above.kink_lambda, above.most_lambda, below.kink_lambda, below.most_lambda});
+    made.third_wave_lambda = std::min({above.kink_lambda, above.max_lambda, below.kink_lambda, below.max_lambda});
     for (const Side& side : {above, below}) {
-        const double kink_lambda = std::min(side.kink_lambda, side.most_lambda);
+        const double kink_lambda = std::min(side.kink_lambda, side.max_lambda);
         made.curve_error_lambda =
             std::max(made.curve_error_lambda, curve_error_lambda(made.config, settled, 0.0, side.sign * kink_lambda));
         made.curve_error_beyond_lambda =
             std::max(made.curve_error_beyond_lambda,
-                     curve_error_lambda(made.config, settled, side.sign * kink_lambda, side.sign * side.most_lambda));
+                     curve_error_lambda(made.config, settled, side.sign * kink_lambda, side.sign * side.max_lambda));
     }
     made.chi_error_ratio = averaged.bias_residual_ratio;
     return made;

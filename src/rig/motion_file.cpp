@@ -20,14 +20,14 @@ namespace {
 using config::ConfigError;
 
 // Two days of 200 rows a second, a quarter of a gigabyte; and no device that never ends.
-constexpr std::size_t most_rows = std::size_t{1} << 25;
-constexpr std::int64_t most_bytes = std::int64_t{1} << 30;
+constexpr std::size_t max_rows = std::size_t{1} << 25;
+constexpr std::int64_t max_bytes = std::int64_t{1} << 30;
 
 logs::TextLayout layout_of(const config::Motion& m) {
     logs::TextLayout layout = text_layout(m);
     layout.columns = {m.column.empty() ? "1" : m.column};
-    layout.most_rows = most_rows;
-    layout.most_bytes = most_bytes;
+    layout.max_rows = max_rows;
+    layout.max_bytes = max_bytes;
     return layout;
 }
 

@@ -74,7 +74,7 @@ noise::NoiseTerms only(const noise::FittedTerm& term) {
     return t;
 }
 
-double least_of(const Series& s) {
+double min_of(const Series& s) {
     double least = std::numeric_limits<double>::infinity();
     for (const double y : s.y) least = std::min(least, y);
     return least;
@@ -123,7 +123,7 @@ Figure sigma_figure(const View& v) {
         "averaging time, s", fmt::format("deviation, {}", v.unit()));
     f.log_x = f.log_y = true;
     Series measured = curve_series(v, curve, name);
-    double least = least_of(measured);
+    double least = min_of(measured);
     f.series.push_back(std::move(measured));
     for (std::size_t k = 1; k < v.axis.curves.size(); ++k)
         if (v.axis.curves[k].kind != deviations::DeviationKind::tdev)
@@ -132,7 +132,7 @@ Figure sigma_figure(const View& v) {
     // The terms are fitted to what is left without the switching.
     if (v.axis.mode_curves.size() > 2) {
         Series left = curve_series(v, v.axis.mode_curves[2], "magnetic part taken out");
-        least = std::min(least, least_of(left));
+        least = std::min(least, min_of(left));
         f.caption += " The terms are fitted to what is left without the magnetic part.";
         f.series.push_back(std::move(left));
     }
@@ -152,7 +152,7 @@ Figure guide_figure(const View& v) {
         "averaging time, s", fmt::format("deviation, {}", v.unit()));
     f.log_x = f.log_y = true;
     Series measured = curve_series(v, curve, std::string{deviations::name_of(curve.kind)});
-    const double least = least_of(measured);
+    const double least = min_of(measured);
     const double most = *std::ranges::max_element(measured.y);
     f.series.push_back(std::move(measured));
     add_guides(v, taus_of(curve), 0.5 * least, 2.0 * most, f);

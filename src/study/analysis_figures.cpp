@@ -12,8 +12,8 @@ using report::Figure;
 using report::Mark;
 using report::Series;
 
-constexpr int most_points = 600;
-constexpr std::size_t most_bands = 60;
+constexpr int max_points = 600;
+constexpr std::size_t max_bands = 60;
 
 // Means over even steps of the logarithm, so that the many bins of high frequencies are no black band.
 Series spectrum_series(const View& v, const noise::Spectrum& spectrum, std::string name) {
@@ -53,7 +53,7 @@ Figure course_figure(const View& v) {
         s.y.push_back(v.shown(b.mean_arcsec_s));
     }
     f.series.push_back(std::move(s));
-    if (v.axis.gaps.size() <= most_bands)
+    if (v.axis.gaps.size() <= max_bands)
         for (const Gap& g : v.axis.gaps) f.bands.push_back({.x0 = g.from_s, .x1 = g.to_s, .name = ""});
     return f;
 }
@@ -104,7 +104,7 @@ Figure bands_figure(const View& v) {
             s.x.push_back(g.time_s[t]);
             s.y.push_back(v.shown(std::sqrt(sum / static_cast<double>(to - from))));
         }
-        f.series.push_back(report::thin(s, most_points));
+        f.series.push_back(report::thin(s, max_points));
     }
     return f;
 }

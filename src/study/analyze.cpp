@@ -26,7 +26,7 @@ void count_known(const AxisRecord& record, AxisResult& axis) {
     const auto close = [&](std::size_t end) {
         if (!in_gap) return;
         ++axis.n_gaps;
-        if (axis.gaps.size() < most_gaps)
+        if (axis.gaps.size() < max_gaps)
             axis.gaps.push_back(
                 {static_cast<double>(gap_from) / record.rate_hz, static_cast<double>(end) / record.rate_hz});
         in_gap = false;

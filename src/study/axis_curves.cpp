@@ -17,7 +17,7 @@ using deviations::DeviationKind;
 
 // mtotdev and htotdev, samples in all pieces: about so many a second, and as many as they are given without being told.
 constexpr double piece_samples_a_second = 1e8;
-constexpr double most_piece_samples = 1e10;
+constexpr double max_piece_samples = 1e10;
 
 DeviationKind kind_of(config::Deviation d) {
     constexpr std::array kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
@@ -45,7 +45,7 @@ void refuse_long_work(DeviationKind kind, const std::vector<std::int64_t>& facto
     if (kind != DeviationKind::mtotdev && kind != DeviationKind::htotdev) return;
     double samples = 0.0;
     for (const std::int64_t m : factors) samples += static_cast<double>(m) * static_cast<double>(n - 3 * m + 1);
-    if (samples <= most_piece_samples) return;
+    if (samples <= max_piece_samples) return;
     throw config::ConfigError(fmt::format(
         "analysis.deviations = \"{}\": of {} samples at {} averaging times it takes about {:.0f} min; say which times, "
         "analysis.taus_s, or take \"{}\"",

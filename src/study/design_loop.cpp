@@ -62,8 +62,8 @@ int ticks_needed(const config::Config& config) {
 
 // A loop with time constants that are far below a tick is shown for as long as a few seconds of computation go.
 int ticks_affordable(const design::RelockLoop& loop, int ticks) {
-    constexpr double most_steps = 2e7;
-    while (ticks > 2 * step_ticks && design::relock_steps(loop, ticks) > most_steps)
+    constexpr double max_steps = 2e7;
+    while (ticks > 2 * step_ticks && design::relock_steps(loop, ticks) > max_steps)
         ticks = std::max(ticks / 2, 2 * step_ticks);
     return ticks;
 }
@@ -105,14 +105,14 @@ Relock relock_on_twin(const config::Config& config) {
     const int ticks = ticks_needed(config);
     const config::Config still = quiet(config, ticks);
     rig::ClosedLoop loop{still, twin::Motion::rest()};
-    const auto most_halves = static_cast<std::int64_t>(4.0 * still.switching.interval_s / config.gyro.tick_s);
+    const auto max_halves = static_cast<std::int64_t>(4.0 * still.switching.interval_s / config.gyro.tick_s);
     std::int64_t halves = 0;
     const auto advance = [&] {
-        if (++halves > most_halves)
+        if (++halves > max_halves)
             throw design::DesignError{fmt::format(
                 "perimeter.loop = \"digital\": on the twin no switch comes to an end within {} ticks; zlg run "
                 "shows what it does",
-                most_halves / 2)};
+                max_halves / 2)};
         return loop.advance();
     };
     while (advance().record.loop_closed) {

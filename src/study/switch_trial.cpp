@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t n_learning = 8;  // switches
 constexpr std::size_t n_judged = 20;
 constexpr std::array interval_ratios{1.0, 1.37, 1.73};
-constexpr std::int64_t least_switches = 4;
+constexpr std::int64_t min_switches = 4;
 constexpr int averaged_ticks = 40;
-constexpr double most_ticks = 20'000.0;  // for a loop so slow that its switches would take hours
+constexpr double max_ticks = 20'000.0;  // for a loop so slow that its switches would take hours
 
 config::Config on_trial(config::Config config) {
     config.drift.magnetic_arcsec_s = 0.0;
@@ -39,7 +39,7 @@ std::int64_t trial_ticks(const config::Config& config) {
     const double wanted_s = (n_learning + n_judged + 1) * config.switching.interval_s;
     const double available_s = rig::motion(config).duration_s();
     const double ticks = std::min(wanted_s, available_s) / config.gyro.tick_s * (1.0 - 1e-12);
-    return static_cast<std::int64_t>(std::min(ticks, most_ticks));
+    return static_cast<std::int64_t>(std::min(ticks, max_ticks));
 }
 
 bool phase_is_known(const config::Config& config) { return config.gyro.fidelity == config::Fidelity::averaged; }
@@ -85,7 +85,7 @@ double walk_arcsec2(const config::Config& config, const SwitchWindow& window) {
 
 SwitchTrial statistics_of(const config::Config& config, const std::vector<SwitchError>& errors) {
     SwitchTrial trial{.switches = static_cast<std::int64_t>(errors.size())};
-    if (trial.switches < least_switches) return trial;
+    if (trial.switches < min_switches) return trial;
     const auto n = static_cast<double>(errors.size());
     for (const SwitchError& e : errors) trial.alternating_arcsec += e.window.sign_after * e.error_arcsec / n;
     double sum_sq = 0.0;
@@ -118,7 +118,7 @@ SwitchTrial try_switches(const config::Config& config) {
     const double base_s =
         std::max(2.0 * shortest_interval_s(config),
                  static_cast<double>(made.gap_ticks + 2 * made.lock_timeout_ticks) * trial.gyro.tick_s);
-    if (most_ticks * trial.gyro.tick_s < 2.0 * least_switches * base_s) return {};
+    if (max_ticks * trial.gyro.tick_s < 2.0 * min_switches * base_s) return {};
     Judged judged;
     for (const double ratio : interval_ratios) {
         trial.switching.interval_s = ratio * base_s;
@@ -145,7 +145,7 @@ SwitchCost switch_cost(const config::Config& config) {
     if (config::is_given(config, "design.switch_error_arcsec"))
         return {config.design.switch_error_arcsec, SwitchErrorSource::given};
     const SwitchTrial trial = try_switches(config);
-    if (trial.switches < least_switches) return {config.design.switch_error_arcsec, SwitchErrorSource::presumed};
+    if (trial.switches < min_switches) return {config.design.switch_error_arcsec, SwitchErrorSource::presumed};
     return {trial.rms_arcsec, trial.is_resolved ? SwitchErrorSource::tried : SwitchErrorSource::unresolved};
 }
 

@@ -53,21 +53,21 @@ std::string escaped(std::string_view text, Lines lines) {
     return result;
 }
 
-std::string shortened(std::string text, std::size_t most_bytes) {
-    if (text.size() <= most_bytes) return text;
+std::string shortened(std::string text, std::size_t max_bytes) {
+    if (text.size() <= max_bytes) return text;
     constexpr std::string_view mark = " ... ";
-    std::size_t end = most_bytes / 2;
-    std::size_t begin = text.size() - most_bytes / 3;
+    std::size_t end = max_bytes / 2;
+    std::size_t begin = text.size() - max_bytes / 3;
     while (end > 0 && continues(text[end])) --end;
     while (begin < text.size() && continues(text[begin])) ++begin;
     return text.substr(0, end) + std::string{mark} + text.substr(begin);
 }
 
-std::string excerpt(std::string_view text, std::size_t most_bytes, char replacement) {
-    std::string shown{text.substr(0, most_bytes)};
+std::string excerpt(std::string_view text, std::size_t max_bytes, char replacement) {
+    std::string shown{text.substr(0, max_bytes)};
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = replacement;
-    return text.size() > most_bytes ? shown + "..." : shown;
+    return text.size() > max_bytes ? shown + "..." : shown;
 }
 
 }  // namespace zlg::text

@@ -15,7 +15,7 @@ public:
     std::optional<Place> run() {
         for (; at_ < text_.size(); ++at_) {
             take(text_[at_]);
-            if (levels() > most_toml_levels) return place();
+            if (levels() > max_toml_levels) return place();
         }
         return std::nullopt;
     }
@@ -156,7 +156,7 @@ private:
     int dots_ = 0;           // of the key or number that is being read
     std::size_t n_open_ = 0;
     // Of the keys whose values are being read, by how many brackets are open; each bracket is a level.
-    std::array<int, most_toml_levels + 2> key_levels_{};
+    std::array<int, max_toml_levels + 2> key_levels_{};
 };
 
 }  // namespace

@@ -6,12 +6,12 @@
 
 namespace zlg::text {
 
-std::string read_whole(const std::string& path, std::size_t most_bytes) {
+std::string read_whole(const std::string& path, std::size_t max_bytes) {
     OpenFile file{path};
     std::string text;
     while (file.append_to(text))
-        if (text.size() > most_bytes)
-            throw TooLong{fmt::format("{}: longer than {} bytes, which is the most allowed", path, most_bytes)};
+        if (text.size() > max_bytes)
+            throw TooLong{fmt::format("{}: longer than {} bytes, which is the most allowed", path, max_bytes)};
     return text;
 }
 

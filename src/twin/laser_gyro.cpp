@@ -44,10 +44,10 @@ double largest_field_g(const TwinConfig& c) {
 
 // A reversal that would meet its neighbour is none.
 void check_offset(std::int32_t offset_ticks, double half_s, double edge_s) {
-    const double most_ticks = 0.5 * (half_s - edge_s) * timer_hz;
-    if (std::abs(static_cast<double>(offset_ticks)) <= most_ticks) return;
+    const double max_ticks = 0.5 * (half_s - edge_s) * timer_hz;
+    if (std::abs(static_cast<double>(offset_ticks)) <= max_ticks) return;
     throw std::invalid_argument(fmt::format("actuator frame: edge_offset_ticks is {}, allowed is within +-{}",
-                                            offset_ticks, std::floor(most_ticks)));
+                                            offset_ticks, std::floor(max_ticks)));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ void complete(const TelemetryState& state, const TickReport& report, Telemetry& 
 }
 
 // Of one tick: beyond, the register itself could not tell it.
-constexpr double most_arcsec = 0x1p35;
+constexpr double max_arcsec = 0x1p35;
 
 // Of the flags; those above are left to whoever keeps the rows.
 constexpr std::uint32_t flags_of_the_gyro = 0xFFFF;
@@ -44,10 +44,10 @@ bool is_possible(const Telemetry& t) noexcept {
     if (((t.flags | t.settled_flags) & ~flags_of_the_gyro) != 0) return false;
     if (!is_sign(t.mode) || !is_sign(t.settled_mode)) return false;
     for (const double angle_arcsec : {t.dtheta_arcsec, t.settled_dtheta_arcsec, t.settled_final_arcsec})
-        if (!(angle_arcsec > -most_arcsec && angle_arcsec < most_arcsec)) return false;
+        if (!(angle_arcsec > -max_arcsec && angle_arcsec < max_arcsec)) return false;
     if (t.has_settled && t.settled_age_ticks > max_settled_age_ticks) return false;
     const bool sigma_is_known = is_number(t.settled_sigma_arcsec);
-    return t.settled_sigma_arcsec >= 0.0 && !(sigma_is_known && t.settled_sigma_arcsec >= most_arcsec) &&
+    return t.settled_sigma_arcsec >= 0.0 && !(sigma_is_known && t.settled_sigma_arcsec >= max_arcsec) &&
            t.tick_s >= min_tick_s && t.tick_s <= max_tick_s;
 }
 

@@ -32,10 +32,10 @@ def limits(words):
     both = re.search(NUMBER + r"\.\." + NUMBER, words)
     if both:
         least, most = float(both.group(1)), float(both.group(2))
-    for pattern, least_of in (("above ", lambda x: math.nextafter(x, math.inf)), ("from ", lambda x: x)):
+    for pattern, min_of in (("above ", lambda x: math.nextafter(x, math.inf)), ("from ", lambda x: x)):
         found = re.search(pattern + NUMBER, words)
         if found:
-            least = least_of(float(found.group(1)))
+            least = min_of(float(found.group(1)))
     found = re.search("up to " + NUMBER, words)
     if found:
         most = float(found.group(1))

@@ -93,7 +93,7 @@ class Signals(CliTest):
     def left(self):
         return {str(path.relative_to(self.folder)) for path in self.folder.rglob("*")}
 
-    def check(self, arguments, most_s, may_stay=()):
+    def check(self, arguments, max_s, may_stay=()):
         """`may_stay`: the parts that hold rows and are named; where it ends by itself before, all is good."""
         before = self.left()
         n_ended = 0
@@ -101,7 +101,7 @@ class Signals(CliTest):
             if n_ended == ROUNDS:
                 break
             number = self.chance.choice(ENDING)
-            moment_s = self.chance.uniform(0.01, most_s)
+            moment_s = self.chance.uniform(0.01, max_s)
             ended = Ended(arguments, moment_s, [number], self.folder)
             said = (arguments[0], number, moment_s, ended.code, ended.complaints)
             left = self.left() - before

@@ -104,7 +104,7 @@ TEST(GrowingInterval, AFixedIntervalLosesMoreTheFartherTheRunIsFromItsOwn) {
 }
 
 TEST(GrowingInterval, TheFixedIntervalThatLosesLeastOverAllRunsStillLosesHalf) {
-    const auto least_loss = [](double thermal_arcsec_s) {
+    const auto min_loss = [](double thermal_arcsec_s) {
         double least = std::numeric_limits<double>::infinity();
         for (double interval_s = 100.0; interval_s < 500.0; interval_s *= 1.005) {
             least = std::min(least, over_runs([&](double t) {
@@ -114,8 +114,8 @@ TEST(GrowingInterval, TheFixedIntervalThatLosesLeastOverAllRunsStillLosesHalf) {
         return least;
     };
     // At sqrt(L_opt(600) L_opt(36000)): u = 60^(1/4).
-    EXPECT_NEAR(least_loss(0.0), (std::pow(60.0, 0.25) + std::pow(60.0, -0.25)) / 2.0, 0.005);
-    EXPECT_NEAR(least_loss(0.7), 1.48, 0.005);
+    EXPECT_NEAR(min_loss(0.0), (std::pow(60.0, 0.25) + std::pow(60.0, -0.25)) / 2.0, 0.005);
+    EXPECT_NEAR(min_loss(0.7), 1.48, 0.005);
 }
 
 TEST(GrowingInterval, WithoutDriftThereIsNoSwitch) {

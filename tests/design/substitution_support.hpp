@@ -104,8 +104,8 @@ inline Substitution any_substitution(int max_n, int max_points) {
     s.n = integer_between(1, max_n);
     s.points.extrapolation = integer_between(s.order + 1, max_points);
     s.points.before = integer_between(0, max_points);
-    const int least_after = std::max(0, s.order + 1 - s.points.before);
-    s.points.after = integer_between(least_after, std::max(least_after, max_points));
+    const int min_after = std::max(0, s.order + 1 - s.points.before);
+    s.points.after = integer_between(min_after, std::max(min_after, max_points));
     return s;
 }
 

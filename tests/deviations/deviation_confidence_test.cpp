@@ -90,7 +90,7 @@ TEST(DeviationConfidence, is_that_of_chi_square_where_terms_are_independent) {
 TEST(DeviationConfidence, is_a_number_up_to_the_largest_confidence) {
     for (const double edf : {1.0, 2.0, 1e3, 1e7})
         for (const double p : {0.5, 1.0, edf}) {
-            const auto interval = confidence_interval(1.0, {.edf = edf, .skewness_p = p}, most_confidence);
+            const auto interval = confidence_interval(1.0, {.edf = edf, .skewness_p = p}, max_confidence);
             EXPECT_GT(interval.low, 0.0) << edf << " " << p;
             EXPECT_LT(interval.low, 1.0) << edf << " " << p;
             EXPECT_GT(interval.high, 1.0) << edf << " " << p;

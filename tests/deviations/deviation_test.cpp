@@ -155,7 +155,7 @@ TEST(Deviation, has_the_same_bits_with_any_width_of_vectors) {
                 const double n2 = record.known()[static_cast<std::size_t>(i + 2 * m)] -
                                   record.known()[static_cast<std::size_t>(i + m)];
                 const double d = late / n2 - early / n1;
-                const bool known = n1 >= least_known(m, 0.5) && n2 >= least_known(m, 0.5);
+                const bool known = n1 >= min_known(m, 0.5) && n2 >= min_known(m, 0.5);
                 return known ? d * d * (2.0 * n1 * n2) / (whole * (n1 + n2)) : 0.0;
             });
             EXPECT_EQ(difference_sum(view, 2, m, 0, 3001).sum, with_gaps ? sum : sum / (whole * whole)) << "m " << m;

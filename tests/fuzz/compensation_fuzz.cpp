@@ -19,7 +19,7 @@ using namespace zlg::core;
 using zlg::fuzz::Bytes;
 using zlg::fuzz::claim;
 
-constexpr int most_delay_ticks = 29;  // of `joint`
+constexpr int max_delay_ticks = 29;  // of `joint`
 
 RelockDriftConfig relock_config(Bytes& bytes) {
     RelockDriftConfig c;
@@ -143,7 +143,7 @@ struct Ledger {
         claim(std::isfinite(sample.dtheta_arcsec), "what is delivered is a number");
         claim(std::isfinite(out.angle_arcsec), "the angle is a number");
         const int delay = final_delay_ticks(config.bridge);
-        claim(delay >= 0 && delay <= most_delay_ticks, "the delay is bounded");
+        claim(delay >= 0 && delay <= max_delay_ticks, "the delay is bounded");
         claim(sample.has_final == (sample.tick >= delay), "a tick is final after the delay");
         note(sample.dtheta_arcsec);
         delivered_arcsec.add(sample.dtheta_arcsec);
@@ -160,7 +160,7 @@ struct Ledger {
 
 // To the end of the log; the state is a copy.
 void drain_all(const GyroCompensationConfig& config, GyroCompensationState state, Ledger& ledger) {
-    constexpr int most = most_delay_ticks + max_pending_gaps;
+    constexpr int most = max_delay_ticks + max_pending_gaps;
     for (int n = 0;; ++n) {
         const DrainOutput out = drain(config, state);
         if (out.has_gap) ledger.take(out.gap);

@@ -253,12 +253,12 @@ TEST_F(TextColumns, what_never_ends_is_refused_though_it_has_no_rows) {
     for (const char* text : {"# a comment\n", "\n", "1\n"}) {
         std::string endless;
         while (endless.size() < 3 << 20) endless += text;
-        EXPECT_NE(complaint(endless, {.columns = {"1"}, .most_bytes = 1 << 20}).find("more than 1048576 bytes"),
+        EXPECT_NE(complaint(endless, {.columns = {"1"}, .max_bytes = 1 << 20}).find("more than 1048576 bytes"),
                   std::string::npos)
             << text;
     }
-    EXPECT_EQ(read_text_columns(write("# x\n1\n"), {.columns = {"1"}, .most_bytes = 6})[0], std::vector<double>{1.0});
-    EXPECT_NE(complaint("# x\n1\n", {.columns = {"1"}, .most_bytes = 5}), "");
+    EXPECT_EQ(read_text_columns(write("# x\n1\n"), {.columns = {"1"}, .max_bytes = 6})[0], std::vector<double>{1.0});
+    EXPECT_NE(complaint("# x\n1\n", {.columns = {"1"}, .max_bytes = 5}), "");
     try {
         (void)read_text_columns("/dev/zero", {.columns = {"1"}});
         FAIL() << "a line without an end was read";
@@ -311,7 +311,7 @@ TEST_F(TextColumns, what_is_wrong_is_named_with_its_place) {
     EXPECT_NE(complaint("# nothing\n", {.columns = {"1"}}).find("no rows"), std::string::npos);
     EXPECT_NE(complaint("1\n", {.columns = {}}), "");
     EXPECT_NE(complaint("1\n", {.columns = {"0"}}), "");
-    EXPECT_NE(complaint("1.5\n2\n3\n", {.columns = {"1"}, .most_rows = 2}).find("more than 2 rows"), std::string::npos);
+    EXPECT_NE(complaint("1.5\n2\n3\n", {.columns = {"1"}, .max_rows = 2}).find("more than 2 rows"), std::string::npos);
     EXPECT_THROW((void)read_text_columns("/no/such/file", {.columns = {"1"}}), IoError);
 }
 

@@ -73,18 +73,18 @@ TEST(LaserCalibration, of_unequal_isotopes_the_squares_are_what_the_bias_lacks_o
         const core::DiscriminatorCurve curve = rig::control_config(found.config).detector.curve;
         const double centre = found.config.perimeter.discriminator_centre_lambda;
         // Edges take a hundredth of the plateau.
-        const double most_hz = found.config.gyro.bias_hz / 0.99;
+        const double max_hz = found.config.gyro.bias_hz / 0.99;
         const double settled_hz = light(0.0).left.bias_hz;
-        EXPECT_NEAR(settled_hz, most_hz * (1.0 - found.config.gyro.bias_chi * centre * centre), 1e-6 * most_hz);
-        const double most_lambda = found.third_wave_lambda;
-        EXPECT_GT(most_lambda, 0.1);
-        for (double dl = -0.99 * most_lambda; dl < 0.99 * most_lambda; dl += 0.003) {
+        EXPECT_NEAR(settled_hz, max_hz * (1.0 - found.config.gyro.bias_chi * centre * centre), 1e-6 * max_hz);
+        const double max_lambda = found.third_wave_lambda;
+        EXPECT_GT(max_lambda, 0.1);
+        for (double dl = -0.99 * max_lambda; dl < 0.99 * max_lambda; dl += 0.003) {
             const double read = core::true_detuning(curve, light(dl).discriminator() / slope).detuning_lambda;
             EXPECT_NEAR(read, dl, 0.06 * std::abs(dl) + 1e-4) << share << " at " << dl;
             const double from_centre = read - centre;
             const double lacks = found.config.gyro.bias_chi * from_centre * from_centre;
             // A ten-thousandth of the bias is 0.05 arcsec in a half.
-            EXPECT_NEAR(light(dl).left.bias_hz, most_hz * (1.0 - lacks), 2e-4 * most_hz) << share << " at " << dl;
+            EXPECT_NEAR(light(dl).left.bias_hz, max_hz * (1.0 - lacks), 2e-4 * max_hz) << share << " at " << dl;
         }
         EXPECT_LT(found.curve_error_lambda, 5e-4) << share;
         EXPECT_EQ(centre > 0.0, share > 0.5);

@@ -53,8 +53,8 @@ TEST(SwitchTrial, claims_no_less_than_the_walk_lets_it_resolve) {
     for (c.run.seed = 1; c.run.seed <= 6; ++c.run.seed) {
         const study::SwitchTrial trial = study::try_switches(c);
         // Windows of the gap and the re-lock: 23 ticks.
-        const double least_walk = 10.0 * 10.0 * 23.0 * c.gyro.tick_s;
-        EXPECT_GE(trial.rms_arcsec, std::sqrt(least_walk * std::sqrt(2.0 / static_cast<double>(trial.switches))));
+        const double min_walk = 10.0 * 10.0 * 23.0 * c.gyro.tick_s;
+        EXPECT_GE(trial.rms_arcsec, std::sqrt(min_walk * std::sqrt(2.0 / static_cast<double>(trial.switches))));
         if (trial.is_resolved) continue;
         ++n_hidden;
         EXPECT_NE(text(study::switch_cost(c).source).find("drift.random_walk_arcsec_sqrt_s"), std::string_view::npos);

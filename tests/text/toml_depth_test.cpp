@@ -53,7 +53,7 @@ TEST(TomlDepth, SaysWhere) {
     const auto place = too_deep("a = 1\n\nb = " + repeated("[", 100));
     ASSERT_TRUE(place);
     EXPECT_EQ(place->line, 3u);
-    EXPECT_NEAR(place->column, 4 + most_toml_levels, 2);
+    EXPECT_NEAR(place->column, 4 + max_toml_levels, 2);
 }
 
 int depth(const toml::node& node) {
@@ -74,7 +74,7 @@ RC_GTEST_PROP(TomlDepth, WhatPassesIsNoDeepTree, ()) {
     for (const std::string& piece : pieces) text += piece;
     if (too_deep(text)) return;
     try {
-        RC_ASSERT(depth(toml::parse(text)) <= 2 * most_toml_levels);
+        RC_ASSERT(depth(toml::parse(text)) <= 2 * max_toml_levels);
     } catch (const toml::parse_error&) {
         // Nor does it matter for what is no TOML.
     }

@@ -8,12 +8,12 @@ namespace zlg::core {
 namespace {
 
 // Beyond this a sum of counts is not exact as a double.
-constexpr std::int64_t most_counts = std::int64_t{1} << 52;
+constexpr std::int64_t max_counts = std::int64_t{1} << 52;
 
 void see_detuning(CountedStretchState& s, double sq_lambda2) noexcept {
     if (!(sq_lambda2 > 0.0 && is_finite(sq_lambda2))) return;
-    if (s.least_sq_lambda2 == 0.0 || sq_lambda2 < s.least_sq_lambda2) s.least_sq_lambda2 = sq_lambda2;
-    if (sq_lambda2 > s.most_sq_lambda2) s.most_sq_lambda2 = sq_lambda2;
+    if (s.min_sq_lambda2 == 0.0 || sq_lambda2 < s.min_sq_lambda2) s.min_sq_lambda2 = sq_lambda2;
+    if (sq_lambda2 > s.max_sq_lambda2) s.max_sq_lambda2 = sq_lambda2;
 }
 
 void add_half(CountedStretchState& s, const HalfRecord& half) noexcept {
@@ -26,7 +26,7 @@ void add_half(CountedStretchState& s, const HalfRecord& half) noexcept {
     // Unsigned, so that even wild counts wrap instead of being undefined.
     s.counts =
         static_cast<std::int64_t>(static_cast<std::uint64_t>(s.counts) + static_cast<std::uint64_t>(half.counts));
-    if (s.counts > most_counts || s.counts < -most_counts) s.broken = true;
+    if (s.counts > max_counts || s.counts < -max_counts) s.broken = true;
 }
 
 void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges) noexcept {
@@ -74,11 +74,11 @@ CountedStretch step(const EdgeShiftConfig& config, CountedStretchState& state, c
     if (!state.broken) {
         out.n_ticks = state.n_ticks;
         out.angle_arcsec = angle(config, state, bias, second.edge_offset_ticks, edges);
-        out.fall_lambda2 = state.most_sq_lambda2 - state.least_sq_lambda2;
+        out.fall_lambda2 = state.max_sq_lambda2 - state.min_sq_lambda2;
     }
     state.n_ticks = 0;
     if (second.detuning_sq_lambda2 > 0.0 && is_finite(second.detuning_sq_lambda2))
-        state.least_sq_lambda2 = state.most_sq_lambda2 = second.detuning_sq_lambda2;
+        state.min_sq_lambda2 = state.max_sq_lambda2 = second.detuning_sq_lambda2;
     return out;
 }
 
@@ -86,7 +86,7 @@ void begin_anew(CountedStretchState& state, double detuning_sq_lambda2) noexcept
     state.n_ticks = 0;
     state.uncovered = 0;
     state.known_before = true;
-    state.least_sq_lambda2 = state.most_sq_lambda2 = 0.0;
+    state.min_sq_lambda2 = state.max_sq_lambda2 = 0.0;
     see_detuning(state, detuning_sq_lambda2);
 }
 

@@ -15,15 +15,15 @@ constexpr std::int32_t block_ticks = 1024;
 constexpr double catch_up = 1.0 / 1024.0;
 
 // Shorter segments are not worth an update.
-constexpr std::int64_t least_ticks = 100;
+constexpr std::int64_t min_ticks = 100;
 
 // No gyro turns faster.
 constexpr double fastest_arcsec_s = 1e7;
 
 // Of the drift, at which it begins to act.
-constexpr double least_sigmas = 4.0;
+constexpr double min_sigmas = 4.0;
 
-bool is_known(double sigma, double drift_arcsec_s) noexcept { return least_sigmas * sigma < size(drift_arcsec_s); }
+bool is_known(double sigma, double drift_arcsec_s) noexcept { return min_sigmas * sigma < size(drift_arcsec_s); }
 
 void start(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
     const double tau_s = c.thermal_time.value();
@@ -39,7 +39,7 @@ void weigh(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
     const double drift = s.estimate[of_drift];
     const double variance = s.covariance[of_drift][of_drift];
     const bool acts = c.method == MagneticMethod::estimate && is_known(square_root(variance), drift);
-    s.trust = acts ? 1.0 - least_sigmas * least_sigmas * variance / (drift * drift) : 0.0;
+    s.trust = acts ? 1.0 - min_sigmas * min_sigmas * variance / (drift * drift) : 0.0;
     s.due_arcsec = s.trust * s.estimate[of_angle];
 }
 
@@ -53,7 +53,7 @@ void catch_time_up(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept
 
 void end_segment(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
     catch_time_up(c, s);
-    if (s.mode != 0 && s.segment.n_ticks >= least_ticks) {
+    if (s.mode != 0 && s.segment.n_ticks >= min_ticks) {
         const double tick_s = c.tick.value();
         update(s, {.mode = static_cast<double>(s.mode),
                    .length_s = static_cast<double>(s.segment.n_ticks) * tick_s,

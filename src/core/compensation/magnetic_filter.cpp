@@ -19,12 +19,12 @@ constexpr double trend_noise_ratio = 0.1;
 constexpr std::int32_t scatter_memory = 12;
 
 // Beyond this scatter a segment says nothing of the drift.
-constexpr double most_scatter_arcsec_s = 300.0;
+constexpr double max_scatter_arcsec_s = 300.0;
 
 // Variance of change and bend over that of the mean.
 constexpr double within_noise = 21.0;
 
-double least_of(double a, double b) noexcept { return a < b ? a : b; }
+double min_of(double a, double b) noexcept { return a < b ? a : b; }
 
 MagneticVector product(const MagneticCovariance& p, const MagneticVector& h) noexcept {
     MagneticVector result{};
@@ -80,9 +80,8 @@ void follow_scatter(MagneticDriftState& s, double excess) noexcept {
     const bool settled = s.n_compared >= scatter_memory - 2;
     if (!settled) ++s.n_compared;
     // One turn is no scatter: its own segment is enough to meet it.
-    const double most =
-        settled ? least_of(5.0 * s.scatter_arcsec_s + 0.1, most_scatter_arcsec_s) : most_scatter_arcsec_s;
-    s.scatter_arcsec_s += (least_of(excess, most) - s.scatter_arcsec_s) / static_cast<double>(s.n_compared + 2);
+    const double most = settled ? min_of(5.0 * s.scatter_arcsec_s + 0.1, max_scatter_arcsec_s) : max_scatter_arcsec_s;
+    s.scatter_arcsec_s += (min_of(excess, most) - s.scatter_arcsec_s) / static_cast<double>(s.n_compared + 2);
 }
 
 void correct(MagneticDriftState& s, const MagneticVector& ph, double innovation, double variance) noexcept {
@@ -135,7 +134,7 @@ void update(MagneticDriftState& s, const Segment& segment) noexcept {
     // Twice a square that is a mean of excesses only, and never less than of this segment: rather more than the variance.
     const double mean_sq = s.scatter_arcsec_s * s.scatter_arcsec_s;
     const double base = 2.0 * (sq > mean_sq ? sq : mean_sq);
-    if (!(base < most_scatter_arcsec_s * most_scatter_arcsec_s)) return forget_base(s);
+    if (!(base < max_scatter_arcsec_s * max_scatter_arcsec_s)) return forget_base(s);
     s.covariance[of_base][of_base] += base;
     const double noise = segment.variance + 0.5 * base;
     const MagneticVector ph = product(s.covariance, h);

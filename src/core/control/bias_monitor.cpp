@@ -15,7 +15,7 @@ constexpr double bias_followed = 1.0 / 256.0;
 constexpr std::int32_t reversed_believed = 4;
 
 // Differences of larger counts could overflow, and no gyro has them.
-constexpr std::int64_t most_counts = std::int64_t{1} << 53;
+constexpr std::int64_t max_counts = std::int64_t{1} << 53;
 
 // The static lock-in zone of a gyro whose threshold is half a hundredth of its bias, several times over.
 constexpr double near_rate_ratio = 0.03;
@@ -26,7 +26,7 @@ constexpr std::int32_t better_level_halves = 32;
 
 // A bias that has changed for good, or that was learnt while it was faulty.
 void learn_anew(const BiasMonitorConfig& c, BiasMonitorState& s, double b) noexcept {
-    if (!(b > 0.25 * c.presumed_counts && b > 0.5 * least_bias_counts)) {
+    if (!(b > 0.25 * c.presumed_counts && b > 0.5 * min_bias_counts)) {
         s.n_steady = 0;
         return;
     }
@@ -48,7 +48,7 @@ void learn(const BiasMonitorConfig& c, BiasMonitorState& s, double b, bool in_ba
         s.bias_counts += bias_followed * (b - s.bias_counts);
         return;
     }
-    if (!(b > 0.5 * least_bias_counts)) return;
+    if (!(b > 0.5 * min_bias_counts)) return;
     const bool agrees = size(b - s.bias_counts) < 0.25 * s.bias_counts;
     s.n_learnt = agrees ? s.n_learnt + 1 : 1;
     s.bias_counts = agrees ? s.bias_counts + (b - s.bias_counts) / s.n_learnt : b;
@@ -97,8 +97,8 @@ void judge(const BiasMonitorConfig& c, BiasMonitorState& s, const BiasMonitorInp
 BiasMonitorOutput step(const BiasMonitorConfig& config, BiasMonitorState& state,
                        const BiasMonitorInput& input) noexcept {
     BiasMonitorOutput out;
-    if (!(config.presumed_counts >= least_bias_counts)) return out;
-    if (!input.counted || input.counts > most_counts || input.counts < -most_counts) {
+    if (!(config.presumed_counts >= min_bias_counts)) return out;
+    if (!input.counted || input.counts > max_counts || input.counts < -max_counts) {
         state.n_known = 0;
         state.n_reversed = 0;
         return out;

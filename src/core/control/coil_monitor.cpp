@@ -17,14 +17,14 @@ constexpr double eight_differences = 14.2;
 constexpr double two_deviations = 2.5;
 
 // Beyond, a current is damage; below, it is none.
-constexpr double most_a = 1e9;
-constexpr double least_a = 1e-6;
+constexpr double max_a = 1e9;
+constexpr double min_a = 1e-6;
 
 double larger(double x, double y) noexcept { return x > y ? x : y; }
 
 // The first level of each sign, then their mean and how far a half is from it.
 void learn(CoilMonitorState& s, std::size_t place, double current_a) noexcept {
-    if (current_a < least_a) {
+    if (current_a < min_a) {
         s.n_learnt = 0;
         return;
     }
@@ -60,10 +60,10 @@ std::int32_t watch(CoilMonitorState& s, std::size_t place, double current_a, dou
     return s.n_steady;
 }
 
-constexpr double most_change = 2.0;
+constexpr double max_change = 2.0;
 
 bool are_over_half(const std::array<double, 2>& a, const std::array<double, 2>& b) noexcept {
-    return most_change * a[0] > b[0] && most_change * a[1] > b[1];
+    return max_change * a[0] > b[0] && max_change * a[1] > b[1];
 }
 
 bool are_near(const std::array<double, 2>& a, const std::array<double, 2>& b) noexcept {
@@ -92,7 +92,7 @@ void learn_anew(CoilMonitorState& s, double tolerance_ratio) noexcept {
 CoilMonitorOutput step(const CoilMonitorConfig& config, CoilMonitorState& state, int sign, double current_a) noexcept {
     CoilMonitorOutput out;
     const double now_a = size(current_a);
-    if (!(config.tolerance_ratio > 0.0) || !(now_a < most_a)) return out;
+    if (!(config.tolerance_ratio > 0.0) || !(now_a < max_a)) return out;
     const std::size_t place = sign > 0 ? 1 : 0;
     if (state.n_learnt < coil_learning_halves) {
         learn(state, place, now_a);

@@ -8,7 +8,7 @@ namespace {
 constexpr std::uint32_t judged_bits = 0x7ffffffe;
 
 // Steps beyond are no rotation; their sums stay far from an overflow.
-constexpr std::int64_t most_unevenness = std::int64_t{1} << 40;
+constexpr std::int64_t max_unevenness = std::int64_t{1} << 40;
 
 void count_changes(CounterMonitorState& s, std::uint32_t bits) noexcept {
     s.changed |= bits;
@@ -20,8 +20,8 @@ void count_changes(CounterMonitorState& s, std::uint32_t bits) noexcept {
 
 // Of ways: beyond the limit they are long enough for every bit.
 std::int64_t limited_sum(std::int64_t a, std::int64_t b) noexcept {
-    if (b > most_unevenness || a > most_unevenness) return most_unevenness;
-    if (b < -most_unevenness || a < -most_unevenness) return -most_unevenness;
+    if (b > max_unevenness || a > max_unevenness) return max_unevenness;
+    if (b < -max_unevenness || a < -max_unevenness) return -max_unevenness;
     return a + b;
 }
 
@@ -30,17 +30,17 @@ std::int64_t unevenness(const CounterMonitorState& s, std::int64_t step) noexcep
     const auto wrapped =
         static_cast<std::int64_t>(static_cast<std::uint64_t>(step) - 2 * static_cast<std::uint64_t>(s.steps[1]) +
                                   static_cast<std::uint64_t>(s.steps[3]));
-    if (wrapped > most_unevenness || wrapped < -most_unevenness) return most_unevenness;
+    if (wrapped > max_unevenness || wrapped < -max_unevenness) return max_unevenness;
     return wrapped < 0 ? -wrapped : wrapped;
 }
 
 // Rounding alone makes a mean of one count and a half, shifted edges two. A stuck bit makes 1.5 of its own value.
 std::uint32_t bits_below(std::int64_t unevenness) noexcept {
-    constexpr std::int64_t least_mean_counts = 5;  // in halves: 2.5
+    constexpr std::int64_t min_mean_counts = 5;  // in halves: 2.5
     std::uint32_t bits = 0;
     for (int k = 1; k < 31; ++k) {
         const std::int64_t by_value = std::int64_t{counter_window_halves} << (k - 1);
-        const std::int64_t least = counter_window_halves * least_mean_counts / 2;
+        const std::int64_t least = counter_window_halves * min_mean_counts / 2;
         if (unevenness >= (by_value > least ? by_value : least)) bits |= std::uint32_t{1} << k;
     }
     return bits;
@@ -104,7 +104,7 @@ bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool c
     if (state.n_known >= 2) count_changes(state, static_cast<std::uint32_t>(reading ^ state.reading_before));
     if (state.n_known >= 5) {
         state.unevenness += unevenness(state, step);
-        if (state.unevenness > most_unevenness) state.unevenness = most_unevenness;
+        if (state.unevenness > max_unevenness) state.unevenness = max_unevenness;
     }
     state.steps = {step, state.steps[0], state.steps[1], state.steps[2]};
     state.reading_before = state.reading;

@@ -6,14 +6,14 @@ namespace zlg::core {
 
 bool step(const DetuningMonitorConfig& config, DetuningMonitorState& state,
           const DetuningMonitorInput& input) noexcept {
-    if (!(config.most_change_lambda2 > 0.0)) return false;
+    if (!(config.max_change_lambda2 > 0.0)) return false;
     bool unsteady = false;
     if (!input.is_second) {
         state.has_first = input.is_known;
         state.first_lambda2 = input.mean_sq_lambda2;
     } else if (state.has_first && input.is_known && input.is_good && input.is_settled) {
         const double change_lambda2 = input.mean_sq_lambda2 - state.first_lambda2;
-        const bool large = change_lambda2 > config.most_change_lambda2 || change_lambda2 < -config.most_change_lambda2;
+        const bool large = change_lambda2 > config.max_change_lambda2 || change_lambda2 < -config.max_change_lambda2;
         unsteady = large && state.n_good > 2 * config.relock_ticks;
     }
     if (input.is_good && !unsteady) {

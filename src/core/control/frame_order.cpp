@@ -7,14 +7,14 @@ constexpr std::int32_t ahead_accepted = 2;
 constexpr std::int32_t behind_accepted = 200;
 
 // Frames that come a few halves late keep coming late for as long as what delays them lasts; their numbers go on.
-constexpr std::uint32_t most_late = 8;
+constexpr std::uint32_t max_late = 8;
 constexpr std::int32_t late_accepted = 30000;
 
 bool is_accepted(const FrameOrderState& s, std::uint32_t sequence) noexcept {
     // Unsigned differences wrap: less than half of all numbers is ahead.
     const bool is_ahead = sequence - s.expected < (std::uint32_t{1} << 31);
     if (is_ahead) return s.n_in_row >= ahead_accepted;
-    const bool is_late = s.expected - sequence <= most_late && !s.on_time;
+    const bool is_late = s.expected - sequence <= max_late && !s.on_time;
     return s.n_in_row >= (is_late ? late_accepted : behind_accepted);
 }
 

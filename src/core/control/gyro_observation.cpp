@@ -126,7 +126,7 @@ void read_span(const GyroControlConfig& c, GyroControlState& s, const SensorFram
                       .agrees = o.counted && !o.beyond && !(o.bias.judged && !o.bias.in_band),
                       .bias_lost = o.bias.judged && is_lost_or_reversed(bias),
                       .reading = frame.counter,
-                      .most_counts = length_ratio(c.commutator, s.commutator) * as_double(c.health.counts_limit),
+                      .max_counts = length_ratio(c.commutator, s.commutator) * as_double(c.health.counts_limit),
                       .bias_counts = bias.bias_counts > 0.0 ? bias.bias_counts : c.bias_monitor.presumed_counts,
                       .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity)});
 }

@@ -12,14 +12,14 @@ constexpr std::int32_t unlike_proven = 8;
 constexpr double noisy_deviations = 6.0;
 
 // An imbalance that moves the reading by this much; light noise in the mean of a half is ten times smaller.
-constexpr double least_unbalanced_lambda = 0.02;
+constexpr double min_unbalanced_lambda = 0.02;
 
 // Noise so large that the mean of a half is no guide.
-constexpr double most_steering_noise_lambda = 0.05;
+constexpr double max_steering_noise_lambda = 0.05;
 constexpr std::size_t fewest_for_noise = 4;
 
 // Of the bias: several times its rounding, and what 0.1 wavelength takes from it.
-constexpr double most_missing_ratio = 0.03;
+constexpr double max_missing_ratio = 0.03;
 
 // There the next mode has its centre: no detuning is that large.
 constexpr double next_mode_lambda = 0.5;
@@ -52,7 +52,7 @@ bool sees_still(LightMonitorState& s, const LightMonitorInput& in) noexcept {
 int side_of(const LightMonitorConfig& c, const LightMonitorState& s, const LightMonitorInput& in) noexcept {
     const double odd_lambda = 0.5 * in.sign * (in.detuning.value() - s.last_lambda);
     const double limit_lambda =
-        2.0 * c.noise.value() > least_unbalanced_lambda ? 2.0 * c.noise.value() : least_unbalanced_lambda;
+        2.0 * c.noise.value() > min_unbalanced_lambda ? 2.0 * c.noise.value() : min_unbalanced_lambda;
     if (odd_lambda > limit_lambda) return 1;
     return odd_lambda < -limit_lambda ? -1 : 0;
 }
@@ -72,7 +72,7 @@ void weigh_beams(const LightMonitorConfig& c, LightMonitorState& s, const LightM
     const double claimed_ratio = c.bias_chi * above_noise;
     // A rotation that changes adds to the beat or takes from it: only what is claimed can be missing.
     const double missing_ratio = in.deficit_ratio > 0.0 ? claimed_ratio - in.deficit_ratio : claimed_ratio;
-    if (in.settled && in.beats && missing_ratio > most_missing_ratio) s.is_unbalanced = true;
+    if (in.settled && in.beats && missing_ratio > max_missing_ratio) s.is_unbalanced = true;
 }
 
 // The mean of two halves in place of the second one. Light that is not of this gyro says nothing at all.
@@ -91,8 +91,8 @@ void balance(const LightMonitorConfig& c, LightMonitorState& s, const LightMonit
     s.last_lambda = in.detuning.value();
     s.last_lambda2 = in.mean_sq_lambda2;
     s.has_last = true;
-    const double most_lambda = next_mode_lambda * c.most_gain + 4.0 * c.noise.value();
-    if (!(out.detuning.value() < most_lambda && out.detuning.value() > -most_lambda)) {
+    const double max_lambda = next_mode_lambda * c.max_gain + 4.0 * c.noise.value();
+    if (!(out.detuning.value() < max_lambda && out.detuning.value() > -max_lambda)) {
         out.usable = out.has_mean_square = false;
         out.withheld = true;
     }
@@ -123,7 +123,7 @@ double noise_lambda2(const LightMonitorInput& in) noexcept {
 // Of what the curve leaves of the light: errors of its own, as detuning.
 constexpr double curve_error_lambda = 3e-4;
 constexpr std::size_t fewest_for_motion = 5;
-constexpr std::size_t most_samples = 64;
+constexpr std::size_t max_samples = 64;
 
 // A sample as detuning, through the curve.
 CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
@@ -142,7 +142,7 @@ CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
 // usual_lambda2  noise of a sample, as detuning at the centre, that is still usual.
 // return         whether there is more on average, and a good part of that in every third.
 bool is_noisy_throughout(const LightMonitorInput& in, double usual_lambda2) noexcept {
-    const std::size_t n = in.light_a.size() < most_samples ? in.light_a.size() : most_samples;
+    const std::size_t n = in.light_a.size() < max_samples ? in.light_a.size() : max_samples;
     if (n < fewest_for_motion) return true;
     constexpr double gain_sq = 70.0;  // of white noise: 1 + 16 + 36 + 16 + 1
     constexpr double good_part = 0.25;
@@ -263,7 +263,7 @@ void look_for_noise(const LightMonitorConfig& c, LightMonitorState& s, const Lig
     if (out.withheld) out.has_mean_square = false;
     out.noisy = row(s.n_noisy, spread, spoilt_proven);
     if (!spread) return;
-    if (noise > most_steering_noise_lambda * most_steering_noise_lambda) out.usable = false;
+    if (noise > max_steering_noise_lambda * max_steering_noise_lambda) out.usable = false;
 }
 
 }  // namespace
@@ -274,7 +274,7 @@ LightMonitorOutput step(const LightMonitorConfig& config, LightMonitorState& sta
                            .has_mean_square = input.usable,
                            .detuning = input.detuning,
                            .mean_sq_lambda2 = input.mean_sq_lambda2};
-    const bool watches = config.noise >= least_noise;
+    const bool watches = config.noise >= min_noise;
     const double before = state.has_end ? static_cast<double>(state.last_a) + static_cast<double>(state.last_b) : 0.0;
     out.contradicted = row(state.n_contradicted, input.beats && !input.two_way && !input.dark, unlike_proven);
     if (watches && !input.light_a.empty()) out.stuck = row(state.n_stuck, sees_still(state, input), spoilt_proven);

@@ -132,10 +132,10 @@ void begin_return(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitc
 
 // Each place of the range twice, first with the helicity that was held last.
 void try_place(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
-    constexpr double most_places = 1000.0;
+    constexpr double max_places = 1000.0;
     const double span_v = c.range.max.value() - c.range.min.value();
     const double wanted = 2.0 * span_v / in.half_wave.value();
-    const double bounded = wanted >= 1.0 ? (wanted < most_places ? wanted : most_places) : 1.0;
+    const double bounded = wanted >= 1.0 ? (wanted < max_places ? wanted : max_places) : 1.0;
     const auto n_places = static_cast<std::int32_t>(bounded);
 
     s.place %= 2 * n_places;

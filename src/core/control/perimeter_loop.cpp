@@ -9,11 +9,11 @@ namespace zlg::core {
 namespace {
 
 // So far from its place at the last open half, the light could still be that of the old mode.
-constexpr double most_in_flight_lambda = 0.1;
+constexpr double max_in_flight_lambda = 0.1;
 
 // A voltage that is farther off when the loop is closed was led there by something else than the stage.
 constexpr double arrived_lambda = 0.05;
-constexpr double most_slew_error = 0.2;
+constexpr double max_slew_error = 0.2;
 
 double volts_per_lambda(const PerimeterLoopConfig& c) noexcept { return 2.0 * c.half_wave.value(); }
 
@@ -34,7 +34,7 @@ bool relocks(const PerimeterLoopConfig& c) noexcept { return c.kind == LoopKind:
 // What a half tells the loop that corrects for what is in flight, in volts.
 double relocking_v(const PerimeterLoopConfig& c, const PerimeterLoopState& s, const PerimeterLoopInput& in) noexcept {
     const double in_flight_lambda = (s.set_point_v - s.mean_v) / volts_per_lambda(c);
-    if (!in.was_closed && limited(in_flight_lambda, most_in_flight_lambda) != in_flight_lambda) return 0.0;
+    if (!in.was_closed && limited(in_flight_lambda, max_in_flight_lambda) != in_flight_lambda) return 0.0;
     const double leads_to_lambda = in.detuning.value() + in_flight_lambda;
     if (s.n_closed < c.relock_halves) return c.relock_gain * leads_to_lambda * volts_per_lambda(c);
     return correction_v(c, leads_to_lambda);
@@ -52,9 +52,9 @@ double wanted_v(const PerimeterLoopConfig& c, const PerimeterLoopState& s, const
 void watch_slew(const PerimeterLoopConfig& c, PerimeterLoopState& s, const PerimeterLoopInput& in) noexcept {
     if (in.was_closed || !plausible(c.range, in.piezo)) return;
     const double presumed_v = s.end_v - s.start_v;
-    const double most_v = c.slew_v_s * s.slew_ratio * c.half_period.value();
-    if (size(presumed_v) > 0.95 * most_v) {
-        s.slew_error = limited((in.piezo.value() - s.end_v) / (s.end_v - s.opened_v), most_slew_error);
+    const double max_v = c.slew_v_s * s.slew_ratio * c.half_period.value();
+    if (size(presumed_v) > 0.95 * max_v) {
+        s.slew_error = limited((in.piezo.value() - s.end_v) / (s.end_v - s.opened_v), max_slew_error);
         s.has_slew_error = true;
     }
     if (!in.close) return;

@@ -34,7 +34,7 @@ double apart(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::i
 // What the rate may have changed in m halves, and what the bias is known to.
 bool has_returned(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::int32_t m) noexcept {
     if (!s.rate_known || !in.agrees) return false;
-    const double bias = in.bias_counts > least_bias_counts ? in.bias_counts : least_bias_counts;
+    const double bias = in.bias_counts > min_bias_counts ? in.bias_counts : min_bias_counts;
     const double some = bias / 6.0 + 0.5 * s.change_counts * halves(m) * halves(m + 1);
     const double most = 0.5 * bias;
     return size(apart(s, in, m)) <= (some < most ? some : most);
@@ -59,7 +59,7 @@ void follow_rate(ReadingMonitorState& s, const ReadingMonitorInput& in, std::int
 
 // More counts than m halves can have.
 bool is_over(const ReadingMonitorInput& in, std::int64_t counts, std::int32_t m, double part) noexcept {
-    return size(as_double(counts)) > part * in.most_counts * halves(m);
+    return size(as_double(counts)) > part * in.max_counts * halves(m);
 }
 
 bool is_at_stop(const ReadingMonitorInput& in, std::int64_t counts, std::int32_t m) noexcept {

@@ -6,8 +6,8 @@ namespace zlg::core {
 namespace {
 
 // Ticks beyond are no time of a gyro; below, adding an interval cannot overflow.
-constexpr std::int64_t most_ticks = std::int64_t{1} << 62;
-constexpr std::int64_t most_interval_ticks = std::int64_t{1} << 53;
+constexpr std::int64_t tick_limit = std::int64_t{1} << 62;
+constexpr std::int64_t max_interval_ticks = std::int64_t{1} << 53;
 
 bool is_positive(double x) noexcept { return x > 0.0 && x <= 1e12; }
 
@@ -23,7 +23,7 @@ void count_mode(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int8
     const bool begins = s.imbalance_ticks == 0 && s.opened_tick == 0;
     if (begins && c.kind != ScheduleKind::fixed && c.first_segment == FirstSegment::full)
         s.centre_ticks = in_mode(mode, s.interval_ticks - s.interval_ticks / 2);
-    s.imbalance_ticks = limited_to(s.imbalance_ticks + in_mode(mode, 1), most_interval_ticks);
+    s.imbalance_ticks = limited_to(s.imbalance_ticks + in_mode(mode, 1), max_interval_ticks);
 }
 
 bool is_due_on_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
@@ -48,7 +48,7 @@ bool is_due_by_end(const SwitchScheduleConfig& c, const SwitchScheduleState& s,
 
 // Nothing is due after the opening that balances the end.
 bool is_newly_due(const SwitchScheduleConfig& c, SwitchScheduleState& s, const SwitchScheduleInput& in) noexcept {
-    if (!(in.tick >= 0 && in.tick < most_ticks)) return false;
+    if (!(in.tick >= 0 && in.tick < tick_limit)) return false;
     const bool regular = c.kind == ScheduleKind::fixed ? is_due_on_grid(c, s, in.tick) : is_due_by_balance(c, s, in);
     if (s.balanced) return false;
     s.balanced = is_due_by_end(c, s, in);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view blanks = " \t";
 
 // As much as an HDF5 log may hold.
-constexpr std::size_t most_settings_bytes = std::size_t{16} << 20;
+constexpr std::size_t max_settings_bytes = std::size_t{16} << 20;
 
 // Prose with an equals sign in it is not a setting: a key has no blanks.
 bool is_key(std::string_view text) { return !text.empty() && text.find_first_of(blanks) == std::string_view::npos; }
@@ -61,9 +61,9 @@ CsvHead read_head(LineReader& lines) {
         const std::size_t before = head.settings.size();
         collect_setting(line, head.settings);
         if (head.settings.size() > before) n_bytes += line.size();
-        if (n_bytes > most_settings_bytes)
+        if (n_bytes > max_settings_bytes)
             throw FormatError(fmt::format("{}:{}: settings of more than {} bytes, which is the most allowed",
-                                          lines.path(), lines.line_number(), most_settings_bytes));
+                                          lines.path(), lines.line_number(), max_settings_bytes));
     } while (trimmed(line).empty() || line.starts_with('#'));
 
     head.separator = separator_of(line);

@@ -3,14 +3,13 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include <zlg/logs/settings.hpp>
 
 #include "line_reader.hpp"
 
 namespace zlg::logs {
-
-using Settings = std::vector<std::pair<std::string, std::string>>;
 
 struct CsvHead {
     Settings settings;               // in their order; other lines that begin with # are ignored

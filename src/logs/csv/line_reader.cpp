@@ -18,11 +18,11 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 }  // namespace
 
-LineReader::LineReader(std::string path, std::int64_t most_bytes)
+LineReader::LineReader(std::string path, std::int64_t max_bytes)
     : path_{std::move(path)},
       file_{::open(path_.c_str(), O_RDONLY | O_CLOEXEC)},
       buffer_{std::make_unique_for_overwrite<char[]>(max_line_bytes)},
-      most_bytes_{most_bytes} {
+      max_bytes_{max_bytes} {
     if (!file_.is_open()) throw IoError(fmt::format("cannot open {}: {}", path_, std::strerror(errno)));
     text::note_input(file_.get());
     struct stat status {};
@@ -42,8 +42,8 @@ void LineReader::refill() {
         end_of_file_ = n == 0;
         end_ += static_cast<std::size_t>(n);
         read_bytes_ += n;
-        if (most_bytes_ > 0 && read_bytes_ > most_bytes_)
-            throw FormatError(fmt::format("{}: more than {} bytes, which is the most allowed", path_, most_bytes_));
+        if (max_bytes_ > 0 && read_bytes_ > max_bytes_)
+            throw FormatError(fmt::format("{}: more than {} bytes, which is the most allowed", path_, max_bytes_));
     }
 }
 

@@ -16,14 +16,14 @@ public:
     // A line that does not fit is no line of a log.
     static constexpr std::size_t max_line_bytes = std::size_t{1} << 20;
 
-    // `most_bytes` of the file, 0: any number.
+    // `max_bytes` of the file, 0: any number.
     //
     // errors  IoError: no such file, a directory, no permission.
-    explicit LineReader(std::string path, std::int64_t most_bytes = 0);
+    explicit LineReader(std::string path, std::int64_t max_bytes = 0);
 
     // The next line without its LF or CRLF, valid until the next call; false at the end of the file.
     //
-    // errors  IoError; FormatError: a NUL byte, a line longer than max_line_bytes, more than most_bytes.
+    // errors  IoError; FormatError: a NUL byte, a line longer than max_line_bytes, more than max_bytes.
     bool next(std::string_view& line);
 
     // Nothing follows the line that was read last.
@@ -49,7 +49,7 @@ private:
     bool end_of_file_ = false;
     std::int64_t size_bytes_ = 0;
     std::int64_t read_bytes_ = 0;
-    std::int64_t most_bytes_ = 0;
+    std::int64_t max_bytes_ = 0;
     bool terminated_ = true;
     std::int64_t line_number_ = 0;
 };

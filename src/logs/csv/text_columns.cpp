@@ -32,7 +32,7 @@ bool is_note_for_excel(std::string_view line) { return line.size() == 5 && line.
 // Lines that hold rows, those at the head kept until it is known how to read them.
 class DataLines {
 public:
-    DataLines(const std::string& path, const TextLayout& layout) : lines_{path, layout.most_bytes}, layout_{layout} {
+    DataLines(const std::string& path, const TextLayout& layout) : lines_{path, layout.max_bytes}, layout_{layout} {
         std::string_view line;
         std::size_t n_bytes = 0;
         while (sample_.lines.size() < 2 || (sample_.lines.size() < sample_lines && n_bytes < sample_bytes)) {
@@ -139,8 +139,8 @@ private:
     }
 
     void add_row(std::string_view line) {
-        if (layout_.most_rows > 0 && table_.columns.front().values.size() >= layout_.most_rows)
-            refuse(fmt::format(": more than {} rows, which is the most allowed", layout_.most_rows));
+        if (layout_.max_rows > 0 && table_.columns.front().values.size() >= layout_.max_rows)
+            refuse(fmt::format(": more than {} rows, which is the most allowed", layout_.max_rows));
         split_fields(line, dialect_.separator, fields_, dialect_.n_fields + 1);
         if (fields_.size() != dialect_.n_fields)
             refuse(fmt::format(": {} fields, where the rows above have {}{}", n_fields(line), dialect_.n_fields,

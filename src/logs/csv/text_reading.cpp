@@ -16,7 +16,7 @@ namespace zlg::logs {
 namespace {
 
 // A row of more is no row of a table: what is held of the sample stays small.
-constexpr std::size_t most_fields = 100'000;
+constexpr std::size_t max_fields = 100'000;
 
 // Said of a text that has both marks.
 const char* without_thousands(std::string_view text) {
@@ -77,9 +77,9 @@ public:
         std::vector<std::vector<Field>> rows(sample_.lines.size());
         for (std::size_t k = 0; k < rows.size(); ++k) {
             split_fields(sample_.lines[k].text, separator, rows[k]);
-            if (rows[k].size() <= most_fields) continue;
+            if (rows[k].size() <= max_fields) continue;
             dialect.n_fields = rows[k].size();
-            refuse(reading, Verdict::ragged, k, fmt::format(": {} fields, allowed is {}", rows[k].size(), most_fields));
+            refuse(reading, Verdict::ragged, k, fmt::format(": {} fields, allowed is {}", rows[k].size(), max_fields));
             return reading;
         }
         dialect.has_header = rows.size() > 1 && is_header(rows.front());

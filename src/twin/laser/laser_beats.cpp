@@ -34,7 +34,7 @@ LaserBeats::LaserBeats(const BeatConfig& config, std::uint64_t seed, const Laser
       left_{scatter(config.lock_in_left_hz, config.scatter_phase_rad)},
       right_{scatter(config.lock_in_right_hz, config.scatter_phase_rad)},
       threshold_{2.0 * config.comparator_threshold * table.exact().centre_intensity()},
-      least_light_{faint_ratio * table.exact().centre_intensity()},
+      min_light_{faint_ratio * table.exact().centre_intensity()},
       counts_quarters_{config.counts_per_turn == 4},
       beats_{beats_of(seed, threshold_)},
       end_light_{table_.at(0.0, 0.0)} {}
@@ -56,7 +56,7 @@ Beat LaserBeats::beat(const Stretch& s, const Lights& lights, int helicity, doub
     WavePair pair = lights.middle.of(helicity);
     pair.cw *= s.cw_part;
     pair.ccw *= s.ccw_part;
-    if (!(std::min(pair.cw, pair.ccw) > least_light_)) return {};
+    if (!(std::min(pair.cw, pair.ccw) > min_light_)) return {};
     const Course bias{lights.start.of(helicity).bias_hz, pair.bias_hz, lights.end.of(helicity).bias_hz};
     const double mean_hz = s.common_hz + helicity * s.helicity_hz + mean_of(bias);
     const double half_change_hz = 0.5 * slant * (bias[2] - bias[0]);

@@ -58,7 +58,7 @@ private:
     Backscatter left_;
     Backscatter right_;
     double threshold_;
-    double least_light_;
+    double min_light_;
     bool counts_quarters_;
     OpticalBeats beats_;
 

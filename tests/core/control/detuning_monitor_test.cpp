@@ -6,10 +6,10 @@
 namespace zlg::core {
 namespace {
 
-constexpr DetuningMonitorConfig config{.most_change_lambda2 = 0.002, .relock_ticks = 20};
+constexpr DetuningMonitorConfig config{.max_change_lambda2 = 0.002, .relock_ticks = 20};
 static_assert(check(config) == DetuningMonitorFault::none);
-static_assert(check(DetuningMonitorConfig{.most_change_lambda2 = std::numeric_limits<double>::quiet_NaN()}) ==
-              DetuningMonitorFault::most_change);
+static_assert(check(DetuningMonitorConfig{.max_change_lambda2 = std::numeric_limits<double>::quiet_NaN()}) ==
+              DetuningMonitorFault::max_change);
 static_assert(check(DetuningMonitorConfig{.relock_ticks = -1}) == DetuningMonitorFault::relock_ticks);
 
 struct Gyro {

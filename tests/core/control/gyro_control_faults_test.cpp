@@ -23,7 +23,7 @@ GyroControlConfig monitored(LoopKind kind) {
     c.coil_monitor.tolerance_ratio = 1.0 / 300.0;
     c.counter_monitor.watches = true;
     c.light_monitor.bias_chi = 3.6;
-    c.detuning_monitor.most_change_lambda2 = 1.0 / 540.0;
+    c.detuning_monitor.max_change_lambda2 = 1.0 / 540.0;
     c.health.counts_limit = 1253;
     return c;
 }

@@ -522,7 +522,7 @@ TEST_P(EitherLoop, AHundredThousandHalvesOfGarbageLeaveNoTraceOfThemselves) {
             c.coil_monitor.tolerance_ratio = 0.003;
             c.counter_monitor.watches = true;
             c.light_monitor = {.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
-            c.detuning_monitor.most_change_lambda2 = 0.002;
+            c.detuning_monitor.max_change_lambda2 = 0.002;
         }
         GyroControlState s = initial_state(c);
         Garbage garbage;

@@ -16,7 +16,7 @@ constexpr LightMonitorConfig config{.noise = Wavelengths{0.0033}, .bias_chi = 3.
 static_assert(check(config) == LightMonitorFault::none);
 static_assert(check(LightMonitorConfig{.noise = Wavelengths{nan_value}}) == LightMonitorFault::noise);
 static_assert(check(LightMonitorConfig{.bias_chi = -1.0}) == LightMonitorFault::bias_chi);
-static_assert(check(LightMonitorConfig{.most_gain = 0.5}) == LightMonitorFault::most_gain);
+static_assert(check(LightMonitorConfig{.max_gain = 0.5}) == LightMonitorFault::max_gain);
 
 // Two beams of 1000, their noise, and what a detector makes of them.
 class Light {

@@ -48,7 +48,7 @@ Readout run(const std::vector<Half>& halves) {
                                        .suspicious = off || beyond,
                                        .agrees = halves[h].read && known && !off && !beyond,
                                        .reading = reading,
-                                       .most_counts = static_cast<double>(limit),
+                                       .max_counts = static_cast<double>(limit),
                                        .bias_counts = bias,
                                        .beat_sign = sign}));
         if (all.out.back().trusted) {
@@ -182,7 +182,7 @@ TEST(ReadingMonitor, OfAnOpenLoopOrAnotherModeNothingIsTakenAcross) {
 
 TEST(ReadingMonitor, NumbersBegunAnewBeginAnew) {
     ReadingMonitorState state;
-    ReadingMonitorInput in{.read = true, .countable = true, .reading = 5000, .most_counts = static_cast<double>(limit)};
+    ReadingMonitorInput in{.read = true, .countable = true, .reading = 5000, .max_counts = static_cast<double>(limit)};
     in.follows = false;
     EXPECT_FALSE(step(state, in).trusted);
     in.follows = true;
@@ -195,7 +195,7 @@ TEST(ReadingMonitor, NumbersBegunAnewBeginAnew) {
 TEST(ReadingMonitor, TheCounterMayWrap) {
     ReadingMonitorState state;
     state.good = state.last = ~std::uint64_t{0} - 3;
-    ReadingMonitorInput in{.read = false, .countable = true, .reading = 0, .most_counts = static_cast<double>(limit)};
+    ReadingMonitorInput in{.read = false, .countable = true, .reading = 0, .max_counts = static_cast<double>(limit)};
     (void)step(state, in);
     in.read = true;
     in.reading = 6;

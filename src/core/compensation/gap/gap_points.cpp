@@ -16,7 +16,7 @@ constexpr double believable_innovation = 4.0;
 constexpr double believable_step_sq = 9.0;
 
 // No bias is further from the presumed one than that.
-constexpr double most_scale = 0.1;
+constexpr double max_scale = 0.1;
 
 bool is_point(const HistoryTick& tick) noexcept { return tick.measured && is_finite(tick.variance_arcsec2); }
 
@@ -194,7 +194,7 @@ void learn_scale(GapBridgeState& state) noexcept {
     if (!(found.probe_dual * found.probe_dual <= believable_step_sq * found.probe_information)) return;
     const double left = scale.variance - scale.variance * scale.variance * found.probe_information;
     const double moved = scale.value - scale.variance * found.probe_dual;
-    if (!(size(moved) <= most_scale) || !(left > 0.0)) return;
+    if (!(size(moved) <= max_scale) || !(left > 0.0)) return;
     scale.value = moved;
     scale.variance = left + scale_walk;
 }

@@ -16,8 +16,8 @@ constexpr double enough_for_slow = 500.0;
 constexpr double polynomial_handicap = 1.05;
 
 // Of the variance over the claimed one.
-constexpr double least_ratio = 0.125;
-constexpr double most_ratio = 16.0;
+constexpr double min_ratio = 0.125;
+constexpr double max_ratio = 16.0;
 
 constexpr int side = points_a_side(scored_gap);
 constexpr int after = side + scored_gap;
@@ -68,7 +68,7 @@ void step(BridgeScoresState& state, WindowTicks x, bool rough) noexcept {
         score.recent_loss += recent_part * (loss - score.recent_loss);
         if (c >= state.weights.size()) continue;
         // What is claimed in the wake of a blow must not be remembered for minutes.
-        const double most = score.loss / least_ratio;
+        const double most = score.loss / min_ratio;
         const double claimed = state.weights[c].variance_arcsec2;
         score.predicted += part * ((claimed < most || !(most > 0.0) ? claimed : most) - score.predicted);
     }
@@ -104,7 +104,7 @@ double variance_ratio(const BridgeScoresState& state, MotionMemory memory_used) 
     const BridgeScore& score = state.score[memory_used];
     if (!is_judged(state) || !(score.predicted > 0.0)) return 1.0;
     const double ratio = score.loss / score.predicted;
-    return ratio < least_ratio ? least_ratio : ratio > most_ratio ? most_ratio : ratio;
+    return ratio < min_ratio ? min_ratio : ratio > max_ratio ? max_ratio : ratio;
 }
 
 }  // namespace zlg::core

@@ -10,7 +10,7 @@ constexpr int refinements = 5;
 constexpr double close_enough = 1e-6;
 
 // Beyond this much of scatter, in counts^2, nothing is left of a covariance.
-constexpr double most_scatter = 0.5;
+constexpr double max_scatter = 0.5;
 
 // Distance to the nearest whole number; beyond 2^51 counts no fraction is known.
 double beside_whole(double x) noexcept {
@@ -28,7 +28,7 @@ double at_steady_rate(double turned_counts) noexcept {
 
 // What a scatter leaves of a covariance.
 double left_by(double variance) noexcept {
-    return variance < most_scatter ? exponential(-two_pi_squared * variance) : 0.0;
+    return variance < max_scatter ? exponential(-two_pi_squared * variance) : 0.0;
 }
 
 // Mean square of the first 0, 1.. ticks of a window about that of the level: sums over growing corners of the moments.
@@ -60,7 +60,7 @@ double rounding_covariance(double turned_counts, double variance_counts2) noexce
 double scatter_of_rotation(double turned_counts, double read_variance_counts2) noexcept {
     const double covariance = at_steady_rate(turned_counts);
     const double without = read_variance_counts2 - 1.0 / 6.0;
-    if (!(without < most_scatter)) return without;
+    if (!(without < max_scatter)) return without;
     // Of v + 1/6 - 2 R(v) = read variance: by Newton from the left where R falls, else step by step to the first solution.
     double v = 0.0;
     for (int k = 0; k < refinements; ++k) {

@@ -42,11 +42,11 @@ FalseAngle missing(const RelockDriftConfig& c, double rate_hz) noexcept {
 // The square falls from tick to tick like q^(4 i): its part (1 - q^2) q^(4 (n - 1)) in tick n is at most 1/(2 n - 1).
 //
 // before  the state when this tick began: what its own second half shows is what is left after it.
-double most_missing_hz(const RelockDriftConfig& c, const RelockDriftState& before, const RelockTick& t) noexcept {
+double max_missing_hz(const RelockDriftConfig& c, const RelockDriftState& before, const RelockTick& t) noexcept {
     const bool seen = before.last_sq_lambda2 >= 0.0;
-    const double most_sq = seen ? before.last_sq_lambda2 : 0.5 * square(most_detuning.value());
+    const double max_sq = seen ? before.last_sq_lambda2 : 0.5 * square(max_detuning.value());
     const double n = static_cast<double>(before.n_unknown + 1);
-    return 0.5 * c.chi * bias_at_hz(c, t.temperature_c) * most_sq / (2.0 * n - 1.0);
+    return 0.5 * c.chi * bias_at_hz(c, t.temperature_c) * max_sq / (2.0 * n - 1.0);
 }
 
 struct TrueTick {
@@ -144,11 +144,11 @@ FalseAngle first_by_frequency(const RelockDriftConfig& c, const RelockDriftState
 }
 
 // Of a tick by its deficit alone: a false rate is no larger. Within its rounding it is none.
-FalseAngle or_deficit(const RelockDriftConfig& c, FalseAngle found, double deficit, double most_hz) noexcept {
+FalseAngle or_deficit(const RelockDriftConfig& c, FalseAngle found, double deficit, double max_hz) noexcept {
     if (found.known) return found;
     const double above = square(deficit) - 2.0 * rounding_variance(c, 1.0, 0.0, false);
     if (!(above > 0.0)) return missing(c, 0.0);
-    return missing(c, above < square(most_hz) ? deficit : most_hz);
+    return missing(c, above < square(max_hz) ? deficit : max_hz);
 }
 
 RelockDriftOutput frequency_step(const RelockDriftConfig& c, RelockDriftState& s, const RelockDriftState& before,
@@ -156,7 +156,7 @@ RelockDriftOutput frequency_step(const RelockDriftConfig& c, RelockDriftState& s
     RelockDriftOutput out{.due = s.since_gap <= c.ticks};
     if (s.since_gap == 1) {
         s.first_deficit_hz = deficit_hz(c, t);
-        s.first_most_hz = most_missing_hz(c, before, t);
+        s.first_most_hz = max_missing_hz(c, before, t);
         out.waiting = true;
         return out;
     }
@@ -165,8 +165,8 @@ RelockDriftOutput frequency_step(const RelockDriftConfig& c, RelockDriftState& s
     out.first_due = s.since_gap == 2;
     if (d.usable && out.due) out.tick = by_frequency(c, s, t, deficit, d.q);
     if (d.usable && out.first_due) out.first = first_by_frequency(c, s, t, deficit, d.q);
-    const double most_hz = most_missing_hz(c, before, t);
-    if (out.due) out.tick = or_deficit(c, out.tick, deficit, most_hz);
+    const double max_hz = max_missing_hz(c, before, t);
+    if (out.due) out.tick = or_deficit(c, out.tick, deficit, max_hz);
     if (out.first_due) out.first = or_deficit(c, out.first, s.first_deficit_hz, s.first_most_hz);
     return out;
 }
@@ -180,14 +180,14 @@ void observe_detuning(const RelockDriftConfig& c, RelockDriftState& s, const Rel
     const double by_mean = 2.0 * square(seen.mean_lambda - c.centre.value());
     const double second = squared ? about(c.centre, seen) : by_mean;
     const bool measured = squared || t.detuning_second_lambda != 0.0;
-    const bool is_seen = measured && second >= 0.0 && second < square(most_detuning.value());
+    const bool is_seen = measured && second >= 0.0 && second < square(max_detuning.value());
     if (is_seen) s.last_sq_lambda2 = second;
     s.n_unknown = is_seen ? 0 : s.n_unknown + (s.n_unknown < c.ticks);
 }
 
 FalseAngle or_missing(const RelockDriftConfig& c, const RelockDriftState& before, const RelockTick& t,
                       FalseAngle found) noexcept {
-    return found.known ? found : missing(c, most_missing_hz(c, before, t));
+    return found.known ? found : missing(c, max_missing_hz(c, before, t));
 }
 
 }  // namespace
@@ -202,7 +202,7 @@ RelockDriftFault check(const RelockDriftConfig& c) noexcept {
         return RelockDriftFault::temperature;
     if (!(c.light_noise.value() >= 0.0 && is_finite(c.light_noise.value()))) return RelockDriftFault::light_noise;
     if (!(c.light_samples >= 1)) return RelockDriftFault::light_samples;
-    if (!(is_within(c.centre.value(), -most_centre.value(), most_centre.value()))) return RelockDriftFault::centre;
+    if (!(is_within(c.centre.value(), -max_centre.value(), max_centre.value()))) return RelockDriftFault::centre;
     if (check(c.curve) != CurveFault::none || check(c.control_curve) != CurveFault::none)
         return RelockDriftFault::curve;
     return RelockDriftFault::none;

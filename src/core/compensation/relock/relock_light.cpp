@@ -5,16 +5,16 @@
 namespace zlg::core {
 namespace {
 
-constexpr std::size_t least_samples = 4;
-constexpr double most_detuning_lambda = 1e3;
+constexpr std::size_t min_samples = 4;
+constexpr double max_detuning_lambda = 1e3;
 
 // Below it a converter may well give the same number throughout a half.
-constexpr double least_noise_ratio = 1e-4;
+constexpr double min_noise_ratio = 1e-4;
 
 // Mean over a half, of the curve: where it is flat the light is of another mode.
-constexpr double least_slope_sq = 1e-6;
+constexpr double min_slope_sq = 1e-6;
 
-constexpr int most_newton_steps = 12;
+constexpr int max_newton_steps = 12;
 
 constexpr double not_good = __builtin_nan("");
 
@@ -40,7 +40,7 @@ double apparent(const DiscriminatorCurve& curve, double detuning_lambda) noexcep
     double high = curve.apparent_lambda[static_cast<std::size_t>(curve.n_nodes - 1)];
     double low = curve.apparent_lambda[0] < 0.0 ? curve.apparent_lambda[0] : -high;
     double x = 0.0;
-    for (int k = 0; k < most_newton_steps; ++k) {
+    for (int k = 0; k < max_newton_steps; ++k) {
         const CurvePoint at = true_detuning(curve, x);
         const double above = at.detuning_lambda - detuning_lambda;
         (above > 0.0 ? high : low) = x;
@@ -66,7 +66,7 @@ void by_slope(const RelockProfileConfig& c, int sign, std::size_t n, double nois
     bool possible = true;
     for (std::size_t k = 0; k < n; ++k) {
         const double x = lambda_per_signal * signal(k);
-        possible &= x < most_detuning_lambda && x > -most_detuning_lambda;
+        possible &= x < max_detuning_lambda && x > -max_detuning_lambda;
         out.lambda[k] = x;
     }
     out.n = possible ? static_cast<std::int32_t>(n) : 0;
@@ -88,7 +88,7 @@ void through_curve(const DiscriminatorCurve& curve, DetuningSamples& samples) no
         x = at.detuning_lambda;
         slope_sq += square(at.slope);
     }
-    const bool slopes = slope_sq > least_slope_sq * samples.n;
+    const bool slopes = slope_sq > min_slope_sq * samples.n;
     samples.weight *= samples.n / slope_sq;
     if (!slopes) samples.n = 0;
 }
@@ -99,10 +99,10 @@ void read_samples(const RelockProfileConfig& c, const HalfRecord& half, LightSam
                   DetuningSamples& out) noexcept {
     out.n = 0;
     const std::size_t n = light.a.size();
-    if (n < least_samples || n > static_cast<std::size_t>(most_profile_samples)) return;
+    if (n < min_samples || n > static_cast<std::size_t>(max_profile_samples)) return;
     if (!light.b.empty() && light.b.size() != n) return;
     const double noise_ratio = c.light_noise.value() * c.discriminator_per_lambda;
-    const bool may_stand_still = !(noise_ratio > least_noise_ratio || noise_ratio < -least_noise_ratio);
+    const bool may_stand_still = !(noise_ratio > min_noise_ratio || noise_ratio < -min_noise_ratio);
     const int sign = half.bias_sign * half.mode;
     const double mean_a = good_mean(light.a, may_stand_still);
     if (light.b.empty()) {
@@ -128,7 +128,7 @@ RecordedSquare recorded_square(const RelockProfileConfig& c, const HalfRecord& h
     const bool is_refused = noise_sq > 0.0 && half.detuning_sq_lambda2 <= 0.0;
     const TrueMoments seen = true_moments(c.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise_sq);
     const double from_centre = about(c.centre, seen);
-    if (!(from_centre >= 0.0 && from_centre < square(most_detuning_lambda))) return {};
+    if (!(from_centre >= 0.0 && from_centre < square(max_detuning_lambda))) return {};
     const double s2 = noise_sq * square(seen.slope);
     const double above = from_centre - s2;
     const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 2.0 * s2 * s2) / c.light_samples;

@@ -9,9 +9,9 @@
 namespace zlg::core {
 
 struct DetuningSamples {
-    std::int32_t n = 0;                               // 0: the light cannot be used
-    double weight = 1.0;                              // noise variance of the configuration over that of these samples
-    std::array<double, most_profile_samples> lambda;  // the first n
+    std::int32_t n = 0;                              // 0: the light cannot be used
+    double weight = 1.0;                             // noise variance of the configuration over that of these samples
+    std::array<double, max_profile_samples> lambda;  // the first n
 };
 
 //   both beams   dl = sign F((A - B)/(A + B)/K)

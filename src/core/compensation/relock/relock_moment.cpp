@@ -9,7 +9,7 @@ namespace {
 constexpr double weight_at_once = 2.0;
 
 // Likelihood beside the best one below which a moment does not count.
-constexpr double least_weight = 1e-9;
+constexpr double min_weight = 1e-9;
 
 struct Sample {
     double u = 0.0;  // halves since the loop was closed
@@ -170,7 +170,7 @@ void try_one_cubic(RelockProfileState& s, double w) noexcept {
     const Form power = powers_of(w);
     const Solution solved = solve(s.tail, s.information, cubic_ridge(s), power);
     const double weight = weigh(s.mixture, 0.5 * solved.fitted_sq / s.noise_sq_lambda2, 1.0);
-    if (weight < least_weight) return;
+    if (weight < min_weight) return;
     const bool in_first = w < -1.0;
     const Form first = square_integral(in_first ? w + 2.0 : 1.0, power, w, in_first ? -1.0 : w);
     const Form second = in_first ? last_half : square_integral(w + 1.0, power, w, 0.0);
@@ -204,7 +204,7 @@ void try_two_cubics(RelockProfileState& s, double w) noexcept {
     const double fitted_sq = solved.fitted_sq + later.fitted_sq - s.information.fitted_sq;
     const double noise_sq = s.noise_sq_lambda2;
     const double weight = weigh(s.mixture, 0.5 * fitted_sq / noise_sq, 1.0);
-    if (weight < least_weight) return;
+    if (weight < min_weight) return;
 
     const Form half = square_integral(w + 1.0, power, w, 0.0);
     const Vector<4> slope = times(half, solved.x);
@@ -227,7 +227,7 @@ void try_at_once(RelockProfileState& s) noexcept {
     const double fitted_sq = information.fitted_sq - s.information.fitted_sq + explained(information);
     const double noise_sq = s.noise_sq_lambda2;
     const double weight = weigh(s.mixture, 0.5 * fitted_sq / noise_sq, weight_at_once);
-    if (weight < least_weight) return;
+    if (weight < min_weight) return;
     RelockLink link = start_of(information, noise_sq);
     const PassedHalf passed = pass(first, noise_sq, link);
     add(s.mixture, weight,

@@ -18,10 +18,10 @@ constexpr std::int32_t halves_for_moments = 5;
 constexpr std::int32_t first_moments = 18;
 
 // Beyond so many standard deviations a sum of squared residuals is not noise. A false alarm costs little.
-constexpr double most_deviation = 2.0;
+constexpr double max_deviation = 2.0;
 
 // Residuals above so many times the noise from sample to sample are not of noise either.
-constexpr double most_over_rough = 2.0;
+constexpr double max_over_rough = 2.0;
 
 double square(double x) noexcept { return x * x; }
 
@@ -61,12 +61,12 @@ bool find_noise(RelockProfileState& s, double residual_sq) noexcept {
     const double freedom = (halves_for_moments - 2) * (s.n_samples - 1.0) - 3.0;
     const double configured = s.noise_sq_lambda2;
     const double off = deviation(residual_sq, freedom, configured);
-    if (!(off < most_deviation && off > -most_deviation)) {
+    if (!(off < max_deviation && off > -max_deviation)) {
         const Roughness rough = roughness(s);
         const double found = residual_sq / freedom;
         const bool as_configured = rough.mean_sq < configured * (1.0 + 3.0 * rough.scatter) &&
                                    rough.mean_sq > configured * (1.0 - 3.0 * rough.scatter);
-        if (off > most_deviation && (as_configured || found > most_over_rough * rough.mean_sq)) return false;
+        if (off > max_deviation && (as_configured || found > max_over_rough * rough.mean_sq)) return false;
         s.noise_sq_lambda2 = found;
     }
     const double least = 1e-12 * square(s.scale_lambda);
@@ -79,7 +79,7 @@ bool is_explained(const RelockProfileState& s) noexcept {
     const double freedom = halves_for_moments * s.n_samples - (halves_for_moments + 2.0);
     const double residual_sq = weighted_sum_sq(s, 0, halves_for_moments) - s.information.fitted_sq -
                                2.0 * s.noise_sq_lambda2 * s.mixture.log_best;
-    return deviation(residual_sq, freedom, s.noise_sq_lambda2) < most_deviation;
+    return deviation(residual_sq, freedom, s.noise_sq_lambda2) < max_deviation;
 }
 
 void try_moments(RelockProfileState& s, std::int32_t from, std::int32_t to) noexcept {
@@ -195,7 +195,7 @@ RelockProfileFault check(const RelockProfileConfig& c) noexcept {
     if (!((k >= 1e-6 && k <= 1e6) || (k <= -1e-6 && k >= -1e6))) return RelockProfileFault::discriminator;
     if (check(c.curve) != CurveFault::none || check(c.record_curve) != CurveFault::none)
         return RelockProfileFault::curve;
-    if (!(c.centre >= -1.0 * most_centre && c.centre <= most_centre)) return RelockProfileFault::centre;
+    if (!(c.centre >= -1.0 * max_centre && c.centre <= max_centre)) return RelockProfileFault::centre;
     if (!(c.light_noise.value() >= 0.0 && c.light_noise.value() <= 1e3)) return RelockProfileFault::light_noise;
     if (!(c.light_samples >= 1)) return RelockProfileFault::light_samples;
     return RelockProfileFault::none;

@@ -35,7 +35,7 @@ struct RateTable {
 struct RateTableOptions {
     double same_rate_ratio = 1e-4;  // samples of the table this near, of its largest rate, are of one stage or input
     std::int64_t settling_samples = 0;  // at the beginning of each stage
-    std::int64_t least_samples = 20;    // of a stage; shorter ones are passages
+    std::int64_t min_samples = 20;      // of a stage; shorter ones are passages
     double earth_arcsec_s = 0.0;        // known rotation about the axis that the table does not show
 };
 

@@ -26,7 +26,7 @@ enum class TotalBias { removed, published, as_computed };
 [[nodiscard]] TotalBias total_bias_of(std::string_view name);
 
 struct DeviationOptions {
-    double confidence = 0.6827;      // of the intervals, 0 < . <= most_confidence
+    double confidence = 0.6827;      // of the intervals, 0 < . <= max_confidence
     double least_known_ratio = 0.9;  // of each averaging window, 0 < . <= 1; 1: no gap within a window
     std::optional<int> noise{};  // exponent of the rate's spectrum f^noise, 2 .. -4; absent: identified from the data
     TotalBias total_bias = TotalBias::removed;

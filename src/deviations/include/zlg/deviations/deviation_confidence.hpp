@@ -42,9 +42,9 @@ struct VarianceLaw {
 [[nodiscard]] VarianceLaw variance_law(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
 
 // Of intervals: beyond it the quantiles of the laws are no numbers.
-inline constexpr double most_confidence = 0.999999;
+inline constexpr double max_confidence = 0.999999;
 
-// errors  SeriesError: a confidence that is not more than 0 and at most most_confidence.
+// errors  SeriesError: a confidence that is not more than 0 and at most max_confidence.
 void check_confidence(double confidence);
 
 // Two-sided, equal tails. From a confidence of 0.37 on it holds the deviation itself.

@@ -1,30 +1,15 @@
 #pragma once
 // The angle log: one row per tick, as CSV or HDF5.
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <zlg/core/records.hpp>
+#include <zlg/logs/angle_layout.hpp>
 
 namespace zlg::logs {
-
-struct AngleHeader {
-    // `# key = value` or /config, in their order; with the legend of the flags, `flags`, and `tick_s`.
-    std::vector<std::pair<std::string, std::string>> settings;
-    std::vector<std::string> warnings;  // unknown columns that are ignored, one line each
-    bool has_truth = false;             // /truth/dtheta_arcsec
-    bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
-};
-
-// A row and the time at which its tick ends.
-struct TimedAngle {
-    core::AngleRow row;  // relock_arcsec is not in the log and stays 0
-    double t_s = 0.0;
-    double truth_dtheta_arcsec = std::numeric_limits<double>::quiet_NaN();  // what the twin turned; NaN: not in the log
-};
 
 class AngleSource;
 class AngleSink;
@@ -55,13 +40,6 @@ private:
     std::unique_ptr<AngleSource> source_;
 };
 
-struct AngleWriterOptions {
-    bool has_truth = false;  // HDF5: the column /truth/dtheta_arcsec; a CSV log has none
-    // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
-    bool keep_part = false;
-    bool keep_csv_part = false;  // the same of CSV, for what cannot be had again
-};
-
 // Columns tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags, in the format that the suffix says: .csv,
 // .h5 or .hdf5; CSV reals in the shortest form that reads back.
 //
@@ -73,8 +51,7 @@ public:
     // that name. A `tick_s` of NaN is not known and not written.
     //
     // errors  IoError (another suffix included), FormatError (a setting with a line break; HDF5: a tick_s of no number).
-    AngleWriter(const std::string& path, double tick_s,
-                const std::vector<std::pair<std::string, std::string>>& settings, bool force,
+    AngleWriter(const std::string& path, double tick_s, const Settings& settings, bool force,
                 const AngleWriterOptions& options = {});
     ~AngleWriter();
     AngleWriter(AngleWriter&&) noexcept;

@@ -7,36 +7,9 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
+#include <zlg/logs/raw_layout.hpp>
 
 namespace zlg::logs {
-
-// Which of the optional columns there are.
-struct RawColumns {
-    bool has_valid = false;
-    bool has_detuning = false;     // detuning_lambda
-    bool has_detuning_sq = false;  // detuning_sq_lambda2
-    bool has_piezo = false;
-    bool has_temperature = false;
-    bool has_edge_offset = false;  // edge_offset_ticks, whose timer makes so many ticks per second:
-    double timer_hz = 0.0;         // 1..1e15 where there are shifts, else not used
-    bool has_span = false;
-};
-
-inline constexpr RawColumns all_raw_columns{.has_valid = true,
-                                            .has_detuning = true,
-                                            .has_detuning_sq = true,
-                                            .has_piezo = true,
-                                            .has_temperature = true,
-                                            .has_span = true};
-
-// What stands above the rows.
-struct RawHeader : RawColumns {
-    std::vector<std::pair<std::string, std::string>> settings;  // `# key = value` or /config, in their order
-    std::vector<std::string> warnings;                          // unknown columns that are ignored, one line each
-    int light_samples = 0;                                      // N of /raw/light; 0: there is none
-    bool has_light_b = false;                                   // /raw/light_b beside it
-    bool complete = true;  // false: an HDF5 log that is being written, or whose writer was interrupted
-};
 
 class RawSource;
 class RawSink;
@@ -77,13 +50,6 @@ private:
     std::unique_ptr<RawSource> source_;
 };
 
-struct RawWriterOptions {
-    int light_samples = 0;  // of each half and beam, 0..64; HDF5 only
-    bool light_b = false;   // of beam B too
-    // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
-    bool keep_part = false;
-};
-
 // Writes a raw log with the required and the given columns, in the format that the suffix says: .csv, .h5 or .hdf5.
 //
 // It appears under its name at `close`, whole, or not at all. As HDF5 it grows as PATH.part, which can be read meanwhile
@@ -92,7 +58,7 @@ class RawWriter {
 public:
     // errors  IoError (another suffix included), FormatError (a setting with a line break, light samples in a CSV log, edge
     // offsets without timer_hz).
-    RawWriter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& settings, bool force,
+    RawWriter(const std::string& path, const Settings& settings, bool force,
               const RawColumns& columns = all_raw_columns, const RawWriterOptions& options = {});
     ~RawWriter();
     RawWriter(RawWriter&&) noexcept;

@@ -22,8 +22,8 @@ struct TextLayout {
     TextMark mark = TextMark::automatic;
     std::string time_column;           // as `columns`; empty: looked for; "0": there is none
     std::string section = "analysis";  // whose keys `separator`, `decimal`, `skip_lines` messages name
-    std::size_t most_rows = 0;         // 0: any number
-    std::int64_t most_bytes = 0;       // comments and empty lines with them; 0: any number
+    std::size_t max_rows = 0;          // 0: any number
+    std::int64_t max_bytes = 0;        // comments and empty lines with them; 0: any number
 };
 
 struct TextColumn {

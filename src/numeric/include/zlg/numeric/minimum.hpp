@@ -26,9 +26,9 @@ Minimum scanned_minimum(Function f, double low, double high, int n) {
     }
     // A parabola knows the place of its minimum to half the digits of its values only; 20 bits of two steps ask for no more.
     constexpr int bits = 20;
-    std::uintmax_t most_steps = 60;
+    std::uintmax_t max_steps = 60;
     const auto [at, value] = boost::math::tools::brent_find_minima(f, std::max(low, best.at - step),
-                                                                   std::min(high, best.at + step), bits, most_steps);
+                                                                   std::min(high, best.at + step), bits, max_steps);
     return value < best.value ? Minimum{at, value} : best;
 }
 

@@ -14,7 +14,7 @@
 
 namespace zlg::study {
 
-inline constexpr std::size_t most_gaps = 400;
+inline constexpr std::size_t max_gaps = 400;
 
 // The Earth's rate as seen by axes at right angles.
 struct EarthLine {

@@ -66,7 +66,7 @@ struct AxisResult {
     std::optional<noise::ModeSplit> modes;
     std::vector<deviations::DeviationCurve> mode_curves;  // mode +1, mode -1, with the magnetic part taken out
     std::vector<TimeBin> course;
-    std::vector<Gap> gaps;  // the first `most_gaps`
+    std::vector<Gap> gaps;  // the first `max_gaps`
     noise::Spectrum spectrum;
     noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
     noise::Spectrogram spectrogram;

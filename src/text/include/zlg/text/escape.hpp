@@ -14,9 +14,9 @@ enum class Lines { one, many };  // whether a line feed is an end of line or one
 [[nodiscard]] std::string escaped(std::string_view text, Lines lines = Lines::one);
 
 // A message that is far too long loses its middle.
-[[nodiscard]] std::string shortened(std::string text, std::size_t most_bytes = 2000);
+[[nodiscard]] std::string shortened(std::string text, std::size_t max_bytes = 2000);
 
 // The first letters of a text, with a replacement for each control character, and dots where there is more of it.
-[[nodiscard]] std::string excerpt(std::string_view text, std::size_t most_bytes, char replacement);
+[[nodiscard]] std::string excerpt(std::string_view text, std::size_t max_bytes, char replacement);
 
 }  // namespace zlg::text

@@ -9,14 +9,14 @@
 namespace zlg::text {
 
 // Our own keys are 2 deep, and their values 1.
-inline constexpr int most_toml_levels = 64;
+inline constexpr int max_toml_levels = 64;
 
 struct Place {
     std::uint32_t line = 1;  // both from 1
     std::uint32_t column = 1;
 };
 
-// Where the text first nests deeper than most_toml_levels: dots of a key or a header, arrays and inline tables, all together.
+// Where the text first nests deeper than max_toml_levels: dots of a key or a header, arrays and inline tables, all together.
 // Of text that is no TOML the answer holds as far as it could be read as one.
 //
 // cost  one pass, no memory.

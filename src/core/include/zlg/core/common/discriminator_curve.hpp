@@ -43,9 +43,9 @@ enum class CurveFault : unsigned char { none, size, node, slope };
 // node   the origin is one; apparent and true detunings grow strictly and are within +-1000 wavelengths
 // slope  within 0..3 times the steps on both sides, which keeps every piece monotone
 [[nodiscard]] constexpr CurveFault check(const DiscriminatorCurve& c) noexcept {
-    constexpr double most_lambda = 1e3;
-    constexpr double most_slope = 3.0 * (1.0 + 1e-9);
-    const auto is_within = [](double x) { return x >= -most_lambda && x <= most_lambda; };
+    constexpr double max_lambda = 1e3;
+    constexpr double max_slope = 3.0 * (1.0 + 1e-9);
+    const auto is_within = [](double x) { return x >= -max_lambda && x <= max_lambda; };
     if (c.n_nodes == 0) return CurveFault::none;
     if (!(c.n_nodes >= 2 && c.n_nodes <= max_curve_nodes)) return CurveFault::size;
     const auto n = static_cast<std::size_t>(c.n_nodes);
@@ -59,7 +59,7 @@ enum class CurveFault : unsigned char { none, size, node, slope };
         const double rise = c.detuning_lambda[k] - c.detuning_lambda[k - 1];
         if (!(width > 0.0 && rise > 0.0)) return CurveFault::node;
         for (const double slope : {c.slope[k - 1], c.slope[k]}) {
-            if (!(slope >= 0.0 && slope * width <= most_slope * rise)) return CurveFault::slope;
+            if (!(slope >= 0.0 && slope * width <= max_slope * rise)) return CurveFault::slope;
         }
     }
     return CurveFault::none;
@@ -108,7 +108,7 @@ struct TrueMoments {
                                        double noise_sq_lambda2) noexcept;
 
 // The bias may be largest at another detuning than where the loop settles: f = f0 (1 - chi (dl - centre)^2).
-inline constexpr Wavelengths most_centre{1.0};
+inline constexpr Wavelengths max_centre{1.0};
 
 // Mean square of the detuning from there. About 0 it needs no mean.
 [[nodiscard]] constexpr double about(Wavelengths centre, const TrueMoments& m) noexcept {

@@ -18,8 +18,8 @@ namespace zlg::core {
 struct CountedStretchState {
     bool known_before =
         true;  // a closed tick was measured since the loop was open: its detuning bounds the false drift
-    double least_sq_lambda2 = 0.0;  // of the detuning in the halves from the last measured one to now; 0: not known
-    double most_sq_lambda2 = 0.0;
+    double min_sq_lambda2 = 0.0;  // of the detuning in the halves from the last measured one to now; 0: not known
+    double max_sq_lambda2 = 0.0;
     std::int64_t n_ticks = 0;    // since the last border between ticks with a reading
     std::int64_t counts = 0;     // over them
     std::int32_t uncovered = 0;  // halves up to now that no counts go over yet

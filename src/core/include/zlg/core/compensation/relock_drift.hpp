@@ -91,7 +91,7 @@ struct FalseAngle {
 };
 
 // A perimeter that a loop has caught is no farther off; the next mode begins there.
-inline constexpr Wavelengths most_detuning{0.25};
+inline constexpr Wavelengths max_detuning{0.25};
 
 struct RelockDriftOutput {
     bool due = false;        // this tick is among those to be corrected
@@ -110,7 +110,7 @@ void enter_gap(RelockDriftState& state, bool moves = true) noexcept;
 //
 // return  what to subtract. `known` is false where the data do not allow a correction (no detuning, or a ratio outside
 //         (0, 1)): what is missing is then as large as the last detuning that is known lets it be, or half of what
-//         `most_detuning` does; tick n after that has no more than a part 1/(2n - 1) of it, however the loop settles. No
+//         `max_detuning` does; tick n after that has no more than a part 1/(2n - 1) of it, however the loop settles. No
 //         number in it is ever NaN.
 [[nodiscard]] RelockDriftOutput step(const RelockDriftConfig& config, RelockDriftState& state,
                                      const RelockTick& tick) noexcept;

@@ -11,11 +11,11 @@
 namespace zlg::core {
 
 struct BiasMonitorConfig {
-    double presumed_counts = 0.0;  // of the bias in a half, up to 1e15; below `least_bias_counts` nothing is judged
+    double presumed_counts = 0.0;  // of the bias in a half, up to 1e15; below `min_bias_counts` nothing is judged
 };
 
 // Rounding and the change of an ordinary rotation hide a smaller bias.
-inline constexpr double least_bias_counts = 32.0;
+inline constexpr double min_bias_counts = 32.0;
 
 enum class BiasMonitorFault : unsigned char { none, presumed };
 

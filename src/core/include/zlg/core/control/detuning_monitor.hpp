@@ -7,14 +7,14 @@
 namespace zlg::core {
 
 struct DetuningMonitorConfig {
-    double most_change_lambda2 = 0.0;  // of the mean square within a tick, 0..1e6; 0: nothing is judged
-    std::int32_t relock_ticks = 20;    // after a gap, whose false angle the compensation subtracts, 0..2^24
+    double max_change_lambda2 = 0.0;  // of the mean square within a tick, 0..1e6; 0: nothing is judged
+    std::int32_t relock_ticks = 20;   // after a gap, whose false angle the compensation subtracts, 0..2^24
 };
 
-enum class DetuningMonitorFault : unsigned char { none, most_change, relock_ticks };
+enum class DetuningMonitorFault : unsigned char { none, max_change, relock_ticks };
 
 [[nodiscard]] constexpr DetuningMonitorFault check(const DetuningMonitorConfig& c) noexcept {
-    if (!(c.most_change_lambda2 >= 0.0 && c.most_change_lambda2 <= 1e6)) return DetuningMonitorFault::most_change;
+    if (!(c.max_change_lambda2 >= 0.0 && c.max_change_lambda2 <= 1e6)) return DetuningMonitorFault::max_change;
     if (!(c.relock_ticks >= 0 && c.relock_ticks <= (1 << 24))) return DetuningMonitorFault::relock_ticks;
     return DetuningMonitorFault::none;
 }
@@ -37,7 +37,7 @@ struct DetuningMonitorInput {
 
 // Advance by one half-period; says whether its tick holds a false angle that nobody will subtract.
 //
-//   |dl^2_second - dl^2_first| > most_change, in a tick that is settled and further from a gap than relock_ticks
+//   |dl^2_second - dl^2_first| > max_change, in a tick that is settled and further from a gap than relock_ticks
 //
 // The tick becomes a gap by this, so the ones after it are corrected: a push costs one tick.
 [[nodiscard]] bool step(const DetuningMonitorConfig& config, DetuningMonitorState& state,

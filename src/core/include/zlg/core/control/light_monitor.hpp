@@ -13,20 +13,20 @@
 namespace zlg::core {
 
 struct LightMonitorConfig {
-    Wavelengths noise{0.0};  // of one sample, white, as detuning, 0..10; below `least_noise` none is known
+    Wavelengths noise{0.0};  // of one sample, white, as detuning, 0..10; below `min_noise` none is known
     double bias_chi = 0.0;   // what a detuning takes from the bias: chi dl^2, 0..1e6; 0: not compared
-    double most_gain = 1.0;  // of a reading over its detuning, far from the centre: 1 where the curve is known; 1..100
+    double max_gain = 1.0;   // of a reading over its detuning, far from the centre: 1 where the curve is known; 1..100
 };
 
 // Less noise than this could be none at all: steady light then is no fault, and nothing is called noisy.
-inline constexpr Wavelengths least_noise{1e-4};
+inline constexpr Wavelengths min_noise{1e-4};
 
-enum class LightMonitorFault : unsigned char { none, noise, bias_chi, most_gain };
+enum class LightMonitorFault : unsigned char { none, noise, bias_chi, max_gain };
 
 [[nodiscard]] constexpr LightMonitorFault check(const LightMonitorConfig& c) noexcept {
     if (!(c.noise >= Wavelengths{0.0} && c.noise <= Wavelengths{10.0})) return LightMonitorFault::noise;
     if (!(c.bias_chi >= 0.0 && c.bias_chi <= 1e6)) return LightMonitorFault::bias_chi;
-    if (!(c.most_gain >= 1.0 && c.most_gain <= 100.0)) return LightMonitorFault::most_gain;
+    if (!(c.max_gain >= 1.0 && c.max_gain <= 100.0)) return LightMonitorFault::max_gain;
     return LightMonitorFault::none;
 }
 

@@ -50,7 +50,7 @@ struct ReadingMonitorInput {
     bool agrees = false;      // in step with the reading before, whatever that is worth
     bool bias_lost = false;   // less than half of the bias, or that of the other helicity
     std::uint64_t reading = 0;
-    double most_counts = 0.0;   // that the counter can make in a half
+    double max_counts = 0.0;    // that the counter can make in a half
     double bias_counts = 0.0;   // b
     std::int8_t beat_sign = 1;  // s
 };
