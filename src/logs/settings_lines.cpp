@@ -8,6 +8,28 @@
 #include <zlg/text/toml_depth.hpp>
 
 namespace zlg::logs {
+namespace {
+
+constexpr std::string_view blanks = " \t";
+
+// Prose with an equals sign in it is not a setting: a key has no blanks.
+bool is_key(std::string_view text) { return !text.empty() && text.find_first_of(blanks) == std::string_view::npos; }
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+void collect_setting(std::string_view line, Settings& settings) {
+    line.remove_prefix(1);
+    const auto equals = line.find('=');
+    if (equals == std::string_view::npos) return;
+    const std::string_view key = trimmed(line.substr(0, equals));
+    if (is_key(key)) settings.emplace_back(key, trimmed(line.substr(equals + 1)));
+}
 
 void require_one_line(const std::string& key, const std::string& value) {
     if ((key + value).find_first_of(std::string_view{"\n\r\0", 3}) == std::string::npos) return;

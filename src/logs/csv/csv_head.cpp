@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <zlg/logs/error.hpp>
 
+#include "settings_lines.hpp"
 #include "text_fields.hpp"
 
 namespace zlg::logs {
@@ -15,9 +16,6 @@ constexpr std::string_view blanks = " \t";
 
 // As much as an HDF5 log may hold.
 constexpr std::size_t max_settings_bytes = std::size_t{16} << 20;
-
-// Prose with an equals sign in it is not a setting: a key has no blanks.
-bool is_key(std::string_view text) { return !text.empty() && text.find_first_of(blanks) == std::string_view::npos; }
 
 bool looks_like_number(std::string_view text) {
     return !text.empty() && text.find_first_not_of("+-.,0123456789eE") == std::string_view::npos;
@@ -36,20 +34,6 @@ char separator_of(std::string_view names) {
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-void collect_setting(std::string_view line, Settings& settings) {
-    line.remove_prefix(1);
-    const auto equals = line.find('=');
-    if (equals == std::string_view::npos) return;
-    const std::string_view key = trimmed(line.substr(0, equals));
-    if (is_key(key)) settings.emplace_back(key, trimmed(line.substr(equals + 1)));
-}
 
 CsvHead read_head(LineReader& lines) {
     CsvHead head;

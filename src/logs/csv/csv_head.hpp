@@ -17,11 +17,6 @@ struct CsvHead {
     char separator = ',';            // that parts them: , ; | tab, or ' ' for any run of blanks
 };
 
-[[nodiscard]] std::string_view trimmed(std::string_view text);
-
-// A line `# key = value` is appended to `settings`; another remark is not.
-void collect_setting(std::string_view line, Settings& settings);
-
 // Calls `use(field)` for every comma-separated field of a line.
 template <class Use>
 void for_each_field(std::string_view line, Use use) {
