@@ -68,7 +68,9 @@ hid_t register_driver() {
 void Storage::publish() {
     const std::size_t head = std::min(superblock_bytes, image_.size());
     write_to_file(head, image_.size() - head, image_.data() + head);
-    write_to_file(0, head, image_.data());
+    if (error_ == 0) write_to_file(0, head, image_.data());
+    // What did not reach the file goes on in memory, for the library reads it again when it closes.
+    if (error_ != 0) return;
     staged_ = false;
     image_ = {};
 }

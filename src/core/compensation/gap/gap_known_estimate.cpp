@@ -126,7 +126,7 @@ KnownEstimate estimate_known(const GapBridgeConfig& config, GapBridgeState& stat
     if (gap.n < 2 || gap.n > max_solved_gap) return out;
     const int n_gap = static_cast<int>(gap.n);
     const int room = points_a_side(n_gap);
-    Problem p{.n_gap = n_gap, .n_side = room < points_a_side_of_known ? room : max_points_a_side};
+    Problem p{.n_gap = n_gap, .n_side = room < points_a_side_of_known ? room : points_a_side_of_known};
     const MotionMemory memory = better_memory(state.learning.scores);
     const double scale = variance_ratio(state.learning.scores, memory);
     const MotionCovariance covariance{config.optimal, state.learning.moments, memory, scale};
