@@ -24,7 +24,7 @@ def load(name):
 count_image = load("count_image")
 
 
-def table(worst=249999, typical=3499, flash=262143, memory=131071, stack_used=16383):
+def table(worst=59999, typical=3499, flash=262143, memory=131071, stack_used=16383):
     return {"worst_half": {"instructions": worst}, "lives": {"life, defaults": {"mean": typical}}, "flash": {"bytes": flash},
             "memory": {"bytes": memory, "stack": 16384, "stack_used": stack_used}}
 
@@ -35,7 +35,7 @@ class Limits(unittest.TestCase):
         for key, name in (("worst", "worst half-period"), ("typical", "typical half-period"), ("flash", "flash"),
                           ("memory", "memory"), ("stack_used", "stack used")):
             with self.subTest(key):
-                found = count_image.missed_limits(table(**{key: {"worst": 250000, "typical": 3500, "flash": 262144,
+                found = count_image.missed_limits(table(**{key: {"worst": 60000, "typical": 3500, "flash": 262144,
                                                                  "memory": 131072, "stack_used": 16384}[key]}))
                 self.assertEqual([line.partition(":")[0] for line in found], [name])
 
