@@ -201,4 +201,25 @@ TEST(LearningBridge, AStateIsAPlainValue) {
     EXPECT_LT(sizeof(GapBridgeState), 36u * 1024u);
 }
 
+// To weigh the judgement of a motion takes as much as to estimate a gap: it waits while a gap lasts or is not yet resolved.
+TEST(LearningBridge, WeightsOfAMotionWaitUntilNoGapDoes) {
+    const GapBridgeConfig config = learning(BridgeMethod::automatic);
+    GapBridgeState state;
+    Delivered result;
+    Random random{31};
+    const auto due = [&state] { return state.learning.moments.n_folded != state.learning.n_weighed; };
+    const auto measure = [&] { step_into(config, state, measured_tick(10.0 + random.uniform(-2.0, 2.0)), result); };
+    for (int k = 0; k < 400 && !due(); ++k) measure();
+    ASSERT_TRUE(due());
+    for (int k = 0; k < 5; ++k) step_into(config, state, gap_tick(), result);
+    EXPECT_TRUE(due()) << "weighed within the gap";
+    for (int k = 0; k < 100 && result.gaps.empty(); ++k) {
+        measure();
+        EXPECT_TRUE(due()) << "weighed " << k << " ticks after the gap, which was not resolved";
+    }
+    ASSERT_FALSE(result.gaps.empty());
+    for (int k = 0; k < 100 && due(); ++k) measure();
+    EXPECT_FALSE(due());
+}
+
 }  // namespace
