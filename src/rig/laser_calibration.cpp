@@ -135,10 +135,10 @@ LaserCalibration calibrate(const config::Config& config) {
     const twin::FourWave laser{gyro.laser};
     const double field_g = gyro.laser.bias_field_g;
     const twin::AveragedLaser averaged = twin::averaged_laser(laser, field_g);
-    const twin::TwinConfig told = twin::with_laser(gyro, averaged);
-    made.config.gyro.bias_hz = told.bias_hz;
-    made.config.gyro.bias_chi = told.bias_chi;
-    made.config.gyro.discriminator_per_lambda = told.discriminator_per_lambda;
+    const twin::TwinConfig equivalent = twin::with_laser(gyro, averaged);
+    made.config.gyro.bias_hz = equivalent.bias_hz;
+    made.config.gyro.bias_chi = equivalent.bias_chi;
+    made.config.gyro.discriminator_per_lambda = equivalent.discriminator_per_lambda;
 
     const Settled settled{laser, field_g, averaged};
     made.config.gyro.bias_hz *= settled.max_bias_hz() / averaged.bias_hz;

@@ -226,9 +226,9 @@ class Switches(CliTest):
 
     def test_one_constant_of_a_laser_is_not_told_alone(self):
         short = [word for setting in ("gyro.fidelity=laser", "laser.perimeter_m=0.12", "switching.interval_s=5") for word in ("--set", setting)]
-        told = self.succeed("run", *short, "--set", "gyro.bias_hz=79766.7", "--duration", 32, "--json", "--out", self.folder / "agrees")
-        self.assertIn("gyro.bias_chi = 6.37", told.stderr)
-        self.assertLess(json.loads(told.stdout)["variants"][-1]["switch_error_rms_arcsec"], 6.0)
+        agreeing = self.succeed("run", *short, "--set", "gyro.bias_hz=79766.7", "--duration", 32, "--json", "--out", self.folder / "agrees")
+        self.assertIn("gyro.bias_chi = 6.37", agreeing.stderr)
+        self.assertLess(json.loads(agreeing.stdout)["variants"][-1]["switch_error_rms_arcsec"], 6.0)
         off = self.succeed("run", *short, "--set", "gyro.bias_chi=3.6", "--duration", 12, "--json", "--out", self.folder / "off")
         line = "gyro.bias_chi = 3.6 is presumed, [laser] makes 6.37"
         self.assertIn(f"warning: {line}", off.stderr)

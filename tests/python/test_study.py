@@ -21,10 +21,10 @@ PROGRAM = PACKAGE_DIR.parent / "bin" / "zlg"
 def test_the_same_bits_as_the_program(tmp_path):
     sets = ["--set", "run.duration_s=120", "--set", "switching.interval_s=15"]
     command = [PROGRAM, "run", *sets, "--json", "--out", tmp_path / "run"]
-    told = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    program = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     result = zlg.run(SHORT, raw=True)
-    assert [v["name"] for v in told["variants"]] == [v.name for v in result.variants]
-    assert [v["drift_arcsec_s"] for v in told["variants"]] == [v.drift_arcsec_s for v in result.variants]
+    assert [v["name"] for v in program["variants"]] == [v.name for v in result.variants]
+    assert [v["drift_arcsec_s"] for v in program["variants"]] == [v.drift_arcsec_s for v in result.variants]
     raw = zlg.logs.read_raw(tmp_path / "run" / "raw.h5")
     angles = zlg.logs.read_angles(tmp_path / "run" / "angles.h5")
     assert np.array_equal(raw.counts, result.raw.counts) and np.array_equal(raw.piezo_v, result.raw.piezo_v)
@@ -81,7 +81,7 @@ def test_the_same_numbers_as_the_program_whatever_is_configured(settings, tmp_pa
     settings = ("run.duration_s=40", "switching.interval_s=8", *settings)
     sets = [word for setting in settings for word in ("--set", setting)]
     command = [PROGRAM, "run", *sets, "--json", "--out", tmp_path / "run"]
-    told = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    program = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     result = zlg.run(zlg.Config.of(*settings))
     members = {
         "drift_arcsec_s": "drift_arcsec_s",
@@ -90,13 +90,13 @@ def test_the_same_numbers_as_the_program_whatever_is_configured(settings, tmp_pa
         "switch_error_rms_arcsec": "switch_rms_arcsec",
         "switch_error_max_arcsec": "switch_max_arcsec",
     }
-    for theirs, ours in zip(told["variants"], result.variants):
+    for theirs, ours in zip(program["variants"], result.variants):
         assert theirs["name"] == ours.name
         assert {key: theirs[key] for key in members} == {key: getattr(ours, name) for key, name in members.items()}
-    assert told["switches"] == len(result.switches.tick) and told["switches"] > 0
-    assert told["switches_failed"] == result.switches_failed
-    assert told["warnings"] == result.warnings
-    assert told["relock_false_drift_deg_h"] == list(result.relock_false_drift_deg_h)
+    assert program["switches"] == len(result.switches.tick) and program["switches"] > 0
+    assert program["switches_failed"] == result.switches_failed
+    assert program["warnings"] == result.warnings
+    assert program["relock_false_drift_deg_h"] == list(result.relock_false_drift_deg_h)
 
 
 def test_a_contradiction_of_the_laser_is_a_warning():
@@ -130,9 +130,9 @@ def test_what_comes_back_fits_together():
 
 
 def test_progress_rises_to_the_end():
-    told = []
-    zlg.run(SHORT, progress=told.append)
-    assert len(told) > 2 and told == sorted(told) and 0 <= told[0] and told[-1] <= 1
+    program = []
+    zlg.run(SHORT, progress=program.append)
+    assert len(program) > 2 and program == sorted(program) and 0 <= program[0] and program[-1] <= 1
 
 
 def test_an_exception_of_progress_ends_the_run():
@@ -180,15 +180,15 @@ def test_an_axis_is_analyzed():
     angles = zlg.run(SHORT.with_("motion.kind=rest")).angles
     axis = zlg.study.axis_of_log(angles)
     result = zlg.study.analyze([axis], zlg.Config.of("analysis.deviations=[\"oadev\", \"mdev\"]"))
-    (told,) = result.axes
-    assert told.n_samples == len(angles) and told.n_known == angles.measured.sum() and told.n_gaps == 7
-    assert [d.kind for d in told.deviations] == ["oadev", "mdev"]
+    (program,) = result.axes
+    assert program.n_samples == len(angles) and program.n_known == angles.measured.sum() and program.n_gaps == 7
+    assert [d.kind for d in program.deviations] == ["oadev", "mdev"]
     by_hand = zlg.analysis.deviations_of_log(angles, taus=[0.005])
-    assert told.deviations[0].deviation[0] == pytest.approx(by_hand.deviation[0], rel=1e-9)
-    assert told.fit is not None and "<html" in result.page
-    assert {d.kind for d in told.mode_curves} == {"oadev"} and len(told.mode_curves) == 3
-    assert len(told.modes.switch_time_s) == 7 and told.modes.magnetic[0] == pytest.approx(0.7, abs=0.3)
-    assert told.readouts[0].tau_s == pytest.approx(1.0) and result.earth == []
+    assert program.deviations[0].deviation[0] == pytest.approx(by_hand.deviation[0], rel=1e-9)
+    assert program.fit is not None and "<html" in result.page
+    assert {d.kind for d in program.mode_curves} == {"oadev"} and len(program.mode_curves) == 3
+    assert len(program.modes.switch_time_s) == 7 and program.modes.magnetic[0] == pytest.approx(0.7, abs=0.3)
+    assert program.readouts[0].tau_s == pytest.approx(1.0) and result.earth == []
     axis.rates_arcsec_s = np.full(100, np.nan)
     axis.mode = axis.bridged_arcsec_s = None
     with pytest.raises(zlg.SeriesError, match="gyro"):

@@ -131,12 +131,12 @@ TEST(TwinConfig, TheTwinIsToldTheMeanOfAHalfWithItsEdges) {
     config.tick_s = 0.005;
     config.bias_edge_s = 50e-6;
     const AveragedLaser a{.bias_hz = 60000.0, .bias_chi = 3.5, .discriminator_per_lambda = 0.3};
-    const TwinConfig told = with_laser(config, a);
+    const TwinConfig equivalent = with_laser(config, a);
     // A half of 2500 us loses a quarter of the 50 us at each of its ends.
-    EXPECT_NEAR(told.bias_hz, 60000.0 * (2500.0 - 25.0) / 2500.0, 1e-9);
-    EXPECT_EQ(told.bias_chi, 3.5);
-    EXPECT_EQ(told.discriminator_per_lambda, 0.3);
-    EXPECT_EQ(told.half_wave_v, config.half_wave_v);
+    EXPECT_NEAR(equivalent.bias_hz, 60000.0 * (2500.0 - 25.0) / 2500.0, 1e-9);
+    EXPECT_EQ(equivalent.bias_chi, 3.5);
+    EXPECT_EQ(equivalent.discriminator_per_lambda, 0.3);
+    EXPECT_EQ(equivalent.half_wave_v, config.half_wave_v);
 }
 
 }  // namespace

@@ -16,18 +16,18 @@ void take(const RelockProfileConfig& config, JointRelockState& state, const Half
     if (state.profile.n_halves == 0) {
         state.first_tick = tick;
         state.sign = half.bias_sign * half.mode;
-        state.told = false;
+        state.delivered = false;
     }
     take(config, state.profile, half, light);
 }
 
 bool is_due(const JointRelockState& state) noexcept {
     const bool broken_off = state.profile.n_halves == 0;
-    return !state.told && (broken_off || state.profile.n_halves >= profile_halves);
+    return !state.delivered && (broken_off || state.profile.n_halves >= profile_halves);
 }
 
 void tell(const RelockDriftConfig& config, JointRelockState& state, Celsius temperature, JointRelock& out) noexcept {
-    state.told = true;
+    state.delivered = true;
     const RelockProfile& profile = state.profile.profile;
     const bool complete = state.profile.n_halves >= profile_halves;
     out.first_tick = state.first_tick;

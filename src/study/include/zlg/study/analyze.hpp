@@ -43,7 +43,7 @@ struct AnalysisResult {
     std::vector<TableResult> tables;
 };
 
-// What Kalibr would be told of these axes: the largest angle random walk and rate random walk of them; where none has rate random
+// What is written for Kalibr of these axes: the largest angle random walk and rate random walk of them; where none has rate random
 // walk the largest of its 95 % limits, for Kalibr refuses 0. An axis whose error stands behind it does not count, the error does.
 //
 // errors  deviations::SeriesError: no terms are fitted to an axis or they do not describe it; no axis has angle random walk; no rate

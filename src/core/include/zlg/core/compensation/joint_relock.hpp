@@ -27,7 +27,7 @@ struct JointRelockState {
     RelockProfileState profile{};
     std::int64_t first_tick = -1;  // after the gap
     int sign = 1;                  // in its first half
-    bool told = true;              // nothing is owed to the bridge
+    bool delivered = true;         // no result is pending for the bridge
 
     friend bool operator==(const JointRelockState&, const JointRelockState&) = default;
 };

@@ -16,7 +16,7 @@ struct MotionLearningState {
     MotionMomentsState moments{};
     BridgeScoresState scores{};
     int n_weighed = 0;  // blocks in the moments when the last weights were computed
-    int foreign = 0;    // ticks of late that were no such motion, weighted
+    int foreign = 0;    // recent ticks that were no such motion, weighted
 
     friend bool operator==(const MotionLearningState&, const MotionLearningState&) = default;
 };
