@@ -12,10 +12,11 @@
 #include <fmt/format.h>
 
 #include <zlg/firmware/gyro.hpp>
-#include <zlg/firmware/output_bits.hpp>
-#include <zlg/processor/scenarios.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/trials/output_bits.hpp>
+#include <zlg/trials/scenarios.hpp>
 
 namespace {
 
@@ -50,7 +51,7 @@ public:
 
 private:
     firmware::Gyro gyro_;
-    firmware::BitHash hash_;
+    trials::BitHash hash_;
 };
 
 }  // namespace
@@ -60,11 +61,11 @@ int main(int argc, char** argv) {
     const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
     Recorder recorder;
     for (std::int64_t k = 0; k < scenarios; ++k) {
-        const processor::Scenario s = processor::scenario(seed, k, 20.0);
+        const trials::Scenario s = trials::scenario(seed, k, 20.0);
         put(std::uint8_t{2});
         rig::ClosedLoop loop{s.config, rig::motion(s.config), &recorder};
         for (int half = 0; half < 2 * rig::run_ticks(s.config, rig::motion(s.config)); ++half) (void)loop.advance();
-        for (auto owed = recorder.drain(); owed.has_row || owed.has_gap;) owed = recorder.drain();
+        rig::hand_over_rest([&] { return recorder.drain(); }, rig::ignored);
     }
     put(std::uint8_t{0});
     fmt::print(stderr, "{:016x}\n", recorder.hash());

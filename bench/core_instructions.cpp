@@ -1,7 +1,12 @@
 // Runs the scripts under callgrind: one dump for each half-period of control, and one for each of compensation.
 //
-// bench/count_instructions runs it and reads the dumps.
+// usage: zlg_core_instructions PART PARTS
+//
+// Every PARTS-th script from number PART on, so that several processors share the work. bench/count_instructions runs it and reads
+// the dumps.
 
+#include <cstddef>
+#include <cstdlib>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -47,13 +52,15 @@ void run(const bench::Script& script) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    const std::size_t part = argc == 3 ? std::strtoul(argv[1], nullptr, 10) : 0;
+    const std::size_t parts = argc == 3 ? std::strtoul(argv[2], nullptr, 10) : 1;
+    if (part >= parts) throw std::invalid_argument{"usage: zlg_core_instructions PART PARTS"};
 #ifdef __clang__
     fmt::print("clang {}\n", __clang_version__);
 #else
     fmt::print("g++ {}\n", __VERSION__);
 #endif
-    for (const auto& script : bench::usual_scripts()) run(script);
-    for (const auto& script : bench::worst_scripts()) run(script);
-    for (const auto& script : bench::estimating_scripts()) run(script);
+    const auto scripts = bench::scripts();
+    for (std::size_t k = part; k < scripts.size(); k += parts) run(scripts[k]);
 }

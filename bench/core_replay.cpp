@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include <zlg/firmware/gyro.hpp>
-#include <zlg/firmware/output_bits.hpp>
+#include <zlg/trials/output_bits.hpp>
 
 namespace {
 
@@ -18,14 +18,14 @@ bool get(T& value) {
 }
 
 firmware::Gyro gyro;
-firmware::BitHash hash;
+trials::BitHash hash;
 
 void drain() {
-    core::DrainOutput owed;
+    core::DrainOutput rest;
     do {
-        owed = gyro.drain();
-        hash.add(owed);
-    } while (owed.has_row || owed.has_gap);
+        rest = gyro.drain();
+        hash.add(rest);
+    } while (rest.has_row || rest.has_gap);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,14 +32,15 @@ std::vector<core::TickInput> recorded() {
 }
 
 std::size_t bridge(const std::vector<core::TickInput>& ticks, std::vector<core::AngleRow>& rows) {
+    const core::CompensationConstants gyro;
     const core::GapBridgeConfig config;
     core::GapBridgeState state;
     std::size_t n = 0;
     for (const core::TickInput& tick : ticks) {
-        const core::AngleSample sample = step(config, state, tick);
+        const core::AngleSample sample = step(gyro, config, state, tick);
         if (sample.has_final) rows[n++] = sample.final_row;
     }
-    for (auto out = drain(config, state); out.has_row || out.has_gap; out = drain(config, state))
+    for (auto out = drain(gyro, config, state); out.has_row || out.has_gap; out = drain(gyro, config, state))
         if (out.has_row) rows[n++] = out.row;
     return n;
 }

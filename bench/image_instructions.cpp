@@ -1,4 +1,4 @@
-// Leads the processor's image through the scripts, and through a gyro's life in closed loop with the twin.
+// Runs the processor's image through the scripts, and in closed loop with the twin.
 //
 // usage: zlg_image_instructions IMAGE EMULATOR [LINE]
 //
@@ -32,37 +32,38 @@ struct Scenario {
 };
 
 std::vector<Scenario> scenarios() {
-    std::vector<Scenario> all;
+    using core::RelockMethod;
     // Two switches of the usual interval: as many as there are on average in such a time.
-    all.push_back({.name = "life, defaults", .duration_s = 180.0});
-    all.push_back({.name = "life, relock = joint", .duration_s = 60.0});
-    all.back().config.compensation.relock = core::RelockMethod::joint;
-    all.back().config.switching.interval_s = 10.0;
-    all.push_back({.name = "life, magnetic = estimate", .duration_s = 60.0});
-    all.back().config.compensation.magnetic = core::MagneticMethod::estimate;
-    all.back().config.switching.interval_s = 5.0;
-    all.push_back({.name = "life, 64 samples, dither, joint", .duration_s = 60.0});
-    all.back().config.compensation.relock = core::RelockMethod::joint;
-    all.back().config.gyro.fidelity = config::Fidelity::laser;  // which alone has edges to shift
-    all.back().config.gyro.light_samples = 64;
-    all.back().config.gyro.dither = core::DitherMethod::automatic;
-    all.back().config.switching.interval_s = 10.0;
-    all.push_back({.name = "life, everything, random faults", .duration_s = 60.0});
-    all.back().config.compensation = {.relock = core::RelockMethod::joint, .magnetic = core::MagneticMethod::estimate};
-    all.back().config.perimeter.loop = config::Loop::digital;
-    all.back().config.switching = {.interval_s = 5.0, .schedule = config::Schedule::measured};
-    all.back().config.faults.random_per_hour = 1800.0;
-    return all;
+    return {
+        {.name = "life, defaults", .duration_s = 180.0},
+        {.name = "life, relock = joint",
+         .duration_s = 60.0,
+         .config = {.switching = {.interval_s = 10.0}, .compensation = {.relock = RelockMethod::joint}}},
+        {.name = "life, magnetic = estimate",
+         .duration_s = 60.0,
+         .config = {.switching = {.interval_s = 5.0}, .compensation = {.magnetic = core::MagneticMethod::estimate}}},
+        {.name = "life, 64 samples, dither, joint",
+         .duration_s = 60.0,
+         // The laser alone has edges to shift.
+         .config = {.gyro = {{.fidelity = config::Fidelity::laser, .light_samples = 64}, core::DitherMethod::automatic},
+                    .switching = {.interval_s = 10.0},
+                    .compensation = {.relock = RelockMethod::joint}}},
+        {.name = "life, everything, random faults",
+         .duration_s = 60.0,
+         .config = {.perimeter = {{.loop = config::Loop::digital}},
+                    .switching = {.interval_s = 5.0, .schedule = config::Schedule::measured},
+                    .compensation = {.relock = RelockMethod::joint, .magnetic = core::MagneticMethod::estimate},
+                    .faults = {.random_per_hour = 1800.0}}}};
 }
 
-void live(processor::QemuProcessor& processor, const Scenario& scenario) {
+void run_in_loop(processor::QemuProcessor& processor, const Scenario& scenario) {
     rig::ClosedLoop loop{scenario.config, rig::motion(scenario.config), &processor};
     const auto halves = static_cast<std::int64_t>(2.0 * scenario.duration_s / scenario.config.gyro.tick_s);
     for (std::int64_t k = 0; k < halves; ++k) (void)loop.advance();
     fmt::print("halves\t{}\t{}\n", scenario.name, halves);
 }
 
-void lead(processor::QemuProcessor& processor, const bench::Script& script) {
+void run_script(processor::QemuProcessor& processor, const bench::Script& script) {
     bench::ScriptedGyro gyro{script};
     core::ActuatorFrame actuator = processor.start({script.control, script.compensation});
     for (int k = 0; k < script.halves; ++k) actuator = processor.half(gyro.advance(actuator)).control.actuator;
@@ -70,15 +71,15 @@ void lead(processor::QemuProcessor& processor, const bench::Script& script) {
 }
 
 // The host lays the states out as the processor does.
-void tell_sizes() {
-    const auto tell = [](const char* name, std::size_t bytes) { fmt::print("state\t{}\t{}\n", name, bytes); };
-    tell("control: settings", sizeof(core::GyroControlConfig));
-    tell("control: state", sizeof(core::GyroControlState));
-    tell("compensation: settings", sizeof(core::GyroCompensationConfig));
-    tell("compensation: state", sizeof(core::GyroCompensationState));
-    tell("of that: gap_bridge with what it has learnt", sizeof(core::GapBridgeState));
-    tell("of that: joint_relock", sizeof(core::JointRelockState));
-    tell("of that: magnetic_drift", sizeof(core::MagneticDriftState));
+void print_sizes() {
+    const auto print = [](const char* name, std::size_t bytes) { fmt::print("state\t{}\t{}\n", name, bytes); };
+    print("control: settings", sizeof(core::GyroControlConfig));
+    print("control: state", sizeof(core::GyroControlState));
+    print("compensation: settings", sizeof(core::GyroCompensationConfig));
+    print("compensation: state", sizeof(core::GyroCompensationState));
+    print("of that: gap_bridge with what it has learnt", sizeof(core::GapBridgeState));
+    print("of that: joint_relock", sizeof(core::JointRelockState));
+    print("of that: magnetic_drift", sizeof(core::MagneticDriftState));
 }
 
 }  // namespace
@@ -89,10 +90,9 @@ int main(int argc, char** argv) {
         return 2;
     }
     processor::QemuProcessor processor{{.image = argv[1], .program = argv[2], .line = argc == 4 ? argv[3] : "null"}};
-    for (const auto& all : {bench::usual_scripts(), bench::worst_scripts(), bench::estimating_scripts()})
-        for (const auto& script : all) lead(processor, script);
-    for (const auto& scenario : scenarios()) live(processor, scenario);
+    for (const auto& script : bench::scripts()) run_script(processor, script);
+    for (const auto& scenario : scenarios()) run_in_loop(processor, scenario);
     fmt::print("stack_used_bytes\t{}\n", processor.stack_used_bytes());
-    tell_sizes();
+    print_sizes();
     return 0;
 }

@@ -1,8 +1,18 @@
-"""What the counts of instructions have in common: the modules, what is kept of many half-periods, and the comparison."""
+"""What the counts of instructions have in common: the modules, what is kept of many half-periods, the comparison, the command line."""
 
+import argparse
 import collections
+import json
+import re
 import statistics
+import subprocess
+import sys
 from pathlib import Path
+
+PROGRAM = Path(sys.argv[0]).name
+MAX_WORST = 60000  # instructions in the worst half-period, which is that of a gap before the motion is known
+
+ROW = 150  # columns
 
 TOLERANCE = 0.05
 TOLERANCE_OTHER_COMPILER = 0.5
@@ -10,32 +20,46 @@ TOLERANCE_OTHER_COMPILER = 0.5
 # Sources that are part of a module of another name. What several modules share is charged to the function that uses it.
 PART_OF = {
     "gap_bridge_config": "gap_bridge",
+    "gap_bridge_state": "gap_bridge",
     "gap_interpolation": "gap_bridge",
     "polynomial_fit": "gap_bridge",
     "gyro_observation": "gyro_control",
     "bridge_scores": "motion_learning",
+    "ellipse_correction": "fringe_readout",
+    "border": "gyro_compensation",
     "motion_moments": "motion_learning",
     "cholesky": "optimal_bridge",
+    "compensation_constants": "relock_drift",
     "gap_estimate": "optimal_bridge",
+    "gap_final": "optimal_bridge",
     "gap_points": "optimal_bridge",
-    "few_ticks": "optimal_bridge",
+    "gap_first": "optimal_bridge",
     "gap_rounding": "optimal_bridge",
     "rounding_law": "optimal_bridge",
     "gap_known": "counted_stretch",
     "gap_known_estimate": "counted_stretch",
     "joint_relock": "optimal_bridge",
+    "lit_halves": "optimal_bridge",
     "motion_covariance": "optimal_bridge",
+    "mixture_models": "gap_mixture",
+    "motion_shapes": "gap_mixture",
+    "tridiagonal": "gap_mixture",
     "stage_model": "perimeter_loop",
     "maths": "relock_drift",
+    "as_double": "relock_drift",
+    "relock_profile_config": "relock_profile",
+    "relock_profile_state": "relock_profile",
+    "gap_tick": "gap_bridge",
+    "gyro_control_state": "gyro_control",
     "relock_chain": "relock_profile",
     "relock_light": "relock_profile",
-    "relock_moment": "relock_profile",
+    "relock_onset": "relock_profile",
 }
 MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "stroke_model", "mode_switch", "switch_schedule", "bias_commutator",
-    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "health",
+    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "fringe_readout", "health",
     "gyro_control", "relock_drift", "relock_profile", "edge_shift", "gap_bridge", "motion_moments",
-    "bridge_scores", "motion_learning", "optimal_bridge", "counted_stretch", "joint_relock", "angle", "gyro_compensation",
+    "bridge_scores", "motion_learning", "optimal_bridge", "gap_mixture", "counted_stretch", "joint_relock", "angle", "gyro_compensation",
 ]
 CONTROL = MODULES[:MODULES.index("relock_drift")]
 WHOLE = "whole half-period"
@@ -116,3 +140,43 @@ def note_on_compilers(now, kept):
     print(f"note: the table is of {kept['compiler']}, this is {now['compiler']}: "
           f"only a growth by more than {TOLERANCE_OTHER_COMPILER:.0%} counts")
     return False
+
+
+def tool(*command, text=None):
+    """What a command prints."""
+    run = subprocess.run([str(word) for word in command], input=text, capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        raise SystemExit(f"{PROGRAM}: {' '.join(map(str, command))}: exit {run.returncode}\n{run.stderr}")
+    return run.stdout
+
+
+def lines_of(name, value, indent=""):
+    """A value of the kept table as JSON: what has its place on one line is a row of it."""
+    row = f"{indent}{name}{json.dumps(value)}"
+    if not isinstance(value, dict) or len(row) <= ROW and not any(isinstance(each, dict) for each in value.values()):
+        return [row]
+    parts = [lines_of(f"{json.dumps(key)}: ", each, indent + " ") for key, each in value.items()]
+    inside = [line for part in parts for line in (*part[:-1], part[-1] + ",")]
+    return [f"{indent}{name}{{", *inside[:-1], inside[-1][:-1], f"{indent}}}"]
+
+
+def write_table(path, table):
+    path.write_text("\n".join(lines_of("", table)) + "\n", encoding="utf-8")
+
+
+def command_line(doc, *actions):
+    """A parser that knows one of --check, --renew and `actions`."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
+    action = parser.add_mutually_exclusive_group()
+    for name in ("--check", "--renew", *actions):
+        action.add_argument(name, action="store_true")
+    return parser
+
+
+def report(complaints):
+    """Prints them; the exit status."""
+    for line in complaints:
+        print(f"{PROGRAM}: {re.sub(' +', ' ', line)}", file=sys.stderr)
+    if complaints:
+        print(f"{PROGRAM}: if that is meant, bench/{PROGRAM} --renew", file=sys.stderr)
+    return 1 if complaints else 0

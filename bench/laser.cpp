@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <ctime>
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,43 +24,15 @@ using namespace zlg;
 using namespace zlg::bench;
 
 constexpr Error allowed{.tick_rad = 1e-4, .edge_rad = 1e-5};
+constexpr int n_pairs = 6;
 volatile double sink = 0.0;  // what is computed must not be left out
-
-// Time of the processor: a machine that is shared makes it no longer.
-template <class Work>
-double processor_s(const Work& work) {
-    const std::clock_t start = std::clock();
-    work();
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-struct Timed {
-    double ratio = 0.0;  // median of work over reference, timed in turn
-    double work_s = 0.0;
-    double reference_s = 0.0;
-};
-
-template <class Work, class Reference>
-Timed timed(const Work& work, const Reference& reference) {
-    Timed least{.work_s = 1e9, .reference_s = 1e9};
-    std::vector<double> ratios;
-    for (int k = 0; k < 7; ++k) {
-        const double reference_s = processor_s(reference);
-        const double work_s = processor_s(work);
-        ratios.push_back(work_s / reference_s);
-        least.work_s = std::min(least.work_s, work_s);
-        least.reference_s = std::min(least.reference_s, reference_s);
-    }
-    least.ratio = median(ratios);
-    return least;
-}
 
 double times_real_time(int ticks, double seconds) { return ticks * tick_s / seconds; }
 
-constexpr twin::BeatConfig beat_config{.lock_in_left_hz = lock_hz, .lock_in_right_hz = lock_hz};
+constexpr twin::LaserConfig beat_config{.lock_in_left_hz = lock_hz, .lock_in_right_hz = lock_hz};
 
-// In one piece, as the twin lives while the perimeter is controlled.
-void live(twin::LaserBeats& beats, const Part& part) {
+// In one piece, as in the twin while the perimeter is controlled.
+void advance(twin::LaserBeats& beats, const Part& part) {
     twin::Stretch s{.duration_s = part.duration_s, .common_hz = rate_hz};
     s.field_g = {part.from_g, 0.5 * (part.from_g + part.to_g), part.to_g};
     (void)(part.is_edge() ? beats.edge(s) : beats.plateau(s));
@@ -73,15 +44,15 @@ Error error_of_twin(const twin::LaserTable& table) {
     Error worst;
     for (int tick = 0; tick < 12; ++tick) {
         const twin::Turns start = beats.beats().left();
-        const Course course = exact_tick(table.exact(), start.part_rad());
+        const TickPhases phases = exact_tick(table.exact(), start.part_rad());
         for (const Part& part : tick_parts) {
             const twin::Turns before = beats.beats().left();
-            live(beats, part);
+            advance(beats, part);
             if (!part.is_edge()) continue;
             const double turned = exact(table.exact(), part, before.part_rad()) - before.part_rad();
             worst.edge_rad = std::max(worst.edge_rad, std::abs(tau * beats.beats().left().minus(before) - turned));
         }
-        const double turned = course.back() - course.front();
+        const double turned = phases.back() - phases.front();
         worst.tick_rad = std::max(worst.tick_rad, std::abs(tau * beats.beats().left().minus(start) - turned));
     }
     return worst;
@@ -90,22 +61,22 @@ Error error_of_twin(const twin::LaserTable& table) {
 void run_twin_phases(const twin::LaserTable& table, int n) {
     twin::LaserBeats beats{beat_config, 1, table};
     for (int tick = 0; tick < n; ++tick) {
-        for (const Part& part : tick_parts) live(beats, part);
+        for (const Part& part : tick_parts) advance(beats, part);
     }
     sink = beats.beats().left().part;
 }
 
 // The coarsest of ever finer settings that is as good as asked for.
 template <class MakeStep>
-double coarsest(const std::vector<Course>& courses, double start, const Error& asked, const MakeStep& make) {
+double coarsest(const std::vector<TickPhases>& ticks, double start, const Error& asked, const MakeStep& make) {
     double setting = start;
-    while (!error_of(courses, make(setting)).is_within(asked) && setting > 1e-12 * start) setting *= 0.9;
+    while (!error_of(ticks, make(setting)).is_within(asked) && setting > 1e-12 * start) setting *= 0.9;
     return setting;
 }
 
 // How many times faster the twin's phases are.
 template <class Step>
-double compare(const char* name, const std::vector<Course>& courses, const twin::LaserTable& table, double setting,
+double compare(const char* name, const std::vector<TickPhases>& ticks, const twin::LaserTable& table, double setting,
                const Step& step) {
     constexpr int n_twin = 10'000;
     constexpr int n_other = 50;
@@ -116,26 +87,26 @@ double compare(const char* name, const std::vector<Course>& courses, const twin:
         }
         sink = psi;
     };
-    const Timed t = timed(other, [&] { run_twin_phases(table, n_twin); });
+    const Paired t = paired(n_pairs, other, [&] { run_twin_phases(table, n_twin); });
     const double ratio = t.ratio * n_twin / n_other;
-    const Error error = error_of(courses, step);
+    const Error error = error_of(ticks, step);
     fmt::print("{:<32}{:>10.1e}{:>12.1e}{:>13.1e}{:>13.0f}{:>14.1f}\n", name, setting, error.tick_rad, error.edge_rad,
                times_real_time(n_other, t.work_s), ratio);
     return ratio;
 }
 
 // Both contenders at an accuracy; the twin's advantage over RK4.
-double compare_at(const Error& asked, const std::vector<Course>& courses, const twin::LaserTable& table) {
+double compare_at(const Error& asked, const std::vector<TickPhases>& ticks, const twin::LaserTable& table) {
     const auto by_rk4 = [&](double step_s) {
         return [&, step_s](const Part& part, double psi) { return rk4(table, part, psi, step_s); };
     };
     const auto by_dopri5 = [&](double tolerance_rad) {
         return [&, tolerance_rad](const Part& part, double psi) { return dopri5(table, part, psi, tolerance_rad); };
     };
-    const double step_s = coarsest(courses, 2e-5, asked, by_rk4);
-    const double ratio = compare("RK4, step in s", courses, table, step_s, by_rk4(step_s));
-    const double tolerance_rad = coarsest(courses, 1e-2, asked, by_dopri5);
-    compare("odeint dopri5, tolerance in rad", courses, table, tolerance_rad, by_dopri5(tolerance_rad));
+    const double step_s = coarsest(ticks, 2e-5, asked, by_rk4);
+    const double ratio = compare("RK4, step in s", ticks, table, step_s, by_rk4(step_s));
+    const double tolerance_rad = coarsest(ticks, 1e-2, asked, by_dopri5);
+    compare("odeint dopri5, tolerance in rad", ticks, table, tolerance_rad, by_dopri5(tolerance_rad));
     return ratio;
 }
 
@@ -185,7 +156,7 @@ double slip_formula() {
         run_reversals(slip, 1, c, by_formula);
         worst = std::max(worst, tau * std::abs(slip.value().minus(phase.value()) + ripple(phase.value())));
     }
-    const Timed t = timed(slips, beats);
+    const Paired t = paired(n_pairs, slips, beats);
     fmt::print("{:<32}{:>10}{:>12.1e}{:>13}{:>13.0f}\n", "phases at constant light: slip", "", worst, "",
                times_real_time(n, t.work_s));
     fmt::print("{:<32}{:>10}{:>12}{:>13}{:>13.0f}\n", "phases at constant light: exact", "", "", "",
@@ -194,7 +165,7 @@ double slip_formula() {
 }
 
 // The twin alone, and the twin with the control that shifts its reversals.
-Timed whole_gyro(int n_halves) {
+Paired whole_gyro(int n_halves) {
     config::Config config;
     config.gyro.fidelity = config::Fidelity::laser;
     config.gyro.dither = core::DitherMethod::automatic;
@@ -207,29 +178,29 @@ Timed whole_gyro(int n_halves) {
         rig::ClosedLoop loop{config, rig::motion(config)};
         for (int h = 0; h < n_halves; ++h) sink = loop.advance().record.piezo_v;
     };
-    return timed(controlled, alone);
+    return paired(n_pairs, controlled, alone);
 }
 
 }  // namespace
 
 int main() {
     const twin::LaserTable table{twin::LaserConfig{}, field_g};
-    std::vector<Course> courses;
-    for (int k = 0; k < 8; ++k) courses.push_back(exact_tick(table.exact(), tau * k / 8.0));
+    std::vector<TickPhases> ticks;
+    for (int k = 0; k < 8; ++k) ticks.push_back(exact_tick(table.exact(), tau * k / 8.0));
 
     constexpr int n = 100'000;
     const Error own = error_of_twin(table);
-    const double own_s = processor_s([&] { run_twin_phases(table, n); });
+    const double own_s = seconds([&] { run_twin_phases(table, n); });
     fmt::print("{:<32}{:>10}{:>12}{:>13}{:>13}{:>14}\n", "phases of a tick of 5 ms", "setting", "rad a tick",
                "rad an edge", "x real time", "twin's times");
     fmt::print("{:<32}{:>10}{:>12.1e}{:>13.1e}{:>13.0f}{:>14}\n", "twin", "", own.tick_rad, own.edge_rad,
                times_real_time(n, own_s), 1);
-    double at_least = compare_at(allowed, courses, table);
-    at_least = std::min(at_least, compare_at(own, courses, table));
+    double at_least = compare_at(allowed, ticks, table);
+    at_least = std::min(at_least, compare_at(own, ticks, table));
     const double slip = slip_formula();
 
     constexpr int n_halves = 100'000;
-    const Timed gyro = whole_gyro(n_halves);
+    const Paired gyro = whole_gyro(n_halves);
     const double twin = times_real_time(n_halves / 2, gyro.reference_s);
     fmt::print("whole twin, 16 light samples: {:.0f} times real time\n", twin);
     fmt::print("closed loop, shifted reversals: {:.0f} times real time\n", times_real_time(n_halves / 2, gyro.work_s));

@@ -6,8 +6,6 @@
 // is that of stretches of 2 s, rounding of the counter taken off.
 
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
 
 #include <fmt/format.h>
 #include <zlg/config/config.hpp>

@@ -109,12 +109,12 @@ inline double exact(const twin::FourWave& laser, const Part& part, double psi) {
 }
 
 // Phase before the first part of a tick, and after each.
-using Course = std::array<double, tick_parts.size() + 1>;
+using TickPhases = std::array<double, tick_parts.size() + 1>;
 
-inline Course exact_tick(const twin::FourWave& laser, double psi) {
-    Course course{psi};
-    for (std::size_t i = 0; i < tick_parts.size(); ++i) course[i + 1] = exact(laser, tick_parts[i], course[i]);
-    return course;
+inline TickPhases exact_tick(const twin::FourWave& laser, double psi) {
+    TickPhases phases{psi};
+    for (std::size_t i = 0; i < tick_parts.size(); ++i) phases[i + 1] = exact(laser, tick_parts[i], phases[i]);
+    return phases;
 }
 
 // Largest, of a whole tick and of one edge by itself.
@@ -129,17 +129,17 @@ struct Error {
 
 // step(part, psi)  the phase after a part.
 template <class Step>
-Error error_of(const std::vector<Course>& courses, const Step& step) {
+Error error_of(const std::vector<TickPhases>& ticks, const Step& step) {
     Error worst;
-    for (const Course& course : courses) {
-        double psi = course.front();
+    for (const TickPhases& truth : ticks) {
+        double psi = truth.front();
         for (std::size_t i = 0; i < tick_parts.size(); ++i) {
             const Part& part = tick_parts[i];
             psi = step(part, psi);
             if (!part.is_edge()) continue;
-            worst.edge_rad = std::max(worst.edge_rad, std::abs(step(part, course[i]) - course[i + 1]));
+            worst.edge_rad = std::max(worst.edge_rad, std::abs(step(part, truth[i]) - truth[i + 1]));
         }
-        worst.tick_rad = std::max(worst.tick_rad, std::abs(psi - course.back()));
+        worst.tick_rad = std::max(worst.tick_rad, std::abs(psi - truth.back()));
     }
     return worst;
 }

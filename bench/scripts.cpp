@@ -1,6 +1,5 @@
 #include "scripts.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -46,7 +45,7 @@ Script switching(std::string name, int gap_ticks, int settle_ticks, int light_sa
     return s;
 }
 
-// Edges that move with every reversal, by the dearer law, and a rate that is judged often.
+// Edges that move with every reversal, by the law that costs more, and a rate that is judged often.
 Script dithered(Script s) {
     core::EdgeDitherConfig& dither = s.control.commutator.dither;
     dither.method = core::DitherMethod::automatic;
@@ -109,10 +108,33 @@ Script crowded(int ticks_between, RelockMethod relock) {
     return s;
 }
 
-}  // namespace
+// The gap of a switch, and a dark tick so many ticks after the loop is closed: the switch is resolved while the profile of the
+// detuning after the dark tick is made, or has no time left for its estimate.
+Script interrupted(int gap_ticks, int ticks_between, RelockMethod relock) {
+    const char* name = relock == RelockMethod::joint ? "joint" : "auto";
+    Script s =
+        estimated(fmt::format("{}, gap of {}, dark {} later", name, gap_ticks, ticks_between), gap_ticks, 64, relock);
+    s.control.schedule.interval_ticks = 705;
+    s.control.mode_switch.dark_ticks = s.control.mode_switch.lock_timeout_ticks = 1'000;
+    s.ticks = repeated(lit, 705 + gap_ticks + ticks_between) + dark + lit;
+    s.halves = 1600;
+    return s;
+}
 
-std::vector<Script> estimating_scripts() {
-    std::vector<Script> all;
+// A gap before the motion is known; and another one so many ticks after it, or none.
+Script first(int gap_ticks, int ticks_between, RelockMethod relock) {
+    const char* name = relock == RelockMethod::joint ? "joint" : "auto";
+    Script s = estimated(fmt::format("{}, first gap of {}{}", name, gap_ticks, ticks_between > 0 ? ", another" : ""),
+                         gap_ticks, 64, relock);
+    s.control.schedule.interval_ticks = 1'000'000;
+    s.control.mode_switch.dark_ticks = s.control.mode_switch.lock_timeout_ticks = 1'000;
+    const std::string gap = repeated(dark, gap_ticks);
+    s.ticks = repeated(lit, 40) + gap + (ticks_between > 0 ? repeated(lit, ticks_between) + gap : "") + lit;
+    s.halves = 200;
+    return s;
+}
+
+void add_estimating(std::vector<Script>& all) {
     for (const int n : {2, 3, 8, 11, 15})
         all.push_back(estimated(fmt::format("auto, gap of {}", n), n, 16, RelockMethod::mean_square));
     for (const int n : {2, 3, 8})
@@ -120,11 +142,17 @@ std::vector<Script> estimating_scripts() {
     all.push_back(dithered(estimated("joint, 64 samples, shifted edges", 3, 64, RelockMethod::joint)));
     for (const RelockMethod relock : {RelockMethod::mean_square, RelockMethod::joint})
         for (const int ticks_between : {2, 5, 10}) all.push_back(dithered(crowded(ticks_between, relock)));
-    return all;
+    for (const RelockMethod relock : {RelockMethod::mean_square, RelockMethod::joint}) {
+        for (const int gap_ticks : {1, 3, 7, 15}) all.push_back(dithered(first(gap_ticks, 0, relock)));
+        all.push_back(dithered(first(3, 10, relock)));
+    }
+    for (const int gap_ticks : {1, 3}) {
+        all.push_back(dithered(interrupted(gap_ticks, 6, RelockMethod::mean_square)));
+        all.push_back(dithered(interrupted(gap_ticks, 10, RelockMethod::joint)));
+    }
 }
 
-std::vector<Script> usual_scripts() {
-    std::vector<Script> all;
+void add_usual(std::vector<Script>& all) {
     for (const int n : {16, 64}) all.push_back(script(fmt::format("steady, {} samples", n), ".", 120, n));
     all.push_back(dithered(script("steady, 16 samples, shifted edges", ".", 120, 16)));
     all.push_back(script("steady, 16 samples of one beam", ".", 120, 16));
@@ -136,11 +164,9 @@ std::vector<Script> usual_scripts() {
         all.push_back(switching(fmt::format("switch, {}", relock_names[k]), 3, 20, 16, static_cast<RelockMethod>(k)));
     all.push_back(switching("switch, 64 samples", 3, 20, 64, RelockMethod::mean_square));
     all.push_back(dithered(switching("switch, 64 samples, shifted edges", 3, 20, 64, RelockMethod::mean_square)));
-    return all;
 }
 
-std::vector<Script> worst_scripts() {
-    std::vector<Script> all;
+void add_worst(std::vector<Script>& all) {
     const std::string gap = repeated(lit, 12) + repeated(dark, 16);
     for (const char* after :
          {"........x", "........-", ".......x.", ".......-.", "......x..", "x.x.x.x.x", "...-....x"})
@@ -163,6 +189,15 @@ std::vector<Script> worst_scripts() {
                                80, 64),
                         after));
     for (std::uint32_t seed = 1; seed <= 8; ++seed) all.push_back(random(seed));
+}
+
+}  // namespace
+
+std::vector<Script> scripts() {
+    std::vector<Script> all;
+    add_usual(all);
+    add_worst(all);
+    add_estimating(all);
     return all;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The scripts under which the core's instructions are counted: the usual life of a gyro, and the worst there is.
+// The scripts under which the core's instructions are counted: the usual operation of a gyro, and the worst cases.
 
 #include <vector>
 
@@ -7,10 +7,8 @@
 
 namespace zlg::bench {
 
-[[nodiscard]] std::vector<Script> usual_scripts();
-[[nodiscard]] std::vector<Script> worst_scripts();
-
-// With the optimal bridge and the joint re-lock, whose halves are dearer.
-[[nodiscard]] std::vector<Script> estimating_scripts();
+// First the usual ones, then the worst with the methods of the paper, then those with the optimal bridge and the joint re-lock, whose
+// halves cost more.
+[[nodiscard]] std::vector<Script> scripts();
 
 }  // namespace zlg::bench

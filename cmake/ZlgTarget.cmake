@@ -34,6 +34,18 @@ function(zlg_precompile target)
     endif()
 endfunction()
 
+option(ZLG_BATCHES "compile the sources of large targets in batches; off for tools that want one command a source" ON)
+
+# zlg_in_batches(target size): the compiler reads so many sources of the target as one, since the headers and templates that they share
+# cost more than the sources themselves. Names without linkage are then shared as well: two sources may not give the same one.
+function(zlg_in_batches target size)
+    if(ZLG_BATCHES)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+        # A local name is not hidden by what another source of the batch calls the same.
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow -Wshadow=local>)
+    endif()
+endfunction()
+
 # zlg_quick_to_compile(target): what spends its time in other libraries is compiled with -O1, in two thirds of the time.
 function(zlg_quick_to_compile target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

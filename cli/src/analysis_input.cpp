@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,8 +25,6 @@ constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t not_measured = core::flag_switching | core::flag_extrapolated | core::flag_interpolated |
                                        core::flag_unrepaired | core::flag_loop_unlocked | core::flag_invalid |
                                        core::flag_mode_mixed;
-
-std::string name_of_file(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
 // Ticks as they come, as rates.
 class TickRates {
@@ -128,17 +124,10 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
 }
 
 config::Config read_one(const Options& options, const std::string& path, AnalysisInput& input) {
-    switch (logs::recognise(path)) {
-        case logs::LogKind::raw_csv:
-        case logs::LogKind::raw_hdf5:
-            return read_raw(options, path, input.axes);
-        case logs::LogKind::angle_csv:
-        case logs::LogKind::angle_hdf5:
-            return read_angles(options, path, input.axes);
-        case logs::LogKind::unknown:
-            break;
-    }
-    return read_text(options, path, input);
+    const logs::LogKind kind = logs::recognise(path);
+    if (is_raw(kind)) return read_raw(options, path, input.axes);
+    if (is_angles(kind)) return read_angles(options, path, input.axes);
+    return read_text(options, path, input.axes, input.tables);
 }
 
 // Deviations are sums of squares, which a double must hold.

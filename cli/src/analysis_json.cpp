@@ -1,9 +1,8 @@
-#include <cmath>
-
 #include <zlg/noise/noise_units.hpp>
 #include <zlg/study/term_text.hpp>
 
 #include "analysis_text.hpp"
+#include "fields_json.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -11,21 +10,13 @@ namespace {
 using nlohmann::json;
 using study::AxisResult;
 
-json number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
-
 json curve_json(const deviations::DeviationCurve& curve) {
     json points = json::array();
     const bool is_total = deviations::is_total(curve.kind);
     for (const auto& p : curve.points) {
-        points.push_back({{"tau_s", p.tau_s},
-                          {"m", p.m},
-                          {"deviation", number(p.deviation)},
-                          {"low", number(p.low)},
-                          {"high", number(p.high)},
-                          {"n", p.terms},
-                          {"edf", number(p.law.edf)},
-                          {"noise", p.noise}});
-        if (is_total) points.back()["as_computed"] = number(p.as_computed);
+        points.push_back(fields_json(p, {{"terms", "n"}}));
+        points.back()["edf"] = p.law.edf;
+        if (!is_total) points.back().erase("as_computed");
     }
     json j{{"kind", deviations::name_of(curve.kind)},
            {"unit", curve.kind == deviations::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
@@ -35,163 +26,87 @@ json curve_json(const deviations::DeviationCurve& curve) {
     return j;
 }
 
+json curves_json(const std::vector<deviations::DeviationCurve>& curves) {
+    json all = json::array();
+    for (const auto& curve : curves) all.push_back(curve_json(curve));
+    return all;
+}
+
 json term_json(const noise::FittedTerm& term) {
     const study::ShownTerm in = study::shown_term(term.kind);
-    json j{{"term", noise::name_of(term.kind)},
-           {"found", term.found},
-           {"unit", noise::unit_of(term.kind)},
-           {"value", number(term.value)},
-           {"sigma", number(term.sigma)},
-           {"limit_95", number(term.limit)},
-           {"read_at_s", number(term.read_at_s)},
-           {"shown",
-            {{"unit", in.unit},
-             {"value", number(term.value * in.factor)},
-             {"sigma", number(term.sigma * in.factor)},
-             {"limit_95", number(term.limit * in.factor)}}}};
-    if (term.kind == noise::NoiseKind::markov)
-        j["time_s"] = number(term.second), j["time_sigma_s"] = number(term.second_sigma);
+    json j = fields_json(term, {{"limit", "limit_95"}});
+    j["term"] = noise::name_of(term.kind);
+    j["unit"] = noise::unit_of(term.kind);
+    j["shown"] = {{"unit", in.unit},
+                  {"value", term.value * in.factor},
+                  {"sigma", term.sigma * in.factor},
+                  {"limit_95", term.limit * in.factor}};
+    if (term.kind == noise::NoiseKind::markov) j["time_s"] = term.second, j["time_sigma_s"] = term.second_sigma;
     if (term.kind == noise::NoiseKind::sine)
-        j["frequency_hz"] = number(term.second), j["frequency_sigma_hz"] = number(term.second_sigma);
+        j["frequency_hz"] = term.second, j["frequency_sigma_hz"] = term.second_sigma;
     return j;
-}
-
-// Without sinusoids and Markov terms, for which a data sheet has no line.
-json sheet_json(const noise::NoiseTerms& terms) {
-    const noise::DataSheet s = noise::data_sheet(terms);
-    return {{"quantisation_arcsec", s.quantisation_arcsec},
-            {"angle_random_walk_deg_sqrt_h", s.angle_random_walk_deg_sqrt_h},
-            {"bias_instability_deg_h", s.bias_instability_deg_h},
-            {"rate_random_walk_deg_h_sqrt_h", s.rate_random_walk_deg_h_sqrt_h},
-            {"ramp_deg_h_h", s.ramp_deg_h_h}};
-}
-
-json discrete_json(const noise::NoiseTerms& terms, double rate_hz) {
-    const noise::DiscreteNoise d = noise::discrete_noise(terms, rate_hz);
-    return {{"rate_hz", rate_hz},
-            {"white_rate_arcsec_s", d.white_rate_arcsec_s},
-            {"white_increment_arcsec", d.white_increment_arcsec},
-            {"walk_step_arcsec_s", d.walk_step_arcsec_s},
-            {"angle_error_arcsec", d.angle_error_arcsec},
-            {"ramp_step_arcsec_s", d.ramp_step_arcsec_s},
-            {"markov_factor", d.markov_factor},
-            {"markov_step_arcsec_s", d.markov_step_arcsec_s}};
 }
 
 json fit_json(const AxisResult& axis) {
     if (!axis.fit) return {{"reason", axis.no_fit}};
-    json terms = json::array(), points = json::array();
-    for (const auto& term : axis.fit->fitted) terms.push_back(term_json(term));
-    for (const auto& p : axis.fit->points)
-        points.push_back(
-            {{"tau_s", p.tau_s}, {"hadamard_variance", p.measured}, {"fitted", p.fitted}, {"edf", p.degrees}});
-    return {{"terms", terms},
-            {"points", points},
-            {"data_sheet", sheet_json(axis.fit->terms)},
-            {"discrete", discrete_json(axis.fit->terms, axis.rate_hz)},
-            {"chi2", axis.fit->chi2},
-            {"dof", axis.fit->dof},
-            {"probability", number(axis.fit->probability)},
-            {"model_error", axis.fit->model_error},
-            {"describes", axis.fit->describes}};
-}
-
-json estimate_json(const numeric::Estimate& e) {
-    if (!e.determined) return {{"determined", false}, {"reason", e.reason}};
-    return {{"determined", true}, {"value", e.value}, {"sigma", e.sigma}};
+    json j = fields_json(*axis.fit);
+    j["terms"] = json::array();
+    for (const auto& term : axis.fit->fitted) j["terms"].push_back(term_json(term));
+    j["points"] = fields_json(axis.fit->points, {{"measured", "hadamard_variance"}, {"degrees", "edf"}});
+    // Without sinusoids and Markov terms, for which a data sheet has no line.
+    j["data_sheet"] = fields_json(noise::data_sheet(axis.fit->terms));
+    j["discrete"] = fields_json(noise::discrete_noise(axis.fit->terms, axis.rate_hz));
+    j["discrete"]["rate_hz"] = axis.rate_hz;
+    return j;
 }
 
 json modes_json(const AxisResult& axis) {
     const noise::ModeSplit& m = *axis.modes;
-    json segments = json::array(), switches = json::array(), curves = json::array();
-    for (const auto& s : m.segments)
-        segments.push_back({{"mode", s.mode},
-                            {"time_s", s.time_s},
-                            {"known_s", s.known_s},
-                            {"rate_arcsec_s", number(s.rate_arcsec_s)}});
-    for (const auto& s : m.switches)
-        switches.push_back(
-            {{"time_s", s.time_s}, {"mode_after", s.mode_after}, {"error_arcsec", number(s.error_arcsec)}});
-    for (const auto& c : axis.mode_curves) curves.push_back(curve_json(c));
-    const auto& s = m.statistics;
-    return {{"segments", segments},
-            {"nonmagnetic_arcsec_s", estimate_json(m.nonmagnetic_arcsec_s)},
-            {"magnetic_arcsec_s", estimate_json(m.magnetic_arcsec_s)},
-            {"magnetic_thermal_arcsec_s", estimate_json(m.magnetic_thermal_arcsec_s)},
-            {"thermal_time_s", estimate_json(m.thermal_time_s)},
-            {"switches", switches},
-            {"switch_statistics",
-             {{"n", s.n},
-              {"mean_arcsec", s.mean_arcsec},
-              {"mean_sigma_arcsec", s.mean_sigma_arcsec},
-              {"alternating_arcsec", s.mean_by_mode_arcsec},
-              {"rms_arcsec", s.rms_arcsec},
-              {"max_arcsec", s.max_arcsec}}},
-            {"curves", curves}};
+    json j = fields_json(m);
+    j["segments"] = fields_json(m.segments);
+    j["switches"] = fields_json(m.switches);
+    j["switch_statistics"] = fields_json(m.statistics, {{"mean_by_mode_arcsec", "alternating_arcsec"}});
+    j["curves"] = curves_json(axis.mode_curves);
+    return j;
 }
 
 json axis_json(const AxisResult& axis) {
-    json curves = json::array(), readouts = json::array();
-    for (const auto& c : axis.curves) curves.push_back(curve_json(c));
-    for (const auto& r : axis.readouts)
-        readouts.push_back({{"what", r.what},
-                            {"tau_s", r.tau_s},
-                            {"kind", deviations::name_of(axis.allan.kind)},
-                            {"deviation", r.deviation_arcsec_s},
-                            {"unit", "arcsec/s"}});
-    json j{{"name", axis.name},
-           {"holds", axis.holds},
-           {"rate_hz", axis.rate_hz},
-           {"samples", axis.n_samples},
-           {"known", axis.n_known},
-           {"gaps", axis.n_gaps},
-           {"is_error", axis.is_error},
-           {"mean_rate_arcsec_s", axis.mean_arcsec_s},
-           {"mean_rate_sigma_arcsec_s", number(axis.mean_sigma_arcsec_s)},
-           {"deviations", curves},
-           {"fit", fit_json(axis)},
-           {"readouts", readouts}};
+    json j = fields_json(axis, {{"n_samples", "samples"},
+                                {"n_known", "known"},
+                                {"n_gaps", "gaps"},
+                                {"mean_arcsec_s", "mean_rate_arcsec_s"},
+                                {"mean_sigma_arcsec_s", "mean_rate_sigma_arcsec_s"}});
+    j["deviations"] = curves_json(axis.curves);
+    j["fit"] = fit_json(axis);
+    j["readouts"] = fields_json(axis.readouts, {{"deviation_arcsec_s", "deviation"}});
+    for (json& readout : j["readouts"]) {
+        readout["kind"] = deviations::name_of(axis.allan.kind);
+        readout["unit"] = "arcsec/s";
+    }
     if (axis.modes) j["modes"] = modes_json(axis);
     return j;
 }
 
 json table_json(const study::TableResult& test) {
-    const calibration::RateTable& r = test.table;
-    json stages = json::array();
-    for (const auto& s : r.stages)
-        stages.push_back({{"input_arcsec_s", s.input_arcsec_s},
-                          {"output_units_s", s.output},
-                          {"output_sigma", s.output_sigma},
-                          {"samples", s.n_samples},
-                          {"residual_ppm", s.residual_ppm}});
-    return {{"name", test.name},
-            {"holds", test.holds},
-            {"stages", stages},
-            {"scale_factor_units_arcsec", estimate_json(r.scale_factor)},
-            {"arcsec_per_unit", estimate_json(r.arcsec_per_unit)},
-            {"bias_arcsec_s", estimate_json(r.bias_arcsec_s)},
-            {"asymmetry_ppm", estimate_json(r.asymmetry_ppm)},
-            {"nonlinearity_ppm", r.nonlinearity_ppm},
-            {"largest_residual_ppm", r.largest_residual_ppm},
-            {"hysteresis_arcsec_s", r.hysteresis_arcsec_s}};
+    json j = fields_json(test.table, {{"scale_factor", "scale_factor_units_arcsec"}});
+    j["name"] = test.name;
+    j["holds"] = test.holds;
+    j["stages"] = fields_json(test.table.stages, {{"output", "output_units_s"}, {"n_samples", "samples"}});
+    return j;
 }
 
 }  // namespace
 
 json analysis_json(const config::Analysis& config, const study::AnalysisResult& result) {
-    json j{{"axes", json::array()}, {"earth", json::array()}};
+    json j{{"axes", json::array()}};
     for (const AxisResult& axis : result.axes) j["axes"].push_back(axis_json(axis));
-    for (const auto& e : result.earth)
-        j["earth"].push_back({{"group", e.group},
-                              {"axes", e.n_axes},
-                              {"norm_arcsec_s", e.norm_arcsec_s},
-                              {"sigma_arcsec_s", number(e.sigma_arcsec_s)},
-                              {"earth_arcsec_s", study::earth_rate_arcsec_s}});
+    j["earth"] = fields_json(result.earth, {{"n_axes", "axes"}});
+    for (json& line : j["earth"]) line["earth_arcsec_s"] = study::earth_rate_arcsec_s;
     if (result.presumed)
         j["presumed"] = {{"name", result.presumed->name},
                          {"angle_random_walk_arcsec_sqrt_s", result.presumed->terms.angle_random_walk_arcsec_sqrt_s},
                          {"rate_random_walk_arcsec_s_sqrt_s", result.presumed->terms.rate_random_walk_arcsec_s_sqrt_s},
-                         {"data_sheet", sheet_json(result.presumed->terms)}};
+                         {"data_sheet", fields_json(noise::data_sheet(result.presumed->terms))}};
     for (const auto& test : result.tables) j["rate_tables"].push_back(table_json(test));
     if (config.latitude_deg)
         j["latitude"] = {{"deg", *config.latitude_deg},

@@ -1,5 +1,6 @@
 #include "analysis_text.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,25 +35,17 @@ std::string head_text(const config::Analysis& config, const AxisResult& axis) {
     return text;
 }
 
-std::string bias_text(deviations::TotalBias bias) {
-    switch (bias) {
-        case deviations::TotalBias::removed:
-            return "bias of mirroring removed";
-        case deviations::TotalBias::published:
-            return "bias of mirroring removed as published";
-        case deviations::TotalBias::as_computed:
-            break;
-    }
-    return "as computed, with the bias of mirroring";
-}
+// In the order of deviations::TotalBias.
+constexpr std::array bias_texts{"bias of mirroring removed", "bias of mirroring removed as published",
+                                "as computed, with the bias of mirroring"};
 
 std::string curve_text(const config::Analysis& config, const deviations::DeviationCurve& curve) {
     const bool is_total = deviations::is_total(curve.kind);
-    std::string text =
-        fmt::format("  {}, {}{}; intervals of {:g} %\n  {:>12} {:>10} {:>12} {:>12} {:>12} {:>9} {:>6}{}\n",
-                    deviations::name_of(curve.kind), unit_of(curve, config),
-                    is_total ? ", " + bias_text(curve.total_bias) : "", 100.0 * curve.confidence, "tau, s", "n",
-                    "sigma", "low", "high", "edf", "noise", is_total ? fmt::format(" {:>12}", "as computed") : "");
+    std::string text = fmt::format(
+        "  {}, {}{}{}; intervals of {:g} %\n  {:>12} {:>10} {:>12} {:>12} {:>12} {:>9} {:>6}{}\n",
+        deviations::name_of(curve.kind), unit_of(curve, config), is_total ? ", " : "",
+        is_total ? bias_texts.at(static_cast<std::size_t>(curve.total_bias)) : "", 100.0 * curve.confidence, "tau, s",
+        "n", "sigma", "low", "high", "edf", "noise", is_total ? fmt::format(" {:>12}", "as computed") : "");
     for (const auto& p : curve.points) {
         text += fmt::format("  {:>12.6g} {:>10} {:>12.5g} {:>12.5g} {:>12.5g} {:>9.4g} {:>6}", p.tau_s, p.terms,
                             shown(curve, config, p.deviation), shown(curve, config, p.low),
@@ -90,8 +83,7 @@ std::string readout_text(const config::Analysis& config, const AxisResult& axis)
 }
 
 std::string estimate_text(const char* what, const numeric::Estimate& e, const char* unit) {
-    return e.determined ? fmt::format("    {:<24} {} {}\n", what, study::with_error(e.value, e.sigma), unit)
-                        : fmt::format("    {:<24} not determined: {}\n", what, e.reason);
+    return fmt::format("    {:<24} {}\n", what, study::value_text(e, unit));
 }
 
 std::string modes_text(const AxisResult& axis) {
@@ -105,8 +97,7 @@ std::string modes_text(const AxisResult& axis) {
     const auto& s = m.statistics;
     if (s.n > 0)
         text += fmt::format(
-            "    error per switch{}, arcsec: {} switches, mean {}, alternating {:.3g}, rms {:.3g}, max "
-            "{:.3g}\n",
+            "    error per switch{}, arcsec: {} switches, mean {}, alternating {:.3g}, rms {:.3g}, max {:.3g}\n",
             axis.fit && axis.fit->describes && axis.fit->terms.sines.empty() ? "" : " (with the motion in the gaps)",
             s.n, study::with_error(s.mean_arcsec, s.mean_sigma_arcsec), s.mean_by_mode_arcsec, s.rms_arcsec,
             s.max_arcsec);

@@ -50,8 +50,7 @@ std::string scale_comment(const Constant& c, bool has_curve) {
     if (has_curve)
         return fmt::format(
             "# {0} = {1:.6g} +- {2:.3g}: wavelengths of discriminator_detuning_lambda per true one. For true ones "
-            "divide "
-            "that list\n# by {1:.6g} and multiply bias_chi by {3:.6g}, both at once.\n",
+            "divide that list\n# by {1:.6g} and multiply bias_chi by {3:.6g}, both at once.\n",
             c.key, c.estimate.value, c.estimate.sigma, c.estimate.value * c.estimate.value);
     return fmt::format(
         "# {0} = {1:.6g} +- {2:.3g}: logged wavelengths per true one. bias_chi above is in logged units, as process "

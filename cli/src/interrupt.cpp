@@ -24,13 +24,13 @@
 namespace zlg::cli {
 namespace {
 
-constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array<int, 3> handled_signals{SIGINT, SIGTERM, SIGHUP};
 constexpr const char* complaint = "interrupted by a signal";
 
 std::atomic<int> n_noted{0};
 std::atomic<bool> finishes{false};
 
-// From the handler, and from the end of `main`, to the thread.
+// Pipe to the thread: 's' from the handler, 'e' from the end of `main`.
 std::array<int, 2> news{-1, -1};
 
 static_assert(std::atomic<int>::is_always_lock_free, "a handler may use nothing else");
@@ -44,7 +44,7 @@ void note(int signal) {
 }
 
 void install() {
-    for (const int signal : signals) {
+    for (const int signal : handled_signals) {
         struct sigaction before {};
         // Who starts a program with nohup wants it to outlive the terminal.
         if (signal == SIGHUP && ::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
@@ -63,7 +63,8 @@ struct Patience {
     double cpu_s;
 };
 
-// For a verb to end by itself. On a busy machine it has been given less than the clock says; one that waits uses none.
+// What a verb is given to end by itself: processor time, and as a limit for one that waits (or a busy machine) the time of
+// the clock. What runs out first ends it.
 Patience patience() {
     return finishes ? Patience{.wall_s = 5.0, .cpu_s = 1.0} : Patience{.wall_s = 0.3, .cpu_s = 0.15};
 }
@@ -77,7 +78,7 @@ News wait_for_news(int ms) {
     return byte == 's' ? News::signal : News::end;
 }
 
-// Files that are getting their names are given a second for it, for the file system may hang.
+// A file that is being renamed is given a second; not longer, for the file system may hang.
 [[noreturn]] void end_now() {
     auto kept = logs::abandon_outputs();
     for (int ms = 0; !kept && ms < 1000; ms += 5) {
@@ -110,16 +111,16 @@ void watch() {
 
 InterruptGuard::InterruptGuard() {
     if (::pipe2(news.data(), O_CLOEXEC | O_NONBLOCK) != 0) return;
-    // The handler is to run in the others, whose waiting it ends.
+    // Blocked in this thread's child, so that the handler runs in another thread and ends its poll().
     sigset_t ours{};
     sigset_t before{};
     ::sigemptyset(&ours);
-    for (const int signal : signals) ::sigaddset(&ours, signal);
+    for (const int signal : handled_signals) ::sigaddset(&ours, signal);
     ::pthread_sigmask(SIG_BLOCK, &ours, &before);
     try {
         thread_ = std::thread{watch};
     } catch (const std::system_error&) {
-        // Without it the signals end the program in their own way.
+        // Without the thread the signals end the program in their own way.
     }
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     if (thread_.joinable()) install();

@@ -6,7 +6,6 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
-#include <zlg/logs/error.hpp>
 #include <zlg/text/inputs.hpp>
 
 #include "failure.hpp"
@@ -44,27 +43,21 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
     }
 }
 
+// What was asked for is not allowed, by the command line or by the configuration.
+bool is_wrong_usage(const std::exception& error) {
+    return dynamic_cast<const cli::UsageError*>(&error) || dynamic_cast<const design::DesignError*>(&error) ||
+           dynamic_cast<const config::ConfigError*>(&error) || dynamic_cast<const text::OutputIsInput*>(&error);
+}
+
 int guarded(CLI::App& program, int argc, char** argv) {
     try {
         return parse_and_run(program, argc, argv);
-    } catch (const cli::UsageError& error) {
-        cli::report_error(error.what());
-        return cli::wrong_usage;
-    } catch (const design::DesignError& error) {
-        cli::report_error(error.what());
-        return cli::wrong_usage;
-    } catch (const config::ConfigError& error) {
-        cli::report_error(error.what());
-        return cli::wrong_usage;
-    } catch (const text::OutputIsInput& error) {
-        cli::report_error(error.what());
-        return cli::wrong_usage;
     } catch (const std::bad_alloc&) {
         cli::report_error("out of memory");
         return cli::bad_input_or_output;
     } catch (const std::exception& error) {
         cli::report_error(error.what());
-        return cli::bad_input_or_output;
+        return is_wrong_usage(error) ? cli::wrong_usage : cli::bad_input_or_output;
     }
 }
 

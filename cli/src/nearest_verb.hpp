@@ -1,5 +1,5 @@
 #pragma once
-// What was wrong with a command line, in one line.
+// What was wrong with a command line, in one line: where its verb is unknown, with the nearest one that exists.
 
 #include <string>
 

@@ -1,12 +1,12 @@
 #include "options.hpp"
 
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include <zlg/config/log_settings.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/table_file.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/text/inputs.hpp>
 
@@ -56,7 +56,7 @@ config::Config load_config(const Options& options) {
 config::Config load_log_config(const Options& options, const config::Settings& log_settings,
                                const std::string& log_path, LogFacts used) {
     config::Settings settings;
-    config::Config config = config::without_log_facts();
+    config::Config config;
     try {
         settings = config::checked_log_settings(log_settings, log_path);
         config::apply_log(config, settings, log_path);
@@ -65,7 +65,6 @@ config::Config load_log_config(const Options& options, const config::Settings& l
     }
     apply_options(config, options);
     if (used != LogFacts::none) config::require_log_facts(config, log_path, used == LogFacts::tick_and_scale);
-    config::fill_log_facts(config);
     config::check_compensation(config);
     config::check_against_log(config, settings, log_path);
     return config;
@@ -74,6 +73,14 @@ config::Config load_log_config(const Options& options, const config::Settings& l
 rig::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log, const std::string& log_path) {
     rig::LogCompensation made =
         rig::asked_compensation(load_log_config(options, log.settings, log_path), log, log_path);
+    const config::Config asked = load_config(options);
+    const bool by_phase = asked.gyro.readout == config::Readout::phase;
+    if (config::is_given(asked, "gyro.readout") && by_phase != log.has_fringe)
+        made.notes.push_back(
+            fmt::format("{}: gyro.readout = \"{}\" is for a gyro that runs; this log {} the column fringe, and its "
+                        "angles come from {}",
+                        log_path, by_phase ? "phase" : "count", log.has_fringe ? "has" : "lacks",
+                        log.has_fringe ? "counts and fringe" : "whole counts"));
     for (const std::string& note : made.notes) complain("note: " + note);
     for (const std::string& warning : made.warnings) complain("warning: " + warning);
     return made;
@@ -109,6 +116,18 @@ void refuse_own_input(const std::string& input, const std::string& output, const
             fmt::format("{} {}: would grow as {}, which is the input; name another file", option, output, input)};
 }
 
+void require_suffix(const std::string& path, std::string_view suffix) {
+    const std::string found = std::filesystem::path{path}.extension();
+    if (found != suffix)
+        throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is {}", path, found, suffix)};
+}
+
+void write_file(const std::string& path, const std::string& text, bool force) {
+    logs::TableFile file{path, force};
+    file.append(text);
+    file.close();
+}
+
 logs::LogFormat log_format(const std::string& path) {
     if (path.empty()) throw UsageError{"--out is missing: name the file to write, with the suffix .csv, .h5 or .hdf5"};
     try {
@@ -127,6 +146,7 @@ int logged_light_samples(const Options& options, const config::Config& config, l
 
 logs::RawColumns raw_columns(const config::Config& config) {
     logs::RawColumns columns = logs::all_raw_columns;
+    columns.has_fringe = config.gyro.readout == config::Readout::phase;
     columns.has_edge_offset = config.gyro.dither != core::DitherMethod::none;
     columns.timer_hz = rig::timer_hz;
     return columns;

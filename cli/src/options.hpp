@@ -1,10 +1,10 @@
 #pragma once
 // The options that verbs share, and the configuration that follows from them.
 
-#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -67,6 +67,19 @@ void refuse_a_run_without_switches(const rig::SwitchTally& tally);
 
 // errors  UsageError where both are the same file; `option` names the output.
 void refuse_own_input(const std::string& input, const std::string& output, const char* option = "--out");
+
+[[nodiscard]] constexpr bool is_raw(logs::LogKind kind) {
+    return kind == logs::LogKind::raw_csv || kind == logs::LogKind::raw_hdf5;
+}
+[[nodiscard]] constexpr bool is_angles(logs::LogKind kind) {
+    return kind == logs::LogKind::angle_csv || kind == logs::LogKind::angle_hdf5;
+}
+
+// errors  UsageError: the name has another suffix.
+void require_suffix(const std::string& path, std::string_view suffix);
+
+// errors  logs::IoError.
+void write_file(const std::string& path, const std::string& text, bool force);
 
 // The path of a log to be written: its suffix chooses the format.
 //

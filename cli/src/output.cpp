@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <string>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -23,13 +23,14 @@ namespace {
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-constexpr double first_after_s = 1.0;
-constexpr double every_s = 0.1;
-constexpr int width = 40;
+// The bar of progress appears after a second of work and is drawn ten times a second.
+constexpr double quiet_for_s = 1.0;
+constexpr double redraw_every_s = 0.1;
+constexpr int bar_width = 40;
 
-std::vector<std::string> notes;  // that wait; of the thread of `main`
+std::vector<std::string> notes;  // wait to be printed; for the thread of `main` alone
 
-// By whichever thread is the first: an error has one line.
+// Only the first error is printed, by whichever thread it comes.
 std::atomic<bool> is_error_said{false};
 
 void write_line(const std::string& line) {
@@ -68,24 +69,27 @@ void print(std::string_view raw) {
 
 std::string printable(const std::string& text) { return text::escaped(text); }
 
+std::string name_of_file(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
+
 Progress::Progress(std::string part)
     : growth_{std::move(part)}, terminal_{isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
 
 Progress::~Progress() {
-    if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", width + 10).c_str(), stderr);
+    // Blanks over the bar, its brackets and the percentage.
+    if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", bar_width + 10).c_str(), stderr);
 }
 
 void Progress::show(double fraction) {
     const double t_s = now_s();
     growth_.look(t_s - started_s_, fraction);
-    if (t_s - started_s_ < first_after_s || t_s - last_s_ < every_s) return;
+    if (t_s - started_s_ < quiet_for_s || t_s - last_s_ < redraw_every_s) return;
     last_s_ = t_s;
     print_warnings();
     if (!terminal_) return;
     drawn_ = true;
-    const int done = static_cast<int>(fraction * width);
-    (void)std::fputs(fmt::format("\r[{:=<{}}{:{}}] {:3.0f} %", "", done, "", width - done, 100.0 * fraction).c_str(),
-                     stderr);
+    const int done = static_cast<int>(fraction * bar_width);
+    (void)std::fputs(
+        fmt::format("\r[{:=<{}}{:{}}] {:3.0f} %", "", done, "", bar_width - done, 100.0 * fraction).c_str(), stderr);
     (void)std::fflush(stderr);
 }
 

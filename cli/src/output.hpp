@@ -1,5 +1,6 @@
 #pragma once
-// What goes to standard output, whole or with an error.
+// What goes to standard output, whole or with an error; and the bar of progress on standard error. output.cpp also
+// holds the functions that failure.hpp declares.
 
 #include <string>
 #include <string_view>
@@ -8,13 +9,19 @@
 
 namespace zlg::cli {
 
+// Then the notes that wait (failure.hpp).
+//
 // errors  logs::IoError where standard output does not take it.
 void print(std::string_view text);
 
 // A name of a file, or another text from outside, as a part of one line.
 [[nodiscard]] std::string printable(const std::string& text);
 
-// A bar on standard error, if that is a terminal and the work lasts over a second.
+// Without the folder.
+[[nodiscard]] std::string name_of_file(const std::string& path);
+
+// A bar on standard error, if that is a terminal and the work lasts over a second. Warnings that wait are printed then,
+// on a terminal or not.
 class Progress {
 public:
     // part  what grows meanwhile, for a warning of work that will last long or fill the disk; empty: no warning.

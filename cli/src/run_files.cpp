@@ -1,6 +1,5 @@
 #include "run_files.hpp"
 
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <zlg/logs/error.hpp>
 
 #include "options.hpp"
+#include "switch_csv.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -28,34 +28,10 @@ std::array<std::string, 6> file_names(logs::LogFormat format) {
             "report.html"};
 }
 
-// True where the folder was made, false where it was there.
-bool make_folder(const std::string& folder) {
-    std::error_code error;
-    const bool made = fs::create_directory(folder, error);
-    if (error) throw logs::IoError{fmt::format("{}: cannot make the folder: {}", folder, error.message())};
-    return made;
-}
-
-std::string make_new_folder() {
-    for (int k = 1; k <= 999; ++k) {
-        const std::string folder = fmt::format("zlg-run-{:03}", k);
-        if (make_folder(folder)) return folder;
-    }
+void make_new_folder(std::optional<OwnFolder>& folder) {
+    for (int k = 1; k <= 999; ++k)
+        if (folder.emplace(fmt::format("zlg-run-{:03}", k)).is_new()) return;
     throw logs::IoError{"zlg-run-001 to zlg-run-999 exist; name a folder with --out"};
-}
-
-// What was not measured is an empty field; what has no bound is `inf`.
-std::string cell(double value) { return std::isnan(value) ? std::string{} : fmt::format("{}", value); }
-
-std::string switch_table(const std::vector<study::SwitchLine>& switches) {
-    std::string text =
-        "tick,mode,miss_lambda,half_wave_v,half_wave_sigma_v,gap_ticks,dp_arcsec,relock_arcsec,sigma_arcsec,"
-        "true_error_arcsec\n";
-    for (const study::SwitchLine& s : switches)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.tick, s.mode, cell(s.miss_lambda), cell(s.half_wave_v),
-                            cell(s.half_wave_sigma_v), s.gap_ticks, cell(s.dp_arcsec), cell(s.relock_arcsec),
-                            cell(s.sigma_arcsec), cell(s.true_error_arcsec));
-    return text;
 }
 
 // One row where the bits change; each holds until the next.
@@ -70,53 +46,31 @@ std::string health_head() {
 
 RunFiles::RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format,
                    int light_samples)
-    : folder_{out}, force_{force}, tick_s_{config.gyro.tick_s}, names_{file_names(format)} {
-    make_own_folder();
-    try {
-        open(config, light_samples);
-    } catch (...) {
-        discard();
-        throw;
-    }
-}
-
-// A signal finds it either not made or known as new.
-void RunFiles::make_own_folder() {
-    const logs::Together made_and_known;
-    made_folder_ = folder_.empty();
-    if (made_folder_)
-        folder_ = make_new_folder();
+    : tick_s_{config.gyro.tick_s}, names_{file_names(format)} {
+    if (out.empty())
+        make_new_folder(folder_);
     else
-        made_folder_ = make_folder(folder_);
-    if (made_folder_) new_folder_.emplace(folder_);
-}
-
-void RunFiles::open(const config::Config& config, int light_samples) {
+        folder_.emplace(out);
     raw_.emplace(
-        path(names_[raw_file]), config::to_settings(config), force_, raw_columns(config),
+        path(raw_file), config::to_settings(config), force, raw_columns(config),
         logs::RawWriterOptions{.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true});
-    angles_.emplace(path(names_[angles_file]), config.gyro.tick_s, rig::angle_settings(config), force_,
+    angles_.emplace(path(angles_file), config.gyro.tick_s, rig::angle_settings(config), force,
                     logs::AngleWriterOptions{.has_truth = true, .keep_part = true});
-    health_.emplace(path(names_[health_file]), force_);
+    health_.emplace(path(health_file), force);
     health_->append(health_head());
-    switches_.emplace(path(names_[switches_file]), force_);
-    summary_.emplace(path(names_[summary_file]), force_);
-    page_.emplace(path(names_[page_file]), force_);
+    switches_.emplace(path(switches_file), force);
+    summary_.emplace(path(summary_file), force);
+    page_.emplace(path(page_file), force);
 }
 
 RunFiles::~RunFiles() {
-    if (!finished_) discard();
-}
-
-// A folder can go when nothing is in it any more.
-void RunFiles::discard() {
+    if (finished_) return;
     const logs::Together all_or_none;
     for (auto* file : {&health_, &switches_, &summary_, &page_}) file->reset();
     raw_.reset();
     angles_.reset();
     std::error_code ignored;
     for (const std::string& name : completed_) fs::remove(name, ignored);
-    if (made_folder_) fs::remove(folder_, ignored);
 }
 
 void RunFiles::write_health(std::int64_t half, std::uint32_t bits) {
@@ -126,14 +80,14 @@ void RunFiles::write_health(std::int64_t half, std::uint32_t bits) {
 void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std::string& summary,
                       const std::string& page) {
     const logs::Together all_or_none;
-    switches_->append(switch_table(switches));
+    switches_->append(switch_csv(switches, true));
     summary_->append(summary);
     page_->append(page);
     // The logs last: what fails here leaves HDF5 logs as they are, and what else was completed is taken back.
     const auto complete = [&](auto& file, File which) {
-        const bool is_new = !fs::exists(path(names_[which]));
+        const bool is_new = !fs::exists(path(which));
         file->close();
-        if (is_new && !names_[which].ends_with(".h5")) completed_.push_back(path(names_[which]));
+        if (is_new && !names_[which].ends_with(".h5")) completed_.push_back(path(which));
     };
     complete(health_, health_file);
     complete(switches_, switches_file);
@@ -145,7 +99,5 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
 }
 
 std::string RunFiles::list() const { return fmt::format("{}", fmt::join(names_, ", ")); }
-
-std::string RunFiles::path(const std::string& name) const { return fs::path{folder_} / name; }
 
 }  // namespace zlg::cli

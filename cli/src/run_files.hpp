@@ -11,8 +11,9 @@
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
-#include <zlg/logs/unfinished.hpp>
 #include <zlg/study/run.hpp>
+
+#include "own_folder.hpp"
 
 namespace zlg::cli {
 
@@ -31,7 +32,7 @@ public:
     logs::RawWriter& raw() { return *raw_; }
     logs::AngleWriter& angles() { return *angles_; }
     void write_health(std::int64_t half, std::uint32_t bits);
-    [[nodiscard]] const std::string& folder() const { return folder_; }
+    [[nodiscard]] const std::string& folder() const { return folder_->path(); }
 
     void finish(const std::vector<study::SwitchLine>& switches, const std::string& summary, const std::string& page);
 
@@ -43,17 +44,11 @@ public:
     [[nodiscard]] std::string angles_part() const { return angles_->part_path(); }
 
 private:
-    [[nodiscard]] std::string path(const std::string& name) const;
-    void make_own_folder();
-    void open(const config::Config& config, int light_samples);
-    void discard();
+    [[nodiscard]] std::string path(std::size_t file) const { return folder_->path(names_[file]); }
 
-    std::string folder_;
-    bool force_;
+    std::optional<OwnFolder> folder_;
     double tick_s_;
     std::array<std::string, 6> names_;
-    bool made_folder_ = false;
-    std::optional<logs::NewFolder> new_folder_;
     bool finished_ = false;
     std::vector<std::string> completed_;  // by this run, where nothing stood before
     std::optional<logs::RawWriter> raw_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -17,14 +16,13 @@
 #include <zlg/rig/text_layout.hpp>
 
 #include "failure.hpp"
+#include "output.hpp"
 
 namespace zlg::cli {
 namespace {
 
 // By the times of their rows: a month at 100 Hz is more than a record that anybody has.
 constexpr std::int64_t max_missing = std::int64_t{1} << 28;
-
-std::string name_of_file(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
 struct TextAxes {
     logs::TextLayout layout;
@@ -63,8 +61,7 @@ TextAxes text_axes(const config::Config& config, const std::string& path) {
     } else {
         throw config::ConfigError{
             fmt::format("analysis.column_holds is not set: {} is no log of zlg; say what its columns hold, "
-                        "\"increment\", \"rate\" or "
-                        "\"phase\", with analysis.scale_arcsec and analysis.rate_hz",
+                        "\"increment\", \"rate\" or \"phase\", with analysis.scale_arcsec and analysis.rate_hz",
                         path)};
     }
     axes.column_is_said = !axes.layout.columns.empty();
@@ -142,7 +139,8 @@ study::TableResult table_test(const config::Analysis& a, const study::AxisRecord
 
 }  // namespace
 
-config::Config read_text(const Options& options, const std::string& path, AnalysisInput& input) {
+config::Config read_text(const Options& options, const std::string& path, std::vector<study::AxisRecord>& axes,
+                         std::vector<study::TableResult>& tables) {
     logs::refuse_foreign(path);
     const config::Config config = load_config(options);
     TextAxes what = text_axes(config, path);
@@ -176,9 +174,9 @@ config::Config read_text(const Options& options, const std::string& path, Analys
         if (kind == deviations::DataKind::phase) axis.phase_arcsec = std::move(values);
         std::vector<double>{}.swap(values);
         if (on_table)
-            input.tables.push_back(table_test(config.analysis, axis, table_rates));
+            tables.push_back(table_test(config.analysis, axis, table_rates));
         else
-            input.axes.push_back(std::move(axis));
+            axes.push_back(std::move(axis));
     }
     return config;
 }

@@ -63,7 +63,7 @@ void check_usage(const AnalyzeOptions& options) {
 
 std::optional<study::PresumedNoise> presumed(const AnalyzeOptions& options) {
     if (options.compare.empty()) return std::nullopt;
-    return study::PresumedNoise{.name = std::filesystem::path{options.compare}.filename().string(),
+    return study::PresumedNoise{.name = name_of_file(options.compare),
                                 .terms = noise::terms_of(noise::read_imu_yaml(options.compare))};
 }
 

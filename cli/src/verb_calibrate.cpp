@@ -7,11 +7,10 @@
 
 #include <fmt/format.h>
 
-#include <zlg/calibration/lab_log.hpp>
+#include <zlg/calibration/lab_reader.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
-#include <zlg/logs/table_file.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 
 #include "as_json.hpp"
@@ -166,9 +165,7 @@ void check_usage(const CalibrateOptions& options) {
             if (std::filesystem::equivalent(options.raws[j], options.raws[k], ignored))
                 throw UsageError{fmt::format("{}: is named twice; each log counts once", options.raws[k])};
     if (options.out.empty()) return;
-    const std::string suffix = std::filesystem::path{options.out}.extension();
-    if (suffix != ".toml")
-        throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is .toml", options.out, suffix)};
+    require_suffix(options.out, ".toml");
     for (const std::string& raw : options.raws) refuse_own_input(raw, options.out);
 }
 
@@ -178,17 +175,10 @@ bool any_determined(const calibration::Calibration& calibration) {
     return false;
 }
 
-void write_toml(const CalibrateOptions& options, const std::string& toml) {
-    if (options.out.empty()) return;
-    logs::TableFile file{options.out, options.force};
-    file.append(toml);
-    file.close();
-}
-
 void calibrate_from_laser(const CalibrateOptions& options) {
     const rig::LaserCalibration found = rig::calibration_of_laser(load_config(options));
     const std::string toml = laser_toml(found);
-    write_toml(options, toml);
+    if (!options.out.empty()) write_file(options.out, toml, options.force);
     print(options.json ? pretty(laser_json(found)) : toml);
 }
 
@@ -202,7 +192,7 @@ void calibrate(const CalibrateOptions& options) {
     result.calibration = calibration::calibrate(lab.logs, presumed(options, lab));
     result.warning = far_reference(options, lab, result.calibration);
     if (!result.warning.empty()) complain("warning: " + result.warning);
-    write_toml(options, calibration_toml(result));
+    if (!options.out.empty()) write_file(options.out, calibration_toml(result), options.force);
     print(options.json ? pretty(calibration_json(result)) : calibration_text(result));
     if (!any_determined(result.calibration)) throw CLI::RuntimeError{result_says_no};
 }

@@ -102,19 +102,12 @@ std::int64_t convert_angles(const ConvertOptions& options, logs::LogFormat forma
 }
 
 std::int64_t convert_rows(const ConvertOptions& options, logs::LogFormat format) {
-    switch (logs::recognise(options.file)) {
-        case logs::LogKind::raw_csv:
-        case logs::LogKind::raw_hdf5:
-            return convert_raw(options, format);
-        case logs::LogKind::angle_csv:
-        case logs::LogKind::angle_hdf5:
-            return convert_angles(options, format);
-        case logs::LogKind::unknown:
-            break;
-    }
-    if (const std::string nature = logs::foreign_nature(options.file); !nature.empty())
-        throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log; it is {}", options.file, nature)};
-    throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log", options.file)};
+    const logs::LogKind kind = logs::recognise(options.file);
+    if (is_raw(kind)) return convert_raw(options, format);
+    if (is_angles(kind)) return convert_angles(options, format);
+    const std::string nature = logs::foreign_nature(options.file);
+    throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log{}", options.file,
+                                        nature.empty() ? "" : "; it is " + nature)};
 }
 
 void convert(const ConvertOptions& options) {

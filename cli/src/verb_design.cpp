@@ -1,15 +1,14 @@
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <zlg/logs/table_file.hpp>
 #include <zlg/study/design_study.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
+#include "fields_json.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -24,12 +23,11 @@ struct DesignOptions : Options {
 };
 
 json interval_json(const study::IntervalLine& l) {
-    json j{{"run_s", l.run_s},
-           {"method", design::name(l.method)},
-           {"interval_s", l.optimum.interval_s},
-           {"drift_arcsec_s", l.optimum.drift_arcsec_s},
-           {"status", design::sentence(l.optimum.status)},
-           {"rise_at_0_7_arcsec_s", l.sensitivity.shorter_arcsec_s}};
+    json j = fields_json(l.optimum);
+    j["run_s"] = l.run_s;
+    j["method"] = design::name(l.method);
+    j["status"] = design::sentence(l.optimum.status);
+    j["rise_at_0_7_arcsec_s"] = l.sensitivity.shorter_arcsec_s;
     j["rise_at_1_3_arcsec_s"] = l.sensitivity.longer_arcsec_s ? json(*l.sensitivity.longer_arcsec_s) : json(nullptr);
     return j;
 }
@@ -40,53 +38,24 @@ json roots_json(const design::Roots& roots) {
 }
 
 json run_json(const study::RunLine& r) {
-    return {
-        {"run_s", r.run_s},
-        {"best", {{"interval_s", r.best.interval_s}, {"drift_arcsec_s", r.best.drift_arcsec_s}}},
-        {"nonmagnetic_arcsec_s", r.terms.nonmagnetic_arcsec_s},
-        {"quasi_nonmagnetic_arcsec_s", r.terms.quasi_nonmagnetic_arcsec_s},
-        {"sawtooth_arcsec_s", r.terms.sawtooth_arcsec_s},
-        {"switch_errors_arcsec_s", r.terms.switch_errors_arcsec_s},
-        {"corrected_9", roots_json(r.corrected_roots)},
-        {"printed_9", roots_json(r.roots_as_printed)},
-        {"half_first_segment",
-         {{"interval_s", r.half_first_segment.interval_s}, {"drift_arcsec_s", r.half_first_segment.drift_arcsec_s}}},
-        {"growing", {{"interval_s", r.growing_interval_s}, {"drift_arcsec_s", r.growing_drift_arcsec_s}}}};
-}
-
-json substitution_json(const study::SubstitutionLine& l) {
-    return {{"order", l.order},
-            {"gap_ticks", l.gap_ticks},
-            {"frequency_hz", l.frequency_hz},
-            {"worst_arcsec", l.worst_arcsec},
-            {"rms_arcsec", l.rms_arcsec},
-            {"noise_gain", l.noise_gain},
-            {"counter_arcsec", l.counter_arcsec},
-            {"relock_arcsec", l.relock_arcsec},
-            {"total_arcsec", l.total_arcsec}};
+    json j = fields_json(r.terms);
+    j["run_s"] = r.run_s;
+    j["best"] = fields_json(r.best);
+    j["corrected_9"] = roots_json(r.corrected_roots);
+    j["printed_9"] = roots_json(r.roots_as_printed);
+    j["half_first_segment"] = fields_json(r.half_first_segment);
+    j["growing"] = {{"interval_s", r.growing_interval_s}, {"drift_arcsec_s", r.growing_drift_arcsec_s}};
+    return j;
 }
 
 json loop_json(const study::LoopLine& l) {
-    json parts = json::object();
-    for (const design::MissPart& part : l.miss.part) parts[std::string{part.name}] = part.lambda;
-    return {{"phase_margin_deg", l.margins.phase_margin_deg},
-            {"gain_margin", l.margins.gain_margin},
-            {"crossover_rad_s", l.margins.crossover_rad_s},
-            {"stable", l.margins.stable},
-            {"tick_over_tau", l.tick_over_tau},
-            {"tick_over_tau_limit", l.stability_limit},
-            {"tick_over_tau_limit_for", l.stability_note},
-            {"relock_note", l.relock_note},
-            {"step", l.step},
-            {"relock_s", l.relock_s},
-            {"relock_linear_s", l.relock_linear_s},
-            {"false_drift_arcsec_s", l.false_drift_arcsec_s},
-            {"false_angle_arcsec", l.false_angle_arcsec},
-            {"false_angle_law_arcsec", l.false_angle_law_arcsec},
-            {"capture_lambda", l.capture_lambda},
-            {"miss_lambda", parts},
-            {"miss_root_sum_square_lambda", l.miss.root_sum_square_lambda},
-            {"miss_worst_lambda", l.miss.worst_lambda}};
+    json j =
+        fields_json(l, {{"stability_limit", "tick_over_tau_limit"}, {"stability_note", "tick_over_tau_limit_for"}});
+    j.update(fields_json(l.margins));
+    j.update(fields_json(
+        l.miss, {{"root_sum_square_lambda", "miss_root_sum_square_lambda"}, {"worst_lambda", "miss_worst_lambda"}}));
+    for (const design::MissPart& part : l.miss.part) j["miss_lambda"][std::string{part.name}] = part.lambda;
+    return j;
 }
 
 json result_json(const study::DesignResult& result) {
@@ -94,11 +63,10 @@ json result_json(const study::DesignResult& result) {
            {"switch_error_is_given", result.switch_error_is_given},
            {"optimum", json::array()},
            {"runs", json::array()},
-           {"substitution", json::array()},
+           {"substitution", fields_json(result.substitution)},
            {"loop", loop_json(result.loop)}};
     for (const auto& l : result.intervals) j["optimum"].push_back(interval_json(l));
     for (const auto& r : result.runs) j["runs"].push_back(run_json(r));
-    for (const auto& l : result.substitution) j["substitution"].push_back(substitution_json(l));
     return j;
 }
 
@@ -170,16 +138,6 @@ std::string loop_text(const config::Config& config, const study::LoopLine& l) {
                               l.miss.root_sum_square_lambda, l.miss.worst_lambda);
 }
 
-void write_page(const DesignOptions& options, const config::Config& config, const study::DesignResult& result) {
-    const std::filesystem::path path{options.out};
-    if (path.extension() != ".html")
-        throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is .html", options.out,
-                                     path.extension().string())};
-    logs::TableFile file{options.out, options.force};
-    file.append(report::html(study::design_page(config, result)));
-    file.close();
-}
-
 void design_gyro(const DesignOptions& options) {
     config::Config config = load_config(options);
     if (options.run_lengths) {
@@ -194,7 +152,10 @@ void design_gyro(const DesignOptions& options) {
     config.switching.interval_optimal = false;
     config = resolve(config).config;
     const study::DesignResult result = study::design_gyro(config);
-    if (!options.out.empty()) write_page(options, config, result);
+    if (!options.out.empty()) {
+        require_suffix(options.out, ".html");
+        write_file(options.out, report::html(study::design_page(config, result)), options.force);
+    }
     print(options.json ? pretty(result_json(result))
                        : interval_text(result) + best_text(result) + run_text(result) + substitution_text(result) +
                              loop_text(config, result.loop));

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -16,7 +15,6 @@
 
 #include "as_json.hpp"
 #include "byte_source.hpp"
-#include "failure.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -163,7 +161,7 @@ std::string text(const logs::WireRows& rows, const Recording& recording, const F
     return text;
 }
 
-nlohmann::json json(const logs::WireSummary& s, const Recording& recording, const FollowOptions& options) {
+nlohmann::json follow_json(const logs::WireSummary& s, const Recording& recording, const FollowOptions& options) {
     return {{"source", options.source},
             {"angles", options.out},
             {"ticks", recording.n_rows()},
@@ -201,7 +199,7 @@ void follow(const FollowOptions& options) {
     } catch (...) {
         rethrow_with({recording.part_path()});
     }
-    print(options.json ? pretty(json(rows.summary(), recording, options)) : text(rows, recording, options));
+    print(options.json ? pretty(follow_json(rows.summary(), recording, options)) : text(rows, recording, options));
 }
 
 }  // namespace

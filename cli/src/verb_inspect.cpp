@@ -63,13 +63,9 @@ private:
 
 std::vector<std::string> optional_columns(const logs::RawHeader& header) {
     std::vector<std::string> columns;
-    if (header.has_valid) columns.emplace_back("valid");
-    if (header.has_detuning) columns.emplace_back("detuning_lambda");
-    if (header.has_detuning_sq) columns.emplace_back("detuning_sq_lambda2");
-    if (header.has_piezo) columns.emplace_back("piezo_v");
-    if (header.has_temperature) columns.emplace_back("temperature_c");
-    if (header.has_edge_offset) columns.emplace_back("edge_offset_ticks");
-    if (header.has_span) columns.emplace_back("span");
+    logs::for_each_column<logs::RawTable>([&]<class Column>(const Column& column, std::size_t) {
+        if (Column::is_optional && column.is_in(header)) columns.emplace_back(column.name);
+    });
     return columns;
 }
 
@@ -254,31 +250,26 @@ json inspect_raw(const InspectOptions& options) {
     return findings;
 }
 
+json inspect_angles(const InspectOptions& options) {
+    if (options.repair)
+        throw UsageError{fmt::format(
+            "--repair {}: is an angle log; allowed is a raw log. zlg convert copies the whole rows of an angle log",
+            options.file)};
+    logs::AngleReader reader{options.file};
+    return angle_json(options, read_angles(reader, options.file));
+}
+
+json inspect_log(const InspectOptions& options) {
+    const logs::LogKind kind = logs::recognise(options.file);
+    if (is_raw(kind)) return inspect_raw(options);
+    if (is_angles(kind)) return inspect_angles(options);
+    const std::string nature = logs::foreign_nature(options.file);
+    throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log{}", options.file,
+                                        nature.empty() ? ": no line names the columns of one" : "; it is " + nature)};
+}
+
 void inspect(const InspectOptions& options) {
-    json findings;
-    switch (logs::recognise(options.file)) {
-        case logs::LogKind::raw_csv:
-        case logs::LogKind::raw_hdf5:
-            findings = inspect_raw(options);
-            break;
-        case logs::LogKind::angle_csv:
-        case logs::LogKind::angle_hdf5: {
-            if (options.repair)
-                throw UsageError{
-                    fmt::format("--repair {}: is an angle log; allowed is a raw log. zlg convert copies the whole rows "
-                                "of an angle log",
-                                options.file)};
-            logs::AngleReader reader{options.file};
-            findings = angle_json(options, read_angles(reader, options.file));
-            break;
-        }
-        case logs::LogKind::unknown:
-            if (const std::string nature = logs::foreign_nature(options.file); !nature.empty())
-                throw logs::FormatError{
-                    fmt::format("{}: neither a raw log nor an angle log; it is {}", options.file, nature)};
-            throw logs::FormatError{
-                fmt::format("{}: neither a raw log nor an angle log: no line names the columns of one", options.file)};
-    }
+    const json findings = inspect_log(options);
     print(options.json ? pretty(findings) : as_text(findings));
     if (!findings["damage"].is_null() && !options.repair) throw CLI::RuntimeError{result_says_no};
 }

@@ -20,6 +20,7 @@
 #include "failure.hpp"
 #include "options.hpp"
 #include "output.hpp"
+#include "own_folder.hpp"
 #include "verbs.hpp"
 
 namespace zlg::cli {
@@ -62,30 +63,22 @@ Files files_of(const paper::Paper& paper) {
     return files;
 }
 
-// A folder, made if it is not there. What came into it of a run that failed is removed again. That it may be written is
-// known before the work begins.
+// The folder of the paper. What came into it of a run that failed is removed again. That it may be written is known before
+// the work begins.
 class Folder {
 public:
-    Folder(std::string path, bool force) : path_{std::move(path)}, force_{force} {
-        make();
-        try {
-            // Which files there will be shows only at the end, so all that is there counts.
-            if (!made_ && !force_ && !fs::is_empty(path_))
-                throw logs::IoError{
-                    fmt::format("{}: exists and is not empty; --force overwrites what is in it", path_)};
-            page_.emplace(fs::path{path_} / page_name, force_);
-        } catch (...) {
-            remove_if_made();
-            throw;
-        }
+    Folder(const std::string& path, bool force) : folder_{path}, force_{force} {
+        // Which files there will be shows only at the end, so all that is there counts.
+        if (!folder_.is_new() && !force_ && !fs::is_empty(path))
+            throw logs::IoError{fmt::format("{}: exists and is not empty; --force overwrites what is in it", path)};
+        page_.emplace(folder_.path(page_name), force_);
     }
     ~Folder() {
         const logs::Together all_or_none;
         page_.reset();
         std::error_code ignored;
         if (!finished_)
-            for (const fs::path& path : new_) fs::remove(path, ignored);
-        remove_if_made();
+            for (const std::string& path : new_) fs::remove(path, ignored);
     }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
@@ -93,11 +86,9 @@ public:
     void write(const std::string& page, const Files& files) {
         const logs::Together all_or_none;
         for (const auto& [name, text] : files) {
-            const fs::path path = fs::path{path_} / name;
+            const std::string path = folder_.path(name);
             if (!fs::exists(path)) new_.push_back(path);
-            logs::TableFile file{path, force_};
-            file.append(text);
-            file.close();
+            write_file(path, text, force_);
         }
         page_->append(page);
         page_->close();
@@ -105,26 +96,10 @@ public:
     }
 
 private:
-    // A signal finds it either not made or known as new.
-    void make() {
-        const logs::Together made_and_known;
-        std::error_code error;
-        made_ = fs::create_directory(path_, error);
-        if (error) throw logs::IoError{fmt::format("{}: cannot make the folder: {}", path_, error.message())};
-        if (made_) new_folder_.emplace(path_);
-    }
-
-    void remove_if_made() const {
-        std::error_code ignored;
-        if (made_) fs::remove(path_, ignored);
-    }
-
-    std::string path_;
+    OwnFolder folder_;
     bool force_;
-    bool made_ = false;
-    std::optional<logs::NewFolder> new_folder_;
     bool finished_ = false;
-    std::vector<fs::path> new_;  // where nothing stood before
+    std::vector<std::string> new_;  // where nothing stood before
     std::optional<logs::TableFile> page_;
 };
 
@@ -153,8 +128,7 @@ std::string text(const paper::Paper& paper, const std::string& folder, std::size
     for (const paper::PaperItem& item : paper.items) lines += item.section.heading + "\n";
     return fmt::format(
         "{}\ntwin against theory: chi-square {:.3f} per point, {} points (those of one experiment share its noise), "
-        "allowed {} to {}\n{} claims: "
-        "{}\nwritten to {}: {} and {} more files\n",
+        "allowed {} to {}\n{} claims: {}\nwritten to {}: {} and {} more files\n",
         lines, paper.chi2_per_dof, paper.degrees_of_freedom, min_chi2_per_dof, max_chi2_per_dof, paper.claims.size(),
         paper::verdict_counts(paper.claims), printable(folder), page_name, n_files);
 }

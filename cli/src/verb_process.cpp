@@ -1,7 +1,8 @@
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <chrono>
+#include <filesystem>
+#include <optional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -9,25 +10,64 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
-#include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/logs/table_file.hpp>
+#include <zlg/logs/unfinished.hpp>
 #include <zlg/rig/replay.hpp>
+#include <zlg/study/switch_table.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
+#include "switch_csv.hpp"
 #include "verbs.hpp"
 
 namespace zlg::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ProcessOptions : Options {
     std::string raw;
+    std::string switches;  // file for the table of switches; empty: none
     bool follow = false;
     double give_up_s = 10.0;
+};
+
+// The table of switches in a file of its own.
+class Switches {
+public:
+    // errors  logs::IoError.
+    Switches(const ProcessOptions& options, std::int64_t relock_ticks) : table_{relock_ticks} {
+        if (!options.switches.empty()) file_.emplace(options.switches, options.force);
+    }
+
+    void take(const core::HalfRecord& half) {
+        if (!file_) return;
+        if (n_halves_ % 2 != 0) table_.take(n_halves_ / 2, first_, half);
+        first_ = half;
+        ++n_halves_;
+    }
+    void take(const core::AngleRow& row) { table_.take(row); }
+    void take(const core::GapReport& gap) { table_.take(gap); }
+
+    // The file gets its name.
+    //
+    // errors  logs::IoError.
+    void close() {
+        if (!file_) return;
+        file_->append(switch_csv(table_.lines(), false));
+        file_->close();
+    }
+
+private:
+    study::SwitchTable table_;
+    core::HalfRecord first_;  // of the tick
+    std::int64_t n_halves_ = 0;
+    std::optional<logs::TableFile> file_;
 };
 
 struct Summary {
@@ -75,23 +115,26 @@ bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& a
     return wait_for_rows(raw, options, interruptible) && raw.next(record);
 }
 
-Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter& angles, const ProcessOptions& options,
-                   const Interruptible& interruptible) {
+Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter& angles, Switches& switches,
+                   const ProcessOptions& options, const Interruptible& interruptible) {
     Summary summary;
     core::HalfRecord record;
     Progress progress{angles.part_path()};
     const bool has_light = raw.header().light_samples > 0;
     const auto write = [&](const core::AngleRow& row) {
         summary.take(row);
+        switches.take(row);
         angles.write(row);
     };
+    const auto note = [&](const core::GapReport& gap) { switches.take(gap); };
     while (raw.next(record) || (options.follow && follow(raw, record, angles, options, progress, interruptible))) {
-        replay.take(record, has_light ? raw.light() : core::LightSamples{}, write);
+        switches.take(record);
+        replay.take(record, has_light ? raw.light() : core::LightSamples{}, write, note);
         if (replay.halves() % stride_halves != 0) continue;
         interruptible.check();
         progress.show(raw.fraction_read());
     }
-    replay.end(write);
+    replay.end(write, note);
     summary.angle_arcsec = replay.angle_arcsec();
     return summary;
 }
@@ -104,11 +147,12 @@ std::string text(const Summary& s, const ProcessOptions& options) {
                        s.gaps, s.angle_arcsec, flags.empty() ? "" : "ticks by flag:\n" + flags);
 }
 
-nlohmann::json json(const Summary& s, const ProcessOptions& options, const config::Config& config) {
+nlohmann::json process_json(const Summary& s, const ProcessOptions& options, const config::Config& config) {
     nlohmann::json flags = nlohmann::json::object();
     for (std::size_t bit = 0; bit < s.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = s.flagged[bit];
     return {{"raw", options.raw},
             {"angles", options.out},
+            {"switches", options.switches.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.switches)},
             {"ticks", s.ticks},
             {"gaps", s.gaps},
             {"angle_arcsec", s.angle_arcsec},
@@ -119,6 +163,12 @@ nlohmann::json json(const Summary& s, const ProcessOptions& options, const confi
 void process(const ProcessOptions& options) {
     (void)log_format(options.out);
     refuse_own_input(options.raw, options.out);
+    if (!options.switches.empty()) {
+        require_suffix(options.switches, ".csv");
+        refuse_own_input(options.raw, options.switches, "--switches");
+        if (fs::weakly_canonical(options.switches) == fs::weakly_canonical(options.out))
+            throw UsageError{fmt::format("--switches {}: is the file of the angles; name another", options.switches)};
+    }
     if (options.follow && logs::recognise(options.raw) == logs::LogKind::raw_csv)
         throw UsageError{
             fmt::format("--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.raw)};
@@ -128,16 +178,19 @@ void process(const ProcessOptions& options) {
 
     rig::Replay replay{asked.compensation};
     const Interruptible interruptible;
+    Switches switches{options, asked.config.compensation.relock_ticks};
     logs::AngleWriter angles{options.out, asked.config.gyro.tick_s, rig::angle_settings(asked.config), options.force};
-    const Summary summary = compensate(raw, replay, angles, options, interruptible);
+    const Summary summary = compensate(raw, replay, angles, switches, options, interruptible);
     replay.require_a_tick(options.raw);
     if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
     if (!raw.header().complete && !options.follow)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.raw));
     if (!raw.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.raw));
+    const logs::Together all_or_none;
+    switches.close();
     angles.close();
-    print(options.json ? pretty(json(summary, options, asked.config)) : text(summary, options));
+    print(options.json ? pretty(process_json(summary, options, asked.config)) : text(summary, options));
 }
 
 }  // namespace
@@ -146,6 +199,7 @@ void add_process(CLI::App& program) {
     const auto options = std::make_shared<ProcessOptions>();
     CLI::App* verb = program.add_subcommand("process", "a recorded raw log through the compensation");
     verb->add_option("RAW", options->raw, "raw log")->required();
+    verb->add_option("--switches", options->switches, "CSV file for one row per switch");
     verb->add_flag("--follow", options->follow, "go on while the log (HDF5) is being written, until it is complete");
     verb->add_option("--give-up", options->give_up_s, "seconds without a new row after which following ends (10)")
         ->check([](const std::string& text) {

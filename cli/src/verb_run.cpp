@@ -6,7 +6,6 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
-#include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -16,6 +15,7 @@
 #include "as_json.hpp"
 #include "cost.hpp"
 #include "failure.hpp"
+#include "fields_json.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -29,13 +29,11 @@ namespace {
 using nlohmann::json;
 
 json variant_json(const study::VariantResult& v) {
-    json j{{"name", v.name}, {"drift_arcsec_s", v.drift_arcsec_s}, {"angle_error_arcsec", v.angle_error_arcsec}};
-    const auto add = [&](const char* key, double study::SwitchStatistics::*member) {
-        j[key] = v.switch_error ? json((*v.switch_error).*member) : json(nullptr);
-    };
-    add("switch_error_mean_arcsec", &study::SwitchStatistics::mean_arcsec);
-    add("switch_error_rms_arcsec", &study::SwitchStatistics::rms_arcsec);
-    add("switch_error_max_arcsec", &study::SwitchStatistics::max_arcsec);
+    json j = fields_json(v);
+    j["switches_unrepaired"] = v.unrepaired;
+    study::for_each_field<study::SwitchStatistics>([&](const std::string& name, auto get) {
+        j["switch_error_" + name] = v.switch_error ? json(get(*v.switch_error)) : json(nullptr);
+    });
     return j;
 }
 
@@ -46,6 +44,7 @@ json summary_json(const config::Config& config, const study::RunResult& result) 
             {"ticks", result.ticks},
             {"switches", result.switches.size()},
             {"switches_failed", result.tally.failed},
+            {"ticks_as_whole_counts", result.whole_count_ticks},
             {"warnings", result.warnings},
             {"relock_false_drift_deg_h", result.relock_false_drift_deg_h},
             {"variants", variants},
@@ -66,6 +65,17 @@ std::string table(const study::RunResult& result) {
                             v.angle_error_arcsec, cell(v.switch_error, &study::SwitchStatistics::mean_arcsec),
                             cell(v.switch_error, &study::SwitchStatistics::rms_arcsec),
                             cell(v.switch_error, &study::SwitchStatistics::max_arcsec));
+    if (const std::int64_t n = result.variants.back().unrepaired; n > 0)
+        text += fmt::format(
+            "\n{} of {} switches have a gap that no bridge repairs (flag unrepaired): their errors are not in the "
+            "table\n",
+            n, result.switches.size());
+    if (result.whole_count_ticks > 0)
+        text += fmt::format(
+            "\n{} of {} ticks were read as whole counts: the ellipse of the photodiodes was not learnt yet, or not "
+            "good enough "
+            "({} of them with fringe_lost in health.csv)\n",
+            result.whole_count_ticks, result.ticks, result.fringe_lost_ticks);
     return text;
 }
 

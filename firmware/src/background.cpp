@@ -32,12 +32,12 @@ void Background::start(const wire::GyroSettings& settings, std::uint16_t session
 }
 
 void Background::run() noexcept {
-    if (settings_wait_) settings_wait_ = !gyro_takes(commands_.settings);
+    if (settings_wait_) settings_wait_ = !try_change_settings(commands_.settings);
     send_rest();
     // One frame after the other: an answer first, for somebody waits for it.
     if (sent_ == out_.size) listen();
-    if (sent_ == out_.size && status_due_) tell_status();
-    if (sent_ == out_.size) tell();
+    if (sent_ == out_.size && status_due_) send_status();
+    if (sent_ == out_.size) send_tick();
 }
 
 void Background::queue(const wire::Frame& frame) noexcept {
@@ -48,7 +48,7 @@ void Background::queue(const wire::Frame& frame) noexcept {
 
 void Background::send_rest() noexcept { sent_ += port::send(out_.view().subspan(sent_)); }
 
-void Background::tell() noexcept {
+void Background::send_tick() noexcept {
     wire::Telemetry news;
     if (!telemetry_queue().take(news)) return;
     health_ = news.health;
@@ -56,7 +56,7 @@ void Background::tell() noexcept {
     if (++ticks_since_status_ * news.tick_s >= 1.0) status_due_ = true;
 }
 
-void Background::tell_status() noexcept {
+void Background::send_status() noexcept {
     wire::Status now = status_of_gyro(commands_.settings.compensation);
     now.health = health_;
     now.settings_crc = wire::settings_crc(commands_.settings);
@@ -78,14 +78,14 @@ void Background::listen() noexcept {
         if (!receive(receiver_, bytes, message)) continue;
         const wire::CommandOutput out = handle(commands_, message);
         if (!out.has_reply) continue;
-        obey(out.effect);
+        execute(out.effect);
         return queue(frame_of(sender_, out.reply));
     }
 }
 
-void Background::obey(const wire::CommandEffect& effect) noexcept {
+void Background::execute(const wire::CommandEffect& effect) noexcept {
     if (effect.settings_changed) {
-        settings_wait_ = !gyro_takes(commands_.settings);
+        settings_wait_ = !try_change_settings(commands_.settings);
         port::store(commands_.settings);
     }
     if (effect.stop_switching || effect.start_switching) hold_switching(effect.stop_switching);

@@ -1,5 +1,5 @@
 #pragma once
-// What the processor does between two interrupts: it tells of each tick, and obeys commands.
+// What the processor does between interrupts: sends one frame per tick, and executes commands.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace zlg::firmware {
 class Background {
 public:
     // settings  the gyro was started with.
-    // session   of this start, another one than of the last.
+    // session   number of this start; differs from that of the last.
     void start(const wire::GyroSettings& settings, std::uint16_t session) noexcept;
 
     // One round. It sends what the line takes and never waits.
@@ -20,10 +20,10 @@ public:
 
 private:
     void send_rest() noexcept;
-    void tell() noexcept;
-    void tell_status() noexcept;
+    void send_tick() noexcept;
+    void send_status() noexcept;
     void listen() noexcept;
-    void obey(const wire::CommandEffect& effect) noexcept;
+    void execute(const wire::CommandEffect& effect) noexcept;
     void queue(const wire::Frame& frame) noexcept;
 
     wire::CommandState commands_{};

@@ -27,10 +27,11 @@ core::ActuatorFrame Gyro::start(const Settings& settings, std::uint64_t counter)
 }
 
 HalfOutput Gyro::half(const core::SensorFrame& frame) noexcept {
-    // Only such a schedule asks what the switches cost.
+    // Only the measured schedule uses what compensation has learnt of the switches.
     const bool asks = settings_.control.schedule.kind == core::ScheduleKind::measured;
     const core::SwitchAdvice advice =
         asks ? core::advice(settings_.compensation, state_.compensation) : core::SwitchAdvice{};
+    // The members in order: compensation uses the record just made.
     HalfOutput out{
         .control = step(settings_.control, state_.control, frame, advice),
         .compensation = step(settings_.compensation, state_.compensation, out.control.record, light_of(frame))};

@@ -57,7 +57,7 @@ core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint
     return first;
 }
 
-bool gyro_takes(const Settings& settings) noexcept {
+bool try_change_settings(const Settings& settings) noexcept {
     const port::Quiet quiet;
     if (gyro().is_within_tick()) return false;
     gyro().change(settings);
@@ -86,7 +86,7 @@ const HalfOutput& last_half() noexcept { return last; }
 
 std::uint32_t halves() noexcept { return n_halves.load(std::memory_order_acquire); }
 
-void half_period() noexcept {
+void on_half_period() noexcept {
     Gyro& it = gyro();
     const core::SensorFrame& frame = port::latched();
     note_end(it.settings(), frame);
@@ -96,7 +96,7 @@ void half_period() noexcept {
     count(output.control);
     if (port::has_line())
         telemetry_queue().put(output, time_of(end_ticks, port::last_pulse()),
-                              it.settings().compensation.relock.tick.value());
+                              it.settings().compensation.gyro.tick.value());
     n_halves.store(n_halves.load(std::memory_order_relaxed) + 1, std::memory_order_release);
 }
 

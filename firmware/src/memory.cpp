@@ -23,20 +23,25 @@ memcpy:                             @ r0: to, r1: from, r2: bytes
     vstmia  ip!, {d0-d7}
     subs    r2, r2, #64
     bhs     1b
-2:  lsls    r3, r2, #27             @ what is left, by its bits: carry 32, negative 16
+2:  tst     r2, #48                 @ what is left, by its bits
+    beq     6f
+    lsls    r3, r2, #27             @ carry 32, negative 16
     itt     cs
     vldmiacs r1!, {d0-d3}
     vstmiacs ip!, {d0-d3}
     itt     mi
     vldmiami r1!, {d0-d1}
     vstmiami ip!, {d0-d1}
-    lsls    r3, r2, #29             @ 8, 4
+6:  lsls    r3, r2, #29             @ 8, 4
     itt     cs
     vldmiacs r1!, {d0}
     vstmiacs ip!, {d0}
     itt     mi
     ldrmi   r3, [r1], #4
     strmi   r3, [ip], #4
+    lsls    r3, r2, #30             @ whole words, as nearly always
+    it      eq
+    bxeq    lr
     lsls    r3, r2, #31             @ 2, 1
     itt     cs
     ldrhcs  r3, [r1], #2
@@ -68,22 +73,28 @@ memset:                             @ r0: to, r1: byte, r2: bytes
     vmov.f64 d1, d0
     vmov.f64 d2, d0
     vmov.f64 d3, d0
-    subs    r2, r2, #32
+    subs    r2, r2, #64
     blo     2f
 1:  vstmia  ip!, {d0-d3}
-    subs    r2, r2, #32
+    vstmia  ip!, {d0-d3}
+    subs    r2, r2, #64
     bhs     1b
-2:  lsls    r3, r2, #28             @ carry 16, negative 8
+2:  lsls    r3, r2, #27             @ what is left, by its bits: carry 32, negative 16
     it      cs
-    vstmiacs ip!, {d0-d1}
+    vstmiacs ip!, {d0-d3}
     it      mi
-    vstmiami ip!, {d0}
-    lsls    r3, r2, #30             @ 4, 2
+    vstmiami ip!, {d0-d1}
+    lsls    r3, r2, #29             @ 8, 4
     it      cs
-    strcs   r1, [ip], #4
+    vstmiacs ip!, {d0}
     it      mi
-    strhmi  r1, [ip], #2
-    lsls    r3, r2, #31             @ 1
+    strmi   r1, [ip], #4
+    lsls    r3, r2, #30             @ whole words, as nearly always
+    it      eq
+    bxeq    lr
+    lsls    r3, r2, #31             @ 2, 1
+    it      cs
+    strhcs  r1, [ip], #2
     it      mi
     strbmi  r1, [ip]
     bx      lr

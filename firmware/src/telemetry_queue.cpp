@@ -45,12 +45,12 @@ void TelemetryQueue::put(const HalfOutput& half, const wire::TickTime& ended, do
     end_.store(end + 1, std::memory_order_release);
 }
 
-bool TelemetryQueue::take(wire::Telemetry& told) noexcept {
+bool TelemetryQueue::take(wire::Telemetry& message) noexcept {
     const std::uint32_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_.load(std::memory_order_acquire)) return false;
     const Tick& tick = waiting_[begin % waiting_.size()];
     if (tick.after_others) skip(sums_, tick.others);
-    told = telemetry_of(sums_, tick.sample, tick.report);
+    message = telemetry_of(sums_, tick.sample, tick.report);
     begin_.store(begin + 1, std::memory_order_release);
     return true;
 }

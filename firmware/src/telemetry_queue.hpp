@@ -16,13 +16,13 @@ public:
     // A gyro that begins anew. Nobody may put meanwhile.
     void restart() noexcept;
 
-    // The next half. A tick that does not fit is not told, for the gyro does not wait for its listener; its angle is in the sums
+    // The next half. A tick that does not fit is not sent, for the gyro does not wait for its listener; its angle is in the sums
     // of the next one.
     //
     // ended  when the half did.
     void put(const HalfOutput& half, const wire::TickTime& ended, double tick_s) noexcept;
 
-    [[nodiscard]] bool take(wire::Telemetry& told) noexcept;
+    [[nodiscard]] bool take(wire::Telemetry& message) noexcept;
 
 private:
     struct Tick {

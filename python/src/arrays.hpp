@@ -98,6 +98,13 @@ template <class Struct, class Get>
     return as_array(std::move(values));
 }
 
+// What the work gives, done while other threads of Python run.
+template <class Work>
+[[nodiscard]] auto without_interpreter(Work work) {
+    const py::gil_scoped_release released;
+    return work();
+}
+
 // To be called where the interpreter is released: lets Ctrl-C through.
 inline void look_for_signals() {
     const py::gil_scoped_acquire interpreter;

@@ -5,6 +5,8 @@
 
 namespace zlg::python {
 
+using namespace pybind11::literals;  // "name"_a
+
 void bind_errors(pybind11::module_& m);
 void bind_config(pybind11::module_& m);
 void bind_logs(pybind11::module_& m);

@@ -5,8 +5,10 @@
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/study/switch_table.hpp>
 
 #include "bind.hpp"
+#include "fields_dict.hpp"
 #include "log_columns.hpp"
 
 namespace zlg::python {
@@ -36,17 +38,19 @@ void bind_control(py::module_& m) {
         .def_readwrite("loop_closed", &HalfRecord::loop_closed)
         .def_readwrite("valid", &HalfRecord::valid)
         .def_readwrite("edge_offset_ticks", &HalfRecord::edge_offset_ticks)
-        .def_readwrite("span", &HalfRecord::span);
+        .def_readwrite("span", &HalfRecord::span)
+        .def_readwrite("fringe", &HalfRecord::fringe)
+        .def_readwrite("lit", &HalfRecord::lit);
     py::class_<GyroControlOutput>(m, "ControlOutput", "What control makes of one half-period.")
         .def_readonly("actuator", &GyroControlOutput::actuator)
         .def_readonly("record", &GyroControlOutput::record)
         .def_readonly("health", &GyroControlOutput::health);
     py::class_<Control>(m, "Control")
-        .def(py::init<const config::Config&>(), py::arg("config"))
+        .def(py::init<const config::Config&>(), "config"_a)
         .def("initial_actuator", [](const Control& c) { return core::initial_actuator(c.config); })
         .def(
             "step", [](Control& c, const core::SensorFrame& frame) { return core::step(c.config, c.state, frame); },
-            py::arg("frame"));
+            "frame"_a);
 }
 
 py::dict compensate(const py::dict& columns, const config::Config& config, const config::Settings& settings,
@@ -54,26 +58,41 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
     const RawView raw{columns};
     logs::RawHeader log = header_of(columns, timer_hz);
     log.settings = config::checked_log_settings(settings, "the log");
+    config::Config said = config;
+    config::apply_log(said, log.settings, "the log");
+    config::require_log_facts(said, "the log");
     config::check_against_log(config, log.settings, "the log");
     rig::LogCompensation asked = rig::asked_compensation(config, log, "the log");
     rig::Replay replay{asked.compensation};
     const Progress tell{progress};
     AngleCollector angles;
+    study::SwitchTable switches{asked.config.compensation.relock_ticks};
     {
         const py::gil_scoped_release released;
-        const auto add = [&](const core::AngleRow& row) { angles.add(row); };
+        const auto add = [&](const core::AngleRow& row) {
+            angles.add(row);
+            switches.take(row);
+        };
+        const auto note = [&](const core::GapReport& gap) { switches.take(gap); };
+        core::HalfRecord first;
         angles.reserve(raw.size() / 2);
         for (std::size_t row = 0; row < raw.size(); ++row) {
-            replay.take(raw.record(row), raw.light(row), add);
+            const core::HalfRecord half = raw.record(row);
+            if (row % 2 != 0) switches.take(static_cast<std::int64_t>(row / 2), first, half);
+            first = half;
+            replay.take(half, raw.light(row), add, note);
             if (row % 65536 == 0) tell(static_cast<double>(row) / static_cast<double>(raw.size()));
         }
-        replay.end(add);
+        replay.end(add, note);
     }
     replay.require_a_tick("the log");
     std::vector<std::string> warnings = std::move(asked.warnings);
     warnings.insert(warnings.end(), asked.notes.begin(), asked.notes.end());
     if (raw.size() % 2 != 0) warnings.push_back(replay.odd_half("the log"));
     py::dict result = angles.take_out();
+    py::dict table;
+    add_columns(table, switches.lines());
+    result["switches"] = table;
     result["warnings"] = warnings;
     result["settings"] = rig::angle_settings(asked.config);
     return result;
@@ -90,8 +109,7 @@ py::dict bits(const std::array<const char*, N>& names) {
 
 void bind_core(py::module_& m) {
     bind_control(m);
-    m.def("compensate", &compensate, py::arg("columns"), py::arg("config"), py::arg("settings"), py::arg("timer_hz"),
-          py::arg("progress"));
+    m.def("compensate", &compensate, "columns"_a, "config"_a, "settings"_a, "timer_hz"_a, "progress"_a);
     m.attr("angle_flags") = bits(core::angle_flag_names);
     m.attr("health_bits") = bits(core::health_bit_names);
 }

@@ -13,6 +13,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "fields_dict.hpp"
 
 namespace zlg::python {
 namespace {
@@ -53,7 +54,7 @@ Substitution substitution_of(int order, int n, const std::tuple<int, int, int>& 
 
 py::array response(int order, int n, const std::tuple<int, int, int>& points, bool extrapolate, double tick_s,
                    const In<double>& frequency_hz) {
-    const auto answer = ErrorResponse::of_sum(substitution_of(order, n, points, extrapolate, tick_s));
+    const auto answer = ErrorResponse(substitution_of(order, n, points, extrapolate, tick_s));
     return of_each([&](double f) { return std::abs(answer(f)); }, frequency_hz);
 }
 
@@ -72,27 +73,11 @@ py::dict relock(const config::Config& config, double miss_lambda, int ticks) {
     return d;
 }
 
-py::dict of(const study::SubstitutionLine& line) {
-    py::dict d;
-    d["order"] = line.order;
-    d["gap_ticks"] = line.gap_ticks;
-    d["frequency_hz"] = line.frequency_hz;
-    d["worst_arcsec"] = line.worst_arcsec;
-    d["rms_arcsec"] = line.rms_arcsec;
-    d["noise_gain"] = line.noise_gain;
-    d["counter_arcsec"] = line.counter_arcsec;
-    d["relock_arcsec"] = line.relock_arcsec;
-    d["total_arcsec"] = line.total_arcsec;
-    return d;
-}
-
 py::dict of(const study::IntervalLine& line) {
-    py::dict d;
+    py::dict d = fields_dict(line.optimum);
     d["run_s"] = line.run_s;
-    d["method"] = std::string{name(line.method)};
-    d["interval_s"] = line.optimum.interval_s;
-    d["drift_arcsec_s"] = line.optimum.drift_arcsec_s;
-    d["status"] = std::string{sentence(line.optimum.status)};
+    d["method"] = name(line.method);
+    d["status"] = sentence(line.optimum.status);
     return d;
 }
 
@@ -104,21 +89,18 @@ py::dict design_of(const config::Config& config) {
         result = study::design_gyro(config);
         html = report::html(study::design_page(config, result));
     }
-    py::list intervals, substitution;
+    py::list intervals;
     for (const auto& line : result.intervals) intervals.append(of(line));
-    for (const auto& line : result.substitution) substitution.append(of(line));
-    py::dict d;
-    d["switch_error_arcsec"] = result.switch_error_arcsec;
     py::dict best;
     for (const study::RunLine& line : result.runs) best[py::cast(line.run_s)] = line.best.interval_s;
-    d["best_interval_s"] = best;
-    d["intervals"] = intervals;
-    d["substitution"] = substitution;
-    d["relock_s"] = result.loop.relock_s;
+    py::dict d = fields_dict(result.loop);
     d["phase_margin_deg"] = result.loop.margins.phase_margin_deg;
     d["gain_margin"] = result.loop.margins.gain_margin;
     d["stable"] = result.loop.margins.stable;
-    d["false_angle_arcsec"] = result.loop.false_angle_arcsec;
+    d["switch_error_arcsec"] = result.switch_error_arcsec;
+    d["best_interval_s"] = best;
+    d["intervals"] = intervals;
+    d["substitution"] = fields_list(result.substitution);
     d["page"] = html;
     return d;
 }
@@ -126,12 +108,12 @@ py::dict design_of(const config::Config& config) {
 }  // namespace
 
 void bind_design(py::module_& m) {
-    m.def("drift_arcsec_s", &drift, py::arg("config"), py::arg("run_s"), py::arg("interval_s"), py::arg("method"));
-    m.def("optimum", &best, py::arg("config"), py::arg("run_s"), py::arg("method"));
-    m.def("substitution_response", &response, py::arg("order"), py::arg("gap_ticks"), py::arg("points"),
-          py::arg("extrapolate"), py::arg("tick_s"), py::arg("frequency_hz"));
-    m.def("relock", &relock, py::arg("config"), py::arg("miss_lambda"), py::arg("ticks"));
-    m.def("design_gyro", &design_of, py::arg("config"));
+    m.def("drift_arcsec_s", &drift, "config"_a, "run_s"_a, "interval_s"_a, "method"_a);
+    m.def("optimum", &best, "config"_a, "run_s"_a, "method"_a);
+    m.def("substitution_response", &response, "order"_a, "gap_ticks"_a, "points"_a, "extrapolate"_a, "tick_s"_a,
+          "frequency_hz"_a);
+    m.def("relock", &relock, "config"_a, "miss_lambda"_a, "ticks"_a);
+    m.def("design_gyro", &design_of, "config"_a);
 }
 
 }  // namespace zlg::python

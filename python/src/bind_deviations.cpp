@@ -6,36 +6,24 @@
 #include <zlg/deviations/deviation_stream.hpp>
 
 #include "analysis_dicts.hpp"
-#include "arrays.hpp"
 #include "bind.hpp"
+#include "fields_dict.hpp"
 
 namespace zlg::python {
 
 py::dict dict_of(const deviations::DeviationCurve& curve) {
-    const auto& p = curve.points;
-    py::dict c;
-    c["kind"] = std::string{name_of(curve.kind)};
-    c["confidence"] = curve.confidence;
-    c["m"] = column(p, &deviations::DeviationPoint::m);
-    c["tau_s"] = column(p, &deviations::DeviationPoint::tau_s);
-    c["deviation"] = column(p, &deviations::DeviationPoint::deviation);
-    c["low"] = column(p, &deviations::DeviationPoint::low);
-    c["high"] = column(p, &deviations::DeviationPoint::high);
-    c["terms"] = column(p, &deviations::DeviationPoint::terms);
-    c["edf"] = column(p, [](const deviations::DeviationPoint& each) { return each.law.edf; });
-    c["noise"] = column(p, &deviations::DeviationPoint::noise);
-    c["as_computed"] = column(p, &deviations::DeviationPoint::as_computed);
-    c["bias"] = std::string{name_of(curve.total_bias)};
-    return c;
+    py::dict d;
+    add_columns(d, curve.points);
+    d["kind"] = name_of(curve.kind);
+    d["confidence"] = curve.confidence;
+    d["edf"] = column(curve.points, [](const deviations::DeviationPoint& p) { return p.law.edf; });
+    d["bias"] = name_of(curve.total_bias);
+    return d;
 }
 
 namespace {
 
 using namespace deviations;
-
-SeriesKind kind_of(const std::string& data_type, const std::string& unit, double rate_hz) {
-    return {data_kind_of(data_type), unit_of(unit), rate_hz};
-}
 
 std::vector<std::int64_t> spaced(const std::string& taus, int per_decade, std::int64_t largest) {
     if (taus == "octave") return octave_factors(largest);
@@ -62,19 +50,16 @@ std::vector<std::int64_t> factors_of(const Taus& taus, int per_decade, bool drop
     return nearest_factors(drop_long_taus ? within(given, rate_hz, largest) : given, rate_hz, largest);
 }
 
-py::dict deviation_of(const std::string& kind, const In<double>& values, double rate_hz, const std::string& data_type,
-                      const std::string& unit, const std::optional<In<std::uint8_t>>& valid, const Taus& taus,
-                      int per_decade, bool drop_long_taus, const DeviationOptions& options) {
+py::dict deviation_of(const std::string& kind, const Samples& samples, const Taus& taus, int per_decade,
+                      bool drop_long_taus, const DeviationOptions& options) {
     const DeviationKind which = deviation_kind_of(kind);
-    const Series series{kind_of(data_type, unit, rate_hz), span_of(values, "data"), span_of(valid, "valid")};
-    DeviationCurve curve;
-    {
-        const py::gil_scoped_release released;
+    const Series series = samples.series();
+    return dict_of(without_interpreter([&] {
         const AngleRecord record{series};
         const auto largest = largest_factor(which, record.n_intervals());
-        curve = deviation(record, which, factors_of(taus, per_decade, drop_long_taus, rate_hz, largest), options);
-    }
-    return dict_of(curve);
+        const double rate_hz = series.what.rate_hz;
+        return deviation(record, which, factors_of(taus, per_decade, drop_long_taus, rate_hz, largest), options);
+    }));
 }
 
 StreamConfig stream_config(const SeriesKind& what, const std::vector<std::string>& kinds,
@@ -104,27 +89,25 @@ void bind_stream(py::module_& m) {
         .def(py::init([](double rate_hz, const std::string& data_type, const std::string& unit,
                          const std::vector<std::string>& kinds, const std::vector<std::int64_t>& factors,
                          std::int64_t window, double least_known_ratio) {
-                 return DeviationStream{
-                     stream_config(kind_of(data_type, unit, rate_hz), kinds, factors, window, least_known_ratio)};
+                 return DeviationStream{stream_config({data_kind_of(data_type), unit_of(unit), rate_hz}, kinds, factors,
+                                                      window, least_known_ratio)};
              }),
-             py::arg("rate_hz"), py::arg("data_type"), py::arg("unit"), py::arg("kinds"), py::arg("factors"),
-             py::arg("window"), py::arg("least_known_ratio"))
-        .def_static("of_log", &stream_of_log, py::call_guard<py::gil_scoped_release>(), py::arg("path"),
-                    py::arg("kinds"), py::arg("factors"), py::arg("window"), py::arg("least_known_ratio"),
-                    py::arg("final_angles"))
+             "rate_hz"_a, "data_type"_a, "unit"_a, "kinds"_a, "factors"_a, "window"_a, "least_known_ratio"_a)
+        .def_static("of_log", &stream_of_log, py::call_guard<py::gil_scoped_release>(), "path"_a, "kinds"_a,
+                    "factors"_a, "window"_a, "least_known_ratio"_a, "final_angles"_a)
         // Not without the interpreter: another thread may read the curve meanwhile.
         .def(
             "add",
             [](DeviationStream& stream, const In<double>& values, const std::optional<In<std::uint8_t>>& valid) {
                 stream.add(span_of(values, "data"), span_of(valid, "valid"));
             },
-            py::arg("values"), py::arg("valid"))
+            "values"_a, "valid"_a)
         .def(
             "curve",
             [](const DeviationStream& stream, const std::string& kind, double confidence, std::optional<int> noise) {
                 return dict_of(stream.curve(deviation_kind_of(kind), {.confidence = confidence, .noise = noise}));
             },
-            py::arg("kind"), py::arg("confidence"), py::arg("noise"))
+            "kind"_a, "confidence"_a, "noise"_a)
         .def_property_readonly("n_samples", &DeviationStream::n_samples)
         .def_property_readonly("n_known", &DeviationStream::n_known)
         .def_property_readonly("memory_bytes", &DeviationStream::memory_bytes);
@@ -133,23 +116,23 @@ void bind_stream(py::module_& m) {
 }  // namespace
 
 void bind_deviations(py::module_& m) {
-    m.def(
-        "deviation",
-        [](const std::string& kind, const In<double>& values, double rate_hz, const std::string& data_type,
-           const std::string& unit, const std::optional<In<std::uint8_t>>& valid, const Taus& taus, int per_decade,
-           bool drop_long_taus, double confidence, double least_known_ratio, std::optional<int> noise,
-           const std::string& bias, int threads) {
-            const DeviationOptions options{.confidence = confidence,
-                                           .least_known_ratio = least_known_ratio,
-                                           .noise = noise,
-                                           .total_bias = total_bias_of(bias),
-                                           .threads = threads};
-            return deviation_of(kind, values, rate_hz, data_type, unit, valid, taus, per_decade, drop_long_taus,
-                                options);
-        },
-        py::arg("kind"), py::arg("values"), py::arg("rate_hz"), py::arg("data_type"), py::arg("unit"), py::arg("valid"),
-        py::arg("taus"), py::arg("per_decade"), py::arg("drop_long_taus"), py::arg("confidence"),
-        py::arg("least_known_ratio"), py::arg("noise"), py::arg("bias"), py::arg("threads"));
+    py::class_<Samples>(m, "Samples")
+        .def(py::init([](In<double> values, double rate_hz, const std::string& data_type, const std::string& unit,
+                         std::optional<In<std::uint8_t>> valid) {
+                 return Samples{{data_kind_of(data_type), unit_of(unit), rate_hz}, std::move(values), std::move(valid)};
+             }),
+             "values"_a, "rate_hz"_a, "data_type"_a, "unit"_a, "valid"_a);
+    py::class_<DeviationOptions>(m, "DeviationOptions")
+        .def(py::init([](double confidence, double least_known_ratio, std::optional<int> noise, const std::string& bias,
+                         int threads) {
+                 return DeviationOptions{.confidence = confidence,
+                                         .least_known_ratio = least_known_ratio,
+                                         .noise = noise,
+                                         .total_bias = total_bias_of(bias),
+                                         .threads = threads};
+             }),
+             "confidence"_a, "least_known_ratio"_a, "noise"_a, "bias"_a, "threads"_a);
+    m.def("deviation", &deviation_of, "kind"_a, "samples"_a, "taus"_a, "per_decade"_a, "drop_long_taus"_a, "options"_a);
     m.attr("not_measured") = not_measured;
     bind_stream(m);
 }

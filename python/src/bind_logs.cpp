@@ -3,7 +3,6 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
-#include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/text_columns.hpp>
@@ -14,7 +13,7 @@
 namespace zlg::python {
 namespace {
 
-constexpr std::size_t stride = 1 << 16;
+constexpr std::size_t rows_per_report = 1 << 16;  // between two reports of progress
 
 std::string kind(const std::string& path) {
     switch (logs::recognise(path)) {
@@ -40,20 +39,16 @@ py::dict read_raw(const std::string& path, bool light, const py::object& progres
         core::HalfRecord record;
         for (std::size_t n = 1; reader->next(record); ++n) {
             rows.add(record, light ? reader->light() : core::LightSamples{});
-            if (n % stride == 0) tell(reader->fraction_read());
+            if (n % rows_per_report == 0) tell(reader->fraction_read());
         }
     }
     py::dict columns = rows.take_out();
     const logs::RawHeader& header = reader->header();
-    const auto absent = [&](bool has, const char* name) {
-        if (!has) columns[name] = py::none();
-    };
-    absent(header.has_detuning, "detuning_lambda");
-    absent(header.has_detuning_sq, "detuning_sq_lambda2");
-    absent(header.has_piezo, "piezo_v");
-    absent(header.has_temperature, "temperature_c");
-    absent(header.has_edge_offset, "edge_offset_ticks");
-    absent(header.has_span, "span");
+    logs::RawColumns there = header;
+    there.has_valid = true;  // without the column every half is
+    logs::for_each_column<RawArrays>([&](const auto& column, std::size_t) {
+        if (!column.is_in(there)) columns[column.name] = py::none();
+    });
     std::vector<std::string> warnings = header.warnings;
     if (!reader->line_is_ended())
         warnings.push_back(path + ": the last line has no end; the file may have been cut off");
@@ -73,7 +68,7 @@ void write_raw(const std::string& path, const py::dict& columns, const config::S
     logs::RawWriter writer{
         path, settings, force, kept, {.light_samples = rows.light_samples(), .light_b = rows.has_light_b()}};
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        if (row % stride == 0) tell(static_cast<double>(row) / static_cast<double>(rows.size()));
+        if (row % rows_per_report == 0) tell(static_cast<double>(row) / static_cast<double>(rows.size()));
         writer.write(rows.record(row), rows.light(row));
     }
     writer.close();
@@ -81,7 +76,6 @@ void write_raw(const std::string& path, const py::dict& columns, const config::S
 
 py::dict read_angles(const std::string& path, const py::object& progress) {
     AngleCollector rows;
-    std::vector<double> t_s;
     const Progress tell{progress};
     std::optional<logs::AngleReader> reader;
     {
@@ -91,58 +85,25 @@ py::dict read_angles(const std::string& path, const py::object& progress) {
         logs::TimedAngle angle;
         while (reader->next(angle)) {
             has_truth ? rows.add(angle.row, angle.truth_dtheta_arcsec) : rows.add(angle.row);
-            t_s.push_back(angle.t_s);
-            if (t_s.size() % stride == 0) tell(reader->fraction_read());
+            if (rows.size() % rows_per_report == 0) tell(reader->fraction_read());
         }
     }
     py::dict columns = rows.take_out();
-    columns["t_s"] = as_array(std::move(t_s));
     columns["warnings"] = reader->header().warnings;
     columns["settings"] = reader->header().settings;
     columns["complete"] = reader->header().complete;
     return columns;
 }
 
-// The columns of an angle log as Python holds them.
-struct AngleView {
-    In<double> dtheta, final, sigma;
-    In<std::int8_t> mode;
-    In<std::uint32_t> flags;
-    std::optional<In<double>> truth;
-
-    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(dtheta.size()); }
-    [[nodiscard]] core::AngleRow row(std::size_t i) const {
-        const auto k = static_cast<py::ssize_t>(i);
-        return {.tick = static_cast<std::int64_t>(i),
-                .dtheta_arcsec = dtheta.data()[k],
-                .dtheta_final_arcsec = final.data()[k],
-                .sigma_arcsec = sigma.data()[k],
-                .mode = mode.data()[k],
-                .flags = flags.data()[k]};
-    }
-};
-
-void write_angles(const std::string& path, const py::dict& c, double tick_s, const config::Settings& settings,
+void write_angles(const std::string& path, const py::dict& columns, double tick_s, const config::Settings& settings,
                   bool force, const py::object& progress) {
-    AngleView rows{In<double>{c["dtheta_arcsec"]},
-                   In<double>{c["dtheta_final_arcsec"]},
-                   In<double>{c["sigma_arcsec"]},
-                   whole_numbers<std::int8_t>(c["mode"], "mode"),
-                   whole_numbers<std::uint32_t>(c["flags"], "flags"),
-                   {}};
-    const auto modes = span_of(rows.mode, "mode");
-    refuse(modes, "mode", "1 or -1", [&](std::size_t k) { return modes[k] == 1 || modes[k] == -1; });
-    if (!c["truth_dtheta_arcsec"].is_none()) rows.truth = In<double>{c["truth_dtheta_arcsec"]};
-    const auto n = rows.dtheta.size();
-    if (rows.final.size() != n || rows.sigma.size() != n || rows.mode.size() != n || rows.flags.size() != n ||
-        (rows.truth && rows.truth->size() != n))
-        throw std::invalid_argument{"the columns of an angle log are of one length"};
+    const AngleView rows{columns};
     const Progress tell{progress};
     const py::gil_scoped_release released;
-    logs::AngleWriter writer{path, tick_s, settings, force, {.has_truth = rows.truth.has_value()}};
+    logs::AngleWriter writer{path, tick_s, settings, force, {.has_truth = rows.has_truth()}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (i % stride == 0) tell(static_cast<double>(i) / static_cast<double>(rows.size()));
-        writer.write(rows.row(i), rows.truth ? rows.truth->data()[i] : 0.0);
+        if (i % rows_per_report == 0) tell(static_cast<double>(i) / static_cast<double>(rows.size()));
+        writer.write(rows.angle(i), rows.truth_arcsec(i));
     }
     writer.close();
 }
@@ -189,15 +150,13 @@ py::list read_text(const std::string& path, const std::vector<std::string>& colu
 }  // namespace
 
 void bind_logs(py::module_& m) {
-    m.def("log_kind", &kind, py::arg("path"));
-    m.def("read_raw", &read_raw, py::arg("path"), py::arg("light"), py::arg("progress"));
-    m.def("write_raw", &write_raw, py::arg("path"), py::arg("columns"), py::arg("settings"), py::arg("timer_hz"),
-          py::arg("force"), py::arg("progress"));
-    m.def("read_angles", &read_angles, py::arg("path"), py::arg("progress"));
-    m.def("write_angles", &write_angles, py::arg("path"), py::arg("columns"), py::arg("tick_s"), py::arg("settings"),
-          py::arg("force"), py::arg("progress"));
-    m.def("read_text_columns", &read_text, py::arg("path"), py::arg("columns"), py::arg("comment"),
-          py::arg("skip_lines"), py::arg("separator"), py::arg("decimal"));
+    m.def("log_kind", &kind, "path"_a);
+    m.def("read_raw", &read_raw, "path"_a, "light"_a, "progress"_a);
+    m.def("write_raw", &write_raw, "path"_a, "columns"_a, "settings"_a, "timer_hz"_a, "force"_a, "progress"_a);
+    m.def("read_angles", &read_angles, "path"_a, "progress"_a);
+    m.def("write_angles", &write_angles, "path"_a, "columns"_a, "tick_s"_a, "settings"_a, "force"_a, "progress"_a);
+    m.def("read_text_columns", &read_text, "path"_a, "columns"_a, "comment"_a, "skip_lines"_a, "separator"_a,
+          "decimal"_a);
 }
 
 }  // namespace zlg::python

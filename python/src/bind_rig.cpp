@@ -69,14 +69,14 @@ void bind_rig(py::module_& m) {
         .def(py::init([](const config::Config& config, const std::optional<twin::Motion>& motion) {
                  return Loop{rig::ClosedLoop{config, motion ? *motion : rig::motion(config)}};
              }),
-             py::arg("config"), py::arg("motion"))
-        .def("advance", &advance, py::arg("halves"), py::arg("light"), py::arg("progress"));
+             "config"_a, "motion"_a)
+        .def("advance", &advance, "halves"_a, "light"_a, "progress"_a);
     m.def(
         "run_ticks",
         [](const config::Config& config, const std::optional<twin::Motion>& motion) {
             return rig::run_ticks(config, motion ? *motion : rig::motion(config));
         },
-        py::arg("config"), py::arg("motion"));
+        "config"_a, "motion"_a);
     m.def(
         "resolved",
         [](const config::Config& config) {
@@ -87,11 +87,10 @@ void bind_rig(py::module_& m) {
             }
             return py::make_tuple(made.config, made.notes, made.warnings);
         },
-        py::arg("config"));
-    m.def("calibrated_by_laser", &rig::calibrated_by_laser, py::arg("config"),
-          py::call_guard<py::gil_scoped_release>());
-    m.def("angle_settings", &rig::angle_settings, py::arg("config"));
-    m.def("without_switching", &rig::without_switching, py::arg("config"));
+        "config"_a);
+    m.def("calibrated_by_laser", &rig::calibrated_by_laser, "config"_a, py::call_guard<py::gil_scoped_release>());
+    m.def("angle_settings", &rig::angle_settings, "config"_a);
+    m.def("without_switching", &rig::without_switching, "config"_a);
     m.attr("timer_hz") = rig::timer_hz;
 }
 

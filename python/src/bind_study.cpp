@@ -7,39 +7,21 @@
 
 #include "analysis_dicts.hpp"
 #include "bind.hpp"
+#include "fields_dict.hpp"
 #include "log_columns.hpp"
 
 namespace zlg::python {
 namespace {
 
-using study::SwitchLine;
-
 py::dict of(study::VariantResult&& v) {
-    py::dict d;
-    d["name"] = v.name;
-    d["drift_arcsec_s"] = v.drift_arcsec_s;
-    d["angle_error_arcsec"] = v.angle_error_arcsec;
-    d["switch_mean_arcsec"] = v.switch_error ? py::cast(v.switch_error->mean_arcsec) : py::none();
-    d["switch_rms_arcsec"] = v.switch_error ? py::cast(v.switch_error->rms_arcsec) : py::none();
-    d["switch_max_arcsec"] = v.switch_error ? py::cast(v.switch_error->max_arcsec) : py::none();
+    py::dict d = fields_dict(v);
+    study::for_each_field<study::SwitchStatistics>([&](const std::string& name, auto get) {
+        d[py::str("switch_" + name)] = v.switch_error ? py::cast(get(*v.switch_error)) : py::none();
+    });
     d["switch_tick"] = column(v.switches, [](const study::SwitchError& s) { return s.window.first_tick; });
     d["switch_error_arcsec"] = column(v.switches, &study::SwitchError::error_arcsec);
     d["t_s"] = as_array(std::move(v.curve.t_s));
     d["error_arcsec"] = as_array(std::move(v.curve.error_arcsec));
-    return d;
-}
-
-py::dict switches_of(const std::vector<SwitchLine>& s) {
-    py::dict d;
-    d["tick"] = column(s, &SwitchLine::tick);
-    d["mode"] = column(s, &SwitchLine::mode);
-    d["miss_lambda"] = column(s, &SwitchLine::miss_lambda);
-    d["half_wave_v"] = column(s, &SwitchLine::half_wave_v);
-    d["gap_ticks"] = column(s, &SwitchLine::gap_ticks);
-    d["dp_arcsec"] = column(s, &SwitchLine::dp_arcsec);
-    d["relock_arcsec"] = column(s, &SwitchLine::relock_arcsec);
-    d["sigma_arcsec"] = column(s, &SwitchLine::sigma_arcsec);
-    d["true_error_arcsec"] = column(s, &SwitchLine::true_error_arcsec);
     return d;
 }
 
@@ -60,6 +42,8 @@ py::dict run(const config::Config& config, const std::vector<std::string>& warni
     }
     py::list variants;
     for (study::VariantResult& v : result.variants) variants.append(of(std::move(v)));
+    py::dict switches;
+    add_columns(switches, result.switches);
     py::dict d;
     d["tick_s"] = result.tick_s;
     d["ticks"] = result.ticks;
@@ -67,7 +51,7 @@ py::dict run(const config::Config& config, const std::vector<std::string>& warni
     d["none_succeeded"] = result.tally.none_succeeded();
     d["warnings"] = result.warnings;
     d["variants"] = variants;
-    d["switches"] = switches_of(result.switches);
+    d["switches"] = switches;
     d["relock_false_drift_deg_h"] = as_array(std::move(result.relock_false_drift_deg_h));
     d["raw"] = raw ? py::object{records.take_out()} : py::none();
     d["angles"] = angles ? py::object{rows.take_out()} : py::none();
@@ -88,19 +72,10 @@ py::dict paper(const config::Config& config, int threads, int switches_per_point
         html = report::html(paper::paper_page(result));
     }
     py::list claims;
-    for (const paper::Claim& c : result.claims) {
-        py::dict claim;
-        claim["where"] = c.where;
-        claim["claim"] = c.claim;
-        claim["verdict"] = paper::verdict_name(c.verdict);
-        claim["finding"] = c.finding;
-        claims.append(claim);
-    }
-    py::dict d;
-    d["claims"] = claims;
-    d["chi2_per_dof"] = result.chi2_per_dof;
-    d["page"] = html;
-    return d;
+    for (const paper::Claim& c : result.claims)
+        claims.append(py::dict("where"_a = c.where, "claim"_a = c.claim, "verdict"_a = paper::verdict_name(c.verdict),
+                               "finding"_a = c.finding));
+    return py::dict("claims"_a = claims, "chi2_per_dof"_a = result.chi2_per_dof, "page"_a = html);
 }
 
 struct Axes {
@@ -125,41 +100,10 @@ py::list list_of(const std::vector<deviations::DeviationCurve>& curves) {
     return all;
 }
 
-py::list list_of(const std::vector<study::Readout>& readouts) {
-    py::list all;
-    for (const study::Readout& readout : readouts) {
-        py::dict d;
-        d["what"] = readout.what;
-        d["tau_s"] = readout.tau_s;
-        d["deviation_arcsec_s"] = readout.deviation_arcsec_s;
-        all.append(d);
-    }
-    return all;
-}
-
-py::list list_of(const std::vector<study::EarthLine>& lines) {
-    py::list all;
-    for (const study::EarthLine& line : lines) {
-        py::dict d;
-        d["group"] = line.group;
-        d["n_axes"] = line.n_axes;
-        d["norm_arcsec_s"] = line.norm_arcsec_s;
-        d["sigma_arcsec_s"] = line.sigma_arcsec_s;
-        all.append(d);
-    }
-    return all;
-}
-
 py::dict of(const study::AxisResult& axis) {
-    py::dict d;
-    d["name"] = axis.name;
-    d["n_samples"] = axis.n_samples;
-    d["n_known"] = axis.n_known;
-    d["n_gaps"] = axis.n_gaps;
-    d["mean_arcsec_s"] = axis.mean_arcsec_s;
-    d["mean_sigma_arcsec_s"] = axis.mean_sigma_arcsec_s;
+    py::dict d = fields_dict(axis);
     d["deviations"] = list_of(axis.curves);
-    d["readouts"] = list_of(axis.readouts);
+    d["readouts"] = fields_list(axis.readouts);
     d["modes"] = axis.modes ? py::object{dict_of(*axis.modes)} : py::none();
     d["mode_curves"] = list_of(axis.mode_curves);
     d["fit"] = axis.fit ? py::object{dict_of(*axis.fit)} : py::none();
@@ -186,25 +130,18 @@ py::dict analyze(const config::Config& config, Axes& axes, std::int64_t settling
     }
     py::list all;
     for (const study::AxisResult& axis : result.axes) all.append(of(axis));
-    py::dict d;
-    d["axes"] = all;
-    d["earth"] = list_of(result.earth);
-    d["page"] = html;
-    return d;
+    return py::dict("axes"_a = all, "earth"_a = fields_list(result.earth), "page"_a = html);
 }
 
 }  // namespace
 
 void bind_study(py::module_& m) {
-    m.def("run", &run, py::arg("config"), py::arg("warnings"), py::arg("raw"), py::arg("angles"), py::arg("page"),
-          py::arg("threads"), py::arg("progress"));
+    m.def("run", &run, "config"_a, "warnings"_a, "raw"_a, "angles"_a, "page"_a, "threads"_a, "progress"_a);
     py::class_<Axes>(m, "Axes")
         .def(py::init<>())
-        .def("add", &Axes::add, py::arg("name"), py::arg("group"), py::arg("rate_hz"), py::arg("rates_arcsec_s"),
-             py::arg("mode"), py::arg("bridged_arcsec_s"));
-    m.def("analyze", &analyze, py::arg("config"), py::arg("axes"), py::arg("settling_samples"), py::arg("threads"),
-          py::arg("progress"));
-    m.def("paper", &paper, py::arg("config"), py::arg("threads"), py::arg("switches_per_point"), py::arg("progress"));
+        .def("add", &Axes::add, "name"_a, "group"_a, "rate_hz"_a, "rates_arcsec_s"_a, "mode"_a, "bridged_arcsec_s"_a);
+    m.def("analyze", &analyze, "config"_a, "axes"_a, "settling_samples"_a, "threads"_a, "progress"_a);
+    m.def("paper", &paper, "config"_a, "threads"_a, "switches_per_point"_a, "progress"_a);
 }
 
 }  // namespace zlg::python

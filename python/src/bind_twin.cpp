@@ -23,7 +23,7 @@ twin::Motion sines(double rate_arcsec_s, const std::vector<std::tuple<double, do
 void bind_motion(py::module_& m) {
     py::class_<twin::Motion>(m, "Motion", "Rotation of the gyro's case, as an angle that is a function of time.")
         .def_static("rest", &twin::Motion::rest, "A case that does not turn.")
-        .def_static("sines", &sines, py::arg("rate_arcsec_s"), py::arg("sines"),
+        .def_static("sines", &sines, "rate_arcsec_s"_a, "sines"_a,
                     "A constant rate plus sines (amplitude_arcsec_s, frequency_hz, phase_deg).")
         .def_static(
             "from_increments",
@@ -31,15 +31,14 @@ void bind_motion(py::module_& m) {
                 const auto values = span_of(increments, "increment_arcsec");
                 return twin::Motion::from_increments({values.begin(), values.end()}, rate_hz);
             },
-            py::arg("increment_arcsec"), py::arg("rate_hz"),
+            "increment_arcsec"_a, "rate_hz"_a,
             "Increment k, arcsec, is the rotation from k/rate_hz to (k + 1)/rate_hz.")
         .def(
             "increment_arcsec",
             [](const twin::Motion& motion, const In<double>& t0_s, const In<double>& t1_s) {
                 return of_each([&](double t0, double t1) { return motion.increment_arcsec(t0, t1); }, t0_s, t1_s);
             },
-            py::arg("t0_s"), py::arg("t1_s"),
-            "Rotation from t0_s to t1_s, arcsec; arrays are taken element by element.")
+            "t0_s"_a, "t1_s"_a, "Rotation from t0_s to t1_s, arcsec; arrays are taken element by element.")
         .def_property_readonly("duration_s", &twin::Motion::duration_s, "Length of sampled motion; inf of others.");
 }
 
@@ -61,6 +60,10 @@ void bind_frames(py::module_& m) {
         .def_readwrite("coil_current_a", &SensorFrame::coil_current_a)
         .def_readwrite("temperature_c", &SensorFrame::temperature_c)
         .def_readwrite("status", &SensorFrame::status)
+        .def_readwrite("has_fringe", &SensorFrame::has_fringe)
+        .def_readwrite("fringe_quarter", &SensorFrame::fringe_quarter)
+        .def_readwrite("fringe_c", &SensorFrame::fringe_c)
+        .def_readwrite("fringe_s", &SensorFrame::fringe_s)
         .def_property_readonly("light_a", [](const SensorFrame& f) { return beam(f.light_a, f.n_light); })
         .def_property_readonly("light_b", [](const SensorFrame& f) {
             return beam(f.light_b, f.has_light_b ? f.n_light : std::uint8_t{0});
@@ -95,7 +98,7 @@ twin::Twin twin_of(const config::Config& config, const std::optional<twin::Motio
     }
 }
 
-std::pair<SensorFrame, twin::TwinTruth> advance(twin::Twin& twin, const ActuatorFrame& actuator) {
+std::pair<SensorFrame, twin::TwinTruth> advance_twin(twin::Twin& twin, const ActuatorFrame& actuator) {
     try {
         twin::TwinHalf half = twin.advance(actuator);
         return {half.sensor, half.truth};
@@ -117,8 +120,8 @@ void bind_twin(py::module_& m) {
         .def_readonly("perimeter_v", &twin::TwinTruth::perimeter_v)
         .def_readonly("lit", &twin::TwinTruth::lit);
     py::class_<twin::Twin>(m, "Twin")
-        .def(py::init(&twin_of), py::arg("config"), py::arg("motion") = py::none())
-        .def("advance", &advance, py::arg("actuator"));
+        .def(py::init(&twin_of), "config"_a, "motion"_a = py::none())
+        .def("advance", &advance_twin, "actuator"_a);
 }
 
 }  // namespace zlg::python

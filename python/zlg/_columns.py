@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import warnings
 from collections.abc import Iterable
-from typing import Any, Callable, Optional, TypeVar
+from typing import Any, Callable, Optional, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,10 +14,21 @@ T = TypeVar("T")
 Progress = Optional[Callable[[float], object]]
 
 
+def _of_type(hint: Any, value: Any) -> Any:
+    if get_origin(hint) is Union:  # Optional
+        hint = get_args(hint)[0]
+    if isinstance(value, dict) and dataclasses.is_dataclass(hint):
+        return made_of(hint, value)
+    if isinstance(value, list) and get_origin(hint) is list:
+        return [_of_type(get_args(hint)[0], each) for each in value]
+    return value
+
+
 def made_of(kind: type[T], columns: dict[str, Any]) -> T:
-    """The dataclass from the columns of its names."""
+    """An instance of the dataclass from the columns that bear its field names; nested dictionaries become nested dataclasses."""
+    types = get_type_hints(kind)
     names = {field.name for field in dataclasses.fields(kind)}
-    return kind(**{name: value for name, value in columns.items() if name in names})
+    return kind(**{name: _of_type(types[name], value) for name, value in columns.items() if name in names})
 
 
 def columns_of(log: Any) -> dict[str, Any]:
@@ -25,13 +36,13 @@ def columns_of(log: Any) -> dict[str, Any]:
     return {field.name: getattr(log, field.name) for field in dataclasses.fields(log)}
 
 
-def tell(reasons: Iterable[str]) -> None:
-    """Each as a warning, at the line that called the function that calls this."""
+def warn_each(reasons: Iterable[str]) -> None:
+    """One warning per reason, shown at the line of the user: the caller of the caller (stacklevel 3)."""
     for reason in reasons:
         warnings.warn(reason, stacklevel=3)
 
 
-def _filled(masked: Any, value: Any) -> Any:
+def _filled(masked: Any, value: Any) -> Any:  # Any: the stubs of numpy do not type .filled
     return masked.filled(value)
 
 

@@ -14,6 +14,11 @@ from . import _zlg
 from ._columns import floats, made_of, mask
 from .logs import AngleLog
 
+__all__ = [
+    "Deviations", "DeviationStream", "KINDS", "adev", "deviation", "deviations_of_log", "hdev", "htotdev",
+    "mdev", "mtotdev", "oadev", "ohdev", "tdev", "totdev",
+]  # fmt: skip
+
 Floats = NDArray[np.float64]
 DataType = Literal["increments", "rate", "phase"]
 Taus = Union[Literal["octave", "decade", "log", "all"], Sequence[float], Floats, None]
@@ -92,11 +97,9 @@ def deviation(
                 whose tables have them), "as_computed" (as AllanTools and Stable32)
     Raises SeriesError: no sample, nothing known, all equal, another unit, no tau with a term.
     """
-    columns = _zlg.deviation(
-        kind, floats(data), rate_hz, data_type, unit, mask(valid), _taus(taus), per_decade, False,
-        confidence, least_known_ratio, noise, bias, threads,
-    )  # fmt: skip
-    return made_of(Deviations, columns)
+    samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
+    options = _zlg.DeviationOptions(confidence, least_known_ratio, noise, bias, threads)
+    return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, options))
 
 
 def _known(
@@ -106,12 +109,9 @@ def _known(
     if data_type is None:
         raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
     called = "rate" if data_type == "freq" else data_type
-    d = made_of(
-        Deviations,
-        _zlg.deviation(
-            kind, floats(data), rate, called, "1", mask(valid), _taus(taus), 20, True, 0.6827, 0.9, None, bias, 1
-        ),
-    )
+    samples = _zlg.Samples(floats(data), rate, called, "1", mask(valid))
+    options = _zlg.DeviationOptions(0.6827, 0.9, None, bias, 1)
+    d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, options))
     return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
 
 

@@ -14,6 +14,12 @@ from ._columns import floats, made_of, mask, signs
 from ._deviations import DataType, Floats, Unit
 from ._zlg import NoiseTerms
 
+__all__ = [
+    "DiscreteNoise", "FittedTerm", "ModeSplit", "NoiseFit", "NoiseTerms", "RateTable", "data_sheet",
+    "discrete_noise", "fit_noise", "imu_yaml", "rate_table", "read_imu_yaml", "spectrogram", "split_modes",
+    "terms_of_data_sheet", "welch_spectrum",
+]  # fmt: skip
+
 Estimate = Optional[tuple[float, float]]
 
 
@@ -70,11 +76,8 @@ def fit_noise(
 
     data  shape (samples,). Raises SeriesError: as `deviation`; fewer than 64 intervals.
     """
-    result = _zlg.fit_noise(
-        floats(data), rate_hz, data_type, unit, mask(valid), markov, most_sines, least_known_ratio, threads
-    )
-    result["fitted"] = [made_of(FittedTerm, each) for each in result["fitted"]]
-    return made_of(NoiseFit, result)
+    samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
+    return made_of(NoiseFit, _zlg.fit_noise(samples, markov, most_sines, least_known_ratio, threads))
 
 
 def data_sheet(terms: NoiseTerms) -> dict[str, float]:

@@ -55,6 +55,16 @@ class ControlOutput:
 
 class DesignError(Error, ValueError): ...
 
+class DeviationOptions:
+    def __init__(
+        self,
+        confidence: float,
+        least_known_ratio: float,
+        noise: Optional[int],
+        bias: str,
+        threads: int,
+    ) -> None: ...
+
 class DeviationStream:
     def __init__(
         self,
@@ -102,6 +112,8 @@ class HalfRecord:
     valid: bool
     edge_offset_ticks: int
     span: int
+    fringe: float
+    lit: bool
 
 class IoError(Error, OSError): ...
 
@@ -128,6 +140,16 @@ class NoiseTerms:
     def allan_variance(self, tau_s: ArrayLike) -> NDArray[np.float64]: ...
     def rate_spectrum(self, frequency_hz: ArrayLike, rate_hz: float) -> NDArray[np.float64]: ...
 
+class Samples:
+    def __init__(
+        self,
+        values: NDArray[np.float64],
+        rate_hz: float,
+        data_type: str,
+        unit: str,
+        valid: Optional[NDArray[np.uint8]],
+    ) -> None: ...
+
 class SensorFrame:
     def __init__(self) -> None: ...
     sequence: int
@@ -140,6 +162,10 @@ class SensorFrame:
     coil_current_a: float
     temperature_c: float
     status: int
+    has_fringe: bool
+    fringe_quarter: int
+    fringe_c: float
+    fringe_s: float
     @property
     def light_a(self) -> NDArray[np.float32]: ...
     @property
@@ -193,19 +219,11 @@ def design_gyro(config: CheckedConfig) -> dict[str, Any]: ...
 
 def deviation(
     kind: str,
-    values: NDArray[np.float64],
-    rate_hz: float,
-    data_type: str,
-    unit: str,
-    valid: Optional[NDArray[np.uint8]],
+    samples: Samples,
     taus: Union[str, list[float]],
     per_decade: int,
     drop_long_taus: bool,
-    confidence: float,
-    least_known_ratio: float,
-    noise: Optional[int],
-    bias: str,
-    threads: int,
+    options: DeviationOptions,
 ) -> dict[str, Any]: ...
 
 def discrete_noise(terms: NoiseTerms, rate_hz: float) -> dict[str, Any]: ...
@@ -213,11 +231,7 @@ def discrete_noise(terms: NoiseTerms, rate_hz: float) -> dict[str, Any]: ...
 def drift_arcsec_s(config: CheckedConfig, run_s: float, interval_s: ArrayLike, method: str) -> NDArray[np.float64]: ...
 
 def fit_noise(
-    values: NDArray[np.float64],
-    rate_hz: float,
-    data_type: str,
-    unit: str,
-    valid: Optional[NDArray[np.uint8]],
+    samples: Samples,
     markov: bool,
     most_sines: int,
     least_known_ratio: float,

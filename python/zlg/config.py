@@ -14,38 +14,13 @@ from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 from . import _zlg
+from . import sections as _sections
 from .section import give, given_of, keys_of
-from .sections import (  # noqa: F401
-    Analysis,
-    Compensation,
-    Design,
-    Drift,
-    Faults,
-    Gyro,
-    Laser,
-    Motion,
-    Perimeter,
-    Piezo,
-    Run,
-    Sections,
-    Switching,
-)
+from .sections import *
+from .sections import Sections
 
-__all__ = [
-    "Analysis",
-    "Compensation",
-    "Config",
-    "Design",
-    "Drift",
-    "Faults",
-    "Gyro",
-    "Laser",
-    "Motion",
-    "Perimeter",
-    "Piezo",
-    "Run",
-    "Switching",
-]
+__all__ = ["Config"]
+__all__ += _sections.__all__
 
 
 def _toml(value: Any) -> str:
@@ -66,7 +41,7 @@ def _toml(value: Any) -> str:
 class Config(Sections):
     """Everything configurable. The defaults are the gyro of the paper.
 
-    Members are the sections `run`, `gyro`, `laser`, `drift`, `perimeter`, `piezo`, `switching`, `compensation`, `motion`, `faults`,
+    Members are the sections `run`, `gyro`, `laser`, `drift`, `perimeter`, `piezo`, `photodiodes`, `switching`, `compensation`, `motion`, `faults`,
     `design` and `analysis`. A member that is None is unset. What is out of its range is refused by `check`, and by every function
     that takes a configuration, as ConfigError: key, value, what is allowed.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Optional
 
 from . import _zlg
-from ._columns import Progress, columns_of, made_of, tell
+from ._columns import Progress, columns_of, made_of, warn_each
 from ._zlg import ActuatorFrame, ControlOutput, HalfRecord, SensorFrame
 from .config import Config, checked, resolved
 from .logs import AngleLog, RawLog
@@ -38,15 +38,6 @@ class Control:
         return self._control.step(frame)
 
 
-def _require_facts(*configs: Config) -> None:
-    facts = [fact for fact in ("gyro.tick_s", "gyro.scale_arcsec") if not any(config.says(fact) for config in configs)]
-    if facts:
-        raise _zlg.ConfigError(
-            f"the log does not say {' and '.join(facts)}, for which there is no default; give {'it' if len(facts) == 1 else 'them'} "
-            f'in its settings, as ("{facts[0]}", "..."), or in the configuration'
-        )
-
-
 def compensate(raw: RawLog, config: Optional[Config] = None, progress: Progress = None) -> AngleLog:
     """A raw log through the compensation; the same bits as in the live run.
 
@@ -57,7 +48,6 @@ def compensate(raw: RawLog, config: Optional[Config] = None, progress: Progress 
     was recorded with another tick or scale; FormatError for a log without a whole tick; ValueError for columns that do not fit.
     """
     used = raw.config if config is None else config
-    _require_facts(raw.config, used)
     columns = _zlg.compensate(columns_of(raw), checked(used), raw.settings, raw.timer_hz, progress)
-    tell(columns["warnings"])
+    warn_each(columns["warnings"])
     return made_of(AngleLog, {**columns, "tick_s": used.gyro.tick_s})

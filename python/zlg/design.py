@@ -96,10 +96,7 @@ class Relock:
 
 def design_gyro(config: Optional[Config] = None) -> Design:
     """All of it for one gyro. Raises ConfigError; DesignError for a gyro without a budget."""
-    result = _zlg.design_gyro(resolved(config)[0])
-    result["intervals"] = [made_of(IntervalLine, each) for each in result["intervals"]]
-    result["substitution"] = [made_of(SubstitutionLine, each) for each in result["substitution"]]
-    return made_of(Design, result)
+    return made_of(Design, _zlg.design_gyro(resolved(config)[0]))
 
 
 def drift_arcsec_s(

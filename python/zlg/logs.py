@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _zlg
-from ._columns import Progress, columns_of, made_of, tell
+from ._columns import Progress, columns_of, made_of, warn_each
 from .config import Config, checked
 
-__all__ = ["AngleLog", "RawLog", "kind", "read_angles", "read_raw", "read_text_columns", "write_angles", "write_raw"]
+__all__ = ["AngleLog", "RawLog", "Switches", "kind", "read_angles", "read_raw", "read_text_columns", "write_angles", "write_raw"]
 
 Path = Union[str, os.PathLike[str]]
 
@@ -39,6 +39,10 @@ class RawLog:
     edge_offset_ticks: Optional[NDArray[np.int32]] = None
     #: counts go over so many halves, this one the last; those before it have valid False, counts 0, span 1
     span: Optional[NDArray[np.int32]] = None
+    #: place within the count at the end of the half, 0..65535 of 65536, nan where it is not known
+    fringe: Optional[NDArray[np.float64]] = None
+    #: both beams were lit and steady throughout the half: its counts are good, in an open loop too
+    lit: Optional[NDArray[np.bool_]] = None
     #: photodiodes, shape (halves, samples)
     light_a: Optional[NDArray[np.float32]] = None
     light_b: Optional[NDArray[np.float32]] = None
@@ -54,14 +58,29 @@ class RawLog:
 
     @property
     def config(self) -> Config:
-        """The configuration that the settings tell, over the defaults."""
+        """The configuration that the settings warn_each, over the defaults."""
         return Config.from_settings(self.settings)
 
     @property
     def tick_s(self) -> float:
-        """Length of a tick, two halves; NaN where the settings do not tell it."""
+        """Length of a tick, two halves; NaN where the settings do not warn_each it."""
         config = self.config
         return config.gyro.tick_s if config.says("gyro.tick_s") else math.nan
+
+
+@dataclass
+class Switches:
+    """Switches and what compensation made of them, arrays of shape (switches,); NaN where unknown."""
+
+    tick: NDArray[np.int64]
+    mode: NDArray[np.int32]
+    miss_lambda: NDArray[np.float64]
+    half_wave_v: NDArray[np.float64]
+    gap_ticks: NDArray[np.int64]
+    dp_arcsec: NDArray[np.float64]
+    relock_arcsec: NDArray[np.float64]
+    sigma_arcsec: NDArray[np.float64]
+    true_error_arcsec: NDArray[np.float64]
 
 
 @dataclass
@@ -83,6 +102,8 @@ class AngleLog:
     tick_s: float = math.nan
     settings: list[tuple[str, str]] = field(default_factory=list)
     complete: bool = True
+    #: what `compensate` found; None: of a log that was read
+    switches: Optional[Switches] = None
 
     def __len__(self) -> int:
         return len(self.flags)
@@ -117,7 +138,7 @@ def read_raw(path: Path, light: bool = True, progress: Progress = None) -> RawLo
     Warns of unknown columns, and of a last line without end. Raises IoError; FormatError: file, row, column, value, what is allowed.
     """
     columns = _zlg.read_raw(os.fspath(path), light, progress)
-    tell(columns["warnings"])
+    warn_each(columns["warnings"])
     return made_of(RawLog, columns)
 
 
@@ -136,7 +157,7 @@ def write_raw(
 def read_angles(path: Path, progress: Progress = None) -> AngleLog:
     """An angle log, CSV or HDF5; tick_s is NaN where it does not say it. Warns of unknown columns. Raises IoError, FormatError."""
     columns = _zlg.read_angles(os.fspath(path), progress)
-    tell(columns["warnings"])
+    warn_each(columns["warnings"])
     known = dict(columns["settings"]).get("tick_s") or dict(columns["settings"]).get("gyro.tick_s")
     columns["tick_s"] = float(known) if known else math.nan
     return made_of(AngleLog, columns)

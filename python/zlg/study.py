@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, floats, made_of, signs
-from .analysis import Deviations, FittedTerm, ModeSplit, NoiseFit
+from .analysis import Deviations, ModeSplit, NoiseFit
 from .config import Config, checked, resolved
-from .logs import AngleLog, RawLog
+from .logs import AngleLog, RawLog, Switches
 
 __all__ = [
     "Analysis",
@@ -52,21 +52,6 @@ class Variant:
     #: final less true angle over time, shape (points,)
     t_s: NDArray[np.float64]
     error_arcsec: NDArray[np.float64]
-
-
-@dataclass
-class Switches:
-    """The switches of the configured compensation, arrays of shape (switches,); NaN where unknown."""
-
-    tick: NDArray[np.int64]
-    mode: NDArray[np.int32]
-    miss_lambda: NDArray[np.float64]
-    half_wave_v: NDArray[np.float64]
-    gap_ticks: NDArray[np.int64]
-    dp_arcsec: NDArray[np.float64]
-    relock_arcsec: NDArray[np.float64]
-    sigma_arcsec: NDArray[np.float64]
-    true_error_arcsec: NDArray[np.float64]
 
 
 @dataclass
@@ -116,14 +101,10 @@ def run(
     """
     used, contradictions = resolved(config)
     result = _zlg.run(used, contradictions, raw, angles, page, threads, progress)
-    result["variants"] = [made_of(Variant, each) for each in result["variants"]]
-    result["switches"] = made_of(Switches, result["switches"])
     if raw:
-        facts = {"settings": used.settings(), "timer_hz": _zlg.timer_hz}
-        result["raw"] = made_of(RawLog, {**result["raw"], **facts})
+        result["raw"].update(settings=used.settings(), timer_hz=_zlg.timer_hz)
     if angles:
-        known = {"settings": _zlg.angle_settings(used), "tick_s": result["tick_s"]}
-        result["angles"] = made_of(AngleLog, {**result["angles"], **known})
+        result["angles"].update(settings=_zlg.angle_settings(used), tick_s=result["tick_s"])
     return made_of(RunResult, result)
 
 
@@ -152,9 +133,7 @@ def paper(
     config: Optional[Config] = None, threads: int = 1, switches_per_point: int = 2000, progress: Progress = None
 ) -> Paper:
     """Every figure and table of the paper recomputed, beside print and twin; about a minute. Raises ConfigError, DesignError."""
-    result = _zlg.paper(checked(config), threads, switches_per_point, progress)
-    result["claims"] = [made_of(Claim, each) for each in result["claims"]]
-    return made_of(Paper, result)
+    return made_of(Paper, _zlg.paper(checked(config), threads, switches_per_point, progress))
 
 
 @dataclass
@@ -249,16 +228,4 @@ def analyze(
         mode = None if axis.mode is None else signs(axis.mode)
         bridged = None if axis.bridged_arcsec_s is None else floats(axis.bridged_arcsec_s)
         records.add(axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged)
-    result = _zlg.analyze(checked(config), records, settling_samples, threads, progress)
-    for each in result["axes"]:
-        each["deviations"] = [made_of(Deviations, curve) for curve in each["deviations"]]
-        each["mode_curves"] = [made_of(Deviations, curve) for curve in each["mode_curves"]]
-        each["readouts"] = [made_of(Readout, readout) for readout in each["readouts"]]
-        if each["modes"] is not None:
-            each["modes"] = made_of(ModeSplit, each["modes"])
-        if each["fit"] is not None:
-            terms = [made_of(FittedTerm, term) for term in each["fit"]["fitted"]]
-            each["fit"] = made_of(NoiseFit, {**each["fit"], "fitted": terms})
-    result["axes"] = [made_of(AxisResult, each) for each in result["axes"]]
-    result["earth"] = [made_of(EarthLine, each) for each in result["earth"]]
-    return made_of(Analysis, result)
+    return made_of(Analysis, _zlg.analyze(checked(config), records, settling_samples, threads, progress))

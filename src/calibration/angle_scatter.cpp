@@ -5,9 +5,10 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr double rounding_counts2 = 0.25;
+constexpr double rounding_counts2 = 0.25;  // A(n) of the rounding alone, see the header
 // A variance from this many pairs is known to a third.
 constexpr std::int64_t min_pairs = 16;
+// A gyro at rest has no more than this times the expected variance, and no less than the inverse.
 constexpr double max_ratio = 4.0;
 
 }  // namespace

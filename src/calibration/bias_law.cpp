@@ -14,6 +14,8 @@
 namespace zlg::calibration {
 namespace {
 
+// Fewer readings do not tell their scatter. The settled record is cut so finely that it gives about `many_readings` of
+// them, if its segments are longer than that.
 constexpr std::int64_t min_readings = 8;
 constexpr double many_readings = 40.0;
 
@@ -50,15 +52,17 @@ std::vector<Reading> readings_of(std::span<const LabLog> logs) {
     return readings;
 }
 
-// Of the mean difference. A counter that stands rounds both kinds of border alike every time, 1/6 count^2; over m
-// counts the rounding runs through its period, and 1/360 m^-2 is left of it. Beyond that the random walk decides.
+// Expected variance of the mean difference. Where the angle stands, the counter rounds alike in every tick, with
+// 1/6 count^2. Where it goes on by m counts, the rounding runs through its period and leaves 1/(360 m^2). From 1.5
+// counts on the random walk is the larger part, and the variance falls no further.
 double expected_counts2(const Reading& r) {
     const double sweep = std::fmin(r.sweep_counts, 1.5);
     return 1.0 / (6.0 * (1.0 + 60.0 * sweep * sweep));
 }
 
-// A counter that shows one and the same number gives f0 to about a count, over how often it could have shown another:
-// once a reading, and once for each count that the angle has passed.
+// Where the counter shows one and the same number throughout, the scatter is 0 and tells nothing. f0 is then known to
+// about one count over the number of chances to show another: one a reading, and one for each count that the angle has
+// passed.
 double resolution_counts(const std::vector<Reading>& readings) {
     double chances = 2.0;
     for (const Reading& r : readings) chances += 1.0 + r.sweep_counts;
@@ -66,9 +70,9 @@ double resolution_counts(const std::vector<Reading>& readings) {
 }
 
 struct Columns {
-    Eigen::MatrixXd laws;
-    Eigen::VectorXd counts;
-    Eigen::VectorXd expected;
+    Eigen::MatrixXd laws;      // one column a parameter, to be filled
+    Eigen::VectorXd counts;    // measured
+    Eigen::VectorXd expected;  // variance of each
 
     Columns(const std::vector<Reading>& readings, Eigen::Index n_laws)
         : laws(std::ssize(readings), n_laws), counts(laws.rows()), expected(laws.rows()) {
@@ -119,7 +123,7 @@ void fit_law(const std::vector<Reading>& readings, double hz_per_count, BiasLaw&
     law.coefficient_taken_per_c = alpha;
 }
 
-// rms of the readings about the law, each in units of what is expected of it.
+// rms of the readings about the law, each over its expected standard deviation.
 double scatter_ratio(const std::vector<Reading>& readings, const BiasLaw& law, double hz_per_count) {
     double sum = 0.0;
     for (const Reading& r : readings) {

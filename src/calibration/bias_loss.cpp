@@ -1,6 +1,5 @@
 #include <zlg/calibration/bias_loss.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -8,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "cluster_scatter.hpp"
 #include "relock_borders.hpp"
 #include "settled.hpp"
 
@@ -54,14 +54,10 @@ Sums sums_of(const Borders& b) {
     return s;
 }
 
-// Scatter of the re-locks' own contributions: nothing is presumed of the noise within one of them.
 Eigen::Matrix2d scatter_covariance(const std::vector<Sums>& clusters, const Eigen::Matrix2d& inverse,
                                    const Eigen::Vector2d& solution) {
-    Eigen::Matrix2d meat = Eigen::Matrix2d::Zero();
-    for (const Sums& s : clusters) {
-        const Eigen::Vector2d score = s.c - s.a * solution;
-        meat += score * score.transpose();
-    }
+    const Eigen::Matrix2d meat =
+        cluster_scatter(clusters, [&](const Sums& s) -> Eigen::Vector2d { return s.c - s.a * solution; });
     const auto n = static_cast<double>(clusters.size());
     const double factor = numeric::widened(1.0, n - 2.0);
     return factor * factor * n / (n - 2.0) * (inverse * meat * inverse);
@@ -100,7 +96,7 @@ double resolution(const BiasLoss& loss) {
     return std::sqrt(rounding_counts2) / (loss.deficit_counts * static_cast<double>(1 + loss.n_relocks));
 }
 
-// Why the column cannot tell chi; empty where it may.
+// Why chi cannot follow from the column; empty where it may.
 std::string why_useless(const Relocks& relocks) {
     double least = std::numeric_limits<double>::infinity();
     double most = -least;

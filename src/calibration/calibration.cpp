@@ -1,6 +1,5 @@
 #include <zlg/calibration/calibration.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -82,6 +81,7 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
     const BiasLaw bias = find_bias_law(logs, reference_c, presumed.bias_temperature_coefficient_per_c);
     c.curve = find_curve(logs, bias, presumed);
     const std::vector<LabLog> straight = c.curve.determined ? straightened(logs, c.curve) : std::vector<LabLog>{};
+    // Those of which the detuning is used, by the curve where there is one.
     const std::span<const LabLog> seen = c.curve.determined ? std::span{straight} : logs;
     add(bias, find_bias_loss(seen, bias), c);
     if (c.curve.determined)
@@ -91,7 +91,7 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
         find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c);
     add(half_wave, find_detuning_scale(seen, half_wave, presumed.stepped_voltage), c);
     add(find_drift_law(logs, presumed.scale_arcsec, presumed.rate_arcsec_s, bias), c);
-    // What no number says, the refusal of its constant says in words.
+    // A goodness that is no number is left out: the reason stands with its constant, which is not determined.
     std::erase_if(c.goodness, [](const Goodness& g) { return !std::isfinite(g.value); });
     return c;
 }

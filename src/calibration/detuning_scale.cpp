@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "cluster_scatter.hpp"
 #include "relock_view.hpp"
 
 namespace zlg::calibration {
@@ -18,12 +19,12 @@ constexpr std::int64_t min_clusters = 4;
 constexpr double cubic_noise = 340.0 / 576.0;
 // Of what the cubic corrects the straight line by, this part may be missing from the true transient.
 constexpr double cubic_uncertainty = 0.1;
-// Beyond this part of the scale even the cubic does not follow the transient: an exponential that falls to 0.6 in a half is
-// corrected by 2 %, and by 1 part in 1000 wrongly.
+// Beyond this part of the scale even the cubic does not follow the transient: an exponential that falls to 0.6 in a
+// half is corrected by 2 %, and by 1 part in 1000 wrongly.
 constexpr double max_correction = 0.025;
 
 // A digital loop that brings the mean square of the detuning down to less than this from one half to the next goes by
-// steps of which the readings at their ends tell too little.
+// steps that the readings at their ends do not resolve.
 constexpr double min_stepped_fall = 0.13;
 
 // Logged mean detunings of one re-lock against columns of travel, as sums of products; less what the noise of the
@@ -133,11 +134,8 @@ Fit fit(const Relocks& relocks, const HalfWaveLaw& law, Eigen::Index columns, Ma
     if (result.n_relocks < min_clusters) return result;
     const Eigen::MatrixXd inverse = total.xx.inverse();
     const Eigen::VectorXd solution = inverse * total.xy;
-    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(columns, columns);
-    for (const Cluster& c : clusters) {
-        const Eigen::VectorXd score = c.xy - c.xx * solution;
-        scores += score * score.transpose();
-    }
+    const Eigen::MatrixXd scores =
+        cluster_scatter(clusters, [&](const Cluster& c) -> Eigen::VectorXd { return c.xy - c.xx * solution; });
     const auto n = static_cast<double>(clusters.size());
     const auto dof = n - static_cast<double>(columns);
     const Eigen::MatrixXd covariance = inverse * scores * inverse * (n / dof);
@@ -166,9 +164,8 @@ DetuningScale find_detuning_scale(std::span<const LabLog> logs, const HalfWaveLa
     }
     if (stepped_voltage && relocks.steepest_fall < min_stepped_fall) {
         result.scale = numeric::refused(
-            fmt::format("the mean square of the detuning falls to {:.2g} of it from one half to the next, "
-                        "allowed is {:g} for a digital "
-                        "loop: its course within a half is not seen; a slower loop would tell",
+            fmt::format("the mean square of the detuning falls to {:.2g} of it from one half to the next, allowed is "
+                        "{:g} for a digital loop: its course within a half is not seen; a slower loop would tell",
                         relocks.steepest_fall, min_stepped_fall));
         return result;
     }

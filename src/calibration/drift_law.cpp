@@ -15,9 +15,11 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr std::int64_t min_pieces = 8;
-constexpr double wanted_pieces = 500.0;
-constexpr double turned_between = 2.0;   // counts
+constexpr std::int64_t min_pieces = 8;   // twice the coefficients of the law with its tau
+constexpr double wanted_pieces = 500.0;  // a fit costs their number, more add nothing to a law this smooth
+// Counts between the borders of a piece: the fraction of the count at a border is then as good as uniform and
+// independent.
+constexpr double turned_between = 2.0;
 constexpr double min_bend_sigmas = 4.0;  // of A, and of a straight growth
 constexpr double max_time_error = 0.2;   // of tau, relative
 
@@ -30,7 +32,7 @@ std::vector<Piece> turning_pieces(std::span<const LabLog> logs) {
     return pieces_of(logs, std::max(all_s / wanted_pieces, turned_between * all_s / std::max(turned_counts, 1.0)));
 }
 
-// Counts that a bias growing with temperature takes from a tick, for the half that comes second has more of it:
+// Counts that a tick lacks while the bias grows with temperature, for the half that comes second has more of it:
 // s (T/4) df/dt a second. They follow the helicity as a magnetic drift does, and are put back.
 double counts_of_warming(const Piece& p, const BiasLaw& bias, double tick_s) {
     if (!bias.bias_hz.determined || !std::isfinite(p.signed_rise_c)) return 0.0;
@@ -108,8 +110,10 @@ struct Exponential {
     bool determined = false;
 };
 
-// The residual as a function of log tau alone: the other coefficients follow linearly. The walk is found again at the
-// tau found.
+// Separable nonlinear least squares (Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973): the residual as a function of log
+// tau alone, for the other coefficients follow linearly. It is scanned from 1/300 of the longest log, where the bend is
+// over within the first few pieces, to 10 times it, where the growth is straight. Each of three rounds finds the walk
+// again at the tau found.
 Exponential fit_exponential(const Record& record) {
     Exponential e;
     double walk = fit_walk(record.angles, straight_laws(record), record.border_variance).walk_variance_per_s;
@@ -168,7 +172,8 @@ void take(const Record& record, const IncrementFit& fit, DriftLaw& law) {
     law.dof = fit.dof;
     const double walk = std::sqrt(fit.walk_variance_per_s);
     const double walk_sigma = fit.walk_variance_sigma / (2.0 * walk);
-    // A walk that the rounding hides must not be claimed where its estimate happens to come out large.
+    // Below the rounding the estimate scatters widely; a large one by chance must not be reported. What counts is
+    // therefore its lower bound of two standard deviations.
     const double surely = fit.walk_variance_per_s - 2.0 * fit.walk_variance_sigma;
     if (walk_sigma < 0.3 * walk && walk_shows(record, surely))
         law.random_walk_arcsec_sqrt_s = numeric::estimated(walk, walk_sigma);
@@ -184,8 +189,7 @@ std::string why_no_bend(const Record& record, const IncrementFit& straight) {
         return fmt::format("over {:.4g} s the magnetic drift does not change by more than its error", record.span_s);
     return fmt::format(
         "over {:.4g} s the magnetic drift grows by {:.3g} +- {:.2g} arcsec/s in 1000 s; where it ends is not seen, so "
-        "only "
-        "A/tau is",
+        "only A/tau is",
         record.span_s, 1e3 * slope, 1e3 * sigma(straight, 2));
 }
 

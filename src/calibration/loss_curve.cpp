@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "cluster_scatter.hpp"
 #include "relock_borders.hpp"
 
 namespace zlg::calibration {
@@ -71,7 +72,6 @@ struct Fit {
     }
 };
 
-// The scatter of the re-locks' own contributions makes the covariance: nothing is presumed of the noise within one.
 Fit fitted(const std::vector<RelockBorders>& all) {
     const Eigen::Index columns = all.front().x.cols();
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(columns, columns);
@@ -81,19 +81,19 @@ Fit fitted(const std::vector<RelockBorders>& all) {
         information += b.x.transpose() * b.x;
         products += b.x.transpose() * b.y;
     }
-    // The terms resemble each other: what the logs do not tell apart stays small.
+    // The terms resemble each other: by the pseudo-inverse a combination that the logs do not determine stays small.
     const Eigen::MatrixXd inverse = information.completeOrthogonalDecomposition().pseudoInverse();
     fit.coefficient = inverse * products;
-    Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(columns, columns);
     double dof = -static_cast<double>(columns);
     fit.residual = 0.0;
     for (const RelockBorders& b : all) {
-        const Eigen::VectorXd left = b.y - b.x * fit.coefficient;
-        fit.residual += left.squaredNorm();
+        fit.residual += (b.y - b.x * fit.coefficient).squaredNorm();
         dof += static_cast<double>(b.y.size() - 1);
-        const Eigen::VectorXd score = b.x.transpose() * left;
-        scatter += score * score.transpose();
     }
+    const Eigen::MatrixXd scatter = cluster_scatter(all, [&](const RelockBorders& b) -> Eigen::VectorXd {
+        const Eigen::VectorXd left = b.y - b.x * fit.coefficient;
+        return b.x.transpose() * left;
+    });
     const double n = static_cast<double>(all.size());
     const RepeatedRounding repeated = repeated_rounding(all, fit.coefficient);
     fit.repeats = repeated.ratio;

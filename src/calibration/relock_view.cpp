@@ -1,7 +1,6 @@
 #include "relock_view.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace zlg::calibration {
 namespace {
@@ -14,19 +13,13 @@ std::vector<double> settled_counts(const LabLog& log) {
     return counts;
 }
 
-bool is_whole(const Relock& relock) {
-    return relock.halves.size() == relock_halves &&
-           std::all_of(relock.halves.begin(), relock.halves.end(),
-                       [](const core::HalfRecord& r) { return std::isfinite(r.detuning_sq_lambda2); });
-}
-
 void collect(const LabLog& log, std::vector<RelockView>& views) {
     if (!log.has_square()) return;
     const std::vector<double> counts = settled_counts(log);
     for (const Relock& relock : log.relocks) {
         const auto index = static_cast<std::size_t>(relock.segment);
         const Segment& segment = log.segments[index];
-        if (!is_whole(relock) || segment.n_settled < block_ticks) continue;
+        if (!is_whole(relock, &core::HalfRecord::detuning_sq_lambda2) || segment.n_settled < block_ticks) continue;
         views.push_back({&log, &relock, counts[index] / static_cast<double>(2 * segment.n_settled)});
     }
 }

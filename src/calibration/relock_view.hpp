@@ -6,8 +6,6 @@
 
 #include <zlg/calibration/lab_log.hpp>
 
-#include "settled.hpp"
-
 namespace zlg::calibration {
 
 struct RelockView {

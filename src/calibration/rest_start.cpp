@@ -1,6 +1,5 @@
 #include "rest_start.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,16 +11,10 @@ constexpr double noise_sigmas = 4.0;
 constexpr double as_long_again = 1.5;
 constexpr std::size_t tail_halves = 8;
 
-bool is_whole(const Relock& relock) {
-    return relock.halves.size() == relock_halves &&
-           std::all_of(relock.halves.begin(), relock.halves.end(),
-                       [](const core::HalfRecord& r) { return std::isfinite(r.detuning_lambda); });
-}
-
 std::vector<Moments> decay_of(const std::vector<Relock>& relocks) {
     std::vector<Moments> decay(relock_halves);
     for (const Relock& relock : relocks) {
-        if (!is_whole(relock)) continue;
+        if (!is_whole(relock, &core::HalfRecord::detuning_lambda)) continue;
         const double sign = std::copysign(1.0, relock.halves.front().detuning_lambda);
         for (std::size_t h = 0; h < relock_halves; ++h) decay[h].add(sign * relock.halves[h].detuning_lambda);
     }

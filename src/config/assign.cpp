@@ -40,15 +40,22 @@ struct Reader {
                                       wanted, type_name(given), allowed_text(key)));
     }
 
+    [[noreturn]] void refuse_value(std::string_view given) const {
+        throw ConfigError(fmt::format("{} = {}: allowed is {}", dotted(key), given, allowed_text(key)));
+    }
+
     [[nodiscard]] double real(const toml::node& given) const {
         if (given.is_integer()) return static_cast<double>(given.as_integer()->get());
         if (!given.is_floating_point()) refuse(given, "a number");
         return given.as_floating_point()->get();
     }
 
-    [[nodiscard]] std::int64_t integer() const {
+    // Within its range already, for the member may hold no other.
+    [[nodiscard]] std::int64_t integer(const Integer& slot) const {
         if (!node.is_integer()) refuse(node, "an integer");
-        return node.as_integer()->get();
+        const std::int64_t value = node.as_integer()->get();
+        if (!contains(slot, value)) refuse_value(fmt::format("{}", value));
+        return value;
     }
 
     [[nodiscard]] std::string text() const { return text(node); }
@@ -60,9 +67,7 @@ struct Reader {
 
     [[nodiscard]] int choice(const toml::node& given, std::span<const std::string_view> names) const {
         const auto found = std::ranges::find(names, std::string_view{text(given)});
-        if (found == names.end()) {
-            throw ConfigError(fmt::format("{} = {}: allowed is {}", dotted(key), node_text(given), allowed_text(key)));
-        }
+        if (found == names.end()) refuse_value(node_text(given));
         return static_cast<int>(found - names.begin());
     }
 
@@ -96,8 +101,7 @@ struct Assign {
 
     void operator()(const Real& slot) const { slot.value(config) = read.real(read.node); }
     void operator()(const OptionalReal& slot) const { slot.value(config) = read.real(read.node); }
-    void operator()(const Integer& slot) const { slot.value(config) = read.integer(); }
-    void operator()(const Sign& slot) const { slot.value(config) = read.integer(); }
+    void operator()(const Integer& slot) const { slot.set(config, read.integer(slot)); }
     void operator()(const Text& slot) const { slot.value(config) = read.text(); }
     void operator()(const RealList& slot) const { slot.value(config) = read.list(); }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
@@ -28,8 +27,7 @@ void check_bridge(const Config& config) {
     if (c.prior_line_hz.empty() || c.prior_line_hz.size() != c.prior_line_arcsec_s.size()) {
         throw ConfigError(
             fmt::format("compensation.prior_line_hz: {} numbers, compensation.prior_line_arcsec_s: {}; allowed are as "
-                        "many of each, "
-                        "one at least",
+                        "many of each, one at least",
                         c.prior_line_hz.size(), c.prior_line_arcsec_s.size()));
     }
 }

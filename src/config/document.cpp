@@ -20,7 +20,6 @@ struct TellKind {
     void operator()(const Real&) const { info.kind = ValueKind::real; }
     void operator()(const OptionalReal&) const { info.kind = ValueKind::optional_real; }
     void operator()(const Integer&) const { info.kind = ValueKind::integer; }
-    void operator()(const Sign&) const { info.kind = ValueKind::integer; }
     void operator()(const Text&) const { info.kind = ValueKind::text; }
     void operator()(const RealList&) const { info.kind = ValueKind::reals; }
     void operator()(const Column&) const { info.kind = ValueKind::column; }

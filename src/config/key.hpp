@@ -16,40 +16,69 @@
 
 namespace zlg::config {
 
-// The member of a section, to be named in the table: at<&Config::gyro, &Gyro::tick_s>.
 template <auto Section, auto Member>
-constexpr auto& at(Config& config) {
-    return config.*Section.*Member;
-}
+using TypeOf = std::remove_reference_t<decltype(std::declval<Config&>().*Section.*Member)>;
+
+// A member of a section, to be read and to be set.
+template <class T>
+struct Place {
+    const T& (*read)(const Config&);
+    T& (*change)(Config&);
+
+    const T& operator()(const Config& config) const { return read(config); }
+    T& operator()(Config& config) const { return change(config); }
+};
+
+// As it is named in the table: at<&Config::gyro, &Gyro::tick_s>.
+template <auto Section, auto Member>
+inline constexpr Place<TypeOf<Section, Member>> at{
+    [](const Config& c) -> const TypeOf<Section, Member>& { return c.*Section.*Member; },
+    [](Config& c) -> TypeOf<Section, Member>& { return c.*Section.*Member; }};
 
 struct Real {
-    double& (*value)(Config&);
+    Place<double> value;
     Range range;
 };
 
 struct OptionalReal {
-    std::optional<double>& (*value)(Config&);
+    Place<std::optional<double>> value;
     Range range;
 };
 
 struct Integer {
-    std::int64_t& (*value)(Config&);
+    std::int64_t (*get)(const Config&);
+    void (*set)(Config&, std::int64_t);
     std::int64_t min;
     std::int64_t max;
+    bool without_between = false;  // the ends alone, as of a sign
 };
 
-// -1 or +1.
-struct Sign {
-    std::int64_t& (*value)(Config&);
-};
+// A member of any integer type that holds min..max.
+template <auto Section, auto Member>
+constexpr Integer integer(std::int64_t min, std::int64_t max) {
+    using Type = TypeOf<Section, Member>;
+    return {[](const Config& c) { return static_cast<std::int64_t>(c.*Section.*Member); },
+            [](Config& c, std::int64_t value) { c.*Section.*Member = static_cast<Type>(value); }, min, max};
+}
+
+template <auto Section, auto Member>
+constexpr Integer sign() {
+    Integer made = integer<Section, Member>(-1, 1);
+    made.without_between = true;
+    return made;
+}
+
+[[nodiscard]] constexpr bool contains(const Integer& slot, std::int64_t value) {
+    return slot.without_between ? value == slot.min || value == slot.max : value >= slot.min && value <= slot.max;
+}
 
 struct Text {
-    std::string& (*value)(Config&);
+    Place<std::string> value;
 };
 
 // One number or an array of at least one; or of none, which is unset.
 struct RealList {
-    std::vector<double>& (*value)(Config&);
+    Place<std::vector<double>> value;
     Range range;
     bool may_be_empty = false;
 };
@@ -63,13 +92,13 @@ struct ChoiceList {
 
 // A column of a text file, by its number or its name; empty while unset. Number 0, where it is allowed, means none.
 struct Column {
-    std::string& (*value)(Config&);
+    Place<std::string> value;
     bool may_be_none = false;
 };
 
 // Any number of columns; one alone needs no array.
 struct ColumnList {
-    std::vector<std::string>& (*value)(Config&);
+    Place<std::vector<std::string>> value;
 };
 
 // [switching] interval_s: a number, or "optimal".
@@ -86,21 +115,21 @@ struct Choice {
 
 template <auto Section, auto Member>
 constexpr Choice choice(std::span<const std::string_view> names) {
-    using Enum = std::remove_reference_t<decltype(std::declval<Config&>().*Section.*Member)>;
+    using Enum = TypeOf<Section, Member>;
     return {names, [](const Config& c) { return static_cast<int>(c.*Section.*Member); },
             [](Config& c, int index) { c.*Section.*Member = static_cast<Enum>(index); }};
 }
 
 template <auto Section, auto Member>
 constexpr Choice optional_choice(std::span<const std::string_view> names) {
-    using Enum = typename std::remove_reference_t<decltype(std::declval<Config&>().*Section.*Member)>::value_type;
+    using Enum = typename TypeOf<Section, Member>::value_type;
     return {names, [](const Config& c) { return (c.*Section.*Member) ? static_cast<int>(*(c.*Section.*Member)) : -1; },
             [](Config& c, int index) { c.*Section.*Member = static_cast<Enum>(index); }};
 }
 
 template <auto Section, auto Member>
 constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
-    using Enum = typename std::remove_reference_t<decltype(std::declval<Config&>().*Section.*Member)>::value_type;
+    using Enum = typename TypeOf<Section, Member>::value_type;
     return {names,
             [](const Config& c) {
                 std::vector<int> indices;
@@ -114,7 +143,7 @@ constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
 }
 
 using Slot =
-    std::variant<Real, OptionalReal, Integer, Sign, Text, RealList, ChoiceList, Interval, Choice, Column, ColumnList>;
+    std::variant<Real, OptionalReal, Integer, Text, RealList, ChoiceList, Interval, Choice, Column, ColumnList>;
 
 struct Key {
     std::string_view section;

@@ -1,6 +1,8 @@
 #include <array>
 #include <limits>
 
+#include <zlg/core/records.hpp>
+
 #include "key.hpp"
 
 namespace zlg::config {
@@ -9,10 +11,13 @@ namespace {
 
 using C = Config;
 
+// The names of the enumerators of each choice, in the order of its enumeration: a name stands for the number of its
+// place.
 constexpr std::array<std::string_view, 3> loops{"analog", "exponential", "digital"};
 constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "random"};
 constexpr std::array<std::string_view, 2> fidelities{"averaged", "laser"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
+constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
 constexpr std::array<std::string_view, 2> last_segments{"any", "half"};
 constexpr std::array<std::string_view, 3> schedules{"fixed", "growing", "measured"};
@@ -49,6 +54,7 @@ constexpr Range presumed_drift{.min = -1e6, .max = 1e6};
 
 constexpr Range curve_node{.min = -1e3, .max = 1e3};
 constexpr Range curve_centre{.min = -0.2, .max = 0.2};
+constexpr Range diode_offset{.min = -1.0, .max = 1.0};
 constexpr Range slope{.min = -1e6, .max = 1e6, .min_size = 1e-6};
 constexpr Range within_a_million{.min = -1e6, .max = 1e6, .without_min = true, .without_max = true};
 
@@ -57,9 +63,9 @@ const Key table[] = {
     {"run", "duration_s", "s", "length of the run; unset: 3600, or the length of the motion file",
      OptionalReal{at<&C::run, &Run::duration_s>, {.min = 0.0, .max = 1e9, .without_min = true}}},
     {"run", "seed", "", "seed of all random numbers; the same seed gives the same run",
-     Integer{at<&C::run, &Run::seed>, 0, int64_max}},
+     integer<&C::run, &Run::seed>(0, int64_max)},
 
-    {"gyro", "fidelity", "", "physics of a simulated gyro: told by [gyro] and [drift], or following from [laser]",
+    {"gyro", "fidelity", "", "physics of a simulated gyro: given by [gyro] and [drift], or derived from [laser]",
      choice<&C::gyro, &Gyro::fidelity>(fidelities)},
     {"gyro", "tick_s", "s", "length of a tick: two half-periods of the bias",
      Real{at<&C::gyro, &Gyro::tick_s>, {.min = 1e-6, .max = 10.0}}},
@@ -72,14 +78,15 @@ const Key table[] = {
     {"gyro", "bias_edge_s", "s", "duration of a reversal of the bias field; below half a tick",
      Real{at<&C::gyro, &Gyro::bias_edge_s>, non_negative}},
     {"gyro", "first_bias_sign", "", "sign of the bias in the first half of every tick",
-     Sign{at<&C::gyro, &Gyro::first_bias_sign>}},
+     sign<&C::gyro, &Gyro::first_bias_sign>()},
     {"gyro", "reference_temperature_c", "C", "temperature at which bias_hz holds",
      Real{at<&C::gyro, &Gyro::reference_temperature_c>, within_a_million}},
     {"gyro", "temperature_rise_c", "C", "warming of the gyro in operation, approached with drift.thermal_time_s",
      Real{at<&C::gyro, &Gyro::temperature_rise_c>, any_finite}},
     {"gyro", "bias_temperature_coefficient_per_c", "1/C", "relative change of the bias frequency with temperature",
      Real{at<&C::gyro, &Gyro::bias_temperature_coefficient_per_c>, any_finite}},
-    {"gyro", "light_samples", "", "samples of the light in a half", Integer{at<&C::gyro, &Gyro::light_samples>, 1, 64}},
+    {"gyro", "light_samples", "", "samples of the light in a half",
+     integer<&C::gyro, &Gyro::light_samples>(1, core::max_light_samples)},
     {"gyro", "light_noise_lambda", "lambda", "noise of one light sample, white, as detuning",
      Real{at<&C::gyro, &Gyro::light_noise_lambda>, non_negative}},
     {"gyro", "discriminator_per_lambda", "1/lambda", "(I1 - I2)/(I1 + I2) per wavelength of detuning",
@@ -89,6 +96,10 @@ const Key table[] = {
     {"gyro", "counter_max_hz", "Hz",
      "fringe rate above which the counter loses counts; unset: 1.01 times that of bias_hz and 400 deg/s",
      OptionalReal{at<&C::gyro, &Gyro::counter_max_hz>, positive}},
+
+    {"gyro", "readout", "",
+     "what is latched of the beat: whole counts, or with both photodiodes the place within the fringe too",
+     choice<&C::gyro, &Gyro::readout>(readouts)},
 
     {"laser", "perimeter_m", "m", "length of the ring",
      Real{at<&C::laser, &Laser::perimeter_m>, {.min = 1e-3, .max = 1e3}}},
@@ -148,17 +159,16 @@ const Key table[] = {
      Real{at<&C::perimeter, &Perimeter::expansion_lambda_per_c>, any_finite}},
     {"perimeter", "relock_halves", "",
      "digital loop: halves after closing in which it corrects nearly all it sees; 0: the plain integrator of tau_s",
-     Integer{at<&C::perimeter, &Perimeter::relock_halves>, 0, 1000000}},
+     integer<&C::perimeter, &Perimeter::relock_halves>(0, 1000000)},
     {"perimeter", "sample_gain", "", "digital loop, in these halves: part of the detuning corrected per light sample",
      Real{at<&C::perimeter, &Perimeter::sample_gain>, {.min = 1e-9, .max = 1.0}}},
     {"perimeter", "settled_tau_s", "s", "digital loop, after these halves: its time constant",
      Real{at<&C::perimeter, &Perimeter::settled_tau_s>, {.min = 0.0, .max = 1e6, .without_min = true}}},
     {"perimeter", "set_points", "", "set-points a half, of an open loop and of a digital one with relock_halves",
-     Integer{at<&C::perimeter, &Perimeter::set_points>, 1, 16}},
+     integer<&C::perimeter, &Perimeter::set_points>(1, core::max_set_points)},
     {"perimeter", "discriminator_detuning_lambda", "lambda",
-     "calibrated points of the discriminator besides 0, growing, 31 at most on a side; those above 0 alone: the other "
-     "side "
-     "is their mirror image; none: gyro.discriminator_per_lambda alone",
+     "calibrated points of the discriminator besides 0, growing, 31 at most on a side; those above 0 alone: the "
+     "other side is their mirror image; none: gyro.discriminator_per_lambda alone",
      RealList{at<&C::perimeter, &Perimeter::discriminator_detuning_lambda>, curve_node, true}},
     {"perimeter", "discriminator_signal", "",
      "(I1 - I2)/(I1 + I2) at each of these detunings, of the same sign, growing",
@@ -193,11 +203,28 @@ const Key table[] = {
      Real{at<&C::piezo, &Piezo::mirror_hz>, {.min = 100.0, .max = 1e6, .or_zero = true}}},
     {"piezo", "mirror_damping", "", "damping of that resonance, as a part of the critical",
      Real{at<&C::piezo, &Piezo::mirror_damping>, {.min = 1e-3, .max = 0.999}}},
-    {"piezo", "dac_bits", "", "resolution of the set-point", Integer{at<&C::piezo, &Piezo::dac_bits>, 1, 24}},
+    {"piezo", "dac_bits", "", "resolution of the set-point", integer<&C::piezo, &Piezo::dac_bits>(1, 24)},
     {"piezo", "adc_bits", "", "resolution of the voltage that is read back",
-     Integer{at<&C::piezo, &Piezo::adc_bits>, 1, 24}},
+     integer<&C::piezo, &Piezo::adc_bits>(1, 24)},
     {"piezo", "adc_noise_v", "V", "noise of the voltage that is read back",
      Real{at<&C::piezo, &Piezo::adc_noise_v>, non_negative}},
+
+    {"photodiodes", "offset_cosine", "", "offset of the cosine's photodiode, over the amplitude of the beat",
+     Real{at<&C::photodiodes, &Photodiodes::offset_cosine>, diode_offset}},
+    {"photodiodes", "offset_sine", "", "offset of the sine's photodiode, over the amplitude of the beat",
+     Real{at<&C::photodiodes, &Photodiodes::offset_sine>, diode_offset}},
+    {"photodiodes", "amplitude_error", "", "amplitude of the sine's photodiode over the cosine's, less 1",
+     Real{at<&C::photodiodes, &Photodiodes::amplitude_error>, {.min = -1.0, .max = 0.5}}},
+    {"photodiodes", "angle_error_deg", "deg", "angle between the photodiodes, less 90",
+     Real{at<&C::photodiodes, &Photodiodes::angle_error_deg>, {.min = -90.0, .max = 90.0}}},
+    {"photodiodes", "noise", "", "noise of one sample, white, over the amplitude of the beat; also what is presumed",
+     Real{at<&C::photodiodes, &Photodiodes::noise>, {.min = 0.0, .max = 1.0}}},
+    {"photodiodes", "adc_bits", "", "resolution of the samples, for twice the amplitude of either sign",
+     integer<&C::photodiodes, &Photodiodes::adc_bits>(1, 24)},
+    {"photodiodes", "skew_s", "s", "from the latch of the counter to the sampling of the photodiodes",
+     Real{at<&C::photodiodes, &Photodiodes::skew_s>, {.min = -1e-3, .max = 1e-3}}},
+    {"photodiodes", "jitter_s", "s", "scatter of that time",
+     Real{at<&C::photodiodes, &Photodiodes::jitter_s>, {.min = 0.0, .max = 1e-3}}},
 
     {"switching", "interval_s", "s", "from one opening of the loop to the next; at least gap_ticks + 2 ticks",
      Interval{long_interval}},
@@ -208,8 +235,7 @@ const Key table[] = {
      choice<&C::switching, &Switching::last_segment>(last_segments)},
     {"switching", "schedule", "",
      "fixed: a grid of interval_s; growing: with the cube root of time; measured: by the errors of the switches and "
-     "the "
-     "drift that compensation finds",
+     "the drift that compensation finds",
      choice<&C::switching, &Switching::schedule>(schedules)},
     {"switching", "interval_min_s", "s", "shortest interval of a schedule that is not fixed",
      Real{at<&C::switching, &Switching::interval_min_s>, long_interval}},
@@ -221,24 +247,24 @@ const Key table[] = {
     {"switching", "magnetic_arcsec_s", "arcsec/s", "drift that changes its sign with the mode, presumed likewise",
      Real{at<&C::switching, &Switching::magnetic_arcsec_s>, schedule_number}},
     {"switching", "gap_ticks", "", "ticks for which the loop stays open at a switch",
-     Integer{at<&C::switching, &Switching::gap_ticks>, 1, 16}},
+     integer<&C::switching, &Switching::gap_ticks>(1, 16)},
     {"switching", "gap_min_ticks", "",
      "from so many ticks on the loop closes as soon as light and piezo have arrived; up to gap_ticks, 0: gap_ticks",
-     Integer{at<&C::switching, &Switching::gap_min_ticks>, 0, 16}},
+     integer<&C::switching, &Switching::gap_min_ticks>(0, 16)},
 
     {"compensation", "relock", "",
      "correction of the false drift after closing; unset: mean_square where the log has detuning, none where not",
      optional_choice<&C::compensation, &Compensation::relock>(relocks)},
     {"compensation", "relock_ticks", "", "ticks after closing that are corrected",
-     Integer{at<&C::compensation, &Compensation::relock_ticks>, 0, 1000000}},
+     integer<&C::compensation, &Compensation::relock_ticks>(0, 1000000)},
     {"compensation", "bridge", "", "what replaces the ticks of a gap",
      choice<&C::compensation, &Compensation::bridge>(bridges)},
     {"compensation", "extrapolation_points", "", "measured ticks before a gap from which it is extrapolated",
-     Integer{at<&C::compensation, &Compensation::extrapolation_points>, 1, 8}},
+     integer<&C::compensation, &Compensation::extrapolation_points>(1, 8)},
     {"compensation", "points_before", "", "measured ticks before a gap from which it is interpolated",
-     Integer{at<&C::compensation, &Compensation::points_before>, 1, 8}},
+     integer<&C::compensation, &Compensation::points_before>(1, 8)},
     {"compensation", "points_after", "", "measured ticks after a gap from which it is interpolated",
-     Integer{at<&C::compensation, &Compensation::points_after>, 1, 8}},
+     integer<&C::compensation, &Compensation::points_after>(1, 8)},
     {"compensation", "prior", "",
      "what bridge = optimal presumes of the motion: what it learnt between gaps, a flat band of rates, or known lines",
      choice<&C::compensation, &Compensation::prior>(priors)},
@@ -286,7 +312,7 @@ const Key table[] = {
     {"motion", "comment", "", "lines of the file that begin with this are skipped",
      Text{at<&C::motion, &Motion::comment>}},
     {"motion", "skip_lines", "", "lines of numbers to skip at the head of the file",
-     Integer{at<&C::motion, &Motion::skip_lines>, 0, int32_max}},
+     integer<&C::motion, &Motion::skip_lines>(0, int32_max)},
     {"motion", "separator", "", "what parts the columns of the file; auto: recognised, together with the decimal mark",
      choice<&C::motion, &Motion::separator>(separators)},
     {"motion", "decimal", "", "decimal mark of the file; auto: recognised, together with the separator",
@@ -307,14 +333,13 @@ const Key table[] = {
     {"faults", "random_per_hour", "1/h", "more of them at random moments",
      Real{at<&C::faults, &Faults::random_per_hour>, {.min = 0.0, .max = 1e6}}},
     {"faults", "random_seed", "", "seed of their moments, kinds, durations and sizes",
-     Integer{at<&C::faults, &Faults::random_seed>, 0, int64_max}},
+     integer<&C::faults, &Faults::random_seed>(0, int64_max)},
     {"faults", "random_kinds", "", "their kinds; none: all",
      choice_list<&C::faults, &Faults::random_kinds>(twin::fault_kind_names)},
 
     {"design", "switch_error_arcsec", "arcsec",
      "error of the angle that one switch leaves: the dP of the paper's budgets; given, also the rms for interval_s = "
-     "\"optimal\", "
-     "which else is found by a trial on the twin",
+     "\"optimal\", which else is found by a trial on the twin",
      Real{at<&C::design, &Design::switch_error_arcsec>, non_negative}},
     {"design", "run_lengths_s", "s", "lengths of run for which the design is worked out",
      RealList{at<&C::design, &Design::run_lengths_s>, positive}},
@@ -323,8 +348,7 @@ const Key table[] = {
      choice_list<&C::analysis, &Analysis::deviations>(deviations)},
     {"analysis", "taus", "", "averaging times: octave, decade (1, 2, 4, 10), log (taus_per_decade), all",
      choice<&C::analysis, &Analysis::taus>(tau_spacings)},
-    {"analysis", "taus_per_decade", "", "of taus = log",
-     Integer{at<&C::analysis, &Analysis::taus_per_decade>, 1, 10000}},
+    {"analysis", "taus_per_decade", "", "of taus = log", integer<&C::analysis, &Analysis::taus_per_decade>(1, 10000)},
     {"analysis", "taus_s", "s", "averaging times, instead of taus",
      RealList{at<&C::analysis, &Analysis::taus_s>, positive, true}},
     {"analysis", "confidence", "", "of the intervals",
@@ -333,8 +357,7 @@ const Key table[] = {
      Real{at<&C::analysis, &Analysis::least_known_ratio>, {.min = 0.0, .max = 1.0, .without_min = true}}},
     {"analysis", "total_bias", "",
      "bias that mirroring gives totdev, mtotdev and htotdev: removed, removed as NIST publishes it, or as_computed, "
-     "which is "
-     "what Stable32 and AllanTools print",
+     "which is what Stable32 and AllanTools print",
      choice<&C::analysis, &Analysis::total_bias>(total_biases)},
     {"analysis", "unit", "", "of rates in text and report; JSON has arcsec/s",
      choice<&C::analysis, &Analysis::unit>(shown_rates)},
@@ -354,7 +377,7 @@ const Key table[] = {
     {"analysis", "comment", "", "lines of a text file that begin with this are skipped",
      Text{at<&C::analysis, &Analysis::comment>}},
     {"analysis", "skip_lines", "", "lines of numbers to skip at the head of a text file",
-     Integer{at<&C::analysis, &Analysis::skip_lines>, 0, int32_max}},
+     integer<&C::analysis, &Analysis::skip_lines>(0, int32_max)},
     {"analysis", "separator", "",
      "what parts the columns of a text file; auto: recognised, together with the decimal mark",
      choice<&C::analysis, &Analysis::separator>(separators)},

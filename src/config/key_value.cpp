@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <zlg/config/schema.hpp>
 #include <zlg/text/toml_text.hpp>
 
@@ -30,17 +29,22 @@ std::string interval_text(const Switching& switching) {
     return switching.interval_optimal ? text::toml_string("optimal") : text::toml_real(switching.interval_s);
 }
 
+// An enumerator that code has made of a number has no name.
+std::string name_text(std::span<const std::string_view> names, int index) {
+    const auto k = static_cast<std::size_t>(index);
+    return k < names.size() ? text::toml_string(names[k]) : "no name";
+}
+
 std::string choice_text(const Choice& slot, const Config& config) {
     const int index = slot.get(config);
-    return index < 0 ? std::string{} : text::toml_string(slot.names[static_cast<std::size_t>(index)]);
+    return index < 0 ? std::string{} : name_text(slot.names, index);
 }
 
 std::string choices_text(const ChoiceList& slot, const Config& config) {
     const std::vector<int> indices = slot.get(config);
     if (indices.empty()) return {};
     std::string text;
-    for (const int index : indices)
-        text += (text.empty() ? "" : ", ") + text::toml_string(slot.names[static_cast<std::size_t>(index)]);
+    for (const int index : indices) text += (text.empty() ? "" : ", ") + name_text(slot.names, index);
     return indices.size() == 1 ? text : "[" + text + "]";
 }
 
@@ -75,13 +79,11 @@ bool all_within(const Range& range, const std::vector<double>& values) {
     return true;
 }
 
-bool is_within(const Slot& slot, Config& config) {
+bool is_within(const Slot& slot, const Config& config) {
     return std::visit(
         Overload{[&](const Real& s) { return contains(s.range, s.value(config)); },
                  [&](const OptionalReal& s) { return !s.value(config) || contains(s.range, *s.value(config)); },
-                 [&](const Integer& s) { return s.value(config) >= s.min && s.value(config) <= s.max; },
-                 [&](const Sign& s) { return s.value(config) == 1 || s.value(config) == -1; },
-                 [&](const Text&) { return true; },
+                 [&](const Integer& s) { return contains(s, s.get(config)); }, [&](const Text&) { return true; },
                  [&](const RealList& s) {
                      return (s.may_be_empty || !s.value(config).empty()) && all_within(s.range, s.value(config));
                  },
@@ -108,22 +110,20 @@ bool is_within(const Slot& slot, Config& config) {
 std::string dotted(const Key& key) { return fmt::format("{}.{}", key.section, key.name); }
 
 std::string value_text(const Key& key, const Config& config) {
-    // The table names members of a mutable Config; it is only read here.
-    Config copy = config;
     return std::visit(
-        Overload{[&](const Real& s) { return text::toml_real(s.value(copy)); },
-                 [&](const OptionalReal& s) { return s.value(copy) ? text::toml_real(*s.value(copy)) : std::string{}; },
-                 [&](const Integer& s) { return fmt::format("{}", s.value(copy)); },
-                 [&](const Sign& s) { return fmt::format("{}", s.value(copy)); },
-                 [&](const Text& s) { return text::toml_string(s.value(copy)); },
-                 [&](const RealList& s) {
-                     return s.may_be_empty && s.value(copy).empty() ? std::string{} : list_text(s.value(copy));
-                 },
-                 [&](const ChoiceList& s) { return choices_text(s, copy); },
-                 [&](const Interval&) { return interval_text(copy.switching); },
-                 [&](const Choice& s) { return choice_text(s, copy); },
-                 [&](const Column& s) { return column_text(s.value(copy)); },
-                 [&](const ColumnList& s) { return columns_text(s.value(copy)); }},
+        Overload{
+            [&](const Real& s) { return text::toml_real(s.value(config)); },
+            [&](const OptionalReal& s) { return s.value(config) ? text::toml_real(*s.value(config)) : std::string{}; },
+            [&](const Integer& s) { return fmt::format("{}", s.get(config)); },
+            [&](const Text& s) { return text::toml_string(s.value(config)); },
+            [&](const RealList& s) {
+                return s.may_be_empty && s.value(config).empty() ? std::string{} : list_text(s.value(config));
+            },
+            [&](const ChoiceList& s) { return choices_text(s, config); },
+            [&](const Interval&) { return interval_text(config.switching); },
+            [&](const Choice& s) { return choice_text(s, config); },
+            [&](const Column& s) { return column_text(s.value(config)); },
+            [&](const ColumnList& s) { return columns_text(s.value(config)); }},
         key.slot);
 }
 
@@ -131,8 +131,8 @@ std::string allowed_text(const Key& key) {
     return std::visit(
         Overload{
             [](const Real& s) { return in_words(s.range); }, [](const OptionalReal& s) { return in_words(s.range); },
-            [](const Integer& s) { return fmt::format("{}..{}", s.min, s.max); },
-            [](const Sign&) { return std::string{"-1 or 1"}; }, [](const Text&) { return std::string{"any text"}; },
+            [](const Integer& s) { return fmt::format("{}{}{}", s.min, s.without_between ? " or " : "..", s.max); },
+            [](const Text&) { return std::string{"any text"}; },
             [](const RealList& s) {
                 return fmt::format("one number or an array{}, each {}", s.may_be_empty ? ", [] included" : "",
                                    in_words(s.range));
@@ -151,8 +151,7 @@ std::string allowed_text(const Key& key) {
 }
 
 void check_range(const Key& key, const Config& config) {
-    Config copy = config;
-    if (is_within(key.slot, copy)) return;
+    if (is_within(key.slot, config)) return;
     throw ConfigError(fmt::format("{} = {}: allowed is {}", dotted(key), value_text(key, config), allowed_text(key)));
 }
 

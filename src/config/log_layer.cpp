@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
@@ -64,31 +62,20 @@ void apply_log(Config& config, const Settings& log_settings, std::string_view lo
     config = std::move(result);
 }
 
-Config without_log_facts() {
-    Config config;
-    config.gyro.tick_s = config.gyro.scale_arcsec = std::numeric_limits<double>::quiet_NaN();
-    return config;
-}
-
 void require_log_facts(const Config& config, std::string_view log_name, bool scale_is_used) {
     std::string absent;
     std::string cure;
-    const auto look = [&](double value, std::string_view name, std::string_view unit) {
-        if (!std::isnan(value)) return;
+    const auto look = [&](std::string_view name, std::string_view unit) {
+        const std::string key = fmt::format("gyro.{}", name);
+        if (is_given(config, key)) return;
         absent += fmt::format("{}{}", absent.empty() ? "" : " and ", name);
-        cure += fmt::format(" --set gyro.{}={}", name, unit);
+        cure += fmt::format(" --set {}={}", key, unit);
     };
-    look(config.gyro.tick_s, "tick_s", "SECONDS");
-    if (scale_is_used) look(config.gyro.scale_arcsec, "scale_arcsec", "ARCSEC_PER_COUNT");
+    look("tick_s", "SECONDS");
+    if (scale_is_used) look("scale_arcsec", "ARCSEC_PER_COUNT");
     if (absent.empty()) return;
     throw ConfigError(
         fmt::format("{}: does not say {}, for which there is no default; give{}", log_name, absent, cure));
-}
-
-void fill_log_facts(Config& config) {
-    const Gyro paper;
-    if (std::isnan(config.gyro.tick_s)) config.gyro.tick_s = paper.tick_s;
-    if (std::isnan(config.gyro.scale_arcsec)) config.gyro.scale_arcsec = paper.scale_arcsec;
 }
 
 void check_against_log(const Config& config, const Settings& log_settings, std::string_view log_name) {

@@ -3,7 +3,6 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include <zlg/design/growing_interval.hpp>
-#include <zlg/design/switching_interval.hpp>
 
 #include "range_check.hpp"
 
@@ -14,12 +13,6 @@ namespace {
 void check(const DriftCase& task, double growth) {
     check(task);
     require_positive("growing interval", "growth", growth);
-}
-
-double excess_ratio(const DriftCase& task, double drift_arcsec_s) {
-    const double nonmagnetic_arcsec_s = std::abs(task.gyro.nonmagnetic_arcsec_s);
-    const double min_arcsec_s = optimum(IntervalMethod::worst_case, task).drift_arcsec_s;
-    return (drift_arcsec_s - nonmagnetic_arcsec_s) / (min_arcsec_s - nonmagnetic_arcsec_s);
 }
 
 }  // namespace
@@ -48,14 +41,6 @@ double growing_drift_arcsec_s(const DriftCase& task, double growth) {
     const double sawtooth_arcsec = growth / 2.0 * std::sqrt(task.switch_error_arcsec * task.run_s * om_arcsec_s);
     const double switches_arcsec = growing_switches(task, growth) * task.switch_error_arcsec;
     return std::abs(task.gyro.nonmagnetic_arcsec_s) + (sawtooth_arcsec + switches_arcsec) / task.run_s;
-}
-
-double growing_loss_ratio(const DriftCase& task, double growth) {
-    return excess_ratio(task, growing_drift_arcsec_s(task, growth));
-}
-
-double fixed_loss_ratio(const DriftCase& task, double interval_s) {
-    return excess_ratio(task, worst_case_drift_arcsec_s(task, interval_s));
 }
 
 }  // namespace zlg::design

@@ -1,7 +1,7 @@
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string_view>
 
 #include <zlg/design/interval_formula.hpp>
 
@@ -12,6 +12,11 @@ namespace zlg::design {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+// In the order of the enumerators.
+constexpr std::array<std::string_view, 3> sentences{"the equation has a root within the run",
+                                                    "the equation has no positive root",
+                                                    "the root of the equation is longer than the run"};
 
 // Positive roots of p L^3 - q L^2 + 1 = 0, p, q >= 0.
 //
@@ -43,24 +48,7 @@ double random_sign_interval_s(const DriftCase& task, FirstSegment first) {
     return std::cbrt(ratio_s * ratio_s * task.run_s / 2.0);
 }
 
-double first_order_interval_s(const DriftCase& task, FirstSegment first) {
-    check(task);
-    const double start_arcsec_s = first == FirstSegment::full ? std::abs(task.gyro.magnetic_arcsec_s) : 0.0;
-    const double end_arcsec_s = std::abs(magnetic_rate_arcsec_s(task.gyro, task.run_s));
-    return std::sqrt(2.0 * task.switch_error_arcsec * task.run_s / (start_arcsec_s + end_arcsec_s));
-}
-
-std::string_view sentence(RootStatus status) {
-    switch (status) {
-        case RootStatus::found:
-            return "the equation has a root within the run";
-        case RootStatus::none:
-            return "the equation has no positive root";
-        case RootStatus::beyond_run:
-            return "the root of the equation is longer than the run";
-    }
-    return "";
-}
+std::string_view sentence(RootStatus status) { return sentences.at(static_cast<std::size_t>(status)); }
 
 Roots corrected_roots(const DriftCase& task) {
     check(task);

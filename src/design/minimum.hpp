@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include <boost/math/tools/roots.hpp>
 
 namespace zlg::design {
 
-// Features of a budget are as wide as the variable itself; a step of 2 % misses none.
+// Budgets are sums of powers of L and of functions of L/tau, whose features are as wide as L itself: a step of 2 % passes
+// over none.
 inline constexpr double scan_step_ratio = 0.02;
 
 // Where slope changes from negative to not negative between low and high, to the last bits of x. A jump there is a

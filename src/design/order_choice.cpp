@@ -9,8 +9,9 @@
 namespace zlg::design {
 namespace {
 
-// Equal up to rounding: the orders 2m and 2m + 1 of symmetric points, relative, and errors of no motion and no noise,
-// as a part of the amplitude of a tick.
+// Far above the rounding of the sums and far below any difference of interest. Orders 2m and 2m + 1 of symmetric points
+// are equal within the first, relative; errors of no motion and no noise are below the second, as a part of the amplitude
+// of a tick.
 constexpr double equal_within = 1e-9;
 constexpr double nothing = 1e-13;
 
@@ -22,7 +23,7 @@ struct Candidate {
 Candidate candidate(const OrderQuestion& question, int order) {
     Substitution s = question.substitution;
     s.order = order;
-    return {ErrorResponse::of_sum(s), sum_gain(s, question.noise)};
+    return {ErrorResponse(s), sum_gain(s, question.noise)};
 }
 
 int highest_order(const OrderQuestion& question) {
@@ -39,30 +40,23 @@ std::vector<Candidate> candidates(const OrderQuestion& question) {
     return all;
 }
 
-OrderChoice choose(const std::vector<Candidate>& all, const Tone& tone, double sigma_arcsec) {
-    OrderChoice choice;
-    choice.rms_arcsec.fill(std::numeric_limits<double>::quiet_NaN());
-    choice.highest_order = static_cast<int>(all.size()) - 1;
+// sigma_arcsec of one tick.
+int best_order(const std::vector<Candidate>& all, const Tone& tone, double sigma_arcsec) {
+    int choice = 0;
     double best = std::numeric_limits<double>::infinity();
     const double floor = nothing * std::abs(tone.amplitude_arcsec_s) * all.front().response.tick_s();
     for (std::size_t order = 0; order < all.size(); ++order) {
         const auto& [response, gain] = all[order];
         const double rms = std::hypot(rms_arcsec(response, tone), gain * sigma_arcsec);
-        choice.rms_arcsec[order] = rms;
         if (rms < best * (1.0 - equal_within) - floor) {
             best = rms;
-            choice.order = static_cast<int>(order);
+            choice = static_cast<int>(order);
         }
     }
     return choice;
 }
 
 }  // namespace
-
-OrderChoice best_order(const OrderQuestion& question, const Tone& tone, double sigma_arcsec) {
-    require_not_negative("choice of order", "sigma_arcsec", sigma_arcsec);
-    return choose(candidates(question), tone, sigma_arcsec);
-}
 
 std::optional<double> crossing_ratio(const OrderQuestion& question, int low, int high, double frequency_hz) {
     const Candidate a = candidate(question, low);
@@ -81,7 +75,7 @@ std::vector<std::vector<int>> order_map(const OrderQuestion& question, const std
     for (const double f : frequencies_hz) {
         auto& row = map.emplace_back();
         for (const double ratio : ratios) {
-            row.push_back(choose(all, {ratio / question.substitution.tick_s, f}, 1.0).order);
+            row.push_back(best_order(all, {ratio / question.substitution.tick_s, f}, 1.0));
         }
     }
     return map;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -24,17 +24,13 @@ void check(const PerimeterLoop& loop) {
     require_positive(where, "mirror_zeta", loop.mirror_zeta);
 }
 
-void check(const PerimeterLoop& loop, double w_rad_s) {
-    check(loop);
-    require_positive("perimeter loop", "w_rad_s", w_rad_s);
-}
-
 // Denominator of the mirror, (1 - u^2) + 2 i zeta u with u = w/w_m; 1 for a rigid one.
 std::complex<double> mirror(const PerimeterLoop& loop, double w) {
     const double u = w / (2.0 * pi * loop.mirror_hz);
     return {1.0 - u * u, 2.0 * loop.mirror_zeta * u};
 }
 
+// Bisection to 48 bits between ends of opposite sign.
 template <class F>
 double root(F f, double low, double high) {
     std::uintmax_t calls = 300;
@@ -111,21 +107,6 @@ double distance_to_half_turn(double phase_rad) { return std::abs(std::remainder(
 
 }  // namespace
 
-std::complex<double> open_loop(const PerimeterLoop& loop, double w_rad_s) {
-    check(loop, w_rad_s);
-    return std::polar(gain(loop, w_rad_s), phase(loop, w_rad_s));
-}
-
-double open_loop_gain(const PerimeterLoop& loop, double w_rad_s) {
-    check(loop, w_rad_s);
-    return gain(loop, w_rad_s);
-}
-
-double open_loop_phase_rad(const PerimeterLoop& loop, double w_rad_s) {
-    check(loop, w_rad_s);
-    return phase(loop, w_rad_s);
-}
-
 Margins margins(const PerimeterLoop& loop) {
     check(loop);
     Margins m;
@@ -144,18 +125,6 @@ Margins margins(const PerimeterLoop& loop) {
 double sampled_stability_limit(int delay_samples) {
     require(delay_samples >= 0 && delay_samples <= 1000, "sampled loop", "delay_samples", delay_samples, "0..1000");
     return 2.0 * std::sin(pi / (2.0 * (2.0 * delay_samples + 1.0)));
-}
-
-double sampled_critical_gain(int delay_samples) {
-    require(delay_samples >= 0 && delay_samples <= 1000, "sampled loop", "delay_samples", delay_samples, "0..1000");
-    const double d = delay_samples;
-    return std::pow(d / (d + 1.0), d) / (d + 1.0);
-}
-
-double sampled_decay(double gain) {
-    require_not_negative("sampled loop", "gain", gain);
-    const std::complex<double> root = std::sqrt(std::complex<double>{0.25 - gain});
-    return std::max(std::abs(0.5 + root), std::abs(0.5 - root));
 }
 
 }  // namespace zlg::design

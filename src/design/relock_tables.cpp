@@ -13,6 +13,10 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+// Of the decays, in the order of the enumerators.
+constexpr std::array<std::string_view, 4> names{"exponential", "constant slew", "slew with exponential tail",
+                                                "critically damped second order"};
+
 void check(const RelockModel& m) {
     require_not_negative("re-lock model", "deficit_arcsec_s", m.deficit_arcsec_s);
     require_positive("re-lock model", "time_s", m.time_s);
@@ -60,27 +64,14 @@ Integrals integrals(const RelockModel& m, double t) {
     return exponential(t, m.time_s);
 }
 
-std::string_view name_of(Decay decay) {
-    switch (decay) {
-        case Decay::slew:
-            return "constant slew";
-        case Decay::slew_tail:
-            return "slew with exponential tail";
-        case Decay::critical:
-            return "critically damped second order";
-        case Decay::exponential:
-            break;
-    }
-    return "exponential";
-}
-
 double rms_difference(const TickDrifts& a, const TickDrifts& b) {
     double square = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
     return std::sqrt(square / table_ticks);
 }
 
-// The best deficit for given times, and what it leaves.
+// The drifts are linear in the deficit, so for given times it follows in closed form and only the times are searched
+// (variable projection).
 RelockFit with_best_deficit(RelockModel model, const TickDrifts& measured) {
     model.deficit_arcsec_s = 1.0;
     const TickDrifts unit = drift_arcsec_s(model);
@@ -91,12 +82,13 @@ RelockFit with_best_deficit(RelockModel model, const TickDrifts& measured) {
         square += unit[i] * unit[i];
     }
     model.deficit_arcsec_s = square > 0.0 ? std::max(0.0, product / square) : 0.0;
-    RelockFit fit{name_of(model.decay), model, drift_arcsec_s(model)};
+    RelockFit fit{names.at(static_cast<std::size_t>(model.decay)), model, drift_arcsec_s(model)};
     fit.rms_arcsec_s = rms_difference(fit.drift_arcsec_s, measured);
     return fit;
 }
 
-// Minimum over log time: the best of a grid, then Brent between its neighbours. f(log time) -> RelockFit.
+// Minimum over log time within T/20..50 T, far below and above what four ticks can show: the best of a grid, then
+// Brent's method between its neighbours. f(log time) -> RelockFit.
 template <class F>
 RelockFit minimise(F f, int n_grid) {
     const double low = std::log(table_tick_s / 20.0);

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include <boost/math/quadrature/gauss_kronrod.hpp>
-
 #include "range_check.hpp"
 
 namespace zlg::design {
@@ -32,15 +30,14 @@ void check(const Substitution& s) {
             fmt::format("at least {} for order {}", s.order + 1, s.order));
 }
 
-void check_tick(const Substitution& s, int j) { require(j >= 1 && j <= s.n, where, "j", j, fmt::format("1..{}", s.n)); }
-
 std::vector<int> range(int first, int last) {
     std::vector<int> ticks(static_cast<std::size_t>(std::max(0, last - first + 1)));
     std::iota(ticks.begin(), ticks.end(), first);
     return ticks;
 }
 
-// Polynomials that are orthogonal over the points (Forsythe): p_0 = 1, p_(m+1) = (x - a_m) p_m - b_m p_(m-1).
+// Polynomials that are orthogonal over the points (Forsythe, J. SIAM 5, 1957), so that no system of equations is
+// solved: p_0 = 1, p_(m+1) = (x - a_m) p_m - b_m p_(m-1).
 class Orthogonal {
 public:
     Orthogonal(const std::vector<int>& points, int order) {
@@ -108,35 +105,16 @@ std::vector<int> positions(const Substitution& s) {
     return points;
 }
 
-std::vector<double> tick_weights(const Substitution& s, int j) {
-    check(s);
-    check_tick(s, j);
-    return weights_of_sum(positions(s), s.order, {j});
-}
-
 std::vector<double> sum_weights(const Substitution& s) { return weights_of_sum(positions(s), s.order, range(1, s.n)); }
 
-ErrorResponse::ErrorResponse(const Substitution& s) : tick_s_{s.tick_s}, middle_ticks_{0.5 * (s.n + 1)} {}
+ErrorResponse::ErrorResponse(const Substitution& s) : tick_s_{s.tick_s}, middle_ticks_{0.5 * (s.n + 1)} {
+    add(sum_weights(s), positions(s));
+    add(std::vector<double>(static_cast<std::size_t>(s.n), -1.0), range(1, s.n));
+}
 
 void ErrorResponse::add(const std::vector<double>& weights, const std::vector<int>& at) {
     weight_.insert(weight_.end(), weights.begin(), weights.end());
     for (const int x : at) offset_ticks_.push_back(x - middle_ticks_);
-}
-
-ErrorResponse ErrorResponse::of_sum(const Substitution& s) {
-    check(s);
-    ErrorResponse response{s};
-    response.add(sum_weights(s), positions(s));
-    response.add(std::vector<double>(static_cast<std::size_t>(s.n), -1.0), range(1, s.n));
-    return response;
-}
-
-ErrorResponse ErrorResponse::of_tick(const Substitution& s, int j) {
-    check(s);
-    ErrorResponse response{s};
-    response.add(tick_weights(s, j), positions(s));
-    response.add({-1.0}, {j});
-    return response;
 }
 
 std::complex<double> ErrorResponse::operator()(double frequency_hz) const {
@@ -175,28 +153,6 @@ double rms_arcsec(const ErrorResponse& response, std::span<const Tone> tones) {
     double square = 0.0;
     for (const Tone& tone : tones) square = std::hypot(square, rms_arcsec(response, tone));
     return square;
-}
-
-double rms_arcsec(const ErrorResponse& response, const RateSpectrum& spectrum, double low_hz, double high_hz) {
-    require_not_negative("rate spectrum", "low_hz", low_hz);
-    require(high_hz >= low_hz && std::isfinite(high_hz), "rate spectrum", "high_hz", high_hz,
-            fmt::format("a finite number from low_hz = {}", low_hz));
-    const auto density = [&](double f) {
-        const double s = spectrum(f);
-        require_not_negative("rate spectrum", "density", s);
-        return std::norm(response(f)) * s;
-    };
-    // Panels no wider than an eighth of the shortest ripple of |H|^2, so that the adaptive rule misses none.
-    const double widest = 1.0 / (8.0 * response.span_ticks() * response.tick_s());
-    const double n_panels = std::max(1.0, std::ceil((high_hz - low_hz) / widest));
-    require(n_panels <= 1e6, "rate spectrum", "high_hz", high_hz, "at most 1e6 panels above low_hz");
-    const double width = (high_hz - low_hz) / n_panels;
-    using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
-    double sum = 0.0;
-    for (double k = 0.0; k < n_panels && width > 0.0; ++k) {
-        sum += Rule::integrate(density, low_hz + k * width, low_hz + (k + 1.0) * width, 8, 1e-10);
-    }
-    return std::sqrt(sum);
 }
 
 }  // namespace zlg::design

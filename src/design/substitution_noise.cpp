@@ -45,15 +45,6 @@ void check_constant(double noise_arcsec, int n) {
 
 double sum_gain(const Substitution& s, TickNoise noise) { return gain(s, sum_weights(s), noise); }
 
-double tick_gain(const Substitution& s, int j, TickNoise noise) { return gain(s, tick_weights(s, j), noise); }
-
-double accumulated_counter_gain(const Substitution& s) {
-    auto edges = edges_of(positions(s), sum_weights(s));
-    edges[0] += 1.0;
-    edges[s.n] -= 1.0;
-    return edge_gain(edges);
-}
-
 double counter_tick_sigma_arcsec(double lsb_arcsec) {
     require_not_negative(where, "lsb_arcsec", lsb_arcsec);
     return lsb_arcsec / std::sqrt(6.0);

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -17,6 +15,14 @@ namespace zlg::design {
 namespace {
 
 constexpr std::string_view where = "switching interval";
+
+// In the order of the enumerators.
+constexpr std::array<std::string_view, interval_methods.size()> names{"corrected", "worst_case", "as_printed",
+                                                                      "closed_form", "random_sign"};
+constexpr std::array<std::string_view, 3> sentences{
+    "the drift is least at an interval shorter than the run",
+    "the drift is least without a switch: in this run none pays for itself",
+    "this budget holds no magnetic drift that a switch could reverse: best is not to switch"};
 
 [[noreturn]] void refuse(IntervalMethod method) {
     throw DesignError(fmt::format("{}: method {} is none of the {} that there are", where, static_cast<int>(method),
@@ -78,7 +84,7 @@ double slope_random_sign(const DriftCase& task, double interval_s, FirstSegment 
            total_arcsec_s;
 }
 
-// The same of an end that nobody knows: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) + N^2).
+// The same of a run that ends anywhere in a segment: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) + N^2).
 double slope_expected(const DriftCase& task, double interval_s, FirstSegment first) {
     const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
     const double start_arcsec = start_residue_arcsec(task.gyro, interval_s, first);
@@ -87,6 +93,11 @@ double slope_expected(const DriftCase& task, double interval_s, FirstSegment fir
                             end_arcsec * kernel_slope_arcsec_s(task.gyro, interval_s, task.run_s) / 3.0;
     return (interval_s * magnetic / (task.run_s * task.run_s) - 0.5 * noise_arcsec_s * noise_arcsec_s) /
            expected_drift_arcsec_s(task, interval_s, first);
+}
+
+// A budget or a slope for one first segment, as a function of case and interval.
+auto with(double (*of)(const DriftCase&, double, FirstSegment), FirstSegment first) {
+    return [of, first](const DriftCase& task, double interval_s) { return of(task, interval_s, first); };
 }
 
 DriftCase without_nonmagnetic(DriftCase task) {
@@ -113,8 +124,9 @@ double min_of_random_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
     return ratio_s * ratio_s / task.run_s;
 }
 
-// Minimum of a budget that is nowhere below what its switches cost, by its value and slope as functions of case and
-// interval.
+// Minimum of a budget by its value and slope, as functions of case and interval. No budget is below what its switches
+// cost, so below the interval `least` at which they alone cost as much as a run without a switch there is no minimum: the
+// search begins there.
 template <class Drift, class Slope, class Least>
 Optimum searched(const DriftCase& task, const Drift& drift, const Slope& slope, const Least& least) {
     check(task);
@@ -129,7 +141,7 @@ Optimum searched(const DriftCase& task, const Drift& drift, const Slope& slope, 
     return {status_of(interval_s, task.run_s, has_magnetic_drift(task.gyro)), interval_s, drift(task, interval_s)};
 }
 
-// Minimum of a budget that has a formula for it and knows no warm-up.
+// Minimum of a budget that has a formula for it and ignores the warm-up.
 Optimum limited_to_run(IntervalMethod method, const DriftCase& task, double formula_s) {
     const double interval_s = std::min(formula_s, task.run_s);
     return {status_of(interval_s, task.run_s, task.gyro.magnetic_arcsec_s != 0.0), interval_s,
@@ -144,33 +156,9 @@ double closed_form_drift_arcsec_s(const DriftCase& task, double interval_s) {
 
 }  // namespace
 
-std::string_view name(IntervalMethod method) {
-    switch (method) {
-        case IntervalMethod::corrected:
-            return "corrected";
-        case IntervalMethod::worst_case:
-            return "worst_case";
-        case IntervalMethod::as_printed:
-            return "as_printed";
-        case IntervalMethod::closed_form:
-            return "closed_form";
-        case IntervalMethod::random_sign:
-            return "random_sign";
-    }
-    return "";
-}
+std::string_view name(IntervalMethod method) { return names.at(static_cast<std::size_t>(method)); }
 
-std::string_view sentence(OptimumStatus status) {
-    switch (status) {
-        case OptimumStatus::inside:
-            return "the drift is least at an interval shorter than the run";
-        case OptimumStatus::whole_run:
-            return "the drift is least without a switch: in this run none pays for itself";
-        case OptimumStatus::no_magnetic_drift:
-            return "this budget holds no magnetic drift that a switch could reverse: best is not to switch";
-    }
-    return "";
-}
+std::string_view sentence(OptimumStatus status) { return sentences.at(static_cast<std::size_t>(status)); }
 
 double drift_arcsec_s(IntervalMethod method, const DriftCase& task, double interval_s) {
     switch (method) {
@@ -189,26 +177,16 @@ double drift_arcsec_s(IntervalMethod method, const DriftCase& task, double inter
 }
 
 Optimum worst_case_optimum(const DriftCase& task, FirstSegment first) {
-    return searched(
-        task,
-        [first](const DriftCase& t, double interval_s) { return worst_case_drift_arcsec_s(t, interval_s, first); },
-        [first](const DriftCase& t, double interval_s) { return slope_worst_case(t, interval_s, first); },
-        min_of_one_sign_s);
+    return searched(task, with(worst_case_drift_arcsec_s, first), with(slope_worst_case, first), min_of_one_sign_s);
 }
 
 Optimum random_sign_optimum(const DriftCase& task, FirstSegment first) {
-    return searched(
-        task,
-        [first](const DriftCase& t, double interval_s) { return random_sign_drift_arcsec_s(t, interval_s, first); },
-        [first](const DriftCase& t, double interval_s) { return slope_random_sign(t, interval_s, first); },
-        min_of_random_sign_s);
+    return searched(task, with(random_sign_drift_arcsec_s, first), with(slope_random_sign, first),
+                    min_of_random_sign_s);
 }
 
 Optimum expected_optimum(const DriftCase& task, FirstSegment first) {
-    return searched(
-        task, [first](const DriftCase& t, double interval_s) { return expected_drift_arcsec_s(t, interval_s, first); },
-        [first](const DriftCase& t, double interval_s) { return slope_expected(t, interval_s, first); },
-        min_of_random_sign_s);
+    return searched(task, with(expected_drift_arcsec_s, first), with(slope_expected, first), min_of_random_sign_s);
 }
 
 Optimum optimum(IntervalMethod method, const DriftCase& task) {

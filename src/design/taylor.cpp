@@ -1,7 +1,6 @@
 #include <zlg/design/taylor.hpp>
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include <boost/math/tools/roots.hpp>
@@ -65,7 +64,7 @@ double leading_error_arcsec(const Tone& tone, int order, int n, double tick_s) {
 
 double highest_frequency_hz(const Substitution& substitution, double amplitude_arcsec_s, double limit_arcsec) {
     require_not_negative("highest frequency", "limit_arcsec", limit_arcsec);
-    const auto response = ErrorResponse::of_sum(substitution);
+    const auto response = ErrorResponse(substitution);
     const auto excess = [&](double f) {
         return worst(response, Tone{amplitude_arcsec_s, f}).error_arcsec - limit_arcsec;
     };

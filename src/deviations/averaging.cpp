@@ -54,27 +54,13 @@ std::vector<std::int64_t> nearest_factors(std::span<const double> taus_s, double
         factors.push_back(static_cast<std::int64_t>(m));
     }
     std::ranges::sort(factors);
-    factors.erase(std::ranges::unique(factors).begin(), factors.end());
+    factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
     return factors;
 }
 
 std::int64_t largest_factor(DeviationKind kind, std::int64_t n_intervals) {
-    switch (kind) {
-        case DeviationKind::adev:
-        case DeviationKind::oadev:
-        case DeviationKind::totdev:
-            return n_intervals / 2;
-        // The angle averaged over the third m ends on a border: 3m - 1 intervals.
-        case DeviationKind::mdev:
-        case DeviationKind::tdev:
-        case DeviationKind::mtotdev:
-            return (n_intervals + 1) / 3;
-        case DeviationKind::hdev:
-        case DeviationKind::ohdev:
-        case DeviationKind::htotdev:
-            return n_intervals / 3;
-    }
-    return 0;
+    // The angle averaged over the third m ends on a border: 3m - 1 intervals.
+    return is_modified(kind) ? (n_intervals + 1) / 3 : n_intervals / difference_order(kind);
 }
 
 }  // namespace zlg::deviations

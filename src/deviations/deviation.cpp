@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <zlg/deviations/noise_identification.hpp>
 
-#include "averaged_sums.hpp"
 #include "deviation_points.hpp"
-#include "total_sums.hpp"
+#include "sums/averaged_sums.hpp"
+#include "sums/total_sums.hpp"
 
 namespace zlg::deviations {
 namespace {
@@ -41,7 +41,7 @@ std::vector<TermSum> all_sums(const RecordView& view, DeviationKind kind, std::s
 std::vector<std::int64_t> checked_factors(std::span<const std::int64_t> factors, std::int64_t n_intervals) {
     std::vector<std::int64_t> sorted(factors.begin(), factors.end());
     std::ranges::sort(sorted);
-    sorted.erase(std::ranges::unique(sorted).begin(), sorted.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     if (sorted.empty()) throw SeriesError("averaging times: 0 are given, allowed is 1 or more");
     if (sorted.front() < 1)
         throw SeriesError(fmt::format("averaging time: {} intervals, allowed is 1 or more", sorted.front()));

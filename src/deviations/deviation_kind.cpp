@@ -1,6 +1,5 @@
 #include <zlg/deviations/deviation_kind.hpp>
 
-#include <array>
 #include <string>
 
 #include <fmt/format.h>
@@ -27,6 +26,12 @@ DeviationKind deviation_kind_of(std::string_view name) {
 bool is_total(DeviationKind kind) {
     return kind == DeviationKind::totdev || kind == DeviationKind::mtotdev || kind == DeviationKind::htotdev;
 }
+
+bool is_modified(DeviationKind kind) {
+    return kind == DeviationKind::mdev || kind == DeviationKind::tdev || kind == DeviationKind::mtotdev;
+}
+
+bool is_side_by_side(DeviationKind kind) { return kind == DeviationKind::adev || kind == DeviationKind::hdev; }
 
 int difference_order(DeviationKind kind) {
     return kind == DeviationKind::hdev || kind == DeviationKind::ohdev || kind == DeviationKind::htotdev ? 3 : 2;

@@ -1,25 +1,20 @@
 #include "deviation_points.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <zlg/deviations/deviation_confidence.hpp>
 
 namespace zlg::deviations {
 namespace {
 
-constexpr std::array<std::string_view, 3> bias_names{"removed", "published", "as_computed"};
-
 // A record without gaps of as many terms: what gaps leave of the terms is as much as that of a shorter record.
 std::int64_t shortened(DeviationKind kind, std::int64_t m, std::int64_t n_intervals, double share) {
     const std::int64_t possible = possible_terms(kind, m, n_intervals);
     const auto known = std::clamp<std::int64_t>(std::llround(share * static_cast<double>(possible)), 1, possible);
-    const bool side_by_side = kind == DeviationKind::adev || kind == DeviationKind::hdev;
-    const std::int64_t shorter = n_intervals - (possible - known) * (side_by_side ? m : 1);
+    const std::int64_t shorter = n_intervals - (possible - known) * (is_side_by_side(kind) ? m : 1);
     return kind == DeviationKind::totdev ? std::max(2 * m, shorter) : shorter;
 }
 
@@ -47,50 +42,12 @@ int noise_at(std::int64_t m, DeviationKind kind, const std::vector<NoiseStep>& s
 
 }  // namespace
 
-std::string_view name_of(TotalBias bias) { return bias_names.at(static_cast<std::size_t>(bias)); }
-
-TotalBias total_bias_of(std::string_view name) {
-    for (std::size_t k = 0; k < bias_names.size(); ++k)
-        if (bias_names[k] == name) return static_cast<TotalBias>(k);
-    throw SeriesError(fmt::format("bias: '{}' is unknown, allowed: {}", name, fmt::join(bias_names, ", ")));
-}
-
-void check(const DeviationOptions& options) {
-    check_confidence(options.confidence);
-    if (!(options.least_known_ratio > 0.0 && options.least_known_ratio <= 1.0))
-        throw SeriesError(
-            fmt::format("least known ratio: {}, allowed is more than 0 and at most 1", options.least_known_ratio));
-    if (options.noise && (*options.noise < -4 || *options.noise > 2))
-        throw SeriesError(fmt::format("noise: exponent {}, allowed is -4 to 2", *options.noise));
-    if (options.threads < 1) throw SeriesError(fmt::format("threads: {}, allowed is 1 or more", options.threads));
-}
-
 std::int64_t possible_terms(DeviationKind kind, std::int64_t m, std::int64_t n_intervals) {
-    const std::int64_t n = n_intervals;
-    std::int64_t terms = 0;
-    switch (kind) {
-        case DeviationKind::adev:
-            terms = n / m - 1;
-            break;
-        case DeviationKind::hdev:
-            terms = n / m - 2;
-            break;
-        case DeviationKind::oadev:
-            terms = n - 2 * m + 1;
-            break;
-        case DeviationKind::mdev:
-        case DeviationKind::tdev:
-        case DeviationKind::mtotdev:
-            terms = n - 3 * m + 2;
-            break;
-        case DeviationKind::ohdev:
-        case DeviationKind::htotdev:
-            terms = n - 3 * m + 1;
-            break;
-        case DeviationKind::totdev:
-            terms = n - 1;
-            break;
-    }
+    const int order = difference_order(kind);
+    std::int64_t terms = n_intervals - order * m + 1;
+    if (is_side_by_side(kind)) terms = n_intervals / m - order + 1;
+    if (is_modified(kind)) terms = n_intervals - 3 * m + 2;
+    if (kind == DeviationKind::totdev) terms = n_intervals - 1;
     return std::max<std::int64_t>(0, terms);
 }
 
@@ -117,8 +74,7 @@ DeviationCurve curve_of(DeviationKind kind, const SeriesKind& what, std::int64_t
     }
     if (curve.points.empty())
         throw SeriesError(
-            fmt::format("{}: a record of {} intervals has no difference that is known at the given averaging "
-                        "times",
+            fmt::format("{}: a record of {} intervals has no difference that is known at the given averaging times",
                         name_of(kind), n_intervals));
     if (std::ranges::all_of(curve.points, [](const DeviationPoint& point) { return point.deviation == 0.0; }))
         throw SeriesError(fmt::format("{}: the record has no noise, all differences are 0", name_of(kind)));

@@ -4,15 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include <zlg/deviations/deviation.hpp>
+#include <zlg/deviations/deviation_curve.hpp>
 #include <zlg/deviations/noise_identification.hpp>
 
-#include "difference_sums.hpp"
+#include "sums/difference_sums.hpp"
 
 namespace zlg::deviations {
-
-// errors  SeriesError: an option out of its range.
-void check(const DeviationOptions& options);
 
 struct MeasuredSum {
     std::int64_t m = 1;

@@ -64,9 +64,7 @@ std::vector<Placed> place(const std::vector<std::int64_t>& factors, std::int64_t
 
 struct DeviationStream::State {
     explicit State(const StreamConfig& given) : config(given), factors(place(given.factors, given.window)) {
-        const bool averages = std::ranges::any_of(config.kinds, [](DeviationKind kind) {
-            return kind == DeviationKind::mdev || kind == DeviationKind::tdev;
-        });
+        const bool averages = std::ranges::any_of(config.kinds, is_modified);
         for (std::size_t l = 0; l <= factors.back().level; ++l)
             levels.emplace_back(std::int64_t{1} << l, config.window, averages);
         carried.resize(levels.size());

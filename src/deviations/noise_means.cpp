@@ -56,14 +56,14 @@ void NoiseMeans::add(const RecordView& view, std::int64_t i) {
     angle_.add(sum / static_cast<double>(n));
 }
 
-std::optional<NoiseStep> NoiseMeans::step(std::int64_t m_intervals) const {
+std::optional<double> NoiseMeans::exponent(std::int64_t m_intervals) const {
     const auto rate = rate_.exponent();
     if (!rate) return std::nullopt;
     double noise = straight(of_rates, *rate);
     if (const auto angle = has_gaps_ || m_intervals == 1 ? std::nullopt : angle_.exponent();
         angle && noise > angle_noise_from)
         noise = straight(of_angles, *angle + 2.0);
-    return NoiseStep{.m = m_intervals, .means = rate_.count(), .noise = noise};
+    return noise;
 }
 
 }  // namespace zlg::deviations

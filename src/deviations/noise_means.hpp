@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include <zlg/deviations/noise_identification.hpp>
-
-#include "difference_sums.hpp"
+#include "lag_one.hpp"
+#include "sums/difference_sums.hpp"
 
 namespace zlg::deviations {
 
@@ -21,8 +20,9 @@ public:
     void interrupt();
 
     [[nodiscard]] std::int64_t m() const { return m_; }
-    // m_intervals  the same averaging, for the result.
-    [[nodiscard]] std::optional<NoiseStep> step(std::int64_t m_intervals) const;
+    [[nodiscard]] std::int64_t count() const { return rate_.count(); }
+    // Of the rate's spectrum, absent where LagOne has none. m_intervals  the averaging in intervals of the record.
+    [[nodiscard]] std::optional<double> exponent(std::int64_t m_intervals) const;
 
 private:
     std::int64_t m_;

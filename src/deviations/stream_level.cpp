@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "averaged_sums.hpp"
+#include "sums/averaged_sums.hpp"
 
 namespace zlg::deviations {
 namespace {
@@ -12,8 +12,6 @@ constexpr std::int64_t kept_windows = 3;  // a term spans up to three
 constexpr std::int64_t block_starts = 4096;
 constexpr std::int64_t run_means = 256;
 constexpr std::uint64_t runs_before_thinning = 16;
-
-bool is_averaged(DeviationKind kind) { return kind == DeviationKind::mdev || kind == DeviationKind::tdev; }
 
 RecordView view_of(const RecentEntries& entries, std::int64_t stride, const StreamGaps& gaps) {
     return {.angle = entries.angle(),
@@ -27,7 +25,7 @@ RecordView view_of(const RecentEntries& entries, std::int64_t stride, const Stre
 // Terms of the starts that are complete, from track.next on.
 void take(Track& track, const RecentEntries& entries, const RecordView& view) {
     const int order = difference_order(track.kind);
-    const bool averaged = is_averaged(track.kind);
+    const bool averaged = is_modified(track.kind);
     const std::int64_t end = view.n_intervals + 1 - (averaged ? 3 * track.m - 1 : order * track.m);
     const std::int64_t begin = track.next - entries.first();
     if (end <= begin) return;
@@ -82,7 +80,7 @@ void StreamLevel::add_factor(std::int64_t m, const std::vector<DeviationKind>& k
 void StreamLevel::take_all(const RecentEntries& entries, bool averages, const StreamGaps& gaps) {
     const auto view = view_of(entries, stride_, gaps);
     for (auto& track : tracks_)
-        if (is_averaged(track.kind) == averages) take(track, entries, view);
+        if (is_modified(track.kind) == averages) take(track, entries, view);
     if (averages) return;
     for (auto& track : noise_) take(track, entries, view);
 }
@@ -105,7 +103,7 @@ void StreamLevel::push_average(double angle_sum, double known_sum, const StreamG
 TermSum StreamLevel::sum_of(DeviationKind kind, std::int64_t m, const StreamGaps& gaps) const {
     for (auto track : tracks_) {
         if (track.kind != kind || track.m != m) continue;
-        const auto& entries = is_averaged(kind) ? averages_ : borders_;
+        const auto& entries = is_modified(kind) ? averages_ : borders_;
         take(track, entries, view_of(entries, stride_, gaps));
         return track.sum;
     }
@@ -115,7 +113,8 @@ TermSum StreamLevel::sum_of(DeviationKind kind, std::int64_t m, const StreamGaps
 void StreamLevel::append_steps(std::vector<NoiseStep>& steps, const StreamGaps& gaps) const {
     for (auto track : noise_) {
         take(track, borders_, view_of(borders_, stride_, gaps));
-        if (const auto step = track.means.step(track.means.m() * stride_)) steps.push_back(*step);
+        const std::int64_t m = track.means.m() * stride_;
+        if (const auto noise = track.means.exponent(m)) steps.push_back({m, track.means.count(), *noise});
     }
 }
 

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include <zlg/deviations/deviation_kind.hpp>
-#include "difference_sums.hpp"
+#include <zlg/deviations/noise_identification.hpp>
+
 #include "noise_means.hpp"
+#include "sums/difference_sums.hpp"
 
 namespace zlg::deviations {
 

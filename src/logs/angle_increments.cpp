@@ -1,12 +1,12 @@
+#include <zlg/logs/angle_increments.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <zlg/logs/angle_increments.hpp>
 #include <zlg/logs/angle_log.hpp>
 
-#include "angle_columns.hpp"
+#include "column_map.hpp"
 #include "hdf5/hdf5_table_reader.hpp"
-#include "row_rules.hpp"
+#include "settings_lines.hpp"
 #include "signature.hpp"
 
 namespace zlg::logs {
@@ -16,16 +16,16 @@ namespace {
 class TwoColumns {
 public:
     TwoColumns(const std::string& path, AngleColumn column)
-        : table_{path, "/angles", angles::columns}, block_{table_.source()} {
-        table_.open(column == AngleColumn::dtheta ? angles::dtheta_arcsec : angles::dtheta_final_arcsec,
-                    dtheta_arcsec_);
-        table_.open(angles::flags, flags_);
+        : table_{path, AngleTable::group, known_columns<AngleTable>} {
+        const char* name = column == AngleColumn::dtheta ? "dtheta_arcsec" : "dtheta_final_arcsec";
+        table_.open(column_named<AngleTable>(name), dtheta_arcsec_);
+        table_.open(column_named<AngleTable>("flags"), flags_);
         table_.measure();
     }
 
     std::size_t read(std::span<double> dtheta_arcsec, std::span<std::uint32_t> flags) {
-        if (next_row_ == block_.good_rows() && !next_block()) return 0;
-        const std::size_t n = std::min({dtheta_arcsec.size(), flags.size(), block_.good_rows() - next_row_});
+        if (next_row_ == table_.block().good_rows() && !next_block()) return 0;
+        const std::size_t n = std::min({dtheta_arcsec.size(), flags.size(), table_.block().good_rows() - next_row_});
         std::copy_n(dtheta_arcsec_.values() + next_row_, n, dtheta_arcsec.begin());
         std::copy_n(flags_.values() + next_row_, n, flags.begin());
         next_row_ += n;
@@ -34,27 +34,17 @@ public:
 
 private:
     bool next_block() {
-        if (block_.is_damaged()) block_.fail();
-        if (block_end_ == table_.rows()) return false;
-        next_row_ = 0;
-        block_.begin(block_end_, table_.block_size(block_end_));
-        block_.take(
-            dtheta_arcsec_, [](double v, std::size_t) { return is_finite(v); },
-            [](double) { return std::string{not_finite}; });
-        block_.take(
-            flags_, [](std::uint32_t, std::size_t) { return true; },
-            [](std::int64_t) { return out_of_range(range(0, std::numeric_limits<std::uint32_t>::max())); });
-        block_end_ = block_.end();
-        if (block_.good_rows() == 0) block_.fail();
-        return true;
+        return table_.next_block([this](hdf5::Block& block) {
+            next_row_ = 0;
+            block.take(dtheta_arcsec_, Real{});
+            block.take(flags_, any_whole<std::uint32_t>);
+        });
     }
 
     hdf5::TableReader table_;
     hdf5::Column<double> dtheta_arcsec_;
     hdf5::Column<std::uint32_t> flags_;
-    hdf5::Block block_;
     std::size_t next_row_ = 0;
-    hsize_t block_end_ = 0;
 };
 
 }  // namespace
@@ -87,9 +77,8 @@ AngleIncrements::AngleIncrements(AngleIncrements&&) noexcept = default;
 std::optional<double> AngleIncrements::tick_s() const {
     for (const auto& [key, value] : state_->rows.header().settings) {
         if (key != "tick_s") continue;
-        char* end = nullptr;
-        const double tick_s = std::strtod(value.c_str(), &end);
-        if (end != value.c_str() && *end == '\0' && std::isfinite(tick_s) && tick_s > 0.0) return tick_s;
+        const auto tick_s = number_in(value);
+        if (tick_s && std::isfinite(*tick_s) && *tick_s > 0.0) return tick_s;
     }
     return std::nullopt;
 }

@@ -1,19 +1,18 @@
+#include <zlg/logs/angle_log.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>
-#include <zlg/logs/angle_log.hpp>
-#include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 
-#include "angle_columns.hpp"
-#include "angle_log_io.hpp"
-#include "signature.hpp"
-#include "text_source.hpp"
+#include "log_io.hpp"
+#include "settings_lines.hpp"
 
 namespace zlg::logs {
 
-namespace angles {
+namespace {
 
+// `switching:1 extrapolated:2 ...`
 std::string flag_legend() {
     std::string text;
     for (std::size_t bit = 0; bit < core::angle_flag_names.size(); ++bit) {
@@ -22,19 +21,18 @@ std::string flag_legend() {
     return text;
 }
 
-void require_loggable(const TimedAngle& angle) {
-    const core::AngleRow& r = angle.row;
-    if (std::isfinite(r.dtheta_arcsec) && std::isfinite(r.dtheta_final_arcsec) && r.sigma_arcsec >= 0.0) return;
-    throw FormatError(
-        fmt::format("tick {} cannot be logged: dtheta {}, final {}, sigma {} arcsec; allowed are "
-                    "finite angles and a sigma of 0 or more, or inf",
-                    r.tick, r.dtheta_arcsec, r.dtheta_final_arcsec, r.sigma_arcsec));
+std::unique_ptr<LogSink<AngleTable>> create(const std::string& path, double tick_s, Settings settings, bool force,
+                                            const AngleWriterOptions& options) {
+    if (!find_setting(settings, "flags")) settings.emplace_back("flags", flag_legend());
+    if (!find_setting(settings, "tick_s") && !std::isnan(tick_s))
+        settings.emplace_back("tick_s", fmt::format("{}", tick_s));
+    if (format_of(path) == LogFormat::hdf5) return create_angle_hdf5(path, force, settings, options);
+    return create_csv<AngleTable>(path, force, settings, {}, options.keep_csv_part);
 }
 
-}  // namespace angles
+}  // namespace
 
-AngleReader::AngleReader(const std::string& path)
-    : source_{has_hdf5_signature(path) ? open_angle_hdf5(path) : open_text(path, &open_angle_csv)} {}
+AngleReader::AngleReader(const std::string& path) : source_{open_log<AngleTable>(path, &open_angle_hdf5)} {}
 AngleReader::~AngleReader() = default;
 AngleReader::AngleReader(AngleReader&&) noexcept = default;
 
@@ -45,17 +43,15 @@ double AngleReader::fraction_read() const { return source_->fraction_read(); }
 
 AngleWriter::AngleWriter(const std::string& path, double tick_s, const Settings& settings, bool force,
                          const AngleWriterOptions& options)
-    : sink_{format_of(path) == LogFormat::hdf5 ? create_angle_hdf5(path, tick_s, settings, force, options)
-                                               : create_angle_csv(path, tick_s, settings, force, options)},
-      tick_s_{tick_s} {}
+    : sink_{create(path, tick_s, settings, force, options)}, tick_s_{tick_s} {}
 AngleWriter::~AngleWriter() = default;
 AngleWriter::AngleWriter(AngleWriter&&) noexcept = default;
 
 void AngleWriter::write(const core::AngleRow& row, double truth_dtheta_arcsec) {
-    sink_->write({row, static_cast<double>(row.tick + 1) * tick_s_, truth_dtheta_arcsec});
+    write_timed({row, static_cast<double>(row.tick + 1) * tick_s_, truth_dtheta_arcsec});
 }
 
-void AngleWriter::write_timed(const TimedAngle& angle) { sink_->write(angle); }
+void AngleWriter::write_timed(const TimedAngle& angle) { sink_->write(angle, {}); }
 void AngleWriter::flush() { sink_->flush(); }
 void AngleWriter::close() { sink_->close(); }
 const std::string& AngleWriter::part_path() const { return sink_->part_path(); }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/spelling.hpp>
 
@@ -13,24 +12,24 @@ namespace {
 // A typing mistake in an optional column would otherwise drop it with no more than a warning.
 constexpr std::size_t misspelt_letters = 2;
 
-void refuse_misspelt(std::span<const Column> columns, const std::string& name, const std::string& place) {
-    const auto apart = [&](const Column& column) { return text::letters_apart(name, column.name); };
-    const Column& nearest = *std::ranges::min_element(columns, {}, apart);
+void refuse_misspelt(std::span<const KnownColumn> columns, const std::string& name, const std::string& place) {
+    const auto apart = [&](const KnownColumn& column) { return text::letters_apart(name, column.name); };
+    const KnownColumn& nearest = *std::ranges::min_element(columns, {}, apart);
     if (apart(nearest) <= misspelt_letters) {
         throw FormatError(fmt::format("{}: unknown column '{}'; did you mean '{}'?", place, name, nearest.name));
     }
 }
 
-void refuse_missing(std::span<const Column> columns, const ColumnMap& map, const std::string& place) {
+void refuse_missing(std::span<const KnownColumn> columns, const ColumnMap& map, const std::string& place) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        if (!columns[i].required || map.field_of[i]) continue;
+        if (!columns[i].is_required || map.field_of[i]) continue;
         throw FormatError(fmt::format("{}: the column '{}' is missing", place, columns[i].name));
     }
 }
 
 }  // namespace
 
-ColumnMap map_columns(std::span<const Column> columns, const std::vector<std::string>& names,
+ColumnMap map_columns(std::span<const KnownColumn> columns, const std::vector<std::string>& names,
                       const std::string& place) {
     ColumnMap map;
     map.field_of.resize(columns.size());
@@ -40,7 +39,7 @@ ColumnMap map_columns(std::span<const Column> columns, const std::vector<std::st
             names.begin() + static_cast<std::ptrdiff_t>(field)) {
             throw FormatError(fmt::format("{}: the column '{}' stands there twice", place, name));
         }
-        const auto known = std::ranges::find(columns, std::string_view{name}, &Column::name);
+        const auto known = std::ranges::find(columns, std::string_view{name}, &KnownColumn::name);
         if (known != columns.end()) {
             map.field_of[static_cast<std::size_t>(known - columns.begin())] = field;
         } else {

@@ -1,6 +1,8 @@
 #pragma once
 // Which field of a row holds which column.
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -8,13 +10,28 @@
 #include <string_view>
 #include <vector>
 
+#include <zlg/logs/table_column.hpp>
+
 namespace zlg::logs {
 
-struct Column {
+struct KnownColumn {
     std::string_view name;
-    bool required = true;
-    const char* unit = "1";  // attribute of the HDF5 data set
+    bool is_required = true;
 };
+
+template <class Table>
+inline constexpr auto known_columns = [] {
+    std::array<KnownColumn, n_columns<Table>> columns;
+    for_each_column<Table>([&](const auto& field, std::size_t k) { columns[k] = {field.name, !field.is_optional}; });
+    return columns;
+}();
+
+// The place of a column in its table.
+template <class Table>
+constexpr std::size_t column_named(std::string_view name) {
+    const auto found = std::ranges::find(known_columns<Table>, name, &KnownColumn::name);
+    return static_cast<std::size_t>(found - known_columns<Table>.begin());
+}
 
 struct ColumnMap {
     std::vector<std::optional<std::size_t>> field_of;  // field_of[column]; empty where the log has no such column
@@ -24,7 +41,7 @@ struct ColumnMap {
 // `place` begins the messages: path and line of the names.
 //
 // errors  FormatError: a name twice, a name within two letters of a known one, a required column that is missing.
-[[nodiscard]] ColumnMap map_columns(std::span<const Column> columns, const std::vector<std::string>& names,
+[[nodiscard]] ColumnMap map_columns(std::span<const KnownColumn> columns, const std::vector<std::string>& names,
                                     const std::string& place);
 
 }  // namespace zlg::logs

@@ -1,9 +1,15 @@
 #pragma once
 // An open file that closes itself.
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+#include <string>
 #include <utility>
+#include <zlg/logs/error.hpp>
 
 namespace zlg::logs {
 
@@ -29,5 +35,12 @@ public:
 private:
     int fd_ = -1;
 };
+
+// errors  IoError: no such file, no permission.
+inline FileDescriptor open_to_read(const std::string& path) {
+    FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
+    return file;
+}
 
 }  // namespace zlg::logs

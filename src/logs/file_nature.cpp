@@ -1,13 +1,10 @@
 #include <zlg/logs/file_nature.hpp>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -70,12 +67,6 @@ struct Head {
 bool is_regular(const std::string& path) {
     struct stat status {};
     return ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
-}
-
-FileDescriptor open_to_look(const std::string& path) {
-    FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
-    return file;
 }
 
 Head head_of(int file, const std::string& path) {
@@ -148,9 +139,13 @@ long long hdf5_offset(int open_file, const std::string& path) {
     return -1;
 }
 
+bool has_hdf5_signature(const std::string& path) {
+    return is_regular(path) && hdf5_offset(open_to_read(path).get(), path) >= 0;
+}
+
 std::string foreign_nature(const std::string& path) {
     if (!is_regular(path)) return {};
-    const FileDescriptor file = open_to_look(path);
+    const FileDescriptor file = open_to_read(path);
     const Head head = head_of(file.get(), path);
     const long long offset = hdf5_offset(file.get(), path);
     if (offset > 0)

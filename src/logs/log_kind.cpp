@@ -1,4 +1,3 @@
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -8,11 +7,12 @@
 #include <filesystem>
 #include <initializer_list>
 #include <string_view>
+#include <zlg/logs/angle_layout.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
+#include <zlg/logs/raw_layout.hpp>
 
 #include "csv/csv_head.hpp"
-#include "file_descriptor.hpp"
 #include "hdf5/hdf5_source.hpp"
 #include "signature.hpp"
 
@@ -37,20 +37,12 @@ std::ptrdiff_t hits(const CsvHead& head, std::initializer_list<std::string_view>
 
 LogKind kind_of_hdf5(const std::string& path) {
     const hdf5::Source source{path};
-    if (source.has("/raw")) return LogKind::raw_hdf5;
-    if (source.has("/angles")) return LogKind::angle_hdf5;
+    if (source.has(RawTable::group)) return LogKind::raw_hdf5;
+    if (source.has(AngleTable::group)) return LogKind::angle_hdf5;
     return LogKind::unknown;
 }
 
 }  // namespace
-
-bool has_hdf5_signature(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return false;
-    const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
-    return hdf5_offset(file.get(), path) >= 0;
-}
 
 LogKind recognise(const std::string& path) {
     refuse_what_cannot_be_read_twice(path);

@@ -1,39 +1,54 @@
-#include "row_rules.hpp"
+#include <zlg/logs/row_rules.hpp>
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace zlg::logs {
 
-std::string out_of_order(std::int64_t value, std::int64_t expected) {
-    return fmt::format("{}; expected {}", value > expected ? "leaves a hole" : "is a repetition", expected);
+namespace {
+
+std::string out_of_range(const std::string& allowed) { return "is out of range; allowed is " + allowed; }
+
+}  // namespace
+
+std::string RowNumber::allowed() { return Whole{0, std::numeric_limits<std::int64_t>::max()}.allowed(); }
+std::string RowNumber::fault(std::int64_t value, std::int64_t row) {
+    if (value < 0) return out_of_range(allowed());
+    return fmt::format("{}; expected {}", value > row ? "leaves a hole" : "is a repetition", row);
 }
 
-std::string not_alternating(std::int64_t value) {
-    return fmt::format("as in the row before; expected {:+d}: it must alternate", -value);
+std::string Sign::allowed() { return "+1 or -1"; }
+std::string Sign::fault(std::int64_t, std::int64_t) { return out_of_range(allowed()); }
+
+std::string Flag::allowed() { return "0 or 1"; }
+std::string Flag::fault(std::int64_t, std::int64_t) { return out_of_range(allowed()); }
+
+std::string Whole::allowed() const { return fmt::format("{}..{}", min, max); }
+std::string Whole::fault(std::int64_t, std::int64_t) const { return out_of_range(allowed()); }
+
+std::string Real::allowed() { return "a finite number"; }
+std::string Real::fault(double value, std::int64_t) const {
+    if (!std::isfinite(value)) return "is not finite; allowed is " + allowed();
+    return out_of_range(fmt::format("{:g}..{:g} {}", min, max, unit));
 }
 
-std::string out_of_range(std::string_view allowed) { return fmt::format("is out of range; allowed is {}", allowed); }
+std::string Fringe::allowed() { return fmt::format("{}, or nan where it is not known", Whole{0, max}.allowed()); }
+std::string Fringe::fault(double, std::int64_t) { return out_of_range(allowed()); }
 
-std::string beyond_missed(const MissedRows& missed) {
-    return fmt::format(
-        "is out of range; allowed is 1..{}: this row and the {} directly before it with valid 0, counts 0, span 1",
-        missed.n() + 1, missed.n());
+std::string Deviation::allowed() { return "a number or inf"; }
+std::string Deviation::fault(double value, std::int64_t) {
+    return std::isnan(value) ? "is not a number; allowed is " + allowed() : "is negative; allowed is 0 or more, or inf";
 }
 
-std::string no_detuning(double lambda) {
-    if (!is_finite(lambda)) return std::string{not_finite};
-    return out_of_range(fmt::format("{:g}..{:g} wavelengths", -max_detuning_lambda, max_detuning_lambda));
+RawSequence::Fault RawSequence::fault(const core::HalfRecord& r) const {
+    if (r.bias_sign == bias_sign_)
+        return {"bias_sign", r.bias_sign,
+                fmt::format("as in the row before; expected {:+d}: it must alternate", -r.bias_sign)};
+    return {"span", r.span,
+            fmt::format("is out of range; allowed is 1..{}: this row and the {} directly before it with valid 0, "
+                        "counts 0, span 1",
+                        n_missed_ + 1, n_missed_)};
 }
-
-std::string no_detuning_sq(double lambda2, double mean_lambda) {
-    if (!is_finite(lambda2)) return std::string{not_finite};
-    const double least = min_detuning_sq(mean_lambda);
-    if (!(least > 0.0)) return out_of_range(fmt::format("0..{:g} wavelengths^2", max_detuning_sq_lambda2));
-    return out_of_range(
-        fmt::format("0 (not known) or {:.4g}..{:g} wavelengths^2, for the mean, detuning_lambda, is {:g}", least,
-                    max_detuning_sq_lambda2, mean_lambda));
-}
-
-std::string range(std::int64_t min, std::int64_t max) { return fmt::format("{}..{}", min, max); }
 
 }  // namespace zlg::logs

@@ -6,7 +6,7 @@
 #include <zlg/text/toml_text.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <sstream>
 #include <zlg/logs/error.hpp>
 
@@ -166,20 +166,16 @@ std::string comment_line(const std::string& key, const std::string& value) {
 std::string settings_to_toml(const Settings& settings) {
     std::string text;
     std::vector<std::string_view> keys;
-    for (const auto& [key, value] : settings) {
+    for (const auto& setting : settings) {
+        const auto& key = setting.first;  // a structured binding cannot be captured by every compiler's lambda
+        const auto& value = setting.second;
         require_one_line(key, value);
-        const std::string as_toml = fmt::format("{} = {}\n", key, value);
-        const std::string as_string = fmt::format("{} = '{}'\n", key, value);
+        const std::array lines{fmt::format("{} = {}\n", key, value), fmt::format("{} = '{}'\n", key, value)};
         const bool is_free = is_dotted_key(key) && !collides(key, keys);
-        if (is_free && reads_back(as_toml, key, value)) {
-            text += as_toml;
-            keys.push_back(key);
-        } else if (is_free && reads_back(as_string, key, value)) {
-            text += as_string;
-            keys.push_back(key);
-        } else {
-            text += comment_line(key, value);
-        }
+        const auto line = std::ranges::find_if(
+            lines, [&](const std::string& candidate) { return is_free && reads_back(candidate, key, value); });
+        if (line != lines.end()) keys.push_back(key);
+        text += line != lines.end() ? *line : comment_line(key, value);
     }
     return text;
 }

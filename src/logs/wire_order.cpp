@@ -155,7 +155,7 @@ void WireOrder::count_lost(const Arrival& a) {
     const auto n_others = std::count_if(others_.begin(), others_.end(), [&](const auto& other) {
         return is_up_to_it(other) && steps(runs_.back().last, other.second) > 0;
     });
-    if (gap > n_others) summary_.n_lost += static_cast<std::uint64_t>(gap - n_others);
+    if (gap > n_others) summary_.n_lost_messages += static_cast<std::uint64_t>(gap - n_others);
     others_.erase(std::remove_if(others_.begin(), others_.end(), is_up_to_it), others_.end());
 }
 

@@ -82,12 +82,7 @@ void WireRows::take(const wire::Message& message) {
 void WireRows::pass_on() {
     OrderedTelemetry ordered;
     while (order_.next(ordered)) take(ordered);
-    const OrderSummary& s = order_.summary();
-    summary_.n_lost_messages = s.n_lost;
-    summary_.n_repeated = s.n_repeated;
-    summary_.n_unfitting = s.n_unfitting;
-    summary_.n_other_tick = s.n_other_tick;
-    summary_.other_tick_s = s.other_tick_s;
+    static_cast<OrderSummary&>(summary_) = order_.summary();
 }
 
 // The message's tick, in the numbers of the segment that it belongs to.

@@ -9,7 +9,7 @@
 namespace zlg::noise {
 namespace {
 
-constexpr std::array<double, 4> weight{1.0, -3.0, 3.0, -1.0};
+constexpr std::array<double, 4> weight{1.0, -3.0, 3.0, -1.0};  // of a third difference
 constexpr std::int64_t farthest = 64;
 
 // Covariances of the angle at whole multiples of a stride.

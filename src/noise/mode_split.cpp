@@ -14,6 +14,8 @@
 namespace zlg::noise {
 namespace {
 
+// The four constants of the warming and two degrees of freedom. The limits of A and tau are those of the calibration:
+// near them both are skewed, and below them a straight growth explains the segments as well.
 constexpr std::size_t min_segments = 6;
 constexpr double min_bend_sigmas = 4.0;  // of A
 constexpr double max_time_error = 0.2;   // of tau, relative
@@ -54,7 +56,8 @@ ModeSegment segment_of(const ModeRecord& record, const Stretch& s) {
 
 double warmed(double time_s, double tau_s) { return tau_s > 0.0 ? -std::expm1(-time_s / tau_s) : 0.0; }
 
-// Weighted least squares over the segments; columns: 1, m, and further ones.
+// Weighted least squares over the segments; columns: 1, m, and further ones. The weight is the known time of a segment,
+// as for white noise of the rate; the residuals set the scale of the covariance.
 struct SegmentFit {
     Eigen::VectorXd coefficient;
     Eigen::MatrixXd covariance;
@@ -107,6 +110,9 @@ void take_constant(ModeSplit& split) {
     split.magnetic_thermal_arcsec_s = split.thermal_time_s = numeric::refused(why);
 }
 
+// Separable least squares: for each tau the other three constants follow linearly, so that the residual is searched along
+// log tau alone, from 1/30 of the record, a bend at its very beginning, to 10 times it, where the growth is straight.
+// The column of the derivative by tau then gives the covariance of all four.
 void take_warming(ModeSplit& split) {
     const auto& s = split.segments;
     const double span_s = s.back().time_s;

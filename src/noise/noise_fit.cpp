@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -20,29 +19,33 @@
 namespace zlg::noise {
 namespace {
 
+// The octaves up to a sixth of it are four averaging times, as many as there are smooth terms without a Markov time.
 constexpr std::int64_t min_intervals = 64;
-// The longest averaging time fits into the record so many times; beyond it a variance has one degree of freedom, too few for a weight.
+// The longest averaging time fits into the record so many times; beyond it a variance has one degree of freedom, too
+// few for a weight.
 constexpr std::int64_t min_lengths = 6;
-constexpr double ramp_chance = 0.002;
-constexpr double one_sided_95 = 1.645;
+constexpr double ramp_chance = 0.002;   // of a ramp in noise alone: one record of 500, as of a line of the spectrum
+constexpr double one_sided_95 = 1.645;  // quantile of the normal law
 
-struct KindText {
+// read_at_s is where the Allan deviation of the term alone has the value of its coefficient: the tau at which its variance
+// is 1 for a coefficient of 1 (3 Q^2/tau^2, N^2/tau, K^2 tau/3, R^2 tau^2/2).
+struct KindFacts {
     std::string_view name, unit;
+    double read_at_s = FittedTerm::none;
 };
-constexpr std::array<KindText, 7> kinds{{{"quantisation", "arcsec"},
-                                         {"angle random walk", "arcsec/sqrt(s)"},
-                                         {"bias instability", "arcsec/s"},
-                                         {"rate random walk", "arcsec/s/sqrt(s)"},
-                                         {"ramp", "arcsec/s^2"},
-                                         {"exponentially correlated", "arcsec/s"},
-                                         {"sinusoid", "arcsec/s"}}};
+constexpr std::array<KindFacts, 7> kinds{{{"quantisation", "arcsec", std::numbers::sqrt3},
+                                          {"angle random walk", "arcsec/sqrt(s)", 1.0},
+                                          {"bias instability", "arcsec/s"},
+                                          {"rate random walk", "arcsec/s/sqrt(s)", 3.0},
+                                          {"ramp", "arcsec/s^2", std::numbers::sqrt2},
+                                          {"exponentially correlated", "arcsec/s"},
+                                          {"sinusoid", "arcsec/s"}}};
+
+const KindFacts& facts(NoiseKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
 HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, const NoiseFitOptions& options) {
-    std::vector<double> summed;
-    summed.reserve(rates.size() + 1);
-    summed.assign(rates.begin(), rates.end());
-    const deviations::AngleRecord record({deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz},
-                                         std::move(summed));
+    const deviations::AngleRecord record(
+        {.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
     const std::int64_t n = record.n_intervals();
     const auto curve =
         deviation(record, deviations::DeviationKind::ohdev,
@@ -69,24 +72,11 @@ HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, co
     return points;
 }
 
-// Where the Allan deviation of the term alone has the value of its coefficient, or its peak.
+// Of Markov noise and of a sinusoid the peak: the zeros of the derivatives by tau lie at 1.89 T and where tan x = 2 x,
+// x = pi f tau, at 0.371/f.
 double read_at(NoiseKind kind, double second) {
-    switch (kind) {
-        case NoiseKind::quantisation:
-        case NoiseKind::rate_random_walk:
-            return kind == NoiseKind::quantisation ? std::numbers::sqrt3 : 3.0;
-        case NoiseKind::angle_random_walk:
-            return 1.0;
-        case NoiseKind::ramp:
-            return std::numbers::sqrt2;
-        case NoiseKind::markov:
-            return 1.89 * second;
-        case NoiseKind::sine:
-            return 0.371 / second;
-        case NoiseKind::bias_instability:
-            break;
-    }
-    return FittedTerm::none;
+    if (kind == NoiseKind::markov) return 1.89 * second;
+    return kind == NoiseKind::sine ? 0.371 / second : facts(kind).read_at_s;
 }
 
 FittedTerm smooth_term(const SmoothFit& fit, std::size_t index) {
@@ -150,7 +140,7 @@ double probability_of(const SmoothFit& smooth) {
     return boost::math::cdf(boost::math::complement(law, smooth.chi2));
 }
 
-// Allows as much error of the model as it takes, if that is little.
+// Allows the least error of the model with which chance explains the rest, 20 % at the most.
 SmoothFit select(const HadamardPoints& points, bool with_markov, NoiseFit& fit) {
     constexpr double min_probability = 1e-3;
     SmoothFit smooth;
@@ -164,7 +154,7 @@ SmoothFit select(const HadamardPoints& points, bool with_markov, NoiseFit& fit) 
     return smooth;
 }
 
-// Terms that do not describe the record say little of what is not among them.
+// Terms that do not describe the record give no limit of one that is not among them.
 void widen(NoiseFit& fit) {
     if (fit.describes) return;
     const double wider = std::sqrt(fit.chi2 / static_cast<double>(fit.dof));
@@ -184,8 +174,8 @@ void check_known(std::span<const double> rates) {
 
 }  // namespace
 
-std::string_view name_of(NoiseKind kind) { return kinds[static_cast<std::size_t>(kind)].name; }
-std::string_view unit_of(NoiseKind kind) { return kinds[static_cast<std::size_t>(kind)].unit; }
+std::string_view name_of(NoiseKind kind) { return facts(kind).name; }
+std::string_view unit_of(NoiseKind kind) { return facts(kind).unit; }
 
 std::vector<double> rates_arcsec_s(const deviations::Series& series) {
     check(series);

@@ -14,8 +14,10 @@ namespace {
 
 // Costs in -2 log likelihood. Of one coefficient that may not be negative: half of chi-square beyond 6.63 is 0.5 %.
 constexpr double cost = 6.6;
-// Of a Markov term, whose time is free too.
+// Of a Markov term, whose time is free too: of 654 records without one 10 showed one (zlg_noise_campaign, docs/noise.md).
 constexpr double markov_cost = 12.0;
+// The scatter of the variances depends on the terms and the terms on the scatter: the first round starts from a fit of
+// all basic terms, the second from the terms found.
 constexpr int rounds = 2;
 
 constexpr unsigned basic_mask = 15;
@@ -113,12 +115,12 @@ std::array<double, n_smooth> squares_of(const Candidate& c) {
 }
 
 MeasuredVariances measured(const HadamardPoints& points, const NoiseTerms& terms, double model_error) {
-    MeasuredVariances v{.value = points.value, .degrees = {}, .whitening = {}};
+    MeasuredVariances v{.value = points.value, .freedom = {}, .whitening = {}};
     const Eigen::MatrixXd whole = hadamard_scatter(terms, points.tau_0_s, points.m, points.n_intervals);
     const Eigen::VectorXd root = points.scarcity.cwiseSqrt();
     Eigen::MatrixXd relative = root.asDiagonal() * whole * root.asDiagonal();
     relative.diagonal().array() += model_error * model_error;
-    take_scatter(relative, v);
+    set_scatter(relative, v);
     return v;
 }
 
@@ -138,8 +140,8 @@ double weight_of(const Candidate& c, const Candidate& best) {
     return std::exp(-0.5 * (c.fit.objective - best.fit.objective + one_more * more));
 }
 
-// Whether a term that was just not found is there is not known: what other sets say of a term that was found is part of
-// its uncertainty.
+// Another set of terms may be the true one, and gives a term that was found another size: the scatter between the sets is
+// part of its standard error.
 void take_uncertainty(const std::vector<Candidate>& all, SmoothFit& result) {
     const Candidate& best = all.front();
     std::array<double, n_smooth + 1> weights{}, variance{};
@@ -165,7 +167,7 @@ void take_uncertainty(const std::vector<Candidate>& all, SmoothFit& result) {
         if (best.has(kind)) result.square_sigma[kind] = std::sqrt(variance[kind] / weights[kind]);
     }
     if (!best.has(markov_index)) {
-        // Of a time of its own in every set: without one of them it cannot be said.
+        // Every set has a time of its own, so that a mean deviation without one of the times means nothing.
         result.mean_square[markov_index] = 0.0;
         return;
     }
@@ -181,7 +183,8 @@ void take_absent(const std::vector<Candidate>& all, SmoothFit& result) {
             const std::size_t place = place_of(c, kind);
             result.square_freed[kind] = c.fit.coefficient[static_cast<Eigen::Index>(place)];
             result.square_sigma[kind] = std::sqrt(variance_of(c, place));
-            // What is seen of it, and what may hide below its error.
+            // What is seen of it, and the mean of what may remain below its error: of a half-normal variable, sqrt(2/pi)
+            // standard deviations.
             constexpr double half_normal_mean = 0.8;
             result.mean_square[kind] = std::max(
                 result.mean_square[kind], result.square_freed[kind] + half_normal_mean * result.square_sigma[kind]);
@@ -220,7 +223,7 @@ SmoothFit select_terms(const HadamardPoints& points, bool with_markov, double mo
     take_uncertainty(sets, result);
     take_absent(sets, result);
     result.fitted = best.fit.expected;
-    result.degrees = v.degrees;
+    result.degrees = v.freedom;
     result.chi2 = best.fit.chi2;
     result.dof = points.tau_s.size() - std::popcount(best.mask) - (best.has(markov_index) ? 1 : 0);
     return result;

@@ -17,8 +17,6 @@ constexpr double hour_s = 3600.0;
 
 }  // namespace
 
-double floor_over_instability() { return std::sqrt(2.0 * std::numbers::ln2 / std::numbers::pi); }
-
 DataSheet data_sheet(const NoiseTerms& terms) {
     return {.quantisation_arcsec = terms.quantisation_arcsec,
             .angle_random_walk_deg_sqrt_h = terms.angle_random_walk_arcsec_sqrt_s * root_of_hour / hour_s,
@@ -54,14 +52,6 @@ DiscreteNoise discrete_noise(const NoiseTerms& terms, double rate_hz) {
         d.markov_step_arcsec_s.push_back(m.deviation_arcsec_s * std::sqrt(-std::expm1(-2.0 * x)));
     }
     return d;
-}
-
-double angle_random_walk_of(double white_rate_arcsec_s, double rate_hz) {
-    return white_rate_arcsec_s / std::sqrt(rate_hz);
-}
-
-double rate_random_walk_of(double walk_step_arcsec_s, double rate_hz) {
-    return walk_step_arcsec_s * std::sqrt(rate_hz);
 }
 
 KalibrGyro kalibr_gyro(const NoiseTerms& terms, double rate_hz) {

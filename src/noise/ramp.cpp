@@ -14,6 +14,8 @@
 namespace zlg::noise {
 namespace {
 
+// 121 covariances of the blocks are factorised in each of four rounds; more blocks cost their cube and tell a slope
+// from slow noise no better, for that noise lies at the lowest frequencies.
 constexpr std::size_t max_blocks = 64;
 constexpr double odds_of_none = 1.0 / 3.0;  // that a slow term is not there: to miss one is worse
 constexpr int n_sizes = 11;                 // of each slow term, in either of two rounds
@@ -99,7 +101,7 @@ Evidence evidence_of(const Blocks& blocks, double rate_hz, const NoiseTerms& ter
     NoiseTerms known = terms, flat{.bias_instability_arcsec_s = 1.0};
     known.bias_instability_arcsec_s = known.rate_random_walk_arcsec_s_sqrt_s = 0.0;
     const double block_s = blocks.length / rate_hz;
-    // One as long as the blocks may as well be the beginning of a random walk, and says nothing of what is slower.
+    // A Markov term as long as the blocks cannot be distinguished from the beginning of a random walk, which stands for it.
     if (!known.markov.empty() && known.markov.front().time_s < block_s) {
         flat = {.markov = {{.deviation_arcsec_s = 1.0, .time_s = known.markov.front().time_s}}};
     }

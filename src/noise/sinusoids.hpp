@@ -1,5 +1,7 @@
 #pragma once
-// Lines in the spectrum of a rate.
+// Lines in the spectrum of a rate: found in a Welch spectrum by Fisher's F-test against its neighbourhood, placed by the
+// maximum of the demodulated power (the maximum-likelihood frequency of a single tone: Rife and Boorstyn, IEEE Trans.
+// Inf. Theory 20, 1974), and refined by linearised least squares.
 
 #include <span>
 #include <vector>
@@ -15,7 +17,7 @@ struct Sinusoid {
     double sine = 0.0;
 };
 
-// Finds the strongest line, takes it out of the rates, and so on: at most `most`. A line stands out of the spectrum
+// Finds the strongest line, subtracts it from the rates, and so on: at most `most`. A line stands out of the spectrum
 // around it so that noise would do it in one of 500 records, at any frequency. What is not coherent, and leaves as much
 // beside the line as was in it, is no sinusoid and stays.
 //

@@ -1,18 +1,19 @@
 #include <zlg/paper/paper.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
-#include <zlg/report/number_text.hpp>
 #include <zlg/study/run.hpp>
 
 #include "paper_parts.hpp"
+#include "paper_text.hpp"
 
 namespace zlg::paper {
 namespace {
 
-// What part of the time the run of the twin takes; the rest are the experiments.
+// Share of the run of the twin in the time; the rest are the experiments.
 constexpr double share_of_run = 0.4;
 
 study::RunResult run_of(const PaperTask& task) {
@@ -31,7 +32,6 @@ SubstitutionFigures substitution_of(const PaperTask& task) {
 report::Section claims_section(const std::vector<Claim>& claims) {
     report::Table table{.caption = "What the paper says, and what came of it.",
                         .header = {"where", "claim", "verdict", "finding"},
-                        .rows = {},
                         .prose = true};
     for (const Claim& c : claims) table.rows.push_back({c.where, c.claim, verdict_name(c.verdict), c.finding});
     return {
@@ -39,24 +39,14 @@ report::Section claims_section(const std::vector<Claim>& claims) {
         .paragraphs = {fmt::format("{} claims, verdicts: {}. A misprint leaves the argument intact; what is wrong does "
                                    "not follow; what is not supported could be neither derived nor reproduced.",
                                    claims.size(), verdict_counts(claims))},
-        .tables = {std::move(table)},
-        .figures = {}};
+        .tables = {std::move(table)}};
 }
 
 }  // namespace
 
 const char* verdict_name(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::agrees:
-            return "agrees";
-        case Verdict::misprint:
-            return "misprint";
-        case Verdict::wrong:
-            return "wrong";
-        case Verdict::not_supported:
-            return "not supported";
-    }
-    return "";
+    constexpr std::array names{"agrees", "misprint", "wrong", "not supported"};  // in the order of the enumerators
+    return names.at(static_cast<std::size_t>(verdict));
 }
 
 std::string verdict_counts(const std::vector<Claim>& claims) {
@@ -85,12 +75,10 @@ Paper recompute_paper(const PaperTask& task) {
 report::Page paper_page(const Paper& paper) {
     report::Page page{
         .title = "The paper recomputed: a Zeeman laser gyro with switching of longitudinal modes",
-        .lead = fmt::format("Every figure and table of the paper of 2014 in its order: our curves, the printed formula "
-                            "where it differs, and points measured on the digital twin. {} points against theory: "
-                            "chi-square per point {}. Verdicts on the claims: {}.",
-                            paper.degrees_of_freedom, report::fixed_number(paper.chi2_per_dof, 2),
-                            verdict_counts(paper.claims)),
-        .sections = {},
+        .lead = sentence("Every figure and table of the paper of 2014 in its order: our curves, the printed formula "
+                         "where it differs, and points measured on the digital twin. {} points against theory: "
+                         "chi-square per point {:.2f}. Verdicts on the claims: {}.",
+                         paper.degrees_of_freedom, paper.chi2_per_dof, verdict_counts(paper.claims)),
         .numbered = false};
     for (const PaperItem& item : paper.items) page.sections.push_back(item.section);
     page.sections.push_back(claims_section(paper.claims));

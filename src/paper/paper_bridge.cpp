@@ -1,7 +1,6 @@
 #include "paper_bridge.hpp"
 
 #include <iterator>
-#include <utility>
 
 namespace zlg::paper {
 

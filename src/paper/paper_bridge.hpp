@@ -1,23 +1,20 @@
 #pragma once
-// The paper's oscillation, what theory and print say of the error of a substituted gap on it, and the twin's points.
+// The paper's oscillation, the error of a substituted gap on it by theory and by the print, and the twin's points.
 //
 // The error is (18), final minus true, summed over the gap. Its sign is that at a minimum of the rate, and at a zero
 // crossing at which the rate falls; half a period later it is the opposite.
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include <zlg/design/substitution.hpp>
 #include <zlg/paper/substitution_experiment.hpp>
-#include <zlg/report/page.hpp>
 
 #include "paper_parts.hpp"
+#include "paper_trial.hpp"
 
 namespace zlg::paper {
 
-inline constexpr double paper_amplitude_arcsec_s = 12000.0;
-inline constexpr int paper_gap_ticks = 3;
 inline constexpr std::array order_names{"constant", "linear", "quadratic"};
 
 // The upper end of the paper's band, 0.1/T.
@@ -38,7 +35,7 @@ struct BridgeCase {
 [[nodiscard]] double exact_error_arcsec(const BridgeCase& c, design::Fit fit, int order);
 
 // How (20) can be read as an error: its terms above the polynomial, at the nearest measured tick, over the whole gap.
-// The linear term is taken to vanish for a constant, as the paper says it does.
+// The linear term counts as 0 for a constant, as in the paper.
 [[nodiscard]] double series_error_arcsec(const BridgeCase& c, int order);
 [[nodiscard]] double series_error_as_printed_arcsec(const BridgeCase& c, int order);
 

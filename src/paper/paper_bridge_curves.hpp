@@ -1,17 +1,13 @@
 #pragma once
 // Curves of theory and points of the twin for figures 8 to 11.
 
-#include <cmath>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include <zlg/report/figure.hpp>
-#include <zlg/report/number_text.hpp>
-
 #include "paper_bridge.hpp"
+#include "paper_curves.hpp"
 
 namespace zlg::paper {
 
@@ -19,60 +15,38 @@ namespace zlg::paper {
 inline constexpr std::array sum_orders{0, 2};
 [[nodiscard]] inline const char* sum_order_name(int order) { return order == 2 ? "quadratic" : "constant = linear"; }
 
-struct Look {
-    std::string name;
-    int colour = 0;
-    bool dashed = false;
+// One fit and order of the experiments at `x`: a component of each point, with its standard error.
+[[nodiscard]] report::Series twin_points(Look look, const std::vector<double>& x,
+                                         const std::vector<SubstitutionResult>& results, design::Fit fit, int order,
+                                         const std::function<Measured(const SubstitutionPoint&)>& of);
+
+// One number of the results, such as the length of the gap: the same for all fits and orders.
+[[nodiscard]] std::vector<double> each(const std::vector<SubstitutionResult>& results,
+                                       const std::function<double(const SubstitutionPoint&)>& of);
+
+// What one figure varies: the gap at a place of its axis, the places of its curves, and the experiments on the axis.
+struct Axis {
+    std::string label;
+    Region region = Region::extremum;
+    std::function<BridgeCase(double)> case_at;
+    std::vector<double> shown;
+    const std::vector<SubstitutionResult>& results;
+    std::vector<double> measured;  // the places of the results
 };
 
-[[nodiscard]] inline report::Series curve(Look look, const std::vector<double>& x,
-                                          const std::function<double(double)>& y_of) {
-    report::Series s{.name = std::move(look.name), .x = x, .y = {}, .y_error = {}};
-    s.dashed = look.dashed;
-    s.colour = look.colour;
-    for (const double at : x) s.y.push_back(y_of(at));
-    return s;
-}
+using SeriesList = std::vector<report::Series>;
 
-// One component of one fit and order of the experiments; `x` in their order.
-[[nodiscard]] inline report::Series twin_points(Look look, const std::vector<double>& x,
-                                                const std::vector<SubstitutionResult>& results, design::Fit fit,
-                                                int order, Region region) {
-    report::Series s{.name = std::move(look.name), .x = x, .y = {}, .y_error = {}, .mark = report::Mark::points};
-    s.colour = look.colour;
-    for (const SubstitutionResult& result : results) {
-        const Measured m = measured(point_of(result, fit, order), region);
-        s.y.push_back(m.arcsec);
-        s.y_error.push_back(m.error);
-    }
-    return s;
-}
+// The error that stays in the angle, of both orders: exact, as the leading term at low frequency, on the twin.
+void add_exact(const Axis& axis, SeriesList& all);
+void add_leading_laws(const Axis& axis, SeriesList& all);
+void add_twin(const Axis& axis, int first_colour, SeriesList& all);
+
+// Theory, the series (20), and the twin. Where the rate passes zero theory is 0, and the print has another series.
+[[nodiscard]] SeriesList corrected(const Axis& axis);
 
 // Three curves and their points: what is delivered in real time, extrapolated from four ticks.
-[[nodiscard]] inline std::vector<report::Series> delivered(const std::vector<double>& curve_x,
-                                                           const std::function<double(int order, double x)>& theory,
-                                                           const std::vector<double>& point_x,
-                                                           const std::vector<SubstitutionResult>& results,
-                                                           Region region) {
-    std::vector<report::Series> all;
-    for (int order = 0; order < 3; ++order)
-        all.push_back(curve({order_names[static_cast<std::size_t>(order)], order}, curve_x,
-                            [&](double x) { return theory(order, x); }));
-    for (int order = 0; order < 3; ++order)
-        all.push_back(twin_points({fmt::format("twin, {}", order_names[static_cast<std::size_t>(order)]), order},
-                                  point_x, results, design::Fit::extrapolation, order, region));
-    return all;
-}
+[[nodiscard]] SeriesList delivered(const Axis& axis);
 
-[[nodiscard]] inline std::vector<double> evenly(double from, double to, int n) {
-    std::vector<double> x;
-    for (int i = 0; i < n; ++i) x.push_back(from + (to - from) * i / (n - 1.0));
-    return x;
-}
-
-[[nodiscard]] inline std::string with_error(const Measured& m, int decimals) {
-    return fmt::format("{} \u00B1 {}", report::fixed_number(m.arcsec, decimals),
-                       report::fixed_number(m.error, decimals));
-}
+inline constexpr const char* theory_of_crossing = "theory, any order: 0";
 
 }  // namespace zlg::paper

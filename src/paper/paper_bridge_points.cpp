@@ -56,7 +56,7 @@ double paper_frequency_hz(double tick_s) { return 0.1 / tick_s; }
 
 double exact_error_arcsec(const BridgeCase& c, design::Fit fit, int order) {
     const auto response =
-        design::ErrorResponse::of_sum({.fit = fit, .order = order, .n = c.n, .points = {}, .tick_s = c.tick_s});
+        design::ErrorResponse({.fit = fit, .order = order, .n = c.n, .points = {}, .tick_s = c.tick_s});
     const std::complex<double> h = response(c.frequency_hz);
     return -c.amplitude_arcsec_s * (c.region == Region::extremum ? h.real() : h.imag());
 }
@@ -114,8 +114,8 @@ BridgePoints measure_bridge(const PaperTask& task) {
 }
 
 Measured measured(const SubstitutionPoint& point, Region region) {
-    if (region == Region::extremum) return {-point.extremum_arcsec, point.extremum_error};
-    return {-point.crossing_arcsec, point.crossing_error};
+    if (region == Region::extremum) return {-point.extremum.arcsec, point.extremum.error};
+    return {-point.crossing.arcsec, point.crossing.error};
 }
 
 const SubstitutionPoint& point_of(const SubstitutionResult& result, design::Fit fit, int order) {

@@ -13,16 +13,8 @@
 namespace zlg::paper {
 namespace {
 
-using design::Fit;
-using design::Substitution;
-using design::TickNoise;
+using namespace design;
 using enum Verdict;
-
-double worst_arcsec(Fit fit, int order) {
-    return design::worst(design::ErrorResponse::of_sum({.fit = fit, .order = order}), paper_oscillation).error_arcsec;
-}
-
-double gain(Fit fit, int order) { return design::sum_gain({.fit = fit, .order = order}, TickNoise::white); }
 
 // From this amplitude of the rate the parabola is better than the constant.
 double crossing_arcsec_s(double frequency_hz) {
@@ -52,7 +44,7 @@ std::vector<Claim> claims_of_abstract() {
              "The conclusions say that a constant has much less noise. Neither holds: in the corrected angle both "
              "are one estimator, line {:.2f} and constant {:.2f} ticks of noise, {:.2f} and {:.2f} arcsec in the "
              "oscillation. Against motion the parabola is more robust, {:.2f} arcsec.",
-             gain(Fit::interpolation, 1), gain(Fit::interpolation, 0), worst_arcsec(Fit::interpolation, 1),
+             noise_gain(Fit::interpolation, 1), noise_gain(Fit::interpolation, 0), worst_arcsec(Fit::interpolation, 1),
              worst_arcsec(Fit::interpolation, 0), worst_arcsec(Fit::interpolation, 2))},
     };
 }
@@ -69,12 +61,11 @@ std::vector<Claim> claims_of_conclusions() {
          fmt::format(
              "Alike in noise too, {:.2f} and {:.2f} ticks: one estimator. Less noise it has in the extrapolation only, "
              "{:.2f} against {:.2f} ticks, and that is replaced after the gap.",
-             gain(Fit::interpolation, 0), gain(Fit::interpolation, 1), gain(Fit::extrapolation, 0),
-             gain(Fit::extrapolation, 1))},
+             noise_gain(Fit::interpolation, 0), noise_gain(Fit::interpolation, 1), noise_gain(Fit::extrapolation, 0),
+             noise_gain(Fit::extrapolation, 1))},
         {"conclusion 3", "For slow oscillation a constant is best, for fast a parabola, depending on noise.", agrees,
          fmt::format("With {} arcsec of noise a tick and three lost ticks the parabola wins from {:.0f} \"/s at {:.0f} "
-                     "Hz, from "
-                     "{:.0f} \"/s at 5 Hz and from {:.0f} \"/s at 1 Hz, rms over random phase.",
+                     "Hz, from {:.0f} \"/s at 5 Hz and from {:.0f} \"/s at 1 Hz, rms over random phase.",
                      paper_noise_arcsec, crossing_arcsec_s(paper_oscillation.frequency_hz),
                      paper_oscillation.frequency_hz, crossing_arcsec_s(5.0), crossing_arcsec_s(1.0))},
         {"closing", "The regime lowers the drift of the gyro by about an order of magnitude.", agrees,

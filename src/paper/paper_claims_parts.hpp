@@ -4,18 +4,27 @@
 // A verdict is on the paper, so every number in a finding is computed for the paper's own gyro, which is the default
 // configuration, whatever gyro the rest of the page is for.
 
+#include <initializer_list>
 #include <vector>
 
-#include <zlg/design/substitution.hpp>
+#include <zlg/design/substitution_noise.hpp>
 #include <zlg/paper/paper.hpp>
+
+#include "paper_trial.hpp"
 
 namespace zlg::paper {
 
-// What the paper gives of the trial with oscillation: 12000 "/s at 20 Hz, 1.6 arcsec of noise on a tick of 5 ms, which
-// is taken for 3 sigma; the limit of 10 arcsec per switch.
-inline constexpr design::Tone paper_oscillation{12000.0, 20.0};
-inline constexpr double paper_noise_arcsec = 1.6;
-inline constexpr double paper_switch_error_arcsec = 10.0;
+// Error of a gap at the worst phase of the oscillation, and the gain of white noise, of this fit and order.
+[[nodiscard]] inline double worst_arcsec(design::Fit fit, int order, int n = paper_gap_ticks) {
+    return design::worst(design::ErrorResponse({fit, order, n}), paper_oscillation).error_arcsec;
+}
+[[nodiscard]] inline double noise_gain(design::Fit fit, int order) {
+    return design::sum_gain({fit, order, paper_gap_ticks}, design::TickNoise::white);
+}
+
+using Claims = std::vector<Claim> (*)();
+
+[[nodiscard]] std::vector<Claim> joined(std::initializer_list<Claims> parts);
 
 [[nodiscard]] std::vector<Claim> claims_of_abstract();
 [[nodiscard]] std::vector<Claim> claims_of_laser();         // eqs (1), (2), the perimeter loop

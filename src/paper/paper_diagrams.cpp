@@ -3,18 +3,15 @@
 #include <cmath>
 #include <numbers>
 
-#include <zlg/report/number_text.hpp>
-
 #include "paper_bridge.hpp"
+#include "paper_curves.hpp"
 #include "paper_parts.hpp"
+#include "paper_text.hpp"
 
 namespace zlg::paper {
 namespace {
 
-using report::Diagram;
-using report::Figure;
-using report::Mark;
-using report::Series;
+using namespace report;
 
 // --- figure 2 --------------------------------------------------------------------------------------------------------
 
@@ -78,33 +75,29 @@ report::Band gap_at(double middle_s, double tick_s, const char* name) {
 Figure oscillation_figure(double tick_s) {
     const double frequency_hz = paper_frequency_hz(tick_s);
     const double period_s = 1.0 / frequency_hz;
-    constexpr double start_periods = -0.25;
     constexpr double end_periods = 1.0;
-    constexpr int n_points = 251;
-    Series rate{.name = "rate A sin 2\u03C0\u03BDt", .x = {}, .y = {}, .y_error = {}};
-    for (int i = 0; i < n_points; ++i) {
-        const double periods = start_periods + (end_periods - start_periods) * i / (n_points - 1);
-        rate.x.push_back(1e3 * periods * period_s);
-        rate.y.push_back(paper_amplitude_arcsec_s * std::sin(2.0 * std::numbers::pi * periods));
+    Series rate{.name = "rate A sin 2\u03C0\u03BDt"};
+    for (const double periods : evenly(-0.25, end_periods, 251)) {
+        report::add_point(rate, 1e3 * periods * period_s,
+                          paper_amplitude_arcsec_s * std::sin(2.0 * std::numbers::pi * periods));
     }
-    Series ticks{.name = "mean over each tick, P/T", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
+    Series ticks{.name = "mean over each tick, P/T", .mark = Mark::points};
     const double w = 2.0 * std::numbers::pi * frequency_hz;
     // A tick lies in the middle of the zero crossing.
     for (double t0_s = -2.5 * tick_s; t0_s + tick_s <= end_periods * period_s + 1e-9; t0_s += tick_s) {
         const double angle = paper_amplitude_arcsec_s / w * (std::cos(w * t0_s) - std::cos(w * (t0_s + tick_s)));
-        ticks.x.push_back(1e3 * (t0_s + 0.5 * tick_s));
-        ticks.y.push_back(angle / tick_s);
+        report::add_point(ticks, 1e3 * (t0_s + 0.5 * tick_s), angle / tick_s);
     }
-    return {
-        .id = "figure-7",
-        .title = "Oscillation of the case, and the two places of a gap in it",
-        .caption = fmt::format("Amplitude 12 000 \"/s, {} Hz, ticks of {} ms. A gap of three ticks, 1: where the rate "
-                               "passes zero, figures 8a and 9. 2: where it is at its extremum, figures 8b and 10.",
-                               report::short_number(frequency_hz), report::short_number(1e3 * tick_s)),
-        .x_label = "time, ms",
-        .y_label = "angular rate, arcsec/s",
-        .series = {std::move(rate), std::move(ticks)},
-        .bands = {gap_at(0.0, tick_s, "1"), gap_at(0.75 * period_s, tick_s, "2")}};
+    return {.id = "figure-7",
+            .title = "Oscillation of the case, and the two places of a gap in it",
+            .caption =
+                sentence("Amplitude 12 000 \"/s, {} Hz, ticks of {} ms. A gap of three ticks, 1: where the rate passes "
+                         "zero, figures 8a and 9. 2: where it is at its extremum, figures 8b and 10.",
+                         frequency_hz, 1e3 * tick_s),
+            .x_label = "time, ms",
+            .y_label = "angular rate, arcsec/s",
+            .series = {std::move(rate), std::move(ticks)},
+            .bands = {gap_at(0.0, tick_s, "1"), gap_at(0.75 * period_s, tick_s, "2")}};
 }
 
 }  // namespace
@@ -120,7 +113,6 @@ PaperItem paper_figure_2() {
                          "more cannot be back within the four ticks of tables 1 and 2. The twin's integrator is "
                          "limited, so its settling takes a time in proportion to the miss."},
                     .tables = {parts_table()},
-                    .figures = {},
                     .diagrams = {loop_diagram()}}};
 }
 
@@ -134,7 +126,6 @@ PaperItem paper_figure_7(const PaperTask& task) {
                            "place 2, in print of variable angular velocity, is where the velocity hardly changes.",
                            "The gyro does not sample the rate. A reading is the angle of a whole tick, and what a "
                            "polynomial has to follow is the points."},
-            .tables = {},
             .figures = {oscillation_figure(task.config.gyro.tick_s)}}};
 }
 

@@ -6,16 +6,16 @@
 
 #include <zlg/design/interval_formula.hpp>
 #include <zlg/design/switching_interval.hpp>
-#include <zlg/report/number_text.hpp>
 
+#include "paper_curves.hpp"
 #include "paper_parts.hpp"
 #include "paper_readings.hpp"
+#include "paper_text.hpp"
 
 namespace zlg::paper {
 namespace {
 
-using design::DriftCase;
-using design::IntervalMethod;
+using namespace design;
 using report::Series;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -27,13 +27,6 @@ std::vector<double> sorted_runs_s(const config::Config& config) {
     std::vector<double> runs = config.design.run_lengths_s;
     std::sort(runs.begin(), runs.end());
     return runs;
-}
-
-std::vector<double> log_spaced(double from, double to, int n) {
-    std::vector<double> x;
-    for (int i = 0; i < n; ++i) x.push_back(from * std::pow(to / from, i / (n - 1.0)));
-    x.back() = to;
-    return x;
 }
 
 // --- figure 4 --------------------------------------------------------------------------------------------------------
@@ -55,34 +48,26 @@ Range interval_range(const config::Config& config, const std::vector<double>& ru
     return {0.1 * least, 10.0 * greatest};
 }
 
-Series drift_curve(IntervalMethod method, const DriftCase& task, Range range, const char* name) {
-    Series s{.name = fmt::format("{} s, {}", report::short_number(task.run_s), name), .x = {}, .y = {}, .y_error = {}};
-    s.dashed = method == IntervalMethod::as_printed;
-    for (const double x : log_spaced(range.from_s, std::min(task.run_s, range.to_s), 160)) {
-        s.x.push_back(x);
-        s.y.push_back(design::drift_arcsec_s(method, task, x));
-    }
-    return s;
-}
-
 std::vector<Series> drift_curves(const config::Config& config, const std::vector<double>& runs_s) {
     const Range range = interval_range(config, runs_s);
     std::vector<Series> all;
-    for (const double run_s : runs_s)
-        all.push_back(
-            drift_curve(IntervalMethod::corrected, study::drift_case(config, run_s), range, "corrected (7c)"));
+    const auto add = [&](IntervalMethod method, const char* name) {
+        for (const double run_s : runs_s)
+            all.push_back(curve({sentence("{} s, {}", run_s, name), -1, method == IntervalMethod::as_printed},
+                                log_spaced(range.from_s, std::min(run_s, range.to_s), 160), [&](double interval_s) {
+                                    return design::drift_arcsec_s(method, study::drift_case(config, run_s), interval_s);
+                                }));
+    };
+    add(IntervalMethod::corrected, "corrected (7c)");
     // A series without a name and without points uses up a colour and shows nowhere.
-    while (all.size() % n_colours != 0) all.push_back({.name = {}, .x = {}, .y = {}, .y_error = {}});
-    for (const double run_s : runs_s)
-        all.push_back(
-            drift_curve(IntervalMethod::as_printed, study::drift_case(config, run_s), range, "as printed (7)"));
-    Series best{.name = "least drift", .x = {}, .y = {}, .y_error = {}, .mark = report::Mark::points};
+    while (all.size() % n_colours != 0) all.emplace_back();
+    add(IntervalMethod::as_printed, "as printed (7)");
+    Series best{.name = "least drift", .mark = report::Mark::points};
     for (const IntervalMethod method : {IntervalMethod::corrected, IntervalMethod::as_printed})
         for (const double run_s : runs_s) {
             const design::Optimum optimum = design::optimum(method, study::drift_case(config, run_s));
             if (optimum.interval_s > range.to_s) continue;
-            best.x.push_back(optimum.interval_s);
-            best.y.push_back(optimum.drift_arcsec_s);
+            report::add_point(best, optimum.interval_s, optimum.drift_arcsec_s);
         }
     all.push_back(std::move(best));
     return all;
@@ -93,17 +78,16 @@ report::Table optimum_table(const config::Config& config, const std::vector<doub
         .caption =
             "Least drift, and the interval between switches at which it is reached. A is the "
             "change of the magnetic drift by a full warm-up.",
-        .header = {"A, \"/s", "run, s", "interval by (7), s", "drift, \"/s", "interval by (7c), s", "drift, \"/s"},
-        .rows = {}};
+        .header = {"A, \"/s", "run, s", "interval by (7), s", "drift, \"/s", "interval by (7c), s", "drift, \"/s"}};
     for (const auto& reading : {study::drift_case, drift_case_per_degree})
         for (const double run_s : runs_s) {
             const DriftCase task = reading(config, run_s);
             const auto printed = design::optimum(IntervalMethod::as_printed, task);
             const auto corrected = design::optimum(IntervalMethod::corrected, task);
-            table.rows.push_back(
-                {report::short_number(task.gyro.magnetic_thermal_arcsec_s), report::short_number(run_s),
-                 report::fixed_number(printed.interval_s, 1), report::fixed_number(printed.drift_arcsec_s, 3),
-                 report::fixed_number(corrected.interval_s, 1), report::fixed_number(corrected.drift_arcsec_s, 3)});
+            table.rows.push_back({sentence("{}", task.gyro.magnetic_thermal_arcsec_s), sentence("{}", run_s),
+                                  sentence("{:.1f}", printed.interval_s), sentence("{:.3f}", printed.drift_arcsec_s),
+                                  sentence("{:.1f}", corrected.interval_s),
+                                  sentence("{:.3f}", corrected.drift_arcsec_s)});
         }
     return table;
 }
@@ -111,45 +95,37 @@ report::Table optimum_table(const config::Config& config, const std::vector<doub
 std::string figure_4_agreement(const config::Config& config, double shortest_s, double longest_s) {
     const auto first = design::optimum(IntervalMethod::corrected, study::drift_case(config, shortest_s));
     const auto last = design::optimum(IntervalMethod::corrected, study::drift_case(config, longest_s));
-    return fmt::format(
+    return sentence(
         "Agrees: each curve has one minimum between too many switches and too long a sawtooth, and with the length of "
-        "the "
-        "run it falls and moves to longer intervals, from {} \"/s at {} s to {} \"/s at {} s. Runs much shorter than "
-        "the "
-        "thermal time hardly show which formula is right.",
-        report::fixed_number(first.drift_arcsec_s, 3), report::fixed_number(first.interval_s, 1),
-        report::fixed_number(last.drift_arcsec_s, 3), report::fixed_number(last.interval_s, 1));
+        "the run it falls and moves to longer intervals, from {:.3f} \"/s at {:.1f} s to {:.3f} \"/s at {:.1f} s. "
+        "Runs much shorter than the thermal time hardly show which formula is right.",
+        first.drift_arcsec_s, first.interval_s, last.drift_arcsec_s, last.interval_s);
 }
 
 std::string figure_4_disagreement(const config::Config& config, double longest_s) {
     const DriftCase task = study::drift_case(config, longest_s);
     const auto right = design::optimum(IntervalMethod::corrected, task);
     const auto printed = design::optimum(IntervalMethod::as_printed, task);
-    return fmt::format(
-        "Does not: (7) charges the whole run with the thermal change of its first two segments. In {} s its minimum is "
-        "{} "
-        "\"/s at {} s, the right one {} \"/s at {} s; and however long the run, (7) stays about {} \"/s above the "
-        "non-magnetic drift to which the text and (7c) let it fall.",
-        report::short_number(longest_s), report::fixed_number(printed.drift_arcsec_s, 3),
-        report::fixed_number(printed.interval_s, 1), report::fixed_number(right.drift_arcsec_s, 3),
-        report::fixed_number(right.interval_s, 1), report::fixed_number(printed_floor_arcsec_s(task), 3));
+    return sentence(
+        "Does not: (7) charges the whole run with the thermal change of its first two segments. In {} s its minimum "
+        "is {:.3f} \"/s at {:.1f} s, the right one {:.3f} \"/s at {:.1f} s; and however long the run, (7) stays about "
+        "{:.3f} \"/s above the non-magnetic drift to which the text and (7c) let it fall.",
+        longest_s, printed.drift_arcsec_s, printed.interval_s, right.drift_arcsec_s, right.interval_s,
+        printed_floor_arcsec_s(task));
 }
 
 std::string readings(const config::Config& config, double shortest_s, double longest_s) {
-    const auto interval = [&](double run_s) {
+    const auto interval_s = [&](double run_s) {
         return design::optimum(IntervalMethod::as_printed, drift_case_per_degree(config, run_s)).interval_s;
     };
-    return fmt::format(
+    return sentence(
         "Reading: the print lists the thermal part of the magnetic drift as {} \"/s and the warming as {} C, and "
         "multiplies the two in (5). Here {} \"/s is taken for their product. Taken per degree, A is {} \"/s, and even "
-        "(7) "
-        "has its minima at {} s in {} s and {} s in {} s, which is not the figure 5 that rises with the run.",
-        report::short_number(config.drift.magnetic_thermal_arcsec_s),
-        report::short_number(config.gyro.temperature_rise_c),
-        report::short_number(config.drift.magnetic_thermal_arcsec_s),
-        report::short_number(drift_case_per_degree(config, longest_s).gyro.magnetic_thermal_arcsec_s),
-        report::fixed_number(interval(shortest_s), 1), report::short_number(shortest_s),
-        report::fixed_number(interval(longest_s), 1), report::short_number(longest_s));
+        "(7) has its minima at {:.1f} s in {} s and {:.1f} s in {} s, which is not the figure 5 that rises with the "
+        "run.",
+        config.drift.magnetic_thermal_arcsec_s, config.gyro.temperature_rise_c, config.drift.magnetic_thermal_arcsec_s,
+        drift_case_per_degree(config, longest_s).gyro.magnetic_thermal_arcsec_s, interval_s(shortest_s), shortest_s,
+        interval_s(longest_s), longest_s);
 }
 
 // --- figure 5 --------------------------------------------------------------------------------------------------------
@@ -191,21 +167,19 @@ std::vector<double> times_s(const std::vector<double>& runs_s) {
 
 std::vector<Series> interval_curves(const config::Config& config, const std::vector<double>& runs_s) {
     std::vector<Series> all;
-    for (const IntervalLaw& law : interval_laws) {
-        Series s{.name = law.name, .x = times_s(runs_s), .y = {}, .y_error = {}, .dashed = law.dashed};
-        for (const double t : s.x) s.y.push_back(law.interval_s(study::drift_case(config, t)));
-        all.push_back(std::move(s));
-    }
+    for (const IntervalLaw& law : interval_laws)
+        all.push_back(curve({law.name, -1, law.dashed}, times_s(runs_s),
+                            [&](double run_s) { return law.interval_s(study::drift_case(config, run_s)); }));
     return all;
 }
 
 report::Table interval_table(const config::Config& config, const std::vector<double>& runs_s) {
-    report::Table table{.caption = "Best interval between switches, s.", .header = {"run, s"}, .rows = {}};
+    report::Table table{.caption = "Best interval between switches, s.", .header = {"run, s"}};
     for (const IntervalLaw& law : interval_laws) table.header.emplace_back(law.name);
     for (const double run_s : runs_s) {
-        std::vector<std::string> row{report::short_number(run_s)};
+        std::vector<std::string> row{sentence("{}", run_s)};
         for (const IntervalLaw& law : interval_laws)
-            row.push_back(report::fixed_number(law.interval_s(study::drift_case(config, run_s)), 1));
+            row.push_back(sentence("{:.1f}", law.interval_s(study::drift_case(config, run_s))));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -214,22 +188,21 @@ report::Table interval_table(const config::Config& config, const std::vector<dou
 std::string end_of_roots(const DriftCase& task) {
     const double longest_s = design::longest_run_as_printed_s(task.gyro, task.switch_error_arcsec);
     if (!std::isfinite(longest_s)) return "";
-    return fmt::format(", and for runs above {} s it has no positive root at all", report::short_number(longest_s));
+    return sentence(", and for runs above {} s it has no positive root at all", longest_s);
 }
 
 std::vector<std::string> figure_5_text(const config::Config& config, double shortest_s, double longest_s) {
     const auto at = [&](std::size_t law, double run_s) {
-        return report::fixed_number(interval_laws[law].interval_s(study::drift_case(config, run_s)), 1);
+        return interval_laws[law].interval_s(study::drift_case(config, run_s));
     };
     return {
-        fmt::format("Agrees: the best interval grows with the run, and in the shortest one all laws give nearly the "
-                    "same, {} s by (7c) and {} s by the square root in {} s.",
-                    at(0, shortest_s), at(4, shortest_s), report::short_number(shortest_s)),
-        fmt::format("Does not: (9) lacks a factor t on its right side, without which its units do not agree, and has "
-                    "the thermal term with the wrong sign: a warm-up makes its interval longer{}. With the right "
-                    "sign, (9c), it follows (7), mistake included: {} s in {} s, where the least drift is at {} s.",
-                    end_of_roots(study::drift_case(config, longest_s)), at(2, longest_s),
-                    report::short_number(longest_s), at(0, longest_s))};
+        sentence("Agrees: the best interval grows with the run, and in the shortest one all laws give nearly the same, "
+                 "{:.1f} s by (7c) and {:.1f} s by the square root in {} s.",
+                 at(0, shortest_s), at(4, shortest_s), shortest_s),
+        sentence("Does not: (9) lacks a factor t on its right side, without which its units do not agree, and has the "
+                 "thermal term with the wrong sign: a warm-up makes its interval longer{}. With the right sign, (9c), "
+                 "it follows (7), mistake included: {:.1f} s in {} s, where the least drift is at {:.1f} s.",
+                 end_of_roots(study::drift_case(config, longest_s)), at(2, longest_s), longest_s, at(0, longest_s))};
 }
 
 }  // namespace
@@ -252,7 +225,6 @@ PaperItem paper_figure_4(const PaperTask& task) {
                              .x_label = "interval between switches, s",
                              .y_label = "drift, \"/s",
                              .series = drift_curves(config, runs_s),
-                             .bands = {},
                              .log_x = true}};
     return item;
 }
@@ -272,7 +244,6 @@ PaperItem paper_figure_5(const PaperTask& task) {
                              .x_label = "length of the run, s",
                              .y_label = "interval, s",
                              .series = interval_curves(config, runs_s),
-                             .bands = {},
                              .log_x = true,
                              .log_y = true}};
     return item;

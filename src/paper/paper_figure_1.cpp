@@ -11,10 +11,7 @@
 namespace zlg::paper {
 namespace {
 
-using report::Diagram;
-using report::Figure;
-using report::Mark;
-using report::Series;
+using namespace report;
 
 // A gyro whose perimeter is held at one detuning, at rest or in slow rotation.
 class HeldGyro {
@@ -34,9 +31,9 @@ private:
 
     static twin::TwinConfig twin_config(const config::Config& config) {
         twin::TwinConfig c = rig::twin_config(config);
-        c.loop = twin::LoopKind::external;
-        c.miss_lambda = 0.0;
-        c.temperature_rise_c = 0.0;
+        c.perimeter.loop = twin::Loop::digital;
+        c.perimeter.miss_lambda = 0.0;
+        c.gyro.temperature_rise_c = 0.0;
         return c;
     }
 
@@ -46,36 +43,34 @@ private:
 
 constexpr int shown_halves = 6;
 
+// Counts between two readings. The counter wraps; as a signed number the difference does not.
+double counts_between(const core::SensorFrame& before, const core::SensorFrame& after) {
+    return static_cast<double>(static_cast<std::int64_t>(after.counter - before.counter));
+}
+
 Figure beat_figure(const config::Config& config) {
-    Figure figure{.id = "figure-1-beat",
-                  .title = "The bias of the twin",
-                  .caption =
-                      "Rate of the counter over each half of the tick, gyro at rest, no detuning. The two halves of a "
-                      "tick cancel in its angle and leave the rotation.",
-                  .x_label = "time, ms",
-                  .y_label = "rate of the counter, kHz",
-                  .series = {},
-                  .bands = {}};
-    Series beat{.name = "mean over the half", .x = {}, .y = {}, .y_error = {}, .mark = Mark::steps};
+    Series beat{.name = "mean over the half", .mark = Mark::steps};
     HeldGyro gyro{config, 0.0};
     const double half_s = 0.5 * config.gyro.tick_s;
-    std::uint64_t counter = gyro.advance().sensor.counter;
+    core::SensorFrame before = gyro.advance().sensor;
     for (int half = 0; half < shown_halves; ++half) {
-        const std::uint64_t next = gyro.advance().sensor.counter;
-        // The counter wraps; as a signed number the difference does not.
-        const auto counts = static_cast<double>(static_cast<std::int64_t>(next - counter));
-        counter = next;
-        beat.x.push_back(1e3 * half_s * half);
-        beat.y.push_back(1e-3 * counts / half_s);
+        const core::SensorFrame after = gyro.advance().sensor;
+        add_point(beat, 1e3 * half_s * half, 1e-3 * counts_between(before, after) / half_s);
+        before = after;
     }
-    beat.x.push_back(1e3 * half_s * shown_halves);
-    beat.y.push_back(beat.y.back());
-    figure.series.push_back(std::move(beat));
-    return figure;
+    add_point(beat, 1e3 * half_s * shown_halves, beat.y.back());
+    return {.id = "figure-1-beat",
+            .title = "The bias of the twin",
+            .caption =
+                "Rate of the counter over each half of the tick, gyro at rest, no detuning. The two halves of a tick "
+                "cancel in its angle and leave the rotation.",
+            .x_label = "time, ms",
+            .y_label = "rate of the counter, kHz",
+            .series = {std::move(beat)}};
 }
 
 Series light_of(const config::Config& config, double detuning_lambda) {
-    Series s{.name = "on the centre", .x = {}, .y = {}, .y_error = {}};
+    Series s{.name = "on the centre"};
     if (detuning_lambda != 0.0)
         s.name = fmt::format("{}{} wavelengths", detuning_lambda > 0.0 ? "+" : "\u2212", std::abs(detuning_lambda));
     HeldGyro gyro{config, detuning_lambda};
@@ -85,51 +80,52 @@ Series light_of(const config::Config& config, double detuning_lambda) {
         const core::SensorFrame sensor = gyro.advance().sensor;
         for (std::size_t k = 0; k < sensor.n_light; ++k) {
             const double sum = double{sensor.light_a[k]} + double{sensor.light_b[k]};
-            s.x.push_back(half_ms * (half + (static_cast<double>(k) + 0.5) / sensor.n_light));
-            s.y.push_back(100.0 * (double{sensor.light_a[k]} - double{sensor.light_b[k]}) / sum);
+            add_point(s, half_ms * (half + (static_cast<double>(k) + 0.5) / sensor.n_light),
+                      100.0 * (double{sensor.light_a[k]} - double{sensor.light_b[k]}) / sum);
         }
     }
     return s;
 }
 
 Figure light_figure(const config::Config& config) {
-    Figure figure{.id = "figure-1-light",
-                  .title = "The detuning signal of the twin",
-                  .caption =
-                      "Samples of the light over the same time. Off the centre of the gain contour the beams differ, "
-                      "with the sign of the bias: a modulation of period T. Its phase tells the side, and turns over "
-                      "with the helicity of the mode.",
-                  .x_label = "time, ms",
-                  .y_label = "difference of the beams over their sum, %",
-                  .series = {},
-                  .bands = {}};
-    for (const double detuning : {0.05, 0.0, -0.05}) figure.series.push_back(light_of(config, detuning));
-    return figure;
+    return {.id = "figure-1-light",
+            .title = "The detuning signal of the twin",
+            .caption =
+                "Samples of the light over the same time. Off the centre of the gain contour the beams differ, with "
+                "the sign of the bias: a modulation of period T. Its phase tells the side, and turns over with the "
+                "helicity of the mode.",
+            .x_label = "time, ms",
+            .y_label = "difference of the beams over their sum, %",
+            .series = {light_of(config, 0.05), light_of(config, 0.0), light_of(config, -0.05)}};
 }
 
-Figure frequency_figure(const config::Config& config) {
+Series law_of_bias(const config::Gyro& gyro) {
+    Series law{.name = "f\u2080(1 \u2212 \u03C7 \u0394\u03BB\u00B2), eq (2)"};
+    for (int k = -40; k <= 40; ++k)
+        add_point(law, 0.005 * k, 1e-3 * gyro.bias_hz * (1.0 - gyro.bias_chi * 2.5e-5 * k * k));
+    return law;
+}
+
+Series counted_bias(const config::Config& config) {
     constexpr int ticks = 40;
     // At rest every tick would be rounded alike: 0.382 counts of rotation in a tick spread the rounding evenly.
     const double rate_arcsec_s = 0.381966 * config.gyro.scale_arcsec / config.gyro.tick_s;
-    Series law{.name = "f\u2080(1 \u2212 \u03C7 \u0394\u03BB\u00B2), eq (2)", .x = {}, .y = {}, .y_error = {}};
-    Series seen{.name = "counted on the twin", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
-    for (int k = -40; k <= 40; ++k) {
-        law.x.push_back(0.005 * k);
-        law.y.push_back(1e-3 * config.gyro.bias_hz * (1.0 - config.gyro.bias_chi * 2.5e-5 * k * k));
-    }
+    Series seen{.name = "counted on the twin", .mark = Mark::points};
     for (int k = -4; k <= 4; ++k) {
         HeldGyro gyro{config, 0.05 * k, rate_arcsec_s};
         twin::TwinHalf half = gyro.advance();
         double counts = 0.0;
         for (int i = 0; i < 2 * ticks; ++i) {
-            const std::uint64_t before = half.sensor.counter;
+            const core::SensorFrame before = half.sensor;
             half = gyro.advance();
-            counts +=
-                half.sensor.bias_sign * static_cast<double>(static_cast<std::int64_t>(half.sensor.counter - before));
+            counts += half.sensor.bias_sign * counts_between(before, half.sensor);
         }
-        seen.x.push_back(half.truth.detuning_end_lambda);
-        seen.y.push_back(1e-3 * std::abs(counts) / (ticks * config.gyro.tick_s));
+        add_point(seen, half.truth.detuning_end_lambda, 1e-3 * std::abs(counts) / (ticks * config.gyro.tick_s));
     }
+    return seen;
+}
+
+Figure frequency_figure(const config::Config& config) {
     return {.id = "figure-1-frequency",
             .title = "Bias frequency against detuning",
             .caption =
@@ -137,8 +133,7 @@ Figure frequency_figure(const config::Config& config) {
                 "different bias.",
             .x_label = "detuning, wavelengths",
             .y_label = "bias frequency, kHz",
-            .series = {std::move(law), std::move(seen)},
-            .bands = {}};
+            .series = {law_of_bias(config.gyro), counted_bias(config)}};
 }
 
 Diagram bias_diagram() {
@@ -184,7 +179,6 @@ PaperItem paper_figure_1(const PaperTask& task) {
                            "puts c in the numerator. The amplitude is proportional to the detuning times the shift, so "
                            "only A = K \u0394\u03BB is used, with the helicity in the sign. The signal has the period "
                            "T of the bias, not half of it: at T/2 there is only what is left on the centre."},
-            .tables = {},
             .figures = {beat_figure(task.config), light_figure(task.config), frequency_figure(task.config)},
             .diagrams = {bias_diagram()}}};
 }

@@ -1,23 +1,23 @@
 // Figure 11: noise of a replaced gap against its length.
 
-#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <zlg/design/substitution_noise.hpp>
 
 #include "paper_bridge_curves.hpp"
+#include "paper_text.hpp"
 
 namespace zlg::paper {
 namespace {
 
-using design::Fit;
-using design::TickNoise;
+using namespace design;
 using report::Figure;
 
 constexpr double n_sigmas = 3.0;
 
 design::Substitution substitution(Fit fit, int order, double n) {
-    return {.fit = fit, .order = order, .n = static_cast<int>(std::lround(n)), .points = {}};
+    return {.fit = fit, .order = order, .n = static_cast<int>(std::lround(n))};
 }
 
 double tick_sigma_arcsec(const PaperTask& task) {
@@ -25,21 +25,7 @@ double tick_sigma_arcsec(const PaperTask& task) {
 }
 
 std::vector<double> lengths_of(const BridgePoints& points) {
-    std::vector<double> x;
-    for (const SubstitutionResult& r : points.of_noise) x.push_back(r.interpolation[0].n);
-    return x;
-}
-
-report::Series noise_points(Look look, const BridgePoints& points, Fit fit, int order) {
-    report::Series s{
-        .name = std::move(look.name), .x = lengths_of(points), .y = {}, .y_error = {}, .mark = report::Mark::points};
-    s.colour = look.colour;
-    for (const SubstitutionResult& result : points.of_noise) {
-        const SubstitutionPoint& p = point_of(result, fit, order);
-        s.y.push_back(n_sigmas * p.rms_arcsec);
-        s.y_error.push_back(n_sigmas * p.rms_error);
-    }
-    return s;
+    return each(points.of_noise, [](const SubstitutionPoint& p) { return p.n; });
 }
 
 // White and counter noise of the same size, and the twin.
@@ -52,7 +38,10 @@ void add_order(Figure& figure, const PaperTask& task, const BridgePoints& points
     figure.series.push_back(
         curve({name + ", white noise", colour, true}, lengths_of(points), theory(TickNoise::white)));
     figure.series.push_back(curve({name + ", counter", colour}, lengths_of(points), theory(TickNoise::counter)));
-    figure.series.push_back(noise_points({name + ", twin", colour}, points, fit, order));
+    figure.series.push_back(twin_points({name + ", twin", colour}, lengths_of(points), points.of_noise, fit, order,
+                                        [](const SubstitutionPoint& p) {
+                                            return Measured{n_sigmas * p.rms.arcsec, n_sigmas * p.rms.error};
+                                        }));
 }
 
 Figure corrected_figure(const PaperTask& task, const BridgePoints& points) {
@@ -63,8 +52,6 @@ Figure corrected_figure(const PaperTask& task, const BridgePoints& points) {
                       "have the same size in one tick. The twin has rounding, light noise and random walk.",
                   .x_label = "replaced ticks n",
                   .y_label = "3 sigma of the gap, arcsec",
-                  .series = {},
-                  .bands = {},
                   .log_y = true};
     for (const int order : sum_orders)
         add_order(figure, task, points, Fit::interpolation, order, order / 2, sum_order_name(order));
@@ -81,8 +68,6 @@ Figure delivered_figure(const PaperTask& task, const BridgePoints& points) {
                   .caption = "The same for the extrapolation (14) from the four ticks before the gap.",
                   .x_label = "replaced ticks n",
                   .y_label = "3 sigma of the gap, arcsec",
-                  .series = {},
-                  .bands = {},
                   .log_y = true};
     for (int order = 0; order < 3; ++order)
         add_order(figure, task, points, Fit::extrapolation, order, order, order_names[static_cast<std::size_t>(order)]);
@@ -96,18 +81,15 @@ double ratio(Fit fit, int order, double n, TickNoise noise) {
 report::Table ratio_table(const BridgePoints& points) {
     report::Table table{
         .caption = "How many times noisier than the constant: white noise / rounding of the count / twin.",
-        .header = {"n", "corrected, quadratic", "in real time, linear", "in real time, quadratic"},
-        .rows = {}};
+        .header = {"n", "corrected, quadratic", "in real time, linear", "in real time, quadratic"}};
     for (const SubstitutionResult& result : points.of_noise) {
         const int n = result.interpolation[0].n;
         std::vector<std::string> row{fmt::format("{}", n)};
         for (const auto& [fit, order] :
              {std::pair{Fit::interpolation, 2}, std::pair{Fit::extrapolation, 1}, std::pair{Fit::extrapolation, 2}})
-            row.push_back(
-                fmt::format("{} / {} / {}", report::fixed_number(ratio(fit, order, n, TickNoise::white), 2),
-                            report::fixed_number(ratio(fit, order, n, TickNoise::counter), 2),
-                            report::fixed_number(
-                                point_of(result, fit, order).rms_arcsec / point_of(result, fit, 0).rms_arcsec, 2)));
+            row.push_back(sentence("{:.2f} / {:.2f} / {:.2f}", ratio(fit, order, n, TickNoise::white),
+                                   ratio(fit, order, n, TickNoise::counter),
+                                   point_of(result, fit, order).rms.arcsec / point_of(result, fit, 0).rms.arcsec));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -115,8 +97,8 @@ report::Table ratio_table(const BridgePoints& points) {
 
 std::string range_of_ratio(const BridgePoints& points, Fit fit, int order) {
     const std::vector<double> x = lengths_of(points);
-    return fmt::format("{} to {}", report::fixed_number(ratio(fit, order, x.front(), TickNoise::white), 2),
-                       report::fixed_number(ratio(fit, order, x.back(), TickNoise::white), 2));
+    return sentence("{:.2f} to {:.2f}", ratio(fit, order, x.front(), TickNoise::white),
+                    ratio(fit, order, x.back(), TickNoise::white));
 }
 
 // --- the twin's points of figures 8 to 11 against theory ------------------------------------------------------------
@@ -159,12 +141,11 @@ report::Table agreement_table(const BridgePoints& points) {
     report::Table table{.caption =
                             "All points of figures 8 to 11: squared deviation from theory over squared standard error, "
                             "per point (number of points). The estimators of one experiment share its noise.",
-                        .header = {"estimator", "motion, both regions", "noise"},
-                        .rows = {}};
+                        .header = {"estimator", "motion, both regions", "noise"}};
+    const auto cell = [](const ChiSquare& chi2) { return sentence("{:.2f} ({})", chi2.per_dof, chi2.dof); };
     for (const Estimator& e : estimators) {
         const Agreement a = agreement(points, e);
-        table.rows.push_back({e.name, fmt::format("{} ({})", report::fixed_number(a.motion.per_dof, 2), a.motion.dof),
-                              fmt::format("{} ({})", report::fixed_number(a.noise.per_dof, 2), a.noise.dof)});
+        table.rows.push_back({e.name, cell(a.motion), cell(a.noise)});
     }
     return table;
 }
@@ -188,28 +169,25 @@ ChiSquare agreement_of_all(const BridgePoints& points) {
 PaperItem paper_figure_11(const PaperTask& task, const BridgePoints& points) {
     const double three_sigma = n_sigmas * tick_sigma_arcsec(task);
     const double lsb_arcsec = task.config.gyro.scale_arcsec;
-    const auto corrected = [&](int order, TickNoise noise) {
-        return report::fixed_number(
-            three_sigma * design::sum_gain(substitution(Fit::interpolation, order, paper_gap_ticks), noise), 2);
+    const auto gap_arcsec = [&](int order, TickNoise noise) {
+        return three_sigma * design::sum_gain(substitution(Fit::interpolation, order, paper_gap_ticks), noise);
     };
     PaperItem item{.number = "figure 11",
                    .section = {.heading = "Figure 11: noise against the number of replaced ticks"}};
     item.section.paragraphs = {
-        fmt::format("Noise: one count is {} arcsec, so a tick is off by {} arcsec rms and {} arcsec at 3 sigma, "
-                    "triangular within one count. Print names half a count, {} arcsec, as the amplitude A of a tick; "
-                    "the law below takes 3 sigma for A, which is the reading kinder to it.",
-                    report::short_number(lsb_arcsec), report::fixed_number(tick_sigma_arcsec(task), 2),
-                    report::fixed_number(three_sigma, 2), report::fixed_number(0.5 * lsb_arcsec, 2)),
+        sentence("Noise: one count is {} arcsec, so a tick is off by {:.2f} arcsec rms and {:.2f} arcsec at 3 sigma, "
+                 "triangular within one count. Print names half a count, {:.2f} arcsec, as the amplitude A of a tick; "
+                 "the law below takes 3 sigma for A, which is the reading kinder to it.",
+                 lsb_arcsec, tick_sigma_arcsec(task), three_sigma, 0.5 * lsb_arcsec),
         "Agrees: the constant is the quietest, and the parabola the worse the longer the gap.",
-        fmt::format(
+        sentence(
             "Does not: the n replaced ticks share one mean, so their errors add up directly and 3 sigma is An/2, not "
-            "A\u221An/2: {} arcsec instead of {} at three ticks of white noise. Rounding is not white: errors of "
-            "neighbouring ticks have opposite signs in part, which helps equal weights and hurts alternating ones. The "
-            "constant comes down from {} to {} arcsec, the parabola goes up from {} to {}.",
-            report::fixed_number(design::constant_noise_arcsec(three_sigma, paper_gap_ticks), 2),
-            report::fixed_number(design::constant_noise_as_printed_arcsec(three_sigma, paper_gap_ticks), 2),
-            corrected(0, TickNoise::white), corrected(0, TickNoise::counter), corrected(2, TickNoise::white),
-            corrected(2, TickNoise::counter)),
+            "A\u221An/2: {:.2f} arcsec instead of {:.2f} at three ticks of white noise. Rounding is not white: errors "
+            "of neighbouring ticks have opposite signs in part, which helps equal weights and hurts alternating ones. "
+            "The constant comes down from {:.2f} to {:.2f} arcsec, the parabola goes up from {:.2f} to {:.2f}.",
+            design::constant_noise_arcsec(three_sigma, paper_gap_ticks),
+            design::constant_noise_as_printed_arcsec(three_sigma, paper_gap_ticks), gap_arcsec(0, TickNoise::white),
+            gap_arcsec(0, TickNoise::counter), gap_arcsec(2, TickNoise::white), gap_arcsec(2, TickNoise::counter)),
         fmt::format("Does not: print finds the straight line 1.8 to 2.5 times noisier than the constant, the parabola "
                     "8 to 35 times. In the corrected sum the straight line is the constant, and the parabola is {} "
                     "times noisier for 1 to {} ticks. Extrapolated, the line is {} and the parabola {} times noisier. "

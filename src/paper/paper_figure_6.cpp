@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
-#include <zlg/report/number_text.hpp>
-
 #include "paper_parts.hpp"
+#include "paper_text.hpp"
 
 namespace zlg::paper {
 namespace {
 
-using report::Figure;
-using report::Mark;
-using report::Series;
+using namespace report;
 
 // The ticks that the figure shows, by the paper's count: the gap is 1..n.
 constexpr int first_shown = -5;
@@ -44,73 +41,65 @@ Gap gap_of(const study::RunResult& run) {
 bool in_gap(const Gap& gap, const Numbered& at) { return at.j >= 1 && at.j <= gap.n; }
 
 Figure figure_of(const Gap& gap) {
-    Figure figure{.id = "figure-6",
-                  .title = "Readings replaced through one switch",
-                  .caption =
-                      "Angle of each tick. Tick 1 is the first without light in both directions. What the counter "
-                      "reads there means nothing and is not drawn.",
-                  .x_label = "tick j",
-                  .y_label = "angle of the tick, arcsec",
-                  .series = {},
-                  .bands = {{0.5, gap.n + 0.5, "gap"}}};
-    Series truth{.name = "true", .x = {}, .y = {}, .y_error = {}};
-    Series read{.name = "as read", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
-    Series live{.name = "delivered in real time, (14) and (17)", .x = {}, .y = {}, .y_error = {}, .mark = Mark::steps};
-    Series final_value{.name = "final, (15)", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
+    Series truth{.name = "true"};
+    Series read{.name = "as read", .mark = Mark::points};
+    Series live{.name = "delivered in real time, (14) and (17)", .mark = Mark::steps};
+    Series final_value{.name = "final, (15)", .mark = Mark::points};
     for (const Numbered& at : gap.ticks) {
-        const auto add = [](Series& s, double x, double y) { s.x.push_back(x), s.y.push_back(y); };
-        add(truth, at.j, at.tick.true_arcsec);
-        if (!in_gap(gap, at)) add(read, at.j, at.tick.read_arcsec);
-        add(live, at.j - 0.5, at.tick.dtheta_arcsec);
-        add(final_value, at.j, at.tick.final_arcsec);
+        add_point(truth, at.j, at.tick.true_arcsec);
+        if (!in_gap(gap, at)) add_point(read, at.j, at.tick.read_arcsec);
+        add_point(live, at.j - 0.5, at.tick.dtheta_arcsec);
+        add_point(final_value, at.j, at.tick.final_arcsec);
     }
-    if (!live.x.empty()) {
-        live.x.push_back(live.x.back() + 1.0);
-        live.y.push_back(live.y.back());
-    }
-    figure.series = {std::move(truth), std::move(read), std::move(final_value), std::move(live)};
-    return figure;
+    if (!live.x.empty()) add_point(live, live.x.back() + 1.0, live.y.back());
+    return {.id = "figure-6",
+            .title = "Readings replaced through one switch",
+            .caption =
+                "Angle of each tick. Tick 1 is the first without light in both directions. What the counter reads "
+                "there means nothing and is not drawn.",
+            .x_label = "tick j",
+            .y_label = "angle of the tick, arcsec",
+            .series = {std::move(truth), std::move(read), std::move(final_value), std::move(live)},
+            .bands = {{0.5, gap.n + 0.5, "gap"}}};
 }
 
 report::Table table_of(const Gap& gap) {
     report::Table table{.caption = "The ticks of the gap and the one that takes the difference, arcsec.",
-                        .header = {"tick j", "extrapolated (14)", "final (15)", "true", "final minus true"},
-                        .rows = {}};
-    double extrapolated = 0.0;
-    double final_sum = 0.0;
-    double true_sum = 0.0;
+                        .header = {"tick j", "extrapolated (14)", "final (15)", "true", "final minus true"}};
+    const auto add = [&table](std::string name, double extrapolated, double final_arcsec, double true_arcsec) {
+        table.rows.push_back({std::move(name), sentence("{:.2f}", extrapolated), sentence("{:.2f}", final_arcsec),
+                              sentence("{:.2f}", true_arcsec), sentence("{:.2f}", final_arcsec - true_arcsec)});
+    };
+    study::MagnifiedTick sum;
     for (const Numbered& at : gap.ticks) {
         if (!in_gap(gap, at)) continue;
-        const study::MagnifiedTick& t = at.tick;
-        table.rows.push_back({fmt::format("{}", at.j), report::fixed_number(t.dtheta_arcsec, 2),
-                              report::fixed_number(t.final_arcsec, 2), report::fixed_number(t.true_arcsec, 2),
-                              report::fixed_number(t.final_arcsec - t.true_arcsec, 2)});
-        extrapolated += t.dtheta_arcsec;
-        final_sum += t.final_arcsec;
-        true_sum += t.true_arcsec;
+        add(fmt::format("{}", at.j), at.tick.dtheta_arcsec, at.tick.final_arcsec, at.tick.true_arcsec);
+        sum.dtheta_arcsec += at.tick.dtheta_arcsec;
+        sum.final_arcsec += at.tick.final_arcsec;
+        sum.true_arcsec += at.tick.true_arcsec;
     }
-    table.rows.push_back({"sum", report::fixed_number(extrapolated, 2), report::fixed_number(final_sum, 2),
-                          report::fixed_number(true_sum, 2), report::fixed_number(final_sum - true_sum, 2)});
+    add("sum", sum.dtheta_arcsec, sum.final_arcsec, sum.true_arcsec);
     table.rows.push_back(
-        {"\u0394P (16), sum of (14) less (15)", report::fixed_number(extrapolated - final_sum, 2), "", "", ""});
+        {"\u0394P (16), sum of (14) less (15)", sentence("{:.2f}", sum.dtheta_arcsec - sum.final_arcsec), "", "", ""});
     return table;
 }
 
-// Sum of (14) less (15) over the gap, and the tick that takes it back.
+// Sum of (14) less (15) over the gap, and the tick that holds the correction (17): the one outside the gap whose
+// delivered angle differs most from the final one.
 std::string correction(const Gap& gap) {
     double dp_arcsec = 0.0;
     const Numbered* carrier = nullptr;
-    const auto lump = [](const Numbered& at) { return at.tick.dtheta_arcsec - at.tick.final_arcsec; };
+    const auto delivered_less_final = [](const Numbered& at) { return at.tick.dtheta_arcsec - at.tick.final_arcsec; };
     for (const Numbered& at : gap.ticks) {
         if (in_gap(gap, at)) {
-            dp_arcsec += lump(at);
-        } else if (!carrier || std::abs(lump(at)) > std::abs(lump(*carrier))) {
+            dp_arcsec += delivered_less_final(at);
+        } else if (!carrier || std::abs(delivered_less_final(at)) > std::abs(delivered_less_final(*carrier))) {
             carrier = &at;
         }
     }
     if (!carrier) return "";
     return fmt::format("\u0394P is {:+.2f} arcsec, and tick {} carries {:+.2f} arcsec beside its own angle.", dp_arcsec,
-                       carrier->j, lump(*carrier));
+                       carrier->j, delivered_less_final(*carrier));
 }
 
 }  // namespace

@@ -5,17 +5,17 @@
 
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/magnetic_angle.hpp>
-#include <zlg/report/number_text.hpp>
 #include <zlg/study/design_study.hpp>
+#include <zlg/study/run_page.hpp>
 
+#include "paper_curves.hpp"
 #include "paper_parts.hpp"
+#include "paper_text.hpp"
 
 namespace zlg::paper {
 namespace {
 
 using report::Series;
-
-design::GyroDrift gyro_drift(const PaperTask& task) { return study::drift_case(task.config, 1.0).gyro; }
 
 // Between two switches. `clean_s` is where the re-lock is over and only drift is left.
 struct Segment {
@@ -37,12 +37,6 @@ std::vector<Segment> segments_of(const PaperTask& task, const study::RunResult& 
     next.to_s = static_cast<double>(run.ticks) * run.tick_s;
     all.push_back(next);
     return all;
-}
-
-const study::VariantResult* variant(const study::RunResult& run, const std::string& name) {
-    const auto found = std::find_if(run.variants.begin(), run.variants.end(),
-                                    [&](const study::VariantResult& v) { return v.name == name; });
-    return found == run.variants.end() ? nullptr : &*found;
 }
 
 // The rate of a segment, all of it and of the magnetic drift alone, with the sign of the mode undone.
@@ -95,26 +89,23 @@ double interval_s(const PaperTask& task, const study::RunResult& run) {
     return static_cast<double>(run.switches[1].tick - run.switches[0].tick) * run.tick_s;
 }
 
-Series computed_curve(const study::Curve& curve, const std::vector<Segment>& segments, const design::GyroDrift& gyro) {
-    Series s{.name = "computed", .x = curve.t_s, .y = {}, .y_error = {}, .dashed = true};
+Series computed_curve(const study::Curve& angle, const std::vector<Segment>& segments, const design::GyroDrift& gyro) {
     double before = 0.0;
     std::size_t k = 0;
-    for (const double t : curve.t_s) {
+    return curve({"computed", -1, true}, angle.t_s, [&](double t) {
         for (; k + 1 < segments.size() && segments[k].to_s <= t; ++k)
             before += segments[k].mode * design::magnetic_integral_arcsec(gyro, segments[k].from_s, segments[k].to_s);
-        s.y.push_back(gyro.nonmagnetic_arcsec_s * t + before +
-                      segments[k].mode * design::magnetic_integral_arcsec(gyro, segments[k].from_s, t));
-    }
-    return s;
+        return gyro.nonmagnetic_arcsec_s * t + before +
+               segments[k].mode * design::magnetic_integral_arcsec(gyro, segments[k].from_s, t);
+    });
 }
 
 report::Table sawtooth_table(const Sawtooth& measured, const Sawtooth& computed, double interval) {
     report::Table table{
-        .caption = fmt::format("The sawtooth on the twin. An amplitude is the interval of {} s times the "
-                               "rate of a flank against the slope of the whole.",
-                               report::short_number(interval)),
-        .header = {"", "measured on the twin", "computed"},
-        .rows = {}};
+        .caption = sentence("The sawtooth on the twin. An amplitude is the interval of {} s times the rate of a flank "
+                            "against the slope of the whole.",
+                            interval),
+        .header = {"", "measured on the twin", "computed"}};
     const auto row = [&](const char* name, double a, double b, int decimals) {
         table.rows.push_back({name, report::fixed_number(a, decimals), report::fixed_number(b, decimals)});
     };
@@ -129,36 +120,25 @@ std::string agreement(const Sawtooth& measured, const Sawtooth& computed, double
     constexpr double tolerance = 0.05;
     const double miss = std::abs(measured.mean_arcsec_s - computed.mean_arcsec_s);
     const bool agree = miss <= tolerance * std::abs(computed.mean_arcsec_s);
-    return fmt::format(
-        "{}: the amplitude should be the interval times the magnetic drift; it is {} arcsec measured and {} computed. "
-        "The "
-        "slope between switches should be the non-magnetic drift with a trace of the quasi-non-magnetic one; it is {} "
-        "and "
-        "{} \"/s.",
-        agree ? "Agrees" : "Does not agree", report::fixed_number(interval * measured.mean_arcsec_s, 1),
-        report::fixed_number(interval * computed.mean_arcsec_s, 1), report::fixed_number(measured.slope_arcsec_s, 4),
-        report::fixed_number(computed.slope_arcsec_s, 4));
+    return sentence(
+        "{}: the amplitude should be the interval times the magnetic drift; it is {:.1f} arcsec measured and {:.1f} "
+        "computed. The slope between switches should be the non-magnetic drift with a trace of the quasi-non-magnetic "
+        "one; it is {:.4f} and {:.4f} \"/s.",
+        agree ? "Agrees" : "Does not agree", interval * measured.mean_arcsec_s, interval * computed.mean_arcsec_s,
+        measured.slope_arcsec_s, computed.slope_arcsec_s);
 }
 
 std::string disagreement(const PaperTask& task, const study::RunResult& run, const study::VariantResult& switched,
                          const Sawtooth& computed, double interval) {
     const double run_s = static_cast<double>(run.ticks) * run.tick_s;
     const double bound = design::drift_bound_arcsec_s(study::drift_case(task.config, run_s), std::min(interval, run_s));
-    return fmt::format(
-        "Does not: the amplitude is no constant, for the magnetic drift follows the warm-up of the gyro, here from {} "
-        "to {} "
-        "arcsec. And the steps at the switches do not add up with one sign as eq (3) has it: at the end the error is "
-        "{} "
-        "arcsec or {} \"/s, where (3) with {} arcsec per switch allows {} \"/s. Eq (3) is a bound, not an estimate.",
-        report::fixed_number(interval * computed.first_arcsec_s, 1),
-        report::fixed_number(interval * computed.last_arcsec_s, 1),
-        report::fixed_number(switched.angle_error_arcsec, 1),
-        report::fixed_number(std::abs(switched.angle_error_arcsec) / run_s, 3),
-        report::short_number(task.config.design.switch_error_arcsec), report::fixed_number(bound, 3));
-}
-
-Series curve_of(const study::VariantResult& v, const char* name) {
-    return {.name = name, .x = v.curve.t_s, .y = v.curve.error_arcsec, .y_error = {}};
+    return sentence(
+        "Does not: the amplitude is no constant, for the magnetic drift follows the warm-up of the gyro, here from "
+        "{:.1f} to {:.1f} arcsec. And the steps at the switches do not add up with one sign as eq (3) has it: at the "
+        "end the error is {:.1f} arcsec or {:.3f} \"/s, where (3) with {} arcsec per switch allows {:.3f} \"/s. Eq (3) "
+        "is a bound, not an estimate.",
+        interval * computed.first_arcsec_s, interval * computed.last_arcsec_s, switched.angle_error_arcsec,
+        std::abs(switched.angle_error_arcsec) / run_s, task.config.design.switch_error_arcsec, bound);
 }
 
 report::Figure error_figure(std::string id, std::string title, std::string caption) {
@@ -166,9 +146,7 @@ report::Figure error_figure(std::string id, std::string title, std::string capti
             .title = std::move(title),
             .caption = std::move(caption),
             .x_label = "time, s",
-            .y_label = "final minus true angle, arcsec",
-            .series = {},
-            .bands = {}};
+            .y_label = "final minus true angle, arcsec"};
 }
 
 report::Figure sawtooth_figure(const PaperTask& task, const study::RunResult& run) {
@@ -177,27 +155,27 @@ report::Figure sawtooth_figure(const PaperTask& task, const study::RunResult& ru
                                          "amplitude interval times magnetic drift, on "
                                          "the slope of the non-magnetic drift. Computed is the drift alone, without "
                                          "noise and without errors of switches.");
-    const auto* switched = variant(run, "configured");
+    const auto* switched = run.variant("configured");
     if (switched == nullptr) return figure;
-    const design::GyroDrift gyro = gyro_drift(task);
-    figure.series = {curve_of(*switched, "twin"), computed_curve(switched->curve, segments_of(task, run), gyro)};
-    Series slope{.name = "non-magnetic drift", .x = switched->curve.t_s, .y = {}, .y_error = {}, .dashed = true};
-    for (const double t : slope.x) slope.y.push_back(gyro.nonmagnetic_arcsec_s * t);
-    figure.series.push_back(std::move(slope));
+    const design::GyroDrift gyro = study::drift_case(task.config, 1.0).gyro;
+    figure.series = {study::curve_of(*switched, "twin"), computed_curve(switched->curve, segments_of(task, run), gyro)};
+    figure.series.push_back(curve({"non-magnetic drift", -1, true}, switched->curve.t_s,
+                                  [&](double t_s) { return gyro.nonmagnetic_arcsec_s * t_s; }));
     return figure;
 }
 
 report::Figure one_mode_figure(const study::RunResult& run) {
     report::Figure figure = error_figure("figure-3-one-mode", "The same with the gyro that is never switched",
                                          "In one mode the magnetic drift adds up without end.");
-    if (const auto* v = variant(run, "one_mode")) figure.series.push_back(curve_of(*v, "one mode"));
-    if (const auto* v = variant(run, "configured")) figure.series.push_back(curve_of(*v, "switched"));
+    if (const auto* v = run.variant("one_mode")) figure.series.push_back(study::curve_of(*v, "one mode"));
+    if (const auto* v = run.variant("configured")) figure.series.push_back(study::curve_of(*v, "switched"));
     return figure;
 }
 
 void judge(const PaperTask& task, const study::RunResult& run, const study::VariantResult& switched,
            report::Section& section) {
-    const std::vector<Rates> rates = rates_of(segments_of(task, run), switched.curve, gyro_drift(task));
+    const std::vector<Rates> rates =
+        rates_of(segments_of(task, run), switched.curve, study::drift_case(task.config, 1.0).gyro);
     if (rates.empty()) {
         section.paragraphs.push_back("The run is too short to tell the amplitude of the sawtooth.");
         return;
@@ -216,7 +194,7 @@ PaperItem paper_figure_3(const PaperTask& task, const study::RunResult& run) {
     PaperItem item{.number = "figure 3", .section = {.heading = "Figure 3: angle error against time of operation"}};
     item.section.paragraphs = {
         "Computed from the records of one run of the twin. In print the figure is a sketch without numbers."};
-    if (const auto* switched = variant(run, "configured")) judge(task, run, *switched, item.section);
+    if (const auto* switched = run.variant("configured")) judge(task, run, *switched, item.section);
     item.section.figures = {sawtooth_figure(task, run), one_mode_figure(run)};
     return item;
 }

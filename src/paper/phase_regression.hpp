@@ -1,5 +1,5 @@
 #pragma once
-// What a row of errors says: its part in phase with the motion, its noise, its rms.
+// A row of errors, parted by regression: what is in phase with the motion, its noise, its rms.
 
 #include <span>
 
@@ -20,8 +20,8 @@ struct PhaseRegression {
     double noise = 0.0;
 };
 
-// Least squares. The standard errors allow a noise that depends on the phase (White), as rounding does where the rate is
-// near zero.
+// Least squares. The standard errors allow a noise that depends on the phase (White, Econometrica 48, 1980), as rounding
+// does where the rate is near zero.
 //
 // at  as many as errors, 4 or more, with sines that are not all equal.
 [[nodiscard]] PhaseRegression regress(std::span<const double> errors, std::span<const Quadratures> at);

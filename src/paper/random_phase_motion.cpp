@@ -8,7 +8,8 @@
 namespace zlg::paper {
 namespace {
 
-// The twin draws from generators of the same kind: its seeds go through a scrambler, this one must not meet them.
+// The twin draws from generators of the same kind, whose seeds go through a scrambler: with this number the phases have a
+// stream of their own.
 constexpr std::uint64_t phase_stream = 0x7068617365736565u;
 
 }  // namespace

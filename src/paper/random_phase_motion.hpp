@@ -17,7 +17,7 @@ struct SwitchGrid {
 
     // Runs to the opening that would come after the last switch.
     [[nodiscard]] std::int64_t ticks() const { return (switches + 1) * interval_ticks; }
-    // Number of the switch in whose gap a tick lies, 0 for none.
+    // Number of the switch to whose gap a tick belongs, 0 for none.
     [[nodiscard]] std::int64_t switch_of(std::int64_t tick) const {
         return tick % interval_ticks < n ? tick / interval_ticks : 0;
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -51,7 +50,7 @@ void check(const SubstitutionExperiment& e) {
 // far below the light noise: a miss is no part of this experiment.
 config::Config gyro_of(const SubstitutionExperiment& e, const SwitchGrid& grid) {
     config::Config c = e.base;
-    c.run.seed = static_cast<std::int64_t>(e.seed);
+    c.run.seed = e.seed;
     c.perimeter.miss_lambda = 0.0;
     const double gap_s = grid.n * grid.tick_s;
     c.piezo.slew_v_s = std::max(c.piezo.slew_v_s, 2.0 * c.piezo.half_wave_v / gap_s);
@@ -123,7 +122,7 @@ private:
     }
 
     void check_gap(const core::GapReport& gap) {
-        // Between two switches the phase jumps to that of the next one, which the control may take for a fault.
+        // Between two switches the phase jumps to that of the next one, which the control may report as a fault.
         if (!gap.mode_changed && is_away_from_switches(gap)) return;
         ++switched_;
         const std::int64_t due = switched_ * grid_.interval_ticks;
@@ -154,20 +153,11 @@ SubstitutionPoint point_of(const SubstitutionExperiment& e, const PhaseRegressio
             .frequency_hz = e.amplitude_arcsec_s > 0.0 ? e.frequency_hz : 0.0,
             .amplitude_arcsec_s = e.amplitude_arcsec_s,
             .switches = e.switches,
-            .extremum_arcsec = found.extremum.value,
-            .extremum_error = found.extremum.error,
-            .extremum_theory = theory.extremum_arcsec,
-            .crossing_arcsec = found.crossing.value,
-            .crossing_error = found.crossing.error,
-            .crossing_theory = theory.crossing_arcsec,
-            .mean_arcsec = found.mean.value,
-            .mean_error = found.mean.error,
-            .mean_theory = theory.mean_arcsec,
-            .noise_arcsec = found.noise,
-            .noise_theory = theory.noise_arcsec,
-            .rms_arcsec = rms.value,
-            .rms_error = rms.error,
-            .rms_theory = theory.rms_arcsec};
+            .extremum = {found.extremum.value, found.extremum.error, theory.extremum_arcsec},
+            .crossing = {found.crossing.value, found.crossing.error, theory.crossing_arcsec},
+            .mean = {found.mean.value, found.mean.error, theory.mean_arcsec},
+            .noise = {found.noise, 0.0, theory.noise_arcsec},
+            .rms = {rms.value, rms.error, theory.rms_arcsec}};
 }
 
 SubstitutionResult run_one(const SubstitutionExperiment& e) {
@@ -194,9 +184,9 @@ SubstitutionResult run_one(const SubstitutionExperiment& e) {
     return result;
 }
 
-void add(ChiSquare& chi2, double value, double error, double theory) {
-    if (!(error > 0.0)) return;
-    const double deviation = (value - theory) / error;
+void add(ChiSquare& chi2, const Component& c) {
+    if (!(c.error > 0.0)) return;
+    const double deviation = (c.arcsec - c.theory) / c.error;
     ++chi2.dof;
     chi2.per_dof += (deviation * deviation - chi2.per_dof) / chi2.dof;
 }
@@ -213,15 +203,15 @@ std::vector<SubstitutionResult> run_substitution(std::span<const SubstitutionExp
 ChiSquare chi2_per_dof(std::span<const SubstitutionPoint> points) {
     ChiSquare chi2;
     for (const SubstitutionPoint& p : points) {
-        add(chi2, p.extremum_arcsec, p.extremum_error, p.extremum_theory);
-        add(chi2, p.crossing_arcsec, p.crossing_error, p.crossing_theory);
+        add(chi2, p.extremum);
+        add(chi2, p.crossing);
     }
     return chi2;
 }
 
 ChiSquare rms_chi2_per_dof(std::span<const SubstitutionPoint> points) {
     ChiSquare chi2;
-    for (const SubstitutionPoint& p : points) add(chi2, p.rms_arcsec, p.rms_error, p.rms_theory);
+    for (const SubstitutionPoint& p : points) add(chi2, p.rms);
     return chi2;
 }
 

@@ -8,6 +8,7 @@
 #include <boost/math/special_functions/bessel.hpp>
 
 #include <zlg/design/substitution_noise.hpp>
+#include <zlg/study/design_study.hpp>
 
 namespace zlg::paper {
 namespace {
@@ -45,9 +46,8 @@ struct Swing {
 
 // Half-way through the run.
 double magnetic_arcsec_s(const SubstitutionExperiment& e, const SwitchGrid& grid) {
-    const config::Drift& drift = e.base.drift;
     const double middle_s = 0.5 * static_cast<double>(grid.ticks()) * grid.tick_s;
-    return drift.magnetic_arcsec_s - drift.magnetic_thermal_arcsec_s * std::expm1(-middle_s / drift.thermal_time_s);
+    return design::magnetic_rate_arcsec_s(study::drift_case(e.base, 1.0).gyro, middle_s);
 }
 
 // Covariance of the roundings of two readings of the count, counts^2. With a uniform fraction at the first reading it is
@@ -122,7 +122,7 @@ double noise_variance(const SubstitutionExperiment& e, const SwitchGrid& grid, c
     return std::fmax(0.0, variance);
 }
 
-// What the fit takes over from the drift of its ticks: the constant part, and the part that changes sign with the mode.
+// The drift of its ticks as it passes through the fit: the constant part, and the part that changes sign with the mode.
 struct TakenDrift {
     double constant_arcsec = 0.0;
     double alternating_arcsec = 0.0;
@@ -145,7 +145,7 @@ SubstitutionTheory substitution_theory(const SubstitutionExperiment& e, const Sw
     const design::Substitution s{.fit = fit, .order = order, .n = grid.n, .points = e.points, .tick_s = grid.tick_s};
     const Weights w{design::positions(s), design::sum_weights(s)};
     const Swing swing{e};
-    const std::complex<double> answer = swing.amplitude_arcsec_s * design::ErrorResponse::of_sum(s)(swing.frequency_hz);
+    const std::complex<double> answer = swing.amplitude_arcsec_s * design::ErrorResponse(s)(swing.frequency_hz);
     const TakenDrift drift = taken_drift(e, grid, w);
     const double noise = noise_variance(e, grid, s, w) + square(drift.alternating_arcsec);
     const double rms_square = std::norm(answer) * swing.mean_square_shape() + noise + square(drift.constant_arcsec);

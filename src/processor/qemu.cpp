@@ -2,10 +2,7 @@
 
 #include <array>
 #include <atomic>
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <system_error>
 #include <vector>
 

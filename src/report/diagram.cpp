@@ -1,7 +1,5 @@
 #include <zlg/report/diagram.hpp>
 
-#include <cstddef>
-
 #include <fmt/format.h>
 
 #include "drawing.hpp"

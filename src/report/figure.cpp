@@ -1,7 +1,6 @@
 #include <zlg/report/figure.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -35,8 +34,8 @@ std::string bands(const Figure& figure, const Layout& layout) {
         const double from = layout.x.at(std::min(band.x0, band.x1));
         const double width = std::max(layout.x.at(std::max(band.x0, band.x1)) - from, 1.5);
         out += fmt::format(
-            "<rect class=\"band\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill-opacity=\"{}\"><title>{}</title>"
-            "</rect>\n",
+            "<rect class=\"band\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" "
+            "fill-opacity=\"{}\"><title>{}</title></rect>\n",
             coordinate(from), coordinate(layout.top), coordinate(width), coordinate(layout.bottom - layout.top),
             dark ? "0.15" : "0.09", escaped(band.name));
         dark = !dark;

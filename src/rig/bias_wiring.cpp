@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/rig/wiring.hpp>
-
-#include "laser_wiring.hpp"
+#include <zlg/twin/twin_config.hpp>
 
 namespace zlg::rig {
+
+using twin::timer_hz;
 
 double plateau_ratio(const config::Gyro& g) { return 1.0 / (1.0 - std::min(g.bias_edge_s / g.tick_s, 0.5)); }
 
@@ -30,16 +30,15 @@ core::BiasCommutatorConfig commutator_of(const config::Config& config) {
     made.latch_ticks = static_cast<std::uint64_t>(std::clamp(timer_hz / g.bias_hz, 10.0, 1e6));
     if (g.dither == core::DitherMethod::none) return made;
     made.dither = {.method = g.dither,
-                   .seed = static_cast<std::uint64_t>(config.run.seed),
+                   .seed = config.run.seed,
                    .half_ticks = made.half_ticks,
-                   .cycle_ticks = counts_per_fringe(config) * timer_hz / (plateau_ratio(g) * g.bias_hz),
+                   .cycle_ticks = counts_per_turn(config.laser.quadrature) * timer_hz / (plateau_ratio(g) * g.bias_hz),
                    .tick_s = g.tick_s,
                    .scale_arcsec = g.scale_arcsec};
     if (check(made.dither) == core::EdgeDitherFault::cycle_ticks)
         throw config::ConfigError{
             fmt::format("gyro.dither: a cycle of gyro.bias_hz = {} is {} ticks of the timer of {} Hz; allowed is "
-                        "1..{}, an eighth of a "
-                        "half",
+                        "1..{}, an eighth of a half",
                         g.bias_hz, made.dither.cycle_ticks, timer_hz, static_cast<double>(made.half_ticks) / 8.0)};
     // A shift must leave each half its plateau.
     const double max_ticks = 0.5 * (0.5 * g.tick_s - g.bias_edge_s) * timer_hz;

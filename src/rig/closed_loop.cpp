@@ -7,25 +7,25 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/asked_compensation.hpp>
+#include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
-
-#include "refusal.hpp"
 
 namespace zlg::rig {
 namespace {
 
 twin::Twin make_twin(const config::Config& config, twin::Motion motion) {
+    const twin::TwinConfig made = twin_config(config);
     try {
-        return twin::Twin{twin_config(config), std::move(motion)};
+        return twin::Twin{made, std::move(motion)};
     } catch (const std::invalid_argument& error) {
         throw config::ConfigError{named(config, error.what())};
     } catch (const std::runtime_error& error) {
-        // A laser without light, or one whose light no table can hold.
+        // The laser does not lase, or its light cannot be tabulated.
         throw config::ConfigError{named(config, fmt::format("[laser] does not make a gyro: {}", error.what()))};
     }
 }
 
-// Rates that a configuration allows and no counter can follow show only when it runs.
+// Whether the counter can follow the rates of a motion shows only in the run.
 twin::TwinHalf advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuator, const config::Config& config) {
     try {
         return twin.advance(actuator);
@@ -34,7 +34,7 @@ twin::TwinHalf advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuato
     }
 }
 
-// The compensation as it is configured; for a schedule that asks for it, always with an eye on the magnetic drift.
+// The configured compensation; where the schedule asks for measurements, with the magnetic drift at least watched.
 core::GyroCompensationConfig adviser_config(const config::Config& config) {
     config::Config watching = config;
     if (config.switching.schedule == config::Schedule::measured &&
@@ -43,7 +43,7 @@ core::GyroCompensationConfig adviser_config(const config::Config& config) {
     return asked_compensation(watching);
 }
 
-// Of a run whose last segment is to balance the modes; else 0.
+// Tick at which the run ends, for a schedule that is to have spent equal times in both modes by then; else 0.
 std::int64_t balanced_end(const config::Config& config, const twin::Motion& motion) {
     return config.switching.last_segment == config::LastSegment::half ? run_ticks(config, motion) : 0;
 }

@@ -1,7 +1,7 @@
-#include <zlg/config/schema.hpp>
-#include <zlg/core/gyro_control.hpp>
+#include "control_refusal.hpp"
 
-#include "refusal.hpp"
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/refusal.hpp>
 
 namespace zlg::rig {
 namespace {
@@ -52,6 +52,9 @@ void require_control(const config::Config& config, const core::GyroControlConfig
         case core::GyroControlFault::temperature:
             refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error", "gyro.reference_temperature_c"},
                    "a presumed half-wave voltage of 1e-3..1e6 V, and a temperature above -1e6 to below 1e6 C");
+        case core::GyroControlFault::fringe:
+            refuse(config, {"gyro.readout", "photodiodes.noise", "laser.comparator_threshold"},
+                   "a phase of less than 1/20 of a turn of noise, and comparators that follow it within 1/8");
         case core::GyroControlFault::schedule:
             refuse(config,
                    {"switching.interval_s", "switching.interval_min_s", "switching.interval_max_s", "gyro.tick_s",

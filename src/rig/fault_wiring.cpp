@@ -1,13 +1,11 @@
 #include "fault_wiring.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/rig/wiring.hpp>
 
 namespace zlg::rig {
 namespace {
@@ -21,7 +19,7 @@ void add_random(const config::Config& config, std::vector<twin::Fault>& faults) 
         throw ConfigError{"faults.random_per_hour: with a motion file, run.duration_s must say how long they come"};
     try {
         const auto random = twin::random_faults(f.random_per_hour, config.run.duration_s.value_or(default_duration_s),
-                                                static_cast<std::uint64_t>(f.random_seed), f.random_kinds);
+                                                f.random_seed, f.random_kinds);
         faults.insert(faults.end(), random.begin(), random.end());
     } catch (const std::invalid_argument& error) {
         throw ConfigError{fmt::format("faults.random_per_hour: {}", error.what())};
@@ -32,11 +30,9 @@ void add_random(const config::Config& config, std::vector<twin::Fault>& faults) 
 
 std::vector<twin::Fault> faults_of(const config::Config& config) {
     const config::Faults& f = config.faults;
-    const std::size_t n = f.kind.size();
-    if (f.at_s.size() != n || f.duration_s.size() != n || f.size.size() != n)
-        throw ConfigError{"faults: kind, at_s, duration_s and size are not equally many"};
     std::vector<twin::Fault> faults;
-    for (std::size_t k = 0; k < n; ++k) faults.push_back({f.kind[k], f.at_s[k], f.duration_s[k], f.size[k]});
+    for (std::size_t k = 0; k < f.kind.size(); ++k)
+        faults.push_back({f.kind[k], f.at_s[k], f.duration_s[k], f.size[k]});
     add_random(config, faults);
     return faults;
 }

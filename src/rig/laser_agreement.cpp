@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,8 +10,6 @@
 #include <zlg/core/common/discriminator_curve.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
-
-#include "laser_wiring.hpp"
 
 namespace zlg::rig {
 namespace {
@@ -50,13 +47,13 @@ Comparison within(const char* key, double presumed, double by_laser, double tole
 // K = 4 lambda/L of a square ring, by the default gyro, over the counts of a fringe.
 double scale_of_square(const config::Config& config) {
     const double per_fringe = config::Gyro{}.scale_arcsec * config::Laser{}.perimeter_m / config.laser.perimeter_m;
-    return per_fringe / counts_per_fringe(config);
+    return per_fringe / counts_per_turn(config.laser.quadrature);
 }
 
 // (K/2 pi) delta/sqrt(T) with delta = 2 pi f_L sqrt(t_e/(2 f0)): docs/physics.md.
 double walk_of_lock_in(const config::Config& config) {
     const config::Gyro& g = config.gyro;
-    const int counts = counts_per_fringe(config);
+    const int counts = counts_per_turn(config.laser.quadrature);
     const double lock_hz =
         std::hypot(config.laser.lock_in_left_hz, config.laser.lock_in_right_hz) / std::numbers::sqrt2;
     return g.scale_arcsec * counts * lock_hz * std::sqrt(0.5 * g.bias_edge_s * counts / g.bias_hz / g.tick_s);

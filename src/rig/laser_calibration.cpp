@@ -10,13 +10,12 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/averaged_laser.hpp>
 #include <zlg/twin/discriminator_curve.hpp>
 #include <zlg/twin/four_wave.hpp>
 #include <zlg/twin/laser_zones.hpp>
-
-#include "refusal.hpp"
 
 namespace zlg::rig {
 namespace {
@@ -131,11 +130,10 @@ double curve_error_lambda(const config::Config& config, const Settled& laser, do
 
 LaserCalibration calibrate(const config::Config& config) {
     LaserCalibration made{.config = config};
-    const twin::TwinConfig gyro = twin_config(config);
-    const twin::FourWave laser{gyro.laser};
-    const double field_g = gyro.laser.bias_field_g;
+    const twin::FourWave laser{config.laser};
+    const double field_g = config.laser.bias_field_g;
     const twin::AveragedLaser averaged = twin::averaged_laser(laser, field_g);
-    const twin::TwinConfig equivalent = twin::with_laser(gyro, averaged);
+    const twin::GyroConfig equivalent = twin::with_laser(config.gyro, config.laser.quadrature, averaged);
     made.config.gyro.bias_hz = equivalent.bias_hz;
     made.config.gyro.bias_chi = equivalent.bias_chi;
     made.config.gyro.discriminator_per_lambda = equivalent.discriminator_per_lambda;

@@ -33,7 +33,7 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
         const double noise_lambda2 = g.light_noise_lambda * g.light_noise_lambda;
         made.detuning_monitor.max_change_lambda2 = std::min(1.0 / false_counts + 20.0 * noise_lambda2, 1e6);
     }
-    made.detuning_monitor.relock_ticks = static_cast<std::int32_t>(config.compensation.relock_ticks);
+    made.detuning_monitor.relock_ticks = config.compensation.relock_ticks;
 }
 
 }  // namespace zlg::rig

@@ -1,8 +1,7 @@
-#include "refusal.hpp"
+#include <zlg/rig/refusal.hpp>
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -6,21 +6,6 @@
 #include <zlg/config/schema.hpp>
 
 namespace zlg::rig {
-namespace {
-
-core::ScheduleKind kind_of(config::Schedule schedule) {
-    switch (schedule) {
-        case config::Schedule::fixed:
-            return core::ScheduleKind::fixed;
-        case config::Schedule::growing:
-            return core::ScheduleKind::growing;
-        case config::Schedule::measured:
-            return core::ScheduleKind::measured;
-    }
-    return core::ScheduleKind::fixed;
-}
-
-}  // namespace
 
 std::int64_t ticks_of(double time_s, double tick_s) {
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(time_s / tick_s)));
@@ -32,9 +17,8 @@ core::SwitchScheduleConfig schedule_of(const config::Config& config) {
             "switching.interval_s = \"optimal\" must be resolved into seconds before a gyro can run"};
     const config::Switching& sw = config.switching;
     return {.interval_ticks = ticks_of(sw.interval_s, config.gyro.tick_s),
-            .first_segment =
-                sw.first_segment == config::FirstSegment::half ? core::FirstSegment::half : core::FirstSegment::full,
-            .kind = kind_of(sw.schedule),
+            .first_segment = sw.first_segment,
+            .kind = sw.schedule,
             .min_ticks = ticks_of(sw.interval_min_s, config.gyro.tick_s),
             .max_ticks = ticks_of(sw.interval_max_s, config.gyro.tick_s),
             .tick_s = config.gyro.tick_s,

@@ -12,9 +12,7 @@
 namespace zlg::study {
 namespace {
 
-using report::Figure;
-using report::Mark;
-using report::Series;
+using namespace report;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -34,43 +32,29 @@ std::vector<double> log_steps(const Span& span, int n) {
 
 Series law(const View& v, const Span& span, std::string name, bool dashed, double floor,
            const std::function<double(double)>& variance) {
-    Series s = named(std::move(name), Mark::line, dashed);
+    Series s = blank_series(std::move(name), Mark::line, dashed);
     if (!(span.high > span.low)) return s;
     for (const double tau_s : log_steps(span, 240)) {
         const double y = v.shown(std::sqrt(std::max(0.0, variance(tau_s))));
-        s.x.push_back(tau_s);
-        s.y.push_back(y > floor ? y : none);
+        add_point(s, tau_s, y > floor ? y : none);
     }
     return s;
 }
 
 // One fitted term alone.
 noise::NoiseTerms only(const noise::FittedTerm& term) {
-    using noise::NoiseKind;
-    noise::NoiseTerms t;
-    switch (term.kind) {
-        case NoiseKind::quantisation:
-            t.quantisation_arcsec = term.value;
-            break;
-        case NoiseKind::angle_random_walk:
-            t.angle_random_walk_arcsec_sqrt_s = term.value;
-            break;
-        case NoiseKind::bias_instability:
-            t.bias_instability_arcsec_s = term.value;
-            break;
-        case NoiseKind::rate_random_walk:
-            t.rate_random_walk_arcsec_s_sqrt_s = term.value;
-            break;
-        case NoiseKind::ramp:
-            t.ramp_arcsec_s2 = term.value;
-            break;
-        case NoiseKind::markov:
-            t.markov.push_back({.deviation_arcsec_s = term.value, .time_s = term.second});
-            break;
-        case NoiseKind::sine:
-            t.sines.push_back({.amplitude_arcsec_s = term.value, .frequency_hz = term.second});
-            break;
-    }
+    using noise::NoiseTerms;
+    // Of the kinds with one coefficient, in the order of the enumerators.
+    constexpr std::array coefficients{&NoiseTerms::quantisation_arcsec, &NoiseTerms::angle_random_walk_arcsec_sqrt_s,
+                                      &NoiseTerms::bias_instability_arcsec_s,
+                                      &NoiseTerms::rate_random_walk_arcsec_s_sqrt_s, &NoiseTerms::ramp_arcsec_s2};
+    NoiseTerms t;
+    if (term.kind == noise::NoiseKind::markov)
+        t.markov.push_back({.deviation_arcsec_s = term.value, .time_s = term.second});
+    else if (term.kind == noise::NoiseKind::sine)
+        t.sines.push_back({.amplitude_arcsec_s = term.value, .frequency_hz = term.second});
+    else
+        t.*coefficients.at(static_cast<std::size_t>(term.kind)) = term.value;
     return t;
 }
 
@@ -100,11 +84,10 @@ void add_guides(const View& v, const Span& span, double floor, double ceiling, F
     constexpr std::array<double, 4> slopes{-1.0, -0.5, 0.5, 1.0};
     constexpr std::array<const char*, 4> names{"slope -1", "slope -1/2", "slope +1/2", "slope +1"};
     for (std::size_t k = 0; k < slopes.size(); ++k) {
-        Series s = named(names[k], Mark::line, true);
+        Series s = blank_series(names[k], Mark::line, true);
         for (const double tau_s : log_steps(span, 60)) {
             const double y = v.shown(middle.deviation) * std::pow(tau_s / middle.tau_s, slopes[k]);
-            s.x.push_back(tau_s);
-            s.y.push_back(y > floor && y < ceiling ? y : none);
+            add_point(s, tau_s, y > floor && y < ceiling ? y : none);
         }
         f.series.push_back(std::move(s));
     }

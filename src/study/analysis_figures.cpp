@@ -8,22 +8,19 @@
 namespace zlg::study {
 namespace {
 
-using report::Figure;
-using report::Mark;
-using report::Series;
+using namespace report;
 
 constexpr int max_points = 600;
-constexpr std::size_t max_bands = 60;
+constexpr std::size_t max_shaded_gaps = 60;  // more would merge into one grey
 
 // Means over even steps of the logarithm, so that the many bins of high frequencies are no black band.
 Series spectrum_series(const View& v, const noise::Spectrum& spectrum, std::string name) {
     const double scale = v.shown(1.0) * v.shown(1.0), step = std::pow(10.0, 1.0 / 80.0);
-    Series s = named(std::move(name));
+    Series s = blank_series(std::move(name));
     double edge = 0.0, sum = 0.0, frequency = 0.0, n = 0.0;
     const auto close = [&] {
         if (n == 0.0) return;
-        s.x.push_back(frequency / n);
-        s.y.push_back(scale * sum / n);
+        add_point(s, frequency / n, scale * sum / n);
         sum = frequency = n = 0.0;
     };
     for (std::size_t k = 0; k < spectrum.density.size(); ++k) {
@@ -44,16 +41,12 @@ Series spectrum_series(const View& v, const noise::Spectrum& spectrum, std::stri
 Figure course_figure(const View& v) {
     Figure f = report::blank_figure(
         v.id("course"), fmt::format("Course of {}", v.axis.name),
-        "Mean rate over short stretches; where half of a stretch was not measured the line is broken. "
-        "Shaded: gaps.",
+        "Mean rate over short stretches; where half of a stretch was not measured the line is broken. Shaded: gaps.",
         "time, s", fmt::format("rate, {}", v.unit()));
-    Series s = named("mean rate");
-    for (const TimeBin& b : v.axis.course) {
-        s.x.push_back(b.time_s);
-        s.y.push_back(v.shown(b.mean_arcsec_s));
-    }
+    Series s = blank_series("mean rate");
+    for (const TimeBin& b : v.axis.time_bins) add_point(s, b.time_s, v.shown(b.mean_arcsec_s));
     f.series.push_back(std::move(s));
-    if (v.axis.gaps.size() <= max_bands)
+    if (v.axis.gaps.size() <= max_shaded_gaps)
         for (const Gap& g : v.axis.gaps) f.bands.push_back({.x0 = g.from_s, .x1 = g.to_s, .name = ""});
     return f;
 }
@@ -71,12 +64,11 @@ Figure spectrum_figure(const View& v) {
         f.series.push_back(spectrum_series(
             v, v.axis.spectrum_left, v.axis.modes ? "sinusoids and magnetic part taken out" : "sinusoids taken out"));
     if (!v.axis.fit) return f;
-    Series fitted = named("fitted", Mark::line, true);
-    for (const double frequency : f.series.front().x) {
-        fitted.x.push_back(frequency);
-        fitted.y.push_back(2.0 * v.shown(1.0) * v.shown(1.0) *
-                           noise::rate_spectrum(v.axis.fit->terms, frequency, v.axis.rate_hz));
-    }
+    Series fitted = blank_series("fitted", Mark::line, true);
+    for (const double frequency : f.series.front().x)
+        add_point(
+            fitted, frequency,
+            2.0 * v.shown(1.0) * v.shown(1.0) * noise::rate_spectrum(v.axis.fit->terms, frequency, v.axis.rate_hz));
     f.series.push_back(std::move(fitted));
     return f;
 }
@@ -93,16 +85,15 @@ Figure bands_figure(const View& v) {
     constexpr std::size_t n_bands = 4;
     const std::size_t n = g.frequency_hz.size();
     for (std::size_t b = 0; b < n_bands; ++b) {
-        // Octaves down from half the rate; the last takes the rest.
+        // Bands of two octaves, down from half the rate; the last one takes all the rest.
         const std::size_t to = n >> (2 * b), from = b + 1 == n_bands ? 0 : n >> (2 * b + 2);
         if (to <= from) continue;
-        Series s = named(fmt::format("{} to {} Hz", report::short_number(g.frequency_hz[from]),
-                                     report::short_number(g.frequency_hz[to - 1])));
+        Series s = blank_series(
+            fmt::format("{} to {} Hz", short_number(g.frequency_hz[from]), short_number(g.frequency_hz[to - 1])));
         for (std::size_t t = 0; t < g.time_s.size(); ++t) {
             double sum = 0.0;
             for (std::size_t k = from; k < to; ++k) sum += g.density[t * n + k];
-            s.x.push_back(g.time_s[t]);
-            s.y.push_back(v.shown(std::sqrt(sum / static_cast<double>(to - from))));
+            add_point(s, g.time_s[t], v.shown(std::sqrt(sum / static_cast<double>(to - from))));
         }
         f.series.push_back(report::thin(s, max_points));
     }
@@ -128,16 +119,13 @@ Figure split_figure(const View& v) {
         v.id("split"), fmt::format("Magnetic and non-magnetic drift of {}", v.axis.name),
         "Half-difference and half-sum of neighbouring segments. Dashed: the warming law that fits best.", "time, s",
         "deg/h");
-    Series magnetic = named("magnetic", Mark::points), rest = named("non-magnetic", Mark::points),
-           fit = named("magnetic, fitted", Mark::line, true);
+    Series magnetic = blank_series("magnetic", Mark::points), rest = blank_series("non-magnetic", Mark::points),
+           fit = blank_series("magnetic, fitted", Mark::line, true);
     fit.colour = 0;
     for (const auto& p : m.points) {
-        magnetic.x.push_back(p.time_s);
-        magnetic.y.push_back(p.magnetic_arcsec_s);
-        rest.x.push_back(p.time_s);
-        rest.y.push_back(p.nonmagnetic_arcsec_s);
-        fit.x.push_back(p.time_s);
-        fit.y.push_back(m.magnetic_at(p.time_s));
+        add_point(magnetic, p.time_s, p.magnetic_arcsec_s);
+        add_point(rest, p.time_s, p.nonmagnetic_arcsec_s);
+        add_point(fit, p.time_s, m.magnetic_at(p.time_s));
     }
     f.series = {std::move(magnetic), std::move(rest), std::move(fit)};
     return f;
@@ -149,11 +137,8 @@ Figure switch_figure(const View& v) {
         "The angle over each gap and the settling after it, less that of the segments beside it: at "
         "rest the error of the switch.",
         "time, s", "arcsec");
-    Series s = named("error of a switch", Mark::points);
-    for (const auto& one : v.axis.modes->switches) {
-        s.x.push_back(one.time_s);
-        s.y.push_back(one.error_arcsec);
-    }
+    Series s = blank_series("error of a switch", Mark::points);
+    for (const auto& one : v.axis.modes->switches) add_point(s, one.time_s, one.error_arcsec);
     f.series = {std::move(s)};
     return f;
 }

@@ -13,9 +13,7 @@
 namespace zlg::study {
 namespace {
 
-using report::Figure;
-using report::Mark;
-using report::Series;
+using namespace report;
 
 report::Table curve_table(const View& v) {
     const auto& curve = v.axis.curves.front();
@@ -23,8 +21,7 @@ report::Table curve_table(const View& v) {
     const auto shown = [&](double deviation) { return is_angle ? deviation : v.shown(deviation); };
     report::Table t{.caption = fmt::format("{} in {}, n differences each; edf: equivalent degrees of freedom.",
                                            deviations::name_of(curve.kind), is_angle ? "arcsec" : v.unit()),
-                    .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"},
-                    .rows = {}};
+                    .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"}};
     if (deviations::is_total(curve.kind)) {
         t.caption += fmt::format(" Bias of mirroring: {} (total_bias); as computed: with it.",
                                  deviations::name_of(curve.total_bias));
@@ -33,10 +30,9 @@ report::Table curve_table(const View& v) {
     const std::size_t step = std::max<std::size_t>(1, curve.points.size() / 30);
     for (std::size_t k = 0; k < curve.points.size(); k += step) {
         const auto& p = curve.points[k];
-        t.rows.push_back({report::short_number(p.tau_s), fmt::format("{}", p.terms),
-                          fmt::format("{:.4g}", shown(p.deviation)), fmt::format("{:.4g}", shown(p.low)),
-                          fmt::format("{:.4g}", shown(p.high)), report::short_number(p.law.edf),
-                          fmt::format("f^{}", p.noise)});
+        t.rows.push_back({short_number(p.tau_s), fmt::format("{}", p.terms), fmt::format("{:.4g}", shown(p.deviation)),
+                          fmt::format("{:.4g}", shown(p.low)), fmt::format("{:.4g}", shown(p.high)),
+                          short_number(p.law.edf), fmt::format("f^{}", p.noise)});
         if (deviations::is_total(curve.kind)) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
     }
     return t;
@@ -44,16 +40,14 @@ report::Table curve_table(const View& v) {
 
 report::Table term_table(const View& v) {
     report::Table t{.caption = fmt::format(
-                        "Fitted terms with one standard error; below: 95 %. Chi-square {:.3g} of {} "
-                        "degrees of freedom, probability {:.2g}; each variance allowed an error of {:g} % "
-                        "beside chance.",
+                        "Fitted terms with one standard error; below: 95 %. Chi-square {:.3g} of {} degrees of "
+                        "freedom, probability {:.2g}; each variance allowed an error of {:g} % beside chance.",
                         v.axis.fit->chi2, v.axis.fit->dof, v.axis.fit->probability, 100.0 * v.axis.fit->model_error),
                     .header = {"term", "value, continuous", "read at tau, s"},
-                    .rows = {},
                     .prose = true};
     for (const noise::FittedTerm& term : v.axis.fit->fitted)
         t.rows.push_back({std::string{noise::name_of(term.kind)}, value_text(term),
-                          term.found && std::isfinite(term.read_at_s) ? report::short_number(term.read_at_s) : "-"});
+                          term.found && std::isfinite(term.read_at_s) ? short_number(term.read_at_s) : "-"});
     return t;
 }
 
@@ -64,7 +58,6 @@ report::Table discrete_table(const View& v) {
     report::Table t{.caption = fmt::format("The same terms, discrete: standard deviations of one sample at {:g} Hz.",
                                            v.axis.rate_hz),
                     .header = {"quantity", "value"},
-                    .rows = {},
                     .prose = true};
     const auto add = [&t](const char* what, double value, const char* unit) {
         if (value != 0.0) t.rows.push_back({what, fmt::format("{:.4g} {}", value, unit)});
@@ -84,33 +77,28 @@ report::Table discrete_table(const View& v) {
 report::Table readout_table(const View& v) {
     report::Table t{
         .caption = fmt::format("Readouts of the measured Allan deviation, {}.", deviations::name_of(v.axis.allan.kind)),
-        .header = {"where", "tau, s", "deviation, " + v.unit()},
-        .rows = {}};
+        .header = {"where", "tau, s", "deviation, " + v.unit()}};
     for (const Readout& r : v.axis.readouts)
-        t.rows.push_back({r.what, report::short_number(r.tau_s), fmt::format("{:.4g}", v.shown(r.deviation_arcsec_s))});
+        t.rows.push_back({r.what, short_number(r.tau_s), fmt::format("{:.4g}", v.shown(r.deviation_arcsec_s))});
     return t;
-}
-
-std::string estimate_text(const numeric::Estimate& e, const char* unit) {
-    return e.determined ? fmt::format("{} {}", with_error(e.value, e.sigma), unit) : "not determined: " + e.reason;
 }
 
 report::Table mode_table(const View& v) {
     const noise::ModeSplit& m = *v.axis.modes;
     report::Table t{.caption = "Drift by mode, and the errors of the switches as of a gyro at rest.",
                     .header = {"quantity", "value"},
-                    .rows = {{"non-magnetic drift", estimate_text(m.nonmagnetic_arcsec_s, "deg/h")},
-                             {"magnetic drift at the start", estimate_text(m.magnetic_arcsec_s, "deg/h")},
-                             {"its growth by warming", estimate_text(m.magnetic_thermal_arcsec_s, "deg/h")},
-                             {"time of the warming", estimate_text(m.thermal_time_s, "s")}},
+                    .rows = {{"non-magnetic drift", value_text(m.nonmagnetic_arcsec_s, "deg/h")},
+                             {"magnetic drift at the start", value_text(m.magnetic_arcsec_s, "deg/h")},
+                             {"its growth by warming", value_text(m.magnetic_thermal_arcsec_s, "deg/h")},
+                             {"time of the warming", value_text(m.thermal_time_s, "s")}},
                     .prose = true};
     const auto& s = m.statistics;
     if (s.n > 0) {
         t.rows.push_back({"switches", fmt::format("{}", s.n)});
         t.rows.push_back({"error per switch, mean", with_error(s.mean_arcsec, s.mean_sigma_arcsec) + " arcsec"});
-        t.rows.push_back({"alternating with the mode", report::short_number(s.mean_by_mode_arcsec) + " arcsec"});
-        t.rows.push_back({"rms, largest", fmt::format("{}, {} arcsec", report::short_number(s.rms_arcsec),
-                                                      report::short_number(s.max_arcsec))});
+        t.rows.push_back({"alternating with the mode", short_number(s.mean_by_mode_arcsec) + " arcsec"});
+        t.rows.push_back(
+            {"rms, largest", fmt::format("{}, {} arcsec", short_number(s.rms_arcsec), short_number(s.max_arcsec))});
     }
     return t;
 }
@@ -118,7 +106,7 @@ report::Table mode_table(const View& v) {
 std::string summary(const View& v) {
     return fmt::format(
         "{}, {:g} Hz: {} samples over {} s, {} of them known, {} gaps. Mean rate {} {}.", v.axis.holds, v.axis.rate_hz,
-        v.axis.n_samples, report::short_number(static_cast<double>(v.axis.n_samples) / v.axis.rate_hz), v.axis.n_known,
+        v.axis.n_samples, short_number(static_cast<double>(v.axis.n_samples) / v.axis.rate_hz), v.axis.n_known,
         v.axis.n_gaps, with_error(v.shown(v.axis.mean_arcsec_s), v.shown(v.axis.mean_sigma_arcsec_s)), v.unit());
 }
 
@@ -131,7 +119,7 @@ bool can_be_drawn(const deviations::DeviationCurve& curve) {
 bool was_moved(const AxisResult& axis) { return axis.fit && (!axis.fit->describes || !axis.fit->terms.sines.empty()); }
 
 report::Section section_of(const View& v) {
-    report::Section s{.heading = v.axis.name, .paragraphs = {summary(v)}, .tables = {}, .figures = {}};
+    report::Section s{.heading = v.axis.name, .paragraphs = {summary(v)}};
     if (v.axis.fit && !v.axis.fit->describes)
         s.paragraphs.push_back(
             "The fitted terms do not describe the record: it was moved, or has noise of another kind. Their errors are "
@@ -165,10 +153,9 @@ report::Section section_of(const View& v) {
 }
 
 report::Section earth_section(const config::Analysis& config, const AnalysisResult& result) {
-    report::Section s{.heading = "Mean rates", .paragraphs = {}, .tables = {}, .figures = {}};
+    report::Section s{.heading = "Mean rates"};
     report::Table t{.caption = "Mean rates, with what the fitted noise lets them differ by.",
-                    .header = {"axis", "mean, deg/h"},
-                    .rows = {}};
+                    .header = {"axis", "mean, deg/h"}};
     for (const AxisResult& axis : result.axes)
         t.rows.push_back({axis.name, with_error(axis.mean_arcsec_s, axis.mean_sigma_arcsec_s)});
     for (const EarthLine& line : result.earth)
@@ -186,32 +173,30 @@ report::Section earth_section(const config::Analysis& config, const AnalysisResu
 
 report::Section table_section(const config::Analysis& config, const TableResult& test, std::size_t index) {
     const calibration::RateTable& r = test.table;
-    report::Section s{.heading = test.name, .paragraphs = {test.holds + "."}, .tables = {}, .figures = {}};
+    report::Section s{.heading = test.name, .paragraphs = {test.holds + "."}};
     s.tables.push_back(
         {.caption = "Straight line through all stages by least squares, as IEEE Std 647 has it.",
          .header = {"quantity", "value"},
          .rows = {{"scale factor, units per arcsec", with_error(r.scale_factor.value, r.scale_factor.sigma)},
                   {"arcsec per unit", with_error(r.arcsec_per_unit.value, r.arcsec_per_unit.sigma)},
-                  {"bias", estimate_text(r.bias_arcsec_s, "deg/h")},
-                  {"asymmetry", estimate_text(r.asymmetry_ppm, "ppm")},
-                  {"nonlinearity, rms", report::short_number(r.nonlinearity_ppm) + " ppm"},
-                  {"largest residual", report::short_number(r.largest_residual_ppm) + " ppm"},
-                  {"largest difference at one input", report::short_number(r.hysteresis_arcsec_s) + " deg/h"}},
+                  {"bias", value_text(r.bias_arcsec_s, "deg/h")},
+                  {"asymmetry", value_text(r.asymmetry_ppm, "ppm")},
+                  {"nonlinearity, rms", short_number(r.nonlinearity_ppm) + " ppm"},
+                  {"largest residual", short_number(r.largest_residual_ppm) + " ppm"},
+                  {"largest difference at one input", short_number(r.hysteresis_arcsec_s) + " deg/h"}},
          .prose = true});
     report::Table stages{
         .caption = "Stages; residuals in ppm of the output at the largest input.",
-        .header = {"input, " + shown_unit(config.unit), "output, units/s", "its sigma", "samples", "residual, ppm"},
-        .rows = {}};
+        .header = {"input, " + shown_unit(config.unit), "output, units/s", "its sigma", "samples", "residual, ppm"}};
     Figure f = report::blank_figure(fmt::format("residuals-{}", index + 1), "Residuals of " + test.name,
                                     "Output less the straight line.", "input, " + shown_unit(config.unit),
                                     "residual, ppm of the largest output");
-    Series points = named("stages", Mark::points);
+    Series points = blank_series("stages", Mark::points);
     for (const calibration::TableStage& stage : r.stages) {
         stages.rows.push_back({fmt::format("{:.6g}", shown_rate(config.unit, stage.input_arcsec_s)),
-                               fmt::format("{:.9g}", stage.output), report::short_number(stage.output_sigma),
-                               fmt::format("{}", stage.n_samples), report::short_number(stage.residual_ppm)});
-        points.x.push_back(shown_rate(config.unit, stage.input_arcsec_s));
-        points.y.push_back(stage.residual_ppm);
+                               fmt::format("{:.9g}", stage.output), short_number(stage.output_sigma),
+                               fmt::format("{}", stage.n_samples), short_number(stage.residual_ppm)});
+        add_point(points, shown_rate(config.unit, stage.input_arcsec_s), stage.residual_ppm);
     }
     f.series = {std::move(points)};
     s.figures.push_back(std::move(f));
@@ -225,8 +210,7 @@ report::Page analysis_page(const config::Analysis& config, const AnalysisResult&
     report::Page page{.title = "Noise analysis",
                       .lead =
                           "Deviations, fitted noise terms, drift by mode and errors of switches of recorded gyros. 1 "
-                          "deg/h is 1 arcsec/s.",
-                      .sections = {}};
+                          "deg/h is 1 arcsec/s."};
     if (!result.axes.empty()) page.sections.push_back(earth_section(config, result));
     for (std::size_t k = 0; k < result.axes.size(); ++k)
         page.sections.push_back(

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/report/figure.hpp>
+#include <zlg/report/number_text.hpp>
 #include <zlg/study/analyze.hpp>
 
 namespace zlg::study {
@@ -24,18 +24,12 @@ struct View {
     [[nodiscard]] std::string id(const char* what) const { return fmt::format("{}-{}", what, index + 1); }
 };
 
-[[nodiscard]] inline report::Series named(std::string name, report::Mark mark = report::Mark::line,
-                                          bool dashed = false) {
-    return {.name = std::move(name), .x = {}, .y = {}, .y_error = {}, .mark = mark, .dashed = dashed};
-}
-
 [[nodiscard]] inline report::Series curve_series(const View& v, const deviations::DeviationCurve& curve,
                                                  std::string name) {
-    report::Series s = named(std::move(name), report::Mark::points);
+    report::Series s = report::blank_series(std::move(name), report::Mark::points);
     for (const auto& p : curve.points) {
         if (!(p.deviation > 0.0)) continue;
-        s.x.push_back(p.tau_s);
-        s.y.push_back(v.shown(p.deviation));
+        report::add_point(s, p.tau_s, v.shown(p.deviation));
         s.y_error.push_back(v.shown(p.high - p.deviation));
         s.y_error_down.push_back(v.shown(p.deviation - p.low));
     }

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/noise/noise_units.hpp>
 
 #include "axis_curves.hpp"
 
@@ -46,10 +45,10 @@ void count_known(const AxisRecord& record, AxisResult& axis) {
 }
 
 // Means over equal stretches; one of which half is missing is a gap.
-std::vector<TimeBin> course_of(const AxisRecord& record) {
+std::vector<TimeBin> time_bins_of(const AxisRecord& record) {
     const std::size_t n = record.rates_arcsec_s.size();
     const std::size_t length = std::max<std::size_t>(1, (n + course_bins - 1) / course_bins);
-    std::vector<TimeBin> course;
+    std::vector<TimeBin> time_bins;
     for (std::size_t from = 0; from < n; from += length) {
         const std::size_t to = std::min(n, from + length);
         double mean = 0.0, known = 0.0;
@@ -57,9 +56,9 @@ std::vector<TimeBin> course_of(const AxisRecord& record) {
             if (std::isfinite(record.rates_arcsec_s[k]))
                 known += 1.0, mean += (record.rates_arcsec_s[k] - mean) / known;
         const bool is_gap = 2.0 * known < static_cast<double>(to - from) || known == 0.0;
-        course.push_back({0.5 * static_cast<double>(from + to) / record.rate_hz, is_gap ? none : mean});
+        time_bins.push_back({0.5 * static_cast<double>(from + to) / record.rate_hz, is_gap ? none : mean});
     }
-    return course;
+    return time_bins;
 }
 
 // On the straight line in log-log between the neighbours.
@@ -186,7 +185,7 @@ AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     axis.is_error = record.is_error;
     axis.n_samples = std::ssize(record.rates_arcsec_s);
     count_known(record, axis);
-    axis.course = course_of(record);
+    axis.time_bins = time_bins_of(record);
     take_curves(task, record, axis);
     take_modes(task, record, axis);
     take_spectra(record, axis);

@@ -1,7 +1,6 @@
 #include "axis_curves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,16 +14,11 @@ namespace {
 using deviations::AngleRecord;
 using deviations::DeviationKind;
 
-// mtotdev and htotdev, samples in all pieces: about so many a second, and as many as they are given without being told.
+// mtotdev and htotdev, samples in all pieces: about so many a second, and as many as are computed without being asked for.
 constexpr double piece_samples_a_second = 1e8;
 constexpr double max_piece_samples = 1e10;
 
-DeviationKind kind_of(config::Deviation d) {
-    constexpr std::array kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
-                               DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
-                               DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev};
-    return kinds[static_cast<std::size_t>(d)];
-}
+DeviationKind kind_of(config::Deviation d) { return deviations::deviation_kinds[static_cast<std::size_t>(d)]; }
 
 std::vector<std::int64_t> spaced_factors(const config::Analysis& c, std::int64_t largest) {
     switch (c.taus) {
@@ -96,10 +90,7 @@ deviations::DeviationCurve allan_curve(const AnalysisTask& task, const AngleReco
 }  // namespace
 
 AngleRecord record_of(std::span<const double> rates, double rate_hz) {
-    std::vector<double> summed;
-    summed.reserve(rates.size() + 1);
-    summed.assign(rates.begin(), rates.end());
-    return AngleRecord({deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, std::move(summed));
+    return AngleRecord({.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
 }
 
 deviations::DeviationCurve octave_oadev(const AnalysisTask& task, const AngleRecord& angle) {

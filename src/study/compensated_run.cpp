@@ -8,6 +8,7 @@
 #include <zlg/rig/wiring.hpp>
 
 #include "gyro_drift.hpp"
+#include "reading_error.hpp"
 
 namespace zlg::study {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 class CompensatedRun {
 public:
     CompensatedRun(const config::Config& config, std::int64_t stride)
-        : loop_{config, rig::motion(config)},
+        : config_{config},
+          loop_{config, rig::motion(config)},
           replay_{rig::asked_compensation(config)},
           finder_{config.compensation.relock_ticks},
           meter_{config.gyro.tick_s, stride, gyro_drift(config)} {}
@@ -30,7 +32,7 @@ public:
         const core::AngleSample sample = replay_.take(second.record, loop_.light()).sample;
         truth_[static_cast<std::size_t>(tick) % truth_.size()] = {
             first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
-            replay_.state().magnetic.subtracted_arcsec - before_arcsec, second.truth.rounding_arcsec};
+            replay_.state().magnetic.subtracted_arcsec - before_arcsec, reading_error_arcsec(config_, second)};
         rig::hand_over(sample, [this](const core::AngleRow& row) { take(row); });
     }
 
@@ -51,6 +53,7 @@ private:
             windows.pop_front();
     }
 
+    config::Config config_;
     rig::ClosedLoop loop_;
     rig::Replay replay_;
     SwitchFinder finder_;

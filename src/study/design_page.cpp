@@ -9,11 +9,7 @@
 namespace zlg::study {
 namespace {
 
-using report::Figure;
-using report::Mark;
-using report::Series;
-
-Series line(std::string name) { return {.name = std::move(name), .x = {}, .y = {}, .y_error = {}}; }
+using namespace report;
 
 Figure budget_figure(const config::Config& config) {
     Figure f = report::blank_figure(
@@ -21,21 +17,18 @@ Figure budget_figure(const config::Config& config) {
         "Long intervals let the magnetic drift pile up, short ones pay for many switches. Points: the optimum.",
         "interval, s", "drift, arcsec/s");
     f.log_x = true;
-    Series best = line("optimum");
-    best.mark = Mark::points;
+    Series best = blank_series("optimum", Mark::points);
     for (double run_s : config.design.run_lengths_s) {
         const design::DriftCase task = drift_case(config, run_s);
         const design::Optimum optimum = design::optimum(design::IntervalMethod::corrected, task);
-        Series s = line(fmt::format("run of {} s", report::short_number(run_s)));
+        Series s = blank_series(fmt::format("run of {} s", short_number(run_s)));
         for (int k = -30; k <= 30; ++k) {
             const double interval_s = optimum.interval_s * std::pow(10.0, k / 30.0);
             if (interval_s > run_s) break;
-            s.x.push_back(interval_s);
-            s.y.push_back(design::drift_arcsec_s(design::IntervalMethod::corrected, task, interval_s));
+            add_point(s, interval_s, design::drift_arcsec_s(design::IntervalMethod::corrected, task, interval_s));
         }
         f.series.push_back(std::move(s));
-        best.x.push_back(optimum.interval_s);
-        best.y.push_back(optimum.drift_arcsec_s);
+        add_point(best, optimum.interval_s, optimum.drift_arcsec_s);
     }
     f.series.push_back(std::move(best));
     return f;
@@ -47,19 +40,17 @@ report::Table interval_table(const DesignResult& result) {
             "Each method minimises its own budget, so compare intervals, not drifts. The last columns say what "
             "missing the interval by 30 % costs.",
         .header = {"run, s", "method", "interval, s", "drift, \"/s", "rise at 0.7 of it, \"/s",
-                   "rise at 1.3 of it, \"/s"},
-        .rows = {}};
+                   "rise at 1.3 of it, \"/s"}};
     for (const IntervalLine& l : result.intervals)
-        t.rows.push_back(
-            {report::short_number(l.run_s), std::string{design::name(l.method)},
-             report::short_number(l.optimum.interval_s), report::short_number(l.optimum.drift_arcsec_s),
-             report::short_number(l.sensitivity.shorter_arcsec_s),
-             l.sensitivity.longer_arcsec_s ? report::short_number(*l.sensitivity.longer_arcsec_s) : "beyond the run"});
+        t.rows.push_back(report::row(
+            l.run_s, design::name(l.method), l.optimum.interval_s, l.optimum.drift_arcsec_s,
+            l.sensitivity.shorter_arcsec_s,
+            l.sensitivity.longer_arcsec_s ? short_number(*l.sensitivity.longer_arcsec_s) : "beyond the run"));
     return t;
 }
 
 std::string root_text(const design::Roots& roots) {
-    return roots.status == design::RootStatus::found ? report::short_number(roots.smaller_s)
+    return roots.status == design::RootStatus::found ? short_number(roots.smaller_s)
                                                      : std::string{design::sentence(roots.status)};
 }
 
@@ -70,16 +61,13 @@ report::Table run_table(const DesignResult& result) {
             "the length, an interval that grows with the time since start.",
         .header = {"run, s", "non-magnetic, \"/s", "quasi-non-magnetic", "sawtooth", "switches", "root of (9c), s",
                    "root of printed (9), s", "half first segment: interval, s", "drift, \"/s",
-                   "growing: interval at the end, s", "drift, \"/s"},
-        .rows = {}};
+                   "growing: interval at the end, s", "drift, \"/s"}};
     for (const RunLine& r : result.runs)
-        t.rows.push_back({report::short_number(r.run_s), report::short_number(r.terms.nonmagnetic_arcsec_s),
-                          report::short_number(r.terms.quasi_nonmagnetic_arcsec_s),
-                          report::short_number(r.terms.sawtooth_arcsec_s),
-                          report::short_number(r.terms.switch_errors_arcsec_s), root_text(r.corrected_roots),
-                          root_text(r.roots_as_printed), report::short_number(r.half_first_segment.interval_s),
-                          report::short_number(r.half_first_segment.drift_arcsec_s),
-                          report::short_number(r.growing_interval_s), report::short_number(r.growing_drift_arcsec_s)});
+        t.rows.push_back(report::row(r.run_s, r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s,
+                                     r.terms.sawtooth_arcsec_s, r.terms.switch_errors_arcsec_s,
+                                     root_text(r.corrected_roots), root_text(r.roots_as_printed),
+                                     r.half_first_segment.interval_s, r.half_first_segment.drift_arcsec_s,
+                                     r.growing_interval_s, r.growing_drift_arcsec_s));
     return t;
 }
 
@@ -90,14 +78,11 @@ report::Table substitution_table(const DesignResult& result) {
             "over random phase, from rounding of the counter, from re-lock, and all together by eq (19) with the "
             "residual of re-lock that it omits.",
         .header = {"frequency, Hz", "gap, ticks", "order", "worst, \"", "rms, \"", "white noise gain", "rounding, \"",
-                   "re-lock, \"", "together, \""},
-        .rows = {}};
+                   "re-lock, \"", "together, \""}};
     for (const SubstitutionLine& l : result.substitution)
-        t.rows.push_back({std::isfinite(l.frequency_hz) ? report::short_number(l.frequency_hz) : "all",
-                          fmt::format("{}", l.gap_ticks), fmt::format("{}", l.order),
-                          report::short_number(l.worst_arcsec), report::short_number(l.rms_arcsec),
-                          report::short_number(l.noise_gain), report::short_number(l.counter_arcsec),
-                          report::short_number(l.relock_arcsec), report::short_number(l.total_arcsec)});
+        t.rows.push_back(report::row(std::isfinite(l.frequency_hz) ? short_number(l.frequency_hz) : "all", l.gap_ticks,
+                                     l.order, l.worst_arcsec, l.rms_arcsec, l.noise_gain, l.counter_arcsec,
+                                     l.relock_arcsec, l.total_arcsec));
     return t;
 }
 
@@ -110,45 +95,39 @@ Figure order_figure(const DesignResult& result) {
         "frequency, Hz", "amplitude x T / noise of a tick");
     f.log_y = true;
     for (int order = 0; order < design::n_orders; ++order) {
-        Series s = line(fmt::format("order {}", order));
-        s.mark = Mark::points;
+        Series s = blank_series(fmt::format("order {}", order), Mark::points);
         for (std::size_t row = 0; row < result.order_map.size(); ++row)
             for (std::size_t column = 0; column < result.order_map[row].size(); ++column)
-                if (result.order_map[row][column] == order) {
-                    s.x.push_back(result.map_frequency_hz[row]);
-                    s.y.push_back(result.map_ratio[column]);
-                }
+                if (result.order_map[row][column] == order)
+                    add_point(s, result.map_frequency_hz[row], result.map_ratio[column]);
         if (!s.x.empty()) f.series.push_back(std::move(s));
     }
     return f;
 }
 
 report::Table loop_table(const config::Config& config, const LoopLine& l) {
-    return {
-        .caption = "The perimeter loop.",
-        .header = {"quantity", "value"},
-        .rows = {
-            {"phase margin", fmt::format("{} deg at {} rad/s", report::short_number(l.margins.phase_margin_deg),
-                                         report::short_number(l.margins.crossover_rad_s))},
-            {"gain margin", fmt::format("{} at {} rad/s", report::short_number(l.margins.gain_margin),
-                                        report::short_number(l.margins.limit_rad_s))},
-            {"T/tau, and its limit of stability for " + l.stability_note,
-             fmt::format("{}, {}", report::short_number(l.tick_over_tau), report::short_number(l.stability_limit))},
-            {fmt::format("re-lock to 0.01 wavelength from {}", report::short_number(config.perimeter.miss_lambda)),
-             fmt::format("{} ms {}; without limiter and slew {} ms", report::short_number(1e3 * l.relock_s),
-                         l.relock_note, report::short_number(1e3 * l.relock_linear_s))},
-            {"false angle of that re-lock",
-             fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", report::short_number(l.false_angle_arcsec),
-                         report::short_number(l.false_angle_law_arcsec))},
-            {"capture range of the detector", fmt::format("{} wavelength", report::short_number(l.capture_lambda))}}};
+    return {.caption = "The perimeter loop.",
+            .header = {"quantity", "value"},
+            .rows = {{"phase margin", fmt::format("{} deg at {} rad/s", short_number(l.margins.phase_margin_deg),
+                                                  short_number(l.margins.crossover_rad_s))},
+                     {"gain margin", fmt::format("{} at {} rad/s", short_number(l.margins.gain_margin),
+                                                 short_number(l.margins.limit_rad_s))},
+                     {"T/tau, and its limit of stability for " + l.stability_note,
+                      fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
+                     {fmt::format("re-lock to 0.01 wavelength from {}", short_number(config.perimeter.miss_lambda)),
+                      fmt::format("{} ms {}; without limiter and slew {} ms", short_number(1e3 * l.relock_s),
+                                  l.relock_note, short_number(1e3 * l.relock_linear_s))},
+                     {"false angle of that re-lock",
+                      fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", short_number(l.false_angle_arcsec),
+                                  short_number(l.false_angle_law_arcsec))},
+                     {"capture range of the detector", fmt::format("{} wavelength", short_number(l.capture_lambda))}}};
 }
 
 report::Table miss_table(const LoopLine& l) {
-    report::Table t{.caption = "What the miss at closing is made of.", .header = {"cause", "wavelengths"}, .rows = {}};
-    for (const design::MissPart& part : l.miss.part)
-        t.rows.push_back({std::string{part.name}, report::short_number(part.lambda)});
-    t.rows.push_back({"root sum square", report::short_number(l.miss.root_sum_square_lambda)});
-    t.rows.push_back({"all of one sign", report::short_number(l.miss.worst_lambda)});
+    report::Table t{.caption = "What the miss at closing is made of.", .header = {"cause", "wavelengths"}};
+    for (const design::MissPart& part : l.miss.part) t.rows.push_back(report::row(part.name, part.lambda));
+    t.rows.push_back(report::row("root sum square", l.miss.root_sum_square_lambda));
+    t.rows.push_back(report::row("all of one sign", l.miss.worst_lambda));
     return t;
 }
 
@@ -158,14 +137,11 @@ Figure false_drift_figure(const LoopLine& l, double tick_s) {
         "The reading of the ticks after a switch, by simulation of the loop from the configured miss, "
         "before correction.",
         "tick after closing", "false drift, deg/h");
-    Series s = line("simulated");
-    s.mark = Mark::points;
-    for (std::size_t k = 0; k < l.false_drift_arcsec_s.size(); ++k) {
-        s.x.push_back(static_cast<double>(k + 1));
-        s.y.push_back(l.false_drift_arcsec_s[k]);
-    }
+    Series s = blank_series("simulated", Mark::points);
+    for (std::size_t k = 0; k < l.false_drift_arcsec_s.size(); ++k)
+        add_point(s, static_cast<double>(k + 1), l.false_drift_arcsec_s[k]);
     f.series = {std::move(s)};
-    f.caption += fmt::format(" A tick is {} ms.", report::short_number(1e3 * tick_s));
+    f.caption += fmt::format(" A tick is {} ms.", short_number(1e3 * tick_s));
     return f;
 }
 
@@ -173,11 +149,8 @@ Figure step_figure(const LoopLine& l, double tick_s) {
     Figure f =
         report::blank_figure("step", "Step response of the linear loop",
                              "The part of a step of the perimeter that the loop has made up.", "time, ms", "made up");
-    Series s = line("without limiter and slew");
-    for (std::size_t k = 0; k < l.step.size(); ++k) {
-        s.x.push_back(1e3 * tick_s * static_cast<double>(k + 1));
-        s.y.push_back(l.step[k]);
-    }
+    Series s = blank_series("without limiter and slew");
+    for (std::size_t k = 0; k < l.step.size(); ++k) add_point(s, 1e3 * tick_s * static_cast<double>(k + 1), l.step[k]);
     f.series = {std::move(s)};
     return f;
 }
@@ -185,16 +158,15 @@ Figure step_figure(const LoopLine& l, double tick_s) {
 std::string best_list(const DesignResult& result) {
     std::string text;
     for (const RunLine& r : result.runs)
-        text += fmt::format("{} {} s for a run of {} s", text.empty() ? "" : ",",
-                            report::short_number(r.best.interval_s), report::short_number(r.run_s));
+        text += fmt::format("{} {} s for a run of {} s", text.empty() ? "" : ",", short_number(r.best.interval_s),
+                            short_number(r.run_s));
     return text;
 }
 
 std::string whole_drift_note(const config::Config& config) {
     if (config.compensation.magnetic != core::MagneticMethod::estimate) return "";
     return " The whole magnetic drift is in these budgets: how much of it compensation.magnetic = \"estimate\" takes "
-           "out is "
-           "not foreseen.";
+           "out is not foreseen.";
 }
 
 }  // namespace
@@ -204,8 +176,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
         .title = "Design of a Zeeman laser gyro with mode switching",
         .lead =
             "Interval between switches, substitution of the blind ticks and perimeter loop, from the configuration "
-            "of one gyro. 1 \"/s is 1 deg/h.",
-        .sections = {}};
+            "of one gyro. 1 \"/s is 1 deg/h."};
     page.sections.push_back(
         {.heading = "Interval",
          .paragraphs =
@@ -215,9 +186,8 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
               fmt::format(
                   "What is above takes design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
                   "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
-                  report::short_number(config.design.switch_error_arcsec),
-                  report::short_number(result.switch_error_arcsec), result.switch_error_source, best_list(result),
-                  whole_drift_note(config))},
+                  short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),
+                  result.switch_error_source, best_list(result), whole_drift_note(config))},
          .tables = {interval_table(result), run_table(result)},
          .figures = {budget_figure(config)}});
     page.sections.push_back(
@@ -228,7 +198,6 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
          .tables = {substitution_table(result)},
          .figures = {order_figure(result)}});
     page.sections.push_back({.heading = "Perimeter loop",
-                             .paragraphs = {},
                              .tables = {loop_table(config, result.loop), miss_table(result.loop)},
                              .figures = {false_drift_figure(result.loop, config.gyro.tick_s),
                                          step_figure(result.loop, config.gyro.tick_s)}});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <zlg/design/error.hpp>
+#include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/switch_trial.hpp>
 

@@ -58,7 +58,7 @@ std::vector<design::Tone> tones_of(const config::Motion& motion) {
 }
 
 std::vector<MotionError> on_tones(const Substitution& s, const std::vector<design::Tone>& tones) {
-    const auto response = design::ErrorResponse::of_sum(s);
+    const auto response = design::ErrorResponse(s);
     std::vector<MotionError> errors;
     for (const design::Tone& tone : tones)
         errors.push_back(

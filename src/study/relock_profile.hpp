@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
-#include <zlg/twin/twin.hpp>
 
 namespace zlg::study {
 

@@ -1,6 +1,5 @@
 #include <zlg/study/resolved.hpp>
 
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,8 +14,7 @@ namespace {
 std::string whole_drift_note(const config::Config& config) {
     if (config.compensation.magnetic != core::MagneticMethod::estimate) return "";
     return "; the whole magnetic drift is in it, for how much of it compensation.magnetic = \"estimate\" takes out is "
-           "not "
-           "foreseen: a longer interval may be better";
+           "not foreseen: a longer interval may be better";
 }
 
 }  // namespace

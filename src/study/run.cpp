@@ -1,82 +1,28 @@
 #include <zlg/study/run.hpp>
 
-#include <algorithm>
 #include <array>
 #include <exception>
-#include <limits>
 #include <map>
 #include <thread>
 
 #include <zlg/core/common/maths.hpp>
-#include <zlg/rig/asked_compensation.hpp>
+#include <zlg/core/health.hpp>
 #include <zlg/rig/closed_loop.hpp>
-#include <zlg/rig/replay.hpp>
-#include <zlg/rig/switch_count.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "gyro_drift.hpp"
 #include "magnifier.hpp"
+#include "reading_error.hpp"
 #include "relock_profile.hpp"
+#include "run_variant.hpp"
 
 namespace zlg::study {
 namespace {
 
-using core::BridgeMethod;
-using core::RelockMethod;
-
-constexpr std::int64_t curve_points = 2000;
-constexpr int profile_ticks = 8;
+constexpr std::int64_t curve_points = 2000;  // at most about twice as many: what a figure can show
+constexpr int profile_ticks = 8;             // after closing, of which the mean false drift is reported
 
 std::int64_t curve_stride(std::int64_t ticks) { return std::max<std::int64_t>(1, ticks / curve_points); }
-
-// One compensation of the records, with its error meter.
-struct Variant {
-    std::string name;
-    rig::Replay replay;
-    ErrorMeter meter;
-    std::array<double, core::history_ticks> taken_out_arcsec{};  // of the magnetic drift, by tick
-
-    [[nodiscard]] VariantResult result() const {
-        return {name,
-                meter.drift_arcsec_s(),
-                meter.angle_error_arcsec(),
-                statistics(meter.switches()),
-                meter.switches(),
-                meter.curve()};
-    }
-};
-
-std::vector<Variant> variants(const config::Config& config, std::int64_t stride) {
-    struct Choice {
-        const char* name;
-        RelockMethod relock;
-        BridgeMethod bridge;
-    };
-    const std::array choices{
-        Choice{"switching", RelockMethod::none, BridgeMethod::none},
-        Choice{"relock_frequency", RelockMethod::frequency, BridgeMethod::quadratic},
-        Choice{"relock_detuning", RelockMethod::detuning, BridgeMethod::quadratic},
-        Choice{"relock_mean_square", RelockMethod::mean_square, BridgeMethod::quadratic},
-        Choice{"bridge_constant", RelockMethod::detuning, BridgeMethod::constant},
-        Choice{"bridge_linear", RelockMethod::detuning, BridgeMethod::linear},
-        Choice{"bridge_quadratic", RelockMethod::detuning, BridgeMethod::quadratic},
-        Choice{"configured", rig::asked_relock(config), config.compensation.bridge},
-    };
-    // The named variants are the paper's, with its points; only the last takes those of the configuration.
-    config::Config paper = config;
-    const config::Compensation points;
-    paper.compensation.extrapolation_points = points.extrapolation_points;
-    paper.compensation.points_before = points.points_before;
-    paper.compensation.points_after = points.points_after;
-
-    std::vector<Variant> all;
-    for (const Choice& c : choices) {
-        const config::Config& of = &c == &choices.back() ? config : paper;
-        all.push_back({c.name, rig::Replay{rig::compensation_config(of, c.relock, c.bridge)},
-                       ErrorMeter{config.gyro.tick_s, stride, gyro_drift(config)}});
-    }
-    return all;
-}
 
 // A tick between its records and its final row.
 struct WaitingTick {
@@ -91,7 +37,7 @@ public:
         : task_{task},
           count_{task.config},
           variants_{variants(task.config, curve_stride(ticks))},
-          finder_{task.config.compensation.relock_ticks} {}
+          switches_{task.config.compensation.relock_ticks} {}
 
     // The first half of a tick, while its light is there.
     void first_half(const rig::LoopHalf& first, const core::LightSamples& light) {
@@ -101,13 +47,12 @@ public:
 
     void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second,
               const core::LightSamples& light_second) {
-        finder_.take(tick, first.record, second.record);
-        forget_windows(tick);
-        remember_switch();
+        switches_.take(tick, first.record, second.record);
         profile_.take(first.record, second.record, first.truth.false_relock_arcsec + second.truth.false_relock_arcsec);
         const MagnifiedTick shown = shown_tick(tick, task_.config.gyro.scale_arcsec, first, second);
-        waiting_[static_cast<std::size_t>(tick) % waiting_.size()] = {shown.true_arcsec, second.truth.rounding_arcsec,
-                                                                      shown};
+        waiting_[static_cast<std::size_t>(tick) % waiting_.size()] = {
+            shown.true_arcsec, reading_error_arcsec(task_.config, second), shown};
+        count_whole(first, second);
         for (const rig::LoopHalf* half : {&first, &second}) {
             take_health(*half);
             count_.take(*half);
@@ -136,6 +81,8 @@ public:
         for (const Variant& v : variants_) result.variants.push_back(v.result());
         result.switches = switch_lines();
         result.tally = count_.tally();
+        result.whole_count_ticks = whole_count_ticks_;
+        result.fringe_lost_ticks = fringe_lost_ticks_;
         result.magnified = magnifier_.ticks();
         result.relock_false_drift_deg_h = profile_.mean_deg_h(task_.config.gyro.tick_s);
     }
@@ -143,10 +90,11 @@ public:
 private:
     [[nodiscard]] bool is_configured(const Variant& v) const { return &v == &variants_.back(); }
 
-    // Its compensation runs in a processor outside.
+    // Its compensation runs in an outside processor (RunTask::processor).
     [[nodiscard]] bool is_outside(const Variant& v) const { return task_.processor != nullptr && is_configured(v); }
 
-    // Of a processor outside no more is known than its rows: what it takes out of the angle is what ours would.
+    // Its compensation runs here. For the meter that includes one of an outside processor which subtracts magnetic
+    // drift: only its rows are known, and what it subtracts is found by the same compensation beside it.
     [[nodiscard]] bool is_stepped(const Variant& v) const {
         return !is_outside(v) || v.replay.config().magnetic.method == core::MagneticMethod::estimate;
     }
@@ -164,61 +112,45 @@ private:
     }
 
     void take_gap(const Variant& v, const core::GapReport& gap) {
-        if (is_configured(v)) gaps_[gap.first_tick] = gap;
+        if (is_configured(v)) switches_.take(gap);
     }
 
     void take_row(Variant& v, const core::AngleRow& row) {
         const WaitingTick& waiting = waiting_[static_cast<std::size_t>(row.tick) % waiting_.size()];
         const auto place = static_cast<std::size_t>(row.tick) % v.taken_out_arcsec.size();
-        v.meter.take(row, {waiting.true_arcsec, v.taken_out_arcsec[place], waiting.rounding_arcsec}, finder_.windows());
+        v.meter.take(row, {waiting.true_arcsec, v.taken_out_arcsec[place], waiting.rounding_arcsec},
+                     switches_.windows());
         if (!is_configured(v)) return;
+        switches_.take(row);
         MagnifiedTick shown = waiting.shown;
         shown.dtheta_arcsec = row.dtheta_arcsec;
         shown.final_arcsec = row.dtheta_final_arcsec;
-        magnifier_.take(shown, finder_.windows());
+        magnifier_.take(shown, switches_.windows());
         if (task_.on_row) task_.on_row(row, waiting.true_arcsec);
     }
 
-    // A window is needed until every variant has given the final row of its last tick.
-    void forget_windows(std::int64_t tick) {
-        auto& windows = finder_.windows();
-        while (!windows.empty() && windows.front().gap_is_over() &&
-               windows.front().last_tick < tick - core::history_ticks)
-            windows.pop_front();
-    }
-
     [[nodiscard]] std::vector<SwitchLine> switch_lines() const {
-        std::map<std::int64_t, SwitchError> errors;
-        for (const SwitchError& e : variants_.back().meter.switches()) errors[e.window.first_tick] = e;
-        std::vector<SwitchLine> lines;
-        for (const auto& [tick, window] : switches_) {
-            SwitchLine line{.tick = tick, .mode = window.mode_after, .gap_ticks = window.n_ticks};
-            const auto error = errors.find(tick);
-            line.relock_arcsec = error != errors.end() ? error->second.relock_arcsec : unknown;
-            line.true_error_arcsec = error != errors.end() ? error->second.error_arcsec : unknown;
-            const auto gap = gaps_.find(tick);
-            line.dp_arcsec = gap != gaps_.end() ? gap->second.dp_arcsec : unknown;
-            line.sigma_arcsec = gap != gaps_.end() ? gap->second.sigma_sum_arcsec : core::infinity;
-            add_event(tick, line);
-            lines.push_back(line);
+        std::map<std::int64_t, double> errors_arcsec;
+        for (const SwitchError& e : variants_.back().meter.switches())
+            errors_arcsec[e.window.first_tick] = e.error_arcsec;
+        std::vector<SwitchLine> lines = switches_.lines();
+        for (SwitchLine& line : lines) {
+            if (const auto error = errors_arcsec.find(line.tick); error != errors_arcsec.end())
+                line.true_error_arcsec = error->second;
+            const auto event = events_.find(line.tick);
+            if (event == events_.end()) continue;
+            line.half_wave_v = event->second.half_wave_v;
+            line.half_wave_sigma_v = event->second.half_wave_sigma_v;
         }
         return lines;
     }
 
-    void add_event(std::int64_t tick, SwitchLine& line) const {
-        const auto found = events_.find(tick);
-        const bool known = found != events_.end();
-        line.miss_lambda =
-            known && found->second.control.event.has_miss ? found->second.control.event.miss_lambda : unknown;
-        line.half_wave_v = known ? found->second.half_wave_v : unknown;
-        line.half_wave_sigma_v = known ? found->second.half_wave_sigma_v : core::infinity;
-    }
-
-    // Once its gap is over a switch is one, whatever of its re-lock the run still sees.
-    void remember_switch() {
-        if (finder_.windows().empty() || !finder_.windows().back().gap_is_over()) return;
-        const SwitchWindow& window = finder_.windows().back();
-        switches_[window.first_tick] = window;
+    // A tick lies between the borders at the ends of its halves.
+    void count_whole(const rig::LoopHalf& first, const rig::LoopHalf& second) {
+        const bool reads = task_.config.gyro.readout == config::Readout::phase;
+        if (!reads || !core::is_measured(first.record, second.record) || core::has_fringe(second.record)) return;
+        ++whole_count_ticks_;
+        if ((second.control.health & core::health_fringe_lost) != 0) ++fringe_lost_ticks_;
     }
 
     void take_health(const rig::LoopHalf& half) {
@@ -227,28 +159,26 @@ private:
         task_.on_health(half.record.half, health_);
     }
 
-    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
     const RunTask& task_;
     rig::SwitchCount count_;
     std::vector<Variant> variants_;
-    SwitchFinder finder_;
+    SwitchTable switches_;
     RelockProfile profile_{profile_ticks};
     Magnifier magnifier_;
-    std::array<WaitingTick, core::history_ticks> waiting_{};
-    std::map<std::int64_t, SwitchWindow> switches_;
-    std::map<std::int64_t, core::GapReport> gaps_;
+    std::array<WaitingTick, core::history_ticks> waiting_{};  // by tick modulo the size: a final row comes sooner
     std::uint32_t health_ = 0;
-    std::map<std::int64_t, rig::LoopHalf> events_;  // the half in which the lock that ends a switch was seen
+    std::int64_t whole_count_ticks_ = 0, fringe_lost_ticks_ = 0;
+    std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen
 };
 
-// The same gyro without switching: its error is what the regime is for.
+// The same gyro without switching: its error is what switching is to remove.
 VariantResult one_mode(const config::Config& config, const twin::Motion& motion, std::int64_t ticks) {
-    const config::Config still = rig::without_switching(config);
-    rig::ClosedLoop loop{still, motion};
-    Variant variant{"one_mode",
-                    rig::Replay{rig::compensation_config(still, RelockMethod::none, still.compensation.bridge)},
-                    ErrorMeter{still.gyro.tick_s, curve_stride(ticks), gyro_drift(still)}};
+    const config::Config unswitched = rig::without_switching(config);
+    rig::ClosedLoop loop{unswitched, motion};
+    Variant variant{
+        "one_mode", "the same gyro, never switched",
+        rig::Replay{rig::compensation_config(unswitched, core::RelockMethod::none, unswitched.compensation.bridge)},
+        ErrorMeter{unswitched.gyro.tick_s, curve_stride(ticks), gyro_drift(unswitched)}};
     std::array<double, core::history_ticks> truth{};
     const std::deque<SwitchWindow> no_windows;
     const auto take = [&](const core::AngleRow& row) {
@@ -274,6 +204,7 @@ rig::LoopHalf advance(rig::ClosedLoop& loop, const RunTask& task) {
 void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t ticks, RunResult& result) {
     rig::ClosedLoop loop{task.config, motion, task.processor};
     Experiment experiment{task, ticks};
+    // About two hundred reports, and one every 100 000 ticks at least.
     const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
         const rig::LoopHalf first = advance(loop, task);
@@ -293,12 +224,12 @@ RunResult run(const RunTask& task) {
     const twin::Motion motion = rig::motion(task.config);
     const std::int64_t ticks = rig::run_ticks(task.config, motion);
     RunResult result{.tick_s = task.config.gyro.tick_s, .ticks = ticks, .warnings = task.warnings};
-    VariantResult still;
+    VariantResult unswitched;
     if (task.threads > 1) {
         std::exception_ptr failure;
         std::jthread beside{[&] {
             try {
-                still = one_mode(task.config, motion, ticks);
+                unswitched = one_mode(task.config, motion, ticks);
             } catch (...) {
                 failure = std::current_exception();
             }
@@ -308,9 +239,9 @@ RunResult run(const RunTask& task) {
         if (failure) std::rethrow_exception(failure);
     } else {
         switching_run(task, motion, ticks, result);
-        still = one_mode(task.config, motion, ticks);
+        unswitched = one_mode(task.config, motion, ticks);
     }
-    result.variants.insert(result.variants.begin(), std::move(still));
+    result.variants.insert(result.variants.begin(), std::move(unswitched));
     return result;
 }
 

@@ -11,27 +11,7 @@
 namespace zlg::study {
 namespace {
 
-using report::Figure;
-using report::Mark;
-using report::Series;
-
-const VariantResult* find(const RunResult& result, const std::string& name) {
-    for (const VariantResult& v : result.variants)
-        if (v.name == name) return &v;
-    return nullptr;
-}
-
-const char* meaning(const std::string& name) {
-    if (name == "one_mode") return "the same gyro, never switched";
-    if (name == "switching") return "switched; gaps and re-lock as read";
-    if (name == "relock_frequency") return "re-lock by bias frequency, gap by quadratic";
-    if (name == "relock_detuning") return "re-lock by detuning, gap by quadratic";
-    if (name == "relock_mean_square") return "re-lock by mean square detuning, gap by quadratic";
-    if (name == "bridge_constant") return "re-lock by detuning, gap by constant";
-    if (name == "bridge_linear") return "re-lock by detuning, gap by straight line";
-    if (name == "bridge_quadratic") return "re-lock by detuning, gap by quadratic";
-    return "as the configuration says";
-}
+using namespace report;
 
 report::Table variant_table(const RunResult& result) {
     report::Table table{.caption =
@@ -39,23 +19,16 @@ report::Table variant_table(const RunResult& result) {
                             "true angle from the first blind tick to the end of the re-lock; its mean is taken with "
                             "the sign of the false drift, which alternates from switch to switch.",
                         .header = {"variant", "what it is", "drift, \"/s", "angle error at the end, \"",
-                                   "error per switch, mean, \"", "rms, \"", "max, \""},
-                        .rows = {}};
+                                   "error per switch, mean, \"", "rms, \"", "max, \""}};
     for (const VariantResult& v : result.variants) {
-        std::vector<std::string> row{v.name, meaning(v.name), report::short_number(v.drift_arcsec_s),
-                                     report::short_number(v.angle_error_arcsec)};
-        if (v.switch_error)
-            for (double x : {v.switch_error->mean_arcsec, v.switch_error->rms_arcsec, v.switch_error->max_arcsec})
-                row.push_back(report::short_number(x));
-        else
-            row.insert(row.end(), 3, "-");
-        table.rows.push_back(std::move(row));
+        const auto error = [&v](double SwitchStatistics::*member) {
+            return v.switch_error ? short_number((*v.switch_error).*member) : "-";
+        };
+        table.rows.push_back(report::row(v.name, v.meaning, v.drift_arcsec_s, v.angle_error_arcsec,
+                                         error(&SwitchStatistics::mean_arcsec), error(&SwitchStatistics::rms_arcsec),
+                                         error(&SwitchStatistics::max_arcsec)));
     }
     return table;
-}
-
-Series curve_of(const VariantResult& v, std::string name) {
-    return {.name = std::move(name), .x = v.curve.t_s, .y = v.curve.error_arcsec, .y_error = {}};
 }
 
 Figure sawtooth_figure(const config::Config& config, const RunResult& result) {
@@ -64,10 +37,10 @@ Figure sawtooth_figure(const config::Config& config, const RunResult& result) {
         fmt::format("In one mode the magnetic drift adds up without end. Switched every {} s, its sign follows "
                     "the helicity of the mode: the error is a sawtooth of amplitude interval x magnetic drift, "
                     "on a slow slope that is the non-magnetic drift.",
-                    report::short_number(config.switching.interval_s)),
+                    short_number(config.switching.interval_s)),
         "time, s", "final minus true angle, arcsec");
-    if (const auto* v = find(result, "one_mode")) f.series.push_back(curve_of(*v, "one mode"));
-    if (const auto* v = find(result, "configured"))
+    if (const auto* v = result.variant("one_mode")) f.series.push_back(curve_of(*v, "one mode"));
+    if (const auto* v = result.variant("configured"))
         f.series.push_back(curve_of(*v, "switched, compensated as configured"));
     return f;
 }
@@ -79,7 +52,7 @@ Figure methods_figure(const RunResult& result) {
         "random walk on top of the sawtooth, for the sign of the false drift alternates.",
         "time, s", "final minus true angle, arcsec");
     for (const char* name : {"relock_frequency", "relock_mean_square", "bridge_constant", "configured"})
-        if (const auto* v = find(result, name)) f.series.push_back(curve_of(*v, name));
+        if (const auto* v = result.variant(name)) f.series.push_back(curve_of(*v, name));
     return f;
 }
 
@@ -103,18 +76,17 @@ Figure magnified_figure(const RunResult& result) {
         "carries the difference, so that no angle is lost. After the gap the reading is still wrong while "
         "the perimeter settles: the final value is corrected for it.",
         "tick", "angle of the tick, arcsec");
-    Series read{.name = "as read", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
-    Series delivered{.name = "delivered in real time", .x = {}, .y = {}, .y_error = {}, .dashed = true};
-    Series final_value{.name = "final", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
-    Series truth{.name = "true", .x = {}, .y = {}, .y_error = {}};
+    Series read = blank_series("as read", Mark::points);
+    Series delivered = blank_series("delivered in real time", Mark::line, true);
+    Series final_value = blank_series("final", Mark::points);
+    Series truth = blank_series("true");
     for (const MagnifiedTick& t : result.magnified) {
         const double x = static_cast<double>(t.tick) + 0.5;
-        const auto add = [x](Series& s, double y) { s.x.push_back(x), s.y.push_back(y); };
         // What the blind counter read would only stretch the axis.
-        if (t.measured) add(read, t.read_arcsec);
-        add(delivered, t.dtheta_arcsec);
-        add(final_value, t.final_arcsec);
-        add(truth, t.true_arcsec);
+        if (t.measured) add_point(read, x, t.read_arcsec);
+        add_point(delivered, x, t.dtheta_arcsec);
+        add_point(final_value, x, t.final_arcsec);
+        add_point(truth, x, t.true_arcsec);
     }
     f.series = {std::move(truth), std::move(delivered), std::move(final_value), std::move(read)};
     f.bands.push_back(gap_band(result, 1.0));
@@ -128,17 +100,15 @@ Figure detuning_figure(const RunResult& result) {
         "of the other. Closed again, the loop removes what is left; the bias, and with it the reading, is "
         "false by the square of the detuning until then.",
         "time, ms", "detuning, wavelengths");
-    Series truth{.name = "true, at the end of each half", .x = {}, .y = {}, .y_error = {}};
-    Series seen{.name = "measured, mean of each half", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
+    Series truth = blank_series("true, at the end of each half");
+    Series seen = blank_series("measured, mean of each half", Mark::points);
     const double half_ms = 500.0 * result.tick_s;
     const std::int64_t t0 = result.magnified.empty() ? 0 : result.magnified.front().tick;
     for (const MagnifiedTick& t : result.magnified) {
         for (unsigned h = 0; h < 2; ++h) {
             const double start_ms = (2.0 * static_cast<double>(t.tick - t0) + h) * half_ms;
-            truth.x.push_back(start_ms + half_ms);
-            truth.y.push_back(t.true_detuning_lambda[h]);
-            seen.x.push_back(start_ms + 0.5 * half_ms);
-            seen.y.push_back(t.measured ? t.detuning_lambda[h] : std::nan(""));
+            add_point(truth, start_ms + half_ms, t.true_detuning_lambda[h]);
+            add_point(seen, start_ms + 0.5 * half_ms, t.measured ? t.detuning_lambda[h] : std::nan(""));
         }
     }
     f.series = {std::move(truth), std::move(seen)};
@@ -155,15 +125,11 @@ Figure piezo_figure(const RunResult& result) {
         "The processor steps the high voltage by the half-wave voltage it has learnt from earlier switches; "
         "the amplifier follows at its slew rate; the loop does the rest.",
         "time, ms", "piezo voltage, V");
-    Series volts{.name = "piezo, by ADC", .x = {}, .y = {}, .y_error = {}};
+    Series volts = blank_series("piezo, by ADC");
     const double half_ms = 500.0 * result.tick_s;
     std::size_t half = 0;
-    for (const MagnifiedTick& t : result.magnified) {
-        for (double v : t.piezo_v) {
-            volts.x.push_back(static_cast<double>(++half) * half_ms);
-            volts.y.push_back(v);
-        }
-    }
+    for (const MagnifiedTick& t : result.magnified)
+        for (double v : t.piezo_v) add_point(volts, static_cast<double>(++half) * half_ms, v);
     f.series = {std::move(volts)};
     return f;
 }
@@ -174,7 +140,7 @@ Figure histogram_figure(const RunResult& result) {
                              "How often an error of a given size is left at a switch, by method of re-lock and bridge.",
                              "error of a switch, arcsec", "switches");
     for (const char* name : {"bridge_constant", "configured"}) {
-        const VariantResult* v = find(result, name);
+        const VariantResult* v = result.variant(name);
         if (!v) continue;
         std::vector<double> errors;
         for (const SwitchError& e : v->switches) errors.push_back(e.error_arcsec);
@@ -191,12 +157,10 @@ Figure switch_error_figure(const RunResult& result) {
         "itself claims for the gap: rounding, light noise and random walk, with the motion taken as a "
         "polynomial of the bridge's order.",
         "time, s", "error of a switch, arcsec");
-    Series errors{
-        .name = "error, with the claimed standard deviation", .x = {}, .y = {}, .y_error = {}, .mark = Mark::points};
+    Series errors = blank_series("error, with the claimed standard deviation", Mark::points);
     for (const SwitchLine& line : result.switches) {
         if (!std::isfinite(line.true_error_arcsec)) continue;
-        errors.x.push_back(static_cast<double>(line.tick) * result.tick_s);
-        errors.y.push_back(line.true_error_arcsec);
+        add_point(errors, static_cast<double>(line.tick) * result.tick_s, line.true_error_arcsec);
         errors.y_error.push_back(line.sigma_arcsec);
     }
     f.series = {std::move(errors)};
@@ -222,9 +186,7 @@ report::Section switch_section(const RunResult& result) {
         .heading = "A switch, magnified",
         .paragraphs = {"Switching takes the perimeter from one longitudinal mode to the next, of opposite "
                        "circular polarisation. On the way there is no light in both directions and the gyro "
-                       "is blind; just after it, the bias is not yet what it should be and the gyro lies."},
-        .tables = {},
-        .figures = {}};
+                       "is blind; just after it, the bias is not yet what it should be and the gyro lies."}};
     if (!result.relock_false_drift_deg_h.empty()) section.tables.push_back(relock_table(result));
     section.figures = {magnified_figure(result), detuning_figure(result), piezo_figure(result)};
     return section;
@@ -232,15 +194,18 @@ report::Section switch_section(const RunResult& result) {
 
 }  // namespace
 
+Series curve_of(const VariantResult& v, std::string name) {
+    return {.name = std::move(name), .x = v.curve.t_s, .y = v.curve.error_arcsec};
+}
+
 report::Page run_page(const config::Config& config, const RunResult& result) {
     report::Page page{
         .title = "A Zeeman laser gyro in the quasi-four-frequency regime",
         .lead = fmt::format("{} s of simulated operation, ticks of {} ms, modes switched every {} s: {} switches. "
                             "1 \"/s is 1 deg/h.",
-                            report::short_number(static_cast<double>(result.ticks) * result.tick_s),
-                            report::short_number(1e3 * result.tick_s),
-                            report::short_number(config.switching.interval_s), result.switches.size()),
-        .sections = {}};
+                            short_number(static_cast<double>(result.ticks) * result.tick_s),
+                            short_number(1e3 * result.tick_s), short_number(config.switching.interval_s),
+                            result.switches.size())};
     std::vector<std::string> paragraphs = result.warnings;
     if (result.tally.failed > 0) paragraphs.push_back(rig::sentence(result.tally));
     paragraphs.emplace_back(
@@ -256,7 +221,6 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
             {.heading = "All switches",
              .paragraphs = {"The histogram shows the spread of what is left after compensation. The file of "
                             "switches lists each of them with its claimed and its true error."},
-             .tables = {},
              .figures = {histogram_figure(result), switch_error_figure(result)}});
     return page;
 }

@@ -128,17 +128,12 @@ SwitchTrial try_switches(const config::Config& config) {
 }
 
 std::string_view text(SwitchErrorSource source) {
-    switch (source) {
-        case SwitchErrorSource::given:
-            return "as design.switch_error_arcsec says";
-        case SwitchErrorSource::tried:
-            return "as tried on the twin";
-        case SwitchErrorSource::unresolved:
-            return "all that a trial on the twin resolves beside drift.random_walk_arcsec_sqrt_s";
-        case SwitchErrorSource::presumed:
-            break;
-    }
-    return "the default of design.switch_error_arcsec, for fewer than 4 switches could be tried on the twin";
+    // In the order of the enumerators.
+    constexpr std::array<std::string_view, 4> texts{
+        "as design.switch_error_arcsec says", "as tried on the twin",
+        "all that a trial on the twin resolves beside drift.random_walk_arcsec_sqrt_s",
+        "the default of design.switch_error_arcsec, for fewer than 4 switches could be tried on the twin"};
+    return texts.at(static_cast<std::size_t>(source));
 }
 
 SwitchCost switch_cost(const config::Config& config) {

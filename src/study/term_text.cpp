@@ -1,6 +1,7 @@
 #include <zlg/study/term_text.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,24 +9,15 @@
 namespace zlg::study {
 
 ShownTerm shown_term(noise::NoiseKind kind) {
-    using noise::NoiseKind;
-    switch (kind) {
-        case NoiseKind::angle_random_walk:
-            return {"deg/sqrt(h)", 1.0 / 60.0, "", ""};
-        case NoiseKind::bias_instability:
-            return {"deg/h", 1.0, "", ""};
-        case NoiseKind::rate_random_walk:
-            return {"deg/h/sqrt(h)", 60.0, "", ""};
-        case NoiseKind::ramp:
-            return {"deg/h/h", 3600.0, "", ""};
-        case NoiseKind::markov:
-            return {"deg/h", 1.0, "time", "s"};
-        case NoiseKind::sine:
-            return {"deg/h", 1.0, "frequency", "Hz"};
-        case NoiseKind::quantisation:
-            break;
-    }
-    return {"arcsec", 1.0, "", ""};
+    // In the order of the enumerators.
+    static const std::array<ShownTerm, 7> terms{{{"arcsec", 1.0, "", ""},
+                                                 {"deg/sqrt(h)", 1.0 / 60.0, "", ""},
+                                                 {"deg/h", 1.0, "", ""},
+                                                 {"deg/h/sqrt(h)", 60.0, "", ""},
+                                                 {"deg/h/h", 3600.0, "", ""},
+                                                 {"deg/h", 1.0, "time", "s"},
+                                                 {"deg/h", 1.0, "frequency", "Hz"}}};
+    return terms.at(static_cast<std::size_t>(kind));
 }
 
 std::string with_error(double value, double sigma) {
@@ -38,6 +30,10 @@ std::string with_error(double value, double sigma) {
     const int digits =
         value == 0.0 ? 2 : std::clamp(static_cast<int>(std::floor(std::log10(std::abs(value)))) - place + 1, 2, 15);
     return fmt::format("{:.{}g} +- {:.2g}", value, digits, sigma);
+}
+
+std::string value_text(const numeric::Estimate& e, std::string_view unit) {
+    return e.determined ? fmt::format("{} {}", with_error(e.value, e.sigma), unit) : "not determined: " + e.reason;
 }
 
 std::string value_text(const noise::FittedTerm& term) {

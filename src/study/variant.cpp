@@ -6,15 +6,17 @@
 namespace zlg::study {
 
 std::optional<SwitchStatistics> statistics(const std::vector<SwitchError>& errors) {
-    if (errors.empty()) return std::nullopt;
     SwitchStatistics s;
     double sum_sq = 0.0;
+    double n = 0.0;
     for (const SwitchError& e : errors) {
+        if (e.unrepaired) continue;
+        n += 1.0;
         s.mean_arcsec += e.window.sign_after * e.error_arcsec;
         sum_sq += e.error_arcsec * e.error_arcsec;
         s.max_arcsec = std::max(s.max_arcsec, std::abs(e.error_arcsec));
     }
-    const auto n = static_cast<double>(errors.size());
+    if (n == 0.0) return std::nullopt;
     s.mean_arcsec /= n;
     s.rms_arcsec = std::sqrt(sum_sq / n);
     return s;
@@ -55,6 +57,7 @@ void ErrorMeter::take(const core::AngleRow& row, const TickTruth& truth, const s
         if (!current_) continue;
         current_->error_arcsec += own - drift_arcsec(row, truth, window);
         current_->relock_arcsec += row.relock_arcsec;
+        if ((row.flags & core::flag_unrepaired) != 0) current_->unrepaired = true;
         if (window.gap_is_over() && row.tick == window.last_tick) {
             current_->window = window;
             current_->error_arcsec -= truth.rounding_arcsec;

@@ -4,6 +4,7 @@
 #include <zlg/twin/motion.hpp>
 
 #include "fringe_counter.hpp"
+#include "fringe_photodiodes.hpp"
 #include "gyro.hpp"
 #include "housing.hpp"
 #include "laser/bias_area.hpp"
@@ -22,12 +23,15 @@ public:
 private:
     BiasArea live_through_half(int bias_sign, TwinHalf& half);
     void count(const BiasArea& area, int bias_sign, TwinHalf& half);
-    [[nodiscard]] double bias_hz() const { return config_.bias_hz * housing_.bias_growth(); }
+    void see_fringe(int bias_sign, TwinHalf& half);
+    [[nodiscard]] double bias_hz() const { return config_.gyro.bias_hz * housing_.bias_growth(); }
+    [[nodiscard]] double plateau_hz() const;
 
     TwinConfig config_;
     Motion motion_;
     Housing housing_;
     Photodiodes photodiodes_;
+    FringePhotodiodes fringe_photodiodes_;
     NoiseStream walk_noise_;
     NoiseStream dark_noise_;
     FringeCounter counter_;

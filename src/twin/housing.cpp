@@ -20,18 +20,18 @@ constexpr int coil_adc_bits = 12;
 int pieces_per_sample(const TwinConfig& config) {
     constexpr double max_piece_s = 200e-6;
     constexpr int max_pieces = 4096;
-    const double interval_s = 0.5 * config.tick_s / config.light_samples;
-    const double wanted = std::ceil(interval_s / std::min(max_piece_s, config.tau_s / 20.0));
+    const double interval_s = 0.5 * config.gyro.tick_s / config.gyro.light_samples;
+    const double wanted = std::ceil(interval_s / std::min(max_piece_s, config.perimeter.tau_s / 20.0));
     const int pieces = static_cast<int>(std::clamp(wanted, 1.0, max_pieces / double{core::max_light_samples}));
     return pieces | 1;
 }
 
 Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> signal)
     : config_{config},
-      half_s_{0.5 * config.tick_s},
+      half_s_{0.5 * config.gyro.tick_s},
       n_pieces_{pieces_per_sample(config)},
-      adc_{config.range_min_v, config.range_max_v, config.adc_bits},
-      perimeter_{config, 2 * n_pieces_ * config.light_samples, std::move(signal)},
+      adc_{config.piezo.range_min_v, config.piezo.range_max_v, config.piezo.adc_bits},
+      perimeter_{config, 2 * n_pieces_ * config.gyro.light_samples, std::move(signal)},
       adc_noise_{config.seed, NoiseCause::adc},
       coil_adc_{-coil_adc_range_a, coil_adc_range_a, coil_adc_bits},
       coil_noise_{config.seed, NoiseCause::coil},
@@ -40,27 +40,29 @@ Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> si
       frame_faults_{config.seed} {}
 
 double Housing::warming_at(std::uint64_t half) const {
-    return -std::expm1(-static_cast<double>(half) * half_s_ / config_.thermal_time_s);
+    return -std::expm1(-static_cast<double>(half) * half_s_ / config_.drift.thermal_time_s);
 }
 
 double Housing::drift_lambda(double warming, double shock_c) const {
-    return config_.expansion_lambda_per_c * config_.temperature_rise_c * warming +
-           config_.expansion_lambda_per_c * shock_c;
+    return config_.perimeter.expansion_lambda_per_c * config_.gyro.temperature_rise_c * warming +
+           config_.perimeter.expansion_lambda_per_c * shock_c;
 }
 
 double Housing::half_wave_v() const {
-    const double above_reference_c = config_.temperature_rise_c * warming_end_ + shock_end_c_;
+    const double above_reference_c = config_.gyro.temperature_rise_c * warming_end_ + shock_end_c_;
     const double own_v =
-        config_.half_wave_v * (1.0 + config_.half_wave_temperature_coefficient_per_c * above_reference_c);
+        config_.piezo.half_wave_v * (1.0 + config_.piezo.half_wave_temperature_coefficient_per_c * above_reference_c);
     return own_v * half_wave_ratio(faults_.active(), start_s());
 }
 
-int Housing::bias_sign() const { return index_ % 2 == 0 ? config_.first_bias_sign : -config_.first_bias_sign; }
+int Housing::bias_sign() const {
+    return index_ % 2 == 0 ? config_.gyro.first_bias_sign : -config_.gyro.first_bias_sign;
+}
 
 double Housing::bias_growth() const {
     const double above_reference_c =
-        config_.temperature_rise_c * 0.5 * (warming_start_ + warming_end_) + 0.5 * (shock_start_c_ + shock_end_c_);
-    return (1.0 + config_.bias_temperature_coefficient_per_c * above_reference_c) * coil_ratio();
+        config_.gyro.temperature_rise_c * 0.5 * (warming_start_ + warming_end_) + 0.5 * (shock_start_c_ + shock_end_c_);
+    return (1.0 + config_.gyro.bias_temperature_coefficient_per_c * above_reference_c) * coil_ratio();
 }
 
 double Housing::coil_ratio() const { return bias_ratio(faults_.active(), bias_sign(), start_s(), end_s()); }
@@ -74,8 +76,9 @@ double Housing::turned_arcsec(double from_s, double to_s) const {
 }
 
 double Housing::magnetic_arcsec_s() const {
-    return config_.magnetic_arcsec_s + config_.magnetic_thermal_arcsec_s * 0.5 * (warming_start_ + warming_end_) +
-           config_.scale_arcsec * field_hz(faults_.active(), start_s(), end_s());
+    return config_.drift.magnetic_arcsec_s +
+           config_.drift.magnetic_thermal_arcsec_s * 0.5 * (warming_start_ + warming_end_) +
+           config_.gyro.scale_arcsec * field_hz(faults_.active(), start_s(), end_s());
 }
 
 // Once for a half, however often it is entered.
@@ -88,7 +91,7 @@ void Housing::enter_faults() {
     shock_start_c_ = faults_.settled_c() + warming_c(active, start_s());
     shock_end_c_ = faults_.settled_c() + warming_c(active, end_s());
     if (!is_faulty_) return;
-    const auto n_steps = static_cast<std::size_t>(2 * n_pieces_ * config_.light_samples);
+    const auto n_steps = static_cast<std::size_t>(2 * n_pieces_ * config_.gyro.light_samples);
     const double step_s = half_s_ / static_cast<double>(n_steps);
     faulty_half_.length_lambda.resize(n_steps + 1);
     faulty_half_.light.resize(n_steps + 1);
@@ -103,7 +106,7 @@ void Housing::enter_faults() {
 void Housing::begin_half(const core::ActuatorFrame& actuator) {
     const double warming_next = warming_at(index_ + 1);
     enter_faults();
-    const bool half_wave_changes = config_.half_wave_temperature_coefficient_per_c != 0.0 || !faults_.is_empty();
+    const bool half_wave_changes = config_.piezo.half_wave_temperature_coefficient_per_c != 0.0 || !faults_.is_empty();
     if (half_wave_changes) perimeter_.take_half_wave(half_wave_v());
     perimeter_.begin_half(actuator, drift_lambda(warming_end_, shock_start_c_),
                           drift_lambda(warming_next, shock_end_c_), is_faulty_ ? &faulty_half_ : nullptr);
@@ -121,7 +124,7 @@ void Housing::end_half(const core::ActuatorFrame& actuator, std::uint64_t counte
     offset_before_ticks_ = offset_ticks;
     sensor.polarity = actuator.polarity;
     sensor.loop_closed = actuator.loop_closed;
-    sensor.n_light = static_cast<std::uint8_t>(config_.light_samples);
+    sensor.n_light = static_cast<std::uint8_t>(config_.gyro.light_samples);
     sensor.has_light_b = true;
     half.truth.perimeter_v = perimeter_.voltage_v();
     read_slow(sensor, half.truth.perimeter_v);
@@ -130,11 +133,12 @@ void Housing::end_half(const core::ActuatorFrame& actuator, std::uint64_t counte
 }
 
 void Housing::read_slow(core::SensorFrame& sensor, double perimeter_v) {
-    const double noise_v = config_.adc_noise_v > 0.0 ? config_.adc_noise_v * adc_noise_.gauss() : 0.0;
+    const double noise_v = config_.piezo.adc_noise_v > 0.0 ? config_.piezo.adc_noise_v * adc_noise_.gauss() : 0.0;
     sensor.piezo_v = adc_.quantised_v(perimeter_v + noise_v);
     const double noise_a = config_.coil_noise_a > 0.0 ? config_.coil_noise_a * coil_noise_.gauss() : 0.0;
     sensor.coil_current_a = coil_adc_.quantised_v(sensor.bias_sign * coil_plateau_a * coil_ratio() + noise_a);
-    sensor.temperature_c = config_.reference_temperature_c + config_.temperature_rise_c * warming_end_ + shock_end_c_;
+    sensor.temperature_c =
+        config_.gyro.reference_temperature_c + config_.gyro.temperature_rise_c * warming_end_ + shock_end_c_;
 }
 
 }  // namespace zlg::twin

@@ -32,11 +32,11 @@ constexpr double per_signal_sq = 0.15;
 constexpr double allowed_edge_rad = 1e-5;
 
 double largest_field_g(const TwinConfig& c) {
-    double hottest_c = std::max(0.0, c.bias_temperature_coefficient_per_c * c.temperature_rise_c);
+    double hottest_c = std::max(0.0, c.gyro.bias_temperature_coefficient_per_c * c.gyro.temperature_rise_c);
     double most = 1.0;  // of the current over its own
     for (const Fault& fault : c.faults) {
         if (fault.kind == FaultKind::thermal_shock)
-            hottest_c += std::abs(c.bias_temperature_coefficient_per_c * fault.size);
+            hottest_c += std::abs(c.gyro.bias_temperature_coefficient_per_c * fault.size);
         if (fault.kind == FaultKind::bias_asymmetric) most *= 1.0 + std::abs(fault.size);
     }
     return c.laser.bias_field_g * (1.0 + hottest_c) * most * (1.0 + 1e-9);
@@ -55,15 +55,16 @@ void check_offset(std::int32_t offset_ticks, double half_s, double edge_s) {
 LaserGyro::LaserGyro(const TwinConfig& config, Motion motion)
     : config_{config},
       motion_{std::move(motion)},
-      fringe_arcsec_{config.scale_arcsec * config.beats.counts_per_turn},
+      fringe_arcsec_{config.gyro.scale_arcsec * counts_per_turn(config.laser.quadrature)},
       table_{config.laser, largest_field_g(config)},
       signal_{std::make_shared<const ErrorSignal>(table_, config.laser.bias_field_g)},
       housing_{config_, signal_},
-      course_{2 * housing_.n_pieces() * config.light_samples, housing_.half_s()},
-      beats_{config_.beats, config_.seed, table_},
+      course_{2 * housing_.n_pieces() * config.gyro.light_samples, housing_.half_s()},
+      beats_{config_.laser, config_.seed, table_},
+      fringe_photodiodes_{config_},
       // The difference of two beams has sqrt(2) times the noise of one, over a sum of two levels.
       light_noise_{std::sqrt(2.0) * level * std::abs(signal_->averaged().discriminator_per_lambda) *
-                   config.light_noise_lambda},
+                   config.gyro.light_noise_lambda},
       light_stream_{config.seed, NoiseCause::light} {}
 
 TwinHalf LaserGyro::advance(const core::ActuatorFrame& actuator) {
@@ -71,6 +72,7 @@ TwinHalf LaserGyro::advance(const core::ActuatorFrame& actuator) {
     TwinHalf half;
     take_light(bias, half.sensor);
     live_through_half(bias, half.truth);
+    see_fringe(half);
     offset_ticks_ = actuator.edge_offset_ticks;
     housing_.end_half(actuator, beats_.latch(), offset_ticks_, half);
     return half;
@@ -79,12 +81,12 @@ TwinHalf LaserGyro::advance(const core::ActuatorFrame& actuator) {
 // Warming scales the field: light and bias change together, the bias nearly in proportion.
 BiasHalf LaserGyro::enter(const core::ActuatorFrame& actuator) {
     const double half_s = housing_.half_s();
-    check_offset(actuator.edge_offset_ticks, half_s, config_.bias_edge_s);
+    check_offset(actuator.edge_offset_ticks, half_s, config_.gyro.bias_edge_s);
     housing_.begin_half(actuator);
     course_.live(housing_.perimeter());
     const double plateau_g = config_.laser.bias_field_g * housing_.bias_growth();
     if (plateau_g != reference_.plateau_g) take_reference(plateau_g);
-    return {housing_.bias_sign() * plateau_g, config_.bias_edge_s, offset_ticks_ / timer_hz,
+    return {housing_.bias_sign() * plateau_g, config_.gyro.bias_edge_s, offset_ticks_ / timer_hz,
             half_s + actuator.edge_offset_ticks / timer_hz};
 }
 
@@ -93,10 +95,10 @@ void LaserGyro::take_reference(double plateau_g) {
     reference_.plateau_g = plateau_g;
     reference_.plateau_hz = bias_hz(1.0);
     reference_.whole_edge_hz = mean_of({bias_hz(0.0), bias_hz(0.5), reference_.plateau_hz});
-    const double lock_hz = std::max(config_.beats.lock_in_left_hz, config_.beats.lock_in_right_hz);
+    const double lock_hz = std::max(config_.laser.lock_in_left_hz, config_.laser.lock_in_right_hz);
     const double tau = 2.0 * std::numbers::pi;
-    reference_.slip_rad = tau * lock_hz * std::sqrt(0.5 * config_.bias_edge_s / std::abs(reference_.plateau_hz));
-    reference_.bend_rad = tau * 0.5 * config_.bias_edge_s * std::abs(bias_hz(0.5) - 0.5 * reference_.plateau_hz);
+    reference_.slip_rad = tau * lock_hz * std::sqrt(0.5 * config_.gyro.bias_edge_s / std::abs(reference_.plateau_hz));
+    reference_.bend_rad = tau * 0.5 * config_.gyro.bias_edge_s * std::abs(bias_hz(0.5) - 0.5 * reference_.plateau_hz);
     for (std::size_t k = 0; k < n_edge_pieces; ++k) {
         const double from = static_cast<double>(k) / n_edge_pieces;
         const double to = static_cast<double>(k + 1) / n_edge_pieces;
@@ -107,8 +109,8 @@ void LaserGyro::take_reference(double plateau_g) {
 // Each sample at the middle of its interval.
 void LaserGyro::take_light(const BiasHalf& bias, core::SensorFrame& sensor) {
     const auto n_pieces = static_cast<std::size_t>(housing_.n_pieces());
-    const auto n_samples = static_cast<std::size_t>(config_.light_samples);
-    const double interval_s = housing_.half_s() / config_.light_samples;
+    const auto n_samples = static_cast<std::size_t>(config_.gyro.light_samples);
+    const double interval_s = housing_.half_s() / config_.gyro.light_samples;
     const double per_intensity = level / table_.exact().centre_intensity();
     const auto seen = [&](double intensity) {
         const double noise = light_noise_ > 0.0 ? light_noise_ * light_stream_.gauss() : 0.0;
@@ -130,6 +132,16 @@ void LaserGyro::live_through_half(const BiasHalf& bias, TwinTruth& truth) {
     live_edge(bias, true, truth);
     live_plateau(bias, truth);
     live_edge(bias, false, truth);
+}
+
+void LaserGyro::see_fringe(TwinHalf& half) {
+    const Signals z = beats_.signals();
+    fringe_photodiodes_.sample({.turns = std::atan2(z.s, z.c) / (2.0 * std::numbers::pi),
+                                .amplitude = std::hypot(z.s, z.c),
+                                .quarter = beats_.beats().latch_quarters(),
+                                .plateau_hz = housing_.bias_sign() * followed_ * reference_.plateau_hz,
+                                .rotation_hz = half.truth.dtheta_arcsec / fringe_arcsec_ / housing_.half_s()},
+                               half.sensor);
 }
 
 // One chord is good enough.
@@ -168,7 +180,7 @@ void LaserGyro::live_plateau(const BiasHalf& bias, TwinTruth& truth) {
     int n = 1;
     if (course_.spread_lambda() > steady_lambda) n = n_calm_stretches;
     if (course_.spread_lambda() > calm_lambda || housing_.light_is_faulty())
-        n = housing_.n_pieces() * config_.light_samples;
+        n = housing_.n_pieces() * config_.gyro.light_samples;
     const double piece_s = plateau_s / n;
     for (int k = 0; k < n; ++k) {
         Stretch s = stretch(start_s + k * piece_s, piece_s, drive_hz);
@@ -177,7 +189,7 @@ void LaserGyro::live_plateau(const BiasHalf& bias, TwinTruth& truth) {
     }
 }
 
-// In the garbage of a half that followed no beat, or one after the other, detuning has no share that could be told.
+// In the garbage of a half that followed no beat, or one after the other, detuning has no share that could be separated.
 void LaserGyro::account(const Followed& followed, double reference_hz, double duration_s, TwinTruth& truth) {
     if (followed_ == 0) followed_ = followed.helicity;
     if (followed.helicity == 0 || followed.helicity != followed_) {
@@ -205,7 +217,7 @@ Stretch LaserGyro::stretch(double from_s, double duration_s, double drive_hz) co
 double LaserGyro::common_hz(double from_s, double to_s) const {
     const double start_s = housing_.start_s();
     const double rate_arcsec_s = turned_arcsec(start_s + from_s, start_s + to_s) / (to_s - from_s);
-    return (rate_arcsec_s + config_.nonmagnetic_arcsec_s) / fringe_arcsec_;
+    return (rate_arcsec_s + config_.drift.nonmagnetic_arcsec_s) / fringe_arcsec_;
 }
 
 double LaserGyro::turned_arcsec(double from_s, double to_s) const {

@@ -8,6 +8,7 @@
 #include <zlg/twin/laser_table.hpp>
 #include <zlg/twin/motion.hpp>
 
+#include "fringe_photodiodes.hpp"
 #include "gyro.hpp"
 #include "housing.hpp"
 #include "laser/bias_half.hpp"
@@ -42,6 +43,7 @@ private:
     [[nodiscard]] BiasHalf enter(const core::ActuatorFrame& actuator);
     void take_light(const BiasHalf& bias, core::SensorFrame& sensor);
     void live_through_half(const BiasHalf& bias, TwinTruth& truth);
+    void see_fringe(TwinHalf& half);
     [[nodiscard]] bool edge_is_calm(double at_s, double plateau_g) const;
     void live_edge(const BiasHalf& bias, bool rising, TwinTruth& truth);
     void live_plateau(const BiasHalf& bias, TwinTruth& truth);
@@ -60,6 +62,7 @@ private:
     Housing housing_;
     PerimeterCourse course_;
     LaserBeats beats_;
+    FringePhotodiodes fringe_photodiodes_;
     Reference reference_;
     double light_noise_;
     NoiseStream light_stream_;

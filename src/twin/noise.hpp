@@ -21,6 +21,8 @@ enum class NoiseCause : std::uint64_t {
     fault_times,
     faulty_light,
     coil,
+    fringe,
+    fringe_jitter,
 };
 
 // Seeds that differ in one bit become unrelated (SplitMix64's output function).

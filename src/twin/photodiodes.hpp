@@ -23,9 +23,10 @@ public:
     };
 
     explicit Photodiodes(const TwinConfig& config)
-        : slope_per_lambda_{config.discriminator_per_lambda},
+        : slope_per_lambda_{config.gyro.discriminator_per_lambda},
           // The difference of two beams has sqrt(2) times the noise of one, over a sum of two levels.
-          noise_{std::sqrt(2.0) * light_level * std::abs(config.discriminator_per_lambda) * config.light_noise_lambda},
+          noise_{std::sqrt(2.0) * light_level * std::abs(config.gyro.discriminator_per_lambda) *
+                 config.gyro.light_noise_lambda},
           stream_{config.seed, NoiseCause::light} {}
 
     Beams sample(const Mode& mode, int bias_sign, const LightParts& left = {}) {

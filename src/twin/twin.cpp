@@ -12,7 +12,7 @@ namespace {
 
 std::unique_ptr<Gyro> make_gyro(const TwinConfig& config, Motion motion) {
     validate(config);
-    if (config.fidelity == Fidelity::laser) return std::make_unique<LaserGyro>(config, std::move(motion));
+    if (config.gyro.fidelity == Fidelity::laser) return std::make_unique<LaserGyro>(config, std::move(motion));
     return std::make_unique<AveragedGyro>(config, std::move(motion));
 }
 

@@ -5,11 +5,11 @@
 namespace zlg::twin {
 
 // The reversals, linear in time and centred on the border of halves, take the area of one duration from each half.
-TwinConfig with_laser(TwinConfig config, const AveragedLaser& laser) {
-    config.bias_hz = config.beats.counts_per_turn * laser.bias_hz * (1.0 - config.bias_edge_s / config.tick_s);
-    config.bias_chi = laser.bias_chi;
-    config.discriminator_per_lambda = laser.discriminator_per_lambda;
-    return config;
+GyroConfig with_laser(GyroConfig gyro, Quadrature quadrature, const AveragedLaser& laser) {
+    gyro.bias_hz = counts_per_turn(quadrature) * laser.bias_hz * (1.0 - gyro.bias_edge_s / gyro.tick_s);
+    gyro.bias_chi = laser.bias_chi;
+    gyro.discriminator_per_lambda = laser.discriminator_per_lambda;
+    return gyro;
 }
 
 }  // namespace zlg::twin

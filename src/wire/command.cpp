@@ -1,6 +1,7 @@
 #include <zlg/wire/command.hpp>
 
 #include "packing.hpp"
+#include "unpacking.hpp"
 
 namespace zlg::wire {
 namespace {

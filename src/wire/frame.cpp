@@ -2,7 +2,7 @@
 
 #include <zlg/wire/crc.hpp>
 
-#include "packing.hpp"
+#include "unpacking.hpp"
 
 namespace zlg::wire {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <zlg/wire/crc.hpp>
 
-#include "packing.hpp"
+#include "unpacking.hpp"
 
 namespace zlg::wire {
 namespace {
@@ -104,31 +104,36 @@ constexpr std::tuple table{
             [](auto& c) -> auto& { return c.detuning_monitor.max_change_lambda2; }),
     control(0x0709, rw, "detuning_monitor.relock_ticks",
             [](auto& c) -> auto& { return c.detuning_monitor.relock_ticks; }),
+    control(0x0801, ro, "fringe.reads", [](auto& c) -> auto& { return c.fringe.reads; }),
+    control(0x0802, ro, "fringe.counts_per_turn", [](auto& c) -> auto& { return c.fringe.counts_per_turn; }),
+    control(0x0803, rw, "fringe.amplitude", [](auto& c) -> auto& { return c.fringe.amplitude; }),
+    control(0x0804, rw, "fringe.limit", [](auto& c) -> auto& { return c.fringe.limit; }),
+    control(0x0805, rw, "fringe.noise_turns", [](auto& c) -> auto& { return c.fringe.noise_turns; }),
+    control(0x0806, rw, "fringe.lag_turns", [](auto& c) -> auto& { return c.fringe.lag_turns; }),
+    control(0x0807, rw, "fringe.max_skew_turns", [](auto& c) -> auto& { return c.fringe.max_skew_turns; }),
     compensation(0x1001, ro, "relock.method", [](auto& c) -> auto& { return c.relock.method; }),
     compensation(0x1002, rw, "relock.ticks", [](auto& c) -> auto& { return c.relock.ticks; }),
-    compensation(0x1003, ro, "relock.tick_s", [](auto& c) -> auto& { return c.relock.tick; }),
+    compensation(0x1003, ro, "relock.tick_s", [](auto& c) -> auto& { return c.gyro.tick; }),
     anywhere(0x1004, rw, "relock.scale_arcsec",
-            [](auto& s) {
-                auto& c = s.compensation;
-                return std::tie(c.relock.scale, c.bridge.count, c.bridge.optimal.counter_step, c.magnetic.count,
-                                s.control.commutator.dither.scale_arcsec);
-            }),
-    compensation(0x1005, rw, "relock.bias_hz", [](auto& c) -> auto& { return c.relock.bias; }),
-    compensation(0x1006, rw, "relock.chi", [](auto& c) -> auto& { return c.relock.chi; }),
+            [](auto& s) { return std::tie(s.compensation.gyro.scale, s.control.commutator.dither.scale_arcsec); }),
+    compensation(0x1005, rw, "relock.bias_hz", [](auto& c) -> auto& { return c.gyro.bias; }),
+    compensation(0x1006, rw, "relock.chi", [](auto& c) -> auto& { return c.gyro.chi; }),
     compensation(0x1007, rw, "relock.temperature_coefficient_per_c",
-            [](auto& c) -> auto& { return c.relock.temperature_coefficient_per_c; }),
+            [](auto& c) -> auto& { return c.gyro.temperature_coefficient_per_c; }),
     compensation(0x1008, rw, "relock.reference_temperature_c",
-            [](auto& c) -> auto& { return c.relock.reference_temperature; }),
-    compensation(0x1009, rw, "relock.light_noise_lambda", [](auto& c) -> auto& { return c.relock.light_noise; }),
-    compensation(0x100A, ro, "relock.light_samples", [](auto& c) -> auto& { return c.relock.light_samples; }),
+            [](auto& c) -> auto& { return c.gyro.reference_temperature; }),
+    compensation(0x1009, rw, "relock.light_noise_lambda", [](auto& c) -> auto& { return c.gyro.light_noise; }),
+    compensation(0x100A, ro, "relock.light_samples", [](auto& c) -> auto& { return c.gyro.light_samples; }),
+    compensation(0x100B, rw, "fringe_noise_counts",
+                 [](auto& c) -> auto& { return c.gyro.fringe_noise_counts; }),
     compensation(0x1101, ro, "bridge.method", [](auto& c) -> auto& { return c.bridge.method; }),
     compensation(0x1102, ro, "bridge.extrapolation_points",
             [](auto& c) -> auto& { return c.bridge.extrapolation_points; }),
     compensation(0x1103, ro, "bridge.points_before", [](auto& c) -> auto& { return c.bridge.points_before; }),
     compensation(0x1104, ro, "bridge.points_after", [](auto& c) -> auto& { return c.bridge.points_after; }),
     compensation(0x1201, rw, "random_walk_arcsec_sqrt_s",
-            [](auto& c) { return std::tie(c.random_walk, c.magnetic.walk); }),
-    compensation(0x1202, ro, "timer_hz", [](auto& c) -> auto& { return c.timer; }),
+            [](auto& c) -> auto& { return c.gyro.random_walk; }),
+    compensation(0x1202, ro, "timer_hz", [](auto& c) -> auto& { return c.gyro.timer; }),
     compensation(0x1301, ro, "magnetic.method", [](auto& c) -> auto& { return c.magnetic.method; }),
     compensation(0x1302, ro, "magnetic.presumed_arcsec_s",
             [](auto& c) -> auto& { return c.magnetic.presumed_arcsec_s; }),

@@ -3,6 +3,7 @@
 #include <zlg/wire/telemetry.hpp>
 
 #include "packing.hpp"
+#include "unpacking.hpp"
 
 namespace zlg::wire {
 namespace {
@@ -24,9 +25,9 @@ Status status_of(const core::GyroControlState& control, const core::GyroCompensa
     const core::SwitchAdvice known = advice(config, compensation);
     Status s;
     s.tick = static_cast<std::uint32_t>(control.half / 2 - 1);
-    s.tick_s = config.relock.tick.value();
-    s.scale_arcsec = config.relock.scale.value();
-    s.timer_hz = config.timer.value();
+    s.tick_s = config.gyro.tick.value();
+    s.scale_arcsec = config.gyro.scale.value();
+    s.timer_hz = config.gyro.timer.value();
     s.phase = control.mode_switch.phase;
     s.loop_closed = control.mode_switch.loop_closed;
     s.polarity = control.mode_switch.polarity;

@@ -1,4 +1,5 @@
 #include <zlg/calibration/calibration.hpp>
+#include <zlg/calibration/lab_reader.hpp>
 
 #include <cmath>
 #include <map>

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include <zlg/calibration/lab_log.hpp>
+#include <zlg/calibration/lab_reader.hpp>
 #include <zlg/numeric/estimate.hpp>
 
 namespace synthetic {

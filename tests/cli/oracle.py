@@ -233,7 +233,7 @@ def compensate(rows, settings):
         ticks.append(Tick(raw=Fraction(settings.scale_arcsec) * counts, gap=bad(first) or bad(second)))
     gaps = find_gaps(ticks)
     late = correct_relock(rows, ticks, gaps, settings)
-    owed = [(gap[0], correction_tick(ticks, gap, settings)) for gap in gaps]
+    correction_due = [(gap[0], correction_tick(ticks, gap, settings)) for gap in gaps]
     for gap in gaps:
         if settings.bridge != "none":
             bridge(ticks, gap, settings)
@@ -244,5 +244,5 @@ def compensate(rows, settings):
             ticks[target].correction = True
     for k, tick in enumerate(ticks):
         tick.dtheta += tick.lump
-        tick.settled = not any(begin <= k and (due is None or due > k) for begin, due in owed)
+        tick.settled = not any(begin <= k and (due is None or due > k) for begin, due in correction_due)
     return ticks

@@ -180,10 +180,10 @@ class Analyze(CliTest):
         compared = run("analyze", path, *TEXT, "--compare", yaml)
         self.assertEqual(compared.returncode, 0, compared.stderr)
         self.assertIn("imu.yaml presumes 0.01", compared.stdout)
-        told = self.json_of(path, *TEXT, "--compare", yaml)["presumed"]
-        self.assertEqual(told["name"], "imu.yaml")
-        self.assertAlmostEqual(told["angle_random_walk_arcsec_sqrt_s"], 3.0 / math.sqrt(10.0), delta=0.05)
-        self.assertAlmostEqual(told["data_sheet"]["angle_random_walk_deg_sqrt_h"], told["angle_random_walk_arcsec_sqrt_s"] / 60.0)
+        presumed = self.json_of(path, *TEXT, "--compare", yaml)["presumed"]
+        self.assertEqual(presumed["name"], "imu.yaml")
+        self.assertAlmostEqual(presumed["angle_random_walk_arcsec_sqrt_s"], 3.0 / math.sqrt(10.0), delta=0.05)
+        self.assertAlmostEqual(presumed["data_sheet"]["angle_random_walk_deg_sqrt_h"], presumed["angle_random_walk_arcsec_sqrt_s"] / 60.0)
         self.refusal(3, path, *TEXT, "--compare", path)
 
     def test_kalibr_is_given_the_limit_of_what_was_not_found(self):

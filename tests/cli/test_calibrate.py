@@ -56,9 +56,9 @@ class Calibrate(Simulated):
         keys = ("gyro.bias", "piezo.half", "drift.", "gyro.discriminator", "gyro.light_noise")
         lies = "# gyro.bias_hz = 1\n# gyro.bias_chi = 9\n# drift.thermal_time_s = 7\n"
         rest = "".join(line for line in lines if not line.startswith(tuple("# " + key for key in keys)))
-        told, silent = self.write("told.csv", lies + rest), self.write("silent.csv", rest)
-        self.assertNotEqual(told.read_text(), log.read_text())
-        results = [self.found(path) for path in (log, told, silent)]
+        stated, silent = self.write("stated.csv", lies + rest), self.write("silent.csv", rest)
+        self.assertNotEqual(stated.read_text(), log.read_text())
+        results = [self.found(path) for path in (log, stated, silent)]
         for other in results[1:]:
             self.assertEqual(other["constants"], results[0]["constants"])
             self.assertEqual(other["not_determined"], results[0]["not_determined"])
@@ -105,7 +105,7 @@ class Calibrate(Simulated):
 
 LASER = {"gyro.fidelity": "laser", "drift.magnetic_arcsec_s": 0.0, "drift.magnetic_thermal_arcsec_s": 0.0,
          "drift.nonmagnetic_arcsec_s": 0.0, "drift.random_walk_arcsec_sqrt_s": 0.0}
-# A slope that is told stays the whole law of the detector: of the laser its own, to four digits.
+# A slope that is given stays the whole law of the detector: of the laser its own, to four digits.
 STRAIGHT = {"gyro.discriminator_per_lambda": 0.3315}
 
 
@@ -151,8 +151,8 @@ class Discriminator(CliTest):
     def test_a_laser_without_a_curve_is_given_its_own(self):
         log, angles = self.folder / "own.csv", self.folder / "own_angles.csv"
         values = {**LASER, "switching.interval_s": 1.0, "motion.kind": "rest"}
-        told = self.succeed("simulate", "--duration", 20, *settings(values), "--out", log)
-        self.assertIn("taken from [laser]", told.stderr)
+        result = self.succeed("simulate", "--duration", 20, *settings(values), "--out", log)
+        self.assertIn("taken from [laser]", result.stderr)
         self.succeed("process", log, "--out", angles)
         worst = max(abs(row) for row in AngleLog(angles).final)
         self.assertLess(worst, 60.0)

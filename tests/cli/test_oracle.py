@@ -149,12 +149,12 @@ class RandomCases(unittest.TestCase):
                                        rng.choice(["none", "constant", "linear", "quadratic"]))
             gaps = random_gaps(rng, 60)
             ticks = compensate(random_log(rng, settings, gaps, 60), settings)
-            owed = F(0)
+            difference = F(0)
             for tick in ticks:
-                owed += tick.final - tick.dtheta
+                difference += tick.final - tick.dtheta
                 if tick.correction and tick.settled:
                     settled += 1
-                    self.assertEqual(owed, 0, f"case {case}")
+                    self.assertEqual(difference, 0, f"case {case}")
         self.assertGreater(settled, 50, "the random logs hardly ever settle: nothing was tested")
 
 

@@ -54,8 +54,8 @@ class OracleTest(CliTest):
         """Both columns have the same sum from the start of the log wherever nothing is outstanding."""
         for k, tick in enumerate(ticks):
             if tick.correction and tick.settled:
-                owed = math.fsum(log.dtheta[: k + 1]) - math.fsum(log.final[: k + 1])
-                self.assertLessEqual(abs(owed), TOLERANCE_ARCSEC, f"{what}: the sums differ after tick {k}")
+                difference = math.fsum(log.dtheta[: k + 1]) - math.fsum(log.final[: k + 1])
+                self.assertLessEqual(abs(difference), TOLERANCE_ARCSEC, f"{what}: the sums differ after tick {k}")
 
     def check(self, rows, settings, what, columns=None):
         log = self.process(rows, settings, columns)

@@ -241,7 +241,7 @@ class Inspect(RunTest):
         result = json.loads(self.succeed("inspect", self.out / "raw.csv", "--json").stdout)
         self.assertIsInstance(result, dict)
         numbers = re.findall(r"-?\d+(?:\.\d+)?", json.dumps(result))
-        self.assertTrue({str(2 * N_TICKS), str(N_TICKS)} & set(numbers), f"neither halves nor ticks are told: {result}")
+        self.assertTrue({str(2 * N_TICKS), str(N_TICKS)} & set(numbers), f"neither halves nor ticks are named: {result}")
 
     def test_inspect_reads_an_angle_log(self):
         self.assertIsInstance(json.loads(self.succeed("inspect", self.out / "angles.csv", "--json").stdout), dict)

@@ -88,7 +88,9 @@ class Columns(CliTest):
         head = sum(line.startswith("#") for line in text.splitlines()) + 1
         for span, allowed in ((42, "1..41"), (0, "1..41"), (-1, "1..41")):
             lines = text.splitlines()
-            lines[head + end] = lines[head + end].rsplit(",", 1)[0] + f",{span}"
+            fields = lines[head + end].split(",")
+            fields[list(rows(self.raw)[0]).index("span")] = str(span)
+            lines[head + end] = ",".join(fields)
             bad = self.folder / "bad.csv"
             bad.write_text("\n".join(lines) + "\n")
             says = (f"row {end + 1}", "'span'", f"'{span}'", f"allowed is {allowed}")

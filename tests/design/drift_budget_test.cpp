@@ -7,6 +7,8 @@
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/error.hpp>
 
+#include "magnetic_segments.hpp"
+
 namespace zlg::design {
 namespace {
 
@@ -135,8 +137,8 @@ TEST(DriftBudget, AHalfFirstSegmentHasTheWorstEndThatItsSumsHave) {
     for (int i = 0; i < 200; ++i) {
         DriftCase c = random_case(random);
         const double interval_s = uniform(random, 1.0, 10000.0);
-        for (const std::int64_t n : {6, 7}) {
-            c.run_s = (static_cast<double>(n) - 0.5) * interval_s;
+        for (const int n : {6, 7}) {
+            c.run_s = (n - 0.5) * interval_s;
             const double angle = angle_after_segments_arcsec(c.gyro, interval_s, FirstSegment::half, n);
             const double residue = start_residue_arcsec(c.gyro, interval_s, FirstSegment::half);
             // At the same instant the other parity would end on the other side of the residue.

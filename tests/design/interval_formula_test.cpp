@@ -169,27 +169,11 @@ TEST(IntervalFormula, ThePapersRuleCosts2_9To5_6TimesWhereSwitchErrorsAreIndepen
     }
 }
 
-TEST(IntervalFormula, TheFirstOrderIntervalCountsTheDriftAtBothEndsOrAtOne) {
-    const DriftCase c = paper(0.7, 3000.0);
-    const double end = 0.7 + 0.7 * (1.0 - std::exp(-1.0));
-    EXPECT_NEAR(first_order_interval_s(c), std::sqrt(60000.0 / (0.7 + end)), 1e-10);
-    EXPECT_NEAR(first_order_interval_s(c, FirstSegment::half), std::sqrt(60000.0 / end), 1e-10);
-    // Both by their magnitudes: -0.7 at start, and 0.7 - 1.4/e at the end.
-    DriftCase reversed = paper(1.4, 3000.0);
-    reversed.gyro.magnetic_arcsec_s = -0.7;
-    EXPECT_NEAR(first_order_interval_s(reversed), std::sqrt(60000.0 / (1.4 - 1.4 / std::exp(1.0))), 1e-10);
-    reversed.gyro.magnetic_thermal_arcsec_s = 0.0;
-    EXPECT_NEAR(first_order_interval_s(reversed), std::sqrt(60000.0 / 1.4), 1e-10);
-    const DriftCase cold = paper(0.0, 3000.0);
-    EXPECT_NEAR(first_order_interval_s(cold, FirstSegment::half) / first_order_interval_s(cold), std::sqrt(2.0), 1e-12);
-}
-
 TEST(IntervalFormula, WithoutDriftTheFormulasAreInfinite) {
     DriftCase still = paper(0.0, 3600.0);
     still.gyro.magnetic_arcsec_s = 0.0;
     EXPECT_EQ(closed_form_interval_s(still), infinite);
     EXPECT_EQ(random_sign_interval_s(still), infinite);
-    EXPECT_EQ(first_order_interval_s(still), infinite);
 }
 
 TEST(IntervalFormula, ACaseThatCannotBeIsRefused) {
@@ -197,7 +181,6 @@ TEST(IntervalFormula, ACaseThatCannotBeIsRefused) {
     c.switch_error_arcsec = 0.0;
     EXPECT_THROW((void)closed_form_interval_s(c), DesignError);
     EXPECT_THROW((void)random_sign_interval_s(c), DesignError);
-    EXPECT_THROW((void)first_order_interval_s(c), DesignError);
     EXPECT_THROW((void)corrected_roots(c), DesignError);
     EXPECT_THROW((void)roots_as_printed(c), DesignError);
     EXPECT_THROW((void)longest_run_as_printed_s(c.gyro, std::nan("")), DesignError);

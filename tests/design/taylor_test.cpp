@@ -57,8 +57,7 @@ TEST(Taylor, TheLeadingLawsAreTheLimitOfTheExactError) {
             // The relative difference goes as the square of the frequency.
             const auto difference = [&](double turn) {
                 const Tone slow{12000.0, turn / (2.0 * pi * 0.005)};
-                const double exact =
-                    12000.0 * ErrorResponse::of_sum({Fit::interpolation, order, n})(slow.frequency_hz).real();
+                const double exact = 12000.0 * ErrorResponse({Fit::interpolation, order, n})(slow.frequency_hz).real();
                 return leading_error_arcsec(slow, order, n, 0.005) / exact - 1.0;
             };
             const double turn = 0.2 / (n + 3);

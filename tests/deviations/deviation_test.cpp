@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <zlg/deviations/averaging.hpp>
 
-#include "difference_sums.hpp"
 #include "direct_deviation.hpp"
-#include "lane_sum.hpp"
+#include "sums/difference_sums.hpp"
+#include "sums/lane_sum.hpp"
 
 namespace zlg::deviations {
 namespace {

@@ -102,7 +102,7 @@ TEST(Gyro, owes_one_row_for_each_tick_it_was_given) {
         rows += out.compensation.sample.has_final ? 1 : 0;
         actuator = out.control.actuator;
     }
-    for (core::DrainOutput owed = gyro.drain(); owed.has_row || owed.has_gap; owed = gyro.drain()) rows += owed.has_row;
+    for (core::DrainOutput due = gyro.drain(); due.has_row || due.has_gap; due = gyro.drain()) rows += due.has_row;
     EXPECT_EQ(rows, 20);
 }
 
@@ -110,7 +110,7 @@ TEST(GyroSettings, are_refused_by_the_part_that_cannot_use_them) {
     firmware::Settings settings;
     EXPECT_EQ(firmware::check(settings), firmware::SettingsFault{});
     settings.control.presumed_temperature = core::Celsius{std::numeric_limits<double>::quiet_NaN()};
-    settings.compensation.random_walk = core::ArcsecPerRootSecond{-1.0};
+    settings.compensation.gyro.random_walk = core::ArcsecPerRootSecond{-1.0};
     EXPECT_EQ(firmware::check(settings).control, core::GyroControlFault::temperature);
     EXPECT_EQ(firmware::check(settings).compensation, core::GyroCompensationFault::random_walk);
 }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 
 #include <zlg/firmware/half_period.hpp>
 #include <zlg/firmware/port.hpp>
@@ -153,11 +154,44 @@ void work_for_one_and_a_half() {
     }
 }
 
+// Sizes and alignments for which memcpy or memset writes other than each byte once.
+std::uint32_t memory_errors() {
+    constexpr std::size_t room = 160;
+    alignas(8) static unsigned char from[room];
+    alignas(8) static unsigned char to[room];
+    // Through volatile, or the compiler makes calls of the functions under test of these loops too.
+    volatile unsigned char* const source = from;
+    volatile unsigned char* const target = to;
+    std::uint32_t errors = 0;
+    for (std::size_t k = 0; k < room; ++k) source[k] = static_cast<unsigned char>(7 * k + 1);
+    for (std::size_t at = 0; at < 5; ++at) {
+        for (std::size_t n = 0; n + at + 8 < room; ++n) {
+            port::kick_watchdog();
+            for (const bool fills : {false, true}) {
+                for (std::size_t k = 0; k < room; ++k) target[k] = 0xee;
+                if (fills)
+                    std::memset(to + at, static_cast<int>(n), n);
+                else
+                    std::memcpy(to + at, from + at % 5, n);
+                bool good = true;
+                for (std::size_t k = 0; k < room; ++k) {
+                    const bool inside = k >= at && k < at + n;
+                    const auto written = static_cast<unsigned char>(fills ? n : source[k - at + at % 5]);
+                    good = good && target[k] == (inside ? written : 0xee);
+                }
+                errors += good ? 0u : 1u;
+            }
+        }
+    }
+    return errors;
+}
+
 [[noreturn]] void tell_and_leave() {
     tell("starts=", port::starts());
     tell("halves=", halves());
     tell("overruns=", port::overruns());
     tell("stack_used_bytes=", port::stack_used_bytes());
+    tell("memory_errors=", memory_errors());
     leave();
 }
 

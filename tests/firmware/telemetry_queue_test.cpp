@@ -33,48 +33,49 @@ double turned_arcsec(std::uint64_t reading) { return wire::turned_arcsec(0, read
 
 TEST(TelemetryQueue, tells_each_tick_once_and_in_order) {
     TelemetryQueue queue;
-    wire::Telemetry told;
-    EXPECT_FALSE(queue.take(told));
+    wire::Telemetry message;
+    EXPECT_FALSE(queue.take(message));
     for (std::int64_t tick = 0; tick < 9; tick += 3) {
         for (int k = 0; k < 3; ++k) put_tick(queue, tick + k);
         for (int k = 0; k < 3; ++k) {
-            ASSERT_TRUE(queue.take(told));
-            EXPECT_EQ(told.tick, tick + k);
-            EXPECT_EQ(turned_arcsec(told.angle), 2.0 * static_cast<double>(tick + k + 1));
+            ASSERT_TRUE(queue.take(message));
+            EXPECT_EQ(message.tick, tick + k);
+            EXPECT_EQ(turned_arcsec(message.angle), 2.0 * static_cast<double>(tick + k + 1));
         }
-        EXPECT_FALSE(queue.take(told));
+        EXPECT_FALSE(queue.take(message));
     }
-    EXPECT_EQ(told.mode, -1);
-    EXPECT_EQ(told.health, 5u) << "of both halves";
-    EXPECT_EQ(told.temperature_c, 21.5f);
-    EXPECT_EQ(told.tick_s, tick_s);
-    EXPECT_EQ(told.time.timer_ticks, 450'000u);
+    EXPECT_EQ(message.mode, -1);
+    EXPECT_EQ(message.health, 5u) << "of both halves";
+    EXPECT_EQ(message.temperature_c, 21.5f);
+    EXPECT_EQ(message.tick_s, tick_s);
+    EXPECT_EQ(message.time.timer_ticks, 450'000u);
 }
 
 TEST(TelemetryQueue, a_listener_that_is_late_loses_messages_and_no_angle) {
     TelemetryQueue queue;
     for (std::int64_t tick = 0; tick < 100; ++tick) put_tick(queue, tick);
-    wire::Telemetry told;
+    wire::Telemetry message;
     std::uint32_t last = 0;
-    for (; queue.take(told); last = told.tick) EXPECT_EQ(turned_arcsec(told.angle), 2.0 * (told.tick + 1.0));
+    for (; queue.take(message); last = message.tick)
+        EXPECT_EQ(turned_arcsec(message.angle), 2.0 * (message.tick + 1.0));
     EXPECT_LT(last, 99u);
     put_tick(queue, 100);
-    ASSERT_TRUE(queue.take(told));
-    EXPECT_EQ(told.tick, 100u);
-    EXPECT_EQ(turned_arcsec(told.angle), 202.0);
-    EXPECT_EQ(turned_arcsec(told.settled_angle), 202.0);
-    EXPECT_EQ(turned_arcsec(told.settled_final_angle), 303.0);
+    ASSERT_TRUE(queue.take(message));
+    EXPECT_EQ(message.tick, 100u);
+    EXPECT_EQ(turned_arcsec(message.angle), 202.0);
+    EXPECT_EQ(turned_arcsec(message.settled_angle), 202.0);
+    EXPECT_EQ(turned_arcsec(message.settled_final_angle), 303.0);
 }
 
 TEST(TelemetryQueue, begins_anew) {
     TelemetryQueue queue;
     for (std::int64_t tick = 0; tick < 7; ++tick) put_tick(queue, tick);
     queue.restart();
-    wire::Telemetry told;
-    EXPECT_FALSE(queue.take(told));
+    wire::Telemetry message;
+    EXPECT_FALSE(queue.take(message));
     put_tick(queue, 0);
-    ASSERT_TRUE(queue.take(told));
-    EXPECT_EQ(turned_arcsec(told.angle), 2.0);
+    ASSERT_TRUE(queue.take(message));
+    EXPECT_EQ(turned_arcsec(message.angle), 2.0);
 }
 
 }  // namespace

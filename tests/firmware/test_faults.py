@@ -166,6 +166,7 @@ class Life(FaultTest):
 
     def test_without_a_fault_there_is_no_restart(self):
         report = self.provoke("nothing")
+        self.assertEqual(report.numbers["memory_errors"], 0, "copies or fills that the image makes of a few bytes are wrong")
         self.assertEqual(report.numbers, report.numbers | {"starts": 1, "halves": 8 * QUIET_HALVES, "overruns": 0})
         # Frames are missed on this board, so that little of the core works: more than nothing, less than there is.
         self.assertTrue(300 < report.numbers["stack_used_bytes"] < 14 * 1024, report.numbers)
@@ -195,7 +196,9 @@ class LockStep(FaultTest):
                 run = self.run_with(case)
                 self.assertEqual(run.returncode, 3, run.stderr)
                 self.assertRegex(run.stderr, rf"begun anew: {reason} pc=.* halves={QUIET_HALVES} ")
-                self.assertEqual(len(run.stderr.splitlines()), 1)
+                # On a busy machine the program may have warned how long the run would take.
+                said = [line for line in run.stderr.splitlines() if not line.startswith("zlg: warning: this takes about")]
+                self.assertEqual(len(said), 1, run.stderr)
 
     @unittest.skipUnless(ZLG.is_file(), f"no {ZLG}")
     def test_without_a_fault_the_run_is_whole(self):

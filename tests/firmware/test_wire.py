@@ -158,21 +158,24 @@ class Telemetry(WireTest):
     def test_every_tick_is_told_and_every_message_is_whole(self):
         host = self.powered_host()
         host.listen_until(lambda m: m.kind == TELEMETRY and m.tick >= 450)
-        told = host.of(TELEMETRY)
-        self.assertEqual([m.tick for m in told], list(range(len(told))))
+        messages = host.of(TELEMETRY)
+        self.assertEqual([m.tick for m in messages], list(range(len(messages))))
         self.assertEqual([m.sequence for m in host.messages], list(range(len(host.messages))))
         self.assertEqual({m.session for m in host.messages}, {1})
         self.assertEqual(host.decoder.n_damaged, 0)
-        self.assertEqual({m.tick_s for m in told}, {0.005})
-        self.assertEqual([m.tick for m in host.of(STATUS)], [199, 399])
+        self.assertEqual({m.tick_s for m in messages}, {0.005})
+        # Every 200 ticks, as soon as the background comes to it: on a busy machine it comes late.
+        first, second = (m.tick for m in host.of(STATUS))
+        self.assertGreaterEqual(first, 199)
+        self.assertGreaterEqual(second - first, 200)
 
     def test_stamps_are_those_of_the_ends_of_halves(self):
         host = self.powered_host()
         host.ask(SET, (INTERVAL, 3000.0))
         host.listen_until(lambda m: m.kind == TELEMETRY and m.tick >= 500)
         # Without a latch of its own each half is as long as it should be, whatever the work in it takes.
-        told = host.of(TELEMETRY)
-        self.assertEqual([m.timer for m in told], [2 * HALF_TIMER * (m.tick + 1) for m in told])
+        messages = host.of(TELEMETRY)
+        self.assertEqual([m.timer for m in messages], [2 * HALF_TIMER * (m.tick + 1) for m in messages])
 
     def test_what_is_settled_follows_by_its_age(self):
         host = self.powered_host()
@@ -195,10 +198,10 @@ class Telemetry(WireTest):
         self.assertEqual(follow.returncode, 0)
         for loss in ("lost_messages", "lost_ticks", "restarts", "damaged_frames", "refused_messages"):
             self.assertEqual(said[loss], 0, loss)
-        told = host.of(TELEMETRY)
-        self.assertEqual(said["telemetry_messages"], len(told))
+        messages = host.of(TELEMETRY)
+        self.assertEqual(said["telemetry_messages"], len(messages))
         rows = [row.split(",") for row in out.read_text(encoding="ascii").splitlines() if not row.startswith("#")][1:]
-        self.assertEqual([int(row[0]) for row in rows], [m.tick for m in told])
+        self.assertEqual([int(row[0]) for row in rows], [m.tick for m in messages])
 
 class Parameters(WireTest):
     def test_a_value_is_read_set_and_read_back(self):
@@ -268,7 +271,9 @@ class Switching(WireTest):
         state = host.status()
         self.assertEqual(state.sequence, host.of(REPLY)[0].sequence + 1)
         self.assertEqual((state.tick_s, state.timer_hz, state.n_good, state.n_damaged, state.last_fault), (0.005, 1e7, 1, 0, 0))
-        self.assertAlmostEqual(state.tick, host.of(TELEMETRY)[-1].tick, delta=2)
+        # The telemetry before it, whatever has come since.
+        before = [m for m in host.messages[:host.messages.index(state)] if m.kind == TELEMETRY][-1]
+        self.assertAlmostEqual(state.tick, before.tick, delta=2)
         self.assertTrue(300 < state.stack_bytes < 16384, state.stack_bytes)
 
 
@@ -302,8 +307,8 @@ class Disturbed(WireTest):
         state = host.status()
         self.assertEqual(state.n_good, before + 2)
         self.assertGreaterEqual(state.n_damaged, 4)
-        told = host.of(TELEMETRY)
-        self.assertEqual([m.tick for m in told], list(range(len(told))))
+        messages = host.of(TELEMETRY)
+        self.assertEqual([m.tick for m in messages], list(range(len(messages))))
         self.assertEqual(host.decoder.n_damaged, 0)
 
     def test_messages_of_a_gyro_are_no_commands(self):
@@ -328,8 +333,8 @@ class Disturbed(WireTest):
         self.assertEqual(state.bits & HELD, 0)
         self.assertEqual(state.last_fault, 14)  # a reset from outside
         self.assertEqual([m.session for m in host.messages], sorted(m.session for m in host.messages))
-        told = host.of(TELEMETRY, session=2)
-        self.assertEqual([m.tick for m in told], list(range(len(told))))
+        messages = host.of(TELEMETRY, session=2)
+        self.assertEqual([m.tick for m in messages], list(range(len(messages))))
 
     def test_a_command_from_before_the_reset_is_obeyed_after_it(self):
         host = self.powered_host()
@@ -345,10 +350,10 @@ class Disturbed(WireTest):
         host.hear()
         host.decoder, host.messages = line.Decoder(), []
         middle = host.bytes[-3000:]
-        told = [m for m in host.decoder.messages(middle) if m.kind == TELEMETRY]
+        messages = [m for m in host.decoder.messages(middle) if m.kind == TELEMETRY]
         self.assertLessEqual(host.decoder.n_damaged, 1)
-        self.assertGreater(len(told), 20)
-        self.assertEqual([m.tick - told[0].tick for m in told], list(range(len(told))))
+        self.assertGreater(len(messages), 20)
+        self.assertEqual([m.tick - messages[0].tick for m in messages], list(range(len(messages))))
 
 
 class Stored(WireTest):
@@ -395,8 +400,8 @@ class Stored(WireTest):
             self.assert_done(host.ask(SET, (INTERVAL, 3000.0 + k)))
         state = host.status()
         self.assertEqual(state.n_overruns, 0)
-        told = host.of(TELEMETRY)
-        self.assertEqual([m.tick for m in told], list(range(len(told))))
+        messages = host.of(TELEMETRY)
+        self.assertEqual([m.tick for m in messages], list(range(len(messages))))
 
 
 class Ends(unittest.TestCase):

@@ -21,12 +21,7 @@ using zlg::fuzz::claim;
 
 constexpr int max_delay_ticks = 29;  // of `joint`
 
-RelockDriftConfig relock_config(Bytes& bytes) {
-    RelockDriftConfig c;
-    c.method = static_cast<RelockMethod>(bytes.index(5));
-    c.ticks = bytes.flag() ? 20 : bytes.take<std::int8_t>();
-    // The rest is as it is mostly, so that most inputs are about the records.
-    if (bytes.flag()) return c;
+void constants_from(Bytes& bytes, CompensationConstants& c) {
     c.tick = Seconds{bytes.real(0.005)};
     c.scale = Arcsec{bytes.real(3.263)};
     c.bias = Hertz{bytes.real(60e3)};
@@ -35,25 +30,22 @@ RelockDriftConfig relock_config(Bytes& bytes) {
     c.reference_temperature = Celsius{bytes.real(20.0)};
     c.light_noise = Wavelengths{bytes.real(0.0033)};
     c.light_samples = bytes.take<std::int8_t>();
-    return c;
 }
 
 GyroCompensationConfig config_from(Bytes& bytes) {
     GyroCompensationConfig c;
-    c.relock = relock_config(bytes);
+    c.relock.method = static_cast<RelockMethod>(bytes.index(5));
+    c.relock.ticks = bytes.flag() ? 20 : bytes.take<std::int8_t>();
+    // The rest is as it is mostly, so that most inputs are about the records.
+    if (!bytes.flag()) constants_from(bytes, c.gyro);
     c.bridge.method = static_cast<BridgeMethod>(bytes.index(6));
     c.bridge.extrapolation_points = static_cast<int>(bytes.index(10));
     c.bridge.points_before = static_cast<int>(bytes.index(10));
     c.bridge.points_after = static_cast<int>(bytes.index(10));
-    c.bridge.count = c.relock.scale;
-    c.bridge.optimal.counter_step = c.relock.scale;
     c.bridge.optimal.halves = c.relock.method == RelockMethod::joint;
-    if (bytes.flag()) c.timer = Hertz{bytes.real(1e7)};
-    if (bytes.flag()) c.random_walk = ArcsecPerRootSecond{bytes.real(0.14)};
-    c.magnetic = {.method = static_cast<MagneticMethod>(bytes.index(3)),
-                  .tick = c.relock.tick,
-                  .walk = c.random_walk,
-                  .count = c.relock.scale};
+    if (bytes.flag()) c.gyro.timer = Hertz{bytes.real(1e7)};
+    if (bytes.flag()) c.gyro.random_walk = ArcsecPerRootSecond{bytes.real(0.14)};
+    c.magnetic.method = static_cast<MagneticMethod>(bytes.index(3));
     return c;
 }
 
@@ -70,6 +62,7 @@ HalfRecord half_from(Bytes& bytes, const HalfRecord& previous) {
     half.detuning_lambda = 0.9 * previous.detuning_lambda;
     half.detuning_sq_lambda2 = 0.81 * previous.detuning_sq_lambda2;
     half.temperature_c = previous.temperature_c;
+    half.lit = !half.loop_closed && (what & 0x10) != 0;
     if ((what & 0x80) == 0) return half;
     half.detuning_lambda = bytes.real(0.22);
     half.detuning_sq_lambda2 = bytes.real(0.0484);

@@ -147,7 +147,7 @@ void claim_record(const GyroControlOutput& out, std::int64_t half) {
           "the mean square is a number, 0 or more");
     claim(std::isfinite(r.piezo_v) && std::isfinite(r.temperature_c), "voltage and temperature are numbers");
     claim((r.bias_sign == 1 || r.bias_sign == -1) && (r.mode == 1 || r.mode == -1), "signs are signs");
-    claim(out.health < (1u << health_bit_names.size()), "every bit has a name");
+    claim(std::uint64_t{out.health} < (std::uint64_t{1} << health_bit_names.size()), "every bit has a name");
     claim(!out.has_event || (std::isfinite(out.event.miss_lambda) && std::isfinite(out.event.half_wave_v)),
           "an event is of numbers");
 }

@@ -297,8 +297,8 @@ TEST(RawWriter, writes_settings_names_and_shortest_numbers) {
     EXPECT_EQ(content_of(folder.file("raw.csv")),
               "# gyro.scale_arcsec = 3.263\n"
               "half,bias_sign,mode,counts,loop_closed,valid,detuning_lambda,detuning_sq_lambda2,piezo_v,temperature_c,"
-              "span\n"
-              "0,-1,1,-150,1,0,0.1,0.01,150,20.25,1\n");
+              "span,lit\n"
+              "0,-1,1,-150,1,0,0.1,0.01,150,20.25,1,0\n");
 }
 
 TEST(RawWriter, refuses_what_no_reader_accepts) {
@@ -342,7 +342,7 @@ TEST(RawWriter, has_room_for_the_longest_row) {
     const std::string text = content_of(folder.file("raw.csv"));
     EXPECT_EQ(text.substr(text.find('\n') + 1),
               "-9223372036854775808,-1,-1,-9223372036854775808,1,1,-2.2250738585072014e-308,2.2250738585072014e-308,"
-              "-2.2250738585072014e-308,-2.2250738585072014e-308,-2147483648\n");
+              "-2.2250738585072014e-308,-2.2250738585072014e-308,-2147483648,0\n");
 }
 
 TEST(RawReader, knows_how_much_of_the_file_it_has_read) {

@@ -63,7 +63,7 @@ TEST_P(RawSpan, is_one_in_a_log_without_the_column) {
     EXPECT_EQ(rows_of(folder.file(GetParam())), rows);
     const auto message =
         message_of<FormatError>([&] { write(folder.file(std::string{"b"} + GetParam()), halves(4, 5), columns); });
-    EXPECT_EQ(message, "half 6 cannot be logged: its counts go over 5 halves, and the log has no column span");
+    EXPECT_EQ(message, "half 6 cannot be logged: span is 5, and the log has no column for it");
 }
 
 // The spoilt row is the one that is named, wherever the blocks of a reader end.

@@ -6,6 +6,8 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/row_times.hpp>
 
+#include "text_table/time_names.hpp"
+
 namespace {
 
 using namespace zlg::logs;

@@ -95,7 +95,7 @@ TEST(WireRows, ALongLossLosesNoAngle) {
         const bool lost = k >= first && k < end;
         EXPECT_EQ((got[k].flags & flag_lost) != 0, lost) << k;
         if (lost) EXPECT_NEAR(got[k].dtheta_arcsec, lost_arcsec / static_cast<double>(end - first), 1e-8) << k;
-        // The last one that was told.
+        // The last one that was sent.
         if (lost) EXPECT_EQ(got[k].mode, -1) << k;
         if (!lost) EXPECT_EQ(got[k].dtheta_arcsec, gyro.rows[k].dtheta_arcsec) << k;
         if (k < first - delay_ticks || k >= end) EXPECT_EQ(got[k], gyro.rows[k]);

@@ -98,12 +98,12 @@ TEST(SubstitutionExperiment, agrees_with_theory_over_the_grids_of_the_paper) {
 TEST(SubstitutionExperiment, notices_a_theory_that_is_wrong_by_5_percent) {
     auto points = final_points(fast_oscillation());
     EXPECT_LT(paper::chi2_per_dof(points).per_dof, 3.0);
-    for (auto& p : points) p.extremum_theory *= 1.05;
+    for (auto& p : points) p.extremum.theory *= 1.05;
     EXPECT_GT(paper::chi2_per_dof(points).per_dof, 100.0);
 
     points = final_points(fast_oscillation());
     EXPECT_LT(paper::rms_chi2_per_dof(points).per_dof, 4.0);
-    for (auto& p : points) p.rms_theory *= 1.05;
+    for (auto& p : points) p.rms.theory *= 1.05;
     EXPECT_GT(paper::rms_chi2_per_dof(points).per_dof, 8.0);
 }
 
@@ -113,11 +113,11 @@ TEST(SubstitutionExperiment, measures_the_errors_that_polynomials_have_by_algebr
     constexpr std::array quadratic{1.44, 8.19, 26.85};
     for (std::size_t n = 1; n <= 3; ++n) {
         const auto& r = fast_oscillation().at(n - 1).interpolation;
-        EXPECT_NEAR(r[0].extremum_arcsec, -constant[n - 1], 4.0 * r[0].extremum_error + 0.005) << n;
-        EXPECT_NEAR(r[2].extremum_arcsec, -quadratic[n - 1], 4.0 * r[2].extremum_error + 0.005) << n;
-        EXPECT_NEAR(r[0].crossing_arcsec, 0.0, 4.0 * r[0].crossing_error) << n;
-        EXPECT_NEAR(r[2].crossing_arcsec, 0.0, 4.0 * r[2].crossing_error) << n;
-        EXPECT_LT(r[2].extremum_error, 0.25);
+        EXPECT_NEAR(r[0].extremum.arcsec, -constant[n - 1], 4.0 * r[0].extremum.error + 0.005) << n;
+        EXPECT_NEAR(r[2].extremum.arcsec, -quadratic[n - 1], 4.0 * r[2].extremum.error + 0.005) << n;
+        EXPECT_NEAR(r[0].crossing.arcsec, 0.0, 4.0 * r[0].crossing.error) << n;
+        EXPECT_NEAR(r[2].crossing.arcsec, 0.0, 4.0 * r[2].crossing.error) << n;
+        EXPECT_LT(r[2].extremum.error, 0.25);
     }
 }
 
@@ -126,8 +126,8 @@ TEST(SubstitutionExperiment, measures_the_worst_errors_of_extrapolation) {
     for (std::size_t n = 1; n <= 3; ++n)
         for (std::size_t order = 0; order < 3; ++order) {
             const auto& p = fast_oscillation().at(n - 1).extrapolation[order];
-            EXPECT_NEAR(std::hypot(p.extremum_arcsec, p.crossing_arcsec), worst[n - 1][order],
-                        4.0 * p.extremum_error + 0.5)
+            EXPECT_NEAR(std::hypot(p.extremum.arcsec, p.crossing.arcsec), worst[n - 1][order],
+                        4.0 * p.extremum.error + 0.5)
                 << n << " ticks, order " << order;
         }
 }
@@ -136,9 +136,9 @@ TEST(SubstitutionExperiment, noise_at_rest_is_the_rounding_of_the_count_through_
     // A reading of the count errs by count/sqrt(12). Constant: each of 2 + 2 ticks n/4, so four readings weigh n/4.
     // Quadratic, n = 3: -1, 5/2 | 5/2, -1, so the readings weigh 1, -7/2, 5/2 on each side.
     const auto check = [](const SubstitutionPoint& p, double noise_arcsec) {
-        EXPECT_NEAR(p.noise_theory, noise_arcsec, 1e-3 * noise_arcsec);
-        EXPECT_NEAR(p.rms_arcsec, noise_arcsec, 4.0 * p.rms_error);
-        EXPECT_LT(p.rms_error, 0.03 * noise_arcsec);
+        EXPECT_NEAR(p.noise.theory, noise_arcsec, 1e-3 * noise_arcsec);
+        EXPECT_NEAR(p.rms.arcsec, noise_arcsec, 4.0 * p.rms.error);
+        EXPECT_LT(p.rms.error, 0.03 * noise_arcsec);
     };
     const auto results = paper::run_substitution(
         std::array{at_slow_rate(1, 41), at_slow_rate(2, 42), at_slow_rate(3, 43), at_slow_rate(5, 44)}, 2);
@@ -151,8 +151,8 @@ TEST(SubstitutionExperiment, slow_motion_hides_the_rounding) {
     auto e = experiment(3, 20.0, 30.0, 7);
     e.switches = 4000;
     const auto p = result_of(e).interpolation[0];
-    EXPECT_NEAR(p.rms_arcsec, p.rms_theory, 4.0 * p.rms_error);
-    EXPECT_LT(p.rms_arcsec, 0.7 * 3.0 * count_arcsec / std::sqrt(48.0)) << "what independent roundings would make";
+    EXPECT_NEAR(p.rms.arcsec, p.rms.theory, 4.0 * p.rms.error);
+    EXPECT_LT(p.rms.arcsec, 0.7 * 3.0 * count_arcsec / std::sqrt(48.0)) << "what independent roundings would make";
 }
 
 TEST(SubstitutionExperiment, substituted_ticks_take_over_the_drift) {
@@ -161,12 +161,12 @@ TEST(SubstitutionExperiment, substituted_ticks_take_over_the_drift) {
     const auto r = result_of(e);
     // Three ticks of 100 arcsec/s stay. The magnetic drift cancels between the two sides of a gap; the extrapolation
     // sees one side only, with the sign of its mode.
-    EXPECT_NEAR(r.interpolation[0].mean_arcsec, 1.5, 4.0 * r.interpolation[0].mean_error);
-    EXPECT_NEAR(r.interpolation[0].mean_theory, 1.5, 1e-9);
-    EXPECT_LT(r.interpolation[0].noise_arcsec, 1.6);
-    EXPECT_LT(r.interpolation[0].noise_theory, 1.6);
-    EXPECT_NEAR(r.extrapolation[0].noise_arcsec, 7.5, 0.3);
-    EXPECT_NEAR(r.extrapolation[0].noise_theory, 7.5, 0.15);
+    EXPECT_NEAR(r.interpolation[0].mean.arcsec, 1.5, 4.0 * r.interpolation[0].mean.error);
+    EXPECT_NEAR(r.interpolation[0].mean.theory, 1.5, 1e-9);
+    EXPECT_LT(r.interpolation[0].noise.arcsec, 1.6);
+    EXPECT_LT(r.interpolation[0].noise.theory, 1.6);
+    EXPECT_NEAR(r.extrapolation[0].noise.arcsec, 7.5, 0.3);
+    EXPECT_NEAR(r.extrapolation[0].noise.theory, 7.5, 0.15);
 }
 
 TEST(SubstitutionExperiment, light_noise_comes_in_through_the_re_lock_correction) {
@@ -176,8 +176,8 @@ TEST(SubstitutionExperiment, light_noise_comes_in_through_the_re_lock_correction
     // Variance of a correction (K T chi f0/2)^2 4 s^4/16, in two of four ticks of weight 3/4.
     const double correction = count_arcsec * tick_s * 0.5 * 3.6 * 60e3 * 0.05 * 0.05 / 2.0;
     const double noise = std::hypot(3.0 * count_arcsec / std::sqrt(48.0), std::sqrt(2.0) * 0.75 * correction);
-    EXPECT_NEAR(r.interpolation[0].noise_theory, noise, 1e-3 * noise);
-    EXPECT_NEAR(r.interpolation[0].rms_arcsec, noise, 4.0 * r.interpolation[0].rms_error);
+    EXPECT_NEAR(r.interpolation[0].noise.theory, noise, 1e-3 * noise);
+    EXPECT_NEAR(r.interpolation[0].rms.arcsec, noise, 4.0 * r.interpolation[0].rms.error);
 }
 
 TEST(SubstitutionExperiment, takes_other_points) {
@@ -188,7 +188,7 @@ TEST(SubstitutionExperiment, takes_other_points) {
     // an oscillation is 8 sin^3(w T/2) times that of a tick.
     const double half = std::numbers::pi * 20.0 * tick_s;
     const double size = 12000.0 * tick_s * std::sin(half) / half * 8.0 * std::pow(std::sin(half), 3);
-    EXPECT_NEAR(std::hypot(p.extremum_arcsec, p.crossing_arcsec), size, 4.0 * p.extremum_error);
+    EXPECT_NEAR(std::hypot(p.extremum.arcsec, p.crossing.arcsec), size, 4.0 * p.extremum.error);
 }
 
 TEST(SubstitutionExperiment, same_bits_on_any_number_of_threads) {
@@ -234,7 +234,7 @@ TEST(SubstitutionExperiment, the_longest_gap_is_measured) {
     double sum = 16.0 * (std::cos(8.5 * w) + std::cos(9.5 * w)) / 2.0;
     for (int j = 1; j <= 16; ++j) sum -= std::cos((j - 8.5) * w);
     const auto p = result_of(e).interpolation[0];
-    EXPECT_NEAR(p.extremum_arcsec, 12000.0 * tick_s * std::sin(0.5 * w) / (0.5 * w) * sum, 4.0 * p.extremum_error);
+    EXPECT_NEAR(p.extremum.arcsec, 12000.0 * tick_s * std::sin(0.5 * w) / (0.5 * w) * sum, 4.0 * p.extremum.error);
 }
 
 TEST(SubstitutionExperiment, a_failure_in_a_thread_reaches_the_caller) {
@@ -258,7 +258,8 @@ TEST(SubstitutionExperiment, refuses_a_gyro_that_does_not_switch) {
     EXPECT_THROW((void)result_of(e), config::ConfigError);
 
     // A miss beyond the tolerance of lock, and a loop that needs minutes to mend it: one switch, then none.
-    e.base.perimeter = {.tau_s = 1000.0};
+    e.base.perimeter = {};
+    e.base.perimeter.tau_s = 1000.0;
     e.base.piezo.half_wave_error = 0.06;
     try {
         (void)result_of(e);
@@ -307,16 +308,8 @@ TEST(RandomPhaseMotion, increments_are_differences_of_the_angle) {
 }
 
 TEST(ChiSquare, is_the_mean_of_squared_deviations_over_errors) {
-    const SubstitutionPoint a{.extremum_arcsec = 5.0,
-                              .extremum_error = 1.0,
-                              .extremum_theory = 3.0,
-                              .crossing_arcsec = 1.0,
-                              .crossing_error = 0.5,
-                              .crossing_theory = 2.0,
-                              .rms_arcsec = 4.0,
-                              .rms_error = 2.0,
-                              .rms_theory = 10.0};
-    const SubstitutionPoint without_crossing{.extremum_arcsec = 1.0, .extremum_error = 1.0};
+    const SubstitutionPoint a{.extremum = {5.0, 1.0, 3.0}, .crossing = {1.0, 0.5, 2.0}, .rms = {4.0, 2.0, 10.0}};
+    const SubstitutionPoint without_crossing{.extremum = {1.0, 1.0, 0.0}};
     const auto chi2 = paper::chi2_per_dof(std::array{a, without_crossing});
     EXPECT_EQ(chi2.dof, 3);
     EXPECT_DOUBLE_EQ(chi2.per_dof, (4.0 + 4.0 + 1.0) / 3.0);

@@ -13,9 +13,9 @@
 
 #include <gtest/gtest.h>
 #include <zlg/config/config.hpp>
-#include <zlg/processor/compared.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/trials/compared.hpp>
 
 namespace {
 
@@ -117,14 +117,14 @@ TEST(QemuProcessor, gives_the_bits_of_this_program_switch_by_switch) {
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     QemuProcessor qemu{{.image = *image}};
     for (const auto relock : {core::RelockMethod::mean_square, core::RelockMethod::joint}) {
-        processor::ComparedProcessor both{qemu};
+        trials::ComparedProcessor both{qemu};
         config::Config c;
         c.switching.interval_s = 1.0;
         c.compensation.relock = relock;
         rig::ClosedLoop loop{c, rig::motion(c), &both};
         int events = 0;
         for (int k = 0; k < 4000; ++k) events += loop.advance().control.has_event ? 1 : 0;
-        for (auto owed = both.drain(); owed.has_row || owed.has_gap;) owed = both.drain();
+        for (auto due = both.drain(); due.has_row || due.has_gap;) due = both.drain();
         EXPECT_GE(events, 8);
         EXPECT_EQ(both.first_difference(), "");
         EXPECT_EQ(qemu.state(), both.state());

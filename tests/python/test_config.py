@@ -5,10 +5,11 @@ import dataclasses
 import importlib.machinery
 import importlib.util
 import pickle
+import typing
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import PACKAGE_DIR, ROOT
 
 import zlg
 from zlg import _zlg
@@ -21,7 +22,22 @@ def test_the_dataclasses_are_those_of_the_table_of_keys():
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     expected = module.configuration_source(_zlg.config_keys())
-    assert (ROOT / "python" / "zlg" / "sections.py").read_text() == expected
+    assert (PACKAGE_DIR / "zlg" / "sections.py").read_text() == expected
+
+
+def test_a_key_of_each_kind_has_the_type_of_its_values():
+    hints = {key: typing.get_type_hints(getattr(zlg.config, section))[key]
+             for section, key in (("Gyro", "tick_s"), ("Run", "duration_s"), ("Gyro", "light_samples"), ("Design", "run_lengths_s"),
+                                  ("Perimeter", "loop"), ("Switching", "interval_s"), ("Analysis", "column"))}  # fmt: skip
+    assert hints == {
+        "tick_s": float,
+        "duration_s": typing.Optional[float],
+        "light_samples": int,
+        "run_lengths_s": list[float],
+        "loop": typing.Literal["analog", "exponential", "digital"],
+        "interval_s": typing.Union[float, typing.Literal["optimal"]],
+        "column": list[typing.Union[int, str]],
+    }
 
 
 def test_every_key_is_a_member_with_its_default():

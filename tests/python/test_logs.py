@@ -100,18 +100,18 @@ def test_text_columns_have_names_and_decimal_commas(tmp_path):
 
 BAD_COLUMNS = {
     "a byte's overflow": ("mode", [1, 1, 257, 1, 1, 1], "mode: row 2 holds 257"),
-    "no mode": ("mode", [1, 1, 0, 1, 1, 1], "mode: row 2 holds 0; allowed is 1 or -1"),
+    "no mode": ("mode", [1, 1, 0, 1, 1, 1], r"mode: row 2 holds 0; allowed is \+1 or -1"),
     "a broken count": ("counts", COUNTS + 0.7, "counts: row 0 holds 151.7"),
     "a missing count": ("counts", [1.0, np.nan, 1.0, 1.0, 1.0, 1.0], "counts: row 1 holds nan"),
     "a masked count": ("counts", np.ma.masked_equal(COUNTS, 150), "counts: is a masked array"),
     "too large a count": ("counts", [2**52 + 1, 0, 0, 0, 0, 0], "counts: row 0 holds"),
-    "one sign": ("bias_sign", np.ones(6), "bias_sign: row 1 holds 1; allowed is 1 and -1 in turn"),
+    "one sign": ("bias_sign", np.ones(6), "bias_sign: row 1: '1' as in the row before; expected -1"),
     "no sign": ("bias_sign", np.zeros(6), "bias_sign: row 0 holds 0"),
     "neither closed nor open": ("loop_closed", [1, 1, 1, 2, 1, 1], "loop_closed: row 3 holds 2"),
     "neither valid nor not": ("valid", [1, 1, 1, 1, 1, 0.5], "valid: row 5 holds 0.5"),
     "half a timer tick": ("edge_offset_ticks", [0, 0.5, 0, 0, 0, 0], "edge_offset_ticks: row 1 holds 0.5"),
-    "a span over a half that was not missed": ("span", [1, 1, 2, 1, 1, 1], "span: row 2 holds 2; allowed is 1"),
-    "no half": ("span", [1, 0, 1, 1, 1, 1], "span: row 1 holds 0"),
+    "a span over a half that was not missed": ("span", [1, 1, 2, 1, 1, 1], "span: row 2: '2' is out of range; allowed is 1"),
+    "no half": ("span", [1, 0, 1, 1, 1, 1], "span: row 1: '0' is out of range"),
 }
 
 
@@ -155,13 +155,13 @@ def test_an_angle_log_of_no_mode_is_refused(tmp_path):
 def test_what_a_reader_wonders_at_is_told(tmp_path):
     path = tmp_path / "raw.csv"
     path.write_text("half,bias_sign,mode,counts,loop_closed,colour\n0,1,1,151,1,3\n1,-1,1,-149,1,3")
-    with pytest.warns(UserWarning) as told:
+    with pytest.warns(UserWarning) as caught:
         assert len(read_raw(path)) == 2
-    assert [str(each.message) for each in told] == [
+    assert [str(each.message) for each in caught] == [
         f"{path}:1: the unknown column 'colour' is ignored",
         f"{path}: the last line has no end; the file may have been cut off",
     ]
-    assert told[0].filename == __file__
+    assert caught[0].filename == __file__
     angles = tmp_path / "angles.csv"
     write_angles(angles, zlg.compensate(three_ticks()))
     lines = [line + ("" if line.startswith("#") else ",colour" if line.startswith("tick") else ",3")

@@ -63,9 +63,9 @@ def test_everything_public_says_what_it_is(module):
         if inspect.isfunction(each) or inspect.isclass(each):
             assert each.__doc__, name
         if inspect.isfunction(each):
-            told = inspect.signature(each)
-            assert told.return_annotation is not told.empty, name
-            assert all(p.annotation is not p.empty for p in told.parameters.values()), name
+            signature = inspect.signature(each)
+            assert signature.return_annotation is not signature.empty, name
+            assert all(p.annotation is not p.empty for p in signature.parameters.values()), name
 
 
 def test_the_types_agree(tmp_path):
@@ -83,8 +83,8 @@ def test_the_wheel_holds_all_that_is_needed(tmp_path):
     zipfile.ZipFile(wheel).extractall(tmp_path / "site")
     environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
     program = "import zlg, sys; print(zlg.__file__, len(zlg.simulate(zlg.Config.of('run.duration_s=1')).raw))"
-    told = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
-    assert told.stdout.split() == [str(tmp_path / "site" / "zlg" / "__init__.py"), "400"]
+    result = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+    assert result.stdout.split() == [str(tmp_path / "site" / "zlg" / "__init__.py"), "400"]
 
 
 @pytest.fixture

@@ -28,6 +28,9 @@ def test_the_same_bits_as_the_program(tmp_path):
     raw = zlg.logs.read_raw(tmp_path / "run" / "raw.h5")
     angles = zlg.logs.read_angles(tmp_path / "run" / "angles.h5")
     assert np.array_equal(raw.counts, result.raw.counts) and np.array_equal(raw.piezo_v, result.raw.piezo_v)
+    for name in ("tick", "mode", "miss_lambda", "gap_ticks", "dp_arcsec", "relock_arcsec", "sigma_arcsec"):
+        ours = getattr(zlg.compensate(raw).switches, name)
+        assert len(ours) == 7 and np.array_equal(ours, getattr(result.switches, name))
     for log in (result.angles, zlg.compensate(raw)):
         assert np.array_equal(angles.dtheta_final_arcsec, log.dtheta_final_arcsec)
         assert np.array_equal(angles.flags, log.flags)

@@ -30,6 +30,20 @@ TEST(NumberText, what_is_no_number_says_so) {
     EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "none");
 }
 
+TEST(NumberText, a_row_has_short_numbers_whole_numbers_and_texts) {
+    EXPECT_EQ(row(0.0123456, 123456, "text", infinity), (std::vector<std::string>{"0.0123", "123456", "text", "none"}));
+}
+
+TEST(NumberText, a_blank_series_takes_points) {
+    Series series = blank_series("s", Mark::points, true);
+    add_point(series, 1.0, 2.0);
+    EXPECT_EQ(series.name, "s");
+    EXPECT_EQ(series.mark, Mark::points);
+    EXPECT_TRUE(series.dashed);
+    EXPECT_EQ(series.x, std::vector{1.0});
+    EXPECT_EQ(series.y, std::vector{2.0});
+}
+
 TEST(NumberText, a_blank_figure_has_its_words_and_no_curve) {
     const Figure figure = blank_figure("f", "title", "caption", "x", "y");
     EXPECT_EQ(figure.id, "f");

@@ -104,9 +104,8 @@ TEST(AskedCompensation, joint_without_light_is_done_another_way_with_a_note) {
 
 TEST(AskedCompensation, detunings_read_by_a_slope_come_through_the_curve_here) {
     const rig::LogCompensation made = rig::asked_compensation(with_curve(), log_with_all(), "log");
-    EXPECT_NEAR(detuning_of(made.compensation.relock.curve, 2.0 * std::sin(0.2)), 0.2, 1e-12);
-    EXPECT_EQ(made.compensation.profile.record_curve, made.compensation.relock.curve);
-    EXPECT_EQ(made.compensation.relock.control_curve.n_nodes, 0);
+    EXPECT_NEAR(detuning_of(made.compensation.gyro.record_curve, 2.0 * std::sin(0.2)), 0.2, 1e-12);
+    EXPECT_EQ(made.compensation.gyro.control_curve.n_nodes, 0);
     EXPECT_TRUE(made.warnings.empty());
 }
 
@@ -114,19 +113,19 @@ TEST(AskedCompensation, the_slope_is_that_of_the_log) {
     logs::RawHeader log = log_with_all();
     log.settings = {{"gyro.discriminator_per_lambda", "4.0"}};
     const rig::LogCompensation made = rig::asked_compensation(with_curve(), log, "log");
-    EXPECT_NEAR(detuning_of(made.compensation.relock.curve, 0.5 * std::sin(0.2)), 0.2, 1e-12);
+    EXPECT_NEAR(detuning_of(made.compensation.gyro.record_curve, 0.5 * std::sin(0.2)), 0.2, 1e-12);
 }
 
 TEST(AskedCompensation, detunings_that_have_come_through_a_curve_do_not_come_through_another) {
     logs::RawHeader log = log_with_all();
     log.settings = settings_of(with_curve());
     rig::LogCompensation made = rig::asked_compensation(with_curve(), log, "log");
-    EXPECT_EQ(made.compensation.relock.curve.n_nodes, 0);
-    EXPECT_NEAR(detuning_of(made.compensation.relock.control_curve, 2.0 * std::sin(0.2)), 0.2, 1e-12);
+    EXPECT_EQ(made.compensation.gyro.record_curve.n_nodes, 0);
+    EXPECT_NEAR(detuning_of(made.compensation.gyro.control_curve, 2.0 * std::sin(0.2)), 0.2, 1e-12);
     EXPECT_TRUE(made.warnings.empty());
 
     made = rig::asked_compensation(with_curve(3.0), log, "log");
-    EXPECT_NEAR(detuning_of(made.compensation.relock.control_curve, 2.0 * std::sin(0.2)), 0.2, 1e-12);
+    EXPECT_NEAR(detuning_of(made.compensation.gyro.control_curve, 2.0 * std::sin(0.2)), 0.2, 1e-12);
     ASSERT_EQ(made.warnings.size(), 1u);
     EXPECT_EQ(made.warnings[0].find("log: its detunings were read through a discriminator curve of its own"), 0u);
     // To ask for none is not to ask for another.
@@ -141,7 +140,7 @@ TEST(AskedCompensation, shifted_edges_need_a_timer_and_leave_a_plateau) {
     EXPECT_EQ(refusal({}, log), "") << "no edge is shifted";
     log.has_edge_offset = true;
     log.timer_hz = 2e6;
-    EXPECT_EQ(rig::asked_compensation({}, log, "log").compensation.timer.value(), 2e6);
+    EXPECT_EQ(rig::asked_compensation({}, log, "log").compensation.gyro.timer.value(), 2e6);
     EXPECT_EQ(refusal(c, log),
               "gyro.bias_edge_s = 0.0025: allowed is below half of gyro.tick_s = 0.005, where edges are shifted");
     for (const double bad : {0.0, 0.5, 2e15, std::numeric_limits<double>::quiet_NaN()}) {

@@ -49,7 +49,7 @@ TEST(FaultWiring, RandomOnesLastAsLongAsTheRun) {
         EXPECT_LT(f.at_s, 1000.0);
     }
     EXPECT_NEAR(static_cast<double>(rig::faults_of(with({"faults.random_per_hour=3600"})).size()), 3600.0, 250.0)
-        << "an hour, unless told";
+        << "an hour, unless given";
     EXPECT_NE(rig::faults_of(with({"faults.random_per_hour=10", "faults.random_seed=2"})).front().at_s,
               rig::faults_of(with({"faults.random_per_hour=10"})).front().at_s);
 }
@@ -63,7 +63,7 @@ TEST(FaultWiring, AFaultIsFeltInTheLoopAndInItsRecords) {
 }
 
 TEST(FaultWiring, WhatCannotBeIsTold) {
-    EXPECT_NE(complaint(with({"faults.kind=shock"})).find("not equally many"), std::string::npos);
+    EXPECT_NE(complaint(with({"faults.kind=shock"})).find("allowed is as many of each"), std::string::npos);
     EXPECT_NE(complaint(with({"faults.kind=beam_fades", "faults.at_s=1", "faults.duration_s=1", "faults.size=2"}))
                   .find("fault beam_fades: faults.size is 2, allowed is 0..1"),
               std::string::npos);

@@ -98,7 +98,7 @@ TEST(PiezoLearning, WarmUpIsForeseenByTheTemperature) {
 }
 
 TEST(PiezoLearning, TheGapIsAsShortAsTheLightAllows) {
-    const auto gaps = [](double slew_v_s, std::int64_t gap_min_ticks, config::Loop loop) {
+    const auto gaps = [](double slew_v_s, int gap_min_ticks, config::Loop loop) {
         config::Config c = real_piezo(300.0);
         c.switching.interval_s = 4.0;
         c.switching.gap_min_ticks = gap_min_ticks;

@@ -77,7 +77,7 @@ TEST(Analyze, gaps_break_the_line_of_the_course) {
     for (std::size_t k = 1000; k < 1200; ++k) axis.rates_arcsec_s[k] = missing;
     const auto r = study::analyze_axis({}, std::move(axis));
     int broken = 0;
-    for (const auto& bin : r.course) broken += std::isnan(bin.mean_arcsec_s) ? 1 : 0;
+    for (const auto& bin : r.time_bins) broken += std::isnan(bin.mean_arcsec_s) ? 1 : 0;
     EXPECT_EQ(broken, 100);
 }
 

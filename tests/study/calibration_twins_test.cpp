@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <zlg/calibration/calibration.hpp>
+#include <zlg/calibration/lab_reader.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -44,7 +45,7 @@ private:
 Specimen specimen(int k) {
     Draw draw{1000 + static_cast<std::uint64_t>(k)};
     config::Config c;
-    c.run.seed = k + 1;
+    c.run.seed = static_cast<std::uint64_t>(k + 1);
     c.gyro.bias_hz = draw(50e3, 70e3);
     c.gyro.bias_chi = draw(3.0, 8.0);
     c.gyro.bias_temperature_coefficient_per_c = draw(-2e-3, 2e-3);

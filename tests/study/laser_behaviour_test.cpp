@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <zlg/calibration/calibration.hpp>
+#include <zlg/calibration/lab_reader.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>

@@ -25,7 +25,10 @@ TEST(RunPage, shows_the_sawtooth_one_switch_and_the_errors_of_all) {
     for (const char* id :
          {"angle-error", "compensations", "one-switch", "detuning", "piezo", "switch-errors", "errors-in-time"})
         EXPECT_NE(figure(page, id), nullptr) << id;
-    EXPECT_EQ(page.sections.front().tables.front().rows.size(), 9u);
+    const auto& variants = page.sections.front().tables.front().rows;
+    ASSERT_EQ(variants.size(), 9u);
+    EXPECT_EQ(variants.front()[1], "the same gyro, never switched");
+    EXPECT_EQ(variants.back()[1], "as the configuration says");
 }
 
 TEST(RunPage, the_magnified_switch_holds_its_gap) {

@@ -32,4 +32,9 @@ TEST(TermText, terms_stand_in_the_units_of_data_sheets) {
     EXPECT_EQ(study::shown_term(NoiseKind::rate_random_walk).factor, 60.0);
 }
 
+TEST(TermText, an_estimate_has_its_error_or_says_why_there_is_none) {
+    EXPECT_EQ(study::value_text(numeric::estimated(1.23456, 0.012), "deg/h"), "1.235 +- 0.012 deg/h");
+    EXPECT_EQ(study::value_text(numeric::refused("one mode"), "deg/h"), "not determined: one mode");
+}
+
 }  // namespace

@@ -173,7 +173,7 @@ TEST(BeatPhase, RampsConvergeWithTheFourthPowerOfThePiecesAndAreGoodToAHundredth
             error[k] = error_rad(r, start, n << k, reference);
             square[k] += error[k] * error[k];
         }
-        // Below 1e-9 rad the reference itself is in doubt.
+        // Below 1e-9 rad the reference itself is uncertain.
         if (error[1] > error[0] / 8.0 + 1e-9 || error[2] > error[1] / 10.0 + 1e-9) ++exceptions;
         BeatPhase beat{turns(start)};
         beat.ramp(r.start_hz, r.end_hz, r.coupling, r.duration_s);

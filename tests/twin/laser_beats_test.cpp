@@ -24,8 +24,8 @@ struct Case {
     double field_g = 15.0;
 };
 
-BeatConfig config_of(const Case& c) {
-    BeatConfig config;
+LaserConfig config_of(const Case& c) {
+    LaserConfig config;
     config.lock_in_left_hz = c.lock_hz;
     return config;
 }
@@ -106,7 +106,7 @@ TEST(LaserBeats, APlateauTurnsByTheMeanOfItsBias) {
 TEST(LaserBeats, TheLargerBeatIsFollowedAndNoneOfTwoEqualOnes) {
     constexpr double field_g = 15.0;
     const LaserTable table{LaserConfig{}, field_g};
-    LaserBeats beats{BeatConfig{}, 1, table};
+    LaserBeats beats{LaserConfig{}, 1, table};
     const auto followed_at = [&](double perimeter) {
         Stretch s{.duration_s = 1e-5};
         s.perimeter_lambda.fill(perimeter);

@@ -6,9 +6,9 @@
 namespace zlg::twin {
 
 inline TwinConfig as_laser(TwinConfig config, double lock_hz = 0.0) {
-    config.fidelity = Fidelity::laser;
-    config.beats.lock_in_left_hz = lock_hz;
-    config.beats.lock_in_right_hz = lock_hz;
+    config.gyro.fidelity = Fidelity::laser;
+    config.laser.lock_in_left_hz = lock_hz;
+    config.laser.lock_in_right_hz = lock_hz;
     return config;
 }
 

@@ -15,8 +15,8 @@ constexpr double step_s = 78.125e-6;
 
 TwinConfig with_hysteresis(double hysteresis, double stroke_v) {
     TwinConfig c;
-    c.hysteresis = hysteresis;
-    c.hysteresis_stroke_v = stroke_v;
+    c.piezo.hysteresis = hysteresis;
+    c.piezo.hysteresis_stroke_v = stroke_v;
     return c;
 }
 
@@ -32,14 +32,14 @@ double move_to(PiezoMirror& piezo, double& v, double to, int steps = 200) {
 }
 
 // Lengths at the ends and, on the way up and down, at the middle of a loop that has closed. In wavelengths, 80 V each.
-struct Loop {
+struct VoltageLoop {
     double top;
     double bottom;
     double middle_up;
     double middle_down;
 };
 
-Loop loop(const TwinConfig& c, double half_stroke_v) {
+VoltageLoop loop(const TwinConfig& c, double half_stroke_v) {
     PiezoMirror piezo{c, step_s};
     const double a = half_stroke_v / 80.0;
     double v = 0.0;
@@ -60,7 +60,7 @@ TEST(PiezoMirror, IsTheVoltageItselfByDefault) {
 TEST(PiezoMirror, ALoopOfTheStatedStrokeIsAsWideAsItsFigureSays) {
     for (const double stroke_v : {300.0, 120.0, 40.0, 20.0}) {
         for (const double h : {0.05, 0.12, 0.4}) {
-            const Loop l = loop(with_hysteresis(h, stroke_v), 0.5 * stroke_v);
+            const VoltageLoop l = loop(with_hysteresis(h, stroke_v), 0.5 * stroke_v);
             EXPECT_NEAR((l.middle_down - l.middle_up) / (l.top - l.bottom), h, 1e-9) << stroke_v << " V, " << h;
         }
     }
@@ -68,7 +68,7 @@ TEST(PiezoMirror, ALoopOfTheStatedStrokeIsAsWideAsItsFigureSays) {
 
 TEST(PiezoMirror, ALoopOfTheHalfWaveVoltageMovesHalfAWavelength) {
     for (const double stroke_v : {300.0, 40.0, 20.0}) {
-        const Loop l = loop(with_hysteresis(0.12, stroke_v), 20.0);
+        const VoltageLoop l = loop(with_hysteresis(0.12, stroke_v), 20.0);
         EXPECT_NEAR(l.top - l.bottom, 0.5, 1e-9) << stroke_v;
     }
 }
@@ -83,7 +83,7 @@ TEST(PiezoMirror, TheFirstMoveOfAllIsLonger) {
 // A unit step of the stroke, from the sum of exponentials computed apart.
 TEST(PiezoMirror, CreepGrowsByItsFigureEachDecade) {
     TwinConfig c;
-    c.creep_per_decade = 0.015;
+    c.piezo.creep_per_decade = 0.015;
     PiezoMirror piezo{c, 1e-3};
     double length = piezo.move(0.5);
     double after_1_s = 0.0;
@@ -101,7 +101,7 @@ TEST(PiezoMirror, CreepGrowsByItsFigureEachDecade) {
 
 TEST(PiezoMirror, CreepIsTheSameInLargeAndSmallStepsOfAnEvenMotion) {
     TwinConfig c;
-    c.creep_per_decade = 0.015;
+    c.piezo.creep_per_decade = 0.015;
     PiezoMirror coarse{c, 0.01};
     PiezoMirror fine{c, 0.0001};
     for (int k = 1; k <= 50; ++k) {
@@ -115,7 +115,7 @@ TEST(PiezoMirror, CreepIsTheSameInLargeAndSmallStepsOfAnEvenMotion) {
 // The lag of an even motion and the ringing when it stops, in closed form.
 TEST(PiezoMirror, TheMirrorRingsAsAnOscillatorOfSecondOrder) {
     TwinConfig c;
-    c.mirror_hz = 5000.0;
+    c.piezo.mirror_hz = 5000.0;
     PiezoMirror piezo{c, step_s};
     const double w = 2.0 * std::numbers::pi * 5000.0;
     const double ringing = w * std::sqrt(1.0 - 0.0025);
@@ -135,7 +135,7 @@ TEST(PiezoMirror, TheMirrorRingsAsAnOscillatorOfSecondOrder) {
 
 TEST(PiezoMirror, TheVoltageForALengthLeadsThere) {
     TwinConfig c = with_hysteresis(0.12, 40.0);
-    c.creep_per_decade = 0.015;
+    c.piezo.creep_per_decade = 0.015;
     PiezoMirror piezo{c, step_s};
     double v = 0.0;
     move_to(piezo, v, 0.4);
@@ -149,8 +149,8 @@ TEST(PiezoMirror, TheVoltageForALengthLeadsThere) {
 
 TEST(PiezoMirror, EveryLengthGrowsWithTheHalfWave) {
     TwinConfig c = with_hysteresis(0.12, 40.0);
-    c.creep_per_decade = 0.015;
-    c.mirror_hz = 5000.0;
+    c.piezo.creep_per_decade = 0.015;
+    c.piezo.mirror_hz = 5000.0;
     PiezoMirror piezo{c, step_s};
     PiezoMirror grown{c, step_s};
     double v = 0.0;
@@ -163,15 +163,15 @@ TEST(PiezoMirror, EveryLengthGrowsWithTheHalfWave) {
 
 // The whole twin with its piezo: the miss asked for, the drive, the light.
 TEST(PiezoMirror, TheMissIsPutInPlaceThroughHysteresisAndCreep) {
-    for (const LoopKind kind : {LoopKind::analog, LoopKind::external}) {
+    for (const Loop kind : {Loop::analog, Loop::digital}) {
         TwinConfig c = quiet_gyro();
-        c.loop = kind;
-        c.tau_s = 0.05;
-        c.miss_lambda = 0.17;
-        c.hysteresis = 0.12;
-        c.hysteresis_stroke_v = 40.0;
-        c.creep_per_decade = 0.015;
-        c.mirror_hz = 5000.0;
+        c.perimeter.loop = kind;
+        c.perimeter.tau_s = 0.05;
+        c.perimeter.miss_lambda = 0.17;
+        c.piezo.hysteresis = 0.12;
+        c.piezo.hysteresis_stroke_v = 40.0;
+        c.piezo.creep_per_decade = 0.015;
+        c.piezo.mirror_hz = 5000.0;
         Twin twin{c, Motion::rest()};
         int polarity = 1;
         double from_v = 150.0;
@@ -182,7 +182,7 @@ TEST(PiezoMirror, TheMissIsPutInPlaceThroughHysteresisAndCreep) {
             // Within the half that follows, creep moves on by a small part of a decade, and the analog loop by
             // 0.09 wavelength a time constant.
             const double miss = target_v > from_v ? -0.17 : 0.17;
-            EXPECT_NEAR(half.truth.detuning_end_lambda, miss, kind == LoopKind::analog ? 6.5e-3 : 2e-3) << target_v;
+            EXPECT_NEAR(half.truth.detuning_end_lambda, miss, kind == Loop::analog ? 6.5e-3 : 2e-3) << target_v;
             // Near the centre, by the loop or by what a processor's own adds: the next switch is one out of a held mode.
             advance(twin, frame(true, polarity, target_v - 80.0 * miss), 400);
             from_v = target_v;
@@ -192,11 +192,11 @@ TEST(PiezoMirror, TheMissIsPutInPlaceThroughHysteresisAndCreep) {
 
 TEST(PiezoMirror, TheAnalogLoopPullsInThroughAllOfIt) {
     TwinConfig c = quiet_gyro();
-    c.miss_lambda = 0.2;
-    c.hysteresis = 0.12;
-    c.hysteresis_stroke_v = 40.0;
-    c.creep_per_decade = 0.015;
-    c.mirror_hz = 5000.0;
+    c.perimeter.miss_lambda = 0.2;
+    c.piezo.hysteresis = 0.12;
+    c.piezo.hysteresis_stroke_v = 40.0;
+    c.piezo.creep_per_decade = 0.015;
+    c.piezo.mirror_hz = 5000.0;
     const std::vector<TwinHalf> halves = relocked(c, 190.0, 80);
     EXPECT_LT(std::abs(halves[19].truth.detuning_end_lambda), 0.02);
     EXPECT_LT(std::abs(halves[79].truth.detuning_end_lambda), 1e-3);
@@ -208,19 +208,14 @@ TEST(PiezoMirror, RefusesWhatNoPlayOperatorsGiveAndTheIdealisedLoop) {
         change(c);
         EXPECT_THROW((Twin{c, Motion::rest()}), std::invalid_argument);
     };
-    refused([](TwinConfig& c) { c.hysteresis = 0.41; });
-    refused([](TwinConfig& c) { c.hysteresis = -0.01; });
-    refused([](TwinConfig& c) { c.hysteresis_stroke_v = 0.0; });
-    refused([](TwinConfig& c) { c.creep_per_decade = 0.06; });
-    refused([](TwinConfig& c) { c.mirror_hz = 50.0; });
-    refused([](TwinConfig& c) { c.mirror_damping = 0.0; });
+    refused([](TwinConfig& c) { c.piezo.hysteresis_stroke_v = 0.0; });
     refused([](TwinConfig& c) {
-        c.loop = LoopKind::exponential;
-        c.mirror_hz = 5000.0;
+        c.perimeter.loop = Loop::exponential;
+        c.piezo.mirror_hz = 5000.0;
     });
     refused([](TwinConfig& c) {
-        c.hysteresis = 0.1;
-        c.range_max_v = 110.0;
+        c.piezo.hysteresis = 0.1;
+        c.piezo.range_max_v = 110.0;
     });
 }
 

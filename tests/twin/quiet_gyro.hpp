@@ -11,23 +11,23 @@ namespace zlg::twin {
 
 inline TwinConfig quiet_gyro() {
     TwinConfig config;
-    config.light_noise_lambda = 0.0;
-    config.magnetic_arcsec_s = 0.0;
-    config.magnetic_thermal_arcsec_s = 0.0;
-    config.nonmagnetic_arcsec_s = 0.0;
-    config.random_walk_arcsec_sqrt_s = 0.0;
-    config.adc_noise_v = 0.0;
+    config.gyro.light_noise_lambda = 0.0;
+    config.drift.magnetic_arcsec_s = 0.0;
+    config.drift.magnetic_thermal_arcsec_s = 0.0;
+    config.drift.nonmagnetic_arcsec_s = 0.0;
+    config.drift.random_walk_arcsec_sqrt_s = 0.0;
+    config.piezo.adc_noise_v = 0.0;
     config.coil_noise_a = 0.0;
-    config.expansion_lambda_per_c = 0.0;
+    config.perimeter.expansion_lambda_per_c = 0.0;
     return config;
 }
 
 // The perimeter is held, not regulated: it stays where the set-point puts it.
 inline TwinConfig held_gyro() {
     TwinConfig config = quiet_gyro();
-    config.loop = LoopKind::external;
-    config.miss_lambda = 0.0;
-    config.dac_bits = 24;
+    config.perimeter.loop = Loop::digital;
+    config.perimeter.miss_lambda = 0.0;
+    config.piezo.dac_bits = 24;
     return config;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 TEST(TwinPerimeter, AMoveOfOneHalfWaveIsSlewLimitedAndTakesTenMilliseconds) {
     TwinConfig config = held_gyro();
-    config.rc_s = 1e-6;
+    config.piezo.rc_s = 1e-6;
     Twin twin{config, Motion::rest()};
     const std::vector<TwinHalf> halves = advance(twin, frame(false, -1, 190.0), 5);
     for (std::size_t h = 0; h < 4; ++h) {
@@ -35,9 +35,9 @@ TEST(TwinPerimeter, TheLagTakesOverWhereItsCurrentFallsBelowTheLimit) {
 TEST(TwinPerimeter, TheHalfWaveVoltageFollowsTheTemperature) {
     for (const double per_c : {0.0, 2e-3, -2e-3}) {
         TwinConfig config = quiet_gyro();
-        config.miss_lambda = 0.0;
-        config.half_wave_temperature_coefficient_per_c = per_c;
-        config.thermal_time_s = 0.2;
+        config.perimeter.miss_lambda = 0.0;
+        config.piezo.half_wave_temperature_coefficient_per_c = per_c;
+        config.drift.thermal_time_s = 0.2;
         Twin twin{config, Motion::rest()};
         // Ten time constants: 20 C warmer, to 1e-3 C.
         const double before_v = advance(twin, frame(true, 1), 800).back().truth.perimeter_v;
@@ -49,7 +49,7 @@ TEST(TwinPerimeter, TheHalfWaveVoltageFollowsTheTemperature) {
 
 TEST(TwinPerimeter, SetPointsHaveTheStepsAndTheRangeOfTheirConverter) {
     TwinConfig config = held_gyro();
-    config.dac_bits = 8;
+    config.piezo.dac_bits = 8;
     Twin twin{config, Motion::rest()};
     const double step_v = 300.0 / 256.0;
     const double settled_v = advance(twin, frame(false, 1, 100.3), 60).back().truth.perimeter_v;
@@ -60,9 +60,9 @@ TEST(TwinPerimeter, SetPointsHaveTheStepsAndTheRangeOfTheirConverter) {
 
 TEST(TwinPerimeter, SetPointsFollowOneAnotherEquallySpaced) {
     TwinConfig config = held_gyro();
-    config.rc_s = 1e-6;
-    config.slew_v_s = 1e9;
-    config.light_samples = 6;
+    config.piezo.rc_s = 1e-6;
+    config.piezo.slew_v_s = 1e9;
+    config.gyro.light_samples = 6;
     Twin twin{config, Motion::rest()};
     core::ActuatorFrame actuator = frame(true, 1);
     actuator.n_set_points = 3;
@@ -79,10 +79,10 @@ TEST(TwinPerimeter, SetPointsFollowOneAnotherEquallySpaced) {
 // Five set-points over twelve steps: their borders fall inside steps.
 TEST(TwinPerimeter, ASetPointMayChangeBetweenTheStepsOfTheModel) {
     TwinConfig config = held_gyro();
-    config.slew_v_s = 1e9;
-    config.light_samples = 6;
-    config.tau_s = 1.0;
-    config.tick_s = 0.0024;
+    config.piezo.slew_v_s = 1e9;
+    config.gyro.light_samples = 6;
+    config.perimeter.tau_s = 1.0;
+    config.gyro.tick_s = 0.0024;
     Twin twin{config, Motion::rest()};
     core::ActuatorFrame actuator = frame(true, 1);
     actuator.n_set_points = 5;
@@ -90,7 +90,7 @@ TEST(TwinPerimeter, ASetPointMayChangeBetweenTheStepsOfTheModel) {
     double expected_v = 150.0;
     for (std::size_t k = 0; k < 5; ++k) {
         const double target_v = actuator.set_point_v[k];
-        expected_v = target_v + (expected_v - target_v) * std::exp(-0.0012 / 5.0 / config.rc_s);
+        expected_v = target_v + (expected_v - target_v) * std::exp(-0.0012 / 5.0 / config.piezo.rc_s);
     }
     EXPECT_NEAR(twin.advance(actuator).truth.perimeter_v, expected_v, 2e-5);
 }
@@ -135,7 +135,7 @@ TEST(TwinPerimeter, LightIsOneWayBetweenTheModesAndTwoWayAgainInTheNext) {
 
 TEST(TwinPerimeter, WithoutTwoWayLightTheCounterShowsGarbageWithinTheBias) {
     TwinConfig config = held_gyro();
-    config.bias_hz = 1e9;
+    config.gyro.bias_hz = 1e9;
     Twin twin{config, Motion::rest()};
     TwinHalf before = advance(twin, frame(true, 1, 170.0), 40).back();
     double largest = 0.0;
@@ -153,14 +153,14 @@ TEST(TwinPerimeter, WithoutTwoWayLightTheCounterShowsGarbageWithinTheBias) {
 
 TEST(TwinPerimeter, AHeldDetuningLowersTheMeanBiasByChiTimesItsSquare) {
     TwinConfig config = held_gyro();
-    config.bias_hz = 1e12;
+    config.gyro.bias_hz = 1e12;
     Twin twin{config, Motion::rest()};
     const TwinHalf before = advance(twin, frame(true, 1, 158.0), 41).back();
     const TwinHalf after = twin.advance(frame(true, 1, 158.0));
     EXPECT_EQ(after.sensor.bias_sign, -1);
     const double lost = 3.6 * 0.01;
     EXPECT_NEAR(static_cast<double>(count_between(before, after)), -2.5e9 * (1.0 - lost), 2e3);
-    EXPECT_NEAR(after.truth.false_relock_arcsec, 2.5e9 * lost * config.scale_arcsec, 1e-5 * 2.5e9 * lost);
+    EXPECT_NEAR(after.truth.false_relock_arcsec, 2.5e9 * lost * config.gyro.scale_arcsec, 1e-5 * 2.5e9 * lost);
 }
 
 TEST(TwinPerimeter, TheBeamThatStaysInTheOverlapIsTheOneThatWasStronger) {
@@ -174,8 +174,8 @@ TEST(TwinPerimeter, TheBeamThatStaysInTheOverlapIsTheOneThatWasStronger) {
 
 TEST(TwinPerimeter, WithoutTwoWayLightRotationIsNotCounted) {
     TwinConfig config = held_gyro();
-    config.bias_hz = 0.0;
-    config.nonmagnetic_arcsec_s = 1e5;
+    config.gyro.bias_hz = 0.0;
+    config.drift.nonmagnetic_arcsec_s = 1e5;
     Twin twin{config, Motion::sines(1e5, {})};
     const TwinHalf before = advance(twin, frame(true, 1, 170.0), 40).back();
     const TwinHalf after = advance(twin, frame(true, 1, 170.0), 10).back();
@@ -194,12 +194,12 @@ TwinHalf held(Twin& twin, int polarity, double set_point_v) {
 }
 
 TEST(TwinPerimeter, EverySwitchOutOfAModeThatIsHeldHasTheMissAskedForShortOfTheTarget) {
-    for (const LoopKind loop : {LoopKind::analog, LoopKind::exponential, LoopKind::external}) {
+    for (const Loop loop : {Loop::analog, Loop::exponential, Loop::digital}) {
         TwinConfig config = quiet_gyro();
-        config.loop = loop;
-        config.miss_lambda = 0.17;
-        config.expansion_lambda_per_c = 0.01;
-        config.thermal_time_s = 1e4;
+        config.perimeter.loop = loop;
+        config.perimeter.miss_lambda = 0.17;
+        config.perimeter.expansion_lambda_per_c = 0.01;
+        config.drift.thermal_time_s = 1e4;
         Twin twin{config, Motion::rest()};
         int polarity = 1;
         double from_v = 150.0;
@@ -221,10 +221,10 @@ TEST(TwinPerimeter, EverySwitchOutOfAModeThatIsHeldHasTheMissAskedForShortOfTheT
 
 // The mode ahead is not caught: the reference is against it, so that the processor sees no lock and goes back.
 TEST(TwinPerimeter, TheWayBackAndTheSecondAttemptHaveNoMissAndTheNextSwitchHasOneAgain) {
-    for (const LoopKind loop : {LoopKind::analog, LoopKind::exponential, LoopKind::external}) {
+    for (const Loop loop : {Loop::analog, Loop::exponential, Loop::digital}) {
         TwinConfig config = quiet_gyro();
-        config.loop = loop;
-        config.miss_lambda = 0.2;
+        config.perimeter.loop = loop;
+        config.perimeter.miss_lambda = 0.2;
         Twin twin{config, Motion::rest()};
         held(twin, 1, 150.0);
         EXPECT_NEAR(missed_by(twin, -1, 190.0), -0.2, 1e-3);
@@ -240,7 +240,7 @@ TEST(TwinPerimeter, TheWayBackAndTheSecondAttemptHaveNoMissAndTheNextSwitchHasOn
 
 TEST(TwinPerimeter, ASearchHasNoMiss) {
     TwinConfig config = held_gyro();
-    config.miss_lambda = 0.2;
+    config.perimeter.miss_lambda = 0.2;
     Twin twin{config, Motion::rest()};
     held(twin, 1, 150.0);
     EXPECT_NEAR(missed_by(twin, -1, 190.0), -0.2, 1e-3);
@@ -256,7 +256,7 @@ TEST(TwinPerimeter, ASearchHasNoMiss) {
 
 TEST(TwinPerimeter, TheInjectedErrorOfAnExternalLoopStaysUntilTheNextOpening) {
     TwinConfig config = held_gyro();
-    config.miss_lambda = 0.2;
+    config.perimeter.miss_lambda = 0.2;
     Twin twin{config, Motion::rest()};
     advance(twin, frame(false, -1, 190.0), 6);
     advance(twin, frame(true, -1, 190.0), 10);
@@ -267,9 +267,9 @@ TEST(TwinPerimeter, TheInjectedErrorOfAnExternalLoopStaysUntilTheNextOpening) {
 
 TEST(TwinPerimeter, WithoutAnInjectedMissTheLoopClosesWhereTheVoltageIs) {
     TwinConfig config = quiet_gyro();
-    config.miss_lambda = 0.0;
-    config.tau_s = 1e9;
-    config.dac_bits = 24;
+    config.perimeter.miss_lambda = 0.0;
+    config.perimeter.tau_s = 1e9;
+    config.piezo.dac_bits = 24;
     const TwinHalf half = relocked(config, 186.0, 1).back();
     const double settled_v = 186.0 - 4.0 * std::exp(-(15.0 - 8.0));
     EXPECT_NEAR(half.truth.detuning_end_lambda, (settled_v - 190.0) / 80.0, 1e-6);
@@ -280,11 +280,11 @@ TEST(TwinPerimeter, WithoutAnInjectedMissTheLoopClosesWhereTheVoltageIs) {
 TEST(TwinPerimeter, WhereTheMissLiesOutOfRangeTheNextModeOfThatHelicityTakesIt) {
     for (const double longer : {0.06, -0.06}) {
         TwinConfig config = quiet_gyro();
-        config.range_max_v = 80.0;
-        config.tau_s = 1e9;
-        config.miss_lambda = 0.02;
-        config.expansion_lambda_per_c = longer / config.temperature_rise_c;
-        config.thermal_time_s = 0.01;
+        config.piezo.range_max_v = 80.0;
+        config.perimeter.tau_s = 1e9;
+        config.perimeter.miss_lambda = 0.02;
+        config.perimeter.expansion_lambda_per_c = longer / config.gyro.temperature_rise_c;
+        config.drift.thermal_time_s = 0.01;
         Twin twin{config, Motion::rest()};
         EXPECT_NEAR(advance(twin, frame(true, 1), 100).back().truth.detuning_end_lambda, longer, 1e-4);
         advance(twin, frame(false, -1, longer > 0.0 ? 0.0 : 80.0), 12);
@@ -296,7 +296,7 @@ TEST(TwinPerimeter, WhereTheMissLiesOutOfRangeTheNextModeOfThatHelicityTakesIt) 
 
 TEST(TwinPerimeter, TheMissIsAimedAnewWhenTheReferenceTurnsAfterTheOpening) {
     TwinConfig config = quiet_gyro();
-    config.tau_s = 1e9;
+    config.perimeter.tau_s = 1e9;
     Twin twin{config, Motion::rest()};
     advance(twin, frame(false, 1, 150.0), 2);
     EXPECT_NEAR(advance(twin, frame(false, -1, 110.0), 16).back().truth.detuning_end_lambda, 0.22, 1e-3);
@@ -305,7 +305,7 @@ TEST(TwinPerimeter, TheMissIsAimedAnewWhenTheReferenceTurnsAfterTheOpening) {
 
 TEST(TwinPerimeter, AnExternalMoveInSeveralStepsKeepsItsMissToo) {
     TwinConfig config = held_gyro();
-    config.miss_lambda = 0.2;
+    config.perimeter.miss_lambda = 0.2;
     Twin twin{config, Motion::rest()};
     advance(twin, frame(false, -1, 160.0), 2);
     advance(twin, frame(false, -1, 190.0), 12);
@@ -315,11 +315,11 @@ TEST(TwinPerimeter, AnExternalMoveInSeveralStepsKeepsItsMissToo) {
 }
 
 TEST(TwinPerimeter, AClosingBeforeTheMoveIsDoneStillHasTheMissOfTheModeAhead) {
-    for (const LoopKind loop : {LoopKind::analog, LoopKind::external}) {
+    for (const Loop loop : {Loop::analog, Loop::digital}) {
         TwinConfig config = quiet_gyro();
-        config.loop = loop;
-        config.tau_s = 1e9;
-        config.miss_lambda = 0.2;
+        config.perimeter.loop = loop;
+        config.perimeter.tau_s = 1e9;
+        config.perimeter.miss_lambda = 0.2;
         Twin twin{config, Motion::rest()};
         // 10 V of the 40 V to the mode ahead.
         advance(twin, frame(false, -1, 190.0), 1);

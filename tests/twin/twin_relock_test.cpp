@@ -13,8 +13,8 @@ namespace {
 
 TEST(TwinRelock, WithTheWrongReferenceTheLoopPushesAway) {
     TwinConfig config = quiet_gyro();
-    config.miss_lambda = 0.0;
-    config.dac_bits = 24;
+    config.perimeter.miss_lambda = 0.0;
+    config.piezo.dac_bits = 24;
     Twin right{config, Motion::rest()};
     Twin wrong{config, Motion::rest()};
     advance(right, frame(false, 1, 150.8), 20);
@@ -25,7 +25,7 @@ TEST(TwinRelock, WithTheWrongReferenceTheLoopPushesAway) {
 
 TEST(TwinRelock, BetweenTheModesTheLoopHoldsWhatItHas) {
     TwinConfig config = quiet_gyro();
-    config.miss_lambda = 0.0;
+    config.perimeter.miss_lambda = 0.0;
     Twin twin{config, Motion::rest()};
     const double dark_v = advance(twin, frame(false, 1, 150.0 + 0.245 * 80.0), 40).back().truth.perimeter_v;
     const TwinHalf later = advance(twin, frame(true, 1), 100).back();
@@ -36,7 +36,7 @@ TEST(TwinRelock, BetweenTheModesTheLoopHoldsWhatItHas) {
 // The mode lies 10 V beyond the range; a loop that had gone on integrating would need the same time to come back.
 TEST(TwinRelock, AtTheEndOfTheRangeTheIntegratorDoesNotWindUp) {
     TwinConfig config = quiet_gyro();
-    config.miss_lambda = 0.0;
+    config.perimeter.miss_lambda = 0.0;
     Twin twin{config, Motion::rest()};
     advance(twin, frame(false, 1, 300.0), 60);
     EXPECT_NEAR(advance(twin, frame(true, 1), 400).back().truth.perimeter_v, 300.0, 1e-9);
@@ -45,11 +45,11 @@ TEST(TwinRelock, AtTheEndOfTheRangeTheIntegratorDoesNotWindUp) {
 
 TEST(TwinRelock, UnderASteadyExpansionTheLoopLagsByItsTimeConstant) {
     TwinConfig config = quiet_gyro();
-    config.expansion_lambda_per_c = 0.025;
-    config.thermal_time_s = 100.0;
+    config.perimeter.expansion_lambda_per_c = 0.025;
+    config.drift.thermal_time_s = 100.0;
     Twin twin{config, Motion::rest()};
     const double lag = advance(twin, frame(true, 1), 800).back().truth.detuning_end_lambda;
-    const double expected = config.tau_s * 0.5 / 100.0 * std::exp(-2.0 / 100.0);
+    const double expected = config.perimeter.tau_s * 0.5 / 100.0 * std::exp(-2.0 / 100.0);
     EXPECT_NEAR(lag, expected, 1e-3 * expected);
 }
 
@@ -67,8 +67,8 @@ TEST(TwinRelock, TheFalseDriftAfterRelockDecaysAsMeasured) {
 
 TEST(TwinRelock, WithoutTheHighVoltageLagTheFirstTickIsLargerAndTheThirdSmaller) {
     TwinConfig config = quiet_gyro();
-    config.rc_s = 2e-6;
-    config.slew_v_s = 1e6;
+    config.piezo.rc_s = 2e-6;
+    config.piezo.slew_v_s = 1e6;
     const std::vector<double> drift = false_drift_deg_h(relocked(config, 190.0, 8), 0.005);
     EXPECT_NEAR(drift[0], 4523.0, 0.03 * 4523.0);
     EXPECT_NEAR(drift[1], 2832.0, 0.03 * 2832.0);
@@ -78,9 +78,9 @@ TEST(TwinRelock, WithoutTheHighVoltageLagTheFirstTickIsLargerAndTheThirdSmaller)
 
 TEST(TwinRelock, ASmallMissGivesAFalseAngleThatGrowsWithItsSquare) {
     TwinConfig config = quiet_gyro();
-    config.miss_lambda = 0.01;
+    config.perimeter.miss_lambda = 0.01;
     const std::vector<double> small = false_drift_deg_h(relocked(config, 190.0, 8), 0.005);
-    config.miss_lambda = 0.03;
+    config.perimeter.miss_lambda = 0.03;
     const std::vector<double> large = false_drift_deg_h(relocked(config, 190.0, 8), 0.005);
     for (std::size_t tick = 0; tick < small.size(); ++tick) EXPECT_NEAR(large[tick] / small[tick], 9.0, 1e-6);
 }
@@ -88,16 +88,17 @@ TEST(TwinRelock, ASmallMissGivesAFalseAngleThatGrowsWithItsSquare) {
 // dOm_i = chi f0 dl0^2 (tau/2T) q^(2(i-1)) (1 - q)^2, q = exp(-T/tau), for reversals that take no time.
 TEST(TwinRelock, TheExponentialLoopGivesTheClosedForm) {
     TwinConfig config = quiet_gyro();
-    config.loop = LoopKind::exponential;
-    config.tau_s = 3.5 * 0.005;
-    config.bias_edge_s = 0.0;
-    config.expansion_lambda_per_c = 0.025;
+    config.perimeter.loop = Loop::exponential;
+    config.perimeter.tau_s = 3.5 * 0.005;
+    config.gyro.bias_edge_s = 0.0;
+    config.perimeter.expansion_lambda_per_c = 0.025;
     const std::vector<double> drift = false_drift_deg_h(relocked(config, 190.0, 40), 0.005);
     const double q = std::exp(-1.0 / 3.5);
     for (std::size_t tick = 0; tick < drift.size(); ++tick) {
         const double expected_hz = 3.6 * 60e3 * 0.22 * 0.22 * (3.5 / 2.0) *
                                    std::pow(q, 2.0 * static_cast<double>(tick)) * (1.0 - q) * (1.0 - q);
-        EXPECT_NEAR(drift[tick], config.scale_arcsec * expected_hz, 1e-7 * config.scale_arcsec * expected_hz + 1e-9);
+        EXPECT_NEAR(drift[tick], config.gyro.scale_arcsec * expected_hz,
+                    1e-7 * config.gyro.scale_arcsec * expected_hz + 1e-9);
     }
 }
 
@@ -108,15 +109,15 @@ public:
 
     // False angle of each half after a closing at -miss.
     [[nodiscard]] std::vector<double> false_arcsec(int n_halves, int first_sign) {
-        dl_ = -c_.miss_lambda;
+        dl_ = -c_.perimeter.miss_lambda;
         command_ = dl_;
-        const double plateau_hz = c_.bias_hz / (1.0 - c_.bias_edge_s / c_.tick_s);
+        const double plateau_hz = c_.gyro.bias_hz / (1.0 - c_.gyro.bias_edge_s / c_.gyro.tick_s);
         std::vector<double> result;
         for (int h = 0; h < n_halves; ++h) {
             const double start_sq = dl_ * dl_;
             double integral = 0.0;
             const int n = 5000;
-            const double dt = 0.5 * c_.tick_s / n;
+            const double dt = 0.5 * c_.gyro.tick_s / n;
             for (int k = 0; k < n; ++k) {
                 const double a = dl_ * dl_;
                 move(0.5 * dt);
@@ -124,22 +125,22 @@ public:
                 move(0.5 * dt);
                 integral += dt / 6.0 * (a + 4.0 * b + dl_ * dl_);
             }
-            integral -= 0.25 * c_.bias_edge_s * (start_sq + dl_ * dl_);
-            result.push_back(-(h % 2 == 0 ? first_sign : -first_sign) * c_.scale_arcsec * plateau_hz * c_.bias_chi *
-                             integral);
+            integral -= 0.25 * c_.gyro.bias_edge_s * (start_sq + dl_ * dl_);
+            result.push_back(-(h % 2 == 0 ? first_sign : -first_sign) * c_.gyro.scale_arcsec * plateau_hz *
+                             c_.gyro.bias_chi * integral);
         }
         return result;
     }
 
 private:
     void move(double dt) {
-        const double kp = 0.5 / c_.half_wave_v;
+        const double kp = 0.5 / c_.piezo.half_wave_v;
         const auto command_rate = [&](double dl) {
-            return -std::min(std::max(dl, -c_.limit_lambda), c_.limit_lambda) / c_.tau_s;
+            return -std::min(std::max(dl, -c_.perimeter.limit_lambda), c_.perimeter.limit_lambda) / c_.perimeter.tau_s;
         };
         const auto dl_rate = [&](double command, double dl) {
-            const double slew = kp * c_.slew_v_s;
-            return std::min(std::max((command - dl) / c_.rc_s, -slew), slew);
+            const double slew = kp * c_.piezo.slew_v_s;
+            return std::min(std::max((command - dl) / c_.piezo.rc_s, -slew), slew);
         };
         const double c1 = command_rate(dl_);
         const double d1 = dl_rate(command_, dl_);
@@ -161,7 +162,7 @@ private:
 TEST(TwinRelock, TheFalseAngleAgreesWithBruteForceToAMillionth) {
     for (const double slew_v_s : {4000.0, 800.0}) {
         TwinConfig config = quiet_gyro();
-        config.slew_v_s = slew_v_s;
+        config.piezo.slew_v_s = slew_v_s;
         const std::vector<TwinHalf> halves = relocked(config, 190.0, 16);
         // In mode -1 the bias of the first half, +1, counts with the opposite sign.
         const std::vector<double> expected = BruteForce{config}.false_arcsec(16, -1);

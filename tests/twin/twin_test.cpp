@@ -47,9 +47,9 @@ TEST(Twin, AtRestTheBiasCancelsOverEveryTick) {
 TEST(Twin, TheMeanBiasOverAHalfIsTheOneAskedForWhateverTheEdges) {
     for (const double edge_s : {0.0, 50e-6, 2e-3}) {
         TwinConfig config = quiet_gyro();
-        config.bias_hz = 1e12;
-        config.bias_edge_s = edge_s;
-        config.first_bias_sign = -1;
+        config.gyro.bias_hz = 1e12;
+        config.gyro.bias_edge_s = edge_s;
+        config.gyro.first_bias_sign = -1;
         Twin twin{config, Motion::rest()};
         const TwinHalf first = twin.advance(frame(true, 1));
         EXPECT_NEAR(static_cast<double>(static_cast<std::int64_t>(first.sensor.counter)), -2.5e9, 1.0);
@@ -59,7 +59,7 @@ TEST(Twin, TheMeanBiasOverAHalfIsTheOneAskedForWhateverTheEdges) {
 
 TEST(Twin, TheFreeRunningCounterLosesNothingInAnHour) {
     TwinConfig config = quiet_gyro();
-    config.light_samples = 13;
+    config.gyro.light_samples = 13;
     const double rate_arcsec_s = -1234.567;
     Twin twin{config, Motion::sines(rate_arcsec_s, {})};
     long double told_arcsec = 0.0L;  // 1.4 million additions
@@ -68,40 +68,41 @@ TEST(Twin, TheFreeRunningCounterLosesNothingInAnHour) {
         const TwinHalf half = twin.advance(frame(true, 1));
         told_arcsec += half.truth.dtheta_arcsec;
         const double counted_arcsec =
-            static_cast<double>(static_cast<std::int64_t>(half.sensor.counter)) * config.scale_arcsec;
-        ASSERT_LE(std::abs(counted_arcsec - rate_arcsec_s * tick * 0.005), config.scale_arcsec) << tick;
+            static_cast<double>(static_cast<std::int64_t>(half.sensor.counter)) * config.gyro.scale_arcsec;
+        ASSERT_LE(std::abs(counted_arcsec - rate_arcsec_s * tick * 0.005), config.gyro.scale_arcsec) << tick;
     }
     EXPECT_NEAR(static_cast<double>(told_arcsec), rate_arcsec_s * 3600.0, 1e-6);
 }
 
 TEST(Twin, MagneticDriftFlipsWithHelicityAndTheNonmagneticDoesNot) {
     TwinConfig config = quiet_gyro();
-    config.magnetic_arcsec_s = 3000.0;
-    config.nonmagnetic_arcsec_s = 1000.0;
-    config.miss_lambda = 0.0;
+    config.drift.magnetic_arcsec_s = 3000.0;
+    config.drift.nonmagnetic_arcsec_s = 1000.0;
+    config.perimeter.miss_lambda = 0.0;
     Twin twin{config, Motion::rest()};
     const auto rate = [&](int polarity, double set_point_v) {
         advance(twin, frame(false, polarity, set_point_v), 12);
         const TwinHalf before = advance(twin, frame(true, polarity), 200).back();
         const TwinHalf after = advance(twin, frame(true, polarity), 400).back();
-        return static_cast<double>(count_between(before, after)) * config.scale_arcsec / 1.0;
+        return static_cast<double>(count_between(before, after)) * config.gyro.scale_arcsec / 1.0;
     };
-    EXPECT_NEAR(rate(1, 150.0), 4000.0, config.scale_arcsec);
-    EXPECT_NEAR(rate(-1, 190.0), -2000.0, config.scale_arcsec);
-    EXPECT_NEAR(rate(1, 150.0), 4000.0, config.scale_arcsec);
+    EXPECT_NEAR(rate(1, 150.0), 4000.0, config.gyro.scale_arcsec);
+    EXPECT_NEAR(rate(-1, 190.0), -2000.0, config.gyro.scale_arcsec);
+    EXPECT_NEAR(rate(1, 150.0), 4000.0, config.gyro.scale_arcsec);
 }
 
 TEST(Twin, MagneticDriftAndPerimeterWarmUpByTheThermalLaw) {
     TwinConfig config = quiet_gyro();
-    config.magnetic_arcsec_s = 500.0;
-    config.magnetic_thermal_arcsec_s = 2000.0;
-    config.thermal_time_s = 0.7;
-    config.expansion_lambda_per_c = 0.025;
+    config.drift.magnetic_arcsec_s = 500.0;
+    config.drift.magnetic_thermal_arcsec_s = 2000.0;
+    config.drift.thermal_time_s = 0.7;
+    config.perimeter.expansion_lambda_per_c = 0.025;
     Twin twin{config, Motion::rest()};
     const TwinHalf last = advance(twin, frame(true, 1), 800).back();
     const double risen = 1.0 - std::exp(-2.0 / 0.7);
     const double angle = 500.0 * 2.0 + 2000.0 * (2.0 - 0.7 * risen);
-    EXPECT_NEAR(static_cast<double>(last.sensor.counter) * config.scale_arcsec, angle, 2.0 * config.scale_arcsec);
+    EXPECT_NEAR(static_cast<double>(last.sensor.counter) * config.gyro.scale_arcsec, angle,
+                2.0 * config.gyro.scale_arcsec);
     EXPECT_NEAR(last.sensor.temperature_c, 20.0 + 20.0 * risen, 1e-12);
     // The loop takes back what the block expands; it lags by the growth over its time constant.
     EXPECT_NEAR(last.truth.perimeter_v, 150.0 - 0.5 * risen * 80.0, 0.1);
@@ -110,9 +111,9 @@ TEST(Twin, MagneticDriftAndPerimeterWarmUpByTheThermalLaw) {
 
 TEST(Twin, BiasFollowsTheTemperature) {
     TwinConfig config = quiet_gyro();
-    config.bias_hz = 1e9;
-    config.bias_temperature_coefficient_per_c = -5e-4;
-    config.thermal_time_s = 1e-3;
+    config.gyro.bias_hz = 1e9;
+    config.gyro.bias_temperature_coefficient_per_c = -5e-4;
+    config.drift.thermal_time_s = 1e-3;
     Twin twin{config, Motion::rest()};
     const std::vector<TwinHalf> halves = advance(twin, frame(true, 1), 42);
     EXPECT_NEAR(std::abs(static_cast<double>(count_between(halves[40], halves[41]))), 2.5e6 * (1.0 - 5e-4 * 20.0), 1.0);
@@ -120,13 +121,13 @@ TEST(Twin, BiasFollowsTheTemperature) {
 
 TEST(Twin, RandomWalkGrowsWithTheRootOfTime) {
     TwinConfig config = quiet_gyro();
-    config.random_walk_arcsec_sqrt_s = 1000.0;
+    config.drift.random_walk_arcsec_sqrt_s = 1000.0;
     Twin twin{config, Motion::rest()};
     TwinHalf before = advance(twin, frame(true, 1), 40).back();
     std::vector<double> angles;
     for (int k = 0; k < 1000; ++k) {
         const TwinHalf after = advance(twin, frame(true, 1), 40).back();
-        angles.push_back(static_cast<double>(count_between(before, after)) * config.scale_arcsec);
+        angles.push_back(static_cast<double>(count_between(before, after)) * config.gyro.scale_arcsec);
         before = after;
     }
     const Moments m = moments(angles);
@@ -138,7 +139,7 @@ TEST(Twin, RandomWalkGrowsWithTheRootOfTime) {
 
 TEST(Twin, ALightSampleHasTheNoiseAskedForAndNoMemory) {
     TwinConfig config = quiet_gyro();
-    config.light_noise_lambda = 0.0033;
+    config.gyro.light_noise_lambda = 0.0033;
     Twin twin{config, Motion::rest()};
     std::vector<double> detunings;
     for (int h = 0; h < 1000; ++h) {
@@ -148,7 +149,7 @@ TEST(Twin, ALightSampleHasTheNoiseAskedForAndNoMemory) {
         for (std::size_t k = 0; k < 16; ++k) {
             const double a = static_cast<double>(sensor.light_a[k]);
             const double b = static_cast<double>(sensor.light_b[k]);
-            detunings.push_back(sensor.bias_sign * (a - b) / (a + b) / config.discriminator_per_lambda);
+            detunings.push_back(sensor.bias_sign * (a - b) / (a + b) / config.gyro.discriminator_per_lambda);
         }
     }
     const Moments m = moments(detunings);
@@ -159,8 +160,8 @@ TEST(Twin, ALightSampleHasTheNoiseAskedForAndNoMemory) {
 
 TEST(Twin, ThePiezoReadingHasTheNoiseAndTheStepsOfItsConverter) {
     TwinConfig config = quiet_gyro();
-    config.adc_noise_v = 0.5;
-    config.adc_bits = 10;
+    config.piezo.adc_noise_v = 0.5;
+    config.piezo.adc_bits = 10;
     Twin twin{config, Motion::rest()};
     std::vector<double> readings;
     for (const TwinHalf& half : advance(twin, frame(true, 1), 4000)) {
@@ -175,8 +176,8 @@ TEST(Twin, ThePiezoReadingHasTheNoiseAndTheStepsOfItsConverter) {
 
 TEST(Twin, FramesAreNumberedStampedAndEchoWhatWasInForce) {
     TwinConfig config = quiet_gyro();
-    config.first_bias_sign = -1;
-    config.light_samples = 5;
+    config.gyro.first_bias_sign = -1;
+    config.gyro.light_samples = 5;
     Twin twin{config, Motion::rest()};
     for (std::uint32_t h = 0; h < 20; ++h) {
         const bool closed = h % 3 != 0;
@@ -217,8 +218,8 @@ TEST(Twin, TheSameSeedGivesTheSameBitsAndAnotherSeedOthers) {
 
 TEST(Twin, NoisesOfDifferentCauseHaveNothingInCommon) {
     TwinConfig config = quiet_gyro();
-    config.random_walk_arcsec_sqrt_s = 1e4;
-    config.adc_noise_v = 1.0;
+    config.drift.random_walk_arcsec_sqrt_s = 1e4;
+    config.piezo.adc_noise_v = 1.0;
     Twin twin{config, Motion::rest()};
     TwinHalf before = twin.advance(frame(true, 1));
     std::vector<double> product;
@@ -226,7 +227,7 @@ TEST(Twin, NoisesOfDifferentCauseHaveNothingInCommon) {
         const TwinHalf after = twin.advance(frame(true, 1));
         const double bias_counts = 150.0 * after.sensor.bias_sign;
         const double walk =
-            (static_cast<double>(count_between(before, after)) - bias_counts) * config.scale_arcsec / 500.0;
+            (static_cast<double>(count_between(before, after)) - bias_counts) * config.gyro.scale_arcsec / 500.0;
         product.push_back(walk * (after.sensor.piezo_v - 150.0));
         before = after;
     }
@@ -238,8 +239,8 @@ TEST(Twin, NoisesOfDifferentCauseHaveNothingInCommon) {
 TEST(Twin, SwitchingOneNoiseOffDoesNotShiftAnother) {
     TwinConfig config;
     Twin noisy{config, Motion::rest()};
-    config.random_walk_arcsec_sqrt_s = 0.0;
-    config.adc_noise_v = 0.0;
+    config.drift.random_walk_arcsec_sqrt_s = 0.0;
+    config.piezo.adc_noise_v = 0.0;
     Twin partly{config, Motion::rest()};
     for (int h = 0; h < 20; ++h) {
         EXPECT_EQ(noisy.advance(frame(true, 1)).sensor.light_a, partly.advance(frame(true, 1)).sensor.light_a);

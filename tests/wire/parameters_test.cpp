@@ -57,7 +57,7 @@ TEST(Parameters, AreWhereTheirNamesSay) {
     (void)put_parameter(s, 0x0506, 0.031);
     EXPECT_EQ(s.control.mode_switch.lock_tolerance.value(), 0.031);
     (void)put_parameter(s, 0x1005, 61e3);
-    EXPECT_EQ(s.compensation.relock.bias.value(), 61e3);
+    EXPECT_EQ(s.compensation.gyro.bias.value(), 61e3);
     (void)put_parameter(s, 0x0704, 1.0);
     EXPECT_TRUE(s.control.counter_monitor.watches);
 }
@@ -69,14 +69,17 @@ TEST(Parameters, WhatMustAgreeIsPutTogether) {
     EXPECT_EQ(s.control.mode_switch.range, s.control.loop.range);
     EXPECT_EQ(s.control.stroke.range, s.control.loop.range);
     (void)put_parameter(s, 0x1004, 1.25);
-    EXPECT_EQ(s.compensation.relock.scale.value(), 1.25);
-    EXPECT_EQ(s.compensation.bridge.count.value(), 1.25);
-    EXPECT_EQ(s.compensation.bridge.optimal.counter_step.value(), 1.25);
-    EXPECT_EQ(s.compensation.magnetic.count.value(), 1.25);
+    EXPECT_EQ(s.compensation.gyro.scale.value(), 1.25);
     EXPECT_EQ(s.control.commutator.dither.scale_arcsec, 1.25);
-    (void)put_parameter(s, 0x1201, 0.5);
-    EXPECT_EQ(s.compensation.random_walk.value(), 0.5);
-    EXPECT_EQ(s.compensation.magnetic.walk.value(), 0.5);
+}
+
+// Every module of the compensation reads these constants in one place.
+TEST(Parameters, ConstantsOfTheGyroHaveOnePlace) {
+    GyroSettings s;
+    (void)put_parameter(s, 0x1009, 0.0125);
+    EXPECT_EQ(s.compensation.gyro.light_noise.value(), 0.0125);
+    (void)put_parameter(s, 0x1201, 0.25);
+    EXPECT_EQ(s.compensation.gyro.random_walk.value(), 0.25);
 }
 
 TEST(Parameters, WhatCannotBeTheValueIsRefusedAndNothingChanges) {

@@ -116,8 +116,8 @@ TEST(Status, OfTheCoreIsWhatTheCoreKnows) {
     state.schedule.held = true;
     state.temperature_c = 31.5;
     core::GyroCompensationConfig compensation;
-    compensation.relock.scale = core::Arcsec{1.5};
-    compensation.timer = core::Hertz{2e6};
+    compensation.gyro.scale = core::Arcsec{1.5};
+    compensation.gyro.timer = core::Hertz{2e6};
     const Status s = status_of(state, {}, compensation);
     EXPECT_EQ(s.tick, 4u);
     EXPECT_EQ(s.scale_arcsec, 1.5);

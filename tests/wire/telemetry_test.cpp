@@ -184,17 +184,17 @@ TEST(TelemetryOfATick, SumsUpWhatIsDeliveredAndWhatIsSettled) {
 
 TEST(TelemetryOfATick, TicksThatAreNotToldStayInTheSums) {
     TelemetryState whole;
-    TelemetryState told;
+    TelemetryState sent;
     TelemetryState skipped;
     for (int tick = 0; tick < 3; ++tick) {
         core::AngleSample one = sample(tick, 0.1 * (tick + 1));
         one.has_final = true;
         one.final_row = {.tick = tick, .dtheta_arcsec = -0.3, .dtheta_final_arcsec = 0.7};
         (void)telemetry_of(whole, one, {});
-        (void)telemetry_of(tick == 0 ? told : skipped, one, {});
+        (void)telemetry_of(tick == 0 ? sent : skipped, one, {});
     }
-    skip(told, skipped);
-    EXPECT_EQ(told, whole);
+    skip(sent, skipped);
+    EXPECT_EQ(sent, whole);
 }
 
 TEST(TelemetryOfATick, AfterTheLastOneOnlyTheSettledRowGoesOn) {

@@ -1,107 +1,53 @@
 // Every method of compensation against the bound: tables in Markdown to stdout, and with --out a page.
 //
-// usage: zlg_accuracy [--quick] [--share R] [--long] [--out DIR] [--seed N] [--threads N]
-//                     [--motion FILE [--columns 1,2,3] [--rate-hz R] [--scale ARCSEC] [--count ARCSEC] [--holds-rate]
-//                      [--comment TEXT] [--skip-lines N]]...
-//
 // The number of threads changes no figure. Exit 1 where a criterion is not met.
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
-#include <exception>
 #include <filesystem>
-#include <iostream>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
+#include <type_traits>
 
 #include <zlg/logs/table_file.hpp>
-#include <zlg/report/page.hpp>
 #include <zlg/trials/accuracy.hpp>
+
+#include "command.hpp"
 
 namespace {
 
 using namespace zlg;
 
-struct Call {
-    trials::AccuracyTask task;
-    std::string out;
-};
-
-double number(std::string_view option, std::string_view text) {
-    double x = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (error != std::errc{} || end != text.data() + text.size())
-        throw std::invalid_argument(fmt::format("{}: '{}', allowed is a number", option, text));
-    return x;
-}
-
-std::vector<int> numbers(std::string_view option, std::string_view text) {
-    std::vector<int> all;
-    while (!text.empty()) {
-        const std::size_t length = std::min(text.find(','), text.size());
-        all.push_back(static_cast<int>(number(option, text.substr(0, length))));
-        text.remove_prefix(std::min(length + 1, text.size()));
-    }
-    return all;
-}
-
-bool take_of_motion(trials::Recording& r, std::string_view option, std::string_view value) {
-    if (option == "--columns")
-        r.columns = numbers(option, value);
-    else if (option == "--rate-hz")
-        r.rate_hz = number(option, value);
-    else if (option == "--scale")
-        r.scale_arcsec = number(option, value);
-    else if (option == "--count")
-        r.count_arcsec = number(option, value);
-    else if (option == "--comment")
-        r.comment = value;
-    else if (option == "--skip-lines")
-        r.skip_lines = static_cast<int>(number(option, value));
-    else
-        return false;
-    return true;
-}
-
-bool take(Call& call, std::string_view option, std::string_view value) {
-    std::vector<trials::Recording>& recordings = call.task.recordings;
-    if (option == "--out")
-        call.out = value;
-    else if (option == "--share")
-        call.task.share = number(option, value);
-    else if (option == "--seed")
-        call.task.seed = static_cast<std::uint64_t>(number(option, value));
-    else if (option == "--threads")
-        call.task.threads = static_cast<int>(number(option, value));
-    else if (option == "--motion")
-        recordings.push_back({.name = std::filesystem::path{value}.filename().string(), .path = std::string{value}});
-    else
-        return !recordings.empty() && take_of_motion(recordings.back(), option, value);
-    return true;
-}
-
-Call call_of(int argc, char** argv) {
-    Call call;
-    for (int k = 1; k < argc; ++k) {
-        const std::string_view option = argv[k];
-        if (option == "--quick") {
-            call.task.quick = true;
-        } else if (option == "--long") {
-            call.task.long_runs = true;
-        } else if (option == "--holds-rate" && !call.task.recordings.empty()) {
-            call.task.recordings.back().holds_rate = true;
-        } else if (k + 1 < argc && take(call, option, argv[k + 1])) {
-            ++k;
-        } else {
-            throw std::invalid_argument(fmt::format("argument '{}' is not known here or lacks its value", option));
-        }
-    }
-    return call;
+// Options of a motion are of the file named last.
+void add_motion_options(CLI::App& app, std::vector<trials::Recording>& recordings) {
+    const auto of_last = [&](const char* name, auto trials::Recording::*member, const char* what) {
+        using Value = std::remove_reference_t<decltype(recordings.back().*member)>;
+        return app
+            .add_option_function<Value>(
+                name,
+                [&recordings, member, name](const Value& value) {
+                    if (recordings.empty()) throw CLI::RequiresError(name, "--motion");
+                    recordings.back().*member = value;
+                },
+                what)
+            ->trigger_on_parse();
+    };
+    app.add_option_function<std::string>(
+           "--motion",
+           [&](const std::string& path) {
+               recordings.push_back({.name = std::filesystem::path{path}.filename().string(), .path = path});
+           },
+           "a recording; the options below are of the one named last")
+        ->trigger_on_parse();
+    of_last("--columns", &trials::Recording::columns, "the first is 1")->delimiter(',');
+    of_last("--rate-hz", &trials::Recording::rate_hz, "rows a second");
+    of_last("--scale", &trials::Recording::scale_arcsec, "arcsec of a unit of the column");
+    of_last("--count", &trials::Recording::count_arcsec, "arcsec of a count of the counter that reads it");
+    of_last("--comment", &trials::Recording::comment, "first character of a line to leave out");
+    of_last("--skip-lines", &trials::Recording::skip_lines, "lines to leave out first");
+    app.add_flag_callback("--holds-rate",
+                          [&] {
+                              if (recordings.empty()) throw CLI::RequiresError("--holds-rate", "--motion");
+                              recordings.back().holds_rate = true;
+                          })
+        ->trigger_on_parse();
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -110,40 +56,38 @@ void write(const std::filesystem::path& path, const std::string& text) {
     file.close();
 }
 
-int run(Call call) {
-    int shown = -1;
-    call.task.on_progress = [&](double share) {
+void show_progress(trials::AccuracyTask& task) {
+    task.on_progress = [shown = -1](double share) mutable {
         const int percent = static_cast<int>(100.0 * share);
-        if (percent >= shown + 5) std::cerr << fmt::format("{} %\n", shown = percent);
+        if (percent >= shown + 5) fmt::print(stderr, "{} %\n", shown = percent);
     };
-    const trials::Accuracy accuracy = trials::measure_accuracy(call.task);
+}
+
+int run(const trials::AccuracyTask& task, const std::filesystem::path& out) {
+    const trials::Accuracy accuracy = trials::measure_accuracy(task);
     const std::string text = trials::markdown(accuracy);
     fmt::print("{}", text);
-    if (!call.out.empty()) {
-        std::filesystem::create_directories(call.out);
-        write(std::filesystem::path{call.out} / "accuracy.md", text);
-        write(std::filesystem::path{call.out} / "accuracy.html", report::html(trials::accuracy_page(accuracy)));
+    if (!out.empty()) {
+        std::filesystem::create_directories(out);
+        write(out / "accuracy.md", text);
+        write(out / "accuracy.html", report::html(trials::accuracy_page(accuracy)));
     }
-    return std::ranges::all_of(accuracy.criteria,
-                               [](const trials::Criterion& c) { return c.verdict != trials::Verdict::missed; })
-               ? 0
-               : 1;
+    return std::ranges::count(accuracy.criteria, trials::Verdict::missed, &trials::Criterion::verdict) == 0 ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    Call call;
-    try {
-        call = call_of(argc, argv);
-    } catch (const std::exception& error) {
-        std::cerr << "zlg_accuracy: " << error.what() << "\n";
-        return 2;
-    }
-    try {
-        return run(call);
-    } catch (const std::exception& error) {
-        std::cerr << "zlg_accuracy: " << error.what() << "\n";
-        return 3;
-    }
+    trials::AccuracyTask task;
+    std::string out;
+    CLI::App app{"Every method of compensation against the bound", "zlg_accuracy"};
+    app.add_flag("--quick", task.quick, "a tenth of the trials, without the grid (b)");
+    app.add_option("--share", task.share, "of the trials of each case")->check(CLI::PositiveNumber);
+    app.add_flag("--long", task.long_runs, "the twin in closed loop over 36 000 s too");
+    app.add_option("--out", out, "folder for accuracy.md and accuracy.html");
+    app.add_option("--seed", task.seed);
+    app.add_option("--threads", task.threads)->check(CLI::PositiveNumber);
+    add_motion_options(app, task.recordings);
+    show_progress(task);
+    return trials::run_command(app, argc, argv, [&] { return run(task, out); });
 }

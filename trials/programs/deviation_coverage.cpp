@@ -1,8 +1,6 @@
 // How often the intervals of a deviation contain the truth, for each kind of deviation and of noise, from the longest averaging
 // time down, with the type of the noise given and identified.
 //
-// usage: zlg_deviation_coverage [RECORDS [SAMPLES [all]]]       default 10000 records of 256 samples
-//
 // Printed are the smallest and the largest share over the averaging times, with `all` every one, and the worst. Exit 1 where
 // one, the noise given, is more than 3 % beside its confidence, by more than three standard errors of so many records.
 
@@ -11,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <complex>
-#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -20,26 +17,25 @@
 
 #include <unsupported/Eigen/FFT>
 
-#include <fmt/format.h>
 #include <zlg/deviations/averaging.hpp>
 #include <zlg/deviations/deviation.hpp>
 #include <zlg/deviations/deviation_confidence.hpp>
 #include <zlg/numeric/draw.hpp>
 
+#include "command.hpp"
+
 namespace {
 
 using namespace zlg::deviations;
 
-constexpr std::array kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
-                           DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
-                           DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev};
 constexpr std::array confidences{0.68, 0.90, 0.95, 0.99};
 constexpr std::array lengths_over_tau{2.1, 2.22, 2.25, 2.28, 2.34, 2.5,  2.9,  3.0,  3.05, 3.1,  3.25, 3.5,  3.7,
                                       4.0, 4.2,  5.0,  6.3,  7.7,  10.0, 13.0, 16.0, 17.5, 20.0, 32.0, 64.0, 128.0};
 constexpr double allowed_percent = 3.0;
 
 // Records of rate noise f^noise: white noise through (1 - B)^(noise/2), for noise < 0 through (1 - B)^(noise/2 + 1) and a
-// running sum. Weights reach seven records back; what is cut off belongs to the law that is simulated.
+// running sum (Kasdin, Proc. IEEE 83, 1995, 802). Weights reach seven records back; what is cut off belongs to the law that is
+// simulated.
 class PowerLawNoise {
 public:
     PowerLawNoise(int noise, std::size_t samples, unsigned seed)
@@ -73,8 +69,7 @@ public:
                          sm = std::sin(std::numbers::pi * f * static_cast<double>(m));
             const double mean = sm / (static_cast<double>(m) * s), difference = 4.0 * sm * sm;
             double response = mean * mean * difference / 2.0;
-            if (kind == DeviationKind::mdev || kind == DeviationKind::tdev || kind == DeviationKind::mtotdev)
-                response *= mean * mean;
+            if (is_modified(kind)) response *= mean * mean;
             if (difference_order(kind) == 3) response *= difference / 3.0;
             if (is_summed_) response /= 4.0 * s * s;
             sum += std::norm(response_[k]) * response;
@@ -123,7 +118,7 @@ std::vector<std::int64_t> factors_of(DeviationKind kind, std::int64_t samples) {
         if (m >= 1 && m <= largest_factor(kind, samples)) factors.push_back(m);
     }
     std::ranges::sort(factors);
-    factors.erase(std::ranges::unique(factors).begin(), factors.end());
+    factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
     return factors;
 }
 
@@ -138,20 +133,22 @@ std::map<std::int64_t, int> identified_noise(const AngleRecord& record, Deviatio
 
 std::vector<std::vector<Cell>> simulate(int noise, std::int64_t records, std::int64_t samples) {
     PowerLawNoise source(noise, static_cast<std::size_t>(samples), 1);
-    std::vector<std::vector<Cell>> cells(kinds.size());
+    std::vector<std::vector<Cell>> cells(deviation_kinds.size());
     std::vector<std::vector<std::int64_t>> factors;
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
-        factors.push_back(factors_of(kinds[k], samples));
+    for (std::size_t k = 0; k < deviation_kinds.size(); ++k) {
+        factors.push_back(factors_of(deviation_kinds[k], samples));
         for (const auto m : factors[k])
-            cells[k].push_back(
-                {.kind = kinds[k], .m = m, .samples = samples, .truth = source.true_deviation(kinds[k], m)});
+            cells[k].push_back({.kind = deviation_kinds[k],
+                                .m = m,
+                                .samples = samples,
+                                .truth = source.true_deviation(deviation_kinds[k], m)});
     }
     for (std::int64_t r = 0; r < records; ++r) {
         const auto values = source.next();
         const AngleRecord record(Series{.what = {DataKind::rate, Unit::one, 1.0}, .values = values});
-        for (std::size_t k = 0; k < kinds.size(); ++k) {
-            const auto found = identified_noise(record, kinds[k], factors[k]);
-            const auto curve = deviation(record, kinds[k], factors[k], {.noise = noise});
+        for (std::size_t k = 0; k < deviation_kinds.size(); ++k) {
+            const auto found = identified_noise(record, deviation_kinds[k], factors[k]);
+            const auto curve = deviation(record, deviation_kinds[k], factors[k], {.noise = noise});
             for (std::size_t t = 0; t < factors[k].size(); ++t) {
                 Cell& cell = cells[k][t];
                 ++cell.all;
@@ -166,13 +163,14 @@ std::vector<std::vector<Cell>> simulate(int noise, std::int64_t records, std::in
     return cells;
 }
 
-struct Range {
-    double low = 100.0, high = 0.0;
-    void add(double percent) {
-        low = std::min(low, percent);
-        high = std::max(high, percent);
-    }
-};
+// The smallest and the largest percentage over the averaging times.
+template <class Percent>
+std::string range_text(const std::vector<Cell>& cells, const Percent& percent) {
+    std::vector<double> all;
+    for (const Cell& cell : cells) all.push_back(percent(cell));
+    const auto [low, high] = std::ranges::minmax(all);
+    return fmt::format(" {:.1f} .. {:.1f} |", low, high);
+}
 
 struct Worst {
     double beside = 0.0;  // percent
@@ -189,23 +187,19 @@ double chance_percent(double confidence, std::int64_t records) {
 void print_row(int noise, const std::vector<Cell>& cells, Worst& worst) {
     fmt::print("| {} | `{}` |", noise, name_of(cells.front().kind));
     for (std::size_t c = 0; c < confidences.size(); ++c) {
-        Range range;
+        const auto given = [&](const Cell& cell) { return cell.percent(cell.given[c]); };
         for (const Cell& cell : cells) {
-            const double percent = cell.percent(cell.given[c]), beside = std::abs(percent - 100.0 * confidences[c]);
-            range.add(percent);
+            const double beside = std::abs(given(cell) - 100.0 * confidences[c]);
             if (beside > allowed_percent + chance_percent(confidences[c], cell.all)) worst.is_good = false;
             if (beside <= worst.beside) continue;
             worst.beside = beside;
             worst.where = fmt::format("{} f^{} T/tau {:.3f}: {:.0f} % holds {:.2f} %", name_of(cell.kind), noise,
-                                      cell.length_over_tau(), 100.0 * confidences[c], percent);
+                                      cell.length_over_tau(), 100.0 * confidences[c], given(cell));
         }
-        fmt::print(" {:.1f} .. {:.1f} |", range.low, range.high);
+        fmt::print("{}", range_text(cells, given));
     }
-    for (const std::size_t c : {std::size_t{0}, std::size_t{2}}) {
-        Range range;
-        for (const Cell& cell : cells) range.add(cell.percent(cell.identified[c]));
-        fmt::print(" {:.1f} .. {:.1f} |", range.low, range.high);
-    }
+    for (const std::size_t c : {std::size_t{0}, std::size_t{2}})
+        fmt::print("{}", range_text(cells, [&](const Cell& cell) { return cell.percent(cell.identified[c]); }));
     fmt::print("\n");
 }
 
@@ -223,22 +217,25 @@ void print_cells(const std::vector<Cell>& cells) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::int64_t records = argc > 1 ? std::atoll(argv[1]) : 10000;
-    const std::int64_t samples = argc > 2 ? std::atoll(argv[2]) : 256;
-    if (records < 1 || samples < 32 || samples > 65536) {
-        fmt::print(stderr, "zlg_deviation_coverage: allowed is 1 or more records of 32 to 65536 samples\n");
-        return 2;
-    }
-    fmt::print("| noise | deviation |");
-    for (const double confidence : confidences) fmt::print(" {:.0f} %, given |", 100.0 * confidence);
-    fmt::print(" 68 %, identified | 95 %, identified |\n|---|---|---|---|---|---|---|---|\n");
-    Worst worst;
-    for (const int noise : {2, 1, 0, -1, -2})
-        for (const auto& cells : simulate(noise, records, samples)) {
-            print_row(noise, cells, worst);
-            if (argc > 3) print_cells(cells);
-        }
-    fmt::print("\nWorst: {}. {} records of {} samples; chance leaves {:.1f} % at 68 %.\n", worst.where, records,
-               samples, 100.0 * std::sqrt(0.68 * 0.32 / static_cast<double>(records)));
-    return worst.is_good ? 0 : 1;
+    std::int64_t records = 10'000;
+    std::int64_t samples = 256;
+    std::string which;
+    CLI::App app{"How often intervals of deviations contain the truth", "zlg_deviation_coverage"};
+    app.add_option("RECORDS", records)->check(CLI::PositiveNumber);
+    app.add_option("SAMPLES", samples, "of a record")->check(CLI::Range(32, 65536));
+    app.add_option("WHICH", which, "every averaging time too")->check(CLI::IsMember({"all"}));
+    return zlg::trials::run_command(app, argc, argv, [&] {
+        fmt::print("| noise | deviation |");
+        for (const double confidence : confidences) fmt::print(" {:.0f} %, given |", 100.0 * confidence);
+        fmt::print(" 68 %, identified | 95 %, identified |\n|---|---|---|---|---|---|---|---|\n");
+        Worst worst;
+        for (const int noise : {2, 1, 0, -1, -2})
+            for (const auto& cells : simulate(noise, records, samples)) {
+                print_row(noise, cells, worst);
+                if (which == "all") print_cells(cells);
+            }
+        fmt::print("\nWorst: {}. {} records of {} samples; chance leaves {:.1f} % at 68 %.\n", worst.where, records,
+                   samples, 100.0 * std::sqrt(0.68 * 0.32 / static_cast<double>(records)));
+        return worst.is_good ? 0 : 1;
+    });
 }

@@ -7,24 +7,24 @@
 // The drift is the rms, over seeds and over ends anywhere in the last two intervals of the run, of (final angle - true
 // angle - nm t)/t: random walk included, for it is there whatever the interval.
 //
-// usage: zlg_interval_campaign [SEEDS [FIRST LAST]]
-// SEEDS: 12 by default, two minutes of a core; gyros FIRST..LAST of 1..6.
+// With 12 seeds it takes two minutes of a core.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <initializer_list>
 #include <numbers>
 #include <vector>
 
-#include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/study/compensated_run.hpp>
 #include <zlg/study/design_study.hpp>
 #include <zlg/study/switch_trial.hpp>
+
+#include "command.hpp"
 
 namespace {
 
@@ -63,7 +63,7 @@ std::vector<config::Config> gyros() {
 // Mean square of the drift of one run.
 double drift_sq(config::Config c, double interval_s, std::int64_t seed) {
     c.switching.interval_s = interval_s;
-    c.run.seed = seed;
+    c.run.seed = static_cast<std::uint64_t>(seed);
     const double run_s = *c.run.duration_s;
     const auto ticks = static_cast<std::int64_t>(run_s / c.gyro.tick_s);
     const study::ErrorMeter meter = study::compensated_run(c, ticks, 20);
@@ -94,21 +94,17 @@ double rms_drift(const config::Config& c, double interval_s, std::int64_t seeds)
 double over_least(const std::vector<double>& lengths_s, const std::vector<double>& drifts, double best_s,
                   double walk_sq) {
     // Least squares with weights 1/drift^4: all drifts are known to the same part of themselves.
-    double aa = 0.0, ab = 0.0, bb = 0.0, ay = 0.0, by = 0.0;
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
     for (std::size_t k = 0; k < drifts.size(); ++k) {
         const double y = drifts[k] * drifts[k];
-        const double w = 1.0 / (y * y);
-        const double u = lengths_s[k] * lengths_s[k];
-        const double v = 1.0 / lengths_s[k];
-        aa += w * u * u;
-        ab += w * u * v;
-        bb += w * v * v;
-        ay += w * u * (y - walk_sq);
-        by += w * v * (y - walk_sq);
+        const Eigen::Vector2d terms{lengths_s[k] * lengths_s[k], 1.0 / lengths_s[k]};
+        normal += terms * terms.transpose() / (y * y);
+        right += terms * (y - walk_sq) / (y * y);
     }
-    const double det = aa * bb - ab * ab;
-    const double a = std::max((ay * bb - by * ab) / det, 0.0);
-    const double b = std::max((by * aa - ay * ab) / det, 0.0);
+    const Eigen::Vector2d coefficients = normal.inverse() * right;
+    const double a = std::max(coefficients[0], 0.0);
+    const double b = std::max(coefficients[1], 0.0);
     const auto law = [&](double length_s) { return std::sqrt(a * length_s * length_s + b / length_s + walk_sq); };
     double least = law(best_s);
     for (double length_s = lengths_s.front(); length_s <= lengths_s.back(); length_s *= 1.01)
@@ -138,16 +134,22 @@ bool print_gyro(std::size_t number, const config::Config& c, std::int64_t seeds)
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto number = [&](int k, std::int64_t otherwise) { return argc > k ? std::atoll(argv[k]) : otherwise; };
     const std::vector<config::Config> all = gyros();
-    const auto first = static_cast<std::size_t>(std::max<std::int64_t>(1, number(2, 1)));
-    const auto last = std::min(all.size(), static_cast<std::size_t>(number(3, 6)));
-    fmt::print("drift, arcsec/s, at intervals about the best one, L\n\n| gyro | run, s | switch, arcsec | L, s |");
-    for (const double ratio : ratios) fmt::print(" {} L |", ratio);
-    fmt::print(" over the least |\n|---|---|---|---|");
-    for (std::size_t k = 0; k < ratios.size(); ++k) fmt::print("---|");
-    fmt::print("---|\n");
-    bool is_good = true;
-    for (std::size_t k = first; k <= last; ++k) is_good = print_gyro(k, all[k - 1], number(1, 12)) && is_good;
-    return is_good ? 0 : 1;
+    std::int64_t seeds = 12;
+    std::size_t first = 1;
+    std::size_t last = all.size();
+    CLI::App app{"The best switching interval against others on the twin", "zlg_interval_campaign"};
+    app.add_option("SEEDS", seeds)->check(CLI::PositiveNumber);
+    app.add_option("FIRST", first, "gyro")->check(CLI::Range(std::size_t{1}, all.size()));
+    app.add_option("LAST", last, "gyro")->check(CLI::Range(std::size_t{1}, all.size()));
+    return trials::run_command(app, argc, argv, [&] {
+        fmt::print("drift, arcsec/s, at intervals about the best one, L\n\n| gyro | run, s | switch, arcsec | L, s |");
+        for (const double ratio : ratios) fmt::print(" {} L |", ratio);
+        fmt::print(" over the least |\n|---|---|---|---|");
+        for (std::size_t k = 0; k < ratios.size(); ++k) fmt::print("---|");
+        fmt::print("---|\n");
+        bool is_good = true;
+        for (std::size_t k = first; k <= last; ++k) is_good = print_gyro(k, all[k - 1], seeds) && is_good;
+        return is_good ? 0 : 1;
+    });
 }

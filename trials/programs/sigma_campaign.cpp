@@ -1,25 +1,23 @@
 // Random gyros in random steady motions: is the sigma that is claimed for a switch true? A table in Markdown.
 //
-// usage: zlg_sigma_campaign [SHARE [SEED [THREADS]]]
-//
-// Exit 1 where a class of motion is not within .7 to 1.4, chance allowed for, or has a switch without a sigma.
+// Exit 1 where, for a class of motion, the mean square of error over sigma is outside .7 to 1.4 by more than chance, or a
+// switch has no sigma.
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include <zlg/trials/sigma_campaign.hpp>
 
+#include "command.hpp"
+
 int main(int argc, char** argv) {
     zlg::trials::SigmaTask task;
-    if (argc > 1) task.share = std::atof(argv[1]);
-    if (argc > 2) task.seed = std::strtoull(argv[2], nullptr, 10);
-    if (argc > 3) task.threads = std::atoi(argv[3]);
-    if (!(task.share > 0.0 && task.share <= 1000.0) || task.threads < 1) {
-        std::fputs("usage: zlg_sigma_campaign [SHARE, over 0 to 1000 [SEED [THREADS]]]\n", stderr);
-        return 2;
-    }
-    const auto figures = run_sigma_campaign(task);
-    std::fputs(campaign_text(figures).c_str(), stdout);
-    return std::ranges::all_of(figures, zlg::trials::is_true) ? 0 : 1;
+    CLI::App app{"Standard deviation claimed for a switch against its error", "zlg_sigma_campaign"};
+    app.add_option("SHARE", task.share, "times the usual number of gyros")->check(CLI::Range(1e-6, 1000.0));
+    app.add_option("SEED", task.seed, "of the random numbers");
+    app.add_option("THREADS", task.threads, "to run on")->check(CLI::PositiveNumber);
+    return zlg::trials::run_command(app, argc, argv, [&] {
+        const auto figures = run_sigma_campaign(task);
+        fmt::print("{}", campaign_text(figures));
+        return std::ranges::all_of(figures, zlg::trials::is_true) ? 0 : 1;
+    });
 }

@@ -14,7 +14,7 @@ void ring_bell() noexcept;
 // A line for the bench. It waits until the characters are out, but not for ever.
 void tell_bench(std::string_view line) noexcept;
 
-// What the memory kept over the reset becomes what the port tells; a reason is told once.
+// Reads the reason of the last reset from the memory that kept it, for the port to report; a reason is reported once.
 void recall_fault() noexcept;
 
 // Faults that the processor leaves out unless it is asked: writing to code, leaving the memory, dividing by zero.

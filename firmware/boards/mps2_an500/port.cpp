@@ -21,7 +21,7 @@ std::uint32_t n_overruns = 0;
 
 void on_half_timer() noexcept {
     half_timer.clear() = 1;
-    half_period();
+    on_half_period();
     // It reads as whether the timer interrupts.
     if ((half_timer.clear() & 1u) != 0) ++n_overruns;
 }

@@ -1,4 +1,4 @@
-// The watchdog of the machine: unless it is kicked, first an interrupt that nothing can mask, then a reset.
+// The watchdog of the machine (CMSDK): without a kick for 251 ms a non-maskable interrupt, after as long again a reset.
 
 #include <zlg/firmware/half_period.hpp>
 #include <zlg/firmware/port.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace mps2;
 
-// No multiple of usual half-periods: what hangs is to be met, not the interrupt of the half-period.
+// No multiple of a usual half-period, so that the interrupt finds what hangs, and not always the half-period's interrupt.
 constexpr std::uint32_t deadline_ms = 251;
 std::uint32_t halves_at_kick = 0;
 
@@ -26,7 +26,7 @@ void start_watchdog() noexcept {
     watchdog.lock() = 0;
 }
 
-// More than the one that may have ended just after the kick.
+// Whether half-periods still end: one may have ended just after the kick, so two are the proof.
 bool is_half_period_alive() noexcept { return halves() - halves_at_kick > 1; }
 
 }  // namespace mps2

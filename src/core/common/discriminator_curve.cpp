@@ -70,12 +70,12 @@ std::size_t place(const DiscriminatorCurve& c, double x) noexcept {
 CurvePoint within(const DiscriminatorCurve& c, std::size_t k, double x) noexcept {
     const Piece p = piece(c, k);
     const double t = (x - c.apparent_lambda[k]) / p.width;
-    const double bend = c.slope[k] + c.slope[k + 1] - 2.0 * p.step;
+    const double cubic = c.slope[k] + c.slope[k + 1] - 2.0 * p.step;
     const double start = p.step - c.slope[k];
-    // F = y_k + h (m_k t + (step - m_k - bend) t^2 + bend t^3)
-    const double square = start - bend;
-    return {.detuning_lambda = c.detuning_lambda[k] + p.width * t * (c.slope[k] + t * (square + t * bend)),
-            .slope = c.slope[k] + t * (2.0 * square + 3.0 * t * bend)};
+    // F = y_k + h (m_k t + (step - m_k - cubic) t^2 + cubic t^3)
+    const double quadratic = start - cubic;
+    return {.detuning_lambda = c.detuning_lambda[k] + p.width * t * (c.slope[k] + t * (quadratic + t * cubic)),
+            .slope = c.slope[k] + t * (2.0 * quadratic + 3.0 * t * cubic)};
 }
 
 }  // namespace

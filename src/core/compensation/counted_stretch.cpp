@@ -1,5 +1,6 @@
 #include <zlg/core/compensation/counted_stretch.hpp>
 
+#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
@@ -29,7 +30,8 @@ void add_half(CountedStretchState& s, const HalfRecord& half) noexcept {
     if (s.counts > max_counts || s.counts < -max_counts) s.broken = true;
 }
 
-void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges) noexcept {
+void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges, const Border& border) noexcept {
+    s.start_border = border;
     s.broken = !s.known_before;
     s.mode = mode;
     s.counts = s.area_ticks = 0;
@@ -45,26 +47,28 @@ void add_area(CountedStretchState& s, const HalfRecord& first, const HalfRecord&
 }
 
 // Without shifts exactly K c.
-double angle(const EdgeShiftConfig& config, const CountedStretchState& s, Hertz bias, std::int32_t end,
+double angle(const CompensationConstants& gyro, const CountedStretchState& s, Hertz bias, const HalfRecord& last,
              EdgeShiftState& edges) noexcept {
-    const double scale = config.scale.value();
-    const double area = plateau_per_tick(config, bias) * as_double(s.area_ticks);
-    const double turn = (as_double(s.counts) - area) / as_double(s.n_ticks);
-    const double ticks = config.tick.value() * config.timer.value();
+    const std::int32_t end = last.edge_offset_ticks;
+    const double counts = counts_and_parts(s.counts, parts_between(s.start_border, border_of(last)));
+    const double scale = gyro.scale.value();
+    const double area = plateau_per_tick(gyro, bias) * as_double(s.area_ticks);
+    const double turn = (counts - area) / as_double(s.n_ticks);
+    const double ticks = gyro.tick.value() * gyro.timer.value();
     const double start_arcsec = s.start_known ? s.start_arcsec : scale * turn * (s.start_ticks / ticks);
     const double end_arcsec = scale * turn * (end / ticks);
     edges.follows = true;
     edges.turn_counts = turn;
     edges.beyond_arcsec = end_arcsec;
-    return scale * as_double(s.counts) - scale * area + start_arcsec - end_arcsec;
+    return scale * counts - scale * area + start_arcsec - end_arcsec;
 }
 
 }  // namespace
 
-CountedStretch step(const EdgeShiftConfig& config, CountedStretchState& state, const HalfRecord& first,
-                    const HalfRecord& second, Hertz bias, const EdgeShiftState& edges_before,
-                    EdgeShiftState& edges) noexcept {
-    if (state.n_ticks == 0) begin(state, first.mode, edges_before);
+CountedStretch step(const CompensationConstants& gyro, CountedStretchState& state, const HalfRecord& first,
+                    const HalfRecord& second, Hertz bias, const EdgeShiftState& edges_before, EdgeShiftState& edges,
+                    const Border& start_border) noexcept {
+    if (state.n_ticks == 0) begin(state, first.mode, edges_before, start_border);
     ++state.n_ticks;
     add_half(state, first);
     add_half(state, second);
@@ -73,7 +77,8 @@ CountedStretch step(const EdgeShiftConfig& config, CountedStretchState& state, c
     CountedStretch out;
     if (!state.broken) {
         out.n_ticks = state.n_ticks;
-        out.angle_arcsec = angle(config, state, bias, second.edge_offset_ticks, edges);
+        out.angle_arcsec = angle(gyro, state, bias, second, edges);
+        out.start_border = state.start_border;
         out.fall_lambda2 = state.max_sq_lambda2 - state.min_sq_lambda2;
     }
     state.n_ticks = 0;

@@ -1,23 +1,23 @@
 #include <zlg/core/gyro_compensation.hpp>
 
+#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
+
+#include "gap/gap_estimate.hpp"
 
 namespace zlg::core {
 namespace {
 
-// Beyond this a sum of two halves could not be told from its neighbours as a double.
+// Beyond this the sum of two halves is no longer exact as a double.
 constexpr std::int64_t max_counts = std::int64_t{1} << 52;
 
-EdgeShiftConfig edges_of(const GyroCompensationConfig& c) noexcept {
-    return {.timer = c.timer, .plateau_ratio = c.plateau_ratio, .tick = c.relock.tick, .scale = c.relock.scale};
-}
-
-void make_sane(const GyroCompensationConfig& config, GyroCompensationState& state, HalfRecord& half) noexcept {
+// Makes a record from outside one that every module below accepts.
+void sanitise(const GyroCompensationConfig& config, GyroCompensationState& state, HalfRecord& half) noexcept {
     if (half.counts > max_counts || half.counts < -max_counts) {
         half.counts = 0;
         half.valid = false;
     }
-    const bool end_unknown = half.edge_offset_ticks != 0 && !is_possible(edges_of(config), half.edge_offset_ticks);
+    const bool end_unknown = half.edge_offset_ticks != 0 && !is_possible(config.gyro, half.edge_offset_ticks);
     if (end_unknown) half.edge_offset_ticks = 0;
     if (state.start_unknown || end_unknown) half.valid = false;
     state.start_unknown = end_unknown;
@@ -26,24 +26,29 @@ void make_sane(const GyroCompensationConfig& config, GyroCompensationState& stat
     if (half.span < 1) half.span = 1;
 }
 
-EdgeShiftInput edge_input(const RelockDriftConfig& config, const HalfRecord& first, const HalfRecord& second) noexcept {
+// The readings at both ends of a tick.
+struct Borders {
+    Border start{};
+    Border end{};
+};
+
+EdgeShiftInput edge_input(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
+                          const Borders& borders) noexcept {
     return {.counts = first.counts + second.counts,
+            .parts = parts_between(borders.start, borders.end),
             .sign_first = first.bias_sign * first.mode,
             .sign_second = second.bias_sign * second.mode,
             .offset_middle_ticks = first.edge_offset_ticks,
             .offset_end_ticks = second.edge_offset_ticks,
-            .bias = bias_at(config, Celsius{first.temperature_c})};
+            .bias = bias_at(gyro, Celsius{first.temperature_c})};
 }
 
-TickInput assemble(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
-                   double value_arcsec) noexcept {
-    const double count = config.relock.scale.value();
-    const double walk = config.random_walk.value();
+TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
+                   const Borders& borders, double value_arcsec) noexcept {
     TickInput tick;
     tick.measured = is_measured(first, second);
     tick.value_arcsec = value_arcsec;
-    // The difference of two counter readings, each rounded uniformly: count^2/6.
-    tick.variance_arcsec2 = count * count / 6.0 + walk * walk * config.relock.tick.value();
+    tick.variance_arcsec2 = rounding_arcsec2(gyro, borders.start, borders.end) + walk_arcsec2(gyro);
     tick.mode = second.mode;
     tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
     if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
@@ -88,73 +93,83 @@ void apply(const RelockDriftOutput& relock, TickInput& tick) noexcept {
     tick.amend_flags = relock.first.known ? flag_relock_corrected : flag_relock_uncorrected;
 }
 
-// The start of a log is no gap, and its first ticks are not corrected. Where they say of themselves that the loop still
-// settled, beyond what their light's noise can say, sigma holds that.
-constexpr double certain_sq = 9.0;
+// Square of the number of standard deviations from which on a false angle at the start of a log is taken to be real.
+constexpr double start_gate_sq = 9.0;
 
-void allow_for_start(const RelockDriftConfig& config, const RelockDriftState& relock, const RelockTick& read,
-                     std::int64_t tick_number, TickInput& tick) noexcept {
+// The start of a log is no gap, so its first ticks get no re-lock correction. Where their light shows a false angle
+// beyond the noise, the loop was still settling, and the variance contains the square of that angle. It is found by a
+// trial step from the state just after a gap.
+
+void allow_for_start(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& relock,
+                     const RelockTick& read, std::int64_t tick_number, TickInput& tick) noexcept {
     const bool by_light = config.method != RelockMethod::none && config.method != RelockMethod::frequency;
     if (!by_light || relock.armed || relock.since_gap > 0 || tick_number >= config.ticks) return;
     RelockDriftState closing{.armed = true};
-    const FalseAngle left = step(config, closing, read).tick;
-    const double sq = left.value_arcsec * left.value_arcsec;
-    if (left.known && sq > certain_sq * left.variance_arcsec2) tick.variance_arcsec2 += sq;
+    const FalseAngle residual = step(gyro, config, closing, read).tick;
+    const double sq = residual.value_arcsec * residual.value_arcsec;
+    if (residual.known && sq > start_gate_sq * residual.variance_arcsec2) tick.variance_arcsec2 += sq;
 }
 
-// Tick 1 of `frequency` whose tick 2 does not exist stays as it is.
+// `frequency` corrects tick 1 with the help of tick 2. Where there is none, tick 1 stays uncorrected and is flagged.
 void give_up_first(TickInput& tick) noexcept {
     tick.amend_previous = true;
     tick.amend_flags = flag_relock_uncorrected;
 }
 
-// Mean square of the detuning, through the curve; 0 where there is none.
-double detuning_sq(const RelockDriftConfig& c, const HalfRecord& half) noexcept {
+// Mean square of the detuning from the centre of the bias, by the curve of the discriminator; 0 where it was not
+// measured.
+double detuning_sq(const CompensationConstants& g, const HalfRecord& half) noexcept {
     if (!(half.detuning_sq_lambda2 > 0.0)) return 0.0;
-    const double noise = c.light_noise.value();
-    return about(c.centre, true_moments(c.curve, half.detuning_lambda, half.detuning_sq_lambda2, noise * noise));
+    const double noise = g.light_noise.value();
+    return about(g.centre, true_moments(g.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise * noise));
 }
 
-HalfRecord with_true_detuning(const RelockDriftConfig& c, HalfRecord half) noexcept {
-    half.detuning_sq_lambda2 = detuning_sq(c, half);
+HalfRecord with_true_detuning(const CompensationConstants& gyro, HalfRecord half) noexcept {
+    half.detuning_sq_lambda2 = detuning_sq(gyro, half);
     return half;
 }
 
-// The sum over ticks up to this one, if the counter has it. What the detuning may have added since the last measured
-// tick is at most what its mean square has fallen by; where that is more than the rounding, as in a re-lock, the motion
-// is the better guide.
-void find_known(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
-                const HalfRecord& second, const EdgeShiftState& edges_before, TickInput& tick) noexcept {
-    const Hertz bias = bias_at(config.relock, Celsius{first.temperature_c});
-    const CountedStretch known = step(edges_of(config), state.stretch, with_true_detuning(config.relock, first),
-                                      with_true_detuning(config.relock, second), bias, edges_before, state.edges);
+// The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
+// drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
+// exceeds the rounding of the counter, as in a re-lock, the motion around the gap gives the better estimate, and the
+// sum is not used.
+void set_known_sum(const CompensationConstants& gyro, GyroCompensationState& state, const HalfRecord& first,
+                   const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
+                   TickInput& tick) noexcept {
+    const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
+    const CountedStretch known = step(gyro, state.stretch, with_true_detuning(gyro, first),
+                                      with_true_detuning(gyro, second), bias, edges_before, state.edges, borders.start);
     if (known.n_ticks == 0) return;
-    const double count = config.relock.scale.value();
-    const double walk = config.random_walk.value();
-    const double tick_s = config.relock.tick.value();
-    const double drift_hz = 0.5 * config.relock.chi * bias.value() * known.fall_lambda2;
-    const double drift_arcsec = count * tick_s * drift_hz;
-    const double rounding = count * count / 6.0;
+    const double drift_hz = 0.5 * gyro.chi * bias.value() * known.fall_lambda2;
+    const double drift_arcsec = gyro.scale.value() * gyro.tick.value() * drift_hz;
+    const double rounding = rounding_arcsec2(gyro, known.start_border, borders.end);
     const double drift_variance = drift_arcsec * drift_arcsec;
-    if (!(drift_variance <= rounding)) return break_off(state.edges);
+    // Not used, and neither is what `step` has concluded from it about the edges.
+    if (!(drift_variance <= rounding_arcsec2(gyro))) return break_off(state.edges);
     tick.known_ticks = known.n_ticks;
     tick.known_arcsec = known.angle_arcsec;
     tick.known_drift_arcsec2 = drift_variance;
-    tick.known_variance_arcsec2 = rounding + walk * walk * tick_s * as_double(known.n_ticks) + drift_variance;
+    tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
 }
 
-bool is_joint(const GyroCompensationConfig& config) noexcept {
-    return config.relock.method == RelockMethod::joint && is_estimated(config.bridge) && config.bridge.optimal.halves;
+bool uses_halves(const GyroCompensationConfig& config) noexcept {
+    return is_estimated(config.bridge) && config.bridge.optimal.halves;
 }
 
-// Ticks over which the bias is averaged: it changes with the temperature.
+// `joint` alone reads the samples: the others know what the records tell.
+LightSamples samples_for(const GyroCompensationConfig& config, LightSamples light) noexcept {
+    return config.relock.method == RelockMethod::joint ? light : LightSamples{};
+}
+
+// Time constant of the mean of the bias, which follows the temperature, in ticks.
 constexpr double bias_ticks = 256.0;
 
-// The first half over the second, less the bias: the sign of its first half, and the slow mean of what it adds.
-void take_excess(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
-                 const HalfRecord& second, double known_excess_counts, TickInput& tick) noexcept {
+// Excess of the first half over the second, without the bias. What the bias adds is a slow mean over settled ticks,
+// each taken with the sign of its first half; a settled tick is added to the mean before it is used.
+void set_half_excess(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
+                     const HalfRecord& second, double known_excess_counts, TickInput& tick) noexcept {
     const double difference = as_double(first.counts - second.counts) - known_excess_counts;
-    const double excess = config.relock.scale.value() * difference;
+    const double excess = config.gyro.scale.value() * difference;
     if (tick.settled) {
         const double bias = 0.5 * tick.sign * excess;
         state.bias_arcsec += state.bias_arcsec == 0.0 ? bias : (bias - state.bias_arcsec) / bias_ticks;
@@ -162,13 +177,62 @@ void take_excess(const GyroCompensationConfig& config, GyroCompensationState& st
     tick.half_excess_arcsec = excess - 2.0 * tick.sign * state.bias_arcsec;
 }
 
-void take_profile(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half) noexcept {
-    if (!is_due(state.joint) || needs_profile(state.bridge)) return;
-    const Celsius temperature{half.temperature_c};
-    tell(config.relock, state.joint, temperature, state.bridge.joint);
+// Of half-ticks.
+MotionCovariance recent_motion(const GyroCompensationConfig& config, const GapBridgeState& bridge) noexcept {
+    const MotionMomentsState& moments = bridge.learning.moments;
+    return {config.gyro, config.bridge.optimal, moments, fast_memory, 1.0, moments.with_phase};
 }
 
-// Switches over which their errors are averaged.
+// Ticks after a gap in which a re-lock shows.
+constexpr int shown_ticks = 4;
+
+// Square of the number of standard deviations of the difference of two halves beyond which it is no motion.
+constexpr double excess_gate_sq = 25.0;
+
+// Without a correction the half-ticks after a gap are points as they were read, unless the halves differ more than those of the
+// learnt motion do: then the detuning still changes, and the gap is bridged by whole ticks, in which little of that is left.
+void take_as_read(const GyroCompensationConfig& config, GapBridgeState& bridge) noexcept {
+    JointRelock& joint = bridge.joint;
+    joint.correction_arcsec = {};
+    joint.covariance_arcsec2 = {};
+    const MotionCovariance motion = recent_motion(config, bridge);
+    const double usual = motion.of_samples(0, 0) + motion.of_samples(1, 1) - 2.0 * motion.of_samples(0, 1);
+    joint.known = true;
+    for (int k = 0; k < shown_ticks; ++k) {
+        const double excess = at(bridge, joint.first_tick + k).half_excess_arcsec;
+        if (!(excess * excess <= excess_gate_sq * usual)) joint.known = false;
+    }
+}
+
+// The bridge holds one profile, and keeps it until the gap that it belongs to is resolved; the next one waits.
+void deliver_profile(const GyroCompensationConfig& config, GyroCompensationState& state,
+                     const HalfRecord& half) noexcept {
+    if (!is_due(state.joint) || needs_profile(state.bridge)) return;
+    const Celsius temperature{half.temperature_c};
+    deliver(config.gyro, state.joint, temperature, state.bridge.joint);
+    if (config.relock.method == RelockMethod::none) take_as_read(config, state.bridge);
+}
+
+// Measured ticks in a row whose readings have a phase, after which the covariances are those of such readings: longer than
+// any window.
+constexpr std::int32_t phase_debounce = 32;
+
+void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
+    if (!with_phase)
+        state.n_with_phase = 0;
+    else if (state.n_with_phase < phase_debounce)
+        ++state.n_with_phase;
+    state.bridge.learning.moments.with_phase = state.n_with_phase >= phase_debounce;
+}
+
+// Of the first half over the second what is no bias: by their lengths, less by the places at their ends.
+double known_excess(const EdgeShiftOutput& shifted, const Borders& borders, const HalfRecord& first) noexcept {
+    const Border middle = border_of(first);
+    const std::int32_t parts = parts_between(borders.start, middle) - parts_between(middle, borders.end);
+    return shifted.known_excess_counts - counts_and_parts(0, parts);
+}
+
+// Number of recent switches over which the mean square of their errors is taken.
 constexpr std::int32_t remembered_switches = 8;
 
 void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
@@ -178,55 +242,99 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
     errors.mean_sq_arcsec2 += (sq - errors.mean_sq_arcsec2) / static_cast<double>(errors.n);
 }
 
+// Of a tick of a gap, or of the first one after it.
+void read_lit_halves(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& second,
+                     const Border& start, const TickInput& tick, double drift_arcsec) noexcept {
+    const MotionMomentsState& moments = state.bridge.learning.moments;
+    const double motion_arcsec2 = second_difference_arcsec2(recent_motion(config, state.bridge));
+    const LitTick read{.first = state.first,
+                       .second = second,
+                       .start = start,
+                       .tick = state.bridge.next_tick,
+                       .bias_arcsec = state.bias_arcsec,
+                       .with_phase = moments.with_phase};
+    if (tick.measured)
+        end_gap(config.gyro, state.bridge.lit, read, motion_arcsec2, drift_arcsec);
+    else
+        add_gap_tick(config.gyro, state.bridge.lit, read, !state.bridge.gap.open, motion_arcsec2);
+}
+
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
                                  const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
     state.has_first = false;
 
+    const Borders borders{state.border, border_of(second)};
+    state.border = borders.end;
     const EdgeShiftState edges_before = state.edges;
-    const EdgeShiftOutput shifted = step(edges_of(config), state.edges, edge_input(config.relock, first, second));
-    TickInput tick = assemble(config, first, second, shifted.value_arcsec);
-    if (is_joint(config)) {
-        take(config.profile, state.joint, second, light, tick.measured, state.bridge.next_tick);
-        take_profile(config, state, second);
+    const EdgeShiftOutput shifted = step(config.gyro, state.edges, edge_input(config.gyro, first, second, borders));
+    TickInput tick = assemble(config.gyro, first, second, borders, shifted.value_arcsec);
+    if (uses_halves(config)) {
+        step(config.gyro, config.profile, state.joint, second, samples_for(config, light), tick.measured,
+             state.bridge.next_tick);
+        deliver_profile(config, state, second);
     }
     if (tick.measured) {
-        const RelockTick read = relock_tick(tick.sign, first, second, shifted.known_excess_counts);
-        allow_for_start(config.relock, state.relock, read, state.bridge.next_tick, tick);
-        const auto relock = step(config.relock, state.relock, read);
+        tick.with_phase = borders.start.is_known() && border_of(first).is_known() && borders.end.is_known();
+        note_phase(state, tick.with_phase);
+        const double excess = known_excess(shifted, borders, first);
+        const RelockTick read = relock_tick(tick.sign, first, second, excess);
+        allow_for_start(config.gyro, config.relock, state.relock, read, state.bridge.next_tick, tick);
+        const auto relock = step(config.gyro, config.relock, state.relock, read);
         apply(relock, tick);
-        if (is_joint(config)) take_excess(config, state, first, second, shifted.known_excess_counts, tick);
+        const std::int64_t to_come = config.relock.ticks - state.relock.since_gap;
+        if (relock.due && to_come > 0) tick.relock_to_come_arcsec2 = as_double(to_come) * tick.relock_variance_arcsec2;
+        if (uses_halves(config)) set_half_excess(config, state, first, second, excess, tick);
         state.first_waits = relock.waiting;
-        begin_anew(state.stretch, detuning_sq(config.relock, second));
+        begin_anew(state.stretch, detuning_sq(config.gyro, second));
     } else {
         enter_gap(state.relock, !(first.loop_closed && second.loop_closed));
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);
-            find_known(config, state, first, second, edges_before, tick);
+            // After `break_off`: it sets the edges again where it knows the sum.
+            set_known_sum(config.gyro, state, first, second, borders, edges_before, tick);
         }
         if (state.first_waits) give_up_first(tick);
         state.first_waits = false;
     }
     tick.bias_arcsec = state.bias_arcsec;
-    tick.value_arcsec -= step(config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
-    CompensationOutput out{.has_sample = true, .sample = step(config.bridge, state.bridge, tick)};
+    const double drift_arcsec =
+        step(config.gyro, config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
+    tick.value_arcsec -= drift_arcsec;
+    if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
+        read_lit_halves(config, state, second, borders.start, tick, drift_arcsec);
+    CompensationOutput out{.has_sample = true, .sample = step(config.gyro, config.bridge, state.bridge, tick)};
     remember(state.switch_errors, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
-    state.angle.add(counted, config.relock.scale.value(), out.sample.dtheta_arcsec);
-    out.angle_arcsec = state.angle.value_arcsec(config.relock.scale.value());
+    const std::int32_t parts = tick.measured ? parts_between(borders.start, borders.end) : 0;
+    state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, parts);
+    out.angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value());
     return out;
+}
+
+GyroCompensationFault fault_of(CompensationConstantsFault fault) noexcept {
+    switch (fault) {
+        case CompensationConstantsFault::none:
+            return GyroCompensationFault::none;
+        case CompensationConstantsFault::timer:
+        case CompensationConstantsFault::plateau_ratio:
+            return GyroCompensationFault::edges;
+        case CompensationConstantsFault::random_walk:
+            return GyroCompensationFault::random_walk;
+        default:
+            return GyroCompensationFault::relock;
+    }
 }
 
 }  // namespace
 
 GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
+    const GyroCompensationFault fault = fault_of(check(config.gyro));
+    if (fault != GyroCompensationFault::none) return fault;
     if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
-    if (check(edges_of(config)) != EdgeShiftFault::none) return GyroCompensationFault::edges;
-    if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
-    const double walk = config.random_walk.value();
-    if (!(walk >= 0.0 && is_finite(walk))) return GyroCompensationFault::random_walk;
+    if (check(config.gyro, config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
     if (check(config.profile) != RelockProfileFault::none) return GyroCompensationFault::profile;
-    if (check(config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
+    if (check(config.gyro, config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
     return GyroCompensationFault::none;
 }
 
@@ -239,30 +347,32 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
                         LightSamples light) noexcept {
     if (state.has_first) {
         HalfRecord second = half;
-        make_sane(config, state, second);
+        sanitise(config, state, second);
         return complete_tick(config, state, second, light);
     }
-    HalfRecord& taken = state.first;
-    taken = half;
-    make_sane(config, state, taken);
+    HalfRecord& first = state.first;
+    first = half;
+    sanitise(config, state, first);
     state.has_first = true;
-    if (is_joint(config)) {
-        take(config.profile, state.joint, taken, light, taken.loop_closed && taken.valid, state.bridge.next_tick);
-        take_profile(config, state, taken);
+    if (uses_halves(config)) {
+        step(config.gyro, config.profile, state.joint, first, samples_for(config, light),
+             first.loop_closed && first.valid, state.bridge.next_tick);
+        deliver_profile(config, state, first);
     }
     // No angle is due in this half: there is room for the estimate of a gap.
-    if (state.bridge.n_pending > 0 && is_estimated(config.bridge)) advance_estimate(config.bridge, state.bridge);
+    if (state.bridge.n_pending > 0 && is_estimated(config.bridge))
+        advance_estimate(config.gyro, config.bridge, state.bridge);
     return {};
 }
 
 DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept {
     if (state.first_waits) {
-        // No tick 2 will come: say so in the row of tick 1, which is still in the history.
+        // No tick 2 will come: flag the row of tick 1, which is still in the history.
         const auto last = static_cast<std::uint64_t>(state.bridge.next_tick - 1);
         state.bridge.history[last % history_ticks].row.flags |= flag_relock_uncorrected;
         state.first_waits = false;
     }
-    return drain(config.bridge, state.bridge);
+    return drain(config.gyro, config.bridge, state.bridge);
 }
 
 }  // namespace zlg::core

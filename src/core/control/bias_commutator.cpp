@@ -4,9 +4,9 @@ namespace zlg::core {
 namespace {
 
 // Two wrong echoes in a row can be one disturbance that spans a latch; four cannot.
-constexpr std::int32_t contradictions_proven = 4;
+constexpr std::int32_t contradictions_debounce = 4;
 
-// The sign of this half; says whether the echo was at fault.
+// The sign of this half; returns whether the echo was at fault.
 bool track_sign(BiasCommutatorState& s, const BiasCommutatorInput& in) noexcept {
     const std::int8_t predicted = s.sign == 0 ? std::int8_t{1} : static_cast<std::int8_t>(-s.sign);
     s.sign = predicted;
@@ -23,7 +23,7 @@ bool track_sign(BiasCommutatorState& s, const BiasCommutatorInput& in) noexcept 
         return false;
     }
     s.n_contradictions = is_sign ? s.n_contradictions + 1 : 0;
-    if (s.n_contradictions >= contradictions_proven) {
+    if (s.n_contradictions >= contradictions_debounce) {
         s.n_contradictions = 0;
         s.sign = in.bias_sign;
     }

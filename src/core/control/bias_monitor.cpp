@@ -1,18 +1,19 @@
 #include <zlg/core/control/bias_monitor.hpp>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/as_double.hpp>
 
 #include "common/bounds.hpp"
 
 namespace zlg::core {
 namespace {
 
-// Of b: its rounding, of up to a count, is then well below what is told apart.
+// Averaging of b: over 32 halves to learn, an exponential of 256 to follow. Its rounding, of up to a count, is then
+// well below the band.
 constexpr std::int32_t bias_learning_halves = 32;
 constexpr double bias_followed = 1.0 / 256.0;
 
 // Two halves out of four can be one disturbance of the counts; four of the other helicity cannot.
-constexpr std::int32_t reversed_believed = 4;
+constexpr std::int32_t reversed_debounce = 4;
 
 // Differences of larger counts could overflow, and no gyro has them.
 constexpr std::int64_t max_counts = std::int64_t{1} << 53;
@@ -40,7 +41,7 @@ void learn_anew(const BiasMonitorConfig& c, BiasMonitorState& s, double b) noexc
     s.n_steady = 0;
 }
 
-// Learn from any beat of the right sign, follow what is as it should be.
+// Learn from any beat of the right sign, then follow b while it is in its band.
 void learn(const BiasMonitorConfig& c, BiasMonitorState& s, double b, bool in_band) noexcept {
     if (s.n_learnt >= bias_learning_halves) {
         if (!in_band) return learn_anew(c, s, b);
@@ -80,8 +81,8 @@ void judge(const BiasMonitorConfig& c, BiasMonitorState& s, const BiasMonitorInp
         out.in_band = size(twice_b - 2.0 * bias) <= tolerance;
         // More than that is a wrong reading.
         const bool reversed = !out.in_band && size(twice_b + 2.0 * bias) < bias;
-        s.n_reversed = reversed ? s.n_reversed + (s.n_reversed < reversed_believed) : 0;
-        out.reversed = s.n_reversed >= reversed_believed;
+        s.n_reversed = reversed ? s.n_reversed + (s.n_reversed < reversed_debounce) : 0;
+        out.reversed = s.n_reversed >= reversed_debounce;
         out.deficit_ratio = smooth ? 1.0 - 0.5 * twice_b / bias : 0.0;
         out.lost = !out.in_band && size(twice_b) < bias;
         out.near_rate = out.in_band && size(as_double(in.counts)) < near_rate_ratio * bias;

@@ -25,7 +25,7 @@ std::int64_t limited_sum(std::int64_t a, std::int64_t b) noexcept {
     return a + b;
 }
 
-// Second difference of the steps in halves of the same bias sign: the bias drops out, and so does an even acceleration.
+// Second difference of the steps in halves of the same bias sign: the bias drops out, and a constant acceleration too.
 std::int64_t unevenness(const CounterMonitorState& s, std::int64_t step) noexcept {
     const auto wrapped =
         static_cast<std::int64_t>(static_cast<std::uint64_t>(step) - 2 * static_cast<std::uint64_t>(s.steps[1]) +
@@ -49,8 +49,9 @@ std::uint32_t bits_below(std::int64_t unevenness) noexcept {
 // A bit whose error is no longer seen for a second may be right again, or at rest: what it holds does no harm.
 constexpr std::int32_t calm_windows = 12;
 
-// A swing that takes a multiple of a few halves has no longer row of windows that go the same way.
-constexpr std::int32_t windows_proven = 6;
+// Windows in a row in one direction before a bit is reported: an oscillation whose period is a few halves never has so
+// many.
+constexpr std::int32_t window_debounce = 6;
 
 // Bits that looked stuck all the way, which was so long that they should have changed several times.
 std::uint32_t still_all_the_way(CounterMonitorState& s, std::uint32_t still) noexcept {
@@ -59,9 +60,9 @@ std::uint32_t still_all_the_way(CounterMonitorState& s, std::uint32_t still) noe
     const bool same_way = (net > 0 && s.way > 0) || (net < 0 && s.way < 0);
     const bool goes_on = s.n_same_way > 0 && same_way && (s.still & still) != 0;
     s.still = goes_on ? s.still & still : still;
-    s.n_same_way = goes_on ? s.n_same_way + (s.n_same_way < windows_proven) : 1;
+    s.n_same_way = goes_on ? s.n_same_way + (s.n_same_way < window_debounce) : 1;
     s.way = goes_on ? limited_sum(s.way, net) : net;
-    if (s.n_same_way < windows_proven || s.still == 0) return 0;
+    if (s.n_same_way < window_debounce || s.still == 0) return 0;
     std::uint32_t passed = 0;
     const std::int64_t way = s.way < 0 ? -s.way : s.way;
     for (int k = 1; k < 31; ++k) {

@@ -1,6 +1,6 @@
 #include <zlg/core/control/edge_dither.hpp>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/as_double.hpp>
 
 namespace zlg::core {
 namespace {

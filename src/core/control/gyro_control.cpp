@@ -8,21 +8,25 @@
 namespace zlg::core {
 namespace {
 
-// Readings in a row near an end of the range that call for another mode, and after how many to try again.
-constexpr std::int32_t near_proven = 4;
-constexpr std::int32_t near_again = 512;
+// A piezo near an end of its range for 4 halves in a row is led to another mode; where that does not happen, again every
+// 509 halves.
+constexpr std::int32_t near_end_debounce = 4;
+constexpr std::int32_t near_end_retry = 512;
 
-// A temperature that has moved by more than this over the time in which it is followed, some ten thousand halves.
+// The gyro warms up (or cools) where its temperature differs by more than this from its running mean, whose time
+// constant is 8192 halves, 20 s.
 constexpr double warming_c = 0.05;
-// A piezo that is so near to its set-point is there; the reading's error is a part of it.
+constexpr double temperature_weight = 1.0 / 8192.0;
+
+// The piezo is at rest where what is still to come of its move, and the distance of the reading from the set-point, are at
+// most this much perimeter. The second includes the error of the reading.
 constexpr double rest_lambda = 0.006;
-constexpr double temperature_followed = 1.0 / 8192.0;
 
 HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
-    // What was found wrong since is of no half's own.
-    const bool is_whole = o.valid || (o.reading.span == 1 && !o.left_to_next);
+    // Not recorded: counts that the next valid half will contain, and counts over several halves that are not valid.
+    const bool has_counts = o.valid || (o.reading.span == 1 && !o.left_to_next);
     return {.half = s.half,
-            .counts = is_whole ? o.reading.counts : 0,
+            .counts = has_counts ? o.reading.counts : 0,
             .detuning_lambda = o.detuning_usable ? o.monitored.detuning.value() : 0.0,
             .detuning_sq_lambda2 = o.has_mean_square ? o.monitored.mean_sq_lambda2 : 0.0,
             .piezo_v = s.piezo_v,
@@ -32,41 +36,46 @@ HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
             .loop_closed = o.loop_closed,
             .valid = o.valid,
             .edge_offset_ticks = o.commuted.edge_offset_ticks,
-            .span = is_whole ? o.reading.span : 1};
+            .span = has_counts ? o.reading.span : 1,
+            .fringe = o.fringe.fringe,
+            .lit = o.steady};
 }
 
-// Whether to leave for the middle of the range before it ends. The reading must have come from there since the last try.
-bool wants_middle(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
+// Whether the piezo has been near an end of its range for so long that it should be led back towards the middle, and a
+// neighbouring mode lies there. Counts the halves near an end, so it is called in every half that tracks a mode; true
+// in two halves in a row, of which one ends a tick, and again after `near_end_retry` where the piezo is still there.
+bool count_near_end(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
     const Volts now = is_finite(o.piezo.value()) ? o.piezo : Volts{s.loop.set_point_v};
     if (!near_end(c.loop.range, now)) {
         s.n_near_end = 0;
         return false;
     }
-    if (s.n_near_end < near_again) {
+    if (s.n_near_end < near_end_retry) {
         ++s.n_near_end;
     } else {
-        s.n_near_end = near_proven;
+        s.n_near_end = near_end_debounce;
     }
-    const bool due = s.n_near_end >= near_proven && s.n_near_end <= near_proven + 1;
+    const bool due = s.n_near_end >= near_end_debounce && s.n_near_end <= near_end_debounce + 1;
     return due && !choose_direction(c.loop.range, now, Volts{s.half_wave.estimate_v}).out_of_range;
 }
 
-void time_switch(const GyroControlConfig& c, GyroControlState& s, const Observation& o, const SwitchAdvice& advice,
-                 ModeSwitchInput& in) noexcept {
-    // Blind it would be a switch of unknown outcome, and the rotation would be lost with it.
+void decide_switch(const GyroControlConfig& c, GyroControlState& s, const Observation& o, const SwitchAdvice& advice,
+                   ModeSwitchInput& in) noexcept {
+    // Without usable light the outcome of a switch would be unknown, and the rotation in its gap would be lost.
     const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt && o.fresh;
     if (in.tick_border) {
         in.due =
             step(c.schedule, s.schedule, {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice})
                 .open;
     }
-    // A gyro that is not in its mode looks for it instead.
+    // In a switch, a return or a search the ends of the range are not watched.
     if (s.mode_switch.phase != SwitchPhase::tracking) return;
-    in.recentre = wants_middle(c, s, o) && ready && in.tick_border;
+    in.recentre = count_near_end(c, s, o) && ready && in.tick_border;
     if (in.recentre || in.due) s.recentring = in.recentre;
 }
 
-// Both moves from here, in turn, in halves that end no tick: the next opening finds them two ticks old at most.
+// Notes where a move up (half 4k) or down (half 4k + 2) would begin: by turns, to halve the copying. When the loop opens
+// they are one and three halves old.
 void note_start(GyroControlState& s) noexcept {
     if (s.half % 2 != 0 || s.mode_switch.phase != SwitchPhase::tracking) return;
     MoveStart& start = s.half % 4 == 0 ? s.up : s.down;
@@ -84,7 +93,8 @@ void predict_move(const GyroControlConfig& c, const StrokeModelState& stroke, st
         predicted_move(c.stroke, stroke, start.play, sign, Volts{start.piezo_v}, Celsius{start.temperature_c}).value();
 }
 
-// Moves are needed where the loop opens. What they are predicted from is learnt after that, before a mode is tracked again.
+// A move is needed where the loop opens. Between switches nothing is computed; while a switch lasts, the moves are
+// predicted before the model that they rest on learns from it.
 void predict_moves(const GyroControlConfig& c, GyroControlState& s, bool opens) noexcept {
     if (!opens && s.mode_switch.phase == SwitchPhase::tracking) return;
     predict_move(c, s.stroke, 1, s.up);
@@ -98,7 +108,7 @@ void read_flight(const GyroControlConfig& c, const GyroControlState& s, const Ob
     const double to_come = lambda_per_v * (s.loop.set_point_v - s.loop.end_v);
     const double off = lambda_per_v * (s.loop.set_point_v - o.piezo.value());
     in.in_flight = Wavelengths{lambda_per_v * (s.loop.set_point_v - s.loop.mean_v)};
-    in.at_rest = limited(to_come, rest_lambda) == to_come && limited(off, rest_lambda) == off;
+    in.at_rest = size(to_come) <= rest_lambda && size(off) <= rest_lambda;  // false for NaN
 }
 
 ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const Observation& o,
@@ -106,7 +116,7 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
     ModeSwitchInput in;
     in.tick_border = s.half % 2 != 0;
     in.next_tick = (s.half + 1) / 2;
-    time_switch(c, s, o, advice, in);
+    decide_switch(c, s, o, advice, in);
     predict_moves(c, s, in.due || in.recentre);
     in.reversed = o.bias.reversed && o.lit;
     in.light_known = o.fresh && (o.light.readable || o.lit);
@@ -121,20 +131,21 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
     return step(c.mode_switch, s.mode_switch, in);
 }
 
-// Says whether the switch taught nothing about the half-wave voltage.
+// Returns whether the half-wave voltage that the switch measured was rejected.
 bool learn_half_wave(const GyroControlConfig& c, GyroControlState& s, const ModeSwitchOutput& sequenced) noexcept {
     if (!sequenced.has_event || sequenced.event.outcome != SwitchOutcome::switched) return false;
     const double measured_v = sequenced.event.has_half_wave ? sequenced.event.half_wave_v : __builtin_nan("");
     return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
 }
 
-// What the move of a switch has come to, as the first closed half shows: mean detuning over a known voltage.
-//
-// At the closing itself it was dl + kp (v at closing - mean v of the half).
+// Hands the stroke model the detuning at the moment of closing. The first closed half shows its mean detuning dl at a
+// known mean voltage; at closing it was dl + (v at closing - mean v of the half)/(2 half-wave voltage). Under fast re-lock
+// the voltage leaps within the half: its mean is the reading at the end plus (mean - end) of the model of the stage.
+// Otherwise it moves evenly, and its mean is that of both ends.
 void read_arrival(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
-    const bool follows = c.loop.kind == LoopKind::digital && c.loop.relock_halves > 0;
+    const bool fast_relock = c.loop.kind == LoopKind::digital && c.loop.relock_halves > 0;
     const double mean_v =
-        follows ? o.piezo.value() + (s.loop.mean_v - s.loop.end_v) : 0.5 * (s.closed_at_v + o.piezo.value());
+        fast_relock ? o.piezo.value() + (s.loop.mean_v - s.loop.end_v) : 0.5 * (s.closed_at_v + o.piezo.value());
     const double beyond_v = s.closed_at_v - mean_v;
     if (!s.closed_read || !o.detuning_usable || !o.loop_closed || !is_finite(beyond_v)) return;
     const double moved_v = s.closed_at_v - s.mode_switch.good_v;
@@ -150,7 +161,7 @@ void learn_stroke(const GyroControlConfig& c, GyroControlState& s, const Observa
                   const ModeSwitchOutput& sequenced) noexcept {
     const ModeSwitchState& m = s.mode_switch;
     const bool arrived = was_closed && m.phase == SwitchPhase::settling && m.switching && m.n_halves == 1;
-    // The plays must not yet know what the closed loop did.
+    // Before the plays follow the voltages of the closed loop.
     if (arrived) read_arrival(c, s, o);
     follow(c.stroke, s.stroke, o.piezo);
     if (!was_closed && sequenced.loop_closed) {
@@ -175,10 +186,11 @@ PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, co
                  .piezo = o.piezo});
 }
 
-bool is_warming_up(GyroControlState& s) noexcept {
-    // A reading that is damage does not lead far away.
-    const double change_c = limited(s.temperature_c - s.temperature_before_c, 10.0);
-    s.temperature_before_c += temperature_followed * change_c;
+// Follows the temperature by one half. Returns whether the gyro warms up.
+bool track_warming(GyroControlState& s) noexcept {
+    // Limited, so that a damaged reading does not pull the mean far away.
+    const double change_c = limited(s.temperature_c - s.mean_temperature_c, 10.0);
+    s.mean_temperature_c += temperature_weight * change_c;
     return change_c > warming_c || change_c < -warming_c;
 }
 
@@ -214,6 +226,11 @@ void report_counts(GyroControlState& s, const Observation& o, HealthWord& word) 
     word.set(health_coil_current, o.coil.off);
 }
 
+void report_fringe(const Observation& o, HealthWord& word) noexcept {
+    word.set(health_fringe_lost, o.fresh && o.lit && !(o.fringe.fringe >= 0.0f));
+    word.set(health_fringe_skewed, o.fringe.skewed);
+}
+
 void report_phase(const GyroControlState& s, SwitchPhase phase, HealthWord& word) noexcept {
     word.set(health_switching, phase == SwitchPhase::open || phase == SwitchPhase::settling);
     word.set(health_relock_failed, phase == SwitchPhase::returning || phase == SwitchPhase::searching);
@@ -231,23 +248,6 @@ void command(bool loop_closed, std::int8_t polarity, const PerimeterLoopOutput& 
 }
 
 }  // namespace
-
-GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t counter) noexcept {
-    GyroControlState s;
-    s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
-    s.half_wave = initial_state(config.half_wave);
-    s.stroke = initial_state(config.stroke, config.mode_switch.start_set_point);
-    s.up.move_v = config.stroke.half_wave.value();
-    s.down.move_v = -s.up.move_v;
-    s.schedule = initial_state(config.schedule);
-    s.mode_switch = initial_state(config.mode_switch);
-    s.counter = counter;
-    s.reading_monitor.good = s.reading_monitor.last = counter;
-    s.reading_monitor.mode = config.mode_switch.start_polarity;
-    s.piezo_v = config.mode_switch.start_set_point.value();
-    s.temperature_c = config.presumed_temperature.value();
-    return s;
-}
 
 ActuatorFrame initial_actuator(const GyroControlConfig& config) noexcept {
     ActuatorFrame actuator;
@@ -280,11 +280,12 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     report_frame(frame, seen, word);
     report_light(seen, word);
     report_counts(state, seen, word);
+    if (config.fringe.reads) report_fringe(seen, word);
     report_phase(state, phase, word);
     word.set(health_detuning_over_limit, regulated.over_limit);
     word.set(health_piezo_near_range_end, regulated.near_range_end);
     word.set(health_half_wave_rejected, half_wave_rejected);
-    word.set(health_warming_up, is_warming_up(state));
+    word.set(health_warming_up, track_warming(state));
     word.set(health_edges_shifted, config.commutator.dither.method != DitherMethod::none);
     out.health = word.bits;
 

@@ -1,5 +1,6 @@
 #include "gyro_observation.hpp"
 
+#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
 namespace zlg::core {
@@ -24,9 +25,22 @@ double length_ratio(const BiasCommutatorConfig& c, const BiasCommutatorState& s)
     return longer_ticks == 0 ? 1.0 : 1.0 + longer_ticks / static_cast<double>(c.half_ticks);
 }
 
-void read_counter(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    if (o.counted) o.counts = static_cast<std::int64_t>(frame.counter - s.counter);
-    if (o.fresh) s.counter = frame.counter;
+// The count, from the side that the phase names. Apart, so that a gyro of whole counts need not save its registers.
+[[gnu::noinline]] void read_fringe(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame,
+                                   Observation& o) noexcept {
+    o.fringe = step(c.fringe, s.fringe,
+                    {.present = o.fresh && frame.has_fringe,
+                     .c = frame.fringe_c,
+                     .s = frame.fringe_s,
+                     .quarter = frame.fringe_quarter,
+                     .counter = frame.counter,
+                     .settled = o.settled,
+                     .sign = o.commuted.sign * o.polarity});
+}
+
+void read_counter(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
+    if (o.counted) o.counts = static_cast<std::int64_t>(o.fringe.counter - s.counter);
+    if (o.fresh) s.counter = o.fringe.counter;
     o.beyond = is_beyond(c.health, o.counts, length_ratio(c.commutator, s.commutator));
 }
 
@@ -49,7 +63,7 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
                    .counts = o.counts,
                    .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity),
                    .settled = o.settled && s.was_lit});
-    // A half of garbage says little of the one after it.
+    // A half without light makes the difference to the next one meaningless.
     o.bias_wrong = o.bias.judged && !o.bias.in_band && s.was_lit;
     if (o.fresh) o.coil = step(c.coil_monitor, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
 }
@@ -92,11 +106,11 @@ void read_slow(GyroControlState& s, const SensorFrame& frame, Observation& o) no
     if (is_finite(frame.piezo_v)) s.piezo_v = frame.piezo_v;
     if (!is_finite(frame.temperature_c)) return;
     s.temperature_c = frame.temperature_c;
-    if (!s.temperature_known) s.temperature_before_c = s.temperature_c;
+    if (!s.temperature_known) s.mean_temperature_c = s.temperature_c;
     s.temperature_known = true;
 }
 
-// Only the counts of a gyro that lases as it should say something of the counter.
+// The counter is judged only by counts of a gyro that lases in its mode.
 void read_bits(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     const bool beats = o.counted && o.lit && o.loop_closed && s.was_lit;
     o.bit_stuck = step(c.counter_monitor, s.counter_monitor, beats, frame.counter);
@@ -107,13 +121,14 @@ bool is_echoed(const Observation& o) noexcept {
     return !o.commuted.sign_error && !o.polarity_error && !o.commuted.latch_error;
 }
 
-// Half of the bias is gone, or it is that of the other helicity: b by the last two halves. A wrong reading seldom looks so.
+// Half of the bias is gone, or it is that of the other helicity: b by the last two halves. A wrong reading seldom looks
+// so.
 bool is_lost_or_reversed(const BiasMonitorState& s) noexcept {
     const double b = 0.5 * s.beat_sign * as_double(s.counts - s.counts_before);
     return b < 0.5 * s.bias_counts && b > -1.25 * s.bias_counts;
 }
 
-void read_span(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
+void read_span(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
     // What does not follow begins anew, whether or not it can be read: so many halves lie between.
     const bool found = !o.fresh || (o.follows && o.lit && !o.coil.off && !o.coil.unbalanced);
     const BiasMonitorState& bias = s.bias_monitor;
@@ -125,7 +140,7 @@ void read_span(const GyroControlConfig& c, GyroControlState& s, const SensorFram
                       .suspicious = o.beyond || o.bias_wrong,
                       .agrees = o.counted && !o.beyond && !(o.bias.judged && !o.bias.in_band),
                       .bias_lost = o.bias.judged && is_lost_or_reversed(bias),
-                      .reading = frame.counter,
+                      .reading = o.fringe.counter,
                       .max_counts = length_ratio(c.commutator, s.commutator) * as_double(c.health.counts_limit),
                       .bias_counts = bias.bias_counts > 0.0 ? bias.bias_counts : c.bias_monitor.presumed_counts,
                       .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity)});
@@ -153,7 +168,7 @@ void judge(const GyroControlConfig& c, GyroControlState& s, Observation& o) noex
     if (lased && (o.bias.lost || o.bias.reversed)) o.bias_wrong = true;
     o.valid = countable && o.lit && !o.bias_wrong && !o.monitored.returns;
     match_halves(s, o);
-    // Away from a lock the detuning moves; what it leaves in the angle must be seen.
+    // Away from a lock the detuning moves: without its mean square the false angle would stay unnoticed.
     if ((s.light_spoilt || o.monitored.withheld) && !o.has_mean_square && !o.settled) o.valid = false;
     o.unsteady = step(c.detuning_monitor, s.detuning_monitor,
                       {.is_second = s.half % 2 != 0,
@@ -165,8 +180,22 @@ void judge(const GyroControlConfig& c, GyroControlState& s, Observation& o) noex
     s.was_lit = o.lit && o.loop_closed && o.counted;
 }
 
-// The counts of a half that is not valid are good all the same. But where the detuning moves they hold a false angle: such a
-// half is bridged, unless it covers others, too.
+// Change of the detuning within a half, rms, up to which it counts as steady.
+constexpr double steady_lambda = 0.05;
+
+// In an open loop the record has the mode that is sent for, but at first the light is still that of the one before: the
+// way between them is dark, or else the bias must be that of the new mode.
+void judge_steadiness(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
+    s.was_dark = !o.loop_closed && (s.was_dark || (o.fresh && !o.light.two_way));
+    if (!o.valid || !o.has_mean_square || o.reading.span != 1) return;
+    if (!o.loop_closed && !s.was_dark && !(o.bias.judged && o.bias.in_band)) return;
+    const double mean = o.monitored.detuning.value();
+    const double noise = c.light_monitor.noise.value();
+    o.steady = o.monitored.mean_sq_lambda2 - mean * mean <= steady_lambda * steady_lambda + noise * noise;
+}
+
+// The counts of a half that is not valid are good all the same. But where the detuning moves they hold a false angle:
+// such a half is bridged, unless it covers others, too.
 void leave_counts(GyroControlState& s, Observation& o) noexcept {
     const bool is_false = o.unsteady || !o.settled;
     o.left_to_next = o.reading.continues && !o.valid && (o.reading.span > 1 || !is_false);
@@ -180,14 +209,17 @@ void observe(const GyroControlConfig& config, GyroControlState& state, const Sen
     read_order(config, state, frame, seen);
     seen.commuted = step(config.commutator, state.commutator,
                          {.received = seen.fresh, .bias_sign = frame.bias_sign, .timer_ticks = frame.timer_ticks});
-    read_counter(config, state, frame, seen);
     read_echoes(state, frame, seen);
+    seen.fringe.counter = frame.counter;
+    if (config.fringe.reads) read_fringe(config, state, frame, seen);
+    read_counter(config, state, seen);
     read_bias(config, state, frame, seen);
     read_light(config, state, frame, seen);
     read_slow(state, frame, seen);
     read_bits(config, state, frame, seen);
-    read_span(config, state, frame, seen);
+    read_span(config, state, seen);
     judge(config, state, seen);
+    judge_steadiness(config, state, seen);
     leave_counts(state, seen);
 }
 

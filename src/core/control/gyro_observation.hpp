@@ -3,7 +3,8 @@
 
 #include <cstdint>
 
-#include <zlg/core/gyro_control.hpp>
+#include <zlg/core/control/gyro_control_state.hpp>
+#include <zlg/core/records.hpp>
 
 namespace zlg::core {
 
@@ -18,11 +19,13 @@ struct Observation {
     bool bit_stuck = false;  // of the counter
     bool lit = false;        // there was light in both directions, or the beat proves it
     bool valid = false;
+    bool steady = false;    // both beams were lit and steady throughout, in the mode of the record
     bool unsteady = false;  // the tick holds a false angle
     bool beyond = false;    // the counts are more than the gyro can make
     std::int8_t polarity = 1;
     bool loop_closed = true;
     bool settled = false;  // and locked
+    FringeReadoutOutput fringe;
     std::int64_t counts = 0;
     ReadingMonitorOutput reading;
     bool left_to_next = false;  // its counts are part of those of the next valid half

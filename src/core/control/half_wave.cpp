@@ -12,7 +12,8 @@ double grown_variance_v2(const HalfWaveConfig& c, double variance_v2) noexcept {
     return grown_v2 < ceiling_v2 ? grown_v2 : ceiling_v2;
 }
 
-void take_in(const HalfWaveConfig& c, HalfWaveState& s, double innovation_v, double prior_v2) noexcept {
+// Measurement update, its prior variance given.
+void update(const HalfWaveConfig& c, HalfWaveState& s, double innovation_v, double prior_v2) noexcept {
     const double gain = prior_v2 / (prior_v2 + c.measurement_sigma.value() * c.measurement_sigma.value());
     s.estimate_v += gain * innovation_v;
     s.variance_v2 = (1.0 - gain) * prior_v2;
@@ -32,9 +33,9 @@ HalfWaveOutput step(const HalfWaveConfig& config, HalfWaveState& state, Volts me
     const bool inside_gate = innovation_v2 <= config.gate * config.gate * spread_v2;
     const std::int8_t side = innovation_v > 0.0 ? 1 : -1;
     if (near_presumed && inside_gate) {
-        take_in(config, state, innovation_v, prior_v2);
+        update(config, state, innovation_v, prior_v2);
     } else if (near_presumed && state.outlier_side == side) {
-        take_in(config, state, innovation_v, innovation_v2);
+        update(config, state, innovation_v, innovation_v2);
     } else {
         state.variance_v2 = prior_v2;
         if (near_presumed) state.outlier_side = side;

@@ -46,7 +46,7 @@ void judge_lock(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchI
     if (plausible(c.range, in.piezo)) add(s.readings, in.piezo.value());
 }
 
-// What one half with the loop closed tells of the lock.
+// Evidence for or against the lock from one half with the loop closed.
 void watch(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
     count_up(s.readings.age);
     if (!in.light_known) return;
@@ -132,7 +132,7 @@ void begin_return(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitc
 
 // Each place of the range twice, first with the helicity that was held last.
 void try_place(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
-    constexpr double max_places = 1000.0;
+    constexpr double max_places = 1000.0;  // bounds the search where the half-wave voltage is far too small
     const double span_v = c.range.max.value() - c.range.min.value();
     const double wanted = 2.0 * span_v / in.half_wave.value();
     const double bounded = wanted >= 1.0 ? (wanted < max_places ? wanted : max_places) : 1.0;

@@ -8,10 +8,12 @@
 namespace zlg::core {
 namespace {
 
-// So far from its place at the last open half, the light could still be that of the old mode.
+// A perimeter that was farther from its target in the mean of the last open half may still have shown the light of the
+// old mode. Set by hand, a fifth of the distance to the next mode's centre.
 constexpr double max_in_flight_lambda = 0.1;
 
-// A voltage that is farther off when the loop is closed was led there by something else than the stage.
+// Learning of the slew rate. A voltage that is farther from its set-point at the closing has another cause than the
+// stage, and is not learnt from; one switch changes the rate by at most a tenth, half of the error. Set by hand.
 constexpr double arrived_lambda = 0.05;
 constexpr double max_slew_error = 0.2;
 
@@ -31,7 +33,7 @@ double slewed_v(const PerimeterLoopConfig& c, double move_v) noexcept {
 
 bool relocks(const PerimeterLoopConfig& c) noexcept { return c.kind == LoopKind::digital && c.relock_halves > 0; }
 
-// What a half tells the loop that corrects for what is in flight, in volts.
+// The correction of a loop that allows for the motion in flight, in volts: p of the header, times the gain.
 double relocking_v(const PerimeterLoopConfig& c, const PerimeterLoopState& s, const PerimeterLoopInput& in) noexcept {
     const double in_flight_lambda = (s.set_point_v - s.mean_v) / volts_per_lambda(c);
     if (!in.was_closed && limited(in_flight_lambda, max_in_flight_lambda) != in_flight_lambda) return 0.0;
@@ -48,7 +50,8 @@ double wanted_v(const PerimeterLoopConfig& c, const PerimeterLoopState& s, const
     return in.was_closed ? s.set_point_v - slewed_v(c, correction_v(c, in.detuning.value())) : s.set_point_v;
 }
 
-// A half in which the stage has slewed throughout shows how fast it is; the arrival says whether it was the stage.
+// Measure the slew rate in a half through which the stage slews (0.95 of the possible move, so that its end is not in
+// it), and learn it at the closing, if the voltage has arrived.
 void watch_slew(const PerimeterLoopConfig& c, PerimeterLoopState& s, const PerimeterLoopInput& in) noexcept {
     if (in.was_closed || !plausible(c.range, in.piezo)) return;
     const double presumed_v = s.end_v - s.start_v;

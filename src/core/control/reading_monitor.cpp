@@ -1,6 +1,6 @@
 #include <zlg/core/control/reading_monitor.hpp>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/control/bias_monitor.hpp>
 
 #include "common/bounds.hpp"
@@ -9,12 +9,13 @@ namespace zlg::core {
 namespace {
 
 // Two wrong readings in a row can be one disturbance that spans both; the same error four times over is none.
-constexpr std::int32_t agreeing_proven = 4;
+constexpr std::int32_t agreeing_debounce = 4;
 
 // Longer than the longest gap that is bridged, wherever it begins in a tick.
 constexpr std::int32_t held_halves = 36;
 
-// Less than half of the bias so often is no disturbance of readings; where the current is measured, it tells at once.
+// Halves in a row with less than half of the bias: no disturbance of readings lasts so long. A measured current shows
+// it at once.
 constexpr std::int32_t lost_settled = 16;
 
 // A counter that cannot follow stops near the end of its range; more than that is no count of a fringe.
@@ -123,7 +124,7 @@ ReadingMonitorOutput judge(ReadingMonitorState& s, const ReadingMonitorInput& in
     if (!s.over_range && has_returned(s, in, m)) return whole(s, in);
     // Readings that never agree so long are a motion that leaves the band again and again.
     const bool waited = s.n_watched >= held_halves && in.agrees;
-    if (s.n_agreeing < agreeing_proven && !waited) return {};
+    if (s.n_agreeing < agreeing_debounce && !waited) return {};
     if (s.over_range) return m > held_halves ? alone(s, in) : ReadingMonitorOutput{};
     // What no gyro can turn was none of its rotation.
     return s.impossible || is_over(in, counts, m, 1.0) ? alone(s, in) : whole(s, in);

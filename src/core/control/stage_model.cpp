@@ -7,7 +7,7 @@
 namespace zlg::core {
 namespace {
 
-// Far below what any converter can tell.
+// Far below the resolution of any converter.
 constexpr double negligible_v = 1e-6;
 
 struct Piece {
@@ -35,7 +35,8 @@ Piece followed(const StageModel& m, double v, double command_v) noexcept {
     return {corner_at_v + gone_v, slewed_vs + command_v * rest_s - m.rc_s * gone_v};
 }
 
-// From farther away than this the limit of the current is felt throughout a piece, and the target itself is the command.
+// From farther away than this the limit of the current is felt throughout a piece, and the target itself is the
+// command.
 double slewing_from_v(const StageModel& m) noexcept { return m.slew_v_s * (m.rc_s + m.piece_s); }
 
 // The command that brings a voltage within a piece's reach to the target.

@@ -3,7 +3,8 @@
 //
 //   dv/dt = clip((command - v)/rc, +-slew)
 //
-// It tells what of a command is still in flight, and which command brings the voltage to its target soonest.
+// It predicts the part of a command that is still in flight, and the command that brings the voltage to its target
+// soonest.
 
 #include <array>
 #include <cstdint>

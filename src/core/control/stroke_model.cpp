@@ -8,7 +8,8 @@
 namespace zlg::core {
 namespace {
 
-// Over U. A switch turns by one U: thresholds beyond half of that are felt when the voltage goes where it never was.
+// r_i. A switch turns by one U, so a play of more than U/2 never moves in steady operation: the last one is for
+// voltages that were not reached before. Six thresholds, spaced by hand about logarithmically.
 constexpr std::array<double, n_plays> threshold{0.02, 0.05, 0.1, 0.2, 0.35, 0.6};
 
 enum Place : std::size_t { direct, by_temperature, constant, first_play };
@@ -19,8 +20,8 @@ double over_u(const StrokeModelConfig& c, const StrokeModelState& s, Volts v) no
     return (clamp(c.range, v).value() - s.origin_v) / c.half_wave.value();
 }
 
-// Plays i and i + 1 at this voltage.
-Pair played(const double* position, std::size_t i, double voltage) noexcept {
+// (2) for plays i and i + 1.
+Pair play_output(const double* position, std::size_t i, double voltage) noexcept {
     const Pair at = load(position + i);
     const Pair lowest = voltage - load(threshold.data() + i);
     const Pair highest = voltage + load(threshold.data() + i);
@@ -33,7 +34,7 @@ double above_reference_c(const StrokeModelConfig& c, Celsius temperature) noexce
 
 double squared(double x) noexcept { return x * x; }
 
-// Variances before the first measurement.
+// Prior variances of the weights. That of b, 0.01 wavelength, was set by hand.
 StrokeWeights prior_variance(const StrokeModelConfig& c) noexcept {
     StrokeWeights v{};
     v[direct] = squared(half_lambda * c.half_wave_sigma_ratio);
@@ -43,13 +44,14 @@ StrokeWeights prior_variance(const StrokeModelConfig& c) noexcept {
     return v;
 }
 
-// What stays unexplained is put on w0 and on b, halved; the other weights are constants of the piezo.
-void forget(const StrokeModelConfig& c, StrokeModelState& s, const StrokeWeights& most) noexcept {
+// Q of (3): the process noise is shared by w0 and b; k is a constant of the piezo. No variance grows beyond `most`, its
+// prior.
+void add_process_noise(const StrokeModelConfig& c, StrokeModelState& s, const StrokeWeights& most) noexcept {
     const double added = 0.5 * squared(c.process_sigma.value());
     for (const std::size_t j : {std::size_t{direct}, std::size_t{constant}}) {
         if (s.covariance[j][j] < most[j]) s.covariance[j][j] += added;
     }
-    // Slowly, so that an error of the first loops does not stay for ever.
+    // The plays too, a tenth as fast, so that an error of the first loops is not kept for ever.
     for (std::size_t j = first_play; j < n_stroke_weights; ++j) {
         if (s.covariance[j][j] < most[j]) s.covariance[j][j] += 0.1 * added;
     }
@@ -61,42 +63,45 @@ double dot(const StrokeWeights& a, const StrokeWeights& b) noexcept {
     return sum[0] + sum[1] + a[n_stroke_weights - 1] * b[n_stroke_weights - 1];
 }
 
-// What the plays add to a move that ends at this voltage.
-double played_length(const StrokeModelState& s, const std::array<double, n_plays>& play, double voltage) noexcept {
+// The sum of (1) over the plays, for a move that ends at this voltage.
+double hysteresis_length(const StrokeModelState& s, const std::array<double, n_plays>& play, double voltage) noexcept {
     Pair length{};
     for (std::size_t i = 0; i < n_plays; i += 2) {
-        const Pair moved = played(play.data(), i, voltage) - load(play.data() + i);
+        const Pair moved = play_output(play.data(), i, voltage) - load(play.data() + i);
         length += load(s.weight.data() + first_play + i) * moved;
     }
     return length[0] + length[1];
 }
 
-// Of a long move, in which every play follows: what Newton's rule divides by. Each round then leaves a part of the error
-// that is at most that of the plays in the whole.
+// The slope of (4): that of a long move, in which every play follows. The slope of L is between that without plays and
+// this, so each iteration multiplies the error by at most the share of the plays in it. Limited to half to twice the
+// nominal 1/2.
 double total_slope(const StrokeModelState& s, double direct_slope) noexcept {
     double slope = direct_slope;
     for (std::size_t i = 0; i < n_plays; ++i) slope += s.weight[first_play + i];
     return slope > 0.25 ? (slope < 1.0 ? slope : 1.0) : 0.25;
 }
 
-void forget_all(const StrokeModelConfig& c, StrokeModelState& s) noexcept {
+void reset_covariance(const StrokeModelConfig& c, StrokeModelState& s) noexcept {
     const StrokeWeights variance = prior_variance(c);
     s.covariance = {};
     for (std::size_t j = 0; j < n_stroke_weights; ++j) s.covariance[j][j] = variance[j];
 }
 
+// One row of P h.
 void gain_row(StrokeModelState& s) noexcept {
     const auto row = static_cast<std::size_t>(s.n_gain++);
     s.gain[row] = dot(s.covariance[row], s.regressor);
 }
 
+// One row of P - K h^T P.
 void correct_row(StrokeModelState& s) noexcept {
     const auto row = static_cast<std::size_t>(s.n_corrected++);
     const double k = s.gain[row] / s.spread;
     for (std::size_t j = 0; j < n_stroke_weights; ++j) s.covariance[row][j] -= k * s.gain[j];
 }
 
-// One row at a time; in the order in which the results are needed.
+// One row of pending work, in the order in which the results are needed; false: there is none.
 bool work(StrokeModelState& s) noexcept {
     constexpr auto rows = static_cast<std::int8_t>(n_stroke_weights);
     if (s.n_corrected < rows) {
@@ -114,9 +119,9 @@ void finish(StrokeModelState& s) noexcept {
     }
 }
 
-// With the gain that this measurement has where nothing is known.
-void begin_anew(const StrokeModelConfig& c, StrokeModelState& s) noexcept {
-    forget_all(c, s);
+// P restarts from its prior, and the gain of this measurement with it.
+void restart(const StrokeModelConfig& c, StrokeModelState& s) noexcept {
+    reset_covariance(c, s);
     for (std::size_t i = 0; i < n_stroke_weights; ++i) s.gain[i] = s.covariance[i][i] * s.regressor[i];
     s.spread = dot(s.regressor, s.gain) + squared(s.length_sigma_lambda);
 }
@@ -127,7 +132,7 @@ StrokeModelState initial_state(const StrokeModelConfig& config, Volts start) noe
     StrokeModelState s;
     s.origin_v = clamp(config.range, start).value();
     s.weight[direct] = half_lambda;
-    forget_all(config, s);
+    reset_covariance(config, s);
     return s;
 }
 
@@ -135,7 +140,7 @@ void follow(const StrokeModelConfig& config, StrokeModelState& state, Volts piez
     (void)work(state);
     if (!plausible(config.range, piezo)) return;
     const double v = over_u(config, state, piezo);
-    for (std::size_t i = 0; i < n_plays; i += 2) store(state.play.data() + i, played(state.play.data(), i, v));
+    for (std::size_t i = 0; i < n_plays; i += 2) store(state.play.data() + i, play_output(state.play.data(), i, v));
 }
 
 Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& state, std::int8_t sign, Volts from,
@@ -151,7 +156,7 @@ Volts predicted_move(const StrokeModelConfig& config, const StrokeModelState& st
     const double steepness = total_slope(state, slope);
     double move = sign;
     for (int round = 0; round < 4; ++round) {
-        const double length = state.weight[constant] + slope * move + played_length(state, play, v0 + move);
+        const double length = state.weight[constant] + slope * move + hysteresis_length(state, play, v0 + move);
         move += (sign * half_lambda - length) / steepness;
         const double size_of = limited(sign * move, 2.0);
         move = sign * (size_of > 0.5 ? size_of : 0.5);
@@ -181,7 +186,7 @@ void arrive(const StrokeModelConfig& config, StrokeModelState& state, const Stro
     state.length_lambda = arrival.sign * half_lambda + miss;
     const double sigma_sq = squared(config.measurement_sigma.value()) + squared(0.1 * miss);
     state.length_sigma_lambda = square_root(sigma_sq);
-    forget(config, state, prior_variance(config));
+    add_process_noise(config, state, prior_variance(config));
     state.n_gain = 0;
 }
 
@@ -199,8 +204,8 @@ bool confirm(const StrokeModelConfig& config, StrokeModelState& state, bool neig
         state.outlier_side = side;
         return false;
     }
-    // What is known no longer holds; nor does it where rounding has made nonsense of it.
-    if (!inside || !(known >= 0.0)) begin_anew(config, state);
+    // The covariance no longer holds: a second outlier, or h^T P h < 0 by rounding.
+    if (!inside || !(known >= 0.0)) restart(config, state);
     state.outlier_side = 0;
     for (std::size_t i = 0; i < n_stroke_weights; ++i) state.weight[i] += state.gain[i] / state.spread * innovation;
     state.n_corrected = 0;

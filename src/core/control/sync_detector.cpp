@@ -40,7 +40,7 @@ struct Extremes {
     explicit Extremes(float first) noexcept
         : lowest{static_cast<double>(first), static_cast<double>(first)}, highest{lowest} {}
 
-    void take(Pair x) noexcept {
+    void add(Pair x) noexcept {
         lowest = lesser(lowest, x);
         highest = greater(highest, x);
     }
@@ -100,7 +100,7 @@ Moments through_curve(const SyncDetectorConfig& c, const SyncDetectorInput& in, 
     return dl_lambda;
 }
 
-// What both beams tell of one half: of dark or damaged ones too, where no detuning will be made of it.
+// Statistics of both beams over one half, dark or damaged ones included, from which no detuning follows.
 struct BothBeams {
     double weakest = 0.0;  // sample of either beam, where every one is finite
     double light = 0.0;    // finite exactly where every sample is: 128 floats cannot overflow a double
@@ -180,12 +180,12 @@ Extent extent(std::span<const float> samples) noexcept {
     std::size_t k = 0;
     for (; k + 1 < n; k += 2) {
         const Pair x = load(sample + k);
-        extremes.take(x);
+        extremes.add(x);
         sum += x;
     }
     if (k < n) {
         const double last = static_cast<double>(sample[k]);
-        extremes.take(Pair{last, last});
+        extremes.add(Pair{last, last});
         sum += Pair{last, 0.0};
     }
     return {lower(extremes.lowest), higher(extremes.highest), (sum[0] + sum[1]) / static_cast<double>(n)};

@@ -2,7 +2,6 @@
 // What stands above the rows of a CSV log: lines `# key = value`, then one line of column names.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <zlg/logs/settings.hpp>
@@ -16,17 +15,6 @@ struct CsvHead {
     std::vector<std::string> names;  // of the columns, without surrounding blanks and quotes
     char separator = ',';            // that parts them: , ; | tab, or ' ' for any run of blanks
 };
-
-// Calls `use(field)` for every comma-separated field of a line.
-template <class Use>
-void for_each_field(std::string_view line, Use use) {
-    for (;;) {
-        const auto comma = line.find(',');
-        use(line.substr(0, comma));
-        if (comma == std::string_view::npos) return;
-        line.remove_prefix(comma + 1);
-    }
-}
 
 // errors  FormatError: the file is empty, no line of names, numbers in its place, a nameless column.
 [[nodiscard]] CsvHead read_head(LineReader& lines);

@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <optional>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/escape.hpp>
 
-#include "row_rules.hpp"
 #include "settings_lines.hpp"
 
 namespace zlg::logs {
@@ -26,17 +23,9 @@ std::string_view without_plus(std::string_view text) {
     return text;
 }
 
-std::optional<std::int64_t> parse_integer(std::string_view text) {
-    text = without_plus(text);
-    std::int64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 }  // namespace
 
-CsvReader::CsvReader(const std::string& path, std::span<const Column> columns) : lines_{path}, columns_{columns} {
+CsvReader::CsvReader(const std::string& path, std::span<const KnownColumn> columns) : lines_{path}, columns_{columns} {
     CsvHead head = read_head(lines_);
     settings_ = std::move(head.settings);
     separator_ = head.separator;
@@ -66,11 +55,13 @@ void CsvReader::expect_only_empty_lines() {
 std::size_t CsvReader::split_fields_of(std::string_view line) {
     std::size_t n = 0;
     if (separator_ == ',' && line.find('"') == std::string_view::npos) {
-        for_each_field(line, [&](std::string_view text) {
-            if (n < fields_.size()) fields_[n] = trimmed(text);
+        for (;;) {
+            const std::size_t comma = line.find(',');
+            if (n < fields_.size()) fields_[n] = trimmed(line.substr(0, comma));
             ++n;
-        });
-        return n;
+            if (comma == std::string_view::npos) return n;
+            line.remove_prefix(comma + 1);
+        }
     }
     split_fields(line, separator_, quoted_fields_);
     for (; n < std::min(fields_.size(), quoted_fields_.size()); ++n) fields_[n] = quoted_fields_[n].text;
@@ -102,31 +93,21 @@ bool CsvReader::next() {
     return true;
 }
 
-void CsvReader::fail_integer(std::size_t column, std::string_view allowed) const {
+std::optional<std::int64_t> CsvReader::integer(std::size_t column) const {
+    const std::string_view text = without_plus(field(column));
+    std::int64_t value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+void CsvReader::fail_integer(std::size_t column, const std::string& allowed) const {
     const std::string_view digits = field(column).substr(field(column).find_first_not_of("+-") == 1 ? 1 : 0);
     const bool whole = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
     fail(column, fmt::format("is {}; allowed is {}", whole ? "out of range" : "not an integer", allowed));
 }
 
-std::int64_t CsvReader::integer(std::size_t column, std::int64_t min, std::int64_t max) const {
-    const auto value = parse_integer(field(column));
-    if (!value || *value < min || *value > max) fail_integer(column, range(min, max));
-    return *value;
-}
-
-std::int8_t CsvReader::sign(std::size_t column) const {
-    const auto value = parse_integer(field(column));
-    if (value != 1 && value != -1) fail_integer(column, allowed_sign);
-    return static_cast<std::int8_t>(*value);
-}
-
-bool CsvReader::flag(std::size_t column) const {
-    const auto value = parse_integer(field(column));
-    if (value != 0 && value != 1) fail_integer(column, allowed_flag);
-    return value == 1;
-}
-
-double CsvReader::any_real(std::size_t column) const {
+std::optional<double> CsvReader::real(std::size_t column) const {
     const std::string_view text = without_plus(field(column));
     double value = 0.0;
     const auto [stop, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
@@ -134,7 +115,7 @@ double CsvReader::any_real(std::size_t column) const {
     if (is_whole && separator_ == ',' && mark_ == Mark::none) return value;
     // Where commas do not part columns, they may be decimal; in one file there is one mark.
     const auto number = number_of(text, Mark::none);
-    if (!is_whole && !number) fail(column, "is not a number; allowed is a finite number");
+    if (!is_whole && !number) return std::nullopt;
     if (number && number->mark != Mark::none) {
         if (mark_ != Mark::none && mark_ != number->mark)
             fail(column, fmt::format("has a decimal {}, and numbers above have the other mark; allowed is one",
@@ -142,18 +123,6 @@ double CsvReader::any_real(std::size_t column) const {
         mark_ = number->mark;
     }
     return is_whole ? value : number->value;
-}
-
-double CsvReader::real(std::size_t column) const {
-    const double value = any_real(column);
-    if (!std::isfinite(value)) fail(column, not_finite);
-    return value;
-}
-
-double CsvReader::real_or_infinite(std::size_t column) const {
-    const double value = any_real(column);
-    if (std::isnan(value)) fail(column, not_a_number);
-    return value;
 }
 
 }  // namespace zlg::logs

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "column_map.hpp"
@@ -19,7 +21,7 @@ namespace zlg::logs {
 class CsvReader {
 public:
     // errors  IoError, FormatError (see read_head and map_columns; no rows).
-    CsvReader(const std::string& path, std::span<const Column> columns);
+    CsvReader(const std::string& path, std::span<const KnownColumn> columns);
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return map_.warnings; }
@@ -34,27 +36,37 @@ public:
 
     [[nodiscard]] double fraction_read() const { return lines_.fraction_read(); }
 
-    // Values of this row. errors FormatError.
-    [[nodiscard]] std::int64_t integer(std::size_t column, std::int64_t min, std::int64_t max) const;
-    [[nodiscard]] std::int8_t sign(std::size_t column) const;  // +1 or -1
-    [[nodiscard]] bool flag(std::size_t column) const;         // 0 or 1
-    [[nodiscard]] double real(std::size_t column) const;       // finite
-    [[nodiscard]] double real_or_infinite(std::size_t column) const;
+    // The value of a column of this row. errors  FormatError: it is no number, or the rule does not allow it.
+    template <class T, class Rule>
+    [[nodiscard]] T value(std::size_t column, const Rule& rule) const {
+        if constexpr (std::is_integral_v<T>) {
+            const std::optional<std::int64_t> number = integer(column);
+            if (!number) fail_integer(column, rule.allowed());
+            if (!rule.allows(*number, row_ - 1)) fail(column, rule.fault(*number, row_ - 1));
+            return static_cast<T>(*number);
+        } else {
+            const std::optional<double> number = real(column);
+            if (!number) fail(column, "is not a number; allowed is " + rule.allowed());
+            if (!rule.allows(*number, row_ - 1)) fail(column, rule.fault(*number, row_ - 1));
+            return *number;
+        }
+    }
 
     // Complains of a column of this row.
     [[noreturn]] void fail(std::size_t column, std::string_view what) const;
 
 private:
     [[nodiscard]] std::string_view field(std::size_t column) const { return fields_[*map_.field_of[column]]; }
-    [[noreturn]] void fail_integer(std::size_t column, std::string_view allowed) const;
-    [[nodiscard]] double any_real(std::size_t column) const;
+    [[nodiscard]] std::optional<std::int64_t> integer(std::size_t column) const;
+    [[noreturn]] void fail_integer(std::size_t column, const std::string& allowed) const;
+    [[nodiscard]] std::optional<double> real(std::size_t column) const;
     [[nodiscard]] std::string place() const;
     void split(std::string_view line);
     std::size_t split_fields_of(std::string_view line);
     void expect_only_empty_lines();
 
     LineReader lines_;
-    std::span<const Column> columns_;
+    std::span<const KnownColumn> columns_;
     Settings settings_;
     ColumnMap map_;
     std::vector<std::string_view> fields_;  // of this row; as many as the header names

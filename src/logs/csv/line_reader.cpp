@@ -1,6 +1,5 @@
 #include "line_reader.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -20,10 +19,9 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 LineReader::LineReader(std::string path, std::int64_t max_bytes)
     : path_{std::move(path)},
-      file_{::open(path_.c_str(), O_RDONLY | O_CLOEXEC)},
+      file_{open_to_read(path_)},
       buffer_{std::make_unique_for_overwrite<char[]>(max_line_bytes)},
       max_bytes_{max_bytes} {
-    if (!file_.is_open()) throw IoError(fmt::format("cannot open {}: {}", path_, std::strerror(errno)));
     text::note_input(file_.get());
     struct stat status {};
     if (::fstat(file_.get(), &status) == 0) size_bytes_ = status.st_size;

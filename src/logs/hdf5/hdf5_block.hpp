@@ -4,23 +4,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <zlg/logs/error.hpp>
 
 #include "hdf5_column.hpp"
 
 namespace zlg::logs::hdf5 {
 
-// The index of the first value that is not `good(value, index)`; n: all are. Looks for it only when there is one, so that
-// the loop over a good column is vectorised.
-template <class T, class Good>
-std::size_t first_bad(const T* values, std::size_t n, Good good) {
+// The index of the first of n values that the rule does not allow; n: it allows all. Looks for it only when there is one, so
+// that the loop over a good column is vectorised.
+template <class T, class Rule>
+std::size_t first_bad(const T* values, std::size_t n, const Rule& rule, std::int64_t first_row) {
+    const auto is_good = [&](std::size_t i) {
+        return rule.allows(values[i], first_row + static_cast<std::int64_t>(i));
+    };
     bool all_good = true;
-    for (std::size_t i = 0; i < n; ++i) all_good &= good(values[i], i);
+    for (std::size_t i = 0; i < n; ++i) all_good &= is_good(i);
     if (all_good) return n;
     std::size_t i = 0;
-    while (good(values[i], i)) ++i;
+    while (is_good(i)) ++i;
     return i;
 }
 
@@ -34,23 +40,30 @@ public:
     [[nodiscard]] std::size_t good_rows() const { return good_rows_; }
     [[nodiscard]] bool is_damaged() const { return good_rows_ < n_; }
 
-    // Reads the block of a column and checks it; `complaint(value)` is what is wrong with a bad one.
-    template <class T, class Good, class Complaint>
-    void take(Column<T>& column, Good good, Complaint complaint) {
+    // Reads the block of a column and judges it, if the log has the column. With several values in a row, which only columns
+    // of reals have, the rule does not ask for the number of the row.
+    template <class T, class Rule>
+    void take(Column<T>& column, const Rule& rule) {
+        if (!column.is_open()) return;
         const std::size_t width = column.width();
         const std::size_t whole = read(column) * width;
-        const std::size_t bad = first_bad(column.values(), whole, good) / width;
-        if (bad >= good_rows_) return;
-        good_rows_ = bad;
-        if constexpr (std::is_integral_v<T>) {
-            const std::int64_t value = column.integer(first_ + bad);
-            note(column.path(), fmt::format("{}", value), complaint(value));
-        } else {
-            std::size_t k = bad * width;
-            while (good(column.values()[k], k)) ++k;
-            note(column.path(), fmt::format("{}", column.values()[k]), complaint(column.values()[k]));
-        }
+        const auto first_row = static_cast<std::int64_t>(first_);
+        const std::size_t bad = first_bad(column.values(), whole, rule, first_row);
+        if (bad / width >= good_rows_) return;
+        good_rows_ = bad / width;
+        const auto note = [&](auto value) {
+            const std::string what = rule.fault(value, first_row + static_cast<std::int64_t>(good_rows_));
+            damage_ = std::make_exception_ptr(complaint(good_rows_, column.path(), fmt::format("{}", value), what));
+        };
+        if constexpr (std::is_integral_v<T>)
+            note(column.integer(first_ + good_rows_));
+        else
+            note(column.values()[bad]);
     }
+
+    // Of a value in a row of the block.
+    [[nodiscard]] FormatError complaint(std::size_t row, const std::string& column, const std::string& value,
+                                        const std::string& what) const;
 
     // Complains of the row behind the good ones. errors  FormatError or IoError, always.
     [[noreturn]] void fail() const;
@@ -95,8 +108,6 @@ private:
             return false;
         }
     }
-
-    void note(const std::string& column, const std::string& value, const std::string& what);
 
     const Source* source_;
     hsize_t first_ = 0;

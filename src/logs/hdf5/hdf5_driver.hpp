@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <new>
-#include <string>
 #include <zlg/logs/error.hpp>
 
 #include "hdf5_handle.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <zlg/logs/error.hpp>
 
@@ -61,15 +60,14 @@ void add_settings(TableWriter& table, const Settings& settings, std::optional<do
 
 void add_settings(TableWriter& table, const Settings& settings) { add_settings(table, settings, std::nullopt); }
 
-void add_angle_settings(TableWriter& table, const Settings& settings, double tick_s) {
+void add_angle_settings(TableWriter& table, Settings settings) {
+    std::optional<double> tick_s;
     if (const std::string* text = find_setting(settings, "tick_s")) {
-        const auto value = number_in(*text);
-        if (!value) throw FormatError(fmt::format("the setting tick_s is '{}'; allowed is a number", *text));
-        tick_s = *value;
+        tick_s = number_in(*text);
+        if (!tick_s) throw FormatError(fmt::format("the setting tick_s is '{}'; allowed is a number", *text));
     }
-    Settings others = settings;
-    std::erase_if(others, [](const auto& setting) { return setting.first == "flags" || setting.first == "tick_s"; });
-    add_settings(table, others, std::isnan(tick_s) ? std::nullopt : std::optional{tick_s});
+    std::erase_if(settings, [](const auto& setting) { return setting.first == "flags" || setting.first == "tick_s"; });
+    add_settings(table, settings, tick_s);
 }
 
 Settings read_settings(const Source& source, bool adds_tick) {

@@ -1,7 +1,8 @@
 #pragma once
 // The settings of an HDF5 log: /config and the attributes of the root.
 
-#include "csv/csv_head.hpp"
+#include <zlg/logs/settings.hpp>
+
 #include "hdf5_source.hpp"
 #include "hdf5_table_writer.hpp"
 
@@ -15,11 +16,10 @@ inline constexpr std::int64_t format_version = 1;
 // errors  FormatError: a setting that is no text of one line; IoError.
 void add_settings(TableWriter& table, const Settings& settings);
 
-// The same for an angle log: the settings `flags` and `tick_s` have attributes of their own and no line in /config. Without
-// a setting `tick_s` the attribute is the given one, and there is none where that is NaN.
+// The same for an angle log: the settings `flags` and `tick_s` have attributes of their own and no line in /config.
 //
 // errors  FormatError: as above, or a setting `tick_s` that is no number; IoError.
-void add_angle_settings(TableWriter& table, const Settings& settings, double tick_s);
+void add_angle_settings(TableWriter& table, Settings settings);
 
 // Reads /config; attributes of the root stand for settings that /config lacks.
 //

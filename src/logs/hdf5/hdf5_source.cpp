@@ -1,12 +1,10 @@
 #include "hdf5_source.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <zlg/logs/error.hpp>
@@ -38,13 +36,6 @@ unsigned state_of(int fd, const std::string& path) {
     if (offset < 0) return 0u;
     const ssize_t n = ::pread(fd, head.data(), head.size(), offset);
     return n == static_cast<ssize_t>(head.size()) && head[version] >= 2 ? head[flags] : 0u;
-}
-
-FileDescriptor open_descriptor(const std::string& path) {
-    FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
-    zlg::text::note_input(file.get());
-    return file;
 }
 
 Handle open_file(const std::string& path, int fd) {
@@ -95,6 +86,26 @@ std::optional<std::string> read_text(const Handle& type, const Handle& space, Re
     return H5Tget_strpad(type.get()) == H5T_STR_SPACEPAD ? whole.substr(0, whole.find_last_not_of(' ') + 1) : whole;
 }
 
+struct Attribute {
+    Handle id;
+    Handle type;
+    Handle space;
+
+    [[nodiscard]] std::optional<std::string> text() const {
+        return read_text(type, space, [this](hid_t memory, void* buffer) { return H5Aread(id.get(), memory, buffer); });
+    }
+};
+
+std::optional<Attribute> attribute_of(const Source& source, const std::string& object, const char* name) {
+    const char* const path = object.c_str();
+    if (H5Aexists_by_name(source.id(), path, name, H5P_DEFAULT) <= 0) return std::nullopt;
+    Handle id{H5Aopen_by_name(source.id(), path, name, H5P_DEFAULT, H5P_DEFAULT), &H5Aclose};
+    if (!id.is_open()) source.fail_to_read(object);
+    Handle type{H5Aget_type(id.get()), &H5Tclose};
+    Handle space{H5Aget_space(id.get()), &H5Sclose};
+    return Attribute{std::move(id), std::move(type), std::move(space)};
+}
+
 struct Members {
     std::vector<std::string> names;
     bool leads_elsewhere = false;
@@ -113,7 +124,8 @@ herr_t collect(hid_t, const char* name, const H5L_info_t* link, void* client) no
 
 Source::Source(std::string path) : path_{std::move(path)} {
     keep_quiet();
-    descriptor_ = open_descriptor(path_);
+    descriptor_ = open_to_read(path_);
+    zlg::text::note_input(descriptor_.get());
     file_ = open_file(path_, descriptor_.get());
 }
 
@@ -172,39 +184,31 @@ std::optional<std::string> Source::text(const std::string& data_set) const {
 }
 
 std::optional<std::string> Source::text_attribute(const std::string& object, const char* name) const {
-    if (H5Aexists_by_name(file_.get(), object.c_str(), name, H5P_DEFAULT) <= 0) return std::nullopt;
-    const Handle attribute{H5Aopen_by_name(file_.get(), object.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), &H5Aclose};
-    if (!attribute.is_open()) fail_to_read(object);
-    const Handle type{H5Aget_type(attribute.get()), &H5Tclose};
-    const Handle space{H5Aget_space(attribute.get()), &H5Sclose};
-    const auto text = read_text(
-        type, space, [&](hid_t memory_type, void* buffer) { return H5Aread(attribute.get(), memory_type, buffer); });
+    const auto attribute = attribute_of(*this, object, name);
+    if (!attribute) return std::nullopt;
+    const auto text = attribute->text();
     if (!text) fail(object, fmt::format("the attribute {} holds no text that can be read", name));
     return text;
 }
 
 std::optional<double> Source::real_attribute(const char* name) const {
-    if (H5Aexists(file_.get(), name) <= 0) return std::nullopt;
-    const Handle attribute{H5Aopen(file_.get(), name, H5P_DEFAULT), &H5Aclose};
-    if (!attribute.is_open()) fail_to_read("/");
-    const Handle type{H5Aget_type(attribute.get()), &H5Tclose};
-    const Handle space{H5Aget_space(attribute.get()), &H5Sclose};
+    const auto attribute = attribute_of(*this, "/", name);
+    if (!attribute) return std::nullopt;
     const auto refuse = [&](const std::string& what) {
         fail("/", fmt::format("the attribute {} is {}; allowed is a finite number", name, what));
     };
-    const H5T_class_t kind = H5Tget_class(type.get());
+    const H5T_class_t kind = H5Tget_class(attribute->type.get());
     if (kind == H5T_STRING) {
-        const auto text = read_text(type, space, [&](hid_t memory_type, void* buffer) {
-            return H5Aread(attribute.get(), memory_type, buffer);
-        });
+        const auto text = attribute->text();
         refuse(text ? fmt::format("the text '{}'", zlg::text::excerpt(*text, 40, '?')) : "not one text");
     }
     if (kind != H5T_FLOAT && kind != H5T_INTEGER) refuse("of a type that holds no number");
-    if (!is_one_value(space.get())) {
-        refuse(fmt::format("a list of {} numbers", std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
+    if (!is_one_value(attribute->space.get())) {
+        const hssize_t n = H5Sget_simple_extent_npoints(attribute->space.get());
+        refuse(fmt::format("a list of {} numbers", std::max<hssize_t>(n, 0)));
     }
     double value = NAN;
-    if (H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) fail_to_read("/");
+    if (H5Aread(attribute->id.get(), H5T_NATIVE_DOUBLE, &value) < 0) fail_to_read("/");
     if (!std::isfinite(value)) refuse(fmt::format("{}", value));
     return value;
 }

@@ -14,8 +14,8 @@ constexpr std::size_t rows_at_once = 16384;
 }  // namespace
 
 // Completeness is read before any length: of a complete log those are the last ones.
-TableReader::TableReader(const std::string& path, std::string group, std::span<const zlg::logs::Column> columns)
-    : source_{path}, is_complete_{source_.is_complete()}, group_{std::move(group)}, columns_{columns} {
+TableReader::TableReader(const std::string& path, std::string group, std::span<const KnownColumn> columns)
+    : source_{path}, is_complete_{source_.is_complete()}, group_{std::move(group)}, columns_{columns}, block_{source_} {
     if (!source_.has(group_)) throw FormatError(fmt::format("{}: the group {} is missing", path, group_));
     map_ = map_columns(columns, source_.members(group_), fmt::format("{}, {}", path, group_));
 }
@@ -41,8 +41,8 @@ bool TableReader::refresh() {
     return rows_ > rows_before;
 }
 
-std::size_t TableReader::block_size(hsize_t first) const {
-    return static_cast<std::size_t>(std::min<hsize_t>(rows_at_once - first % rows_at_once, rows_ - first));
+std::size_t TableReader::block_size() const {
+    return static_cast<std::size_t>(std::min<hsize_t>(rows_at_once - block_end_ % rows_at_once, rows_ - block_end_));
 }
 
 }  // namespace zlg::logs::hdf5

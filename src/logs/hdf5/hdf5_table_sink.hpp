@@ -1,22 +1,21 @@
 #pragma once
 // What the sinks of both logs share: rows are gathered column by column, and appended when a block is full.
 
-#include <span>
 #include <string>
-#include <zlg/logs/error.hpp>
 
-#include "hdf5_fields.hpp"
 #include "hdf5_table_writer.hpp"
+#include "log_io.hpp"
 
 namespace zlg::logs::hdf5 {
 
 template <class T>
 using Buffer = T*;
 
-template <class Sink>  // RawSink or AngleSink
-class TableSink : public Sink {
+template <class Table>
+class TableSink : public LogSink<Table> {
 public:
-    TableSink(const std::string& path, bool force, bool keep_part) : table_{path, force, keep_part} {}
+    TableSink(const std::string& path, bool force, bool keep_part, const typename Table::Presence& columns)
+        : table_{path, force, keep_part}, columns_{columns} {}
 
     void flush() override { table_.flush(); }
     void close() override { table_.close(); }
@@ -24,23 +23,31 @@ public:
 
 protected:
     // Columns that are not written have a buffer too: to fill it costs less than to ask for each.
-    template <class Fields, class Buffers, class IsWritten>
-    void add_fields(const std::string& group, std::span<const zlg::logs::Column> columns, const Fields& fields,
-                    Buffers& buffers, IsWritten is_written) {
-        for_each_field(fields, buffers, [&]<class T>(const auto& field, T*& rows) {
-            rows = is_written(field.column) ? table_.template add_column<T>(group, columns[field.column])
-                                            : table_.template add_buffer<T>();
+    void add_columns() {
+        table_.add_group(Table::group);
+        for_each_column<Table>(buffers_, [this]<class T>(const auto& field, T*& rows, std::size_t) {
+            rows = field.is_in(columns_) ? table_.template add_column<T>(Table::group, field.name, field.unit)
+                                         : table_.template add_buffer<T>();
         });
     }
 
-    template <class Fields, class Buffers, class Row>
-    void put(const Fields& fields, const Buffers& buffers, const Row& row) {
-        for_each_field(fields, buffers, [&row, i = table_.row()](const auto& field, auto* rows) {
-            rows[i] = std::invoke(field.member, row);
+    void require_loggable(const typename Table::Row& row) const {
+        table_.require_open();
+        logs::require_loggable<Table>(row, columns_);
+    }
+
+    // The row still has to be ended.
+    void put(const typename Table::Row& row) {
+        for_each_column<Table>(buffers_, [&row, i = table_.row()](const auto& field, auto* rows, std::size_t) {
+            rows[i] = field.of(row);
         });
     }
 
     TableWriter table_;
+
+private:
+    typename Table::Presence columns_;
+    PartsOf<Table, Buffer> buffers_{};
 };
 
 }  // namespace zlg::logs::hdf5

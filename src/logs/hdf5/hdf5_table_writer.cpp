@@ -1,8 +1,5 @@
 #include "hdf5_table_writer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <zlg/logs/error.hpp>
 
@@ -29,6 +26,22 @@ Handle creation_of(hid_t kind) {
     return creation;
 }
 
+// While it lives, groups that the library makes by its own default list have no times either: the object that describes
+// paged allocation is made so, and its time alone would tell two files of the same rows apart.
+class NoDefaultTimes {
+public:
+    NoDefaultTimes() {
+        H5Pget_obj_track_times(H5P_GROUP_CREATE_DEFAULT, &before_);
+        H5Pset_obj_track_times(H5P_GROUP_CREATE_DEFAULT, false);
+    }
+    ~NoDefaultTimes() { H5Pset_obj_track_times(H5P_GROUP_CREATE_DEFAULT, before_); }
+    NoDefaultTimes(const NoDefaultTimes&) = delete;
+    NoDefaultTimes& operator=(const NoDefaultTimes&) = delete;
+
+private:
+    hbool_t before_ = true;
+};
+
 }  // namespace
 
 TableWriter::TableWriter(const std::string& path, bool force, bool keep_part)
@@ -41,6 +54,7 @@ TableWriter::TableWriter(const std::string& path, bool force, bool keep_part)
     constexpr hsize_t page_bytes = 4096;
     H5Pset_file_space_strategy(creation.get(), H5F_FSPACE_STRATEGY_PAGE, false, 1);
     H5Pset_file_space_page_size(creation.get(), page_bytes);
+    const NoDefaultTimes no_times;
     file_ = {H5Fcreate(part_.part().c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), &H5Fclose};
     if (!file_.is_open()) fail("create");
 }
@@ -76,7 +90,7 @@ void TableWriter::add_group(const std::string& path) {
     if (!group.is_open()) fail("create");
 }
 
-void TableWriter::add_column(const std::string& group, const zlg::logs::Column& column, Column&& added) {
+void TableWriter::add_column(const std::string& path, const char* unit, Column&& added) {
     const hsize_t width = added.width;
     const int rank = width > 0 ? 2 : 1;
     const std::array<hsize_t, 2> size{0, width};
@@ -87,13 +101,12 @@ void TableWriter::add_column(const std::string& group, const zlg::logs::Column& 
     H5Pset_chunk(creation.get(), rank, chunk.data());
     const Handle access{H5Pcreate(H5P_DATASET_ACCESS), &H5Pclose};
     H5Pset_chunk_cache(access.get(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, no_cache, H5D_CHUNK_CACHE_W0_DEFAULT);
-    const std::string path = fmt::format("{}/{}", group, column.name);
     added.set = {
         H5Dcreate2(file_.get(), path.c_str(), added.type, space.get(), H5P_DEFAULT, creation.get(), access.get()),
         &H5Dclose};
     if (!added.set.is_open()) fail("create");
     columns_.push_back(std::move(added));
-    set_text(path, "unit", column.unit);
+    set_text(path, "unit", unit);
 }
 
 void TableWriter::add_text(const std::string& path, const std::string& text) {
@@ -116,16 +129,10 @@ void TableWriter::set_text(const std::string& object, const char* name, const st
     if (!attribute.is_open() || H5Awrite(attribute.get(), type.get(), &letters) < 0) fail("write");
 }
 
-void TableWriter::set_real(const char* name, double value) {
-    const Handle attribute{H5Acreate2(file_.get(), name, H5T_IEEE_F64LE, scalar().get(), H5P_DEFAULT, H5P_DEFAULT),
+void TableWriter::set_number(const char* name, hid_t file_type, hid_t type, const void* value) {
+    const Handle attribute{H5Acreate2(file_.get(), name, file_type, scalar().get(), H5P_DEFAULT, H5P_DEFAULT),
                            &H5Aclose};
-    if (!attribute.is_open() || H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) fail("write");
-}
-
-void TableWriter::set_integer(const char* name, std::int64_t value) {
-    const Handle attribute{H5Acreate2(file_.get(), name, H5T_STD_I64LE, scalar().get(), H5P_DEFAULT, H5P_DEFAULT),
-                           &H5Aclose};
-    if (!attribute.is_open() || H5Awrite(attribute.get(), H5T_NATIVE_INT64, &value) < 0) fail("write");
+    if (!attribute.is_open() || H5Awrite(attribute.get(), type, value) < 0) fail("write");
 }
 
 void TableWriter::start() {

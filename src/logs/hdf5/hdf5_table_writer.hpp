@@ -1,13 +1,15 @@
 #pragma once
 // A growing HDF5 file of columns: one writer, any number of readers meanwhile.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "column_map.hpp"
 #include "hdf5_handle.hpp"
 #include "hdf5_storage.hpp"
 #include "part_file.hpp"
@@ -37,9 +39,9 @@ public:
 
     // A column of T, in memory and in the file, and its buffer; `width` values in a row of a two-dimensional column.
     template <class T>
-    T* add_column(const std::string& group, const zlg::logs::Column& column, int width = 0) {
-        T* const rows = add_buffer<T>(width > 0 ? static_cast<std::size_t>(width) : 1);
-        add_column(group, column, {{}, memory_type<T>(), rows, static_cast<hsize_t>(width)});
+    T* add_column(const std::string& group, const char* name, const char* unit, std::size_t width = 0) {
+        T* const rows = add_buffer<T>(std::max<std::size_t>(width, 1));
+        add_column(fmt::format("{}/{}", group, name), unit, {{}, memory_type<T>(), rows, width});
         return rows;
     }
 
@@ -52,8 +54,11 @@ public:
 
     void add_text(const std::string& path, const std::string& text);
     void set_text(const std::string& object, const char* name, const std::string& text);
-    void set_real(const char* name, double value);  // of the root
-    void set_integer(const char* name, std::int64_t value);
+    // An attribute of the root.
+    void set_real(const char* name, double value) { set_number(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value); }
+    void set_integer(const char* name, std::int64_t value) {
+        set_number(name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+    }
     void start();
 
     // Where the next row belongs in the buffers.
@@ -81,7 +86,8 @@ public:
 
 private:
     [[noreturn]] void refuse_closed() const;
-    void add_column(const std::string& group, const zlg::logs::Column& column, Column&& added);
+    void add_column(const std::string& path, const char* unit, Column&& added);
+    void set_number(const char* name, hid_t file_type, hid_t type, const void* value);
     void append(std::size_t n);
     void extend(const Column& column, std::size_t n);
     void check_storage();

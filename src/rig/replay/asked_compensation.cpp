@@ -34,11 +34,10 @@ void add_curves(const config::Config& config, const logs::RawHeader& log, const 
     const double slope = recorded.gyro.discriminator_per_lambda;
     const config::Perimeter& with = recorded.perimeter;
     const config::Perimeter& asked = config.perimeter;
-    core::RelockDriftConfig& relock = made.compensation.relock;
+    core::CompensationConstants& gyro = made.compensation.gyro;
     const bool has_own = !with.discriminator_signal.empty();
-    relock.curve = has_own ? core::DiscriminatorCurve{} : discriminator_curve(config, slope);
-    relock.control_curve = has_own ? discriminator_curve(recorded, slope) : core::DiscriminatorCurve{};
-    made.compensation.profile.record_curve = relock.curve;
+    gyro.record_curve = has_own ? core::DiscriminatorCurve{} : discriminator_curve(config, slope);
+    gyro.control_curve = has_own ? discriminator_curve(recorded, slope) : core::DiscriminatorCurve{};
     const bool is_another = with.discriminator_signal != asked.discriminator_signal ||
                             with.discriminator_detuning_lambda != asked.discriminator_detuning_lambda;
     if (has_own && is_another && !asked.discriminator_signal.empty())
@@ -52,8 +51,7 @@ core::Hertz timer_of(const config::Config& config, const logs::RawHeader& log) {
     const config::Gyro& g = config.gyro;
     if (!(g.bias_edge_s < 0.5 * g.tick_s))
         throw config::ConfigError{
-            fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}, where "
-                        "edges are shifted",
+            fmt::format("gyro.bias_edge_s = {}: allowed is below half of gyro.tick_s = {}, where edges are shifted",
                         g.bias_edge_s, g.tick_s)};
     if (!(log.timer_hz >= 1.0 && log.timer_hz <= 1e15))
         throw config::ConfigError{
@@ -83,7 +81,7 @@ LogCompensation asked_compensation(const config::Config& config, const logs::Raw
                         "squares of the detuning instead",
                         log_name));
     add_curves(config, log, log_name, made);
-    if (log.has_edge_offset) made.compensation.timer = timer_of(config, log);
+    if (log.has_edge_offset) made.compensation.gyro.timer = timer_of(config, log);
     return made;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The faults of a run, in time: which of them act in the half that is lived through.
+// The faults of a run, in time: which of them act in the present half.
 
 #include <cstddef>
 #include <span>
@@ -20,7 +20,7 @@ public:
 
     // Those that have begun by the end of the half and were not over at its start.
     [[nodiscard]] std::span<const Fault> active() const { return active_; }
-    // Those whose effect stays have left so much behind.
+    // Lasting effect of the faults that are over: shift of the perimeter and of the temperature.
     [[nodiscard]] double settled_lambda() const { return settled_lambda_; }
     [[nodiscard]] double settled_c() const { return settled_c_; }
 
@@ -32,7 +32,7 @@ private:
     void settle(const Fault& fault);
 
     std::vector<Fault> faults_;  // in the order of their start
-    std::size_t next_ = 0;       // that has not begun
+    std::size_t next_ = 0;       // the first that has not begun
     std::vector<Fault> active_;
     double settled_lambda_ = 0.0;
     double settled_c_ = 0.0;
@@ -40,7 +40,7 @@ private:
     bool dims_light_ = false;
 };
 
-// From 0 at the start of a fault to 1 at its end, which one of no duration reaches at once.
+// From 0 at the start of a fault to 1 at its end; 1 at once for a fault of no duration.
 [[nodiscard]] inline double progress(const Fault& fault, double time_s) {
     if (time_s < fault.at_s) return 0.0;
     const double since_s = time_s - fault.at_s;
@@ -51,7 +51,7 @@ private:
     return time_s >= fault.at_s && time_s < fault.at_s + fault.duration_s;
 }
 
-// Part of a stretch of time in which a fault acts.
+// Part of the time from start_s to end_s in which a fault acts.
 [[nodiscard]] double share(const Fault& fault, double start_s, double end_s);
 
 }  // namespace zlg::twin

@@ -8,6 +8,8 @@
 
 #include <zlg/twin/laser_zones.hpp>
 
+#include "refusal.hpp"
+
 namespace zlg::twin {
 namespace {
 
@@ -90,16 +92,11 @@ void find_limits(const FourWave& laser, double field_g, AveragedLaser& result) {
     }
 }
 
-void require_within(const char* what, double value, double min, double max) {
-    if (value >= min && value <= max) return;
-    throw std::invalid_argument(fmt::format("averaged laser: {} is {}, allowed is {}..{}", what, value, min, max));
-}
-
 }  // namespace
 
 AveragedLaser averaged_laser(const FourWave& laser, double field_g, double fit_range_lambda) {
-    require_within("field_g", field_g, 1e-6, 1e5);
-    require_within("fit_range_lambda", fit_range_lambda, 0.001, 0.25);
+    require_within("averaged laser: field_g", field_g, 1e-6, 1e5);
+    require_within("averaged laser: fit_range_lambda", fit_range_lambda, 0.001, 0.25);
     const LaserLight centre = laser.at(0.0, field_g);
     if (!centre.left.two_way()) {
         throw std::runtime_error(

@@ -8,6 +8,8 @@
 
 #include <zlg/twin/laser_zones.hpp>
 
+#include "refusal.hpp"
+
 namespace zlg::twin {
 namespace {
 
@@ -95,13 +97,9 @@ double DiscriminatorCurve::detuning_of(double signal_ratio) const {
 
 DiscriminatorCurve discriminator_curve(const FourWave& laser, double field_g, double tolerance_lambda) {
     if (!(field_g > 0.0 && field_g <= 1e5)) {
-        throw std::invalid_argument(
-            fmt::format("discriminator curve: field_g is {}, allowed is 0 < field_g <= 1e5", field_g));
+        refuse("discriminator curve: field_g", field_g, "0 < field_g <= 1e5");
     }
-    if (!(tolerance_lambda >= 1e-6 && tolerance_lambda <= 0.01)) {
-        throw std::invalid_argument(
-            fmt::format("discriminator curve: tolerance_lambda is {}, allowed is 1e-6..0.01", tolerance_lambda));
-    }
+    require_within("discriminator curve: tolerance_lambda", tolerance_lambda, 1e-6, 0.01);
     const std::vector<Knot> below = branch(laser, field_g, -1.0);
     const std::vector<Knot> above = branch(laser, field_g, 1.0);
     if (below.size() < 2 || above.size() < 2) {

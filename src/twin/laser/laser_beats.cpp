@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "noise.hpp"
 
@@ -13,7 +14,8 @@ namespace {
 constexpr double faint_ratio = 0.01;
 
 // Equal mirrors whose coupling locks equal waves below lock_hz.
-Backscatter scatter(double lock_hz, double phase_rad) {
+Backscatter scatter(double lock_hz, double phase_deg) {
+    const double phase_rad = phase_deg * std::numbers::pi / 180.0;
     const double each_hz = 0.5 * lock_hz / std::cos(phase_rad);
     return {each_hz, each_hz, phase_rad, 0.0};
 }
@@ -29,13 +31,14 @@ OpticalBeats beats_of(std::uint64_t seed, double threshold) {
 
 }  // namespace
 
-LaserBeats::LaserBeats(const BeatConfig& config, std::uint64_t seed, const LaserTable& table)
+LaserBeats::LaserBeats(const LaserConfig& config, std::uint64_t seed, const LaserTable& table)
     : table_{table},
-      left_{scatter(config.lock_in_left_hz, config.scatter_phase_rad)},
-      right_{scatter(config.lock_in_right_hz, config.scatter_phase_rad)},
+      left_{scatter(config.lock_in_left_hz, config.scatter_phase_deg)},
+      right_{scatter(config.lock_in_right_hz, config.scatter_phase_deg)},
       threshold_{2.0 * config.comparator_threshold * table.exact().centre_intensity()},
       min_light_{faint_ratio * table.exact().centre_intensity()},
-      counts_quarters_{config.counts_per_turn == 4},
+      usual_amplitude_{2.0 * table.exact().centre_intensity()},
+      counts_quarters_{config.quadrature == Quadrature::x4},
       beats_{beats_of(seed, threshold_)},
       end_light_{table_.at(0.0, 0.0)} {}
 
@@ -57,7 +60,7 @@ Beat LaserBeats::beat(const Stretch& s, const Lights& lights, int helicity, doub
     pair.cw *= s.cw_part;
     pair.ccw *= s.ccw_part;
     if (!(std::min(pair.cw, pair.ccw) > min_light_)) return {};
-    const Course bias{lights.start.of(helicity).bias_hz, pair.bias_hz, lights.end.of(helicity).bias_hz};
+    const StartMiddleEnd bias{lights.start.of(helicity).bias_hz, pair.bias_hz, lights.end.of(helicity).bias_hz};
     const double mean_hz = s.common_hz + helicity * s.helicity_hz + mean_of(bias);
     const double half_change_hz = 0.5 * slant * (bias[2] - bias[0]);
     return {mean_hz - half_change_hz, mean_hz + half_change_hz,
@@ -77,6 +80,11 @@ Followed LaserBeats::live(const Stretch& s, double slant) {
 
 Followed LaserBeats::plateau(const Stretch& stretch) { return live(stretch, 0.0); }
 Followed LaserBeats::edge(const Stretch& stretch) { return live(stretch, 1.0); }
+
+Signals LaserBeats::signals() const {
+    const Signals z = beats_.signals();
+    return {z.s / usual_amplitude_, z.c / usual_amplitude_};
+}
 
 std::uint64_t LaserBeats::latch() const { return counts_quarters_ ? beats_.latch_quarters() : beats_.latch_turns(); }
 

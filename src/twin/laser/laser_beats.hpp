@@ -11,14 +11,14 @@
 namespace zlg::twin {
 
 // Start, middle and end of a stretch of time.
-using Course = std::array<double, 3>;
+using StartMiddleEnd = std::array<double, 3>;
 
 // Simpson's rule.
-[[nodiscard]] constexpr double mean_of(const Course& c) { return (c[0] + 4.0 * c[1] + c[2]) / 6.0; }
+[[nodiscard]] constexpr double mean_of(const StartMiddleEnd& c) { return (c[0] + 4.0 * c[1] + c[2]) / 6.0; }
 
 struct Stretch {
-    Course perimeter_lambda{};
-    Course field_g{};
+    StartMiddleEnd perimeter_lambda{};
+    StartMiddleEnd field_g{};
     double duration_s = 0.0;
     double common_hz = 0.0;    // drive of both helicities: rotation and the drift that no field makes
     double helicity_hz = 0.0;  // drive times helicity: the drift that a constant field makes
@@ -35,7 +35,7 @@ struct Followed {
 class LaserBeats {
 public:
     // seed  of the phases that the beats start with.
-    LaserBeats(const BeatConfig& config, std::uint64_t seed, const LaserTable& table);
+    LaserBeats(const LaserConfig& config, std::uint64_t seed, const LaserTable& table);
 
     // The bias hardly changes: each beat has its mean throughout.
     Followed plateau(const Stretch& stretch);
@@ -43,6 +43,8 @@ public:
     Followed edge(const Stretch& stretch);
 
     [[nodiscard]] std::uint64_t latch() const;
+    // Of the sum of the beats, over the amplitude of one at the centre.
+    [[nodiscard]] Signals signals() const;
     [[nodiscard]] const OpticalBeats& beats() const { return beats_; }
 
 private:
@@ -59,6 +61,7 @@ private:
     Backscatter right_;
     double threshold_;
     double min_light_;
+    double usual_amplitude_;
     bool counts_quarters_;
     OpticalBeats beats_;
 

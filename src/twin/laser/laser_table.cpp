@@ -10,6 +10,7 @@
 #include "gas.hpp"
 #include "laser_frame.hpp"
 #include "laser_grid.hpp"
+#include "refusal.hpp"
 
 namespace zlg::twin {
 namespace {
@@ -23,16 +24,13 @@ constexpr std::size_t max_cells = 60'000;
 
 LaserTable::LaserTable(const LaserConfig& config, double max_field_g)
     : exact_{config}, max_field_g_{max_field_g}, shift_per_g_{config.zeeman_hz_per_g / config.doppler_half_width_hz} {
-    if (!(max_field_g >= 1e-6 && max_field_g <= 1e5)) {
-        throw std::invalid_argument(
-            fmt::format("laser table: laser.bias_field_g is {}, allowed is 1e-6..1e5", max_field_g));
-    }
+    if (!(max_field_g >= 1e-6 && max_field_g <= 1e5))
+        refuse("laser table: laser.bias_field_g", max_field_g, "1e-6..1e5");
     const Gas gas{config};
     const double max_shift = gas.shift_of(max_field_g);
     if (!(max_shift >= 1e-12)) {
-        throw std::invalid_argument(fmt::format(
-            "laser table: laser.zeeman_hz_per_g is {}, allowed is a shift of 1e-12 Doppler widths or more at {} G",
-            config.zeeman_hz_per_g, max_field_g));
+        refuse("laser table: laser.zeeman_hz_per_g", config.zeeman_hz_per_g,
+               fmt::format("a shift of 1e-12 Doppler widths or more at {} G", max_field_g));
     }
     const double largest_bias_hz = std::abs(gas.at(0.0, -0.5, max_shift).near_bias_hz);
     const auto parts = [](double error, double whole) { return whole > 0.0 ? error / whole : error; };

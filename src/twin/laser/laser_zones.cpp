@@ -2,9 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 
-#include <fmt/format.h>
+#include "refusal.hpp"
 
 namespace zlg::twin {
 namespace {
@@ -32,17 +31,12 @@ void add_edges(const FourWave& laser, double field_g, Sample a, Sample b, std::v
     add_edges(laser, field_g, m, b, zones);
 }
 
-void require_within(const char* what, double value, double min, double max) {
-    if (value >= min && value <= max) return;
-    throw std::invalid_argument(fmt::format("laser zones: {} is {}, allowed is {}..{}", what, value, min, max));
-}
-
 }  // namespace
 
 std::vector<LaserZone> laser_zones(const FourWave& laser, double field_g, double from_lambda, double to_lambda) {
-    require_within("field_g", field_g, -1e5, 1e5);
-    require_within("from_lambda", from_lambda, -1e6, 1e6);
-    require_within("to_lambda - from_lambda", to_lambda - from_lambda, edge_width_lambda, 10.0);
+    require_within("laser zones: field_g", field_g, -1e5, 1e5);
+    require_within("laser zones: from_lambda", from_lambda, -1e6, 1e6);
+    require_within("laser zones: to_lambda - from_lambda", to_lambda - from_lambda, edge_width_lambda, 10.0);
     const auto n = static_cast<std::size_t>(std::ceil((to_lambda - from_lambda) / scan_step_lambda));
     const double step = (to_lambda - from_lambda) / static_cast<double>(n);
     Sample last{from_lambda, laser.at(from_lambda, field_g).lit()};

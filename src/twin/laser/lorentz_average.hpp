@@ -1,10 +1,9 @@
 #pragma once
 // Lorentzians averaged over the Maxwell distribution of velocities.
 //
-// A velocity is told by its Doppler shift in units of ku, where the distribution exp(-v^2)/sqrt(pi) falls to 1/e; a
+// A velocity is given by its Doppler shift in units of ku, where the distribution exp(-v^2)/sqrt(pi) falls to 1/e; a
 // Lorentzian L_c(v) = y^2/(y^2 + (v - c)^2) burns its hole at v = c. All averages follow from w(c + i y).
 
-#include <cmath>
 #include <complex>
 #include <numbers>
 

@@ -99,14 +99,14 @@ void OpticalBeats::live_monotone(const Beat& left, const Beat& right, double dur
 // within the stretch is a hundredth of a turn, and nobody sees it in the garbage that is counted here.
 void OpticalBeats::sample_sum(const Beat& left, const Beat& right, const Turns& left_before, const Turns& right_before,
                               double duration_s) {
-    const auto course = [&](const Beat& b, const Turns& before, const Turns& after) {
+    const auto phase_of = [&](const Beat& b, const Turns& before, const Turns& after) {
         const double pull = after.minus(before) - 0.5 * (b.start_hz + b.end_hz) * duration_s;
         return [=](double x) {
             return before.part + x * (pull + duration_s * (b.start_hz + 0.5 * x * (b.end_hz - b.start_hz)));
         };
     };
-    const auto left_at = course(left, left_before, left_.value());
-    const auto right_at = course(right, right_before, right_.value());
+    const auto left_at = phase_of(left, left_before, left_.value());
+    const auto right_at = phase_of(right, right_before, right_.value());
     const double fastest =
         std::max({std::abs(left.start_hz), std::abs(left.end_hz), std::abs(right.start_hz), std::abs(right.end_hz)});
     const auto n = static_cast<std::int64_t>(std::ceil(std::min(16.0 * fastest * duration_s, max_samples))) + 1;

@@ -1,7 +1,6 @@
 #include "analog_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace zlg::twin {
@@ -36,8 +35,8 @@ void exponential(double tau_s, double rc_s, double t_s, double (&result)[2][2]) 
 AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s,
                        std::shared_ptr<const ErrorSignal> signal)
     : stage_{stage},
-      tau_s_{config.tau_s},
-      limit_lambda_{config.limit_lambda},
+      tau_s_{config.perimeter.tau_s},
+      limit_lambda_{config.perimeter.limit_lambda},
       step_s_{step_s},
       steps_per_s_{1.0 / step_s},
       n_substeps_{1},

@@ -1,7 +1,5 @@
 #include "high_voltage.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "laser/laser.hpp"
@@ -9,13 +7,13 @@
 namespace zlg::twin {
 
 HighVoltage::HighVoltage(const TwinConfig& config, double usual_step_s)
-    : middle_v_{0.5 * config.range_min_v + 0.5 * config.range_max_v},
-      half_range_v_{0.5 * (config.range_max_v - config.range_min_v)},
-      rc_s_{config.rc_s},
-      slew_v_s_{config.slew_v_s},
+    : middle_v_{0.5 * config.piezo.range_min_v + 0.5 * config.piezo.range_max_v},
+      half_range_v_{0.5 * (config.piezo.range_max_v - config.piezo.range_min_v)},
+      rc_s_{config.piezo.rc_s},
+      slew_v_s_{config.piezo.slew_v_s},
       usual_step_s_{usual_step_s},
       usual_decay_{std::exp(-usual_step_s / rc_s_)} {
-    take_half_wave(config.half_wave_v);
+    take_half_wave(config.piezo.half_wave_v);
 }
 
 double HighVoltage::take_half_wave(double half_wave_v) {

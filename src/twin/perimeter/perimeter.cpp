@@ -10,11 +10,11 @@
 namespace zlg::twin {
 namespace {
 
-bool uses_set_points(const core::ActuatorFrame& frame, LoopKind loop) {
-    return !frame.loop_closed || loop == LoopKind::external;
+bool uses_set_points(const core::ActuatorFrame& frame, Loop loop) {
+    return !frame.loop_closed || loop == Loop::digital;
 }
 
-void check(const core::ActuatorFrame& frame, LoopKind loop) {
+void check(const core::ActuatorFrame& frame, Loop loop) {
     if (frame.polarity != 1 && frame.polarity != -1) {
         throw std::invalid_argument(fmt::format("actuator frame: polarity is {}, allowed is 1 or -1", frame.polarity));
     }
@@ -36,20 +36,22 @@ void check(const core::ActuatorFrame& frame, LoopKind loop) {
 Perimeter::Perimeter(const TwinConfig& config, int n_steps, std::shared_ptr<const ErrorSignal> signal)
     : config_{config},
       n_steps_{n_steps},
-      step_s_{0.5 * config.tick_s / n_steps},
+      step_s_{0.5 * config.gyro.tick_s / n_steps},
       stage_{config, step_s_},
-      dac_{config.range_min_v, config.range_max_v, config.dac_bits},
+      dac_{config.piezo.range_min_v, config.piezo.range_max_v, config.piezo.dac_bits},
       loop_{config, stage_, step_s_, std::move(signal)},
       piezo_{config, step_s_} {
     set_points_.reserve(core::max_set_points);
-    for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.tau_s));
+    for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.perimeter.tau_s));
 }
 
-double Perimeter::voltage_v() const { return std::clamp(stage_.volts(v_), config_.range_min_v, config_.range_max_v); }
+double Perimeter::voltage_v() const {
+    return std::clamp(stage_.volts(v_), config_.piezo.range_min_v, config_.piezo.range_max_v);
+}
 
 void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_lambda, double drift_end_lambda,
                            const FaultyHalf* faulty) {
-    check(frame, config_.loop);
+    check(frame, config_.perimeter.loop);
     faulty_ = faulty;
     drift_start_ = drift_start_lambda;
     drift_step_ = (drift_end_lambda - drift_start_lambda) / n_steps_;
@@ -62,10 +64,11 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
     closed_ = frame.loop_closed;
     polarity_ = frame.polarity;
     if (closes) close();
-    if (uses_set_points(frame, config_.loop)) take_set_points(frame);
+    if (uses_set_points(frame, config_.perimeter.loop)) take_set_points(frame);
     if (aims) aim();
-    if (config_.loop == LoopKind::exponential && closed_) {
-        amplitude_ = miss_at_closing_ * std::exp(-halves_since_closing_ * (0.5 * config_.tick_s) / config_.tau_s);
+    if (config_.perimeter.loop == Loop::exponential && closed_) {
+        amplitude_ =
+            miss_at_closing_ * std::exp(-halves_since_closing_ * (0.5 * config_.gyro.tick_s) / config_.perimeter.tau_s);
         halves_since_closing_ += 1.0;
     }
     mode_ = lasing_mode(length_lambda());
@@ -98,7 +101,7 @@ void Perimeter::leave(int polarity) {
         const bool is_held = mode_.helicity() == polarity_ && std::abs(mode_.detuning_lambda) <= held_lambda;
         held_before_ = is_lit && is_held ? polarity_ : 0;
     }
-    has_miss_ = config_.miss_lambda > 0.0 && held_before_ == -polarity && missed_from_ != held_before_;
+    has_miss_ = config_.perimeter.miss_lambda > 0.0 && held_before_ == -polarity && missed_from_ != held_before_;
 }
 
 // Choose the error of the second input so that the move ends short of the centre by the miss that is asked for, and off
@@ -109,7 +112,7 @@ void Perimeter::aim() {
     direction_ = set_points_.back() >= v_ ? 1.0 : -1.0;
     if (!has_miss_) return;
     const double target = piezo_.length_at(set_points_.back()) + drift_;
-    const double short_of = direction_ * config_.miss_lambda;
+    const double short_of = direction_ * config_.perimeter.miss_lambda;
     const double wanted = nearest_centre_lambda(polarity_, target) - short_of;
     injected_ = piezo_.is_ideal() ? wanted - target : piezo_.voltage_for(wanted - drift_) - set_points_.back();
     injected_ += switch_error_;
@@ -130,7 +133,7 @@ double Perimeter::pinned_at(double piezo_length_lambda) const {
 void Perimeter::close() {
     if (has_miss_) {
         missed_from_ = held_before_;
-        const double short_of = direction_ * config_.miss_lambda;
+        const double short_of = direction_ * config_.perimeter.miss_lambda;
         const double centre = nearest_centre_lambda(polarity_, length_lambda() - switch_error_ + short_of);
         v_ = pinned_at(centre - short_of - drift_ + switch_error_);
         if (!piezo_.is_ideal()) {

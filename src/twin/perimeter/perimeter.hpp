@@ -100,11 +100,11 @@ inline void Perimeter::step() {
     ++steps_done_;
     const double drift_before = drift_;
     drift_ = drift_at(steps_done_);
-    if (!closed_ || config_.loop == LoopKind::external) {
+    if (!closed_ || config_.perimeter.loop == Loop::digital) {
         follow_set_points();
     } else if (is_dark()) {
         v_ = stage_.followed(v_, command_, step_s_);  // no error signal: the integrator holds
-    } else if (config_.loop == LoopKind::analog) {
+    } else if (config_.perimeter.loop == Loop::analog) {
         // What the piezo adds to the voltage is taken as still for a step of the loop: 1e-4 wavelength in a fast move.
         const AnalogLoop::State end =
             loop_.step({command_, v_}, mode_, polarity_, drift_before + excess_, drift_ + excess_);

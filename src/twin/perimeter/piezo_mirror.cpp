@@ -16,12 +16,13 @@ double clipped(double x, double low, double high) {
 }  // namespace
 
 PiezoMirror::PiezoMirror(const TwinConfig& config, double step_s)
-    : is_ideal_{!(config.hysteresis > 0.0 || config.creep_per_decade > 0.0 || config.mirror_hz > 0.0)},
+    : is_ideal_{!(config.piezo.hysteresis > 0.0 || config.piezo.creep_per_decade > 0.0 ||
+                  config.piezo.mirror_hz > 0.0)},
       step_s_{step_s} {
-    const double lambda_per_v = 0.5 / config.half_wave_v;
-    set_plays(config.hysteresis, 0.5 * lambda_per_v * config.hysteresis_stroke_v, 0.5);
-    set_creep(config.creep_per_decade);
-    set_mirror(config.mirror_hz, config.mirror_damping);
+    const double lambda_per_v = 0.5 / config.piezo.half_wave_v;
+    set_plays(config.piezo.hysteresis, 0.5 * lambda_per_v * config.piezo.hysteresis_stroke_v, 0.5);
+    set_creep(config.piezo.creep_per_decade);
+    set_mirror(config.piezo.mirror_hz, config.piezo.mirror_damping);
 }
 
 // A loop of the half-stroke A has the height 2 (w0 A + sum w max(A - r, 0)) and, at its middle, the width

@@ -174,15 +174,16 @@ TEST(DiscriminatorCurve, TheSignOfAHalfTurnsTheSignalAndNotTheDetuning) {
     }
 }
 
+constexpr RelockDriftConfig by_mean_square{.method = RelockMethod::mean_square};
+
 // A bias that is largest at c: what a half lacks is chi <(dl - c)^2>.
 TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
-    RelockDriftConfig config{.method = RelockMethod::mean_square, .bias = Hertz{60e3}, .chi = 3.6};
-    config.centre = Wavelengths{0.02};
+    const CompensationConstants gyro{.bias = Hertz{60e3}, .chi = 3.6, .centre = Wavelengths{0.02}};
     const double first = 0.15, second = 0.06;
     for (const double side : {1.0, -1.0}) {
         RelockDriftState state;
         enter_gap(state);
-        const RelockDriftOutput out = step(config, state,
+        const RelockDriftOutput out = step(gyro, by_mean_square, state,
                                            {.detuning_first_lambda = side * first,
                                             .detuning_second_lambda = side * second,
                                             .detuning_sq_first_lambda2 = first * first,
@@ -258,7 +259,7 @@ TEST(DiscriminatorCurve, TheDetectorReadsTrueDetuningsThroughIt) {
 }
 
 // Halves in which the detuning falls evenly; the truth is (chi f0/2) (<dl^2>_second - <dl^2>_first).
-double relock_ratio(const SyncDetectorConfig& detector, const RelockDriftConfig& config, double miss) {
+double relock_ratio(const SyncDetectorConfig& detector, const CompensationConstants& gyro, double miss) {
     const double middle = 0.6 * miss;
     const double end = 0.3 * miss;
     const SyncDetectorOutput first = detected(detector, miss, middle, 1);
@@ -272,25 +273,25 @@ double relock_ratio(const SyncDetectorConfig& detector, const RelockDriftConfig&
                           .temperature_c = 20.0};
     const auto mean_sq = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
     const double rate_hz = 0.5 * 3.6 * 60e3 * (mean_sq(middle, end) - mean_sq(miss, middle));
-    return step(config, s, tick).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
+    return step(gyro, by_mean_square, s, tick).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
 }
 
 TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
-    const RelockDriftConfig mean_square{.method = RelockMethod::mean_square, .light_noise = Wavelengths{0.0}};
-    RelockDriftConfig late = mean_square;
-    late.curve = curve_of(31);
-    ASSERT_EQ(check(late), RelockDriftFault::none);
+    const CompensationConstants plain{.light_noise = Wavelengths{0.0}};
+    CompensationConstants late = plain;
+    late.record_curve = curve_of(31);
+    ASSERT_EQ(check(late), CompensationConstantsFault::none);
     SyncDetectorConfig with;
     with.curve = curve_of(31);
     for (const double miss : {0.05, 0.1, 0.2}) {
-        EXPECT_NEAR(relock_ratio(with, mean_square, miss), 1.0, 2e-3) << miss;
+        EXPECT_NEAR(relock_ratio(with, plain, miss), 1.0, 2e-3) << miss;
         EXPECT_NEAR(relock_ratio({}, late, miss), 1.0, 0.03) << miss;
-        EXPECT_GT(relock_ratio({}, mean_square, miss), 1.0 + 15.0 * miss * miss) << miss;
+        EXPECT_GT(relock_ratio({}, plain, miss), 1.0 + 15.0 * miss * miss) << miss;
     }
 }
 
 TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
-    RelockDriftConfig c{.method = RelockMethod::mean_square, .light_noise = Wavelengths{0.003}};
+    CompensationConstants c{.light_noise = Wavelengths{0.003}};
     const RelockTick tick{.detuning_first_lambda = 0.1,
                           .detuning_second_lambda = 0.06,
                           .detuning_sq_first_lambda2 = 0.1 * 0.1 + 9e-6,
@@ -298,12 +299,12 @@ TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
     const auto variance = [&] {
         RelockDriftState s;
         enter_gap(s);
-        return step(c, s, tick).tick.variance_arcsec2;
+        return step(c, by_mean_square, s, tick).tick.variance_arcsec2;
     };
     const double linear = variance();
     const std::array<double, 1> x = {1.0};
     const std::array<double, 1> half = {0.5};
-    c.curve = discriminator_curve(x, half);  // a straight line of slope 1/2: dl and noise half as large
+    c.record_curve = discriminator_curve(x, half);  // a straight line of slope 1/2: dl and noise half as large
     EXPECT_NEAR(variance() / linear, 1.0 / 16.0, 1e-9);
 }
 

@@ -46,7 +46,8 @@ TEST(Health, BitsHaveDistinctNamesInTheirOrder) {
     EXPECT_EQ(name(health_coil_current), "coil_current");
     EXPECT_EQ(name(health_light_contradicted), "light_contradicted");
     EXPECT_EQ(name(health_edges_shifted), "edges_shifted");
-    EXPECT_EQ(std::uint32_t{1} << (health_bit_names.size() - 1), health_edges_shifted);
+    EXPECT_EQ(name(health_fringe_skewed), "fringe_skewed");
+    EXPECT_EQ(std::uint32_t{1} << (health_bit_names.size() - 1), health_fringe_skewed);
 }
 
 }  // namespace

@@ -123,12 +123,6 @@ TEST(SquareRoot, IsTheNearestDouble) {
     for (int k = 0; k < 1000; ++k) EXPECT_EQ(square_root(static_cast<double>(k * k)), k);
 }
 
-TEST(AsDouble, IsRoundedOnceLikeTheConversion) {
-    for (const std::int64_t x : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1} << 32, -(std::int64_t{1} << 32) - 1,
-                                 (std::int64_t{1} << 53) + 1, -(std::int64_t{1} << 53) - 1, INT64_MAX, INT64_MIN})
-        EXPECT_EQ(as_double(x), static_cast<double>(x)) << x;
-}
-
 TEST(IsFinite, IsFalseForInfinitiesAndNotANumberOnly) {
     for (const double x : {0.0, -0.0, smallest_subnormal, 1.0, -1e300, largest, -largest})
         EXPECT_TRUE(is_finite(x)) << x;
@@ -139,6 +133,28 @@ TEST(IsFinite, IsFalseForInfinitiesAndNotANumberOnly) {
 TEST(IsFinite, TheConstantInfinityExceedsEveryNumber) {
     EXPECT_GT(infinity, largest);
     EXPECT_FALSE(is_finite(infinity));
+}
+
+TEST(TurnsOf, IsTheAngleInTurnsInEveryQuadrant) {
+    for (int k = 0; k < 100'000; ++k) {
+        const double turns = k / 100'000.0;
+        const double size = 1e-3 + 7.0 * (k % 13);
+        const double x = size * std::cos(2.0 * M_PI * turns);
+        const double y = size * std::sin(2.0 * M_PI * turns);
+        EXPECT_NEAR(std::remainder(turns_of(x, y) - turns, 1.0), 0.0, 1e-9) << turns;
+    }
+}
+
+TEST(TurnsOf, IsBelowOneTurn) {
+    EXPECT_EQ(turns_of(0.0, 0.0), 0.0);
+    EXPECT_EQ(turns_of(1.0, 0.0), 0.0);
+    EXPECT_EQ(turns_of(0.0, 2.0), 0.25);
+    EXPECT_EQ(turns_of(-3.0, 0.0), 0.5);
+    EXPECT_EQ(turns_of(0.0, -4.0), 0.75);
+    for (const double y : {-1e-3, -1e-12, -1e-30, -smallest_subnormal}) {
+        EXPECT_GE(turns_of(1.0, y), 0.0);
+        EXPECT_LT(turns_of(1.0, y), 1.0);
+    }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace zlg::core {
 namespace {
 
-constexpr EdgeShiftConfig config{};
+constexpr CompensationConstants config{};
 
 HalfRecord missed(std::int8_t sign) { return {.bias_sign = sign, .valid = false}; }
 HalfRecord read(std::int8_t sign, std::int64_t counts, std::int32_t span = 1) {

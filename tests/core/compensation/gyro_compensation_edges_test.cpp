@@ -26,10 +26,9 @@ constexpr std::int64_t bias_per_tick = 2;
 GyroCompensationConfig config_of(RelockMethod relock, BridgeMethod bridge) {
     GyroCompensationConfig config;
     config.relock.method = relock;
-    config.relock.scale = Arcsec{3.263e-3};
-    config.relock.bias = Hertz{static_cast<double>(bias_per_tick) * config.timer.value()};
+    config.gyro.scale = Arcsec{3.263e-3};
+    config.gyro.bias = Hertz{static_cast<double>(bias_per_tick) * config.gyro.timer.value()};
     config.bridge.method = bridge;
-    config.bridge.count = config.relock.scale;
     return config;
 }
 
@@ -154,10 +153,10 @@ TEST(GyroCompensationEdges, ACopyOfTheStateGoesOnToTheSameBits) {
 
 TEST(GyroCompensationEdges, ChecksTheTimer) {
     GyroCompensationConfig config;
-    config.timer = Hertz{0.0};
+    config.gyro.timer = Hertz{0.0};
     EXPECT_EQ(check(config), GyroCompensationFault::edges);
     config = {};
-    config.plateau_ratio = 3.0;
+    config.gyro.plateau_ratio = 3.0;
     EXPECT_EQ(check(config), GyroCompensationFault::edges);
 }
 

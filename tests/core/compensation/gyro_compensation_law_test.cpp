@@ -93,8 +93,8 @@ TEST(GyroCompensationLaw, EveryMethodGivesTheRotationOfASwitchingGyro) {
         for (const std::int8_t first_sign : {std::int8_t{1}, std::int8_t{-1}})
             for (const double miss : {0.22, -0.22}) {
                 GyroCompensationConfig config = config_of(method);
-                config.relock.bias = Hertz{1e12};
-                config.relock.scale = config.bridge.count = Arcsec{3.263 * 60e3 / 1e12};
+                config.gyro.bias = Hertz{1e12};
+                config.gyro.scale = Arcsec{3.263 * 60e3 / 1e12};
                 const double rotation = 37.2;
                 const Delivered got = run(config, switching_log(config, first_sign, 60, 600, miss, rotation));
                 for (const AngleRow& row : got.rows) {
@@ -114,8 +114,8 @@ TEST(GyroCompensationLaw, EveryMethodGivesTheRotationOfASwitchingGyro) {
 
 TEST(GyroCompensationLaw, UncorrectedFalseAnglesAlternateAndHaveThePredictedSize) {
     GyroCompensationConfig config = config_of(RelockMethod::none, BridgeMethod::none);
-    config.relock.bias = Hertz{1e12};
-    config.relock.scale = config.bridge.count = Arcsec{3.263 * 60e3 / 1e12};
+    config.gyro.bias = Hertz{1e12};
+    config.gyro.scale = Arcsec{3.263 * 60e3 / 1e12};
     const Delivered got = run(config, switching_log(config, 1, 60, 600, 0.22, 0.0));
     for (int gap = 1; gap < 10; ++gap) {
         double sum = 0.0;
@@ -267,7 +267,7 @@ TEST(GyroCompensationLaw, WhatHasLearntOfGarbageFindsBack) {
 // A mean square of the detuning that is finite, and whose false angle is too, but no sum of such angles.
 TEST(GyroCompensationLaw, OneImpossibleDetuningDoesNotSpoilTheRest) {
     GyroCompensationConfig config = config_of(RelockMethod::mean_square);
-    config.relock.light_noise = Wavelengths{0.0};
+    config.gyro.light_noise = Wavelengths{0.0};
     Halves clean = switching_log(config, 1, 60, 600, 0.22, 32.63);
     // The tick is the last before another gap, so that the extrapolation multiplies it.
     for (unsigned k = 2 * 67; k < 2 * 83; ++k) clean[k].valid = false;

@@ -20,12 +20,11 @@ constexpr double drift_arcsec_s = 0.7;
 
 GyroCompensationConfig config_of(MagneticMethod method) {
     GyroCompensationConfig c;
-    c.relock.tick = Seconds{tick_s};
-    c.relock.scale = Arcsec{scale_arcsec};
+    c.gyro.tick = Seconds{tick_s};
+    c.gyro.scale = Arcsec{scale_arcsec};
     c.bridge.method = BridgeMethod::constant;
-    c.bridge.count = Arcsec{scale_arcsec};
-    c.random_walk = ArcsecPerRootSecond{0.01};
-    c.magnetic = {.method = method, .tick = c.relock.tick, .walk = c.random_walk, .count = c.bridge.count};
+    c.gyro.random_walk = ArcsecPerRootSecond{0.01};
+    c.magnetic.method = method;
     return c;
 }
 

@@ -85,7 +85,7 @@ GyroCompensationConfig any_config(BridgeMethod bridge, bool with_relock) {
     GyroCompensationConfig c;
     c.relock.method = with_relock ? static_cast<RelockMethod>(any(0, 4)) : RelockMethod::none;
     c.relock.ticks = any(0, 30);
-    c.relock.bias = Hertz{2e3};
+    c.gyro.bias = Hertz{2e3};
     c.bridge.method = bridge;
     c.bridge.optimal.halves = c.relock.method == RelockMethod::joint;
     const int order = order_of(bridge);
@@ -142,7 +142,7 @@ RC_GTEST_PROP(GyroCompensationProperty, RotationsAddUp, ()) {
 RC_GTEST_PROP(GyroCompensationProperty, PolynomialsOfTheOrderPassWithoutError, ()) {
     GyroCompensationConfig config = any_config(any_polynomial(), false);
     const int order = order_of(config.bridge.method);
-    config.relock.scale = config.bridge.count = Arcsec{1.0};
+    config.gyro.scale = Arcsec{1.0};
     const int a = any(-1000, 1000);
     const int b = order >= 1 ? any(-100, 100) : 0;
     const int c = order >= 2 ? any(-5, 5) : 0;
@@ -294,14 +294,14 @@ void vary(GyroCompensationConfig& config, Set set) {
 
 GyroCompensationConfig any_checked_config() {
     GyroCompensationConfig c = any_config(any_bridge(), true);
-    vary(c, [](auto& v, double x) { v.relock.tick = Seconds{x}; });
-    vary(c, [](auto& v, double x) { v.relock.scale = v.bridge.count = Arcsec{x}; });
-    vary(c, [](auto& v, double x) { v.relock.bias = Hertz{x}; });
-    vary(c, [](auto& v, double x) { v.relock.chi = x; });
-    vary(c, [](auto& v, double x) { v.relock.temperature_coefficient_per_c = x; });
-    vary(c, [](auto& v, double x) { v.relock.reference_temperature = Celsius{x}; });
-    vary(c, [](auto& v, double x) { v.relock.light_noise = Wavelengths{x}; });
-    vary(c, [](auto& v, double x) { v.random_walk = ArcsecPerRootSecond{x}; });
+    vary(c, [](auto& v, double x) { v.gyro.tick = Seconds{x}; });
+    vary(c, [](auto& v, double x) { v.gyro.scale = Arcsec{x}; });
+    vary(c, [](auto& v, double x) { v.gyro.bias = Hertz{x}; });
+    vary(c, [](auto& v, double x) { v.gyro.chi = x; });
+    vary(c, [](auto& v, double x) { v.gyro.temperature_coefficient_per_c = x; });
+    vary(c, [](auto& v, double x) { v.gyro.reference_temperature = Celsius{x}; });
+    vary(c, [](auto& v, double x) { v.gyro.light_noise = Wavelengths{x}; });
+    vary(c, [](auto& v, double x) { v.gyro.random_walk = ArcsecPerRootSecond{x}; });
     return c;
 }
 

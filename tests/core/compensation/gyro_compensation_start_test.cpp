@@ -12,7 +12,7 @@ namespace {
 double first_sigma(RelockMethod method, double first_sq, double second_sq) {
     GyroCompensationConfig config;
     config.relock.method = method;
-    config.random_walk = ArcsecPerRootSecond{0.0};
+    config.gyro.random_walk = ArcsecPerRootSecond{0.0};
     config.bridge.method = BridgeMethod::constant;
     GyroCompensationState state;
     for (int h = 0; h < 60; ++h) {

@@ -63,7 +63,7 @@ public:
 
     // One half with a rotation in arcsec and a mean square of the detuning that weakens the bias.
     HalfRecord half(double rotation_arcsec, double mean_square) {
-        const auto& relock = config_.relock;
+        const auto& gyro = config_.gyro;
         HalfRecord record;
         record.half = next_++;
         record.bias_sign = static_cast<std::int8_t>(record.half % 2 == 0 ? first_sign_ : -first_sign_);
@@ -71,10 +71,10 @@ public:
         record.detuning_lambda = std::sqrt(mean_square);
         record.detuning_sq_lambda2 = mean_square;
         record.piezo_v = record.temperature_c = compensation_test::not_a_number;
-        const double bias_hz = relock.bias.value() * (1.0 - relock.chi * mean_square);
+        const double bias_hz = gyro.bias.value() * (1.0 - gyro.chi * mean_square);
         const auto before = static_cast<std::int64_t>(std::floor(counts_));
-        counts_ += rotation_arcsec / relock.scale.value() +
-                   record.bias_sign * record.mode * bias_hz * 0.5 * relock.tick.value();
+        counts_ +=
+            rotation_arcsec / gyro.scale.value() + record.bias_sign * record.mode * bias_hz * 0.5 * gyro.tick.value();
         record.counts = static_cast<std::int64_t>(std::floor(counts_)) - before;
         return record;
     }

@@ -238,7 +238,7 @@ TEST(GyroCompensation, CountsOfAGapNeverEnterTheAngle) {
 // Detunings of 0.2 and 0.1 in the first tick after a gap, at a temperature that is known for its middle only.
 TEST(GyroCompensation, TheCorrectionTakesTheTemperatureOfTheMiddleAndAddsItsVariance) {
     GyroCompensationConfig config = config_of(RelockMethod::mean_square);
-    config.relock.temperature_coefficient_per_c = -1e-3;
+    config.gyro.temperature_coefficient_per_c = -1e-3;
     Halves halves = plain_log(40);
     open_loop(halves, 10, 3);
     halves[26].detuning_sq_lambda2 = 0.04;
@@ -260,17 +260,17 @@ TEST(GyroCompensation, TheCorrectionTakesTheTemperatureOfTheMiddleAndAddsItsVari
 TEST(GyroCompensation, CheckPassesOnWhatItsPartsRefuse) {
     EXPECT_EQ(check(GyroCompensationConfig{}), GyroCompensationFault::none);
     GyroCompensationConfig config;
-    config.relock.chi = not_a_number;
+    config.gyro.chi = not_a_number;
     EXPECT_EQ(check(config), GyroCompensationFault::relock);
     config = {};
     config.bridge.points_after = 0;
     EXPECT_EQ(check(config), GyroCompensationFault::bridge);
     for (const double bad : {-0.1, not_a_number, infinite}) {
         config = {};
-        config.random_walk = ArcsecPerRootSecond{bad};
+        config.gyro.random_walk = ArcsecPerRootSecond{bad};
         EXPECT_EQ(check(config), GyroCompensationFault::random_walk);
     }
-    config.random_walk = ArcsecPerRootSecond{0.0};
+    config.gyro.random_walk = ArcsecPerRootSecond{0.0};
     EXPECT_EQ(check(config), GyroCompensationFault::none);
 }
 

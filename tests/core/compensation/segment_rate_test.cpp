@@ -18,7 +18,7 @@ SegmentRate rate_of_motion(const std::function<double(double)>& angle_arcsec, st
     SegmentRateState s;
     for (std::int64_t k = 0; k < n_ticks; ++k) {
         const auto t_s = static_cast<double>(k) * tick_s;
-        take(s, angle_arcsec(t_s + tick_s) - angle_arcsec(t_s));
+        accumulate(s, angle_arcsec(t_s + tick_s) - angle_arcsec(t_s));
     }
     return rate_of(s, tick_s);
 }
@@ -28,7 +28,7 @@ TEST(SegmentRate, AConstantRateIsFound) {
         const SegmentRate got = rate_of_motion([](double t) { return 15.0 * t; }, n);
         EXPECT_NEAR(got.mean_arcsec_s, 15.0, 15.0 / (static_cast<double>(n) * static_cast<double>(n))) << n;
         EXPECT_NEAR(got.change_arcsec_s, 0.0, 1e-5) << n;
-        EXPECT_NEAR(got.bend_arcsec_s, 0.0, 0.02 / static_cast<double>(n)) << n;
+        EXPECT_NEAR(got.curvature_arcsec_s, 0.0, 0.02 / static_cast<double>(n)) << n;
     }
 }
 
@@ -37,7 +37,7 @@ TEST(SegmentRate, ASteadyChangeHasTheMeanOfTheMiddle) {
     const SegmentRate got = rate_of_motion([](double t) { return 2.0 * t + 0.5 * 0.3 * t * t; }, 9000);
     EXPECT_NEAR(got.mean_arcsec_s, 2.0 + 0.3 * length_s / 2.0, 1e-6);
     EXPECT_NEAR(got.change_arcsec_s, 0.3 * length_s, 1e-5);
-    EXPECT_NEAR(got.bend_arcsec_s, 0.0, 1e-5);
+    EXPECT_NEAR(got.curvature_arcsec_s, 0.0, 1e-5);
 }
 
 TEST(SegmentRate, ABendIsTheRateOfTheEndsOverThatOfTheMiddle) {
@@ -47,7 +47,7 @@ TEST(SegmentRate, ABendIsTheRateOfTheEndsOverThatOfTheMiddle) {
     const SegmentRate got = rate_of_motion(angle, 9000);
     EXPECT_NEAR(got.mean_arcsec_s, 4.0 / 7.0, 1e-6);
     EXPECT_NEAR(got.change_arcsec_s, 0.0, 1e-5);
-    EXPECT_NEAR(got.bend_arcsec_s, 4.0, 1e-5);
+    EXPECT_NEAR(got.curvature_arcsec_s, 4.0, 1e-5);
 }
 
 TEST(SegmentRate, OfAnOscillationLittleIsLeft) {
@@ -65,7 +65,7 @@ TEST(SegmentRate, OfAnOscillationLittleIsLeft) {
 
 TEST(SegmentRate, WhatASwitchSpoilsAtTheEndsWeighsNothing) {
     SegmentRateState s;
-    for (int k = 0; k < 9000; ++k) take(s, k < 4 || k >= 8997 ? 20.0 : 0.0);
+    for (int k = 0; k < 9000; ++k) accumulate(s, k < 4 || k >= 8997 ? 20.0 : 0.0);
     EXPECT_LT(std::abs(rate_of(s, tick_s).mean_arcsec_s), 1e-4);
 }
 
@@ -80,9 +80,9 @@ TEST(SegmentRate, ItsVarianceIsThatOfWalkAndRounding) {
         SegmentRateState walk, rounding;
         double edge = uniform(random);
         for (int k = 0; k < n_ticks; ++k) {
-            take(walk, 0.14 * std::sqrt(tick_s) * normal(random));
+            accumulate(walk, 0.14 * std::sqrt(tick_s) * normal(random));
             const double next = uniform(random);
-            take(rounding, 3.0 * (next - edge));
+            accumulate(rounding, 3.0 * (next - edge));
             edge = next;
         }
         of_walk += std::pow(rate_of(walk, tick_s).mean_arcsec_s, 2.0) / n_trials;

@@ -17,7 +17,7 @@ static_assert(check(shortest(0)) == ModeSwitchFault::none);
 static_assert(check(shortest(3)) == ModeSwitchFault::none);
 static_assert(check(shortest(4)) == ModeSwitchFault::ticks);
 static_assert(check(shortest(-1)) == ModeSwitchFault::ticks);
-static_assert(check(ModeSwitchConfig{.arrival_tolerance = Wavelengths{0.25}}) == ModeSwitchFault::lock_tolerance);
+static_assert(check(ModeSwitchConfig{.arrival_tolerance = Wavelengths{0.25}}) == ModeSwitchFault::tolerance);
 
 constexpr ModeSwitchInput arrived{.light_known = true,
                                   .two_way = true,

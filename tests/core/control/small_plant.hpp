@@ -1,7 +1,7 @@
 #pragma once
 // A gyro of a few lines, to close the loop in tests: perimeter, high-voltage stage, two beams, counter.
 //
-// It is reversed and latched when it is told.
+// It is reversed and latched on command.
 //
 //   y = kp U + drift,  centre m/2 nearest to y,  helicity (-1)^m,  dl = y - m/2,  kp = 0.5/half_wave
 

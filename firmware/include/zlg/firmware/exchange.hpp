@@ -20,7 +20,7 @@ enum class Request : std::uint32_t {
     none,
     start,  // judge the settings, begin anew
     half,   // one half-period
-    drain,  // one report of what is owed
+    drain,  // one report of what is still due
     state   // lay open the state
 };
 

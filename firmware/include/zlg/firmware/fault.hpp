@@ -45,7 +45,7 @@ struct FaultRecord {
     friend bool operator==(const FaultRecord&, const FaultRecord&) = default;
 };
 
-// What the registers say; `stack_overflow` is not told from `forbidden_address` by them alone.
+// What the registers say; they alone do not distinguish `stack_overflow` from `forbidden_address`.
 [[nodiscard]] FaultKind kind_of(std::uint32_t cfsr) noexcept;
 
 // The address that was asked for, of the two registers for it; 0 where neither is valid.

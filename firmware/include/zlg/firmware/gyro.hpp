@@ -51,7 +51,7 @@ public:
     // cost   that of both parts of the core; no allocation.
     [[nodiscard]] HalfOutput half(const core::SensorFrame& frame) noexcept;
 
-    // The angle that is still owed when no more halves come, one report at each call, until there is none.
+    // The angle that is still due when no more halves come, one report at each call, until there is none.
     [[nodiscard]] core::DrainOutput drain() noexcept;
 
     // Go on with other settings, which have passed `check`: at the border of a tick, which is where `is_within_tick` is false.

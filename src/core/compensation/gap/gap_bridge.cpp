@@ -3,11 +3,12 @@
 #include <memory>
 
 #include <zlg/core/common/maths.hpp>
+#include <zlg/core/compensation/border.hpp>
 
-#include "few_ticks.hpp"
 #include "gap_estimate.hpp"
 #include "gap_interpolation.hpp"
 #include "gap_known.hpp"
+#include "gap_points.hpp"
 
 namespace zlg::core {
 namespace {
@@ -33,22 +34,22 @@ void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_
     }
 }
 
-// A row of a gap that nothing better is known of.
+// A row of a gap without an estimate.
 void set_unrepaired(const OpenGap& open, AngleRow& row) noexcept {
     row.dtheta_final_arcsec = open.constant_arcsec;
     row.sigma_arcsec = infinity;
     row.flags |= flag_unrepaired;
 }
 
-// A row of a gap that is known from the ticks before it.
-void set_known(AngleRow& row, double value_arcsec, double variance_arcsec2) noexcept {
+// A row of a gap that is extrapolated from the ticks before it.
+void set_extrapolated(AngleRow& row, double value_arcsec, double variance_arcsec2) noexcept {
     row.dtheta_arcsec = value_arcsec;
     row.dtheta_final_arcsec = value_arcsec;
     row.sigma_arcsec = deviation(variance_arcsec2);
 }
 
 // dtheta of the gap's tick j, and what its final value is if the log ends here.
-void extrapolate(const GapBridgeConfig& config, const GapBridgeState& state, HistoryTick& entry,
+void extrapolate(const CompensationConstants& gyro, const GapBridgeState& state, HistoryTick& entry,
                  std::int32_t j) noexcept {
     const OpenGap& open = state.gap;
     AngleRow& row = entry.row;
@@ -60,23 +61,26 @@ void extrapolate(const GapBridgeConfig& config, const GapBridgeState& state, His
     const GapPrediction& predicted = state.prediction;
     if (predicted.first_tick == open.gap.first_tick) {
         const auto k = static_cast<unsigned>(j - 1);
-        return set_known(row, predicted.value_arcsec[k], predicted.variance_arcsec2[k]);
+        return set_extrapolated(row, predicted.value_arcsec[k], predicted.variance_arcsec2[k]);
     }
-    const double shared = shared_rounding(config);
+    const double usual = rounding_arcsec2(gyro, state.learning.moments.with_phase);
     const FitWeights w = open.fit.weights(j);
     double sum = 0.0;
     double variance = 0.0;
     for (unsigned k = 0; k < static_cast<unsigned>(open.fit.n()); ++k) {
         sum += w[k] * open.value_arcsec[k];
         variance += w[k] * w[k] * open.variance_arcsec2[k];
-        if (neighbours(open.fit, static_cast<int>(k))) variance -= shared * w[k] * w[k - 1];
+        // Neighbouring ticks share a rounding, so their covariance is negative.
+        if (neighbours(open.fit, static_cast<int>(k)))
+            variance -=
+                shared_rounding(usual, open.variance_arcsec2[k - 1], open.variance_arcsec2[k]) * w[k] * w[k - 1];
     }
-    set_known(row, sum, variance);
+    set_extrapolated(row, sum, variance);
     if (open.lower_order) row.flags |= flag_lower_order;
 }
 
-// The gap has become too long. Only its first ticks were delivered with something else than their final value, and the
-// history may have forgotten them when it ends.
+// The gap has become too long. Only its first ticks were delivered with another than their final value, and they may
+// have left the history before the gap ends.
 void give_up(GapBridgeState& state) noexcept {
     Gap& gap = state.gap.gap;
     ExactSum difference;
@@ -89,11 +93,11 @@ void give_up(GapBridgeState& state) noexcept {
     gap.final_minus_delivered_arcsec = difference;
 }
 
-void take_gap_tick(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input,
-                   std::int64_t tick) noexcept {
+void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                  const TickInput& input, std::int64_t tick) noexcept {
     if (!state.gap.open) {
         begin_gap(config, state, tick);
-        if (is_estimated(config) && state.gap.gap.has_before) predict_gap(config, state, tick);
+        if (is_estimated(config) && state.gap.gap.has_before) predict_gap(gyro, config, state, tick);
     }
     Gap& gap = state.gap.gap;
     ++gap.n;
@@ -105,13 +109,13 @@ void take_gap_tick(const GapBridgeConfig& config, GapBridgeState& state, const T
         return;
     }
     const auto j = static_cast<std::int32_t>(gap.n <= max_gap_ticks ? gap.n : max_gap_ticks + 1);
-    extrapolate(config, state, entry, j);
-    note_known(config, input, gap, entry);
+    extrapolate(gyro, state, entry, j);
+    note_known(rounding_arcsec2(gyro, state.learning.moments.with_phase), input, gap, entry);
     if (gap.n <= max_gap_ticks) return;
-    // Its rows leave before its end is known.
+    // Its rows become final before its end is known.
     if (gap.n == max_gap_ticks + 1) give_up(state);
     const std::int64_t first = gap.n == max_gap_ticks + 1 ? gap.first_tick : tick;
-    const ExactSum change = settle_known(config, state, gap, first, tick, state.gap.constant_arcsec);
+    const ExactSum change = settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec);
     gap.final_minus_delivered_arcsec.add(change.high);
     gap.final_minus_delivered_arcsec.add(change.low);
 }
@@ -119,7 +123,9 @@ void take_gap_tick(const GapBridgeConfig& config, GapBridgeState& state, const T
 // The first tick after a gap: from here on the gap waits.
 void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input, std::int64_t tick) noexcept {
     const bool at_start = !state.gap.gap.has_before && config.extrapolation_points > ticks_to_correction(config);
+    // There eq (14) is used in reversed time and needs its points after the gap.
     const int wait = at_start ? config.extrapolation_points : ticks_to_correction(config);
+    // A guard: in the 13 ticks that a gap waits at most, no more than 7 gaps can end.
     if (state.n_pending < max_pending_gaps) {
         state.pending[static_cast<unsigned>(state.n_pending++)] = PendingGap{
             .gap = state.gap.gap, .due_tick = tick + wait, .sign_after = input.sign, .mode_after = input.mode};
@@ -129,7 +135,7 @@ void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInp
 
 // Give a gap its final rows.
 //
-// more_arcsec2  variance of each that the fit does not know of.
+// more_arcsec2  variance of each row beyond that of the fit.
 // return        final minus delivered.
 ExactSum interpolate(GapBridgeState& state, const Gap& gap, const GapSums& sums, bool lower_order,
                      double more_arcsec2) noexcept {
@@ -150,32 +156,28 @@ ExactSum interpolate(GapBridgeState& state, const Gap& gap, const GapSums& sums,
 // Give a gap its final rows by a polynomial, and its report their deviation.
 //
 // return  final minus delivered.
-ExactSum fit(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
-             const EstimatedAngle& found, GapReport& report) noexcept {
-    GapSums sums = sums_of(config, state, gap, end, found.order);
+ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
+             std::int64_t end, const EstimatedAngle& found, GapReport& report) noexcept {
+    GapSums sums = sums_of(gyro, config, state, gap, end, found.order);
+    // The polynomial stands in for an estimate, because nothing is known of the motion yet.
     const bool in_place = is_estimated(config) && !found.has_history;
-    if (in_place && config.optimal.learns) {
-        const FewTicks few = judge_by_few(config, state, gap, end, sums.fit, sums.value_arcsec);
-        if (few.known) {
-            sums.variance_arcsec2 = few.variance_arcsec2;
-            sums.angle_variance_arcsec2 = few.sum_variance_arcsec2;
-        }
-    }
+    // Without an estimate: with the re-lock behind the points.
+    if (!is_estimated(config)) sums.angle_variance_arcsec2 += relock_beyond(state, gap, end, config.points_after);
     const double judged = found.polynomial_variance_arcsec2;
     const double variance = sums.angle_variance_arcsec2;
     report.sigma_sum_arcsec = deviation(judged > 0.0 ? judged : variance);
+    // As an error that all rows have in common, whose sum is n times that of one.
     const auto n = static_cast<double>(gap.n);
     const double more = variance < judged ? (judged - variance) / (n * n) : 0.0;
     return interpolate(state, gap, sums, in_place || sums.fit.order() < found.order, more);
 }
 
-// In the tick that needs it, of what an estimate has left to do; and at the end of a log, where time does not matter.
-constexpr int last_work = 6;
+// Work at the end of a log, in the units of `estimate`: unbounded.
 constexpr int all_work = 1000;
 
-// Give a gap its final values from the ticks before `end`, and its lump.
-GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingGap& pending, std::int64_t end,
-                  int work) noexcept {
+// Give a gap its final values from the ticks before `end`, and its pending correction, eq (17).
+GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                  PendingGap& pending, std::int64_t end, int work) noexcept {
     const Gap& gap = pending.gap;
     GapReport report{.first_tick = gap.first_tick,
                      .n_ticks = gap.n,
@@ -187,30 +189,31 @@ GapReport resolve(const GapBridgeConfig& config, GapBridgeState& state, PendingG
     if (config.method == BridgeMethod::none) return report;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     if (gap.n <= max_gap_ticks) {
-        const EstimatedAngle found = is_estimated(config) ? estimate(config, state, gap, end, work)
+        const EstimatedAngle found = is_estimated(config) ? estimate(gyro, config, state, gap, end, work)
                                                           : EstimatedAngle{.order = order_of(config.method)};
-        difference = found.known ? found.gap_arcsec : fit(config, state, gap, end, found, report);
+        difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, found, report);
         if (found.known) report.sigma_sum_arcsec = found.sigma_sum_arcsec;
-        pending.lump_arcsec.add(found.after_arcsec.high);
-        pending.lump_arcsec.add(found.after_arcsec.low);
-        const ExactSum change = settle_known(config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
+        pending.correction_arcsec.add(found.after_arcsec.high);
+        pending.correction_arcsec.add(found.after_arcsec.low);
+        const ExactSum change = settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
         difference.add(change.high);
         difference.add(change.low);
     }
     if (is_known(gap)) report.sigma_sum_arcsec = deviation(gap.known_variance_arcsec2);
     report.dp_arcsec = -difference.value();
-    pending.lump_arcsec.add(difference.high);
-    pending.lump_arcsec.add(difference.low);
+    pending.correction_arcsec.add(difference.high);
+    pending.correction_arcsec.add(difference.low);
     return report;
 }
 
-// dtheta of a measured tick: its value, and the lumps that are due.
+// dtheta of a measured tick: its value, and the corrections of gaps that are due. Sums are exact, and the rounding
+// residual goes into the next correction.
 double deliver(const GapBridgeConfig& config, GapBridgeState& state, HistoryTick& entry, std::int64_t tick) noexcept {
-    ExactSum sum = state.carry_arcsec;
+    ExactSum sum = state.rounding_residual_arcsec;
     sum.add(entry.row.dtheta_final_arcsec);
     int kept = 0;
-    // Where nothing is bridged only a late re-lock correction can be owed.
-    bool owed = config.method != BridgeMethod::none;
+    // Without a bridge only a late re-lock correction can be pending.
+    bool is_correction = config.method != BridgeMethod::none;
     for (int k = 0; k < state.n_pending; ++k) {
         const PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.due_tick > tick) {
@@ -218,18 +221,18 @@ double deliver(const GapBridgeConfig& config, GapBridgeState& state, HistoryTick
             ++kept;
             continue;
         }
-        sum.add(pending.lump_arcsec.high);
-        sum.add(pending.lump_arcsec.low);
-        owed = owed || pending.lump_arcsec != ExactSum{};
+        sum.add(pending.correction_arcsec.high);
+        sum.add(pending.correction_arcsec.low);
+        is_correction = is_correction || pending.correction_arcsec != ExactSum{};
     }
     if (kept == state.n_pending) return entry.row.dtheta_final_arcsec;
     for (int k = kept; k < state.n_pending; ++k) state.pending[static_cast<unsigned>(k)] = PendingGap{};
     state.n_pending = kept;
-    if (!owed) return entry.row.dtheta_final_arcsec;
+    if (!is_correction) return entry.row.dtheta_final_arcsec;
     entry.row.flags |= flag_correction;
     const double delivered = sum.value();
     sum.add(-delivered);
-    state.carry_arcsec = sum;
+    state.rounding_residual_arcsec = sum;
     return delivered;
 }
 
@@ -245,13 +248,13 @@ void amend_previous(GapBridgeState& state, const TickInput& input, std::int64_t 
     // The tick was the first after the gap that ended last.
     if (state.n_pending > 0) {
         PendingGap& pending = state.pending[static_cast<unsigned>(state.n_pending - 1)];
-        pending.lump_arcsec.add(entry.row.dtheta_final_arcsec);
-        pending.lump_arcsec.add(-before_arcsec);
+        pending.correction_arcsec.add(entry.row.dtheta_final_arcsec);
+        pending.correction_arcsec.add(-before_arcsec);
     }
 }
 
-void take_measured_tick(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input,
-                        std::int64_t tick) noexcept {
+void add_measured_tick(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input,
+                       std::int64_t tick) noexcept {
     if (state.gap.open) end_gap(config, state, input, tick);
     HistoryTick& entry = at(state, tick);
     entry.row.dtheta_final_arcsec = input.value_arcsec;
@@ -260,14 +263,14 @@ void take_measured_tick(const GapBridgeConfig& config, GapBridgeState& state, co
 }
 
 // return  some gap was due.
-bool resolve_due(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick,
-                 AngleSample& sample) noexcept {
+bool resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                 std::int64_t tick, AngleSample& sample) noexcept {
     bool any = false;
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.resolved || pending.due_tick > tick) continue;
         any = true;
-        const GapReport report = resolve(config, state, pending, tick, last_work);
+        const GapReport report = resolve(gyro, config, state, pending, tick, work_a_half);
         if (!pending.gap.has_before) continue;
         sample.has_gap = true;
         sample.gap = report;
@@ -277,11 +280,12 @@ bool resolve_due(const GapBridgeConfig& config, GapBridgeState& state, std::int6
 
 }  // namespace
 
-AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input) noexcept {
+AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                 const TickInput& input) noexcept {
     const std::int64_t tick = state.next_tick++;
     AngleSample sample{.tick = tick};
     if (input.amend_previous && tick > 0) amend_previous(state, input, tick);
-    const bool resolved = state.n_pending > 0 && resolve_due(config, state, tick, sample);
+    const bool resolved = state.n_pending > 0 && resolve_due(gyro, config, state, tick, sample);
 
     HistoryTick& entry = at(state, tick);
     entry = HistoryTick{
@@ -290,12 +294,14 @@ AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const Tic
         .relock_variance_arcsec2 = input.relock_variance_arcsec2,
         .half_excess_arcsec = input.half_excess_arcsec,
         .sign = input.sign,
-        .measured = input.measured};
+        .measured = input.measured,
+        .with_phase = input.with_phase};
+    state.relock_to_come_arcsec2 = input.relock_to_come_arcsec2;
     state.bias_arcsec = input.bias_arcsec;
     if (input.measured)
-        take_measured_tick(config, state, input, tick);
+        add_measured_tick(config, state, input, tick);
     else
-        take_gap_tick(config, state, input, tick);
+        add_gap_tick(gyro, config, state, input, tick);
 
     sample.dtheta_arcsec = entry.row.dtheta_arcsec;
     sample.flags = entry.row.flags;
@@ -304,17 +310,17 @@ AngleSample step(const GapBridgeConfig& config, GapBridgeState& state, const Tic
         sample.final_row = at(state, state.next_final++).row;
     }
     if (!is_estimated(config)) return sample;
-    learn(config, state, input, !resolved && !state.gap.open && state.n_pending == 0);
-    if (state.n_pending > 0 && !resolved) advance_estimate(config, state);
+    learn(gyro, config, state, input, !resolved && !state.gap.open && state.n_pending == 0);
+    if (state.n_pending > 0 && !resolved) advance_estimate(gyro, config, state);
     return sample;
 }
 
-DrainOutput drain(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
+DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state) noexcept {
     DrainOutput out;
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.resolved) continue;
-        out.gap = resolve(config, state, pending, state.next_tick, all_work);
+        out.gap = resolve(gyro, config, state, pending, state.next_tick, all_work);
         out.has_gap = pending.gap.has_before;
     }
     // Every gap must be resolved before a row may leave.
@@ -322,7 +328,7 @@ DrainOutput drain(const GapBridgeConfig& config, GapBridgeState& state) noexcept
     if (state.gap.open && config.method != BridgeMethod::none) {
         const std::int64_t first = state.gap.gap.first_tick;
         const std::int64_t kept = first > state.next_final ? first : state.next_final;
-        (void)settle_known(config, state, state.gap.gap, kept, state.next_tick - 1, state.gap.constant_arcsec);
+        (void)settle_known(gyro, config, state, state.gap.gap, kept, state.next_tick - 1, state.gap.constant_arcsec);
     }
     if (state.next_final < state.next_tick) {
         out.has_row = true;

@@ -4,6 +4,8 @@
 
 #include <zlg/core/common/maths.hpp>
 
+#include "gap_final.hpp"
+#include "gap_first.hpp"
 #include "gap_interpolation.hpp"
 #include "gap_points.hpp"
 #include "gap_rounding.hpp"
@@ -11,93 +13,169 @@
 namespace zlg::core {
 namespace {
 
-// A prediction whose points lie this far out, in units of their variance, is worth less than a polynomial.
-constexpr double foreign_motion = 9.0;
+// Innovation ratio q beyond which a prediction is worth less than a polynomial: points three standard deviations off
+// the learnt motion. By trial on bench/accuracy.
+constexpr double max_prediction_innovation = 9.0;
 
-// Some 15 points that fit scatter their misfit by .4.
+// Misfit beyond chance: q of 15 degrees of freedom has a standard deviation of sqrt(2/15) = 0.37.
 constexpr double certain_misfit = 1.4;
 
-// The mean of one on each side.
-constexpr int fewest_points = 2;
+// A mean needs one on each side.
+constexpr int min_points = 2;
 
-// A longer gap is estimated from whole ticks: half-ticks would take too long.
-constexpr int longest_joint_gap = 8;
+// A longer gap is estimated from whole ticks: the stages of half-ticks would not be ready in time.
+constexpr int max_joint_gap = 8;
 
-// What the variance of an estimate is to be multiplied by where the points do not fit.
+// (1).
 double inflation(double scale, double innovation_ratio) noexcept {
-    // The angle may be known better than the points: that alone is no misfit.
+    // A calibration below 1 says that the angle is known better than the points: that alone is no misfit.
     const double ratio = innovation_ratio * (scale < 1.0 ? scale : 1.0);
     return ratio > 1.0 ? ratio : 1.0;
 }
 
-// The variance of the whole switch, if all was as it was learnt. What was added to the moments of the counter's rounding is
-// scaled with them here.
+// Before pseudo-gaps have judged the covariance, the points beside the gap do: the smooth prior is then a large part of
+// it, and a motion that it does not describe is learnt with far too much uncertainty. A ratio below 1, of so many degrees
+// of freedom, is averaged with 1, which counts as so many. By trial on first gaps 70 to 300 ticks after the start.
+constexpr double presumed_freedom = 1.0;
+
+double deflation(const GapProblem& problem, double innovation_ratio) noexcept {
+    const int freedom = problem.factor.n - (problem.halves ? 3 : 1);
+    return innovation_ratio < 1.0 ? (presumed_freedom + freedom * innovation_ratio) / (presumed_freedom + freedom)
+                                  : 1.0;
+}
+
+// var of (2). The part of the rounding that is added to the moments is not scaled with them; here the excess is
+// subtracted.
 double learnt_variance(const GapProblem& problem, const GapEstimate& found, const RoundingSums& rounding) noexcept {
     const double too_much = problem.scale < 1.0 ? (1.0 - problem.scale) * learnt_rounding_part : 0.0;
     return found.sum_variance_arcsec2 - too_much * rounding.white_arcsec2;
 }
 
-// The recent motion.
+// The memory and the calibration of the recent motion, and how it is read; fixed when the problem begins.
 template <std::size_t capacity>
-void presume(const BridgeScoresState& scores, GapProblemOf<capacity>& problem) noexcept {
-    problem.memory = better_memory(scores);
-    problem.scale = variance_ratio(scores, problem.memory);
+void presume(const MotionLearningState& learning, GapProblemOf<capacity>& problem) noexcept {
+    problem.memory = better_memory(learning.scores);
+    problem.scale = variance_ratio(learning.scores, problem.memory);
+    problem.with_phase = learning.moments.with_phase;
 }
 
-void begin(GapBridgeState& state, const Gap& gap, bool halves) noexcept {
+// The motion was known when the problem of this gap began, or is now.
+bool is_learnt(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap) noexcept {
+    const EstimatedGap& e = state.estimate;
+    return e.first_tick == gap.first_tick ? e.learnt : is_ready(config.optimal, state.learning);
+}
+
+void begin(GapBridgeState& state, const Gap& gap, bool halves, bool learnt) noexcept {
     // In place: a state that is assigned would stand on the stack first.
     EstimatedGap& e = *std::construct_at(&state.estimate);
     e.first_tick = gap.first_tick;
     e.end_tick = gap.first_tick + gap.n;
     e.problem.n_gap = static_cast<int>(gap.n);
-    e.problem.n_side = points_a_side(e.problem.n_gap);
+    e.problem.n_side = points_before_gap(e.problem.n_gap);
+    e.n_after = points_a_side(e.problem.n_gap);
     e.problem.halves = halves;
-    presume(state.learning.scores, e.problem);
+    e.learnt = learnt;
+    if (learnt) {
+        presume(state.learning, e.problem);
+        take_lit_halves(state);
+        return;
+    }
+    if (e.problem.n_side > points_beside_first) e.problem.n_side = points_beside_first;
+    if (e.n_after > points_beside_first) e.n_after = points_beside_first;
+    e.problem.with_phase = is_read_by_phase(state, gap);
 }
 
 bool is_solvable(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap) noexcept {
-    return gap.n <= max_solved_gap && gap.has_before && is_ready(config.optimal, state.learning);
+    return gap.n <= max_solved_gap && (gap.has_before || !is_learnt(config, state, gap));
 }
 
-// The profile of the detuning after a gap: not there yet, of use, or given up.
-bool is_profile_of(const GapBridgeState& state, const Gap& gap) noexcept {
-    return state.joint.first_tick == gap.first_tick + gap.n;
-}
-
+// The profile of the detuning after a gap: not there yet, known, or given up.
 bool is_given_up(const GapBridgeState& state, const Gap& gap) noexcept {
     return is_profile_of(state, gap) && !state.joint.known;
 }
 
 // Begin the problem of a gap, or begin it anew with whole ticks.
 void begin_or_change(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, bool at_end) noexcept {
-    const bool wanted = config.optimal.halves && gap.n <= longest_joint_gap && !is_given_up(state, gap) &&
+    const bool learnt = is_learnt(config, state, gap);
+    const bool wanted = config.optimal.halves && learnt && gap.n <= max_joint_gap && !is_given_up(state, gap) &&
                         (!at_end || is_profile_of(state, gap));
     const bool begun = state.estimate.first_tick == gap.first_tick;
-    if (!begun || (state.estimate.problem.halves && !wanted)) begin(state, gap, wanted);
+    if (!begun || (state.estimate.problem.halves && !wanted)) begin(state, gap, wanted, learnt);
 }
 
-// Add points of ticks before `end`, then solve, as far as `work` goes: a point is 1, a stage of ticks 1, of half-ticks 2.
+// Of the gap whose problem grows.
+MotionCovariance covariance_of(const CompensationConstants& gyro, const GapBridgeConfig& config,
+                               const GapBridgeState& state) noexcept {
+    const EstimatedGap& e = state.estimate;
+    return {gyro,
+            e.learnt ? config.optimal : readings_alone,
+            state.learning.moments,
+            e.problem.memory,
+            e.problem.scale,
+            e.problem.with_phase};
+}
+
+// Add points of ticks before `end`, then solve, as far as `work` goes: a point is 1, a stage of ticks 1, of half-ticks
+// 2.
 //
-// last  no more points will come.
-void work_on(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, int work, std::int64_t end,
-             bool last) noexcept {
+// last    no more points will come.
+// return  work that is left.
+int work_on(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
+            int work, std::int64_t end, bool last) noexcept {
     EstimatedGap& e = state.estimate;
     const GapProblem& problem = state.estimate.problem;
-    const MotionCovariance covariance = covariance_of(config.optimal, state.learning, problem);
-    for (; work > 0 && e.n_tried < n_places(problem) && tick_of(e, problem, e.n_tried) < end; --work) {
-        if (problem.halves && is_after(e, problem, e.n_tried) && !is_profile_of(state, gap)) return;
+    const MotionCovariance covariance = covariance_of(gyro, config, state);
+    for (; work > 0 && e.n_tried < n_places(e, problem) && tick_of(e, problem, e.n_tried) < end; --work) {
+        if (problem.halves && is_after(e, problem, e.n_tried) && !is_profile_of(state, gap)) return 0;
         try_point(covariance, state);
     }
-    if (problem.failed || (e.n_tried < n_places(problem) && !last)) return;
+    if (problem.failed || (e.n_tried < n_places(e, problem) && !last)) return 0;
     for (; work > 0 && !e.solution.done; work -= stride_of(problem)) {
         if (e.solving)
             advance(covariance, problem, e.data, e.solution);
         else
             begin_solution(state);
     }
+    return work;
 }
 
-// The error of a polynomial grows with the length of the gap: as n(n+2)(n+4), or with all factors n..n+4.
+// Of the points of a mixture, in thousands of instructions.
+constexpr int cost_of_points = 10;
+
+// The mixture, once the estimate by the learnt motion is there, as far as `work` goes.
+//
+// work  in thousands of instructions.
+void work_on_mixture(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                     int work) noexcept {
+    EstimatedGap& e = state.estimate;
+    if (!config.optimal.learns || !e.solution.estimate.known || is_done(e.mixture)) return;
+    const MotionCovariance covariance = covariance_of(gyro, config, state);
+    if (!e.mixing && work >= cost_of_points) {
+        begin_mixture(covariance, state);
+        work -= cost_of_points;
+    }
+    while (e.mixing && !is_done(e.mixture)) {
+        work -= cost_of_stage(e.mixture);
+        if (work < 0) return;
+        advance(covariance, e.mixture);
+    }
+}
+
+// Stages of a solution: the rates, the points, each tick of the gap, the sum, the probe.
+int n_stages(const GapProblem& problem) noexcept { return problem.n_gap + 4; }
+
+// `work` suffices for the points before `end` and for the solution, in the measure of work_on.
+bool can_finish(const EstimatedGap& e, std::int64_t end, int work) noexcept {
+    if (e.solution.done) return true;
+    const GapProblem& problem = e.problem;
+    for (int k = e.n_tried; k < n_places(e, problem) && tick_of(e, problem, k) < end; ++k) --work;
+    const int stages = n_stages(problem) - e.solution.stage + (e.solving ? 0 : 1);
+    return work > stride_of(problem) * (stages - 1);
+}
+
+// Ratio of the mean square error of a polynomial in a gap of n ticks to that in the pseudo-gap of 3. Leading terms for
+// a motion of angular frequency w, eq (15) with two points a side: order 0 (w T)^2 n(n+2)(n+4)/12, order 2 (w T)^4
+// n(n+1)..(n+4)/720.
 double growth(int order, std::int64_t gap_ticks) noexcept {
     const auto factor = [order](double n) {
         return order == 0 ? n * (n + 2.0) * (n + 4.0) : n * (n + 1.0) * (n + 2.0) * (n + 3.0) * (n + 4.0);
@@ -106,31 +184,7 @@ double growth(int order, std::int64_t gap_ticks) noexcept {
     return ratio * ratio;
 }
 
-void apply_to_gap(const GapEstimate& found, double scale, AngleRow& row, unsigned j) noexcept {
-    row.dtheta_final_arcsec = found.value_arcsec[j];
-    row.sigma_arcsec = deviation(scale * found.variance_arcsec2[j]);
-    row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | flag_interpolated;
-}
-
-// scale     of all variances of ticks.
-// variance  of the whole angle.
-void apply(GapBridgeState& state, const Gap& gap, const GapEstimate& found, double scale, double variance,
-           EstimatedAngle& out) noexcept {
-    for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j) {
-        AngleRow& row = at(state, gap.first_tick + j).row;
-        apply_to_gap(found, scale, row, j);
-        out.gap_arcsec.add(row.dtheta_final_arcsec);
-        out.gap_arcsec.add(-row.dtheta_arcsec);
-    }
-    if (state.estimate.problem.halves)
-        correct_halves(state, found, out.after_arcsec);
-    else
-        correct_ticks(state, found, out.after_arcsec);
-    out.known = true;
-    out.sigma_sum_arcsec = deviation(variance);
-}
-
-// Of the false angle in the ticks after a gap, as a polynomial takes them.
+// Variance of the re-lock correction in the ticks after a gap, which a polynomial uses as they are.
 double relock_variance(const GapBridgeState& state, const Gap& gap) noexcept {
     double sum = 0.0;
     for (int k = 0; k < max_points_a_side; ++k) {
@@ -140,20 +194,21 @@ double relock_variance(const GapBridgeState& state, const Gap& gap) noexcept {
     return sum;
 }
 
-// True where a polynomial does better for such points: it has lost less, and would lose less with this re-lock.
+// True where a polynomial does better for these points: its mean loss is smaller (bridge_scores), and so is the
+// variance expected for this gap, its loss scaled to the length of the gap, with re-lock and rounding.
 //
-// variance  claimed by the estimate.
+// variance  that the estimate claims.
 bool choose_polynomial(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
                        const RoundingLaw& law, double variance, double misfit, EstimatedAngle& out) noexcept {
     const MotionLearningState& learning = state.learning;
     const bool rough = is_rough(scatter_of_points(state), learning.moments.moments[fast_memory].scatter);
     const BridgeCandidate choice = choose(learning.scores, state.estimate.problem.memory, rough);
     if (is_learnt(choice)) return false;
-    // A line has the angle of a constant, and in a ramp the right ticks too.
+    // The fit of order 1 has the same sum over the gap as that of order 0, and in a ramp the right ticks too.
     const int order = choice == by_constant ? 1 : 2;
     const PolynomialFit fit = fit_of(config, state, gap, end, order);
     const RoundingSums rounding = rounding_of_fit(config, state, gap, fit, law);
-    // It knows of a misfit no more than the estimate does.
+    // The misfit of the points applies to the polynomial's losses as well.
     const double usual = loss_of(learning.scores, choice, rough);
     const double grown = growth(order == 1 ? 0 : 2, gap.n);
     const double relock = relock_variance(state, gap);
@@ -175,22 +230,24 @@ int order_in_place(const GapBridgeConfig& config, const GapBridgeState& state) n
     return score[by_constant].loss < score[by_quadratic].loss ? 0 : 2;
 }
 
-void predict_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept {
+void predict_gap(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                 std::int64_t tick) noexcept {
     if (!is_ready(config.optimal, state.learning)) return;
     PredictionProblem problem{.n_gap = predicted_ticks, .n_side = max_points_a_side};
-    presume(state.learning.scores, problem);
-    const MotionCovariance covariance{config.optimal, state.learning.moments, problem.memory, problem.scale};
+    presume(state.learning, problem);
+    const MotionCovariance covariance{gyro,           config.optimal, state.learning.moments,
+                                      problem.memory, problem.scale,  problem.with_phase};
     const PredictionData data = points_before(covariance, state, tick, problem);
-    if (problem.failed || problem.factor.n < fewest_points) return;
-    // Of the stages those of the single ticks.
+    if (problem.failed || problem.factor.n < min_points) return;
+    // Only the stages of the single ticks are needed.
     GapSolutionOf<few_unknowns> solution;
     while (!solution.done && solution.stage < 2 + predicted_ticks) advance(covariance, problem, data, solution);
     const GapEstimateOf<few_unknowns>& found = solution.estimate;
-    if (solution.done || !(found.innovation_ratio <= foreign_motion)) return;
+    if (solution.done || !(found.innovation_ratio <= max_prediction_innovation)) return;
     const double scale = inflation(problem.scale, found.innovation_ratio);
     state.prediction.first_tick = tick;
     for (unsigned j = 0; j < max_gap_ticks; ++j) {
-        // The motion is forgotten by then, but for its mean.
+        // Farther on only the mean rate is known: variance of a tick about it, and that of the mean.
         const bool far = j >= predicted_ticks;
         state.prediction.value_arcsec[j] = far ? data.level + solution.rate : found.value_arcsec[j];
         state.prediction.variance_arcsec2[j] =
@@ -200,72 +257,104 @@ void predict_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int6
 
 namespace {
 
-// Ticks before this one will not be amended any more: the first after a gap may be by the next.
+// Ticks before this one are final: the first tick after a gap may still be amended by the next.
 std::int64_t end_of_amended(const GapBridgeState& state) noexcept {
     const std::int64_t last = state.next_tick - 1;
     return last > 0 && at(state, last - 1).measured ? last + 1 : last;
 }
 
-// Of one half: all 32 half-ticks are solved in ten.
-constexpr int work_a_half = 6;
+// In thousands of instructions: what an estimate may cost in a half, and each point or stage of it.
+constexpr int most_of_half = 50;
+constexpr int cost_of_work = 6;
+constexpr int cost_of_most_points = 7;  // with lit halves beside all others
+constexpr int most_of_mixture = 1000;
+
+// Points and stages of a first gap.
+constexpr int work_of_first = 2 * points_beside_first + max_solved_gap + 5;
 
 }  // namespace
 
-void advance_estimate(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
+void advance_estimate(const CompensationConstants& gyro, const GapBridgeConfig& config,
+                      GapBridgeState& state) noexcept {
     const PendingGap* waiting = nullptr;
     for (int k = 0; k < state.n_pending && waiting == nullptr; ++k)
         if (!state.pending[static_cast<unsigned>(k)].resolved) waiting = &state.pending[static_cast<unsigned>(k)];
     if (waiting == nullptr || !is_solvable(config, state, waiting->gap)) return;
     begin_or_change(config, state, waiting->gap, false);
-    work_on(config, state, waiting->gap, work_a_half, end_of_amended(state), false);
+    const int left = work_on(gyro, config, state, waiting->gap, work_a_half, end_of_amended(state), false);
+    // While another gap lasts or waits, or the re-lock after this one is watched, a half-period has less time.
+    const bool is_watched = state.next_tick <= waiting->gap.first_tick + waiting->gap.n + max_points_a_side;
+    if (is_watched || state.gap.open || state.n_pending > 1) return;
+    const int cost = state.estimate.lit.n > 0 ? cost_of_most_points : cost_of_work;
+    work_on_mixture(gyro, config, state, most_of_half - cost * (work_a_half - left));
 }
 
-EstimatedAngle estimate(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t end,
-                        int work) noexcept {
+EstimatedAngle estimate(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                        const Gap& gap, std::int64_t end, int work) noexcept {
     EstimatedAngle out{.order = order_in_place(config, state)};
     if (!is_solvable(config, state, gap)) return out;
     begin_or_change(config, state, gap, true);
-    work_on(config, state, gap, work, end, true);
+    // An estimate that would stay unfinished is not continued: the polynomial that takes its place costs as much.
+    if (state.estimate.learnt && !can_finish(state.estimate, end, work)) return out;
+    // The tick that needs the estimate has no time for the mixture, the end of a log has. The few points of a first gap are
+    // solved in any case.
+    const int more = state.estimate.learnt ? 0 : work_of_first;
+    if (work_on(gyro, config, state, gap, work + more, end, true) > work_a_half + more)
+        work_on_mixture(gyro, config, state, most_of_mixture);
     const GapProblem& problem = state.estimate.problem;
-    if (problem.factor.n < fewest_points) return out;
-    const GapEstimate& found = state.estimate.solution.estimate;
+    if (problem.factor.n < min_points) return out;
+    GapEstimate& found = state.estimate.solution.estimate;
     if (!found.known) return out;
+    double misfit = inflation(problem.scale, found.innovation_ratio);
+    if (!state.estimate.learnt) return first_angle(gyro, config, state, gap, end, misfit);
+    if (config.optimal.learns && !is_judged(state.learning.scores))
+        misfit *= deflation(problem, found.innovation_ratio);
     out.has_history = true;
-    learn_scale(state);
-    const double misfit = inflation(problem.scale, found.innovation_ratio);
-    double variance = misfit * found.sum_variance_arcsec2;
-    const RoundingLaw law = law_of(config, state, problem.halves);
+    const bool something = finds_something(state.estimate.mixture);
+    // A switch beside a manoeuvre says nothing of the gyro.
+    if (!something) learn_scale(state);
+    const double of_sum = misfit * found.sum_variance_arcsec2;
+    double variance = of_sum;
+    const RoundingLaw law = law_of(gyro, config, state, problem.halves, problem.with_phase);
     if (config.optimal.learns) {
         const RoundingSums rounding = rounding_of_estimate(state, gap, law);
         const double expected =
             misfit * motion_in(learnt_variance(problem, found, rounding), rounding) + rounding.broken_arcsec2;
-        // Beyond chance, what does not fit is as large as all that was expected, whatever of that is the counter's.
+        // (2). Beyond chance the excess is scaled from the whole variance, rounding included.
         const double unexpected = misfit > certain_misfit ? variance : 0.0;
         variance = unexpected > expected ? unexpected : expected;
     }
-    if (config.method == BridgeMethod::automatic &&
-        choose_polynomial(config, state, gap, end, problem.halves ? of_whole_ticks(law) : law, variance, misfit, out))
+    if (misfit > certain_misfit)  // as the sum
+        for (double& x : found.variance_arcsec2) x *= misfit;
+    else
+        take_out_own_rounding(state, law, config.optimal.learns, misfit, found);
+    // The points end before the re-lock does.
+    const double beyond = relock_beyond(state, gap, end, state.estimate.n_after);
+    if (something) {
+        const double mixed = mixed_variance(state, variance);
+        mix(state);
+        apply_mixture(state, gap, of_sum, mixed, out);
+        out.sigma_sum_arcsec = deviation(mixed + beyond);
         return out;
-    apply(state, gap, found, misfit, variance, out);
+    }
+    if (config.method == BridgeMethod::automatic &&
+        choose_polynomial(config, state, gap, end, problem.halves ? of_whole_ticks(law) : law, variance, misfit, out)) {
+        out.polynomial_variance_arcsec2 += beyond;
+        return out;
+    }
+    apply(state, gap, found, variance + beyond, out);
     return out;
 }
 
-void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& tick, bool idle) noexcept {
+void learn(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+           const TickInput& tick, bool idle) noexcept {
     const double value = tick.value_arcsec;
     MotionTick motion{.usable = tick.measured && tick.settled && is_finite(tick.variance_arcsec2), .first = value};
     if (config.optimal.halves) {
         motion.first = 0.5 * (value + tick.half_excess_arcsec);
         motion.second = 0.5 * (value - tick.half_excess_arcsec);
     }
-    step(config.optimal, state.learning, motion, idle);
-}
-
-bool needs_profile(const GapBridgeState& state) noexcept {
-    for (int k = 0; k < state.n_pending; ++k) {
-        const PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (!pending.resolved && is_profile_of(state, pending.gap)) return true;
-    }
-    return false;
+    step(gyro, config.optimal, state.learning, motion, idle);
 }
 
 }  // namespace zlg::core

@@ -1,6 +1,9 @@
 #include "gap_interpolation.hpp"
 
+#include <zlg/core/compensation/border.hpp>
+
 namespace zlg::core {
+
 void Points::collect(const GapBridgeState& state, std::int64_t origin, int from, int to, std::int64_t end) noexcept {
     const int first = origin + from < 0 ? static_cast<int>(-origin) : from;
     const int last = origin + to < end ? to : static_cast<int>(end - 1 - origin);
@@ -26,16 +29,19 @@ PolynomialFit fit_of(const GapBridgeConfig& config, const GapBridgeState& state,
     return {points.position, points.n, order};
 }
 
-GapSums sums_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end,
-                int order) noexcept {
+GapSums sums_of(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
+                const Gap& gap, std::int64_t end, int order) noexcept {
     GapSums sums{.fit = fit_of(config, state, gap, end, order)};
     const auto n = static_cast<unsigned>(gap.n);
     std::array<double, max_gap_ticks> last_weight{};
     double last_angle_weight = 0.0;
+    double last_variance = 0.0;
+    const double usual = rounding_arcsec2(gyro, state.learning.moments.with_phase);
     for (int k = 0; k < sums.fit.n(); ++k) {
         const HistoryTick& point = at(state, gap.first_tick - 1 + sums.fit.position(k));
         const PointWeight weight = sums.fit.weight_of(static_cast<unsigned>(k));
-        const double shared = neighbours(sums.fit, k) ? shared_rounding(config) : 0.0;
+        const double shared =
+            neighbours(sums.fit, k) ? shared_rounding(usual, last_variance, point.variance_arcsec2) : 0.0;
         double angle_weight = 0.0;
         for (unsigned j = 0; j < n; ++j) {
             const double w = weight.at(j + 1.0);
@@ -46,7 +52,11 @@ GapSums sums_of(const GapBridgeConfig& config, const GapBridgeState& state, cons
         }
         sums.angle_variance_arcsec2 +=
             angle_weight * angle_weight * point.variance_arcsec2 - shared * angle_weight * last_angle_weight;
+        // The error of a re-lock correction is in the point, and stays in the angle behind the gap.
+        if (sums.fit.position(k) > gap.n)
+            sums.angle_variance_arcsec2 += (2.0 * angle_weight + 1.0) * point.relock_variance_arcsec2;
         last_angle_weight = angle_weight;
+        last_variance = point.variance_arcsec2;
     }
     return sums;
 }

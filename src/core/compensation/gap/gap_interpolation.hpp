@@ -5,17 +5,10 @@
 #include <cstdint>
 
 #include <zlg/core/common/maths.hpp>
-#include <zlg/core/compensation/gap_bridge.hpp>
+#include <zlg/core/compensation/gap_bridge_config.hpp>
+#include <zlg/core/compensation/gap_bridge_state.hpp>
 
 namespace zlg::core {
-
-[[nodiscard]] inline HistoryTick& at(GapBridgeState& state, std::int64_t tick) noexcept {
-    return state.history[static_cast<std::uint64_t>(tick) % history_ticks];
-}
-
-[[nodiscard]] inline const HistoryTick& at(const GapBridgeState& state, std::int64_t tick) noexcept {
-    return state.history[static_cast<std::uint64_t>(tick) % history_ticks];
-}
 
 // The measured ticks among some standard positions, counted from the tick before a gap.
 struct Points {
@@ -25,12 +18,6 @@ struct Points {
     // Positions from..to that lie before tick `end` and were measured.
     void collect(const GapBridgeState& state, std::int64_t origin, int from, int to, std::int64_t end) noexcept;
 };
-
-// The covariance of two neighbouring ticks, twice and without its sign: the rounding of one counter reading enters both
-// with opposite signs, -count^2/12.
-[[nodiscard]] inline double shared_rounding(const GapBridgeConfig& config) noexcept {
-    return config.count.value() * config.count.value() / 6.0;
-}
 
 [[nodiscard]] inline bool neighbours(const PolynomialFit& fit, int k) noexcept {
     return k > 0 && fit.position(k) == fit.position(k - 1) + 1;
@@ -45,12 +32,12 @@ struct GapSums {
     PolynomialFit fit{};  // position 0 is the tick before the gap
     std::array<double, max_gap_ticks> value_arcsec{};
     std::array<double, max_gap_ticks> variance_arcsec2{};
-    double angle_variance_arcsec2 = 0.0;  // of the whole gap's angle
+    double angle_variance_arcsec2 = 0.0;  // of the whole gap's angle, with the re-lock errors of its points behind it
 };
 
 // Of a gap of at most 16 ticks, through the ticks before `end`, of which one at least was measured.
-[[nodiscard]] GapSums sums_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,
-                              std::int64_t end, int order) noexcept;
+[[nodiscard]] GapSums sums_of(const CompensationConstants& gyro, const GapBridgeConfig& config,
+                              const GapBridgeState& state, const Gap& gap, std::int64_t end, int order) noexcept;
 
 // The fit alone.
 [[nodiscard]] PolynomialFit fit_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,

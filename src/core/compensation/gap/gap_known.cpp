@@ -1,19 +1,21 @@
 #include "gap_known.hpp"
 
+#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
+#include <zlg/core/compensation/border.hpp>
 
 #include "gap_interpolation.hpp"
 
 namespace zlg::core {
 namespace {
 
-// Beyond so many variances a rate is none of the motion.
-constexpr double foreign_sq = 9.0;
+// Variances beyond which a rate does not belong to the learnt motion: three standard deviations.
+constexpr double outlier_sq = 9.0;
 
-// A stretch, and its rows that have not left: `n` of them, from `first` on.
+// A stretch of known sum, and its rows that are not delivered yet: `n` of them, from `first` on.
 struct Stretch {
     std::int64_t first = 0, last = 0;
-    std::int64_t n_gone = 0;
+    std::int64_t n_delivered = 0;
     double sum_arcsec = 0.0;
     double variance_arcsec2 = 0.0;  // of a single tick
 
@@ -27,12 +29,12 @@ Stretch stretch_of(const GapBridgeState& state, const HistoryTick& entry) noexce
     return {first, last, first - start, entry.known_arcsec, entry.variance_arcsec2};
 }
 
-double lacking(const GapBridgeState& state, const Stretch& s, double constant_arcsec) noexcept {
-    ExactSum lack;
-    lack.add(s.sum_arcsec);
-    lack.add(-as_double(s.n_gone) * constant_arcsec);
-    for (std::int64_t t = s.first; t <= s.last; ++t) lack.add(-at(state, t).row.dtheta_final_arcsec);
-    return lack.value();
+double deficit_of(const GapBridgeState& state, const Stretch& s, double constant_arcsec) noexcept {
+    ExactSum deficit;
+    deficit.add(s.sum_arcsec);
+    deficit.add(-as_double(s.n_delivered) * constant_arcsec);
+    for (std::int64_t t = s.first; t <= s.last; ++t) deficit.add(-at(state, t).row.dtheta_final_arcsec);
+    return deficit.value();
 }
 
 void set_row(AngleRow& row, double value_arcsec, double variance_arcsec2, ExactSum& change) noexcept {
@@ -44,77 +46,81 @@ void set_row(AngleRow& row, double value_arcsec, double variance_arcsec2, ExactS
     row.flags = (row.flags & ~std::uint32_t{flag_unrepaired}) | flag_interpolated;
 }
 
-// Share of tick j = 1.. in what lacks.
+// w_j of (1) without learnt motion: a parabola over the whole gap, constant over a part of one.
 double share(const Stretch& s, bool is_whole, double j) noexcept {
     const double n = s.n();
     return is_whole ? 6.0 * j * (n + 1.0 - j) / (n * (n + 1.0) * (n + 2.0)) : 1.0 / n;
 }
 
-// Of a tick in a stretch that turned at another rate than any that was learnt: it may have turned in any of its ticks.
-double foreign_variance(const GapBridgeConfig& config, GapBridgeState& state, const Stretch& s) noexcept {
-    const double n = s.n() + as_double(s.n_gone);
+// Added variance of a tick in a stretch whose mean rate is an outlier: (2) for a rotation in any one of its ticks.
+double outlier_variance(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                        const Stretch& s) noexcept {
+    const double n = s.n() + as_double(s.n_delivered);
     const double off_level = s.sum_arcsec / n - state.learning.moments.level;
-    const bool is_foreign = off_level * off_level > foreign_sq * tick_variance(config, state);
-    return is_foreign ? off_level * off_level * (n - 1.0) : 0.0;
+    const bool is_outlier = off_level * off_level > outlier_sq * tick_variance(gyro, config, state);
+    return is_outlier ? off_level * off_level * (n - 1.0) : 0.0;
 }
 
-void shift_rows(const GapBridgeConfig& config, GapBridgeState& state, const Stretch& s, bool is_whole,
-                double constant_arcsec, ExactSum& change) noexcept {
-    const double lack = lacking(state, s, constant_arcsec);
-    const double about_mean = tick_variance(config, state) + foreign_variance(config, state, s);
-    // What the rows that have left lack is in the others.
+void shift_rows(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                const Stretch& s, bool is_whole, double constant_arcsec, ExactSum& change) noexcept {
+    const double deficit = deficit_of(state, s, constant_arcsec);
+    const double about_mean = tick_variance(gyro, config, state) + outlier_variance(gyro, config, state, s);
+    // Per row: the residual of the delivered rows is in the remaining ones.
     const double beyond =
-        as_double(s.n_gone) * (s.sum_arcsec / (s.n() + as_double(s.n_gone)) - constant_arcsec) / s.n();
+        as_double(s.n_delivered) * (s.sum_arcsec / (s.n() + as_double(s.n_delivered)) - constant_arcsec) / s.n();
     for (std::int64_t t = s.first; t <= s.last; ++t) {
         AngleRow& row = at(state, t).row;
         const double w = share(s, is_whole, as_double(t - s.first + 1));
         const double before = row.sigma_arcsec * row.sigma_arcsec;
         double variance = (before < about_mean ? before : about_mean) + beyond * beyond;
-        if (before < infinity) variance += lack * lack * w * (1.0 - w);
-        set_row(row, row.dtheta_final_arcsec + w * lack, variance, change);
+        if (before < infinity) variance += deficit * deficit * w * (1.0 - w);
+        set_row(row, row.dtheta_final_arcsec + w * deficit, variance, change);
     }
 }
 
-void settle(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, const HistoryTick& entry,
-            double constant_arcsec, ExactSum& change) noexcept {
+void settle(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
+            const HistoryTick& entry, double constant_arcsec, ExactSum& change) noexcept {
     const Stretch s = stretch_of(state, entry);
     if (s.first > s.last) return;
-    if (s.first == s.last && s.n_gone == 0)
+    if (s.first == s.last && s.n_delivered == 0)
         return set_row(at(state, s.last).row, s.sum_arcsec, s.variance_arcsec2, change);
-    const bool is_whole = s.n_gone == 0 && entry.known_ticks == gap.n;
+    const bool is_whole = s.n_delivered == 0 && entry.known_ticks == gap.n;
     const KnownEstimate found =
-        is_whole ? estimate_known(config, state, gap, s.sum_arcsec, entry.relock_variance_arcsec2) : KnownEstimate{};
-    if (!found.known) return shift_rows(config, state, s, is_whole, constant_arcsec, change);
+        is_whole ? estimate_known(gyro, config, state, gap, s.sum_arcsec, entry.relock_variance_arcsec2)
+                 : KnownEstimate{};
+    if (!found.known) return shift_rows(gyro, config, state, s, is_whole, constant_arcsec, change);
     for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j)
         set_row(at(state, gap.first_tick + j).row, found.value_arcsec[j], found.variance_arcsec2[j], change);
-    // Rounding of the estimate.
-    const double lack = lacking(state, s, 0.0);
+    // Rounding of the estimate. The change is that of the stored value, which is rounded once more.
     AngleRow& last = at(state, s.last).row;
-    change.add(lack);
-    last.dtheta_final_arcsec += lack;
+    change.add(-last.dtheta_final_arcsec);
+    last.dtheta_final_arcsec += deficit_of(state, s, 0.0);
+    change.add(last.dtheta_final_arcsec);
 }
 
 }  // namespace
 
-void note_known(const GapBridgeConfig& config, const TickInput& input, Gap& gap, HistoryTick& entry) noexcept {
+void note_known(double rounding_arcsec2, const TickInput& input, Gap& gap, HistoryTick& entry) noexcept {
     if (input.known_ticks <= 0 || input.known_ticks > gap.n - gap.known_ticks) return;
     entry.known_ticks = input.known_ticks;
     entry.known_arcsec = input.known_arcsec;
     entry.variance_arcsec2 += input.known_drift_arcsec2;
     entry.relock_variance_arcsec2 = input.known_drift_arcsec2;
     // Of the reading between two stretches the one has more what the other has less.
-    if (gap.known_ticks > 0) gap.known_variance_arcsec2 -= shared_rounding(config);
+    if (gap.known_ticks > 0)
+        gap.known_variance_arcsec2 -=
+            shared_rounding(rounding_arcsec2, gap.known_variance_arcsec2, input.known_variance_arcsec2);
     gap.known_ticks += input.known_ticks;
     gap.known_variance_arcsec2 += input.known_variance_arcsec2;
 }
 
-ExactSum settle_known(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, std::int64_t first,
-                      std::int64_t last, double constant_arcsec) noexcept {
+ExactSum settle_known(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                      const Gap& gap, std::int64_t first, std::int64_t last, double constant_arcsec) noexcept {
     ExactSum change;
     for (std::int64_t t = first; t <= last; ++t) {
         HistoryTick& entry = at(state, t);
         if (entry.known_ticks == 0) continue;
-        settle(config, state, gap, entry, constant_arcsec, change);
+        settle(gyro, config, state, gap, entry, constant_arcsec, change);
         entry.known_ticks = 0;
     }
     return change;

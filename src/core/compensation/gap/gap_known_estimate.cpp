@@ -1,4 +1,5 @@
-// The ticks of a gap of known sum, by the learnt motion: the estimate of `optimal_bridge`, with the sum as one more point.
+// The ticks of a gap of known sum, by the learnt motion: the estimate of `optimal_bridge`, with the sum as one more
+// point.
 
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/cholesky.hpp>
@@ -15,8 +16,8 @@ using FewColumn = ColumnOf<few_unknowns>;
 
 constexpr int points_a_side_of_known = 3;
 
-// A sum, or points, that are further out are no such motion.
-constexpr double foreign_sq = 9.0;
+// Variances beyond which the sum, or the points, do not belong to the learnt motion: three standard deviations.
+constexpr double outlier_sq = 9.0;
 
 struct Problem {
     int n_gap = 0, n_side = 0;
@@ -86,7 +87,7 @@ void solve(const Problem& p, double level, double scale, KnownEstimate& out) noe
     const double rate = product(rate_column, rest, p.n) / information;
     for (unsigned k = 0; k < static_cast<unsigned>(p.n); ++k) rest[k] -= rate * rate_column[k];
     const FewColumn dual = backward(p.factor, rest);
-    // As of any estimate: the angle may be known better than the points, that alone is no misfit.
+    // As in gap_estimate.cpp: a calibration below 1 alone is no misfit.
     const double ratio = product(rest, rest, p.n) / (p.n - 1) * (scale < 1.0 ? scale : 1.0);
     const double misfit = ratio > 1.0 ? ratio : 1.0;
     const double sum_sq = rest[static_cast<unsigned>(p.n - 1)] * rest[static_cast<unsigned>(p.n - 1)];
@@ -99,28 +100,34 @@ void solve(const Problem& p, double level, double scale, KnownEstimate& out) noe
         const double by_points = p.tick[j] - product(g, g, p.n - 1);
         sum_variance += by_points;
     }
-    // Of the sum by the points alone: no less than this, for the errors of the ticks go together.
-    const double beyond_points = sum_sq > foreign_sq ? sum_sq * sum_variance * p.n_gap : 0.0;
+    // Variance of the sum by the points alone: at most n times the sum of the ticks' variances, because their errors
+    // are correlated.
+    const double beyond_points = sum_sq > outlier_sq ? sum_sq * sum_variance * p.n_gap : 0.0;
     const double w = 1.0 / p.n_gap;
-    double foreign = beyond_points * w * (1.0 - w);
+    double outlier_variance = beyond_points * w * (1.0 - w);
     const double off_level = p.value[static_cast<unsigned>(p.n - 1)] * w;
-    if (misfit > foreign_sq && off_level * off_level > foreign) foreign = off_level * off_level;
-    for (unsigned j = 0; j < static_cast<unsigned>(p.n_gap); ++j) out.variance_arcsec2[j] += foreign;
+    if (misfit > outlier_sq && off_level * off_level > outlier_variance) outlier_variance = off_level * off_level;
+    for (unsigned j = 0; j < static_cast<unsigned>(p.n_gap); ++j) out.variance_arcsec2[j] += outlier_variance;
     out.known = true;
 }
 
 }  // namespace
 
-double tick_variance(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
+double tick_variance(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state) noexcept {
     if (!is_estimated(config) || !is_ready(config.optimal, state.learning)) return infinity;
     const MotionMemory memory = better_memory(state.learning.scores);
     const double scale = variance_ratio(state.learning.scores, memory);
-    const MotionCovariance covariance{config.optimal, state.learning.moments, memory, scale > 1.0 ? scale : 1.0};
+    const MotionCovariance covariance{gyro,
+                                      config.optimal,
+                                      state.learning.moments,
+                                      memory,
+                                      scale > 1.0 ? scale : 1.0,
+                                      state.learning.moments.with_phase};
     return covariance.of_ticks(0, 0);
 }
 
-KnownEstimate estimate_known(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, double sum_arcsec,
-                             double error_arcsec2) noexcept {
+KnownEstimate estimate_known(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                             const Gap& gap, double sum_arcsec, double error_arcsec2) noexcept {
     KnownEstimate out;
     if (!is_estimated(config) || !is_ready(config.optimal, state.learning)) return out;
     if (gap.n < 2 || gap.n > max_solved_gap) return out;
@@ -129,7 +136,8 @@ KnownEstimate estimate_known(const GapBridgeConfig& config, GapBridgeState& stat
     Problem p{.n_gap = n_gap, .n_side = room < points_a_side_of_known ? room : points_a_side_of_known};
     const MotionMemory memory = better_memory(state.learning.scores);
     const double scale = variance_ratio(state.learning.scores, memory);
-    const MotionCovariance covariance{config.optimal, state.learning.moments, memory, scale};
+    const MotionCovariance covariance{gyro,   config.optimal, state.learning.moments,
+                                      memory, scale,          state.learning.moments.with_phase};
     const double level = state.learning.moments.level;
     if (!add_points(covariance, state, gap, level, p)) return out;
     fill(covariance, p);

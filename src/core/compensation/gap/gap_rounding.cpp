@@ -1,5 +1,7 @@
 #include "gap_rounding.hpp"
 
+#include <zlg/core/compensation/border.hpp>
+
 #include "gap_interpolation.hpp"
 #include "gap_points.hpp"
 
@@ -21,8 +23,10 @@ double weight_in_sum(const PointWeight& w, double n) noexcept {
 
 }  // namespace
 
-RoundingLaw law_of(const GapBridgeConfig& config, const GapBridgeState& state, bool halves) noexcept {
-    return rounding_law(config.optimal, state.learning.moments, halves, state.bias_arcsec);
+RoundingLaw law_of(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
+                   bool halves, bool with_phase) noexcept {
+    if (with_phase) return independent_readings(step_arcsec(gyro, true));
+    return rounding_law(gyro, config.optimal, state.learning.moments, halves, state.bias_arcsec);
 }
 
 RoundingSums rounding_of_estimate(const GapBridgeState& state, const Gap& gap, const RoundingLaw& law) noexcept {
@@ -35,6 +39,24 @@ RoundingSums rounding_of_estimate(const GapBridgeState& state, const Gap& gap, c
         weights.add(problem.place[k], e.solution.estimate.sum_weight[k], f.value_arcsec, f.variance_arcsec2);
     }
     return sums_of(state, gap, law, weights);
+}
+
+// The roundings of the points count as independent, each with half the variance of the difference between two readings a tick
+// apart, or more. Those that the learnt moments hold have just that variance, as often as `scale` says, and once more in part.
+void take_out_own_rounding(const GapBridgeState& state, const RoundingLaw& law, bool learns, double misfit,
+                           GapEstimate& found) noexcept {
+    const GapProblem& problem = state.estimate.problem;
+    const double white = law.step_arcsec * law.step_arcsec / 12.0;
+    const double learnt = white - law.arcsec2[0][static_cast<unsigned>(stride_of(problem))];
+    const double more = learnt_rounding_part * (problem.scale > 1.0 ? problem.scale : 1.0);
+    const double counted = learns ? problem.scale * learnt + more * white : white;
+    for (unsigned j = 0; j < static_cast<unsigned>(problem.n_gap); ++j) {
+        const double of_points = found.border_weight_sq[j];
+        const double with_own = of_points + 2.0 + 2.0 * found.edge_weight[j];
+        const double motion = found.variance_arcsec2[j] - counted * with_own;
+        found.variance_arcsec2[j] =
+            (learnt > white ? learnt : white) * of_points + (motion > 0.0 ? misfit * motion : 0.0);
+    }
 }
 
 RoundingSums rounding_of_fit(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,

@@ -1,18 +1,28 @@
 #pragma once
 // What the counter's roundings add to the error of a gap's angle, for the weights that the angle was made with.
 
-#include <zlg/core/compensation/gap_bridge.hpp>
+#include <zlg/core/compensation/gap_bridge_config.hpp>
+#include <zlg/core/compensation/gap_bridge_state.hpp>
 
 #include "compensation/motion/rounding_law.hpp"
 
 namespace zlg::core {
 
 // Roundings as they go with the recent motion, borders of ticks or of half-ticks.
-[[nodiscard]] RoundingLaw law_of(const GapBridgeConfig& config, const GapBridgeState& state, bool halves) noexcept;
+[[nodiscard]] RoundingLaw law_of(const CompensationConstants& gyro, const GapBridgeConfig& config,
+                                 const GapBridgeState& state, bool halves, bool with_phase) noexcept;
 
 // Of the estimate.
 [[nodiscard]] RoundingSums rounding_of_estimate(const GapBridgeState& state, const Gap& gap,
                                                 const RoundingLaw& law) noexcept;
+
+// Variance of the final value of each tick of the gap, which is compared with the rotation: the tick's own roundings, which
+// the covariance holds because the counter would have read it with them, are no error.
+//
+// learns  the covariance is learnt; else it is given, with independent roundings.
+// misfit  of the points.
+void take_out_own_rounding(const GapBridgeState& state, const RoundingLaw& law, bool learns, double misfit,
+                           GapEstimate& found) noexcept;
 
 // Of a polynomial. The law is that of ticks.
 [[nodiscard]] RoundingSums rounding_of_fit(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,

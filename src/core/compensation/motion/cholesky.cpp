@@ -73,6 +73,12 @@ template Column forward(const CholeskyFactor&, const Column&) noexcept;
 template Column backward(const CholeskyFactor&, const Column&) noexcept;
 template double product(const Column&, const Column&, int) noexcept;
 
+using SideRows = CholeskyFactorOf<16>;
+using SideNumbers = ColumnOf<16>;
+template bool add_row(SideRows&, const SideNumbers&) noexcept;
+template SideNumbers forward(const SideRows&, const SideNumbers&) noexcept;
+template SideNumbers backward(const SideRows&, const SideNumbers&) noexcept;
+
 using FewRows = CholeskyFactorOf<few_unknowns>;
 using FewNumbers = ColumnOf<few_unknowns>;
 template bool add_row(FewRows&, const FewNumbers&) noexcept;

@@ -1,3 +1,4 @@
+#include <zlg/core/compensation/border.hpp>
 #include <zlg/core/compensation/optimal_bridge.hpp>
 
 #include "smooth_prior.hpp"
@@ -5,13 +6,23 @@
 namespace zlg::core {
 namespace {
 
-// The prior counts as so many windows beside those in memory: for the slow one as little as keeps the matrix regular, since
-// a tone of 12 000 arcsec/s brings a prior of 0.2 windows to the level of a counter of 0.8 arcsec.
+// The smooth prior counts as so many windows beside those in memory. For the fast memory 10 of 500, by trial on
+// bench/accuracy; for the slow one just enough to keep the matrix regular, because beside a tone of 12 000 arcsec/s
+// already a prior of 0.2 windows is as large as the rounding of a counter of 0.8 arcsec.
 constexpr std::array<double, 2> prior_windows{10.0, 0.002};
+
+// While the fast memory fills, its prior grows with it: by trial on first gaps 70 to 300 ticks after the start, where 10 of 50
+// windows made errors 1.5 times and the claimed variance of a tone 10 times as large. The slow one's stays below the noise
+// of readings by phase as it stays below that of counts.
+constexpr double prior_windows_of(MotionMemory memory, double n, double noise_ratio) noexcept {
+    constexpr double full = 500.0;
+    if (memory == slow_memory) return prior_windows[memory] * noise_ratio;
+    return prior_windows[memory] * (n < full ? n / full : 1.0);
+}
 
 constexpr auto smooth_prior_of_ticks = of_ticks(smooth_prior);
 
-// A product and a halving for each element otherwise.
+// Start of each row of the triangle, instead of a product and a halving for each element.
 template <int window>
 constexpr auto row_starts = [] {
     std::array<std::int16_t, static_cast<std::size_t>(window)> starts{};
@@ -22,8 +33,9 @@ constexpr auto row_starts = [] {
 
 }  // namespace
 
-MotionCovariance::MotionCovariance(const OptimalBridgeConfig& config, const MotionMomentsState& moments,
-                                   MotionMemory memory, double scale) noexcept
+MotionCovariance::MotionCovariance(const CompensationConstants& gyro, const OptimalBridgeConfig& config,
+                                   const MotionMomentsState& moments, MotionMemory memory, double scale,
+                                   bool with_phase) noexcept
     : sum_{moments.moments[memory].sum.data()},
       row_{config.halves ? row_starts<max_window>.data() : row_starts<window_ticks>.data()},
       window_{window_of(MotionMomentsConfig{config.halves})},
@@ -34,16 +46,23 @@ MotionCovariance::MotionCovariance(const OptimalBridgeConfig& config, const Moti
         given_of_ticks_ = zlg::core::of_ticks(config.prior_arcsec2);
         shape_ = given_of_ticks_.data();
     }
-    const double rounding = config.counter_step.value() * config.counter_step.value() / 6.0;
+    const double rounding = rounding_arcsec2(gyro, with_phase);
     const double n = moments.moments[memory].n_windows;
-    // Readings that repeat are predicted all too well: rounding is not what may be scaled down.
-    const double part = config.learns ? (scale > 1.0 ? scale : 1.0) * learnt_rounding_part : 1.0;
-    // Of moments in both directions of time.
+    // Rounding that repeats is predicted too well, which makes the scale small: the noise added for it is not scaled
+    // down.
+    double part = config.learns ? (scale > 1.0 ? scale : 1.0) * learnt_rounding_part : 1.0;
+    // Moments that were learnt by phase hold no rounding to counts.
+    const double without = config.learns && !with_phase ? moments.moments[memory].by_phase : 0.0;
+    if (part < 1.0) part += (1.0 - part) * without;
+    // (M + J M J)/2, over the number of windows.
     per_sum_ = config.learns && n > 0.0 ? 0.5 * scale / n : 0.0;
-    if (config.learns) prior_ = per_sum_ * 2.0 * prior_windows[memory] * moments.moments[memory].scatter;
+    if (config.learns)
+        prior_ = per_sum_ * 2.0 *
+                 prior_windows_of(memory, n, reading_counts2(gyro, with_phase) / reading_counts2(gyro, false)) *
+                 moments.moments[memory].scatter;
     near_[0] = prior_ * shape_[0] + part * rounding;
     near_[1] = prior_ * shape_[1] - 0.5 * part * rounding;
-    if (!config.learns) near_[0] += halves_ ? 0.5 * config.walk_arcsec2 : config.walk_arcsec2;
+    if (!config.learns) near_[0] += (halves_ ? 0.5 : 1.0) * walk_arcsec2(gyro);
 }
 
 // The four samples of a pair of ticks lie side by side, and so do those of the pair in reversed time.

@@ -3,48 +3,56 @@
 #include <array>
 #include <span>
 
+#include <zlg/core/compensation/border.hpp>
+
 namespace zlg::core {
 namespace {
 
-// Fewer say more of the moment than of the motion.
-constexpr double enough_windows = 50.0;
+// Windows in the moments before they are used; they come by blocks, so at the end of the first whole block, 0.6 s of 5 ms
+// ticks, or of a shorter one that a gap ends. With fewer the moments describe these few ticks and not the motion. By trial
+// on bench/accuracy.
+constexpr double min_windows = 50.0;
 
-// A tick this far out, of a variance of the learnt motion's, is a blow or a fault: what is squared only once is not learnt.
-// A motion that goes on like this is a new one.
-constexpr double foreign_ratio = 1e4;
-constexpr int foreign_step = 8;
-constexpr int foreign_at_most = 16 * foreign_step;
+// The outlier gate. The threshold is far above the 3 to 10 standard deviations of a usual gate on purpose: it keeps out
+// faults and single shocks, while vibration that grows tenfold must be learnt at once. 16 ticks are 80 ms. By trial on
+// bench/accuracy.
+constexpr double outlier_ratio_sq = 1e4;
+constexpr int outlier_step = 8;
+constexpr int learnt_from_level = 16 * outlier_step;
 
-// return  the tick may be learnt.
-bool is_familiar(const OptimalBridgeConfig& config, MotionLearningState& state, const MotionTick& tick) noexcept {
+// Advances the outlier gate; returns whether the tick is learnt.
+bool passes_gate(const CompensationConstants& gyro, const OptimalBridgeConfig& config, MotionLearningState& state,
+                 const MotionTick& tick) noexcept {
     const Moments& learnt = state.moments.moments[fast_memory];
     const double x = tick.first + (config.halves ? tick.second : 0.0) - state.moments.level;
-    const double step = config.counter_step.value();
-    if (!is_ready(config, state) || !(x * x > foreign_ratio * (learnt.scatter + step * step))) {
-        state.foreign -= state.foreign > 0;
+    const double step = step_arcsec(gyro, state.moments.with_phase);
+    if (!is_ready(config, state) || !(x * x > outlier_ratio_sq * (learnt.scatter + step * step))) {
+        state.outlier_level -= state.outlier_level > 0;
         return true;
     }
-    if (state.foreign < foreign_at_most) state.foreign += foreign_step;
-    return state.foreign >= foreign_at_most;
+    if (state.outlier_level < learnt_from_level) state.outlier_level += outlier_step;
+    return state.outlier_level >= learnt_from_level;
 }
 
-GapWeights weights_of_pseudo_gap(const OptimalBridgeConfig& config, const MotionLearningState& state,
-                                 MotionMemory memory) noexcept {
+GapWeights weights_of_pseudo_gap(const CompensationConstants& gyro, const OptimalBridgeConfig& config,
+                                 const MotionLearningState& state, MotionMemory memory) noexcept {
     GapProblem problem{.n_gap = scored_gap, .n_side = points_a_side(scored_gap), .memory = memory};
-    const MotionCovariance covariance = covariance_of(config, state, problem);
+    problem.with_phase = state.moments.with_phase;
+    const MotionCovariance covariance = covariance_of(gyro, config, state, problem);
     for (int k = 0; k < 2 * problem.n_side; ++k)
         add_point(covariance, problem, place_of(k, problem.n_side, problem.n_gap), Column{});
     return weights(covariance, problem);
 }
 
-// Of four blocks the fast memory is weighed after two, the slow one after one.
-void weigh(const OptimalBridgeConfig& config, MotionLearningState& state) noexcept {
+// New weights after a block: of four blocks two are for the fast memory and one for the slow one, which changes less.
+void update_weights(const CompensationConstants& gyro, const OptimalBridgeConfig& config,
+                    MotionLearningState& state) noexcept {
     const int block = state.moments.n_folded;
     if (state.n_weighed == block) return;
     state.n_weighed = block;
     if (block % 4 == 0) return;
     const MotionMemory memory = block % 2 != 0 ? fast_memory : slow_memory;
-    state.scores.weights[memory] = weights_of_pseudo_gap(config, state, memory);
+    state.scores.weights[memory] = weights_of_pseudo_gap(gyro, config, state, memory);
 }
 
 void judge(MotionLearningState& state, WindowTicks ticks) noexcept {
@@ -60,28 +68,30 @@ void judge(const OptimalBridgeConfig& config, MotionLearningState& state) noexce
     judge(state, ticks);
 }
 
-// Neighbours share most of their ticks: every second window tells nearly as much as all.
+// Neighbouring windows share 18 of their 19 ticks, so every second one holds nearly all the information at half the
+// cost.
 bool is_judged_now(const MotionMomentsState& moments) noexcept { return moments.block.n_windows % 2 == 0; }
 
 }  // namespace
 
-void step(const OptimalBridgeConfig& config, MotionLearningState& state, const MotionTick& tick, bool idle) noexcept {
+void step(const CompensationConstants& gyro, const OptimalBridgeConfig& config, MotionLearningState& state,
+          const MotionTick& tick, bool idle) noexcept {
     if (!config.learns) return;
-    // Of the blocks before this tick: one that ends now is work enough.
-    if (idle) weigh(config, state);
+    // Weights use the blocks that ended before this tick; a block that ends in it is expensive enough by itself.
+    if (idle) update_weights(gyro, config, state);
     MotionTick learnt = tick;
-    learnt.usable = tick.usable && is_familiar(config, state, tick);
+    learnt.usable = tick.usable && passes_gate(gyro, config, state, tick);
     const MotionMomentsOutput out = step(MotionMomentsConfig{config.halves}, state.moments, learnt);
     if (out.has_window && is_judged_now(state.moments)) judge(config, state);
 }
 
 bool is_ready(const OptimalBridgeConfig& config, const MotionLearningState& state) noexcept {
-    return !config.learns || state.moments.moments[fast_memory].n_windows >= enough_windows;
+    return !config.learns || state.moments.moments[fast_memory].n_windows >= min_windows;
 }
 
-MotionCovariance covariance_of(const OptimalBridgeConfig& config, const MotionLearningState& state,
-                               const GapProblem& problem) noexcept {
-    return {config, state.moments, problem.memory, problem.scale};
+MotionCovariance covariance_of(const CompensationConstants& gyro, const OptimalBridgeConfig& config,
+                               const MotionLearningState& state, const GapProblem& problem) noexcept {
+    return {gyro, config, state.moments, problem.memory, problem.scale, problem.with_phase};
 }
 
 }  // namespace zlg::core

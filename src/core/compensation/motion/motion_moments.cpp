@@ -5,15 +5,19 @@
 namespace zlg::core {
 namespace {
 
+// Windows of a block: half a second of 5 ms ticks. The work of (3) comes once a block, so this sets its share in a
+// tick.
 constexpr int block_windows = 100;
 
-// An exponential memory has as much scatter as a sliding one of twice the length.
+// N of (3). An exponential memory of N windows scatters as much as a sliding one of 2 N, so these stand for sliding
+// sums over 1000 and 6000 ticks: a short one for motion that changes, a long one for steady motion. The choice between
+// the two, score by score, is what the trials on recorded motion asked for (results: docs/accuracy_campaign.md, (e)).
 constexpr std::array<double, 2> memory_windows{500.0, 3000.0};
 
-// Blocks over which the level is averaged.
+// Blocks over which the level is averaged: 10 s of 5 ms ticks. By trial on bench/accuracy.
 constexpr double level_blocks = 20.0;
 
-// What is done in every tick knows at compile time of what length its loops are.
+// The loops of every tick have their length at compile time.
 template <unsigned stride>
 void shift(Window& recent) noexcept {
 #pragma GCC unroll 38
@@ -26,6 +30,7 @@ void add_products(double factor, const Window& x, Window& row) noexcept {
     for (unsigned b = 0; b < length; ++b) row[b] += factor * x[b];
 }
 
+// Append the samples of a tick, less the level, to the recent ones.
 void shift_in(const MotionMomentsConfig& config, MotionMomentsState& state, const MotionTick& tick) noexcept {
     const auto window = static_cast<unsigned>(window_of(config));
     const auto stride = static_cast<unsigned>(samples_per_tick(config));
@@ -40,6 +45,7 @@ void shift_in(const MotionMomentsConfig& config, MotionMomentsState& state, cons
     if (state.n_recent > static_cast<int>(window)) state.n_recent = static_cast<int>(window);
 }
 
+// (1) for the first s rows of the block's matrix. Row 1 begins on the diagonal: element (1, 0) is (0, 1), of row 0.
 void add_window(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
     MotionBlock& block = state.block;
     const Window& x = state.recent;
@@ -57,7 +63,7 @@ void add_window(const MotionMomentsConfig& config, MotionMomentsState& state) no
     ++block.n_windows;
 }
 
-// Row r of the block's matrix, in the place of the last one of its kind.
+// (2): row r of the block's matrix from row r - s, in place.
 void unfold(const MotionMomentsConfig& config, const Window& last, MotionBlock& block, int r) noexcept {
     const int stride = samples_per_tick(config);
     const auto window = static_cast<unsigned>(window_of(config));
@@ -69,7 +75,7 @@ void unfold(const MotionMomentsConfig& config, const Window& last, MotionBlock& 
         row[b] = row[b - s] + last[to] * last[b] - block.first[to - s] * block.first[b - s];
 }
 
-// Add row r of the block to both memories.
+// (3) for row r.
 void add_row(int window, int r, const Window& row, const std::array<double, 2>& keep,
              MotionMomentsState& state) noexcept {
     const int start = moment_index(window, r, 0);
@@ -83,6 +89,8 @@ void add_row(int window, int r, const Window& row, const std::array<double, 2>& 
     }
 }
 
+// Mean square about the window's mean: trace/n less the mean of all elements, x^T (I - 1 1^T/n) x/n averaged over
+// windows.
 double scatter_of(const MotionMomentsConfig& config, const Moments& moments) noexcept {
     const int window = window_of(config);
     const double* element = moments.sum.data();
@@ -92,13 +100,13 @@ double scatter_of(const MotionMomentsConfig& config, const Moments& moments) noe
         trace += *element++;
         for (int b = a + 1; b < window; ++b) beside += *element++;
     }
-    // Half-ticks: as if both halves of a tick turned alike.
+    // Of half-ticks: a tick has twice the angle of its halves, four times their square.
     const double of_samples = trace / window - (trace + 2.0 * beside) / (window * window);
     const double stride = samples_per_tick(config);
     return stride * stride * (of_samples > 0.0 ? of_samples : 0.0) / moments.n_windows;
 }
 
-// Add the block, which ends with the recent samples, to both memories.
+// Unfold the block, which ends with the recent samples, and add it to both memories.
 void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
     const int stride = samples_per_tick(config);
     MotionBlock& block = state.block;
@@ -110,12 +118,15 @@ void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept
     }
     for (unsigned m = 0; m < keep.size(); ++m) {
         Moments& moments = state.moments[m];
-        moments.n_windows = keep[m] * moments.n_windows + block.n_windows;
+        const double before = keep[m] * moments.n_windows;
+        moments.n_windows = before + block.n_windows;
+        moments.by_phase = (before * moments.by_phase + (state.with_phase ? block.n_windows : 0)) / moments.n_windows;
         moments.scatter = scatter_of(config, moments);
     }
     state.n_folded = (state.n_folded + 1) % 0x10000;
 }
 
+// The block is complete: fold it, and move the level by its mean.
 void close_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
     fold(config, state);
     const double n = state.block.n_windows;
@@ -130,7 +141,7 @@ void close_block(const MotionMomentsConfig& config, MotionMomentsState& state) n
     for (unsigned k = 0; k < static_cast<unsigned>(window_of(config)); ++k) state.recent[k] -= each;
 }
 
-// No gyro turns that far in a tick; the squares of less stay numbers.
+// No gyro turns that far in a tick. Below the limit sums of squares stay finite.
 bool is_possible(double x) noexcept { return x > -1e15 && x < 1e15; }
 
 }  // namespace

@@ -21,20 +21,20 @@ void subtract(ColumnOf<capacity>& from, double factor, const ColumnOf<capacity>&
     for (unsigned k = 0; k < static_cast<unsigned>(n); ++k) from[k] -= factor * x[k];
 }
 
-// Take the nuisances out of L^-1 x.
+// Project the nuisances out of L^-1 x.
 template <std::size_t capacity>
-void clear(const GapRatesOf<capacity>& rates, ColumnOf<capacity>& x, int n) noexcept {
+void project_out(const GapRatesOf<capacity>& rates, ColumnOf<capacity>& x, int n) noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(rates.n_nuisances); ++k)
         subtract(x, product(rates.nuisance[k], x, n), rates.nuisance[k], n);
 }
 
-// Add a column of H, whose image is made orthogonal to the earlier ones.
+// Add a nuisance x, a column of H: its image L^-1 x, made orthogonal to the earlier ones and of norm 1.
 template <std::size_t capacity>
 void add_nuisance(const GapProblemOf<capacity>& problem, const ColumnOf<capacity>& x,
                   GapRatesOf<capacity>& rates) noexcept {
     const int n = problem.factor.n;
     ColumnOf<capacity> column = forward(problem.factor, x);
-    clear(rates, column, n);
+    project_out(rates, column, n);
     const double norm = product(column, column, n);
     if (!(norm > 0.0)) return;
     const double scale = 1.0 / square_root(norm);
@@ -55,6 +55,8 @@ ColumnOf<capacity> by_side(const GapProblemOf<capacity>& problem, double before,
     return column;
 }
 
+// L^-1 H and the information of the rate. With the factor C + E = L L^T all of (2)-(4) become products of the columns
+// L^-1 x: x^T V y = (L^-1 x)^T (L^-1 y), and P is the projection that removes the columns of L^-1 H.
 template <std::size_t capacity>
 GapRatesOf<capacity> rates_of(const GapProblemOf<capacity>& problem) noexcept {
     const int n = problem.factor.n;
@@ -64,12 +66,12 @@ GapRatesOf<capacity> rates_of(const GapProblemOf<capacity>& problem) noexcept {
         add_nuisance(problem, by_side(problem, 0.0, 1.0, true), rates);
     }
     rates.rate = forward(problem.factor, by_side(problem, 1.0, 1.0, false));
-    clear(rates, rates.rate, n);
+    project_out(rates, rates.rate, n);
     rates.information = product(rates.rate, rates.rate, n);
     return rates;
 }
 
-// The covariance of the points with ticks first.. of the gap, n of them.
+// k = cov(z, tau) for the sum of n ticks of the gap, from tick `first` on.
 template <std::size_t capacity>
 ColumnOf<capacity> with_gap(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem, int first,
                             int n) noexcept {
@@ -81,6 +83,7 @@ ColumnOf<capacity> with_gap(const MotionCovariance& covariance, const GapProblem
     return k;
 }
 
+// v = var(tau) of the same sum.
 template <std::size_t capacity>
 double variance_in_gap(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem, int first,
                        int n) noexcept {
@@ -95,18 +98,22 @@ double variance_in_gap(const MotionCovariance& covariance, const GapProblemOf<ca
 // One quantity to be estimated.
 template <std::size_t capacity>
 struct TargetOf {
-    ColumnOf<capacity> g{};  // L^-1 cov(z, t), without the nuisances
-    double rate_gain = 0.0;  // of t by the rate, beyond what g takes from the points
-    double variance = 0.0;   // of the estimate
+    ColumnOf<capacity> g{};  // L^-1 k, the nuisances projected out
+    double rate_gain = 0.0;  // (h - H^T V k)/(H^T V H) of the rate
+    double variance = 0.0;   // (4)
 };
 
-// samples  of the gap in t.
+// (4) for one target.
+//
+// with_points  k.
+// variance     v.
+// samples      h of the rate: samples of the gap in the target.
 template <std::size_t capacity>
 TargetOf<capacity> target_of(const GapProblemOf<capacity>& problem, const GapRatesOf<capacity>& rates,
                              const ColumnOf<capacity>& with_points, double variance, double samples) noexcept {
     const int n = problem.factor.n;
     TargetOf<capacity> t{.g = forward(problem.factor, with_points)};
-    clear(rates, t.g, n);
+    project_out(rates, t.g, n);
     t.rate_gain = (samples - product(t.g, rates.rate, n)) / rates.information;
     t.variance = variance - product(t.g, t.g, n) + t.rate_gain * t.rate_gain * rates.information;
     return t;
@@ -117,12 +124,13 @@ bool is_solvable(const GapProblemOf<capacity>& problem, const GapRatesOf<capacit
     return !problem.failed && problem.factor.n > rates.n_nuisances + 1 && rates.information > 0.0;
 }
 
+// Stage 1: the rate b^ by generalised least squares, the dual u = P z and the innovation z^T P z.
 template <std::size_t capacity>
 void solve_points(const GapProblemOf<capacity>& problem, const GapDataOf<capacity>& data,
                   GapSolutionOf<capacity>& s) noexcept {
     const int n = problem.factor.n;
     ColumnOf<capacity> rest = forward(problem.factor, data.value);
-    clear(s.rates, rest, n);
+    project_out(s.rates, rest, n);
     s.rate = product(s.rates.rate, rest, n) / s.rates.information;
     subtract(rest, s.rate, s.rates.rate, n);
     s.estimate.innovation_ratio = product(rest, rest, n) / (n - s.rates.n_nuisances - 1);
@@ -130,6 +138,33 @@ void solve_points(const GapProblemOf<capacity>& problem, const GapDataOf<capacit
     for (unsigned k = 0; k < static_cast<unsigned>(n); ++k) s.with_sum[k] = -data.error_with_all[k];
 }
 
+// How the estimate of tick j of the gap weighs the roundings of the readings: point k is the difference of two.
+template <std::size_t capacity>
+void weigh_borders(const GapProblemOf<capacity>& problem, const TargetOf<capacity>& t, int j,
+                   GapSolutionOf<capacity>& s) noexcept {
+    const auto n = static_cast<unsigned>(problem.factor.n);
+    const int start = stride_of(problem) * (problem.n_side + j);
+    ColumnOf<capacity> g = t.g;
+    subtract(g, -t.rate_gain, s.rates.rate, problem.factor.n);
+    const ColumnOf<capacity> weight = backward(problem.factor, g);
+    double sum = weight[0] * weight[0];
+    double at_edges = 0.0;
+    for (unsigned k = 0; k < n; ++k) {
+        const bool is_next = k + 1 < n && problem.place[k + 1] == problem.place[k] + 1;
+        const double step = is_next ? weight[k + 1] - weight[k] : weight[k];
+        sum += step * step;
+        // Not the neighbour of another point: one more border.
+        if (!is_next && k + 1 < n) sum += weight[k + 1] * weight[k + 1];
+        const int from = problem.place[k] - start;
+        if (from == -1 || from == stride_of(problem)) at_edges += weight[k];
+        // A lit half of the tick itself.
+        if (from == 0 || from == stride_of(problem) - 1) at_edges -= weight[k];
+    }
+    s.estimate.border_weight_sq[static_cast<unsigned>(j)] = sum;
+    s.estimate.edge_weight[static_cast<unsigned>(j)] = at_edges;
+}
+
+// Stages 2..: tick j of the gap, (3) and (4).
 template <std::size_t capacity>
 void solve_tick(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem,
                 const GapDataOf<capacity>& data, int j, GapSolutionOf<capacity>& s) noexcept {
@@ -142,8 +177,10 @@ void solve_tick(const MotionCovariance& covariance, const GapProblemOf<capacity>
     s.estimate.value_arcsec[static_cast<unsigned>(j)] =
         data.level + stride * s.rate + product(with_points, s.estimate.dual, n);
     s.estimate.variance_arcsec2[static_cast<unsigned>(j)] = t.variance;
+    if constexpr (capacity == max_unknowns) weigh_borders(problem, t, j, s);
 }
 
+// The whole switch, sum of the ticks less the sum of the errors e: its variance, and its weights V (k + H rate_gain).
 template <std::size_t capacity>
 void solve_sum(const MotionCovariance& covariance, const GapProblemOf<capacity>& problem,
                const GapDataOf<capacity>& data, GapSolutionOf<capacity>& s) noexcept {
@@ -155,6 +192,7 @@ void solve_sum(const MotionCovariance& covariance, const GapProblemOf<capacity>&
     s.estimate.sum_weight = backward(problem.factor, t.g);
 }
 
+// Last stage: p^T P z and p^T P p of the probe p, from which an unknown factor of the errors is estimated.
 template <std::size_t capacity>
 void solve_probe(const GapProblemOf<capacity>& problem, const GapDataOf<capacity>& data,
                  GapSolutionOf<capacity>& s) noexcept {
@@ -169,15 +207,14 @@ void solve_probe(const GapProblemOf<capacity>& problem, const GapDataOf<capacity
 
 }  // namespace
 
-OptimalBridgeFault check(const OptimalBridgeConfig& c) noexcept {
+OptimalBridgeFault check(const CompensationConstants& gyro, const OptimalBridgeConfig& c) noexcept {
     if (!c.learns) {
         if (!(c.prior_arcsec2[0] > 0.0)) return OptimalBridgeFault::prior;
         for (const double x : c.prior_arcsec2)
             if (!(x <= c.prior_arcsec2[0] && -x <= c.prior_arcsec2[0] && is_finite(x)))
                 return OptimalBridgeFault::prior;
     }
-    if (!(c.counter_step.value() >= 0.0 && is_finite(c.counter_step.value()))) return OptimalBridgeFault::counter_step;
-    if (!(c.walk_arcsec2 >= 0.0 && is_finite(c.walk_arcsec2))) return OptimalBridgeFault::walk;
+    if (!is_finite(walk_arcsec2(gyro))) return OptimalBridgeFault::walk;
     return OptimalBridgeFault::none;
 }
 

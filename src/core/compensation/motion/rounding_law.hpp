@@ -1,14 +1,22 @@
 #pragma once
-// Roundings of the counter at the borders of ticks, or of half-ticks, around a gap.
+// Covariance of the counter's rounding errors at the borders of ticks, or of half-ticks, around a gap.
 //
-// A reading is the whole part of a phase, and its rounding is uniform over a count. Of a phase that may start anywhere, two
-// readings between which the gyro turns by x counts have roundings with the covariance
+// A reading is the whole part of a phase p, its rounding error e = 1/2 - (p mod 1) is uniform over a count. For a phase
+// that is uniform at the first reading, two readings between which the gyro turns by x counts have the covariance
 //
-//   R(x) = (x^2 - x + 1/6)/2,  x taken modulo 1         [counts^2]
+//   R(x) = (x^2 - x + 1/6)/2,  x modulo 1               [counts^2]                                       (1)
+//        = sum over n >= 1 of cos(2 pi n x)/(2 pi^2 n^2)
 //
-// In irregular motion x is anything and R averages to 0; at rest it is 1/12, and at a steady rate it is known: the roundings
-// of neighbouring readings do not average. A rotation that scatters by s counts about its mean leaves about
-// exp(-2 pi^2 s^2) of R. Across a gap nothing is left: the fraction behind it is a new one.
+// the second Bernoulli polynomial. In irregular motion x is arbitrary and R averages to 0; at rest it is 1/12; at a
+// steady rate it is known, and the errors of neighbouring readings do not average out. If x is Gaussian with variance
+// s^2 about its mean, term n of the series is multiplied by exp(-2 pi^2 n^2 s^2); the first term dominates, so
+//
+//   R(x, s^2) = R(x) exp(-2 pi^2 s^2)                                                                    (2)
+//
+// where the factor is called coherence here. Across a gap the coherence is 0: the counter restarts with a new fraction.
+// The angle of a switch has weights c on the readings at the borders, and the rounding variance c^T R c.
+//
+// Source: the statistics of quantisation, Widrow and Kollar, Quantization Noise, 2008.
 
 #include <array>
 
@@ -16,21 +24,21 @@
 
 namespace zlg::core {
 
-// R(x), of a rotation of x counts that scatters with this variance.
-[[nodiscard]] double rounding_covariance(double turned_counts, double variance_counts2) noexcept;
+// (2): of a rotation of x counts with this variance.
+[[nodiscard]] double rounding_covariance(double rotation_counts, double variance_counts2) noexcept;
 
-// What a rotation of x counts scatters, where the counter reads it with so much scatter. The two differ by both roundings,
-// 1/6 - 2 R.
-[[nodiscard]] double scatter_of_rotation(double turned_counts, double read_variance_counts2) noexcept;
+// Variance s^2 of a rotation of x counts of which the counter's readings scatter by s^2 + 1/6 - 2 R(x, s^2): the two
+// rounding errors are in them.
+[[nodiscard]] double scatter_of_rotation(double rotation_counts, double read_variance_counts2) noexcept;
 
 // Covariances by the distance of two borders, in samples.
 struct RoundingLaw {
     double step_arcsec = 0.0;
     double rate_counts = 0.0;  // a sample
     double bias_counts = 0.0;  // that the first half of a tick has more; 0 where borders are those of ticks
-    std::array<double, max_window + 1> left_arcsec2{};  // what the scatter leaves of R = 1
-    // [0]: the earlier one begins a tick; [1]: it lies in the middle of one. Where the bias is negative in the first half they
-    // change places.
+    std::array<double, max_window + 1> coherent_arcsec2{};  // the coherence times a count squared
+    // (2). [0]: the earlier border begins a tick; [1]: it lies in the middle of one. Where the bias is negative in the
+    // first half the two change places.
     std::array<std::array<double, max_window + 1>, 2> arcsec2{};
 
     friend bool operator==(const RoundingLaw&, const RoundingLaw&) = default;
@@ -44,23 +52,28 @@ struct RoundingLaw {
                                        const std::array<double, window_ticks + 1>& read_arcsec2, bool halves,
                                        double bias_arcsec) noexcept;
 
+// The law of readings with the phase of the fringe: noise of this step's variance, independent from border to border.
+[[nodiscard]] RoundingLaw independent_readings(double step_arcsec) noexcept;
+
 // The law for the recent motion.
 //
 // halves       borders are those of half-ticks.
 // bias_arcsec  what the bias adds to the first half of a tick where its sign is positive.
-[[nodiscard]] RoundingLaw rounding_law(const OptimalBridgeConfig& config, const MotionMomentsState& moments,
-                                       bool halves, double bias_arcsec) noexcept;
+[[nodiscard]] RoundingLaw rounding_law(const CompensationConstants& gyro, const OptimalBridgeConfig& config,
+                                       const MotionMomentsState& moments, bool halves, double bias_arcsec) noexcept;
 
 // The same at the borders of whole ticks.
 [[nodiscard]] RoundingLaw of_whole_ticks(const RoundingLaw& halves) noexcept;
 
-// Weights of readings at the borders of a window: what the points of an estimate, and the edges of its gap, make of them.
+// Weights c of the readings at the borders of a window, from the weights w of the points of an estimate and the edges
+// of its gap: point k is the difference of the readings at its ends, so c_i = w_(i-1) - w_i.
 struct BorderWeights {
     int gap_begin = 0, gap_end = 0;                     // borders of the gap
     std::array<double, max_window + 1> weight{};        // by border
-    std::array<std::int8_t, max_window + 1> stretch{};  // that were counted without a break, by border
+    std::array<std::int8_t, max_window + 1> stretch{};  // by border: its stretch, counted without a break
 
-    // By what the false angle after the gap has turned the phase, from its end to each border, and how well that is known.
+    // The false angle after the gap turns the phase as well: its sum from the end of the gap to each border, and its
+    // variance.
     std::array<double, max_window + 1> false_arcsec{}, false_arcsec2{};
     int next = -1;  // border at which the last point ended
 
@@ -73,10 +86,11 @@ struct BorderWeights {
     void add_edges() noexcept;
 };
 
+// c^T R c under three assumptions.
 struct RoundingSums {
-    double broken_arcsec2 = 0.0;      // of a gap behind which the fraction is a new one
-    double continuing_arcsec2 = 0.0;  // of one that was counted, as what was learnt was
-    double white_arcsec2 = 0.0;       // if no two roundings had anything to do with each other
+    double broken_arcsec2 = 0.0;      // the counter restarts behind the gap: both sides are independent
+    double continuing_arcsec2 = 0.0;  // the gap was counted, as the windows were from which the moments are learnt
+    double white_arcsec2 = 0.0;       // all rounding errors are independent
 };
 
 // sign_before, sign_after  of the bias in the first half of a tick.

@@ -1,5 +1,5 @@
 #pragma once
-// Motion that is smooth, where nothing better is known of it.
+// A smooth motion, as the prior of directions in which the moments hold no information.
 
 #include <array>
 
@@ -21,7 +21,8 @@ constexpr TickWindow of_ticks(const Window& halves) noexcept {
 }
 
 // Weak prior of a learnt covariance: rates with the spectrum 1/(1 + (f/0.05)^4) + 1e-4, f in 1/tick, integrated over
-// half-ticks; by distance in half-ticks, for a tick of variance 1.
+// half-ticks; by distance in half-ticks, for a tick of variance 1. Band and floor by trial on recorded motion: a prior
+// that is too wide loses to the constant, and without a floor the matrix is nearly singular.
 inline constexpr Window smooth_prior{
     0.251624421935,    0.248375578065,    0.240671034931,    0.22918718569,     0.214930433481,    0.198767931966,
     0.181436176951,    0.163550771513,    0.14561691523,     0.128040241686,    0.111137695577,    0.0951482013605,

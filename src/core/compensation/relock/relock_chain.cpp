@@ -5,13 +5,13 @@
 namespace zlg::core {
 namespace {
 
-// From the four coefficients of a half to the start of the next one.
+// z' = G q: from the four coefficients of a half to the start of the next one.
 Vector<3> carried(const Vector<4>& q) noexcept {
     const double bend = q[2] + 3.0 * q[3];
     return {q[0] + q[1] + q[2] + q[3], q[1] + q[2] + bend, bend};
 }
 
-// Of a symmetric matrix.
+// G C G^T of a symmetric matrix.
 Matrix<3> carried(const Matrix<4>& c) noexcept {
     const Vector<3> column[4] = {carried(c[0]), carried(c[1]), carried(c[2]), carried(c[3])};
     Matrix<3> out{};
@@ -20,12 +20,12 @@ Matrix<3> carried(const Matrix<4>& c) noexcept {
     return out;
 }
 
-// What a row on the start of the next half says of the four coefficients.
+// G^T r: information on the start of the next half as information on the four coefficients.
 Vector<4> pulled_back(const Vector<3>& r) noexcept {
     return {r[0], r[0] + r[1], r[0] + 2.0 * r[1] + r[2], r[0] + 3.0 * (r[1] + r[2])};
 }
 
-// Of a symmetric matrix.
+// G^T M G of a symmetric matrix.
 Matrix<4> pulled_back(const Matrix<3>& p) noexcept {
     const Vector<4> row[3] = {pulled_back(p[0]), pulled_back(p[1]), pulled_back(p[2])};
     Matrix<4> out{};
@@ -33,7 +33,7 @@ Matrix<4> pulled_back(const Matrix<3>& p) noexcept {
     return out;
 }
 
-// Mean of u^(i+j) over a half, times a vector.
+// N q, N_ij the mean of u^(i+j) over a half.
 Vector<4> mean_products_times(const Vector<4>& q) noexcept {
     constexpr Vector<7> mean_of_power{1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0};
     Vector<4> out{};
@@ -42,13 +42,15 @@ Vector<4> mean_products_times(const Vector<4>& q) noexcept {
     return out;
 }
 
-// Mean square over a half of a cubic whose coefficients have this covariance.
+// tr(N C): mean square over a half of a cubic whose coefficients have the covariance C.
 double mean_variance(const Matrix<4>& c) noexcept {
     return c[0][0] + c[0][1] + (2.0 * c[0][2] + c[1][1]) / 3.0 + (c[0][3] + c[1][2]) / 2.0 +
            (2.0 * c[1][3] + c[2][2]) / 5.0 + c[2][3] / 3.0 + c[3][3] / 7.0;
 }
 
-// Covariance of all four coefficients of a half from that of its start.
+// cov(q) from cov(z) by the gain (3).
+//
+// own_variance  of the cubic term for a given z.
 Matrix<4> with_cubic(const Matrix<3>& c, const RelockGain& gain, double own_variance) noexcept {
     const Vector<3> last = times(c, gain.by_state);
     Matrix<4> out{};
@@ -105,22 +107,23 @@ RelockLink start_of(const RelockInformation& information, double noise_sq_lambda
 }
 
 PassedHalf pass(const RelockGain& gain, double noise_sq_lambda2, RelockLink& link) noexcept {
+    // N q without the factor 2 of (5), which enters at each result below.
     const Vector<4> q{link.state[0], link.state[1], link.state[2], dot(gain.by_state, link.state) + gain.offset};
     const Matrix<4> within = with_cubic(link.within, gain, gain.variance * noise_sq_lambda2);
     const Matrix<4> between = with_cubic(link.between, gain, 0.0);
-    const double of_noise = mean_variance(within);
-    const double of_moments = mean_variance(between);
-    const Vector<4> half_slope = mean_products_times(q);
-    const Vector<4> half_spread = times(sum(within, between), half_slope);
-    const Vector<3> half_with_next = carried(half_spread);
+    const double variance_within = mean_variance(within);
+    const double variance_between = mean_variance(between);
+    const Vector<4> moment_q = mean_products_times(q);
+    const Vector<4> cov_with_moment = times(sum(within, between), moment_q);
+    const Vector<3> next_cov_with_moment = carried(cov_with_moment);
 
     PassedHalf out;
-    out.mean_sq_lambda2 = dot(q, half_slope) + of_moments - of_noise;
-    const double squared = of_noise + of_moments;
-    out.variance_lambda4 = 4.0 * dot(half_slope, half_spread) + 2.0 * squared * squared;
+    out.mean_sq_lambda2 = dot(q, moment_q) + variance_between - variance_within;
+    const double total_variance = variance_within + variance_between;
+    out.variance_lambda4 = 4.0 * dot(moment_q, cov_with_moment) + 2.0 * total_variance * total_variance;
     for (std::size_t i = 0; i < 3; ++i) {
-        out.slope[i] = 2.0 * (half_slope[i] + half_slope[3] * gain.by_state[i]);
-        out.with_next[i] = 2.0 * half_with_next[i];
+        out.slope[i] = 2.0 * (moment_q[i] + moment_q[3] * gain.by_state[i]);
+        out.with_next[i] = 2.0 * next_cov_with_moment[i];
     }
     link.state = carried(q);
     link.within = carried(within);
@@ -132,7 +135,7 @@ Vector<3> onward(const RelockGain& gain, const Vector<3>& with) noexcept {
     return carried(Vector<4>{with[0], with[1], with[2], dot(gain.by_state, with)});
 }
 
-// Cholesky's factor, its inverse, and the product of that with itself.
+// A = L L^T by Cholesky, then L^-1, then A^-1 = L^-T L^-1.
 template <std::size_t n>
 Matrix<n> inverse(const Matrix<n>& a) noexcept {
     Matrix<n> l{};
@@ -145,6 +148,7 @@ Matrix<n> inverse(const Matrix<n>& a) noexcept {
             l[i][j] = sum * inverted[j][j];
             pivot -= l[i][j] * l[i][j];
         }
+        // Below this share of its diagonal a pivot is rounding error.
         inverted[i][i] = pivot > 1e-13 * a[i][i] ? 1.0 / square_root(pivot) : 0.0;
         for (std::size_t j = 0; j < i; ++j) {
             double sum = 0.0;

@@ -20,7 +20,8 @@ constexpr double not_good = __builtin_nan("");
 
 double square(double x) noexcept { return x * x; }
 
-// Mean of a beam; NaN where a sample is not finite or not positive, or where all are the same although they must not be.
+// Mean of a beam; NaN where a sample is not finite or not positive, or where all are the same although they must not
+// be.
 double good_mean(std::span<const float> samples, bool may_stand_still) noexcept {
     bool positive = true;
     bool moves = may_stand_still;
@@ -50,9 +51,10 @@ double apparent(const DiscriminatorCurve& curve, double detuning_lambda) noexcep
     return x;
 }
 
-// The light of beam A at zero detuning; not positive where it cannot be told.
-double level_of_a(const RelockProfileConfig& c, const HalfRecord& half, int sign, double mean_a) noexcept {
-    const bool is_apparent = c.record_curve.n_nodes > 0;
+// The light of beam A at zero detuning; not positive where it cannot be determined.
+double level_of_a(const CompensationConstants& gyro, const RelockProfileConfig& c, const HalfRecord& half, int sign,
+                  double mean_a) noexcept {
+    const bool is_apparent = gyro.record_curve.n_nodes > 0;
     const double x = is_apparent ? half.detuning_lambda : apparent(c.curve, half.detuning_lambda);
     return mean_a / (1.0 + sign * c.discriminator_per_lambda * x);
 }
@@ -95,18 +97,18 @@ void through_curve(const DiscriminatorCurve& curve, DetuningSamples& samples) no
 
 }  // namespace
 
-void read_samples(const RelockProfileConfig& c, const HalfRecord& half, LightSamples light,
-                  DetuningSamples& out) noexcept {
+void read_samples(const CompensationConstants& gyro, const RelockProfileConfig& c, const HalfRecord& half,
+                  LightSamples light, DetuningSamples& out) noexcept {
     out.n = 0;
     const std::size_t n = light.a.size();
     if (n < min_samples || n > static_cast<std::size_t>(max_profile_samples)) return;
     if (!light.b.empty() && light.b.size() != n) return;
-    const double noise_ratio = c.light_noise.value() * c.discriminator_per_lambda;
+    const double noise_ratio = light_noise_lambda(gyro) * c.discriminator_per_lambda;
     const bool may_stand_still = !(noise_ratio > min_noise_ratio || noise_ratio < -min_noise_ratio);
     const int sign = half.bias_sign * half.mode;
     const double mean_a = good_mean(light.a, may_stand_still);
     if (light.b.empty()) {
-        const double level = level_of_a(c, half, sign, mean_a);
+        const double level = level_of_a(gyro, c, half, sign, mean_a);
         if (!(level > 0.0 && is_finite(level))) return;
         const auto signal = [light, level](std::size_t k) { return static_cast<double>(light.a[k]) / level - 1.0; };
         by_slope(c, sign, n, 2.0, signal, out);
@@ -120,18 +122,18 @@ void read_samples(const RelockProfileConfig& c, const HalfRecord& half, LightSam
         by_slope(c, sign, n, 1.0, signal, out);
     }
     through_curve(c.curve, out);
-    about_centre(c.centre.value(), out);
+    about_centre(gyro.centre.value(), out);
 }
 
-RecordedSquare recorded_square(const RelockProfileConfig& c, const HalfRecord& half) noexcept {
-    const double noise_sq = square(c.light_noise.value());
+RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
+    const double noise_sq = square(light_noise_lambda(gyro));
     const bool is_refused = noise_sq > 0.0 && half.detuning_sq_lambda2 <= 0.0;
-    const TrueMoments seen = true_moments(c.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise_sq);
-    const double from_centre = about(c.centre, seen);
+    const TrueMoments seen = true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise_sq);
+    const double from_centre = about(gyro.centre, seen);
     if (!(from_centre >= 0.0 && from_centre < square(max_detuning_lambda))) return {};
     const double s2 = noise_sq * square(seen.slope);
     const double above = from_centre - s2;
-    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 2.0 * s2 * s2) / c.light_samples;
+    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 2.0 * s2 * s2) / gyro.light_samples;
     if (is_refused || !is_finite(variance)) return {.refused = is_refused};
     return {.known = true, .mean_sq_lambda2 = above, .variance_lambda4 = variance};
 }

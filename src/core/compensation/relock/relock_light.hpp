@@ -1,12 +1,21 @@
 #pragma once
-// The light samples of one half-period as detunings.
+// The light samples of one half-period as detunings: inverse of the discriminator F.
 
 #include <array>
 #include <cstdint>
 
-#include <zlg/core/compensation/relock_profile.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
+#include <zlg/core/compensation/relock_profile_config.hpp>
+#include <zlg/core/compensation/relock_profile_state.hpp>
+#include <zlg/core/records.hpp>
 
 namespace zlg::core {
+
+// Of one sample of both beams. What is larger is no measurement, and its powers would overflow.
+[[nodiscard]] constexpr double light_noise_lambda(const CompensationConstants& gyro) noexcept {
+    const double noise_lambda = gyro.light_noise.value();
+    return noise_lambda < 1e3 ? noise_lambda : 1e3;
+}
 
 struct DetuningSamples {
     std::int32_t n = 0;                              // 0: the light cannot be used
@@ -19,17 +28,17 @@ struct DetuningSamples {
 //
 // Damage, and light of another mode: a sample that is not finite or not positive, a beam whose samples are all the same
 // although there is noise, detunings beyond the curve or beyond any perimeter.
-void read_samples(const RelockProfileConfig& config, const HalfRecord& half, LightSamples light,
-                  DetuningSamples& out) noexcept;
+void read_samples(const CompensationConstants& gyro, const RelockProfileConfig& config, const HalfRecord& half,
+                  LightSamples light, DetuningSamples& out) noexcept;
 
 // Mean square of a half and its variance, from the record.
 struct RecordedSquare {
     bool known = false;
-    bool refused = false;          // by the control, which records 0: neither the square nor the light can be believed
+    bool refused = false;          // by the control, which records 0: neither the square nor the light is usable
     double mean_sq_lambda2 = 0.0;  // without that of the noise
     double variance_lambda4 = 0.0;
 };
 
-[[nodiscard]] RecordedSquare recorded_square(const RelockProfileConfig& config, const HalfRecord& half) noexcept;
+[[nodiscard]] RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfRecord& half) noexcept;
 
 }  // namespace zlg::core

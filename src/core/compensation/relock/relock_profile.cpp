@@ -6,21 +6,22 @@
 
 #include "relock_chain.hpp"
 #include "relock_light.hpp"
-#include "relock_moment.hpp"
+#include "relock_onset.hpp"
 
 namespace zlg::core {
 namespace {
 
-// The first halves, which decide on the moment: later ones say no more of the first tick.
-constexpr std::int32_t halves_for_moments = 5;
+// Halves that decide on the onset: later ones hold no more information on the first tick.
+constexpr std::int32_t onset_halves = 5;
 
-// Moments that are tried with the last of them; the others, each of which costs more, in the next half.
-constexpr std::int32_t first_moments = 18;
+// Onsets that are tried with the last of these halves; the others, each of which costs more, two halves later.
+constexpr std::int32_t onsets_in_first_half = 18;
 
-// Beyond so many standard deviations a sum of squared residuals is not noise. A false alarm costs little.
+// Test of the model: standard deviations beyond which a sum of squared residuals is not noise. One in twenty by chance,
+// which costs little: the recorded mean squares are used instead.
 constexpr double max_deviation = 2.0;
 
-// Residuals above so many times the noise from sample to sample are not of noise either.
+// Residuals above this multiple of the noise from sample to sample are not noise either. Set by hand.
 constexpr double max_over_rough = 2.0;
 
 double square(double x) noexcept { return x * x; }
@@ -31,18 +32,20 @@ double weighted_sum_sq(const RelockProfileState& s, std::size_t from, std::size_
     return sum;
 }
 
-// By how many of its standard deviations a sum of squared residuals of the given noise exceeds what it should be.
+// Excess of a sum of squared residuals over its expectation, in its standard deviations: chi-square of the given
+// degrees of freedom as a normal variable.
 double deviation(double residual_sq, double freedom, double noise_sq) noexcept {
     return (residual_sq / noise_sq - freedom) / square_root(2.0 * freedom);
 }
 
+// No profile from the light: use the recorded mean squares, if there are any.
 void use_records(RelockProfileState& s) noexcept {
     s.n_samples = 0;
     s.profile.known = s.columns_known && s.n_halves == profile_halves;
 }
 
-// The noise from sample to sample in the halves after the first tick, whatever their course: mean square, and one standard
-// deviation of it over the value for white noise.
+// Noise from sample to sample in the halves after the first tick, from second differences: mean square, and its
+// relative standard deviation for white noise.
 struct Roughness {
     double mean_sq = 0.0;
     double scatter = 0.0;
@@ -50,15 +53,17 @@ struct Roughness {
 
 Roughness roughness(const RelockProfileState& s) noexcept {
     double sum = 0.0;
-    for (std::size_t k = 2; k < halves_for_moments; ++k) sum += s.halves[k].weight * s.halves[k].rough_sq;
-    const double n = (halves_for_moments - 2) * (s.n_samples - 2.0);
-    // Second differences of white noise are correlated by -4/6 and 1/6.
+    for (std::size_t k = 2; k < onset_halves; ++k) sum += s.halves[k].weight * s.halves[k].rough_sq;
+    const double n = (onset_halves - 2) * (s.n_samples - 2.0);
+    // Variance of a mean of squares: 2/n (1 + 2 sum of squared correlations); second differences of white noise have
+    // -4/6 and 1/6.
     return {sum / n, square_root(2.0 * (1.0 + 2.0 * (16.0 + 1.0) / 36.0) / n)};
 }
 
-// The noise of the samples: as configured, or what their residuals are, where it is another. False: these are not noise.
+// sigma^2: as configured, or that of the residuals where it differs significantly. False: the residuals are not noise,
+// because second differences show less.
 bool find_noise(RelockProfileState& s, double residual_sq) noexcept {
-    const double freedom = (halves_for_moments - 2) * (s.n_samples - 1.0) - 3.0;
+    const double freedom = (onset_halves - 2) * (s.n_samples - 1.0) - 3.0;
     const double configured = s.noise_sq_lambda2;
     const double off = deviation(residual_sq, freedom, configured);
     if (!(off < max_deviation && off > -max_deviation)) {
@@ -74,39 +79,39 @@ bool find_noise(RelockProfileState& s, double residual_sq) noexcept {
     return true;
 }
 
-// Does the best of the moments explain the first halves?
+// Test of the model for the best onset: the residuals of the first five halves.
 bool is_explained(const RelockProfileState& s) noexcept {
-    const double freedom = halves_for_moments * s.n_samples - (halves_for_moments + 2.0);
-    const double residual_sq = weighted_sum_sq(s, 0, halves_for_moments) - s.information.fitted_sq -
-                               2.0 * s.noise_sq_lambda2 * s.mixture.log_best;
+    const double freedom = onset_halves * s.n_samples - (onset_halves + 2.0);
+    const double residual_sq =
+        weighted_sum_sq(s, 0, onset_halves) - s.information.fitted_sq - 2.0 * s.noise_sq_lambda2 * s.mixture.log_best;
     return deviation(residual_sq, freedom, s.noise_sq_lambda2) < max_deviation;
 }
 
-void try_moments(RelockProfileState& s, std::int32_t from, std::int32_t to) noexcept {
-    for (std::int32_t i = from; i < to; ++i) try_moment(s, i);
+void try_onsets(RelockProfileState& s, std::int32_t from, std::int32_t to) noexcept {
+    for (std::int32_t i = from; i < to; ++i) try_onset(s, i);
 }
 
-// The halves after the first tick, backwards, and the first moments. False: no such course.
-bool begin_moments(RelockProfileState& s) noexcept {
+// Information filter from the 5th half back to the third, the noise, and the first onsets. False: the model does not
+// hold.
+bool begin_onsets(RelockProfileState& s) noexcept {
     s.scale_lambda = square_root(s.halves[0].sum_sq / s.n_samples + s.noise_sq_lambda2 + 1e-24);
     s.information = {};
-    for (std::size_t k = halves_for_moments; k-- > 2;)
-        (void)absorb(s.halves[k], s.powers, cubic_ridge(s), s.information);
-    const double residual_sq =
-        weighted_sum_sq(s, 2, halves_for_moments) - s.information.fitted_sq - explained(s.information);
+    for (std::size_t k = onset_halves; k-- > 2;) (void)absorb(s.halves[k], s.powers, cubic_ridge(s), s.information);
+    const double residual_sq = weighted_sum_sq(s, 2, onset_halves) - s.information.fitted_sq - explained(s.information);
     if (!find_noise(s, residual_sq)) return false;
     s.mixture = {};
-    try_moments(s, 0, first_moments);
+    try_onsets(s, 0, onsets_in_first_half);
     return true;
 }
 
-// The other moments.
-bool end_moments(RelockProfileState& s) noexcept {
-    try_moments(s, first_moments, relock_moments);
+// The other onsets.
+bool end_onsets(RelockProfileState& s) noexcept {
+    try_onsets(s, onsets_in_first_half, n_onsets);
     return is_explained(s);
 }
 
-// The chain forwards: each half's mean square and its covariance with all before it.
+// Forward smoothing: m_k of each half, and its covariance with all earlier ones, which are carried along with the
+// state.
 void pass_halves(RelockProfileState& s) noexcept {
     auto& covariance = s.profile.covariance_lambda4;
     for (std::size_t k = 2; k < profile_halves; ++k) {
@@ -121,12 +126,12 @@ void pass_halves(RelockProfileState& s) noexcept {
     }
 }
 
-// The later halves backwards, and forwards from the mean of the moments.
+// Backward over all halves behind the first tick, forward from the average of the onsets.
 void smooth(RelockProfileState& s) noexcept {
     s.information = {};
     for (std::size_t k = profile_halves; k-- > 2;)
         s.gains[k] = absorb(s.halves[k], s.powers, cubic_ridge(s), s.information);
-    average_moments(s);
+    average_onsets(s);
     pass_halves(s);
     s.profile.known = true;
 }
@@ -144,7 +149,8 @@ std::array<double, 7> sums_of_powers(std::int32_t n) noexcept {
     return sums;
 }
 
-void take_samples(const DetuningSamples& samples, RelockProfileState& s) noexcept {
+// The sums of (1) that one half needs: of y u^p, of y^2 and of squared second differences.
+void add_samples(const DetuningSamples& samples, RelockProfileState& s) noexcept {
     const auto k = static_cast<std::size_t>(s.n_halves);
     if (k == 0) s.powers = sums_of_powers(samples.n);
     RelockHalf half{.weight = samples.weight};
@@ -173,57 +179,46 @@ void take_samples(const DetuningSamples& samples, RelockProfileState& s) noexcep
             s.first_tick_lambda[k][i] = samples.lambda[i];
 }
 
-void take_record(const RecordedSquare& recorded, RelockProfileState& s) noexcept {
+void add_record(const RecordedSquare& recorded, RelockProfileState& s) noexcept {
     const auto k = static_cast<std::size_t>(s.n_halves);
     s.columns_known = s.columns_known && recorded.known;
     s.profile.mean_sq_lambda2[k] = recorded.mean_sq_lambda2;
     s.profile.covariance_lambda4[k][k] = recorded.variance_lambda4;
 }
 
-void take_light(const DetuningSamples& samples, RelockProfileState& s) noexcept {
+void add_light(const DetuningSamples& samples, RelockProfileState& s) noexcept {
     if (s.n_halves == 0) s.n_samples = samples.n;
     if (samples.n == 0 || samples.n != s.n_samples)
         use_records(s);
     else
-        take_samples(samples, s);
+        add_samples(samples, s);
 }
 
 }  // namespace
 
-RelockProfileFault check(const RelockProfileConfig& c) noexcept {
-    const double k = c.discriminator_per_lambda;
-    if (!((k >= 1e-6 && k <= 1e6) || (k <= -1e-6 && k >= -1e6))) return RelockProfileFault::discriminator;
-    if (check(c.curve) != CurveFault::none || check(c.record_curve) != CurveFault::none)
-        return RelockProfileFault::curve;
-    if (!(c.centre >= -1.0 * max_centre && c.centre <= max_centre)) return RelockProfileFault::centre;
-    if (!(c.light_noise.value() >= 0.0 && c.light_noise.value() <= 1e3)) return RelockProfileFault::light_noise;
-    if (!(c.light_samples >= 1)) return RelockProfileFault::light_samples;
-    return RelockProfileFault::none;
-}
-
 void enter_gap(RelockProfileState& state) noexcept {
-    if (state.armed && state.n_halves == 0) return;  // nothing was taken since
+    if (state.armed && state.n_halves == 0) return;  // no half was added since
     std::construct_at(&state);
     state.armed = true;
 }
 
-void take(const RelockProfileConfig& config, RelockProfileState& state, const HalfRecord& half,
-          LightSamples light) noexcept {
+void step(const CompensationConstants& gyro, const RelockProfileConfig& config, RelockProfileState& state,
+          const HalfRecord& half, LightSamples light) noexcept {
     if (!state.armed || state.n_halves == profile_halves) return;
     if (state.n_halves == 0) {
         state.columns_known = true;
-        state.noise_sq_lambda2 = square(config.light_noise.value());
+        state.noise_sq_lambda2 = square(light_noise_lambda(gyro));
     }
-    const RecordedSquare recorded = recorded_square(config, half);
-    take_record(recorded, state);
+    const RecordedSquare recorded = recorded_square(gyro, half);
+    add_record(recorded, state);
     if (state.n_halves == 0 || state.n_samples > 0) {
         DetuningSamples samples;
-        if (!recorded.refused) read_samples(config, half, light, samples);
-        take_light(samples, state);
+        if (!recorded.refused) read_samples(gyro, config, half, light, samples);
+        add_light(samples, state);
     }
     ++state.n_halves;
-    if (state.n_samples > 0 && state.n_halves == halves_for_moments && !begin_moments(state)) use_records(state);
-    if (state.n_samples > 0 && state.n_halves == halves_for_moments + 1 && !end_moments(state)) use_records(state);
+    if (state.n_samples > 0 && state.n_halves == onset_halves && !begin_onsets(state)) use_records(state);
+    if (state.n_samples > 0 && state.n_halves == onset_halves + 2 && !end_onsets(state)) use_records(state);
     if (state.n_halves < profile_halves) return;
     if (state.n_samples > 0)
         smooth(state);

@@ -2,8 +2,8 @@
 // How accurate is the angle across a switch: every method on the same records, beside the least error that is possible.
 //
 // The gyro of these trials is made of formulas, not of the twin: motion integrated exactly, a counter that truncates, a bias
-// that lacks chi f0 dl^2 along the loop's true course, light samples of that course with noise. Bounds come from dense
-// covariances of the motion and the noise, never from what a method believes of itself.
+// that lacks chi f0 dl^2 along the true decay of the detuning, light samples of that decay with noise. Bounds come from dense
+// covariances of the motion and the noise, never from a method's own estimate of its error.
 
 #include <cstdint>
 #include <functional>
@@ -24,7 +24,7 @@ struct ErrorFigures {
     double rms_arcsec = 0.0;
     double sd_arcsec = 0.0;  // about the bias
     double worst_arcsec = 0.0;
-    double nev = 0.0;                   // mean of (error/sigma)^2 of those claimed
+    double nev = 0.0;                   // normalised error squared: mean of (error/sigma)^2 of those claimed
     double within_3_sigma_ratio = 0.0;  // of those claimed
 };
 
@@ -35,19 +35,32 @@ struct MethodFigures {
     ErrorFigures relock;  // of the false angle alone, as far as the method states one
 };
 
-// Least rms errors of one switch, arcsec; 0 where no bound is known.
-struct BoundFigures {
-    double ticks = 0.0;       // from ticks, constant rate unknown
-    double halves = 0.0;      // from halves
-    double known_rate = 0.0;  // from halves, constant rate known
-    double relock = 0.0;      // false angle by the light alone
+// Least rms errors of one switch; 0 where no bound is known.
+struct SwitchBound {
+    double ticks_arcsec = 0.0;       // from ticks, constant rate unknown
+    double halves_arcsec = 0.0;      // from half-periods, constant rate unknown
+    double known_rate_arcsec = 0.0;  // from half-periods, constant rate known
+    double relock_arcsec = 0.0;      // false angle by the light alone
+};
+
+enum class CaseGroup : unsigned char {
+    paper,
+    grid,
+    broadband,
+    non_stationary,
+    loops,
+    warm_up,
+    rest,
+    gap_lengths,
+    first_gap,
+    phase,
+    lit
 };
 
 struct CaseFigures {
-    char group =
-        'a';  // (a) the paper's case, (b) grid, (c) broadband, (d) coning and shock, (f) loops, (g) warm-up, (h) rest
+    CaseGroup group = CaseGroup::paper;
     std::string name;
-    BoundFigures bound;
+    SwitchBound bound;
     std::vector<MethodFigures> methods;
 };
 
@@ -75,8 +88,19 @@ struct AxisFigures {
 
 struct RecordingFigures {
     std::string name;
-    bool real = true;  // false: made up for these trials
+    bool real = true;  // false: simulated for these trials
     std::vector<AxisFigures> axes;
+};
+
+// One axis of a recording, its gaps of one length: `auto` beside the best polynomial of all gaps.
+struct GapLengthFigures {
+    std::string recording;
+    int column = 0;
+    int gap_ticks = 0;
+    std::int64_t n = 0;
+    double rms_arcsec = 0.0, best_arcsec = 0.0;
+    double usual_rms_arcsec = 0.0, usual_best_arcsec = 0.0;  // without the 1 % of the gaps in which it errs most
+    double nev = 0.0;
 };
 
 // The false angle of the first eight ticks after closing by the light alone, less the true one.
@@ -84,6 +108,15 @@ struct RelockFigures {
     std::string name;
     double bound_arcsec = 0.0;  // a spline with knots half a tick apart
     ErrorFigures error;
+};
+
+// First manoeuvres of one kind, each at a gap of a gyro whose motion before was known.
+struct ManoeuvreFigures {
+    std::string base;       // the motion before
+    std::string manoeuvre;  // empty: nothing happens
+    bool is_ramp = true;    // false: another law than that of the bounds
+    double duration_s = 0.0;
+    std::vector<MethodFigures> methods;
 };
 
 // Drift beyond the true rotation after some time, in many runs.
@@ -97,12 +130,13 @@ struct SwitchingDrift {
 
 inline const std::vector<double> accuracy_run_lengths_s{600.0, 900.0, 3600.0};
 
-// Something that is wanted, and what became of it.
-// What chance may explain is neither: the limit is exceeded, but by less than two standard errors.
+// A limit and the figure held against it.
+//
+// within_chance  the limit is exceeded, but by less than two standard errors.
 enum class Verdict : unsigned char { met, within_chance, missed };
 
 struct Criterion {
-    std::string number;
+    std::string table;  // in which the figures stand
     std::string wanted;
     std::string got;
     Verdict verdict = Verdict::missed;
@@ -124,6 +158,9 @@ struct Accuracy {
     std::vector<RecordingFigures> recordings;
     std::vector<RelockFigures> relock;
     std::vector<SwitchingDrift> drift;
+    std::vector<ManoeuvreFigures> manoeuvres;
+    std::vector<ManoeuvreFigures> changes;
+    std::vector<GapLengthFigures> gap_lengths;
     std::vector<DriftFigures> long_runs;  // the twin in closed loop over 36 000 s, where asked for
     std::vector<Criterion> criteria;
 };
@@ -132,6 +169,12 @@ struct Accuracy {
 //
 // errors  std::runtime_error, std::invalid_argument for a recording that cannot be read.
 [[nodiscard]] Accuracy measure_accuracy(const AccuracyTask& task);
+
+// gaps  of each kind.
+[[nodiscard]] std::vector<ManoeuvreFigures> measure_manoeuvres(int gaps, bool quick, std::uint64_t seed, int threads);
+
+// The motion is another one from the opening of the gap on; `manoeuvre` says which.
+[[nodiscard]] std::vector<ManoeuvreFigures> measure_changes(int gaps, bool quick, std::uint64_t seed, int threads);
 
 [[nodiscard]] RecordingFigures measure_recording(const Recording& recording);
 

@@ -1,7 +1,7 @@
 #pragma once
-// Random faults by the thousand: what of each the processor notices, what it lets pass, and whether it recovers.
+// Random faults by the thousand: what of each the processor detects, what it misses, and whether it recovers.
 //
-// Each fault is met by a gyro of its own, in closed loop and with compensation, and held against the same gyro without
+// Each fault is of a gyro of its own, in closed loop and with compensation, held against the same gyro without
 // the fault: same noise, same motion, same switches.
 
 #include <cstdint>

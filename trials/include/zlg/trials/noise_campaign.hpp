@@ -1,7 +1,6 @@
 #pragma once
 // How well the fit of noise terms recovers random gyros.
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -6,7 +6,6 @@
 // gyro is hardly random, that of many is.
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -16,7 +16,7 @@ inline constexpr int scatter_scales = 12;  // up to 2048 ticks
 
 class AngleScatter {
 public:
-    // What follows has no border with what came before.
+    // The next tick does not follow the last one: no pair is made across the break.
     void interrupt();
     // Counts of the next tick.
     void take(std::int64_t counts);
@@ -28,7 +28,7 @@ public:
 
 private:
     struct Level {
-        double half = 0.0;      // counts of the first half of the block to come
+        double half = 0.0;      // counts of the first of the two blocks that make one of the next level
         double previous = 0.0;  // counts of the block before
         bool has_half = false;
         bool has_previous = false;

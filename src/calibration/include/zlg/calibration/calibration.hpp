@@ -11,13 +11,14 @@
 
 namespace zlg::calibration {
 
-// What is known beforehand. Nothing that is to be found is among it but where the data do not tell it.
+// What is known beforehand. Of the constants to be found it holds only those that are used where the data do not
+// determine them.
 struct Presumed {
     double scale_arcsec = 3.263;
     double reference_temperature_c = 20.0;
     double rate_arcsec_s = 0.0;                       // at which the gyro was turned
     bool stepped_voltage = false;                     // the perimeter loop is digital
-    bool read_by_slope = true;                        // all detunings, by one and the same
+    bool read_by_slope = true;                        // all detunings were read by one and the same slope
     double bias_temperature_coefficient_per_c = 0.0;  // used where the logs hold a single temperature
     double half_wave_temperature_coefficient_per_c = 0.0;
 };
@@ -38,11 +39,11 @@ struct Goodness {
 struct Calibration {
     std::vector<Constant> constants;
     std::vector<Goodness> goodness;
-    LossCurve curve;  // through which bias_chi and detuning_scale see the logs, where it is determined
+    LossCurve curve;  // where it is determined, bias_chi and detuning_scale are found from logs that it has corrected
 };
 
 // logs    one or more of one gyro, of equal tick; otherwise std::invalid_argument.
-// method  each law's own header says how it is found.
+// method  see the header of each law.
 [[nodiscard]] Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed);
 
 }  // namespace zlg::calibration

@@ -3,10 +3,10 @@
 //
 //   g = <dl_logged dl_piezo>/<dl_piezo^2>,   dl_piezo = (U - U_settled)/(2 U_lambda/2)
 //
-// The piezo is the ruler: half a wavelength is what separates two modes. chi and f0 alone cannot tell g, for the loss
-// of bias fixes only chi g^-2. Mean detunings of the halves of a transient are compared with the mean travel, which
-// follows from the voltages at the borders: where it is smooth (an analog loop) by a cubic through four of them, where
-// it is commanded half by half (a digital loop) as a mean of two with unknown weights.
+// The piezo is the ruler: half a wavelength is what separates two modes. chi and f0 alone do not determine g, for the
+// loss of bias fixes only chi g^-2. Mean detunings of the halves of a transient are compared with the mean travel,
+// which follows from the voltages at the borders: where it is smooth (an analog loop) by a cubic through four of them,
+// where it is commanded half by half (a digital loop) as a mean of two with unknown weights.
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 //
 //   |U- - U+| = m U0 (1 + beta (T - T_ref)),  m = 1, 3, ... half wavelengths
 //
-// Both voltages are means of a settled window; what the voltage drifts between the windows is taken from the slopes of
+// Both voltages are means of a settled window; the drift of the voltage between the windows follows from the slopes of
 // the segments. Neighbouring switches share a segment, so their errors are correlated.
 
 #include <cstdint>

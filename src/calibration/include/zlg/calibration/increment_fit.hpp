@@ -4,8 +4,10 @@
 //   y_p = x_p b + (e_{p+1} - e_p) + w_p        var e = border variance,  var w = walk variance * length
 //
 // Increments of one chain follow each other without a hole: the reading e between two of them stands in both, with
-// opposite signs, so their covariance is minus the border variance. The walk is found by restricted maximum likelihood,
-// b by generalised least squares. Angles of a counter are of this kind: rounding and random walk.
+// opposite signs, so their covariance is minus the border variance. The walk is found by restricted maximum
+// likelihood (Patterson and Thompson, Biometrika 58, 1971), b by generalised least squares; the covariance is
+// tridiagonal, so that its Cholesky factor has two diagonals and a fit costs the number of increments. Angles of a
+// counter are of this kind: rounding and random walk.
 
 #include <cstdint>
 #include <vector>
@@ -25,7 +27,7 @@ struct IncrementFit {
     Eigen::MatrixXd covariance;
     double border_variance = 0.0;
     double walk_variance_per_s = 0.0;
-    double walk_variance_sigma = 0.0;  // infinite where the likelihood does not tell; 0 where not asked for
+    double walk_variance_sigma = 0.0;  // infinite where the likelihood is flat; 0 where the walk is given
     double residual = 0.0;             // sum of squares in units of the noise
     std::int64_t dof = 0;
 };

@@ -1,8 +1,7 @@
 #pragma once
 // What calibration keeps of one raw log: sums over settled ticks, the halves after every re-lock, and the voltages at
-// which the perimeter rested. A log of any length is read once, row by row.
+// which the perimeter rested.
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -60,6 +59,9 @@ struct Relock {
     std::vector<core::HalfRecord> halves;
 };
 
+// All halves to be kept are there, with a number in this column.
+[[nodiscard]] bool is_whole(const Relock& relock, double core::HalfRecord::*column);
+
 // Mean and scatter of a quantity that is not measured everywhere.
 struct Moments {
     std::int64_t n = 0;
@@ -94,39 +96,6 @@ struct LabLog {
     [[nodiscard]] bool has_temperature() const { return temperature_min_c <= temperature_max_c; }
     [[nodiscard]] bool has_piezo() const { return piezo_quantum_v != std::numeric_limits<double>::infinity(); }
     [[nodiscard]] bool has_square() const { return square.n > 0; }
-};
-
-// Where the first window at rest begins is known when all re-locks are: 40, 80, ... 1280 ticks after them.
-class LabReader {
-public:
-    LabReader(std::string name, double tick_s);
-
-    // The next half-period, from half 0 on, without holes.
-    void take(const core::HalfRecord& record);
-    // An odd last half is dropped.
-    [[nodiscard]] LabLog finish();
-
-private:
-    static constexpr std::size_t n_starts = 6;
-
-    void take_tick(const core::HalfRecord& first, const core::HalfRecord& second);
-    void begin_segment(const core::HalfRecord& first);
-    void take_settled(const core::HalfRecord& first, const core::HalfRecord& second);
-    void take_window(const core::HalfRecord& record);
-    void end_segment();
-    void choose_start();
-
-    LabLog log_;
-    bool in_segment_ = false;
-    bool gap_before_ = false;
-    bool has_first_ = false;
-    core::HalfRecord first_;
-    double last_piezo_v_ = std::numeric_limits<double>::quiet_NaN();
-    std::vector<core::HalfRecord> recent_;  // the last settled window, a ring
-    std::size_t oldest_ = 0;
-    std::array<Moments, n_starts> start_voltage_;
-    std::array<Moments, n_starts> window_variance_;
-    std::vector<std::array<PiezoLevel, n_starts>> starts_;  // of each segment
 };
 
 }  // namespace zlg::calibration

@@ -6,8 +6,8 @@
 //   chi F^2 = G(x) = x^2 sum c_k (1 + x^2/x0^2)^-k,  k = 0..3;   chi = sum c_k
 //
 // A discriminator that grows faster than the detuning makes F bend down. G is found by least squares at the borders of
-// the halves, x0 by the least sum of squares. Within a half x is taken for two equal groups one standard deviation off
-// its mean, as the compensation does. The counts tell G and not F: the scale of F for small x is that of the log.
+// the halves, x0 by the least sum of squares. Within a half x counts as two equal groups one standard deviation off
+// its mean, as in the compensation. The counts determine G and not F: the scale of F for small x is that of the log.
 
 #include <cstdint>
 #include <span>
@@ -36,9 +36,9 @@ struct LossCurve {
 };
 
 // law  of the same logs, determined.
-// return  not determined where the logs do not tell F from the linear law: from a third of the last point to that point
-//         G/x^2 must change by 5 % and by 6 of its standard deviations; nor where the counter of a gyro at rest rounds
-//         alike after every re-lock.
+// return  not determined where the logs do not distinguish F from the linear law: from a third of the last point to that
+//         point G/x^2 must change by 5 % and by 6 of its standard deviations; nor where the counter of a gyro at rest
+//         rounds alike after every re-lock.
 [[nodiscard]] LossCurve find_loss_curve(std::span<const LabLog> logs, const BiasLaw& law);
 
 // The logs as F reads them: mean detunings and mean squares after re-locks, light noise as it was.

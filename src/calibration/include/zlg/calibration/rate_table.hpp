@@ -1,5 +1,5 @@
 #pragma once
-// Scale factor and bias from a rate table, as the test procedure of IEEE Std 647 asks for them.
+// Scale factor and bias from a rate table, by the test procedure of IEEE Std 647.
 //
 //   output_j = K input_j + D + error_j       straight line by least squares over the stages
 //
@@ -39,8 +39,8 @@ struct RateTableOptions {
     double earth_arcsec_s = 0.0;        // known rotation about the axis that the table does not show
 };
 
-// input_arcsec_s  of the table; NaN: not known, as output where the gyro did not measure. Such samples count nowhere and end no
-//                 stage.
+// input_arcsec_s  of the table; NaN: not known, as output where the gyro did not measure. Such samples count nowhere
+//                 and end no stage.
 // output          of the gyro over each sample, units a second (counts a second, or arcsec/s).
 //
 // errors  SeriesError: lengths differ, fewer than 3 stages, all of one rate.

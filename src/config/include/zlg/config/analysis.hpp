@@ -1,7 +1,6 @@
 #pragma once
 // What `zlg analyze` is to compute, and what the columns of a text file hold.
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ enum class DecimalMark { automatic, point, comma };
 struct Analysis {
     std::vector<Deviation> deviations = {Deviation::oadev};
     Taus taus = Taus::octave;
-    std::int64_t taus_per_decade = 20;
+    int taus_per_decade = 20;
     std::vector<double> taus_s;  // instead of them
     double confidence = 0.95;
     double least_known_ratio = 0.9;
@@ -33,7 +32,7 @@ struct Analysis {
     double scale_arcsec = 1.0;
     std::optional<double> rate_hz;
     std::string comment = "#";
-    std::int64_t skip_lines = 0;
+    int skip_lines = 0;
     TextSeparator separator = TextSeparator::automatic;
     DecimalMark decimal = DecimalMark::automatic;
     std::string time_column;            // number or name; empty: looked for; "0": there is none

@@ -72,15 +72,11 @@ void apply_pair(Config& config, std::string_view dotted_key, std::string_view va
 // errors  ConfigError: as apply_pair. It blames the log, not the user's configuration.
 void apply_log(Config& config, const Settings& log_settings, std::string_view log_name);
 
-// The length of a tick and the worth of a count are facts of a log that have no default: where nobody says them, nobody
-// knows them. A configuration for a log begins `without_log_facts`, with NaN in their place, and layers are applied to it.
-[[nodiscard]] Config without_log_facts();
-
-// errors  ConfigError: tick_s, or scale_arcsec where it is used, is still NaN; the line says what gives it.
+// The length of a tick and the worth of a count are facts of a log that have no default: one of the layers of a configuration for
+// a log must have given them.
+//
+// errors  ConfigError: none has given tick_s, or scale_arcsec where it is used; the line says what gives it.
 void require_log_facts(const Config& config, std::string_view log_name, bool scale_is_used = true);
-
-// Puts the paper's values where NaN is left, of facts that are not used.
-void fill_log_facts(Config& config);
 
 // errors  ConfigError: gyro.tick_s or gyro.scale_arcsec differs from the one that the log gives.
 void check_against_log(const Config& config, const Settings& log_settings, std::string_view log_name);

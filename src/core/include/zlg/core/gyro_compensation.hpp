@@ -8,6 +8,8 @@
 #include <cstdint>
 
 #include <zlg/core/compensation/angle.hpp>
+#include <zlg/core/compensation/border.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/compensation/counted_stretch.hpp>
 #include <zlg/core/compensation/edge_shift.hpp>
 #include <zlg/core/compensation/gap_bridge.hpp>
@@ -21,20 +23,20 @@
 namespace zlg::core {
 
 struct GyroCompensationConfig {
+    CompensationConstants gyro{};
     RelockDriftConfig relock{};
-    RelockProfileConfig profile{};          // of `joint`
-    Hertz timer{1e7};                       // ticks of the timer per second, of shifted edges; 1..1e15
-    double plateau_ratio = 1.0;             // plateau of the bias over its mean in an even half, 1..2
-    GapBridgeConfig bridge{};               // its count is the scale; of half-ticks with `joint`
-    ArcsecPerRootSecond random_walk{0.14};  // for sigma, >= 0
-    MagneticDriftConfig magnetic{};         // its tick, walk and count are those above
+    RelockProfileConfig profile{};  // of `joint`
+    GapBridgeConfig bridge{};       // of half-ticks with `joint`
+    MagneticDriftConfig magnetic{};
 };
 
+// The numbers of the enumerators are sent over the gyro's line (docs/wire.md) and do not change. Of the faults of the
+// constants, those of timer and plateau are `edges`, that of the random walk is `random_walk`, the others are `relock`.
 enum class GyroCompensationFault : unsigned char { none, relock, edges, bridge, random_walk, magnetic, profile };
 
 [[nodiscard]] GyroCompensationFault check(const GyroCompensationConfig& config) noexcept;
 
-// What the switches of late have left in the angle, by the sigma of their gaps.
+// Mean square error of the recent switches, by the sigma of their gaps.
 struct SwitchErrors {
     std::int32_t n = 0;
     double mean_sq_arcsec2 = 0.0;
@@ -44,14 +46,16 @@ struct SwitchErrors {
 
 struct GyroCompensationState {
     bool has_first = false;
-    HalfRecord first{};          // the half that waits for the other one of its tick
-    bool first_waits = false;    // the last tick was tick 1 of `frequency`
-    bool start_unknown = false;  // the reversal that begins the next half is recorded where none can have been
+    HalfRecord first{};             // the half that waits for the other one of its tick
+    bool first_waits = false;       // the last tick was tick 1 of `frequency`
+    Border border{};                // at the end of the last half
+    std::int32_t n_with_phase = 0;  // measured ticks in a row with the place within the count at both ends, up to 32
+    bool start_unknown = false;     // the reversal that begins the next half is recorded where none can have been
     EdgeShiftState edges{};
     CountedStretchState stretch{};
     RelockDriftState relock{};
     JointRelockState joint{};
-    double bias_arcsec = 0.0;  // that the bias adds to a half, slow mean; 0: not yet known
+    double bias_arcsec = 0.0;  // what a positive bias adds to a half, slow mean; 0: not yet known
     GapBridgeState bridge{};
     MagneticDriftState magnetic{};
     SwitchErrors switch_errors{};
@@ -66,11 +70,11 @@ struct CompensationOutput {
     double angle_arcsec = 0.0;  // accumulated
 };
 
-// For the control, if it asks: it is free to go its own way.
+// For the schedule of the control, which may ignore it.
 [[nodiscard]] SwitchAdvice advice(const GyroCompensationConfig& config, const GyroCompensationState& state) noexcept;
 
-// Take one half-period. Counts beyond 2^52 are no counts: the half is taken as invalid. Nor is a shift of an edge by a
-// quarter of a tick or more: both halves beside it are. A span below 1 is taken as 1.
+// Advance by one half-period. A half with counts beyond 2^52 is invalid, and so are both halves beside an edge that is
+// shifted by a quarter of a tick or more. A span below 1 counts as 1.
 [[nodiscard]] CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
                                       const HalfRecord& half, LightSamples light = {}) noexcept;
 

@@ -1,141 +1,22 @@
 #pragma once
 // Control of the gyro: everything that happens between the latch of one half-period and the command for the next.
 
-#include <array>
 #include <cstdint>
 
-#include <zlg/core/control/bias_commutator.hpp>
-#include <zlg/core/control/bias_monitor.hpp>
-#include <zlg/core/control/coil_monitor.hpp>
-#include <zlg/core/control/counter_monitor.hpp>
-#include <zlg/core/control/detuning_monitor.hpp>
-#include <zlg/core/control/frame_order.hpp>
-#include <zlg/core/control/half_wave.hpp>
-#include <zlg/core/control/light_monitor.hpp>
+#include <zlg/core/control/gyro_control_state.hpp>
 #include <zlg/core/control/mode_switch.hpp>
-#include <zlg/core/control/perimeter_loop.hpp>
-#include <zlg/core/control/reading_monitor.hpp>
-#include <zlg/core/control/stroke_model.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
-#include <zlg/core/control/sync_detector.hpp>
-#include <zlg/core/health.hpp>
 #include <zlg/core/records.hpp>
-#include <zlg/core/units.hpp>
 
 namespace zlg::core {
 
-struct GyroControlConfig {
-    SyncDetectorConfig detector{};
-    PerimeterLoopConfig loop{};
-    HalfWaveConfig half_wave{};
-    StrokeModelConfig stroke{};  // its range is that of `loop`
-    SwitchScheduleConfig schedule{};
-    ModeSwitchConfig mode_switch{};  // its range is that of `loop`
-    BiasCommutatorConfig commutator{};
-    HealthConfig health{};
-    BiasMonitorConfig bias_monitor{};
-    CoilMonitorConfig coil_monitor{};
-    CounterMonitorConfig counter_monitor{};
-    LightMonitorConfig light_monitor{};
-    DetuningMonitorConfig detuning_monitor{};
-    Celsius presumed_temperature{20.0};  // recorded until the first reading
-};
-
-enum class GyroControlFault : unsigned char {
-    none,
-    detector,
-    loop,
-    half_wave,
-    stroke,
-    schedule,
-    mode_switch,
-    commutator,
-    health,
-    monitors,
-    temperature,
-    ranges_differ
-};
-
-[[nodiscard]] constexpr GyroControlFault check(const GyroControlConfig& c) noexcept {
-    const double temperature_c = c.presumed_temperature.value();
-    if (check(c.detector) != SyncDetectorFault::none) return GyroControlFault::detector;
-    if (check(c.loop) != PerimeterLoopFault::none) return GyroControlFault::loop;
-    if (check(c.half_wave) != HalfWaveFault::none) return GyroControlFault::half_wave;
-    if (check(c.stroke) != StrokeModelFault::none) return GyroControlFault::stroke;
-    if (check(c.schedule) != SwitchScheduleFault::none) return GyroControlFault::schedule;
-    if (check(c.mode_switch) != ModeSwitchFault::none) return GyroControlFault::mode_switch;
-    if (check(c.commutator) != BiasCommutatorFault::none) return GyroControlFault::commutator;
-    if (check(c.health) != HealthFault::none) return GyroControlFault::health;
-    if (check(c.bias_monitor) != BiasMonitorFault::none || check(c.coil_monitor) != CoilMonitorFault::none ||
-        check(c.light_monitor) != LightMonitorFault::none || check(c.detuning_monitor) != DetuningMonitorFault::none) {
-        return GyroControlFault::monitors;
-    }
-    if (!(temperature_c > -1e6 && temperature_c < 1e6)) return GyroControlFault::temperature;
-    if (!(c.loop.range == c.mode_switch.range && c.loop.range == c.stroke.range))
-        return GyroControlFault::ranges_differ;
-    return GyroControlFault::none;
-}
-
-// Where a move to the next mode would begin, and how far it would go: the latter is computed when it is needed.
-struct MoveStart {
-    bool known = true;  // `move_v` is that from here
-    double move_v = 0.0;
-    std::array<double, n_plays> play{};
-    double piezo_v = 0.0;
-    double temperature_c = 0.0;
-
-    friend constexpr bool operator==(const MoveStart&, const MoveStart&) = default;
-};
-
-struct GyroControlState {
-    SyncDetectorState detector{};
-    PerimeterLoopState loop{};
-    HalfWaveState half_wave{};
-    StrokeModelState stroke{};
-    MoveStart up{};  // of the moves that are predicted
-    MoveStart down{};
-    double closed_at_v = 0.0;  // reading of the piezo when the loop was closed last,
-    bool closed_read = false;  // if there was one
-    SwitchScheduleState schedule{};
-    ModeSwitchState mode_switch{};
-    BiasCommutatorState commutator{};
-    std::int64_t half = 0;       // index of the half that is latched next; 2j and 2j + 1 make tick j
-    std::uint64_t counter = 0;   // reading at the end of the last half
-    bool counter_stale = false;  // no: at the end of an earlier one
-    FrameOrderState order{};
-    BiasMonitorState bias_monitor{};
-    CoilMonitorState coil_monitor{};
-    CounterMonitorState counter_monitor{};
-    ReadingMonitorState reading_monitor{};
-    LightMonitorState light_monitor{};
-    DetuningMonitorState detuning_monitor{};
-    bool was_lit = false;          // the last half was counted, closed and lit
-    bool first_was_blind = false;  // the first half of the tick was valid, without a mean square of the detuning;
-    bool first_was_seen = false;   // with one
-    bool was_beyond = false;       // its counts were more than the gyro can make
-    bool light_spoilt = false;     // its light was not to be trusted
-    bool recentring = false;       // the last switch led away from an end of the range
-    std::int32_t n_near_end = 0;   // halves in a row with the piezo near an end of its range
-    bool temperature_known = false;
-    double temperature_before_c = 0.0;  // followed slowly
-    double piezo_v = 0.0;               // last finite reading; so is the next
-    double temperature_c = 0.0;
-
-    friend constexpr bool operator==(const GyroControlState&, const GyroControlState&) = default;
-};
-
 struct GyroControlOutput {
     ActuatorFrame actuator{};  // in force from the start of the next half
-    HalfRecord record{};       // of the half just latched; every number finite
+    HalfRecord record{};       // of the half just latched; every number finite but a fringe that is not known
     std::uint32_t health = 0;  // of the half just latched, a sum of HealthBit
     bool has_event = false;    // a switch, a return or a search ended in a lock
     SwitchEvent event{};
 };
-
-// The state before the first half.
-//
-// counter  reading of the fringe counter when the first half begins: the first record's counts are relative to it.
-[[nodiscard]] GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t counter = 0) noexcept;
 
 // What is commanded for half 0, before any frame: loop closed, at the start's set-point and polarity.
 [[nodiscard]] ActuatorFrame initial_actuator(const GyroControlConfig& config) noexcept;
@@ -145,18 +26,22 @@ struct GyroControlOutput {
 // Counts are the difference of two counter readings modulo 2^64, as a signed number. The record takes bias sign, mode
 // and loop state from the echoes; where there is none, or it is no sign, from the alternation and the last command.
 // Valid is a half with light in both directions, whose frame was received and follows its predecessor, with good signs,
-// and to whose counts no monitor objects. Where the light says no and the bias beats on, the beat is believed after some
-// halves. Counts are 0 in a missed frame, where the frame's number does not follow (nothing in such a frame is used), and
-// while a reading may be wrong; the next good half has the difference over all of these, `span` halves. What was not
-// measured is recorded as 0; voltage and temperature keep their last finite value.
+// and to whose counts no monitor objects. Where the light is missing but the bias beats on, the beat is accepted after
+// some halves. Counts are 0 in a missed frame, where the frame's number does not follow (nothing in such a frame is
+// used), and while a reading may be wrong; the next good half has the difference over all of these, `span` halves. What
+// was not measured is recorded as 0; voltage and temperature keep their last finite value.
 //
-// A mode of the other helicity than was commanded is kept, and the command follows it. Near an end of its range the piezo
-// is led away by a switch of its own time.
+// Where the phase of the fringe is read, each reading is the whole count on that side of a border on which the phase lies,
+// and the record holds the place within the count. Where the phase cannot be trusted: the count as read, and no place.
+//
+// A mode of the other helicity than was commanded is kept, and the command follows it. Near an end of its range the
+// piezo is led away by an additional switch, outside the schedule.
 //
 // config   passed `check`.
 // state    from `initial_state`; every number in it stays finite, whatever the frames hold.
 // advice   what compensation has learnt by now, for a schedule that asks for it.
-// latency  a switch at the start of tick j is decided in half 2j - 1: halves 2j .. 2j + 2 gap_ticks - 1 are open.
+// latency  a switch at the start of tick j is decided in half 2j - 1: halves 2j .. 2j + 2 gap_ticks - 1 are open, or fewer
+//          whole ticks where the gap may be shortened (mode_switch.hpp).
 // cost     bounded by the number of light samples; no allocation.
 [[nodiscard]] GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,
                                      const SwitchAdvice& advice = {}) noexcept;

@@ -1,18 +1,19 @@
 #pragma once
 // Health of the gyro in one half-period: a word of named bits.
 //
-// Bits say what was seen, half by half. Whether a half is valid is decided where it is seen; no angle depends on the word.
+// Bits report what was observed in a half. Whether the half is valid is decided by the monitors; no angle depends on
+// the word.
 
 #include <array>
 #include <cstdint>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/as_double.hpp>
 
 namespace zlg::core {
 
 enum HealthBit : std::uint32_t {
     health_frame_missed = 1u << 0,         // nothing was received; bits of measurements are 0
-    health_sequence_error = 1u << 1,       // a frame of another half came, or none that follows; so are those bits
+    health_sequence_error = 1u << 1,       // the frame is of another half, or follows none; bits of measurements are 0
     health_sign_error = 1u << 2,           // the bias sign's echo does not alternate
     health_timer_error = 1u << 3,          // the stamp does not advance by the nominal half
     health_echo_error = 1u << 4,           // polarity or loop state in force was not what was commanded
@@ -37,13 +38,15 @@ enum HealthBit : std::uint32_t {
     health_light_noisy = 1u << 23,         // far more than the noise it should have
     health_light_unbalanced = 1u << 24,    // one beam has faded against the other
     health_light_contradicted = 1u << 25,  // the beat proves the light that the photodiodes do not show
-    health_detuning_unsteady = 1u << 26,   // a push of the perimeter left its angle in the tick
+    health_detuning_unsteady = 1u << 26,   // a motion of the perimeter left a false angle in the tick
     health_recentring = 1u << 27,          // the switch under way, or the last one, led away from an end of the range
     health_warming_up = 1u << 28,          // the temperature changes, and what depends on it
     health_edges_shifted = 1u << 29,       // the reversals are dithered against lock-in
+    health_fringe_lost = 1u << 30,         // the phase of the fringe is to be read and cannot be trusted: whole counts
+    health_fringe_skewed = 1u << 31,       // its photodiodes are not sampled at the latch
 };
 
-inline constexpr std::array<const char*, 30> health_bit_names{"frame_missed",
+inline constexpr std::array<const char*, 32> health_bit_names{"frame_missed",
                                                               "sequence_error",
                                                               "sign_error",
                                                               "timer_error",
@@ -72,7 +75,9 @@ inline constexpr std::array<const char*, 30> health_bit_names{"frame_missed",
                                                               "detuning_unsteady",
                                                               "recentring",
                                                               "warming_up",
-                                                              "edges_shifted"};
+                                                              "edges_shifted",
+                                                              "fringe_lost",
+                                                              "fringe_skewed"};
 
 struct HealthConfig {
     std::int64_t counts_limit = 2000;  // per half: bias plus the highest rate of rotation, > 0

@@ -1,8 +1,8 @@
 #pragma once
 // The records that pass between the parts: plant to control, control to plant, control to compensation, and out.
 //
-// Plain data with the unit in every name. These four and `units.hpp` are all that the twin and the logs know of the
-// core.
+// Plain data with the unit in every name. These records and `units.hpp` are all that the twin and the logs know of
+// the core.
 
 #include <array>
 #include <bit>
@@ -17,6 +17,9 @@ inline constexpr int max_set_points = 16;
 // Also true of two NaN.
 [[nodiscard]] constexpr bool same_bits(double a, double b) noexcept {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+[[nodiscard]] constexpr bool same_bits(float a, float b) noexcept {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
 // What the gyro's electronics latch at the end of half-period h.
@@ -35,6 +38,12 @@ struct SensorFrame {
     double coil_current_a = 0.0;
     double temperature_c = 0.0;
     std::uint32_t status = 0;  // bits of SensorStatus
+    // Both photodiodes of the beat, a quarter of a turn apart, sampled at the latch: any unit; a beat that counts up turns
+    // from fringe_c to fringe_s. And the quarter of the turn in which the counter's comparators stood, 0..3.
+    bool has_fringe = false;
+    std::uint8_t fringe_quarter = 0;
+    float fringe_c = 0.0f;
+    float fringe_s = 0.0f;
 };
 
 enum SensorStatus : std::uint32_t {
@@ -70,6 +79,10 @@ struct HalfRecord {
         0;  // shift of the reversal that ends this half, ticks of the timer; positive is later
     // `counts` are those of so many halves, this one the last; those before have valid 0, counts 0, span 1.
     std::int32_t span = 1;
+    // Place within the count at the end of the half, 0..65535, 1/65536: the angle there is (sum of counts + fringe/65536)
+    // counts.
+    float fringe = __builtin_nanf("");
+    bool lit = false;  // both beams were lit and steady throughout the half: its counts are good, in an open loop too
 
     // The same bits, so that a quantity that was not measured is equal to itself.
     friend constexpr bool operator==(const HalfRecord& a, const HalfRecord& b) noexcept {
@@ -77,9 +90,15 @@ struct HalfRecord {
                same_bits(a.detuning_sq_lambda2, b.detuning_sq_lambda2) && same_bits(a.piezo_v, b.piezo_v) &&
                same_bits(a.temperature_c, b.temperature_c) && a.bias_sign == b.bias_sign && a.mode == b.mode &&
                a.loop_closed == b.loop_closed && a.valid == b.valid && a.edge_offset_ticks == b.edge_offset_ticks &&
-               a.span == b.span;
+               a.span == b.span && same_bits(a.fringe, b.fringe) && a.lit == b.lit;
     }
 };
+
+inline constexpr std::int32_t count_parts = 65536;  // of which `fringe` tells the number
+
+[[nodiscard]] constexpr bool has_fringe(const HalfRecord& half) noexcept {
+    return half.fringe >= 0.0f && half.fringe < static_cast<float>(count_parts);
+}
 
 // The counts are the angle of this half, in a closed loop.
 [[nodiscard]] constexpr bool is_measured(const HalfRecord& half) noexcept {
@@ -102,7 +121,7 @@ enum AngleFlag : std::uint32_t {
     flag_switching = 1u << 0,           // in a gap, and the commanded helicity has changed since it began
     flag_extrapolated = 1u << 1,        // in a gap: dtheta is eq (14), 0 before the first measured tick
     flag_interpolated = 1u << 2,        // in a gap: dtheta_final is eq (15), from both sides
-    flag_correction = 1u << 3,          // dtheta carries what became known of earlier ticks, eq (17)
+    flag_correction = 1u << 3,          // dtheta contains the correction of earlier ticks, eq (17)
     flag_relock_corrected = 1u << 4,    // false drift after re-lock was subtracted
     flag_relock_uncorrected = 1u << 5,  // it should have been, but the data did not allow it
     flag_lower_order = 1u << 6,         // too few measured ticks for the order asked for

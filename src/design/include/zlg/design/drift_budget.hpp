@@ -38,7 +38,7 @@ struct DriftTerms {
 [[nodiscard]] double quasi_nonmagnetic_arcsec_s(const GyroDrift& gyro, double run_s, double interval_s);
 
 //   (A tau/2L) (1 - exp(-L/tau))^2    the result in eq (6)
-// The same for the first pair of segments alone; the paper takes it for the whole run.
+// The same for the first pair of segments alone; the paper uses it for the whole run.
 [[nodiscard]] double quasi_nonmagnetic_as_printed_arcsec_s(const GyroDrift& gyro, double interval_s);
 
 //   |nm| + quasi_nonmagnetic + L |Om0|/t + dP/L    eq (7) corrected, (7c)
@@ -76,7 +76,8 @@ struct DriftTerms {
                                                 FirstSegment first = FirstSegment::full);
 
 //   |nm| + sqrt((S^2 + K[Om](t)^2/3)/t^2 + s^2/(t L))
-// The same for an end that nobody knows: there the magnetic angle is anywhere between S - K and S + K. For a gyro that
+// The same for a run that ends anywhere in a segment: the magnetic angle is then uniform between S - K and S + K, of
+// variance K^2/3. For a gyro that
 // does not warm up the first term is L |Om0|/(sqrt(3) t), with a half first segment half of that.
 [[nodiscard]] double expected_drift_arcsec_s(const DriftCase& task, double interval_s,
                                              FirstSegment first = FirstSegment::full);

@@ -13,14 +13,9 @@
 //
 // errors  DesignError unless the case passes its check and g > 0, finite.
 
-#include <numbers>
-
 #include <zlg/design/drift_budget.hpp>
 
 namespace zlg::design {
-
-// The best fixed interval of a run of length t whose first segment is half, taken at every t.
-inline constexpr double growth_half_first = std::numbers::sqrt2;
 
 // Minimum of g/2 + 2/g.
 inline constexpr double growth_best = 2.0;
@@ -33,12 +28,7 @@ inline constexpr double growth_best = 2.0;
 [[nodiscard]] double growing_switches(const DriftCase& task, double growth);
 
 //   |nm| + (L(t) |Om(t)|/2 + n(t) dP)/t
-// Budget at t. It takes the intervals as varying smoothly, so it presumes n >> 1 and L << tau.
+// Budget at t. It presumes intervals that vary smoothly, n >> 1 and L << tau.
 [[nodiscard]] double growing_drift_arcsec_s(const DriftCase& task, double growth);
-
-// Excess of drift over nm, as a multiple of the least that a fixed interval chosen for this very t has in the worst
-// case (full first segment): of the growing interval, and of a fixed one that was chosen otherwise.
-[[nodiscard]] double growing_loss_ratio(const DriftCase& task, double growth);
-[[nodiscard]] double fixed_loss_ratio(const DriftCase& task, double interval_s);
 
 }  // namespace zlg::design

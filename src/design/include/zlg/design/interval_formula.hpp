@@ -11,7 +11,7 @@
 namespace zlg::design {
 
 //   L = sqrt(dP t/|Om0|)    the A = 0 limit of eq (9)
-// Minimum of |nm| + L |Om0|/t + dP/L: a gyro that does not warm up, judged at an odd switch. Infinite for Om0 = 0.
+// Minimum of |nm| + L |Om0|/t + dP/L: a gyro that does not warm up, at an odd switch. Infinite for Om0 = 0.
 [[nodiscard]] double closed_form_interval_s(const DriftCase& task);
 
 //   L = (s^2 t/(2 Om^2))^(1/3),   Om = (|Om(0)| + |Om(t)|)/2    first segment full
@@ -19,13 +19,6 @@ namespace zlg::design {
 // Minimum of random_sign_drift_arcsec_s to first order in L/tau: switch errors that are independent with rms s. Infinite
 // for Om = 0.
 [[nodiscard]] double random_sign_interval_s(const DriftCase& task, FirstSegment first = FirstSegment::full);
-
-//   L = sqrt(2 dP t/(|Om(t)| + |Om(0)|))    first segment full
-//   L = sqrt(2 dP t/|Om(t)|)                first segment half
-// Minimum of the worst case to first order in L/tau. With a half first segment and A = 0 the quasi-non-magnetic
-// term goes, the sawtooth halves, the interval is longer and the excess over nm lower by sqrt 2 each; for a gyro that
-// warms up by sqrt((|Om(t)| + |Om(0)|)/|Om(t)|) < sqrt 2. Infinite where the denominator is 0.
-[[nodiscard]] double first_order_interval_s(const DriftCase& task, FirstSegment first = FirstSegment::full);
 
 enum class RootStatus {
     found,

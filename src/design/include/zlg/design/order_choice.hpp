@@ -5,7 +5,6 @@
 //
 // With points symmetric about the gap orders 2m and 2m + 1 give the same sum; the lower of equals is chosen.
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -15,21 +14,12 @@ namespace zlg::design {
 
 inline constexpr int n_orders = 5;
 
-struct OrderChoice {
-    int order = 0;
-    std::array<double, n_orders> rms_arcsec{};  // by order; NaN above `highest_order`
-    int highest_order = 0;
-};
-
 // What to compare: the order in it is ignored. Orders from 0 to `highest_order` that its points allow, at most 4.
 struct OrderQuestion {
     Substitution substitution{};
     TickNoise noise = TickNoise::white;
     int highest_order = 2;  // 0..4, lowered to the number of points less 1
 };
-
-// The order with the smallest rms error of the gap sum. sigma_arcsec >= 0 of one tick.
-[[nodiscard]] OrderChoice best_order(const OrderQuestion& question, const Tone& tone, double sigma_arcsec);
 
 // The ratio of amplitude to noise, A T/sigma, from which `high` beats `low` at this frequency:
 //

@@ -7,7 +7,6 @@
 // over the bias period T (between T/2 and T), high-voltage stage, piezo mirror. The limiter behind the detector and the
 // slew of the high voltage are not linear: see the re-lock loop.
 
-#include <complex>
 #include <limits>
 
 namespace zlg::design {
@@ -20,13 +19,6 @@ struct PerimeterLoop {
     double mirror_zeta = 0.05;      // > 0
 };
 
-// L at w [rad/s] > 0. Every function here throws DesignError for a member or argument out of its range.
-[[nodiscard]] std::complex<double> open_loop(const PerimeterLoop& loop, double w_rad_s);
-
-// |L| and the phase of L followed from w = 0 without jumps, where it is -90 degrees; it falls throughout.
-[[nodiscard]] double open_loop_gain(const PerimeterLoop& loop, double w_rad_s);
-[[nodiscard]] double open_loop_phase_rad(const PerimeterLoop& loop, double w_rad_s);
-
 // Because the phase falls throughout, L crosses the negative real axis in one direction only: the closed loop is stable
 // exactly when |L| < 1 at every such crossing.
 struct Margins {
@@ -38,18 +30,14 @@ struct Margins {
 };
 
 // accuracy  1e-10 relative, by bisection of the phase and of |L| between the extrema of its resonance.
+// errors    DesignError for a member out of its range.
 [[nodiscard]] Margins margins(const PerimeterLoop& loop);
 
 // The integrator on samples: dl[k+1] = dl[k] - g dl[k - d], g = T/tau, d whole samples of delay; z^(d+1) - z^d + g.
 //
 // stability limit    g < 2 sin( pi / (2 (2d + 1)) ):    2 without delay, 1 with one sample
-// critical damping   g = d^d/(d + 1)^(d + 1):           1 without delay, 1/4 with one sample
 //
 // delay_samples  0..1000.
+// errors         DesignError for a delay outside.
 [[nodiscard]] double sampled_stability_limit(int delay_samples);
-[[nodiscard]] double sampled_critical_gain(int delay_samples);
-
-// |z| of the slowest root for one sample of delay, z^2 - z + g: the factor of decay per sample. g >= 0, finite.
-[[nodiscard]] double sampled_decay(double gain);
-
 }  // namespace zlg::design

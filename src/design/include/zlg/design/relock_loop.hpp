@@ -66,9 +66,8 @@ struct RelockTrace {
 // dOm_i = scale (chi f0/2) (<dl^2>_second - <dl^2>_first) * sign, sign of bias_sign*mode in the first half [arcsec/s].
 [[nodiscard]] std::vector<double> false_drift_arcsec_s(const BiasLaw& law, const RelockTrace& trace, int first_sign);
 
-// Total false angle of a re-lock, magnitude. By the loop-independent law: (T/4) G(0+), leading order in T over the time
-// of the re-lock. Exact for dl0 e^(-t/tau): G(0+) (tau/2) tanh(T/2tau), below the law by (T/2tau)^2/3.
+// Total false angle of a re-lock, magnitude, by the loop-independent law: (T/4) G(0+), leading order in T over the time
+// of the re-lock. For dl0 e^(-t/tau) the angle is G(0+) (tau/2) tanh(T/2tau), below the law by (T/2tau)^2/3.
 [[nodiscard]] double false_angle_law_arcsec(double deficit_arcsec_s, double tick_s);
-[[nodiscard]] double false_angle_exponential_arcsec(double deficit_arcsec_s, double tick_s, double tau_s);
 
 }  // namespace zlg::design

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <string_view>
-#include <vector>
 
 namespace zlg::design {
 

@@ -14,7 +14,6 @@
 // points than the order, a tick_s that is not positive, numbers that are not finite.
 
 #include <complex>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,12 +38,9 @@ struct Substitution {
 // Where the points lie, in ticks, ascending.
 [[nodiscard]] std::vector<int> positions(const Substitution& substitution);
 
-// w_k(j) for 1 <= j <= n, in the order of positions().
+// W_k, in the order of positions().
 //
 // accuracy  1e-13 of the largest weight (orthogonal polynomials in extended precision).
-[[nodiscard]] std::vector<double> tick_weights(const Substitution& substitution, int j);
-
-// W_k, the same for the sum over the gap.
 [[nodiscard]] std::vector<double> sum_weights(const Substitution& substitution);
 
 // One oscillation of the case: rate = amplitude * sin(2 pi frequency t + phase), t = 0 in the middle of the gap.
@@ -62,8 +58,7 @@ struct Tone {
 // of the gap, and worst where an extremum does.
 class ErrorResponse {
 public:
-    [[nodiscard]] static ErrorResponse of_sum(const Substitution& substitution);
-    [[nodiscard]] static ErrorResponse of_tick(const Substitution& substitution, int j);
+    explicit ErrorResponse(const Substitution& substitution);
 
     [[nodiscard]] std::complex<double> operator()(double frequency_hz) const;
 
@@ -72,7 +67,6 @@ public:
     [[nodiscard]] double tick_s() const { return tick_s_; }
 
 private:
-    explicit ErrorResponse(const Substitution& substitution);
     void add(const std::vector<double>& weights, const std::vector<int>& at);
 
     double tick_s_ = 0.0;
@@ -96,15 +90,5 @@ struct WorstPhase {
 // incommensurate; and the root of the sum of squares, exact for independent random phases.
 [[nodiscard]] double worst_bound_arcsec(const ErrorResponse& response, std::span<const Tone> tones);
 [[nodiscard]] double rms_arcsec(const ErrorResponse& response, std::span<const Tone> tones);
-
-// One-sided spectral density of the rate, (arcsec/s)^2/Hz, as a function of Hz; >= 0.
-using RateSpectrum = std::function<double(double)>;
-
-// Random stationary motion: sqrt( integral of |H|^2 S df ) from low_hz to high_hz, both finite.
-//
-// accuracy  1e-9 for a density that is smooth over 1/8 of 1/(span T). A line narrower than that is a Tone.
-// errors    DesignError also for a density that is negative or not finite where it was asked.
-[[nodiscard]] double rms_arcsec(const ErrorResponse& response, const RateSpectrum& spectrum, double low_hz,
-                                double high_hz);
 
 }  // namespace zlg::design

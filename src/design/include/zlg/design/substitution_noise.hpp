@@ -1,7 +1,7 @@
 #pragma once
 // Noise of the substituted ticks, and what one mode switch leaves in the angle altogether: eq (19) and its omission.
 //
-// A gain is the sigma of what the fit gives over the sigma of one measured tick; the true angle is taken as known.
+// A gain is the sigma of what the fit gives over the sigma of one measured tick; the true angle counts as known.
 //
 // Two kinds of noise. White: sigma_out^2 = sigma^2 sum W_k^2. Counter: a tick is the difference of two roundings of a
 // free-running count, each uniform in +-LSB/2, so ticks have the covariance LSB^2/6 on the diagonal and -LSB^2/12
@@ -16,13 +16,8 @@ namespace zlg::design {
 
 enum class TickNoise { white, counter };
 
-// Gain of the sum over the gap, and of one substituted tick 1 <= j <= n. Errors as sum_weights.
+// Gain of the sum over the gap. Errors as sum_weights.
 [[nodiscard]] double sum_gain(const Substitution& substitution, TickNoise noise);
-[[nodiscard]] double tick_gain(const Substitution& substitution, int j, TickNoise noise);
-
-// Gain of the angle accumulated across the gap, for counter noise. The count is read off at the end of tick 0 and taken
-// up at the end of tick n: those two roundings stay in the angle beside that of the sum, and are correlated with it.
-[[nodiscard]] double accumulated_counter_gain(const Substitution& substitution);
 
 // sigma of a tick from the weight of a count, LSB/sqrt 6. lsb_arcsec >= 0.
 [[nodiscard]] double counter_tick_sigma_arcsec(double lsb_arcsec);

@@ -2,8 +2,9 @@
 // The interval between switches of modes that makes a drift budget least.
 //
 // Long intervals let the magnetic drift pile up before it is reversed, short ones pay for many switches. Each method is
-// a budget with its own idea of both; `optimum` is the minimum of that budget over all 0 < L <= t, found without
-// approximation.
+// a budget with its own account of both; `optimum` is the global minimum of that budget over all 0 < L <= t: its slope is
+// known in closed form, is scanned on a logarithmic grid for changes of sign, and each zero is refined by the bracketing
+// method TOMS 748 (Alefeld, Potra and Shi, ACM Trans. Math. Softw. 21, 1995).
 
 #include <array>
 #include <optional>
@@ -61,7 +62,7 @@ struct Optimum {
 // The same for the worst case, and for independent switch errors, when the first segment is full or half.
 [[nodiscard]] Optimum worst_case_optimum(const DriftCase& task, FirstSegment first);
 [[nodiscard]] Optimum random_sign_optimum(const DriftCase& task, FirstSegment first);
-// The least value of expected_drift_arcsec_s: for a run of which nobody knows where in a segment it ends.
+// The least value of expected_drift_arcsec_s: for a run that ends anywhere in a segment.
 [[nodiscard]] Optimum expected_optimum(const DriftCase& task, FirstSegment first);
 
 // How much the drift rises when the interval is missed by 30 %, arcsec/s. Where the drift over nm goes as L/a + a/L, it

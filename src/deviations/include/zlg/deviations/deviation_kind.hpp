@@ -1,6 +1,7 @@
 #pragma once
 // The deviations by name.
 
+#include <array>
 #include <string_view>
 
 namespace zlg::deviations {
@@ -15,6 +16,10 @@ namespace zlg::deviations {
 //   htotdev          ohdev, every piece of 3 tau of the rate freed of its drift and mirrored
 enum class DeviationKind { adev, oadev, mdev, tdev, hdev, ohdev, totdev, mtotdev, htotdev };
 
+inline constexpr std::array deviation_kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
+                                            DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
+                                            DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev};
+
 [[nodiscard]] std::string_view name_of(DeviationKind kind);
 
 // errors  SeriesError: another name.
@@ -22,6 +27,12 @@ enum class DeviationKind { adev, oadev, mdev, tdev, hdev, ohdev, totdev, mtotdev
 
 // Those that mirror the record or pieces of it.
 [[nodiscard]] bool is_total(DeviationKind kind);
+
+// Of the angle averaged over tau: mdev, tdev, mtotdev.
+[[nodiscard]] bool is_modified(DeviationKind kind);
+
+// Of differences that begin every tau, and not at every sample: adev, hdev.
+[[nodiscard]] bool is_side_by_side(DeviationKind kind);
 
 // Order of the differences of the angle: 2, or 3 for the Hadamard deviations.
 [[nodiscard]] int difference_order(DeviationKind kind);

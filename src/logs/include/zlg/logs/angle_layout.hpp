@@ -1,12 +1,15 @@
 #pragma once
-// What stands in an angle log: its rows, what is above them, and how it is written.
+// What stands in an angle log: its columns, what is above its rows, and how it is written.
 
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <zlg/core/records.hpp>
+#include <zlg/logs/row_rules.hpp>
 #include <zlg/logs/settings.hpp>
+#include <zlg/logs/table_column.hpp>
 
 namespace zlg::logs {
 
@@ -30,6 +33,33 @@ struct AngleWriterOptions {
     // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
     bool keep_part = false;
     bool keep_csv_part = false;  // the same of CSV, for what cannot be had again
+};
+
+// A member of the row of a tick, from a TimedAngle.
+template <class Member>
+constexpr auto of_row(Member core::AngleRow::*member) {
+    return [member](auto& angle) -> auto& { return angle.row.*member; };
+}
+
+// All columns of an angle log but the truth, in the order of a CSV log.
+struct AngleTable {
+    using Row = TimedAngle;
+    using Header = AngleHeader;
+    struct Presence {};  // every column is required
+
+    static constexpr const char* group = "/angles";  // of an HDF5 log
+
+    using Tick = core::AngleRow;
+
+    static constexpr std::tuple columns{
+        required_column<std::int64_t>("tick", "1", of_row(&Tick::tick), RowNumber{}),
+        required_column<double>("t_s", "s", &Row::t_s, Real{}),
+        required_column<double>("dtheta_arcsec", "arcsec", of_row(&Tick::dtheta_arcsec), Real{}),
+        required_column<double>("dtheta_final_arcsec", "arcsec", of_row(&Tick::dtheta_final_arcsec), Real{}),
+        required_column<double>("sigma_arcsec", "arcsec", of_row(&Tick::sigma_arcsec), Deviation{}),
+        required_column<std::int8_t>("mode", "1", of_row(&Tick::mode), Sign{}),
+        required_column<std::uint32_t>("flags", "1", of_row(&Tick::flags), any_whole<std::uint32_t>),
+    };
 };
 
 }  // namespace zlg::logs

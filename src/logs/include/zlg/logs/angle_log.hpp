@@ -3,19 +3,18 @@
 
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <zlg/core/records.hpp>
 #include <zlg/logs/angle_layout.hpp>
 
 namespace zlg::logs {
 
-class AngleSource;
-class AngleSink;
+template <class Table>
+class LogSource;
+template <class Table>
+class LogSink;
 
-// Reads rows in order and checks every one: tick without holes from 0, finite numbers, sigma 0 or more or inf, mode
-// +1/-1. The format is recognised by the content.
+// Reads rows in order and checks every one by the rules of AngleTable. The format is recognised by the content.
 class AngleReader {
 public:
     // An HDF5 log may be open in a writer, or left behind by one that was killed: its whole rows are there.
@@ -37,10 +36,10 @@ public:
     [[nodiscard]] double fraction_read() const;
 
 private:
-    std::unique_ptr<AngleSource> source_;
+    std::unique_ptr<LogSource<AngleTable>> source_;
 };
 
-// Columns tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags, in the format that the suffix says: .csv,
+// Writes the columns of AngleTable, in the format that the suffix says: .csv,
 // .h5 or .hdf5; CSV reals in the shortest form that reads back.
 //
 // The file appears under its name at `close`, whole, or not at all. As HDF5 it grows as PATH.part, which can be read
@@ -69,7 +68,7 @@ public:
     [[nodiscard]] const std::string& part_path() const;
 
 private:
-    std::unique_ptr<AngleSink> sink_;
+    std::unique_ptr<LogSink<AngleTable>> sink_;
     double tick_s_;
 };
 

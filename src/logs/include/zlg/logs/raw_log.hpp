@@ -3,22 +3,19 @@
 
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <zlg/core/records.hpp>
 #include <zlg/logs/raw_layout.hpp>
 
 namespace zlg::logs {
 
-class RawSource;
-class RawSink;
+template <class Table>
+class LogSource;
+template <class Table>
+class LogSink;
 
-// Reads rows in order and checks every one: half without holes from 0, bias_sign +1/-1 and alternating, mode +1/-1,
-// integer counts of magnitude at most 2^52, loop_closed and valid 0/1, finite numbers, detunings of at most 30 wavelengths, mean
-// squares of them that are 0 (not known) or no less than the square of the mean, edge offsets of 32 bits, a span of no
-// more than the row itself and the rows of valid 0, counts 0 and span 1 directly before it. Absent optional columns: NaN,
-// valid 1, edge offset 0, span 1. The format is recognised by the content.
+// Reads rows in order and checks every one by the rules of RawTable and RawSequence, where also stands what a row holds of
+// an optional column that is absent. The format is recognised by the content.
 class RawReader {
 public:
     // An HDF5 log may be open in a writer, or left behind by one that was killed: its whole rows are there.
@@ -47,7 +44,8 @@ public:
     [[nodiscard]] double fraction_read() const;
 
 private:
-    std::unique_ptr<RawSource> source_;
+    std::unique_ptr<LogSource<RawTable>> source_;
+    RawSequence rows_before_;
 };
 
 // Writes a raw log with the required and the given columns, in the format that the suffix says: .csv, .h5 or .hdf5.
@@ -63,8 +61,8 @@ public:
     ~RawWriter();
     RawWriter(RawWriter&&) noexcept;
 
-    // errors  IoError; FormatError: a number of a column that is not finite, which no reader would accept; a shifted edge
-    // or a span without the column for it; another number of light samples than announced.
+    // errors  IoError; FormatError: a real number that no reader would accept; a shifted edge or a span without the column
+    // for it; another number of light samples than announced.
     void write(const core::HalfRecord& record, const core::LightSamples& light = {});
 
     // Makes all rows so far visible to readers of PATH.part. errors  IoError.
@@ -74,7 +72,7 @@ public:
     [[nodiscard]] const std::string& part_path() const;
 
 private:
-    std::unique_ptr<RawSink> sink_;
+    std::unique_ptr<LogSink<RawTable>> sink_;
 };
 
 }  // namespace zlg::logs

@@ -1,19 +1,15 @@
 #pragma once
-// A column of times: what makes one, how many rows a second it says there are, and where rows are missing.
+// A column of times: how many rows a second it says there are, and where rows are missing.
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <zlg/logs/text_columns.hpp>
 
 namespace zlg::logs {
-
-// time, t, Zeit, timestamp and the like, with or without a unit behind.
-[[nodiscard]] bool names_time(std::string_view column_name);
 
 // The values rise by the same from row to row, or without exception over many rows: as times do, and rates do not.
 [[nodiscard]] bool rises_as_time(std::span<const double> values);

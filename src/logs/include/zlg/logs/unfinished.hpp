@@ -7,7 +7,8 @@
 
 namespace zlg::logs {
 
-// While it lives, nothing is abandoned: for files that get their names together, all or none. May be nested.
+// While one lives, `abandon_outputs` of another thread does nothing: for files that get their names together, all or
+// none. May be nested.
 class Together {
 public:
     Together();
@@ -16,7 +17,7 @@ public:
     Together& operator=(const Together&) = delete;
 };
 
-// A folder that was made for files which may yet fail: abandoned without one, it goes.
+// A folder that was made for files which may yet fail. `abandon_outputs` removes it if it is empty.
 class NewFolder {
 public:
     explicit NewFolder(std::string path);
@@ -28,9 +29,12 @@ private:
     std::string path_;
 };
 
-// Removes every NAME.part of this program, as an error would, but those that may be kept and hold rows; their names come
-// back. What another program has put under such a name stays, unnamed. From then on no file is completed: who tries waits for ever. To be called last, by any thread, before the end of
-// the process. Nothing comes back while files are `Together`: try again.
+// Removes every NAME.part that this program is writing, except those that hold rows and can be read as they are. A file
+// that another program has put under such a name stays. From then on no file is completed: a thread that tries to waits
+// for ever. To be called last, before the end of the process, by a thread that holds no `Together`.
+//
+// return  the names of the parts that were kept; nothing, and nothing done, while another thread holds a `Together`:
+//         try again.
 [[nodiscard]] std::optional<std::vector<std::string>> abandon_outputs();
 
 }  // namespace zlg::logs

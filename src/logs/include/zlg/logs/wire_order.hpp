@@ -31,11 +31,11 @@ struct OrderedTelemetry {
 };
 
 struct OrderSummary {
-    std::uint64_t n_lost = 0;        // messages, by the sequence numbers
-    std::uint64_t n_repeated = 0;    // messages that came again, or too late
-    std::uint64_t n_unfitting = 0;   // that fit neither what came before them nor what came after
-    std::uint64_t n_other_tick = 0;  // of a gyro whose tick has another length than that of the log
-    double other_tick_s = 0.0;       // the last one of these lengths
+    std::uint64_t n_lost_messages = 0;  // by the sequence numbers
+    std::uint64_t n_repeated = 0;       // messages that came again, or too late
+    std::uint64_t n_unfitting = 0;      // that fit neither what came before them nor what came after
+    std::uint64_t n_other_tick = 0;     // of a gyro whose tick has another length than that of the log
+    double other_tick_s = 0.0;          // the last one of these lengths
 };
 
 class WireOrder {

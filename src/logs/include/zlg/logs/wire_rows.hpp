@@ -26,16 +26,11 @@ enum WireFlag : std::uint32_t {
     flag_outage = 1u << 19,  // first row after more than max_lost_rows were lost: they, and their turn, are in no row
 };
 
-struct WireSummary {
+struct WireSummary : OrderSummary {
     std::uint64_t n_bytes = 0;
     std::uint64_t n_telemetry = 0;  // messages that were taken
     std::uint64_t n_status = 0;
     std::uint64_t n_replies = 0;
-    std::uint64_t n_lost_messages = 0;  // by the sequence numbers
-    std::uint64_t n_repeated = 0;       // messages that came again or too late, not taken
-    std::uint64_t n_unfitting = 0;      // that fit neither what came before them nor what came after
-    std::uint64_t n_other_tick = 0;     // of a tick of another length than that of the log, not taken
-    double other_tick_s = 0.0;          // the last such length
     std::uint64_t n_refused = 0;        // whole frames that hold what no gyro sends
     std::uint64_t n_damaged = 0;        // pieces between zeros that are no whole frame of this line's version
     std::uint64_t n_foreign = 0;        // of these: whole, but of another version

@@ -11,7 +11,7 @@
 //
 //   y_k = Om_nm + m_k (Om_0 + A (1 - exp(-t_k/tau)))
 //
-// The mean over a segment is taken with the weight u^2 (1 - u)^2, u = 0..1 along it, so that a vibration and what is left
+// The mean over a segment has the weight u^2 (1 - u)^2, u = 0..1 along it, so that a vibration and what is left
 // of a switch at its ends weigh nothing.
 
 #include <cstdint>
@@ -80,7 +80,7 @@ struct ModeRecord {
 // errors  SeriesError: lengths differ.
 [[nodiscard]] ModeSplit split_modes(const ModeRecord& record, std::int64_t settling);
 
-// Takes the magnetic part out.
+// Subtracts the magnetic part.
 void take_out_magnetic(const ModeSplit& split, std::span<const std::int8_t> mode, double rate_hz,
                        std::span<double> rates_arcsec_s);
 

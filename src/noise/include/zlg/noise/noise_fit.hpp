@@ -1,16 +1,17 @@
 #pragma once
 // The terms of a gyro's noise, found from a record of its rate.
 //
-// Sinusoids are found as lines of the spectrum and taken out. The spectrum's smooth terms are fitted to overlapped
-// Hadamard variances at octaves of tau, which a ramp does not touch, by maximum likelihood: each variance follows the
-// chi-square law with the degrees of freedom that the fitted terms give it, neighbours correlate as those terms say, and
-// both are computed, not presumed. The ramp is the slope of the rate by generalised least squares under that noise.
-// What is found is read on the Allan plot as ever; the fit does not use its points, for neighbouring averaging times of one
-// record share most of their noise and a ramp would hide in them.
+// Sinusoids are found as lines of the spectrum and subtracted. The smooth terms (IEEE Std 952, annex C) are fitted to
+// overlapped Hadamard variances at octaves of tau, to which a ramp adds nothing, by maximum likelihood: each variance
+// follows the chi-square law with the equivalent degrees of freedom that the fitted terms give it (Greenhall and Riley,
+// PTTI 2003), neighbours correlate as those terms make them, and both are computed, not presumed. The ramp is the slope
+// of the rate by generalised least squares under that noise. The result is read on the Allan plot as usual; the fit
+// does not use its points, for neighbouring averaging times of one record share most of their noise, and a ramp could
+// not be distinguished from a rate random walk in them.
 //
 // A term is reported where the data refuse to do without it: of all sets of terms the one with the least
-// -2 log likelihood + 6.6 for each coefficient is taken (a chance of 0.5 % each for one that is absent; a Markov term has
-// two). Its standard error includes that of the other terms and, for few degrees of freedom, its own uncertainty.
+// -2 log likelihood + 6.6 for each coefficient is reported (a chance of 0.5 % each for one that is absent; a Markov term
+// has two). Its standard error includes that of the other terms and, for few degrees of freedom, its own uncertainty.
 
 #include <cstdint>
 #include <limits>
@@ -54,7 +55,7 @@ struct FittedTerm {
 struct FitPoint {
     std::int64_t m = 1;
     double tau_s = 0.0;
-    double measured = 0.0;  // (arcsec/s)^2, sinusoids taken out
+    double measured = 0.0;  // (arcsec/s)^2, without the sinusoids
     double fitted = 0.0;
     double degrees = 0.0;  // of freedom, by the fitted terms
 };
@@ -67,8 +68,9 @@ struct NoiseFit {
     double chi2 = 0.0;
     std::int64_t dof = 0;
     double probability = 1.0;
-    // Real records are more than these terms. Where chance alone does not explain what is left (probability below 0.001), each
-    // variance is allowed this relative error beside chance, as little as it takes: 0, 0.02, 0.05, 0.1, 0.2.
+    // Real records are more than these terms. Where chance alone does not explain what is left (probability below
+    // 0.001), each variance is allowed this relative error beside chance, the least that suffices: 0, 0.02, 0.05, 0.1,
+    // 0.2.
     double model_error = 0.0;
     // False where that is not enough: the gyro was moved, or has noise of another kind. The standard errors are then
     // multiplied by sqrt(chi2/dof), and limits are not given.
@@ -88,7 +90,7 @@ struct NoiseFitOptions {
 // Rates in arcsec/s over each interval, NaN where missing. Of phase one fewer than samples.
 [[nodiscard]] std::vector<double> rates_arcsec_s(const deviations::Series& series);
 
-// The same of such rates, out of which the sinusoids that are found are taken.
+// The same of such rates, from which the sinusoids that are found are subtracted.
 [[nodiscard]] NoiseFit fit_noise_in_place(std::span<double> rates_arcsec_s, double rate_hz,
                                           const NoiseFitOptions& options = {});
 

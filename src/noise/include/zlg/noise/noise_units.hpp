@@ -2,7 +2,7 @@
 // Noise as data sheets, processors and other tools write it: see docs/noise.md.
 //
 // Continuous forms are spectra, and do not depend on a sampling rate; discrete forms are what one sample of a given rate
-// has. They differ in number and in unit, so the names say which is which.
+// has. They differ in number and in unit, and so do their names.
 
 #include <zlg/noise/noise_terms.hpp>
 
@@ -20,9 +20,6 @@ struct DataSheet {
 [[nodiscard]] DataSheet data_sheet(const NoiseTerms& terms);
 [[nodiscard]] NoiseTerms terms_of(const DataSheet& sheet);
 
-// The floor of the Allan deviation over B: sqrt(2 ln2/pi).
-[[nodiscard]] double floor_over_instability();
-
 // Of one sample at a rate.
 struct DiscreteNoise {
     double white_rate_arcsec_s = 0.0;          // standard deviation of the rate's white part: N sqrt(rate)
@@ -37,10 +34,6 @@ struct DiscreteNoise {
 // errors  SeriesError: rate not positive.
 [[nodiscard]] DiscreteNoise discrete_noise(const NoiseTerms& terms, double rate_hz);
 
-// N and K from what a processor's model has at a rate.
-[[nodiscard]] double angle_random_walk_of(double white_rate_arcsec_s, double rate_hz);
-[[nodiscard]] double rate_random_walk_of(double walk_step_arcsec_s, double rate_hz);
-
 // The gyro's part of Kalibr's imu.yaml, both continuous.
 struct KalibrGyro {
     double noise_density_rad_s_sqrt_hz = 0.0;  // gyroscope_noise_density: N
@@ -49,7 +42,7 @@ struct KalibrGyro {
     bool random_walk_is_limit = false;         // none was found: no more than this
 };
 
-// Kalibr knows two terms; the others are lost.
+// Kalibr's model has two terms; the others are lost.
 [[nodiscard]] KalibrGyro kalibr_gyro(const NoiseTerms& terms, double rate_hz);
 [[nodiscard]] NoiseTerms terms_of(const KalibrGyro& gyro);
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <cstdint>
 #include <limits>
 
 namespace zlg::numeric {

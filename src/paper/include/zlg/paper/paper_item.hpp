@@ -18,7 +18,7 @@ struct PaperItem {
 
 enum class Verdict { agrees, misprint, wrong, not_supported };
 
-// Something that the paper says, and what became of it.
+// A statement of the paper, and the result of its check.
 struct Claim {
     std::string where;  // equation, figure or section
     std::string claim;  // in our words

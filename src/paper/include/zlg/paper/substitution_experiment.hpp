@@ -21,9 +21,18 @@
 
 namespace zlg::paper {
 
-// One fit of one experiment: measured, standard error, theory. "extremum" and "crossing" are the errors of motion, less
-// noise, at a switch with an extremum (phase pi/2) and with a rising zero crossing (phase 0) of the rate in the middle of
-// the gap. At a constant rate "extremum" is the error at the highest rate; "crossing" is then 0 with standard error 0.
+// One number of a fit: measured, standard error (0 where there is none), theory.
+struct Component {
+    double arcsec = 0.0;
+    double error = 0.0;
+    double theory = 0.0;
+
+    friend bool operator==(const Component&, const Component&) = default;
+};
+
+// One fit of one experiment. "extremum" and "crossing" are the errors of motion, less noise, at a switch with an extremum
+// (phase pi/2) and with a rising zero crossing (phase 0) of the rate in the middle of the gap. At a constant rate "extremum"
+// is the error at the highest rate; "crossing" is then 0 with standard error 0.
 struct SubstitutionPoint {
     design::Fit fit = design::Fit::interpolation;  // extrapolation: what is delivered in real time
     int order = 0;
@@ -32,20 +41,11 @@ struct SubstitutionPoint {
     double amplitude_arcsec_s = 0.0;
     int switches = 0;
 
-    double extremum_arcsec = 0.0;
-    double extremum_error = 0.0;
-    double extremum_theory = 0.0;
-    double crossing_arcsec = 0.0;
-    double crossing_error = 0.0;
-    double crossing_theory = 0.0;
-    double mean_arcsec = 0.0;  // of the noise: its theory is the drift that the substituted ticks take over
-    double mean_error = 0.0;
-    double mean_theory = 0.0;
-    double noise_arcsec = 0.0;  // standard deviation about the regression
-    double noise_theory = 0.0;
-    double rms_arcsec = 0.0;  // of all errors, motion and noise
-    double rms_error = 0.0;
-    double rms_theory = 0.0;
+    Component extremum{};
+    Component crossing{};
+    Component mean{};   // of the noise: its theory is the drift that passes through the fit into the substituted ticks
+    Component noise{};  // standard deviation about the regression
+    Component rms{};    // of all errors, motion and noise
 
     friend bool operator==(const SubstitutionPoint&, const SubstitutionPoint&) = default;
 };

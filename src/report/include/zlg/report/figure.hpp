@@ -11,9 +11,9 @@ enum class Mark { line, points, steps, bars };
 
 struct Series {
     std::string name;
-    std::vector<double> x;
-    std::vector<double> y;
-    std::vector<double> y_error;  // empty, or one half-length of the error bar per point
+    std::vector<double> x{};
+    std::vector<double> y{};
+    std::vector<double> y_error{};  // empty, or one half-length of the error bar per point
     Mark mark = Mark::line;
     bool dashed = false;
     int colour = -1;                     // that of the series with this index, and its marker; -1: its own
@@ -33,8 +33,8 @@ struct Figure {
     std::string caption;  // what the reader sees and what it means; plain text
     std::string x_label;  // quantity, unit
     std::string y_label;
-    std::vector<Series> series;
-    std::vector<Band> bands;
+    std::vector<Series> series{};
+    std::vector<Band> bands{};
     bool log_x = false;
     bool log_y = false;
 };

@@ -5,7 +5,7 @@
 
 namespace zlg::rig {
 
-// What the processor is told, and how well that describes the laser.
+// The constants that the processor is given, and how well they describe the laser.
 struct LaserCalibration {
     config::Config config;
     double third_wave_lambda = 0.0;          // detuning from which a third wave bends the discriminator

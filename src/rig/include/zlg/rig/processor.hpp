@@ -29,7 +29,7 @@ public:
     // One half-period: control, and compensation of its record.
     virtual ProcessorHalf half(const core::SensorFrame& frame) = 0;
 
-    // One more report of the angle that is owed at the end, at each call, until there is none.
+    // One more report of the angle that is outstanding at the end, at each call, until there is none.
     virtual core::DrainOutput drain() = 0;
 };
 

@@ -2,7 +2,6 @@
 // From one configuration to the parameters of each part, so that twin and core agree by construction.
 
 #include <cstdint>
-#include <string>
 
 #include <zlg/config/config.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
@@ -15,8 +14,6 @@ namespace zlg::rig {
 
 using twin::timer_hz;
 
-inline constexpr double default_duration_s = 3600.0;  // of a run whose motion has no end
-
 // errors  logs::IoError, logs::FormatError for a motion file.
 [[nodiscard]] twin::Motion motion(const config::Config& config);
 
@@ -25,6 +22,7 @@ inline constexpr double default_duration_s = 3600.0;  // of a run whose motion h
 // errors  config::ConfigError where the run is longer than the motion file or shorter than a tick.
 [[nodiscard]] std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion);
 
+// errors  config::ConfigError: what `config::check` says, and faults that do not fit the run.
 [[nodiscard]] twin::TwinConfig twin_config(const config::Config& config);
 
 // From what a slope alone has read of a signal to the detuning at which [perimeter] says that the signal was found; the
@@ -38,10 +36,6 @@ inline constexpr double default_duration_s = 3600.0;  // of a run whose motion h
 [[nodiscard]] core::GyroControlConfig control_config(const config::Config& config);
 [[nodiscard]] core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
                                                                core::BridgeMethod bridge);
-
-// The message, and where it names no key that differs from its default, those that do: of a rule between several keys, the one
-// that was set may be another than the one that the rule is about.
-[[nodiscard]] std::string named(const config::Config& config, const std::string& message);
 
 // A configuration whose gyro stays in its first mode.
 [[nodiscard]] config::Config without_switching(config::Config config);

@@ -65,7 +65,7 @@ struct AxisResult {
     std::vector<Readout> readouts;
     std::optional<noise::ModeSplit> modes;
     std::vector<deviations::DeviationCurve> mode_curves;  // mode +1, mode -1, with the magnetic part taken out
-    std::vector<TimeBin> course;
+    std::vector<TimeBin> time_bins;
     std::vector<Gap> gaps;  // the first `max_gaps`
     noise::Spectrum spectrum;
     noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any

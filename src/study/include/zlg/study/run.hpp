@@ -3,43 +3,21 @@
 //
 // All compensations take the records of ONE run of the twin, so they differ by nothing but the method.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <zlg/config/config.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/rig/processor.hpp>
 #include <zlg/rig/switch_count.hpp>
-#include <zlg/study/switch_window.hpp>
+#include <zlg/study/switch_table.hpp>
 #include <zlg/study/variant.hpp>
 
 namespace zlg::study {
-
-struct VariantResult {
-    std::string name;
-    double drift_arcsec_s = 0.0;      // least-squares slope of the angle error over the run
-    double angle_error_arcsec = 0.0;  // at the end
-    std::optional<SwitchStatistics> switch_error;
-    std::vector<SwitchError> switches;
-    Curve curve;
-};
-
-// One line of the table of switches.
-struct SwitchLine {
-    std::int64_t tick = 0;     // first of the gap
-    int mode = 1;              // after the switch
-    double miss_lambda = 0.0;  // mean detuning of the first half with the loop closed; NaN where unknown
-    double half_wave_v = 0.0;  // estimate after this switch, and its standard deviation
-    double half_wave_sigma_v = 0.0;
-    std::int64_t gap_ticks = 0;
-    double dp_arcsec = 0.0;          // eq (16)
-    double relock_arcsec = 0.0;      // false angle subtracted
-    double sigma_arcsec = 0.0;       // of the gap's final angle
-    double true_error_arcsec = 0.0;  // NaN where the run ended before the re-lock did
-};
 
 struct RunResult {
     double tick_s = 0.0;
@@ -49,8 +27,16 @@ struct RunResult {
     std::vector<MagnifiedTick> magnified;
     // True false drift on ticks 1, 2, ... after the loop is closed, averaged over the switches with their sign, deg/h.
     std::vector<double> relock_false_drift_deg_h;
-    rig::SwitchTally tally;             // of what the control tried
+    rig::SwitchTally tally;  // of what the control tried
+    // By phase: measured ticks whose end was read as a whole count, and those of them with health_fringe_lost.
+    std::int64_t whole_count_ticks = 0, fringe_lost_ticks = 0;
     std::vector<std::string> warnings;  // what a reader of the figures must know of the configuration
+
+    // Null where there is none of this name.
+    [[nodiscard]] const VariantResult* variant(std::string_view name) const {
+        const auto found = std::ranges::find(variants, name, &VariantResult::name);
+        return found == variants.end() ? nullptr : &*found;
+    }
 };
 
 struct RunTask {

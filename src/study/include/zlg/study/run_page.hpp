@@ -9,4 +9,7 @@ namespace zlg::study {
 
 [[nodiscard]] report::Page run_page(const config::Config& config, const RunResult& result);
 
+// The error of its angle over the time.
+[[nodiscard]] report::Series curve_of(const VariantResult& variant, std::string name);
+
 }  // namespace zlg::study

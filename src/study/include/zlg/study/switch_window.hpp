@@ -16,6 +16,7 @@ struct SwitchWindow {
     std::int64_t last_tick = 0;   // of the re-lock; cut short by the next gap
     int sign_after = 1;           // bias_sign * mode in the first half after the gap
     int mode_after = 1;
+    double miss_lambda = 0.0;  // mean detuning of the first half with the loop closed; NaN where it is not known
 
     [[nodiscard]] bool gap_is_over() const { return n_ticks > 0; }
 };
@@ -50,6 +51,7 @@ private:
     std::int64_t relock_ticks_;
     std::deque<SwitchWindow> windows_;
     bool in_gap_ = false;
+    bool was_open_ = false;  // the loop, in the half before
     bool measured_before_ = false;
     int mode_before_ = 0;
 };

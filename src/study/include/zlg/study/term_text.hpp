@@ -1,9 +1,11 @@
 #pragma once
-// A fitted term in the unit in which gyros are specified.
+// Estimates as text, and a fitted term in the unit in which gyros are specified.
 
 #include <string>
+#include <string_view>
 
 #include <zlg/noise/noise_fit.hpp>
+#include <zlg/numeric/estimate.hpp>
 
 namespace zlg::study {
 
@@ -18,6 +20,9 @@ struct ShownTerm {
 
 // "0.00234 +- 0.00002 deg/sqrt(h)", "below 0.03 deg/h", "not found"
 [[nodiscard]] std::string value_text(const noise::FittedTerm& term);
+
+// "0.120 +- 0.013 deg/h", "not determined: the gyro is not switched"
+[[nodiscard]] std::string value_text(const numeric::Estimate& estimate, std::string_view unit);
 
 // The value with as many digits as its error allows.
 [[nodiscard]] std::string with_error(double value, double sigma);

@@ -21,11 +21,12 @@ namespace zlg::study {
 // with r the rounding of the counter, counter less phase, at the end of the tick before the gap and of the last tick: the
 // next ticks give the latter back, and the former is part of the final angle before. Both edges of the gap keep theirs.
 // m Om is the magnetic drift in the mode m of a measured tick. In the gap it counts as nothing: the mean of the modes
-// before and after. The random walk of these ticks is not known to anyone and stays in. docs/accuracy.md has the same.
+// before and after. The random walk of these ticks is not known to anyone and stays in. docs/accuracy_campaign.md has the same.
 struct SwitchError {
     SwitchWindow window;
     double error_arcsec = 0.0;
     double relock_arcsec = 0.0;  // that was subtracted
+    bool unrepaired = false;     // the gap was too long for the bridge, or had no points: sigma is not known
 };
 
 // Mean after multiplication by the sign of the false drift, which alternates.
@@ -35,7 +36,7 @@ struct SwitchStatistics {
     double max_arcsec = 0.0;
 };
 
-// nullopt without a switch.
+// Of those whose gap was repaired: nullopt without one.
 [[nodiscard]] std::optional<SwitchStatistics> statistics(const std::vector<SwitchError>& errors);
 
 // Least-squares slope of the angle error over time, without keeping the points.
@@ -94,6 +95,18 @@ private:
     double rounding_before_arcsec_ = 0.0;
     std::optional<SwitchError> current_;
     std::vector<SwitchError> done_;
+};
+
+// What one compensation of a run gave.
+struct VariantResult {
+    std::string name;
+    std::string meaning;              // in words
+    double drift_arcsec_s = 0.0;      // least-squares slope of the angle error over the run
+    double angle_error_arcsec = 0.0;  // at the end
+    std::optional<SwitchStatistics> switch_error;
+    std::int64_t unrepaired = 0;  // switches that are not in it
+    std::vector<SwitchError> switches;
+    Curve curve;
 };
 
 }  // namespace zlg::study

@@ -1,5 +1,5 @@
 #pragma once
-// What the averaged twin is told of the laser, derived from the four-wave equations.
+// The numbers by which the averaged twin describes the laser, derived from the four-wave equations.
 
 #include <zlg/twin/four_wave.hpp>
 

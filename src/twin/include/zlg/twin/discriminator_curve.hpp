@@ -6,7 +6,6 @@
 // A grows faster than dl and turns where the light runs one way, or where the next mode takes over. Up to there, and on
 // the other side likewise, dl(A) is single-valued. In the zone of four waves A is nearly flat.
 
-#include <cstddef>
 #include <vector>
 
 #include <zlg/twin/four_wave.hpp>
@@ -24,7 +23,7 @@ struct DiscriminatorCurve {
     // signal  finite.
     [[nodiscard]] double detuning_of(double signal_ratio) const;
 
-    // Detuning is told apart only between these: one curve is no cure beyond them.
+    // Between these the curve is monotonic, so that a reading has one detuning; beyond them it has several.
     [[nodiscard]] double min_detuning_lambda() const { return detuning_lambda.front(); }
     [[nodiscard]] double max_detuning_lambda() const { return detuning_lambda.back(); }
 };

@@ -38,6 +38,8 @@ enum class FaultKind : unsigned char {
     overspeed,      // the case turns faster, by size arcsec/s at half of the time
 };
 
+inline constexpr double default_vibration_hz = 170.0;
+
 // What a fault acts on. The exponential loop is a formula that knows none of the first three.
 enum class FaultActs { light, length, loop, elsewhere };
 

@@ -1,7 +1,12 @@
 #pragma once
-// What the laser of a gyro is made of: cavity, gas, field, mirrors and counter.
+// The section [laser] of a configuration: cavity, gas, field, mirrors and counter of a gyro of fidelity `laser`.
 
 namespace zlg::twin {
+
+// The counter of both detectors, which are a quarter of a turn of the beat apart: counts a turn.
+enum class Quadrature { x1, x4 };
+
+[[nodiscard]] constexpr int counts_per_turn(Quadrature quadrature) { return quadrature == Quadrature::x4 ? 4 : 1; }
 
 // Neon of two isotopes at 632.8 nm in a non-planar ring, whose modes of opposite helicity lie half a free spectral
 // range apart. Each default is that of a gyro with a perimeter of 16 cm.
@@ -15,26 +20,25 @@ struct LaserConfig {
     double isotope_shift_hz = 885e6;           // between the two line centres; detuning counts from midway
     double upper_isotope_ratio = 0.5;          // share of the isotope with the higher frequency, neon 22
 
-    double zeeman_hz_per_g = 1.82e6;       // shift of one circular component
-    double opposite_sigma_coupling = 0.6;  // cross-saturation of waves on opposite components; same component: 1
-    double bias_field_g = 15.0;            // plateau of the square bias; its sign alternates
-};
+    double zeeman_hz_per_g = 1.82e6;  // shift of one circular component
+    // Cross-saturation of waves on opposite components; same component: 1. Up to 1 the waves have one steady state; above,
+    // which of several would depend on the past.
+    double opposite_sigma_coupling = 0.6;
+    double bias_field_g = 15.0;  // plateau of the square bias; its sign alternates
 
-// What turns the light of both directions into counts.
-struct BeatConfig {
     double lock_in_left_hz = 150.0;  // beat frequency below which equal waves lock, of either helicity
     double lock_in_right_hz = 150.0;
-    double scatter_phase_rad = 0.0;     // eps: by how much the waves scattered back miss each other's phase
+    // eps: by how much the waves scattered back miss each other's phase. At a quarter of a turn equal mirrors do not lock
+    // equal waves, whatever they scatter.
+    double scatter_phase_deg = 0.0;
     double comparator_threshold = 0.1;  // in parts of the beat's amplitude at zero detuning and zero field
-    int counts_per_turn = 1;            // of the quadrature counter: 1 or 4; the scale of the twin is that of a count
+    Quadrature quadrature = Quadrature::x1;
 };
 
-// Refuse what the arithmetic cannot carry, and gas in which more than two neighbouring modes have gain.
+// Refuse members that do not make a gas: lines that no table can hold, and gain for more than two neighbouring modes. Each member
+// for itself is within the range of its key.
 //
 // errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
 void validate(const LaserConfig& config);
-
-// errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
-void validate(const BeatConfig& config);
 
 }  // namespace zlg::twin

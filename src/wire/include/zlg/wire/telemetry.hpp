@@ -78,7 +78,7 @@ struct TickReport {
 [[nodiscard]] Telemetry telemetry_of(TelemetryState& state, const core::AngleRow& row,
                                      const TickReport& report) noexcept;
 
-// Ticks that are not told: their sums are part of the next message. `of_them` was all zeros before the first of them.
+// Ticks without a message of their own: their sums are part of the next message. `of_them` was all zeros before the first of them.
 void skip(TelemetryState& state, const TelemetryState& of_them) noexcept;
 
 [[nodiscard]] Frame frame_of(Sender& sender, const Telemetry& telemetry) noexcept;

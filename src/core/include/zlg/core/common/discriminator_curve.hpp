@@ -3,10 +3,10 @@
 //
 //   apparent = signal / K        detuning = F(apparent)        F monotone, F(0) = 0
 //
-// The discriminator of a laser is expansive: at 0.2 wavelength its signal is several times that of the linear law. F is a
-// table through the origin with a monotone cubic between its nodes: of one side, and odd, or of both, which unequal isotopes
-// make unlike. The same table holds a calibration of the bias deficit G(apparent) = (f0 - f)/f0: its detuning is the one of
-// which chi (dl - centre)^2 is that deficit.
+// The discriminator of a laser is expansive: at 0.2 wavelength its signal is several times that of the linear law. F is
+// a table through the origin with a monotone cubic between its nodes: of one side, and odd, or of both, which unequal
+// isotopes make unlike. The same table holds a calibration of the bias deficit G(apparent) = (f0 - f)/f0: its detuning
+// is the one of which chi (dl - centre)^2 is that deficit.
 
 #include <array>
 #include <cstddef>
@@ -84,7 +84,8 @@ struct CurvePoint {
     double slope = 1.0;
 };
 
-// F and its slope. Beyond the outermost nodes F stays at its value there: such light is not of this mode. NaN gives NaN.
+// F and its slope. Beyond the outermost nodes F stays at its value there: such light is not of this mode. NaN gives
+// NaN.
 //
 // curve  passed `check`.
 // cost   about 10 ns.
@@ -100,8 +101,8 @@ struct TrueMoments {
     double slope = 1.0;            // by which light noise grows
 };
 
-// The motion within the half is taken for two equal groups of samples, one standard deviation off the mean on either
-// side: right for moments up to the second, to third order in the motion for F.
+// The motion within the half is represented by two equal groups of samples, one standard deviation off the mean on
+// either side: right for moments up to the second, to third order in the motion for F.
 //
 // noise_sq_lambda2  variance of one sample, part of mean_sq_lambda2.
 [[nodiscard]] TrueMoments true_moments(const DiscriminatorCurve& curve, double mean_lambda, double mean_sq_lambda2,

@@ -1,18 +1,7 @@
 #pragma once
 // Elementary functions that give the same bits on every machine: additions, multiplications and divisions only.
 
-#include <cstddef>
-#include <cstdint>
-
 namespace zlg::core {
-
-// A whole number, rounded once. In two parts where no instruction takes 64 bits: the sum is what rounds.
-[[nodiscard]] constexpr double as_double(std::int64_t x) noexcept {
-    if constexpr (sizeof(std::size_t) >= sizeof(x)) return static_cast<double>(x);
-    const auto high = static_cast<std::int32_t>(x >> 32);
-    const auto low = static_cast<std::uint32_t>(x);
-    return high * 0x1p32 + low;
-}
 
 // A NaN or an infinity is not finite.
 [[nodiscard]] constexpr bool is_finite(double x) noexcept { return __builtin_isfinite(x); }
@@ -27,5 +16,9 @@ inline constexpr double infinity = __builtin_huge_val();
 
 // Exponential. accuracy 2 units in the last place; 0 below -708, infinity above 709.
 [[nodiscard]] double exponential(double x) noexcept;
+
+// Angle of the vector (x, y) from the x axis, in turns, 0..1; 0 of the zero vector. accuracy 1e-9 turns for finite x, y
+// whose larger one is at least 1e-300 in size.
+[[nodiscard]] double turns_of(double x, double y) noexcept;
 
 }  // namespace zlg::core

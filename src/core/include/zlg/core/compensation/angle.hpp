@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/as_double.hpp>
 
 namespace zlg::core {
 
@@ -26,21 +26,26 @@ struct ExactSum {
     [[nodiscard]] constexpr double value() const noexcept { return high + low; }
 };
 
-// The angle since the start. A measured tick adds its counts; only what differs from scale * counts, such as a
+// The angle since the start. A measured tick adds its counts and parts of a count; only what differs from scale * counts, such as a
 // correction or a bridged tick, enters the remainder. A gyro that measures for a month without a switch has a remainder
 // of zero.
-struct Angle {
+class Angle {
+public:
     std::int64_t counts = 0;
+    std::int32_t parts = 0;  // of a count beyond them: 1/65536, 0..65535
     ExactSum remainder_arcsec{};
 
     friend constexpr bool operator==(const Angle&, const Angle&) = default;
 
-    // Add the increment `dtheta_arcsec` of a tick, of which scale_arcsec * tick_counts comes from the counter.
-    constexpr void add(std::int64_t tick_counts, double scale_arcsec, double dtheta_arcsec) noexcept {
+    // Add the increment `dtheta_arcsec` of a tick, of which scale_arcsec * (tick_counts + tick_parts/65536) comes from the
+    // counter, |tick_parts| below 65536.
+    constexpr void add(std::int64_t tick_counts, double scale_arcsec, double dtheta_arcsec,
+                       std::int32_t tick_parts = 0) noexcept {
         // Unsigned, so that even a wild sum of counts wraps instead of being undefined.
         counts =
             static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) + static_cast<std::uint64_t>(tick_counts));
-        const double counted_arcsec = scale_arcsec * as_double(tick_counts);
+        if (tick_parts != 0) add_parts(tick_parts);
+        const double counted_arcsec = scale_arcsec * (as_double(tick_counts) + tick_parts / 65536.0);
         if (dtheta_arcsec == counted_arcsec) return;
         remainder_arcsec.add(dtheta_arcsec);
         remainder_arcsec.add(-counted_arcsec);
@@ -48,7 +53,15 @@ struct Angle {
 
     // accuracy  one rounding of the result.
     [[nodiscard]] constexpr double value_arcsec(double scale_arcsec) const noexcept {
-        return scale_arcsec * as_double(counts) + remainder_arcsec.value();
+        return scale_arcsec * (as_double(counts) + parts / 65536.0) + remainder_arcsec.value();
+    }
+
+private:
+    constexpr void add_parts(std::int32_t more) noexcept {
+        const std::int32_t sum = parts + more;
+        parts = sum & 0xffff;
+        counts = static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) +
+                                           static_cast<std::uint64_t>(std::int64_t{sum >> 16}));
     }
 };
 

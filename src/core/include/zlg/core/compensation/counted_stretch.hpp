@@ -2,14 +2,16 @@
 // The counted angle of ticks that were not measured one by one: halves without a reading, and the half whose counts go
 // over all of them.
 //
-//   sum over ticks a..b = K (c - f/timer * sum of bias_sign * mode * d) - x_b + x_(a-1)
+//   sum over ticks a..b = K (c + p - f/timer * sum of bias_sign * mode * d) - x_b + x_(a-1)
 //
-// c are all counts from the last reading before tick a to the one that ends tick b; what shifted edges add (d, x) is that
-// of edge_shift.hpp. A tick has one half of each bias sign, so the bias cancels in whole ticks, where the loop was closed
-// in one mode.
+// c are all counts from the last reading before tick a to the one that ends tick b, p what the places within the count
+// differ by at these two borders; what shifted edges add (d, x) is
+// that of edge_shift.hpp. A tick has one half of each bias sign, so the bias cancels in whole ticks, where the loop was
+// closed in one mode.
 
 #include <cstdint>
 
+#include <zlg/core/compensation/border.hpp>
 #include <zlg/core/compensation/edge_shift.hpp>
 #include <zlg/core/records.hpp>
 
@@ -29,6 +31,7 @@ struct CountedStretchState {
     std::int32_t start_ticks = 0;  // shift of the reversal that begins the stretch,
     bool start_known = false;      // and x there
     double start_arcsec = 0.0;
+    Border start_border{};
 
     friend bool operator==(const CountedStretchState&, const CountedStretchState&) = default;
 };
@@ -36,16 +39,19 @@ struct CountedStretchState {
 struct CountedStretch {
     std::int64_t n_ticks = 0;  // that end now; 0: nothing is known
     double angle_arcsec = 0.0;
+    Border start_border{};  // its last one is that of the tick
     double fall_lambda2 =
         0.0;  // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
 };
 
-// Take a tick that was not measured.
+// Add a tick that was not measured.
 //
-// edges  those of the ticks before. They are put right for the next tick where a stretch ends.
-[[nodiscard]] CountedStretch step(const EdgeShiftConfig& config, CountedStretchState& state, const HalfRecord& first,
-                                  const HalfRecord& second, Hertz bias, const EdgeShiftState& edges_before,
-                                  EdgeShiftState& edges) noexcept;
+// edges         those of the ticks before. They are put right for the next tick where a stretch ends.
+// start_border  of the tick.
+[[nodiscard]] CountedStretch step(const CompensationConstants& gyro, CountedStretchState& state,
+                                  const HalfRecord& first, const HalfRecord& second, Hertz bias,
+                                  const EdgeShiftState& edges_before, EdgeShiftState& edges,
+                                  const Border& start_border = {}) noexcept;
 
 // A measured tick: all begins anew.
 //

@@ -9,39 +9,29 @@
 //   r = (c - A)/(T + (e_2 - e_0)/timer)                 rate
 //   P = K (c - A) - x + x_before,  x = K (r + (r - r_before)/2) e_2/timer
 //
-// x is the rotation between the even and the shifted end of the tick, at the rate expected there. The next tick gets back
-// the very x that this one gives away, so that the sum of all P is that of the counts, less the area.
+// x is the rotation between the even and the shifted end of the tick, at the rate expected there. The next tick gets
+// back the very x that this one gives away, so that the sum of all P is that of the counts, less the area.
 
 #include <cstdint>
 
 #include <zlg/core/compensation/angle.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/units.hpp>
 
 namespace zlg::core {
 
-struct EdgeShiftConfig {
-    Hertz timer{1e7};            // 1..1e15
-    double plateau_ratio = 1.0;  // plateau of the bias over its mean in an even half, 1..2: 1/(1 - t_e/T), linear edges
-    Seconds tick{0.005};         // T, > 0
-    Arcsec scale{3.263};         // K, > 0
-};
-
-enum class EdgeShiftFault : unsigned char { none, timer, plateau_ratio, tick, scale };
-
-[[nodiscard]] EdgeShiftFault check(const EdgeShiftConfig& config) noexcept;
-
 // A shift that leaves both halves beside it some time: less than a quarter of a tick.
-[[nodiscard]] bool is_possible(const EdgeShiftConfig& config, std::int32_t edge_offset_ticks) noexcept;
+[[nodiscard]] bool is_possible(const CompensationConstants& gyro, std::int32_t edge_offset_ticks) noexcept;
 
-// Counts that the bias makes in one tick of the timer, on its plateau. f0 is taken for 0 from 1e15 on.
-[[nodiscard]] double plateau_per_tick(const EdgeShiftConfig& config, Hertz bias) noexcept;
+// Counts that the bias makes in one tick of the timer, on its plateau. f0 counts as 0 from 1e15 on.
+[[nodiscard]] double plateau_per_tick(const CompensationConstants& gyro, Hertz bias) noexcept;
 
 struct EdgeShiftState {
     std::int32_t offset_ticks = 0;  // of the last reversal
     bool follows = false;           // the tick before is measured, its two numbers are known:
     double turn_counts = 0.0;       // r T
     double beyond_arcsec = 0.0;     // x
-    ExactSum left_arcsec{};         // by the rounding of P: part of the next
+    ExactSum residual_arcsec{};     // rounding residual of P, added to the next P
 
     friend bool operator==(const EdgeShiftState&, const EdgeShiftState&) = default;
 };
@@ -49,11 +39,12 @@ struct EdgeShiftState {
 // One tick, its halves in order of time.
 struct EdgeShiftInput {
     std::int64_t counts = 0;  // of both halves
+    std::int32_t parts = 0;   // of a count beyond them: 1/65536
     int sign_first = 1;       // bias_sign * mode
     int sign_second = -1;
     std::int32_t offset_middle_ticks = 0;  // of the reversal that ends the first half; possible
     std::int32_t offset_end_ticks = 0;     // of the one that ends the second
-    Hertz bias{60e3};                      // f0, mean over an even half; taken for 0 from 1e15 on
+    Hertz bias{60e3};                      // f0, mean over an even half; counts as 0 from 1e15 on
 };
 
 struct EdgeShiftOutput {
@@ -61,11 +52,11 @@ struct EdgeShiftOutput {
     double known_excess_counts = 0.0;  // of the first half over the second by what they differ in length
 };
 
-// config  passed `check`.
-[[nodiscard]] EdgeShiftOutput step(const EdgeShiftConfig& config, EdgeShiftState& state,
+// gyro  passed `check`.
+[[nodiscard]] EdgeShiftOutput step(const CompensationConstants& gyro, EdgeShiftState& state,
                                    const EdgeShiftInput& input) noexcept;
 
-// The tick before was not measured: the next one takes its own rate for the time between its even and its shifted start.
+// The tick before was not measured: the next one uses its own rate for the time between its even and its shifted start.
 void break_off(EdgeShiftState& state) noexcept;
 
 }  // namespace zlg::core

@@ -1,11 +1,14 @@
 #pragma once
-// All that the gap bridge remembers.
+// State of the gap bridge.
 
 #include <array>
 #include <cstdint>
 
 #include <zlg/core/compensation/angle.hpp>
+#include <zlg/core/compensation/gap_mixture.hpp>
+#include <zlg/core/compensation/gap_tick.hpp>
 #include <zlg/core/compensation/joint_relock.hpp>
+#include <zlg/core/compensation/lit_halves.hpp>
 #include <zlg/core/compensation/motion_learning.hpp>
 #include <zlg/core/compensation/optimal_bridge.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
@@ -18,32 +21,19 @@ inline constexpr int max_points = 8;         // on each side
 inline constexpr int max_pending_gaps = 12;  // gaps that wait for the ticks after them
 inline constexpr int history_ticks = 64;
 
-struct HistoryTick {
-    AngleRow row{};
-    double variance_arcsec2 = 0.0;
-    double relock_variance_arcsec2 = 0.0;  // of the re-lock correction, a part of the variance
-    double half_excess_arcsec = 0.0;       // first half over the second, without the bias
-    std::int8_t sign = 1;                  // of the bias in its first half
-    bool measured = false;
-    std::int64_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
-    double known_arcsec = 0.0;
-
-    friend bool operator==(const HistoryTick&, const HistoryTick&) = default;
-};
-
 // Where a gap lies.
 struct Gap {
     bool has_before = false;  // a measured tick precedes it
     std::int8_t mode_before = 1;
     std::int64_t first_tick = 0, n = 0;       // n: ticks so far
-    ExactSum final_minus_delivered_arcsec{};  // of one that is too long: what its ticks lack
+    ExactSum final_minus_delivered_arcsec{};  // of a gap that is too long
     std::int64_t known_ticks = 0;             // whose sums are known
     double known_variance_arcsec2 = 0.0;      // of all these together
 
     friend bool operator==(const Gap&, const Gap&) = default;
 };
 
-// The gap that lasts, and its extrapolation.
+// The present gap, and its extrapolation.
 struct OpenGap {
     bool open = false, lower_order = false;
     Gap gap{};
@@ -55,18 +45,18 @@ struct OpenGap {
     friend bool operator==(const OpenGap&, const OpenGap&) = default;
 };
 
-// A gap that is over and waits for the ticks after it, and then for a tick to carry its correction.
+// A gap that is over and waits for the ticks after it, and then for the tick in which its correction is due.
 struct PendingGap {
     Gap gap{};
     std::int64_t due_tick = 0;
     std::int8_t sign_after = 1, mode_after = 1;
     bool resolved = false;
-    ExactSum lump_arcsec{};  // final minus delivered, of all that this gap made uncertain
+    ExactSum correction_arcsec{};  // pending: final minus delivered, of the gap and of the ticks that it amended
 
     friend bool operator==(const PendingGap&, const PendingGap&) = default;
 };
 
-// The gap that lasts, as far as the covariance of the motion predicts it.
+// The present gap, as the covariance of the motion predicts it.
 struct GapPrediction {
     std::int64_t first_tick = -1;  // of the gap; -1: of none
     std::array<double, max_gap_ticks> value_arcsec{};
@@ -88,12 +78,17 @@ struct EstimatedGap {
     std::int64_t first_tick = -1;  // -1: of none
     std::int64_t end_tick = 0;     // the first one after it
     int n_tried = 0;               // points that were added, or found not to be measured
+    bool learnt = true;            // the motion was known when the problem began
+    int n_after = 0;               // ticks after the gap that may be points; before it: problem.n_side
     bool solving = false;
     GapProblem problem{};
+    LitHalvesState lit{};                           // of the gap; points of half-ticks, too
     std::array<std::int8_t, max_unknowns> index{};  // of those that were added, in order of time with the missing ones
     Column relock_variance_arcsec2{};               // of ticks
     GapData data{};
     GapSolution solution{};
+    bool mixing = false;  // the mixture has its points
+    GapMixture mixture{};
 
     friend bool operator==(const EstimatedGap&, const EstimatedGap&) = default;
 };
@@ -106,14 +101,30 @@ struct GapBridgeState {
     MotionLearningState learning{};
     GapPrediction prediction{};
     EstimatedGap estimate{};
-    JointRelock
-        joint{};  // of the gap that ended last, put here once it is known or given up, before that gap is resolved
+    // Of the gap that ended last: put here once it is known or given up, before that gap is resolved.
+    JointRelock joint{};
+    LitHalvesState lit{};  // of the gap that lasts or ended last
     BiasScale bias_scale{};
-    double bias_arcsec = 0.0;  // what a positive bias adds to a half; of half-ticks alone
-    ExactSum carry_arcsec{};   // what rounding left of the corrections so far
+    double relock_to_come_arcsec2 = 0.0;  // variance of the re-lock corrections still to come
+    double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
+    ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
     std::array<HistoryTick, history_ticks> history{};
 
     friend bool operator==(const GapBridgeState&, const GapBridgeState&) = default;
 };
+
+[[nodiscard]] inline HistoryTick& at(GapBridgeState& state, std::int64_t tick) noexcept {
+    return state.history[static_cast<std::uint64_t>(tick) % history_ticks];
+}
+
+[[nodiscard]] inline const HistoryTick& at(const GapBridgeState& state, std::int64_t tick) noexcept {
+    return state.history[static_cast<std::uint64_t>(tick) % history_ticks];
+}
+
+// The profile of the detuning that was delivered last is that of the gap.
+[[nodiscard]] bool is_profile_of(const GapBridgeState& state, const Gap& gap) noexcept;
+
+// The profile that was delivered last belongs to a gap that is not yet resolved, so another one must not replace it.
+[[nodiscard]] bool needs_profile(const GapBridgeState& state) noexcept;
 
 }  // namespace zlg::core

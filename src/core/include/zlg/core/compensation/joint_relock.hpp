@@ -1,14 +1,16 @@
 #pragma once
 // The false angle of each half-tick after a gap, by the profile of the detuning.
 //
-//   y' = y + s D,  D = chi f0 K (T/2) <dl^2>     s: bias_sign * mode of the half;  K: angle per count
+//   y' = y + s D,  D = chi f0 K (T/2) m      s: bias_sign * mode of the half;  K: angle per count;  m = <dl^2>   (1)
 //
-// The errors of the profile alternate with s like the false angle itself: covariance s_k s_l (chi f0 K T/2)^2 S_kl.
+// y: half-tick as read, y': corrected, m and S: mean squares and their covariance (relock_profile.hpp). The errors of
+// the profile alternate with s like the false angle itself: covariance s_k s_l (chi f0 K T/2)^2 S_kl. The estimate of
+// the gap weighs the counts of the same half-ticks against them (optimal_bridge.hpp).
 
 #include <array>
 #include <cstdint>
 
-#include <zlg/core/compensation/relock_drift.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/compensation/relock_profile.hpp>
 #include <zlg/core/records.hpp>
 
@@ -32,17 +34,19 @@ struct JointRelockState {
     friend bool operator==(const JointRelockState&, const JointRelockState&) = default;
 };
 
-// Take one half, in order of time.
+// Add one half, in order of time.
 //
-// measured  its tick may still be one, or is.
-// tick      that it belongs to.
-void take(const RelockProfileConfig& config, JointRelockState& state, const HalfRecord& half, LightSamples light,
-          bool measured, std::int64_t tick) noexcept;
+// measured  its tick is measured, as far as this half shows.
+// tick      of the half.
+void step(const CompensationConstants& gyro, const RelockProfileConfig& config, JointRelockState& state,
+          const HalfRecord& half, LightSamples light, bool measured, std::int64_t tick) noexcept;
 
-// The profile is known, given up, or broken off by a gap, and this has not been told.
+// The profile is known, given up, or broken off by a gap, and this result is pending.
 [[nodiscard]] bool is_due(const JointRelockState& state) noexcept;
 
-// Tell it. temperature: NaN where not measured. Of a profile that is given up the numbers in `out` stay as they are.
-void tell(const RelockDriftConfig& config, JointRelockState& state, Celsius temperature, JointRelock& out) noexcept;
+// Deliver the pending result. temperature: NaN where not measured. Of a profile that is given up the numbers in `out`
+// stay as they are.
+void deliver(const CompensationConstants& gyro, JointRelockState& state, Celsius temperature,
+             JointRelock& out) noexcept;
 
 }  // namespace zlg::core

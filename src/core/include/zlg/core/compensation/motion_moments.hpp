@@ -1,14 +1,23 @@
 #pragma once
-// Second moments of the motion as the counter reads it, learnt while the loop is closed.
+// Second moments of the motion as the counter reads it, learnt while the loop is closed: the covariance method of
+// linear prediction, with the products of overlapping windows (Makhoul, Proc. IEEE 63 (1975) 561; Box and Jenkins, ch.
+// 2).
 //
-//   C_ab = sum over windows of x_a x_b,   a window: 19 consecutive usable ticks, or their 38 half-ticks
+//   C_ab = sum over windows of x_a x_b                                                                  (1)
 //
-// Neighbouring windows share their samples, so the matrix of a block of windows follows from its first rows:
+// A window is 19 consecutive usable ticks, or their 38 half-ticks, less the level. C is not forced to be Toeplitz: the
+// usual autocovariances are either not positive definite (unbiased) or wrong by the taper (biased), and five times
+// worse here. Neighbouring windows share all but s samples (s samples a tick), so the matrix of a block of windows
+// follows from its first s rows:
 //
-//   C_(a+s)(b+s) = C_ab + e_(a+s) e_(b+s) - f_a f_b,   s samples a tick, f the first and e the last window of the block
+//   C_(a+s)(b+s) = C_ab + e_(a+s) e_(b+s) - f_a f_b,   f the first and e the last window of the block     (2)
 //
-// A tick costs s rows of products instead of the whole matrix. A block that is over (100 windows, or a gap) is unfolded row by
-// row and added to two matrices that forget exponentially.
+// A tick costs s rows of products instead of the whole matrix. A block that is complete (100 windows, or a gap) is
+// unfolded by (2) row by row, while it is added to two memories M that forget exponentially,
+//
+//   M <- exp(-n/N) M + C,   n: windows of the block,   N = 500 and 3000                                   (3)
+//
+// The level, the slow mean of a tick, is an average over some 20 blocks.
 
 #include <array>
 
@@ -32,8 +41,9 @@ struct MotionMomentsConfig {
 
 // Moments about the level, forgotten exponentially.
 struct Moments {
-    double n_windows = 0.0;                                     // less what is forgotten
-    double scatter = 0.0;                                       // mean square of a tick about the mean of its window
+    double n_windows = 0.0;  // effective number: each fades as its products do, (3)
+    double by_phase = 0.0;   // part of them in which the place within the count was known
+    double scatter = 0.0;    // mean square of a tick about the mean of its window
     std::array<double, max_window*(max_window + 1) / 2> sum{};  // upper triangle by rows
 
     friend bool operator==(const Moments&, const Moments&) = default;
@@ -42,8 +52,8 @@ struct Moments {
 // A block of windows.
 struct MotionBlock {
     int n_windows = 0;
-    Window first{};
-    std::array<Window, 2> row{};  // the first rows of its matrix
+    Window first{};               // f of (2)
+    std::array<Window, 2> row{};  // the first s rows of its matrix
 
     friend bool operator==(const MotionBlock&, const MotionBlock&) = default;
 };
@@ -51,11 +61,12 @@ struct MotionBlock {
 enum MotionMemory : unsigned { fast_memory, slow_memory };  // of 500 and 3000 windows
 
 struct MotionMomentsState {
-    int n_recent = 0;    // usable samples in a row, up to a window
-    Window recent{};     // the last ones, without the level
-    double level = 0.0;  // slow mean of a tick, taken from every sample
-    double n_levels = 0.0;
-    double block_sum = 0.0;
+    bool with_phase = false;  // the places within the count have been known at the borders of all recent ticks
+    int n_recent = 0;         // usable samples in a row, up to a window
+    Window recent{};          // the last ones, less the level
+    double level = 0.0;       // slow mean of a tick, subtracted from every sample
+    double n_levels = 0.0;    // blocks in the level, up to 20
+    double block_sum = 0.0;   // sum of the last tick of each window of the block
     MotionBlock block{};
     int n_folded = 0;  // blocks so far, modulo 2^16
     std::array<Moments, 2> moments{};
@@ -74,7 +85,7 @@ struct MotionMomentsOutput {
     bool has_window = false;  // `recent` is a window that ends now
 };
 
-// Take one tick.
+// Add one tick.
 //
 // cost  19 products a tick, or 76 for halves; where a block ends, three for each of the 190, or 741, elements of the matrix
 //       and one for each memory.

@@ -6,16 +6,17 @@
 //
 //   dOm = (chi f0 / 2) (<dl^2>_second - <dl^2>_first)          [counts/s, for a bias of + in the first half]
 //
-// frequency    dOm_i = (f_i - f0) (1 - q)/(1 + q),  q^(2(i-1)) = (f_i - f0)/(f_1 - f0);  i = 1 takes the q of i = 2
+// frequency    dOm_i = (f_i - f0) (1 - q)/(1 + q),  q^(2(i-1)) = (f_i - f0)/(f_1 - f0);  i = 1 uses the q of i = 2
 // detuning     dOm = (chi f0 / 4) ln(rho) (dl_first + dl_second)^2,  rho = dl_second / dl_first  (mean detunings)
 // mean_square  the definition itself, without a model of the loop
 //
-// Where the bias is largest at a detuning c from where the loop settles, the square is that of dl - c, and `detuning` has
-// - chi f0 c (dl_second - dl_first) more. The first two assume an exponential loop, eqs (10)-(13) of the paper with its misprints corrected (docs/compensation.md).
+// Where the bias is largest at a detuning c from where the loop settles, the square is that of dl - c, and `detuning`
+// has - chi f0 c (dl_second - dl_first) more. The first two assume an exponential loop, eqs (10)-(13) of the paper with
+// its misprints corrected (docs/compensation.md).
 
 #include <cstdint>
 
-#include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/methods.hpp>
 #include <zlg/core/units.hpp>
 
@@ -23,50 +24,27 @@ namespace zlg::core {
 
 struct RelockDriftConfig {
     RelockMethod method = RelockMethod::none;
-    std::int64_t ticks = 20;                     // ticks after a gap that are corrected, >= 0
-    Seconds tick{0.005};                         // 1e-9..1e9
-    Arcsec scale{3.263};                         // per count, > 0, up to 1e9
-    Hertz bias{60e3};                            // f0 at the reference temperature, > 0, up to 1e15
-    double chi = 3.6;                            // >= 0
-    double temperature_coefficient_per_c = 0.0;  // finite
-    Celsius reference_temperature{20.0};         // finite
-    Wavelengths light_noise{0.0033};             // of one light sample, >= 0
-    int light_samples = 16;                      // a half, >= 1
-    Wavelengths centre{0.0};                     // detuning of the largest bias, +-1
-    DiscriminatorCurve curve{};                  // for detunings that the linear law has read; none: they are right
-    DiscriminatorCurve control_curve{};          // that they have come through already: it scales their noise
+    std::int64_t ticks = 20;  // ticks after a gap that are corrected, >= 0
 };
 
-enum class RelockDriftFault : unsigned char {
-    none,
-    ticks,
-    tick,
-    scale,
-    bias,
-    chi,
-    temperature,
-    light_noise,
-    light_samples,
-    centre,
-    curve
-};
+enum class RelockDriftFault : unsigned char { none, ticks };
 
-[[nodiscard]] RelockDriftFault check(const RelockDriftConfig& config) noexcept;
-
-// f0 at a temperature; NaN: at the reference temperature.
-[[nodiscard]] Hertz bias_at(const RelockDriftConfig& config, Celsius temperature) noexcept;
+[[nodiscard]] constexpr RelockDriftFault check(const RelockDriftConfig& c) noexcept {
+    return c.ticks >= 0 ? RelockDriftFault::none : RelockDriftFault::ticks;
+}
 
 // One measured tick, its halves in order of time.
 struct RelockTick {
     int sign = 1;  // bias_sign * mode in the first half
     std::int64_t counts_first = 0;
     std::int64_t counts_second = 0;
-    double known_excess_counts = 0.0;    // of the first over the second, by shifted edges: not the bias's deficit
+    double known_excess_counts = 0.0;    // of the first over the second, by shifted edges and less the places within
+                                         // the count: not the bias's deficit
     double detuning_first_lambda = 0.0;  // NaN where not measured
     double detuning_second_lambda = 0.0;
     double detuning_sq_first_lambda2 = 0.0;
     double detuning_sq_second_lambda2 = 0.0;
-    double temperature_c = 0.0;  // NaN where not measured: the reference temperature is taken
+    double temperature_c = 0.0;  // NaN where not measured: the reference temperature
 };
 
 struct RelockDriftState {
@@ -81,9 +59,8 @@ struct RelockDriftState {
     friend bool operator==(const RelockDriftState&, const RelockDriftState&) = default;
 };
 
-// `frequency` knows no more of a tick than its own deficit: its false rate is no larger.
-//
-// A false angle to be subtracted from a tick. Of one that is not known but may be there: 0, and the square of its likely size.
+// A false angle to be subtracted from a tick. Of one that is not known but may be there: 0, and the square of its
+// likely size.
 struct FalseAngle {
     bool known = false;
     double value_arcsec = 0.0;
@@ -103,16 +80,16 @@ struct RelockDriftOutput {
 
 // A tick in a gap: the next measured tick is i = 1.
 //
-// moves  the loop was open, or the mode changed: where the detuning was says nothing of where it will be.
+// moves  the loop was open, or the mode changed: the detuning before does not bound the one after.
 void enter_gap(RelockDriftState& state, bool moves = true) noexcept;
 
 // A measured tick.
 //
 // return  what to subtract. `known` is false where the data do not allow a correction (no detuning, or a ratio outside
 //         (0, 1)): what is missing is then as large as the last detuning that is known lets it be, or half of what
-//         `max_detuning` does; tick n after that has no more than a part 1/(2n - 1) of it, however the loop settles. No
-//         number in it is ever NaN.
-[[nodiscard]] RelockDriftOutput step(const RelockDriftConfig& config, RelockDriftState& state,
-                                     const RelockTick& tick) noexcept;
+//         `max_detuning` does; tick n after that has no more than a part 1/(2n - 1) of it, however the loop settles.
+//         With `frequency` it is no larger than the tick's own deficit f_i - f0 either. No number in it is ever NaN.
+[[nodiscard]] RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfig& config,
+                                     RelockDriftState& state, const RelockTick& tick) noexcept;
 
 }  // namespace zlg::core

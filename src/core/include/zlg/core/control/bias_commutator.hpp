@@ -1,6 +1,6 @@
 #pragma once
-// The bias commutation as the processor sees it: which sign the field had, which comes next, when it is reversed, whether
-// time keeps step.
+// The bias commutation as the processor sees it: which sign the field had, which comes next, when it is reversed,
+// whether time keeps step.
 
 #include <cstdint>
 
@@ -67,7 +67,7 @@ struct BiasCommutatorOutput {
 [[nodiscard]] BiasCommutatorOutput step(const BiasCommutatorConfig& config, BiasCommutatorState& state,
                                         const BiasCommutatorInput& input) noexcept;
 
-// What the half just latched tells of the rate, by which the law of the shifts is chosen.
+// The rate in the half just latched, by which the law of the shifts is chosen.
 struct RateReading {
     bool counted = false;  // the counts are those of this half, and are rotation and bias
     std::int64_t counts = 0;

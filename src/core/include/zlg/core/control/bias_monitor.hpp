@@ -43,7 +43,7 @@ struct BiasMonitorInput {
     bool counted = false;  // the counts are those of this half
     std::int64_t counts = 0;
     std::int8_t beat_sign = 1;
-    bool settled = false;  // closed and locked: detuning takes nothing from the bias
+    bool settled = false;  // closed and locked: the bias is not weakened by detuning
 };
 
 struct BiasMonitorOutput {
@@ -60,7 +60,8 @@ struct BiasMonitorOutput {
 // The mean of b is learnt from the first settled halves, whatever was presumed, and followed in some seconds. In a
 // settled gyro b may be off by a twelfth of it and twice what the last change of the rotation moved it; else by a half.
 // A b of the right sign that is off, but steady for a second, is the new mean; one that is nearer to what was presumed
-// after 32 halves: the mean was then learnt from a faulty bias. Less than a quarter of what is presumed is never learnt.
+// after 32 halves: the mean was then learnt from a faulty bias. Less than a quarter of what is presumed is never
+// learnt.
 //
 // config   passed `check`.
 // latency  none for a change of the counts in one half; `reversed`: four halves.

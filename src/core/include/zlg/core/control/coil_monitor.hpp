@@ -2,7 +2,7 @@
 // The current of the bias coil: whether it is the same in both signs, and the same as always.
 //
 // A current that is a part p larger in one sign than in the other leaves p of the bias in the angle of every tick. The
-// counter cannot tell this from rotation, the current can.
+// counter cannot distinguish this from rotation, the current can.
 
 #include <array>
 #include <cstddef>
@@ -41,11 +41,11 @@ struct CoilMonitorOutput {
 
 // Advance by one half-period that was received.
 //
-// Two halves in a row may differ by the tolerance, or by eight standard deviations of such a difference where that is more; half
-// their difference, smoothed over eight halves, by half the tolerance, or two deviations. A change that is the same in both
-// signs for a second is the new level: it leaves nothing in the angle. So is one after which the signs are more alike than
-// those that were learnt. The loss of more than half of the current is never learnt, unless what is left is what was learnt
-// first.
+// Two halves in a row may differ by the tolerance, or by eight standard deviations of such a difference where that is
+// more; half their difference, smoothed over eight halves, by half the tolerance, or two deviations. A change that is
+// the same in both signs for a second is accepted as the new level, because it cancels in the angle; one after which
+// the signs are more alike than those that were learnt is accepted as well. The loss of more than half of the current
+// is never accepted, unless the remaining current is the one that was learnt first.
 //
 // config   passed `check`.
 // sign     of the bias in this half, +1 or -1.

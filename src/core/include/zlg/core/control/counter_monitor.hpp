@@ -1,10 +1,11 @@
 #pragma once
 // The fringe counter, bit by bit: whether one of them is stuck.
 //
-// A stuck bit k shows as a bit that never changes while the ones beside it do, in a counter whose steps are not smooth: it
-// is wrong by 2^k in some halves and right in others. A counter that stands still, or that moves evenly by a multiple of
-// a power of two, has bits that do not change either, but its steps are smooth. One that swings and comes back to the same
-// few readings has them too: so only a counter that goes one way is judged, which must pass through both values of a bit.
+// A stuck bit k shows as a bit that never changes while the ones beside it do, in a counter whose steps are not smooth:
+// it is wrong by 2^k in some halves and right in others. A counter that stands still, or that moves evenly by a
+// multiple of a power of two, has bits that do not change either, but its steps are smooth. One that swings and comes
+// back to the same few readings has them too: so only a counter that goes one way is judged, which must pass through
+// both values of a bit.
 
 #include <array>
 #include <cstdint>
@@ -39,11 +40,11 @@ struct CounterMonitorState {
     friend constexpr bool operator==(const CounterMonitorState&, const CounterMonitorState&) = default;
 };
 
-// Advance by one half-period; says whether a bit is stuck, of which no later counts are to be trusted.
+// Advance by one half-period; returns whether a bit is stuck: no later counts are to be trusted.
 //
 // counted  the reading is that of this half, the one before was that of the half before, and the gyro lased in both.
-// latency  eight windows, where the counter moves by more than 2^(k + 2) counts within one, always the same way. A bit that changes again
-//          is believed at the end of the window; so is one after twelve windows in which no step was uneven.
+// latency  eight windows, where the counter moves by more than 2^(k + 2) counts within one, always the same way. A bit that
+//          changes again is accepted at the end of the window, and any bit after twelve windows without an uneven step.
 // errors   bit 0 is not judged (a count more or less is within every sigma), nor are those from 31 on, whose errors are
 //          beyond any rate. At rest and in a swing a stuck bit does not show.
 [[nodiscard]] bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool counted,

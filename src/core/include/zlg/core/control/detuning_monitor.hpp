@@ -1,6 +1,6 @@
 #pragma once
-// Steadiness of the detuning while no re-lock is due: a perimeter that is pushed changes the bias within a tick, and what
-// is left of it in the tick's angle is corrected only after a gap.
+// Steadiness of the detuning while no re-lock is due: a perimeter that is pushed changes the bias within a tick, and
+// the false angle that it leaves in the tick is corrected only after a gap.
 
 #include <cstdint>
 
@@ -35,7 +35,7 @@ struct DetuningMonitorInput {
     double mean_sq_lambda2 = 0.0;
 };
 
-// Advance by one half-period; says whether its tick holds a false angle that nobody will subtract.
+// Advance by one half-period; returns whether its tick holds a false angle that no correction subtracts.
 //
 //   |dl^2_second - dl^2_first| > max_change, in a tick that is settled and further from a gap than relock_ticks
 //

@@ -54,13 +54,13 @@ struct HalfWaveOutput {
 // One standard deviation of the estimate.
 [[nodiscard]] inline Volts sigma(const HalfWaveState& s) noexcept { return Volts{square_root(s.variance_v2)}; }
 
-// Take in the measurement of one switch: a scalar Kalman filter for a random walk.
+// Update with the measurement of one switch: a scalar Kalman filter for a random walk.
 //
 //   p = variance + process_sigma^2,  K = p / (p + measurement_sigma^2)
 //   estimate += K (measured - estimate),  variance = (1 - K) p
 //
-// A second outlier in a row on the same side is no accident: the first loops of a piezo with hysteresis are unlike its
-// later ones. It is believed, with p = (measured - estimate)^2.
+// A second outlier in a row on the same side is accepted, with p = (measured - estimate)^2: the first loops of a piezo
+// with hysteresis differ from its later ones.
 //
 // config    passed `check`.
 // state     from `initial_state`; the estimate stays between half and twice the presumed voltage.

@@ -1,8 +1,25 @@
 #pragma once
-// The converters of the light: whether what they say can be the light of this gyro.
+// Fault detection for the converters of the light: residual tests with thresholds from the noise, each debounced.
 //
-// The counts do not go through them. Where the beat proves that both waves are there, a half is good without their
-// consent; but a detuning that rests on them must not move the perimeter.
+// The counts do not go through these converters. Where the beat shows that both waves are there, a half is valid
+// whatever the light says; but a detuning from faulty light must not move the perimeter.
+//
+//   test          residual                                                     threshold             debounce
+//   stuck         first, middle and last sample of a beam equal, and equal
+//                 to the first one of the half before                          -                     2 halves
+//   noisy         second difference of samples, d = x_(k+1) - 2 x_k + x_(k-1)
+//                 (white noise: E d^2 = 6 sigma^2); then fourth differences
+//                 of the detuning, free of smooth motion (70 sigma^2)          6 sigma               2 halves
+//   unbalanced    (dl_h - dl_(h-1))/2 times the sign of the bias: a faded beam
+//                 adds to A - B a part that keeps its sign as the bias turns   2 sigma, at least .02 8 halves
+//                 chi <dl^2> less the deficit of the bias: the detuning that
+//                 is read should weaken the bias                               0.03                  -
+//                 on the way to a lock: jump of the detuning where the bias
+//                 is reversed, or loss of light                                8 sigma               -
+//   contradicted  the bias beats although the light is too little for it       -                     8 halves
+//
+// sigma: light noise of one sample, as detuning. Method: Gertler, Fault Detection and Diagnosis in Engineering Systems,
+// 1998.
 
 #include <cstdint>
 #include <span>
@@ -14,7 +31,7 @@ namespace zlg::core {
 
 struct LightMonitorConfig {
     Wavelengths noise{0.0};  // of one sample, white, as detuning, 0..10; below `min_noise` none is known
-    double bias_chi = 0.0;   // what a detuning takes from the bias: chi dl^2, 0..1e6; 0: not compared
+    double bias_chi = 0.0;   // chi of the relative loss of the bias, chi dl^2, 0..1e6; 0: not compared
     double max_gain = 1.0;   // of a reading over its detuning, far from the centre: 1 where the curve is known; 1..100
 };
 
@@ -33,19 +50,19 @@ enum class LightMonitorFault : unsigned char { none, noise, bias_chi, max_gain }
 struct LightMonitorState {
     float last_a = 0.0f;  // first sample of the half before
     float last_b = 0.0f;
-    double last_lambda = 0.0;  // detuning of the half before, and its mean square,
-    double last_lambda2 = 0.0;
-    bool has_last = false;     // if there were
-    bool was_dark = false;     // it had none, in a settled gyro
-    std::int32_t n_stuck = 0;  // halves in a row, up to those that are enough; so are the others
-    std::int32_t n_noisy = 0;
-    std::int32_t n_contradicted = 0;
-    std::int8_t side = 0;  // 1: beam A was too bright for B in the last half; -1: B for A
-    std::int32_t n_side = 0;
+    double last_lambda = 0.0;         // detuning of the half before, if `has_last`
+    double last_lambda2 = 0.0;        // its mean square, if `has_last`
+    bool has_last = false;            // the half before had a detuning
+    bool was_dark = false;            // the half before had no light both ways, in a settled gyro
+    std::int32_t n_stuck = 0;         // stuck halves in a row, up to the debounce limit
+    std::int32_t n_noisy = 0;         // noisy halves in a row, up to the debounce limit
+    std::int32_t n_contradicted = 0;  // contradicted halves in a row, up to the debounce limit
+    std::int8_t side = 0;             // 1: beam A was too bright for B in the last half; -1: B for A
+    std::int32_t n_side = 0;          // halves in a row on this side, up to the debounce limit
     bool is_unbalanced = false;
-    double end_lambda = 0.0;   // where the half before ended, by its last samples,
-    bool has_end = false;      // if it was closed and good
-    double jump_lambda = 0.0;  // from half to half, smoothed: what changes its sign with the bias
+    double end_lambda = 0.0;   // detuning at the end of the half before, by its last samples, if `has_end`
+    bool has_end = false;      // the half before was closed and good
+    double jump_lambda = 0.0;  // from half to half where the bias is reversed, smoothed
 
     friend constexpr bool operator==(const LightMonitorState&, const LightMonitorState&) = default;
 };
@@ -53,14 +70,14 @@ struct LightMonitorState {
 struct LightMonitorInput {
     std::span<const float> light_a{};  // as they were given to the detector
     std::span<const float> light_b{};
-    int sign = 1;                // bias_sign * polarity in force during the half: +1 or -1
-    bool closed = false;         // the loop; the light is that of one mode
-    bool settled = false;        // and locked
-    bool beats = false;          // the counts show the bias: there is light in both directions
-    double deficit_ratio = 0.0;  // what of the bias they lack in this half and the one before
-    bool two_way = false;        // as the detector saw it, and so are the next
-    bool dark = false;
-    double light = 0.0;
+    int sign = 1;                               // bias_sign * polarity in force during the half: +1 or -1
+    bool closed = false;                        // the loop; the light is that of one mode
+    bool settled = false;                       // and locked
+    bool beats = false;                         // the counts show the bias: there is light in both directions
+    double deficit_ratio = 0.0;                 // of the bias, in this half and the one before
+    bool two_way = false;                       // by the detector: light in both directions
+    bool dark = false;                          // by the detector
+    double light = 0.0;                         // by the detector: sum of both beams, or the one; mean over the half
     double signal_per_lambda = 0.332;           // of the detector, at the centre,
     const DiscriminatorCurve* curve = nullptr;  // and away from it; none: linear
     bool usable = false;
@@ -83,15 +100,14 @@ struct LightMonitorOutput {
 
 // Advance by one half-period whose frame was received.
 //
-// A detuning beyond the next mode is that of no gyro. A beam that has faded adds to the signal what does not change its sign with the bias: the mean of two halves is free of
-// it, and stands for the detuning of the second.
-// Noise is judged by what no smooth change of the detuning leaves, however fast, and through the curve.
-// In a settled gyro the first half after a dark one is taken for such, too.
-// On the way to a lock the detuning at the end of a half is that at the beginning of the next one, or a beam has faded.
-// So does one whose detuning should have taken much more from the bias than is missing.
+// While the beams are unbalanced, and in the first half after a dark one of a settled gyro, the mean of two halves,
+// which is free of the imbalance, replaces the detuning of the second, and no mean square is given. Noise is judged by
+// differences that no smooth change of the detuning affects, however fast, and through the curve of the discriminator.
+// A detuning beyond the next mode is not used at all.
 //
 // config   passed `check`.
-// latency  stuck and noisy: two halves; unbalanced and contradicted: eight.
+// latency  stuck and noisy: two halves; contradicted: eight; unbalanced: eight by the difference of two halves, at once by
+//          the bias or on the way to a lock.
 [[nodiscard]] LightMonitorOutput step(const LightMonitorConfig& config, LightMonitorState& state,
                                       const LightMonitorInput& input) noexcept;
 

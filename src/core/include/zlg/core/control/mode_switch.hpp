@@ -4,9 +4,9 @@
 //
 // `open` .. `searching` are attempts to hold a mode: the loop is open for gap_ticks at a chosen voltage and helicity,
 // then it is closed until it is locked or has failed. A switch closes it earlier, from gap_min_ticks on, at a tick
-// border at which it has arrived: piezo at rest, usable light in the last half. Locked: settle_ticks in a row within the
-// tolerance, with light in both directions. Failed: no lock by lock_timeout_ticks, or dark for dark_ticks. A half of
-// which nothing is known (frame missed, samples not finite) neither helps nor hurts a lock; time goes on.
+// border at which it has arrived: piezo at rest, usable light in the last half, and a detuning, with the rest of the move
+// added, within arrival_tolerance. Locked: settle_ticks in a row within the tolerance, with light in both directions. Failed: no lock by lock_timeout_ticks, or dark for dark_ticks. A half
+// of which nothing is known (frame missed, samples not finite) neither helps nor hurts a lock; time goes on.
 //
 //   state      | due           | gap over            | locked                   | failed (seen on a tick border)
 //   -----------+---------------+---------------------+--------------------------+-------------------------------
@@ -36,7 +36,7 @@ enum class SwitchOutcome : unsigned char { switched, returned, found };
 
 struct ModeSwitchConfig {
     PiezoRange range{};
-    std::int32_t gap_ticks = 3;      // 1..2^24; so are the other ticks
+    std::int32_t gap_ticks = 3;      // 1..2^24, like all numbers of ticks here
     std::int32_t gap_min_ticks = 0;  // up to gap_ticks; 0: the gap is not shortened
     std::int32_t settle_ticks = 20;
     std::int32_t lock_timeout_ticks = 60;  // from closing; > settle_ticks, by five time constants of the loop or more
@@ -47,7 +47,7 @@ struct ModeSwitchConfig {
     std::int8_t start_polarity = 1;       // +1 or -1
 };
 
-enum class ModeSwitchFault : unsigned char { none, range, ticks, lock_timeout, lock_tolerance, start };
+enum class ModeSwitchFault : unsigned char { none, range, ticks, lock_timeout, tolerance, start };
 
 [[nodiscard]] constexpr ModeSwitchFault check(const ModeSwitchConfig& c) noexcept {
     constexpr std::int32_t most = 1 << 24;
@@ -59,7 +59,7 @@ enum class ModeSwitchFault : unsigned char { none, range, ticks, lock_timeout, l
     if (!(c.lock_timeout_ticks > c.settle_ticks)) return ModeSwitchFault::lock_timeout;
     const bool can_lock = c.lock_tolerance > Wavelengths{0.0} && c.lock_tolerance < Wavelengths{0.5};
     const bool can_arrive = c.arrival_tolerance > Wavelengths{0.0} && c.arrival_tolerance < Wavelengths{0.25};
-    if (!(can_lock && can_arrive)) return ModeSwitchFault::lock_tolerance;
+    if (!(can_lock && can_arrive)) return ModeSwitchFault::tolerance;
     if (!(c.start_set_point >= c.range.min && c.start_set_point <= c.range.max)) return ModeSwitchFault::start;
     if (!(c.start_polarity == 1 || c.start_polarity == -1)) return ModeSwitchFault::start;
     return ModeSwitchFault::none;
@@ -77,9 +77,9 @@ struct PiezoReadings {
 
 struct ModeSwitchState {
     SwitchPhase phase = SwitchPhase::settling;
-    bool loop_closed = true;  // command in force; so are the next two
-    std::int8_t polarity = 1;
-    double set_point_v = 0.0;
+    bool loop_closed = true;       // command in force
+    std::int8_t polarity = 1;      // command in force
+    double set_point_v = 0.0;      // command in force
     std::int32_t n_halves = 0;     // since the loop was last opened or closed
     std::int32_t n_locked = 0;     // halves in a row: within the tolerance,
     std::int32_t n_lost = 0;       // dark or outside the tolerance,
@@ -91,7 +91,7 @@ struct ModeSwitchState {
     std::int8_t good_polarity = 1;
     bool good_measured = false;  // U+ is a fresh mean of readings
     std::int32_t place = 0;      // of the search
-    bool switching = false;      // an event is owed for what follows
+    bool switching = false;      // an event is pending: it comes with the lock
     std::int64_t tick_opened = 0;
     bool has_miss = false;
     double miss_lambda = 0.0;
@@ -111,11 +111,11 @@ struct ModeSwitchInput {
     bool usable = false;  // `detuning` was measured
     Wavelengths detuning{};
     bool at_rest = false;     // the piezo is where it was sent
-    Wavelengths in_flight{};  // what of its move came later than the mean of this half
+    Wavelengths in_flight{};  // detuning that the rest of the move adds, after the mean of this half
     Volts piezo{};            // reading; NaN when there is none
     Volts set_point{};        // the loop's present command: stands in for U+ when nothing was read
     Volts half_wave{};        // present estimate, > 0
-    Volts offset{};           // of a move in either direction
+    Volts offset{};  // added to a move in either direction: mean of the predicted moves up and down (hysteresis)
 };
 
 struct SwitchEvent {
@@ -125,7 +125,7 @@ struct SwitchEvent {
     double miss_lambda = 0.0;    // mean detuning of the first closed half
     bool has_half_wave = false;  // only of `switched`, with fresh readings before and after
     double half_wave_v = 0.0;    // |U- - U+|
-    std::int8_t direction = 1;   // sign of U- - U+
+    std::int8_t direction = 1;   // sign of U- - U+, if has_half_wave
     bool out_of_range = false;   // no neighbour kept the margin of the range
 
     friend constexpr bool operator==(const SwitchEvent&, const SwitchEvent&) = default;

@@ -73,11 +73,11 @@ enum class PerimeterLoopFault : unsigned char {
 }
 
 struct PerimeterLoopState {
-    double set_point_v = 0.0;  // where the voltage shall be
-    double mean_v = 0.0;       // presumed, over the half now in force; so is the next, at its end
-    double end_v = 0.0;
-    double start_v = 0.0;  // at its start, and at the opening of the loop
-    double opened_v = 0.0;
+    double set_point_v = 0.0;   // where the voltage shall be
+    double mean_v = 0.0;        // presumed mean over the half now in force
+    double end_v = 0.0;         // presumed, at its end
+    double start_v = 0.0;       // presumed, at its start
+    double opened_v = 0.0;      // presumed, when the loop was opened
     std::int32_t n_closed = 0;  // halves in force since the loop was closed
     double slew_ratio = 1.0;    // of the stage, learnt, over slew_v_s: 1/4..4
     double slew_error = 0.0;    // of it, as this switch shows it
@@ -116,7 +116,7 @@ struct PerimeterLoopOutput {
 //   open:             u <- second_input       always: u within the range
 //
 // In a half through which the stage slews, slew_ratio is off by (v read - v presumed)/(v presumed - v at the opening).
-// Half of that is taken in when the loop is closed, if the voltage has arrived at the second input by then.
+// Half of that is applied when the loop is closed, if the voltage has arrived at the second input by then.
 //
 // With relock_halves, closed and digital, v the voltage that the presumed stage has made of past set-points:
 //
@@ -125,8 +125,8 @@ struct PerimeterLoopOutput {
 //   u <- u - (half_period/time_constant) clip(p, error_limit)/kp      later
 //
 // The first correction rests on the last open half, whose light is already that of the new mode; it is left out where
-// more than 0.1 wavelength of the move was then in flight. Within a half the set-points lead the voltage to u as fast as
-// the current limit allows.
+// more than 0.1 wavelength of the move was then in flight. Within a half the set-points lead the voltage to u as fast
+// as the current limit allows.
 //
 // Clamping u itself is the anti-windup: it leaves the end with the first detuning of the other sign. Opening presets u,
 // so closing starts from the second input. A half whose detuning was not measured, or not in a closed loop, holds u.

@@ -1,21 +1,22 @@
 #pragma once
 // The counter's readings: over how many halves a difference goes, and which reading is that of the gyro.
 //
-// The counter runs freely and its readings are absolute. A reading that was missed, or that is wrong, takes nothing from
-// the next one: the difference of two good readings is the rotation between them, with the bias of the halves between.
+// The counter runs freely and its readings are absolute. A reading that was missed, or that is wrong, does not affect
+// the next one: the difference of two good readings is the rotation between them, with the bias of the halves
+// between.
 //
 //   T = R_h - R_0,  m halves        R_0: the last good reading
 //   P = m r + s b (m odd)           what the gyro would have turned at the rate r of the last good half
 //
-// A half whose counts are out of the bias's band may hold a rotation or a wrong reading. The next readings tell:
+// A half whose counts are out of the bias's band may hold a rotation or a wrong reading. The next readings decide:
 //
 //   returned  |T - P| is small again: the reading between was wrong, this one is good
 //   proven    the readings stay apart, and four in a row agree with each other: it was a rotation
 //
-// Either way T is what the counter has turned: nothing is lost, and an error of the readings that stays for a while, as of a
-// stuck bit, is in the angle for that while and leaves it with the step back. But a step of more counts than the gyro
-// can make is none of its rotation; and one in which the counter may have lost counts, at the end of its range, is held
-// for so long that no gap keeps a finite sigma.
+// Either way T is what the counter has turned: nothing is lost, and an error of the readings that stays for a while, as
+// of a stuck bit, is in the angle for that while and leaves it with the step back. But a step of more counts than the
+// gyro can make is none of its rotation; and one in which the counter may have lost counts, at the end of its range, is
+// held for so long that no gap keeps a finite sigma.
 
 #include <cstdint>
 
@@ -69,7 +70,7 @@ struct ReadingMonitorOutput {
 // limit    counts below 2^63: a rate of 1e9 counts/s takes 292 years.
 [[nodiscard]] ReadingMonitorOutput step(ReadingMonitorState& state, const ReadingMonitorInput& input) noexcept;
 
-// The half of that output, which continues, turned out not to be valid: its counts are left to the next good one.
+// The half of that output, which continues, turned out not to be valid: the next good one gets its counts.
 void leave_to_next(ReadingMonitorState& state, const ReadingMonitorOutput& output) noexcept;
 
 }  // namespace zlg::core

@@ -1,17 +1,28 @@
 #pragma once
-// What the piezo makes of its voltage, learnt from the switches: the voltage that the next move will need.
+// The stroke of the piezo against its voltage, learnt from the switches, and the voltage that the next move needs: a
+// Prandtl-Ishlinskii model of hysteresis whose weights are estimated by a Kalman filter.
 //
-//   L(v) = b + (w0 + k (T - T0)) (v - v0)/U + sum_i w_i (p_i(v) - p_i(v0))/U     length from v0 on, wavelengths
-//   p_i(v) = clip(p_i, v - r_i U, v + r_i U)                                      play operators (Prandtl, Ishlinskii)
+// Model. Length from the voltage v0 of the last move's start on, in wavelengths, U the presumed half-wave voltage:
 //
-// U is the presumed half-wave voltage. The plays follow every reading of the piezo: so they know the turning points,
-// and what creep and warming have made the loop do since the last switch, however long ago that was. The weights are a
-// random walk, estimated by a Kalman filter: each switch that ends in a lock is one measurement of L. Hysteresis is in
-// w_i, temperature in k, what does not turn with the direction in b. The thresholds are a fixed grid, finer where a
-// switch turns.
+//   L(v) = b + (w0 + k (T - T0)) (v - v0)/U + sum_i w_i (p_i(v) - p_i(v0))/U                             (1)
+//   p_i  <- clip(p_i, v - r_i U, v + r_i U)      play operator of threshold r_i, for each reading v      (2)
 //
-// Two moves in a row in one direction, seldom when the gyro warms by whole modes, can miss by 0.015: such a turn was
-// never seen before.
+// (1) is linear in the weights w = (w0, k, b, w_i): L = h^T w. Hysteresis is in w_i, temperature in k, and what does
+// not turn with the direction in b. The thresholds r_i are a fixed grid, finer where a switch turns. Because the plays
+// follow every reading, they hold the turning points and the path of the loop since the last switch (creep, warming),
+// however long ago it was.
+//
+// Filter. The weights are a random walk, and each switch that ends in a lock is one measurement of L:
+//
+//   P += Q,  K = P h/(h^T P h + r),  w += K (L - h^T w),  P -= K h^T P                                   (3)
+//
+// Move. The voltage that moves by half a wavelength solves L(v) = +-1/2 by Newton's method with a fixed slope (4).
+//
+// Source: Kuhnen, Eur. J. Control 9 (2003) 407, for the operators; Kay, Estimation Theory, 1993, ch. 13, for the
+// filter.
+//
+// Limit: two moves in a row in one direction, seldom and only when the gyro warms by whole modes, can miss by 0.015,
+// because the weights of such a turn were never excited before.
 
 #include <array>
 #include <cstdint>
@@ -28,12 +39,12 @@ struct StrokeModelConfig {
     PiezoRange range{};
     Volts half_wave{40.0};                   // presumed, 1e-3..1e6 V
     double half_wave_sigma_ratio = 0.1;      // one standard deviation over itself, 0..1 exclusive
-    double play_sigma_ratio = 0.1;           // of each w_i over 1/2, 0..1; so are the next
-    double temperature_sigma_per_c = 0.002;  // of k; 0: no temperature
+    double play_sigma_ratio = 0.1;           // one standard deviation of each w_i over 1/2, 0..1
+    double temperature_sigma_per_c = 0.002;  // one standard deviation of k, 0..1; 0: no temperature
     Celsius reference{20.0};                 // T0
     Wavelengths measurement_sigma{0.001};    // of one length, 0 exclusive..0.5; a tenth of the miss is added
     Wavelengths process_sigma{0.001};        // true change from one switch to the next, 0..0.5
-    double gate = 5.0;                       // a length farther off than this many standard deviations is an outlier
+    double gate = 5.0;  // 0 exclusive..100; a length farther off than this many standard deviations is an outlier
 };
 
 enum class StrokeModelFault : unsigned char { none, range, half_wave, sigma, reference, gate };
@@ -55,20 +66,21 @@ enum class StrokeModelFault : unsigned char { none, range, half_wave, sigma, ref
 
 using StrokeWeights = std::array<double, n_stroke_weights>;
 
+// Voltages but `origin_v` are over U, counted from that of the start.
 struct StrokeModelState {
-    std::array<double, n_plays> play{};  // over U, counted from the start's voltage; so are all voltages here
+    std::array<double, n_plays> play{};  // p_i
     double origin_v = 0.0;               // the start's voltage
     double start = 0.0;                  // v0 of the last move, and its plays
     std::array<double, n_plays> start_play{};
     StrokeWeights weight{};
     std::array<StrokeWeights, n_stroke_weights> covariance{};
-    StrokeWeights regressor{};  // of a move that has arrived and is not yet confirmed
+    StrokeWeights regressor{};  // h of a move that has arrived and is not yet confirmed
     double length_lambda = 0.0;
     double length_sigma_lambda = 0.0;
     bool pending = false;
-    StrokeWeights gain{};  // P h of `regressor`: a row a half, from the arrival on; then P -= gain gain / spread
-    double spread = 0.0;
-    std::int8_t n_gain = 0;                      // rows of `gain` done
+    StrokeWeights gain{};    // P h, one row a half-period from the arrival on; then P -= gain gain^T/spread
+    double spread = 0.0;     // h^T P h + r
+    std::int8_t n_gain = 0;  // rows of `gain` done
     std::int8_t n_corrected = n_stroke_weights;  // rows of P done
     std::int8_t outlier_side = 0;  // of the last measurement: +1 moved too far for the gate, -1 too little; 0: inside
     std::int32_t n_learnt = 0;
@@ -78,8 +90,8 @@ struct StrokeModelState {
 
 [[nodiscard]] StrokeModelState initial_state(const StrokeModelConfig& config, Volts start) noexcept;
 
-// Once every half-period: let the plays follow a reading of the piezo (one that cannot be is ignored), and do one row
-// of what is left of the filter's work.
+// Once every half-period: (2) with a reading of the piezo (an implausible one is ignored), and one row of the remaining
+// work of the filter.
 void follow(const StrokeModelConfig& config, StrokeModelState& state, Volts piezo) noexcept;
 
 // The change of voltage, from `from` on, that is predicted to move the perimeter by half a wavelength.
@@ -106,17 +118,16 @@ struct StrokeArrival {
     Celsius temperature{};
 };
 
-// The move has arrived, in whatever mode: remember what was measured until it is known.
+// The move has arrived, in whatever mode: keep the measurement until the lock shows the mode.
 void arrive(const StrokeModelConfig& config, StrokeModelState& state, const StrokeArrival& arrival) noexcept;
 
-// The lock says whether the mode was the neighbour's. Learn from the move if so.
+// The lock shows whether the mode is the neighbour's. If so, the measurement update (3) with
 //
-//   P += Q,  K = P h/(h P h + r),  w += K (L - h w),  P -= K h P
 //   h: `regressor`,  r = measurement_sigma^2 + (miss/10)^2
 //
-// A second outlier in a row on the same side is believed: the piezo is another one, and P begins anew.
+// A second outlier in a row on the same side is accepted: the piezo has changed, and P restarts from its prior.
 //
-// return  false for an outlier, which teaches nothing.
+// return  false for an outlier, from which nothing is learnt.
 bool confirm(const StrokeModelConfig& config, StrokeModelState& state, bool neighbour) noexcept;
 
 }  // namespace zlg::core

@@ -17,7 +17,7 @@ struct SyncDetectorConfig {
     // (A - B)/(A + B) per wavelength of detuning; positive where A > B for bias_sign * helicity * detuning > 0.
     double discriminator_per_lambda = 0.332;  // size 1e-6..1e6, either sign
     double dark_fraction = 0.5;               // of its share of the level: a beam below it is dark; 0..1 exclusive
-    double level_min = 0.0;                   // no less light is ever taken for a level; unit of the samples, >= 0
+    double level_min = 0.0;                   // least light that counts as a level; unit of the samples, >= 0
     std::int32_t level_ticks = 200;           // time constant of the tracked level, 1..2^30
     DiscriminatorCurve curve{};               // F, of what the slope alone would read; none: the linear law
 };
@@ -77,12 +77,12 @@ struct SyncDetectorOutput {
 //   one beam:    dl_k = sign F((A_k - level)/level/K)
 //
 // two_way  both beams: every sample is above dark_fraction/2 of the level, and of the present sum. One beam: every
-//          sample is above dark_fraction and below 2 - dark_fraction of its level (one-way light brightens the beam
-//          that is left). One sample that is not makes the half: its counts are garbage in part.
+//          sample is above dark_fraction and below 2 - dark_fraction of its level (one-way light brightens the
+//          remaining beam). A single sample that fails decides for the half, because its counts are then partly wrong.
 // level    learnt from four observations in a row that agree within a factor of two, then followed with the time
 //          constant level_ticks while settled. An observation is the sum of a half, or the mean of one beam over two
 //          halves of opposite modulation. Four in a row above 2 - dark_fraction of the level are learnt anew. A loss of
-//          light is not, unless the beat stays for 64 observations: then the light has faded, or what measures it. Until
+//          light is not, unless the beat stays for 64 observations: then the light, or its converter, has faded. Until
 //          learnt, one beam gives no detuning.
 // config   passed `check`.
 // accuracy that of the curve, sample by sample; the one-beam mean square leaves out the droop of the beam in dl^2.

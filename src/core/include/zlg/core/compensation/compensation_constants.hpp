@@ -1,0 +1,67 @@
+#pragma once
+// What compensation presumes of the gyro and of its record: each constant that more than one module needs, and the laws of the
+// bias and of the light with it.
+
+#include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/units.hpp>
+
+namespace zlg::core {
+
+struct CompensationConstants {
+    Seconds tick{0.005};                         // T, 1e-9..1e9
+    Arcsec scale{3.263};                         // K, per count, > 0, up to 1e9
+    ArcsecPerRootSecond random_walk{0.14};       // of the angle, >= 0
+    Hertz bias{60e3};                            // f0 at the reference temperature, > 0, up to 1e15
+    double chi = 3.6;                            // >= 0
+    double temperature_coefficient_per_c = 0.0;  // of the bias, finite
+    Celsius reference_temperature{20.0};         // finite
+    Wavelengths centre{0.0};                     // detuning of the largest bias, +-1
+
+    // Edges of the bias, where they are shifted.
+    Hertz timer{1e7};            // ticks of the timer per second, 1..1e15
+    double plateau_ratio = 1.0;  // plateau of the bias over its mean in an even half, 1..2: 1/(1 - t_e/T), linear edges
+
+    // Light, as it was read and recorded.
+    Wavelengths light_noise{0.0033};  // of one light sample, >= 0
+    int light_samples = 16;           // a half, >= 1
+
+    double fringe_noise_counts = 0.0016;  // of a place within the count, where it was read, rms, 0..1
+
+    DiscriminatorCurve record_curve{};   // for recorded detunings that the linear law has read; none: they are right
+    DiscriminatorCurve control_curve{};  // that they have come through already: it scales their noise
+};
+
+enum class CompensationConstantsFault : unsigned char {
+    none,
+    tick,
+    scale,
+    random_walk,
+    bias,
+    chi,
+    temperature,
+    centre,
+    timer,
+    plateau_ratio,
+    light_noise,
+    light_samples,
+    fringe_noise,
+    curve
+};
+
+[[nodiscard]] CompensationConstantsFault check(const CompensationConstants& gyro) noexcept;
+
+// Twice the covariance of two neighbouring ticks, without its sign, and the variance of one: of the rounding of the counter's
+// readings, each uniform over a count.
+[[nodiscard]] constexpr double rounding_arcsec2(const CompensationConstants& gyro) noexcept {
+    return gyro.scale.value() * gyro.scale.value() / 6.0;
+}
+
+// Variance of a tick by the random walk of the angle.
+[[nodiscard]] constexpr double walk_arcsec2(const CompensationConstants& gyro) noexcept {
+    return gyro.random_walk.value() * gyro.random_walk.value() * gyro.tick.value();
+}
+
+// f0 at a temperature; NaN: at the reference temperature.
+[[nodiscard]] Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept;
+
+}  // namespace zlg::core

@@ -1,0 +1,240 @@
+#include <zlg/logs/text_columns.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/file_nature.hpp>
+
+#include "csv/line_reader.hpp"
+#include "csv/text_fields.hpp"
+#include "text_reading.hpp"
+#include "text_recognition.hpp"
+#include "time_names.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+// The first of both ends the sample; a header and a row it has in any case.
+constexpr std::size_t sample_lines = 1000;
+constexpr std::size_t sample_bytes = std::size_t{1} << 20;
+
+std::string_view without_leading_blanks(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    return first == std::string_view::npos ? std::string_view{} : text.substr(first);
+}
+
+// `sep=;` above all others tells Excel the separator.
+bool is_note_for_excel(std::string_view line) { return line.size() == 5 && line.starts_with("sep="); }
+
+// Lines that hold rows, those at the head kept until it is known how to read them.
+class DataLines {
+public:
+    DataLines(const std::string& path, const TextLayout& layout) : lines_{path, layout.max_bytes}, layout_{layout} {
+        std::string_view line;
+        std::size_t n_bytes = 0;
+        while (sample_.lines.size() < 2 || (sample_.lines.size() < sample_lines && n_bytes < sample_bytes)) {
+            sample_.is_whole = !next_of_file(line);
+            if (sample_.is_whole) break;
+            sample_.lines.push_back({lines_.line_number(), std::string{line}});
+            n_bytes += line.size();
+        }
+        sample_.is_terminated = lines_.terminated();
+    }
+
+    [[nodiscard]] const Sample& sample() const { return sample_; }
+    [[nodiscard]] const std::string& path() const { return lines_.path(); }
+    [[nodiscard]] std::int64_t number() const { return number_; }
+    [[nodiscard]] bool terminated() const { return lines_.terminated(); }
+
+    bool next(std::string_view& line) {
+        if (n_handed_out_ < sample_.lines.size()) {
+            number_ = sample_.lines[n_handed_out_].number;
+            line = sample_.lines[n_handed_out_++].text;
+            return true;
+        }
+        const bool more = next_of_file(line);
+        number_ = lines_.line_number();
+        return more;
+    }
+
+private:
+    bool next_of_file(std::string_view& line) {
+        while (lines_.next(line)) {
+            const std::string_view text = without_leading_blanks(line);
+            if (text.empty() || is_note_for_excel(text)) continue;
+            if (!layout_.comment.empty() && text.starts_with(layout_.comment)) {
+                if (sample_.lines.empty()) sample_.comment = text.substr(layout_.comment.size());
+                continue;
+            }
+            if (n_skipped_ == layout_.skip_lines) return true;
+            ++n_skipped_;
+        }
+        return false;
+    }
+
+    LineReader lines_;
+    const TextLayout& layout_;
+    Sample sample_;
+    std::size_t n_handed_out_ = 0;
+    std::int64_t n_skipped_ = 0;
+    std::int64_t number_ = 0;
+};
+
+// Whether a column of integers and of numbers such as 1.234 has parted thousands, which are not read.
+struct MarkUse {
+    bool has_whole = false;  // of up to three digits, not 0
+    bool has_grouped = false;
+    bool has_other = false;  // a mark that can part no thousands
+
+    void note(const Number& number, std::string_view text) {
+        has_other = has_other || (number.mark != Mark::none && !number.is_grouped);
+        has_grouped = has_grouped || number.is_grouped;
+        has_whole = has_whole || (number.mark == Mark::none && text.size() <= 4 && number.value != 0.0);
+    }
+};
+
+class Rows {
+public:
+    Rows(const std::string& path, const TextLayout& layout) : lines_{path, layout}, layout_{layout} {
+        if (lines_.sample().lines.empty())
+            throw FormatError(fmt::format("{}: no rows after comments and {} skipped lines", path, layout.skip_lines));
+        dialect_ = recognise_dialect(lines_.sample(), path, layout);
+        for (const std::size_t f : dialect_.wanted) table_.columns.push_back(column_of(f));
+        choose_times();
+        table_.names = dialect_.names;
+        table_.n_columns = static_cast<std::int64_t>(dialect_.n_fields);
+        use_.resize(table_.columns.size());
+    }
+
+    TextTable read() {
+        std::string_view line;
+        if (dialect_.has_header) lines_.next(line);
+        while (lines_.next(line)) add_row(line);
+        if (table_.columns.front().values.empty())
+            throw FormatError(fmt::format("{}: no rows below the header", lines_.path()));
+        for (std::size_t c = 0; c < use_.size(); ++c) refuse_parted_thousands(c);
+        return std::move(table_);
+    }
+
+private:
+    [[nodiscard]] TextColumn column_of(std::size_t field) const {
+        return {.number = static_cast<std::int64_t>(field) + 1,
+                .name = field < dialect_.names.size() ? dialect_.names[field] : std::string{},
+                .values = {}};
+    }
+
+    void choose_times();
+
+    [[noreturn]] void refuse(const std::string& why) const {
+        throw FormatError(fmt::format("{}:{}{}", lines_.path(), lines_.number(), why));
+    }
+
+    [[nodiscard]] std::size_t n_fields(std::string_view line) const {
+        std::vector<Field> fields;
+        split_fields(line, dialect_.separator, fields);
+        return fields.size();
+    }
+
+    void add_row(std::string_view line) {
+        if (layout_.max_rows > 0 && table_.columns.front().values.size() >= layout_.max_rows)
+            refuse(fmt::format(": more than {} rows, which is the most allowed", layout_.max_rows));
+        split_fields(line, dialect_.separator, fields_, dialect_.n_fields + 1);
+        if (fields_.size() != dialect_.n_fields)
+            refuse(fmt::format(": {} fields, where the rows above have {}{}", n_fields(line), dialect_.n_fields,
+                               lines_.terminated() ? "" : "; the file may have been cut off"));
+        for (std::size_t c = 0; c < table_.columns.size(); ++c)
+            table_.columns[c].values.push_back(number(dialect_.wanted[c], &use_[c]));
+        if (!table_.times) return;
+        const auto field = static_cast<std::size_t>(table_.times->number - 1);
+        if (!times_may_fail_) {
+            table_.times->values.push_back(number(field, nullptr));
+        } else if (const auto time = number_of(fields_[field].text, dialect_.mark)) {
+            table_.times->values.push_back(time->value);
+        } else {
+            table_.times.reset();  // it was no column of times
+        }
+    }
+
+    double number(std::size_t field, MarkUse* use) {
+        const std::string_view text = fields_[field].text;
+        const auto number = number_of(text, dialect_.mark);
+        if (!number) {
+            if (says_missing(text)) return std::numeric_limits<double>::quiet_NaN();
+            refuse(fmt::format(", column {}: '{}', allowed is a finite number, or nan where it is missing{}", field + 1,
+                               text.substr(0, 60), dialect_.mark == Mark::comma ? ", with decimal commas" : ""));
+        }
+        if (dialect_.mark == Mark::none) dialect_.mark = number->mark;
+        if (use != nullptr) use->note(*number, text);
+        return number->value;
+    }
+
+    // A decimal comma of which no number shows that it parts no thousands, and a column in which 999 and 1.234 meet.
+    void refuse_parted_thousands(std::size_t c) const {
+        if (layout_.mark != TextMark::automatic || dialect_.mark_is_sure || !use_[c].has_grouped) return;
+        if (std::ranges::any_of(use_, &MarkUse::has_other)) return;
+        if (dialect_.mark != Mark::comma && !use_[c].has_whole) return;
+        throw FormatError(
+            fmt::format("{}, {}: its numbers such as 1{}234 can be read with three decimals, or with parted thousands, "
+                        "which are not read; say {}.decimal = \"{}\" for the first",
+                        lines_.path(), described(table_.columns[c]), static_cast<char>(dialect_.mark), layout_.section,
+                        dialect_.mark == Mark::comma ? "comma" : "point"));
+    }
+
+    DataLines lines_;
+    const TextLayout& layout_;
+    Dialect dialect_;
+    TextTable table_;
+    std::vector<MarkUse> use_;
+    std::vector<Field> fields_;
+    bool times_may_fail_ = false;
+};
+
+void Rows::choose_times() {
+    if (!layout_.time_column.empty()) {
+        if (layout_.time_column.find_first_not_of('0') != std::string::npos)
+            table_.times = column_of(field_of(layout_.time_column, dialect_, lines_.path()));
+        return;
+    }
+    times_may_fail_ = true;
+    const auto is_free = [this](std::size_t f) {
+        return std::ranges::find(dialect_.wanted, f) == dialect_.wanted.end();
+    };
+    for (std::size_t f = 0; f < dialect_.names.size() && !table_.times; ++f)
+        if (names_time(dialect_.names[f]) && is_free(f)) table_.times = column_of(f);
+    const bool first_has_name = !dialect_.names.empty() && !dialect_.names.front().empty();
+    if (!table_.times && is_free(0) && !first_has_name) table_.times = column_of(0);
+}
+
+void check(const std::string& path, const TextLayout& layout) {
+    const auto is_bad = [](const std::string& column) {
+        return column.empty() || (column.find_first_not_of('0') == std::string::npos);
+    };
+    if (layout.columns.empty() || std::ranges::any_of(layout.columns, is_bad) || layout.skip_lines < 0)
+        throw FormatError(
+            fmt::format("{}: columns from 1 on are needed, and no negative number of lines to skip", path));
+}
+
+}  // namespace
+
+std::string described(const TextColumn& column) {
+    return column.name.empty() ? fmt::format("column {}", column.number)
+                               : fmt::format("column {}, '{}'", column.number, column.name);
+}
+
+TextTable read_text_table(const std::string& path, const TextLayout& layout) {
+    check(path, layout);
+    refuse_foreign(path);
+    return Rows{path, layout}.read();
+}
+
+std::vector<std::vector<double>> read_text_columns(const std::string& path, const TextLayout& layout) {
+    std::vector<std::vector<double>> values;
+    for (TextColumn& column : read_text_table(path, layout).columns) values.push_back(std::move(column.values));
+    return values;
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,15 @@
+#pragma once
+// What parts the columns of a text file and what the fraction, recognised together from its first lines.
+
+#include <string>
+
+#include <zlg/logs/text_columns.hpp>
+
+#include "text_dialect.hpp"
+
+namespace zlg::logs {
+
+// errors  FormatError: no way to read the lines as a table, or more than one; both are named, with the keys that decide.
+[[nodiscard]] Dialect recognise_dialect(const Sample& sample, const std::string& path, const TextLayout& layout);
+
+}  // namespace zlg::logs

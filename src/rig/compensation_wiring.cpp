@@ -1,0 +1,123 @@
+// From a configuration to the parameters of the compensation.
+
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/refusal.hpp>
+#include <zlg/rig/wiring.hpp>
+
+#include "bias_wiring.hpp"
+#include "fringe_wiring.hpp"
+#include "motion_prior.hpp"
+
+namespace zlg::rig {
+namespace {
+
+// Without `record_curve`, which depends on how the log was recorded: `asked_compensation` sets it.
+core::CompensationConstants constants_of(const config::Config& config) {
+    const config::Gyro& g = config.gyro;
+    return {.tick = core::Seconds{g.tick_s},
+            .scale = core::Arcsec{g.scale_arcsec},
+            .random_walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s},
+            .bias = core::Hertz{g.bias_hz},
+            .chi = g.bias_chi,
+            .temperature_coefficient_per_c = g.bias_temperature_coefficient_per_c,
+            .reference_temperature = core::Celsius{g.reference_temperature_c},
+            .centre = core::Wavelengths{config.perimeter.discriminator_centre_lambda},
+            .timer = core::Hertz{timer_hz},
+            .plateau_ratio = plateau_ratio(g),
+            .light_noise = core::Wavelengths{g.light_noise_lambda},
+            .light_samples = g.light_samples,
+            .fringe_noise_counts = fringe_noise_counts(config),
+            .control_curve = discriminator_curve(config, g.discriminator_per_lambda)};
+}
+
+// Whether the motion is learnt and gaps are estimated by half-ticks: each half must be corrected, or read as it is. Learning
+// by half-ticks costs a processor a seventh more, so that `auto` does it with `joint` alone.
+bool has_halves(core::RelockMethod relock, core::BridgeMethod bridge) {
+    if (relock == core::RelockMethod::joint) return true;
+    return bridge == core::BridgeMethod::optimal &&
+           (relock == core::RelockMethod::mean_square || relock == core::RelockMethod::none);
+}
+
+core::OptimalBridgeConfig optimal_config(const config::Config& config, core::RelockMethod relock,
+                                         core::BridgeMethod bridge) {
+    core::OptimalBridgeConfig made{
+        .learns = bridge != core::BridgeMethod::optimal || config.compensation.prior == config::MotionPrior::learnt,
+        .halves = has_halves(relock, bridge)};
+    if (!made.learns) made.prior_arcsec2 = motion_prior(config.compensation, config.gyro.tick_s);
+    return made;
+}
+
+// How `joint` reads the light samples: with the slope and the curve of the control.
+core::RelockProfileConfig profile_of(const config::Config& config, core::RelockMethod relock) {
+    if (relock != core::RelockMethod::joint) return {};
+    const double slope_per_lambda = config.gyro.discriminator_per_lambda;
+    return {.discriminator_per_lambda = slope_per_lambda, .curve = discriminator_curve(config, slope_per_lambda)};
+}
+
+core::MagneticDriftConfig magnetic_of(const config::Config& config) {
+    const config::Compensation& c = config.compensation;
+    return {.method = c.magnetic,
+            .presumed_arcsec_s = c.magnetic_arcsec_s,
+            .presumed_sigma_arcsec_s = c.magnetic_sigma_arcsec_s,
+            .warming_arcsec_s = c.magnetic_thermal_arcsec_s,
+            .warming_sigma_arcsec_s = c.magnetic_thermal_sigma_arcsec_s,
+            .thermal_time = core::Seconds{c.magnetic_thermal_time_s}};
+}
+
+// The optimal bridge has two faults: its prior, and a random walk that overflows.
+[[noreturn]] void refuse_optimal(const config::Config& config, const core::GyroCompensationConfig& made) {
+    if (check(made.gyro, made.bridge.optimal) != core::OptimalBridgeFault::prior)
+        refuse(config, {"drift.random_walk_arcsec_sqrt_s", "gyro.tick_s", "gyro.scale_arcsec"},
+               "a random walk whose square in a tick is a number");
+    refuse(config,
+           {"compensation.prior", "compensation.prior_band_hz", "compensation.prior_rate_arcsec_s",
+            "compensation.prior_line_hz", "compensation.prior_line_arcsec_s", "gyro.tick_s"},
+           "rates whose squares, in a tick, are numbers above 0");
+}
+
+// errors  config::ConfigError where the configured points do not carry the polynomial of that bridge, or a key of
+//         [gyro] or [compensation] is out of its range.
+void require_points(config::Config config, core::BridgeMethod bridge) {
+    config.compensation.bridge = bridge;
+    check_compensation(config);
+}
+
+}  // namespace
+
+core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
+                                                 core::BridgeMethod bridge) {
+    const config::Compensation& c = config.compensation;
+    const core::GyroCompensationConfig made{.gyro = constants_of(config),
+                                            .relock = {.method = relock, .ticks = c.relock_ticks},
+                                            .profile = profile_of(config, relock),
+                                            .bridge = {.method = bridge,
+                                                       .extrapolation_points = c.extrapolation_points,
+                                                       .points_before = c.points_before,
+                                                       .points_after = c.points_after,
+                                                       .optimal = optimal_config(config, relock, bridge)},
+                                            .magnetic = magnetic_of(config)};
+    switch (check(made)) {
+        case core::GyroCompensationFault::none:
+            return made;
+        case core::GyroCompensationFault::bridge:
+            if (check(made.gyro, made.bridge) == core::GapBridgeFault::optimal) refuse_optimal(config, made);
+            require_points(config, bridge);
+            // The keys are in order, so a constant of the gyro is not.
+            [[fallthrough]];
+        case core::GyroCompensationFault::edges:
+        case core::GyroCompensationFault::relock:
+            refuse(config, {"gyro.tick_s", "gyro.scale_arcsec", "gyro.bias_hz", "gyro.bias_chi", "gyro.bias_edge_s"},
+                   "a gyro that can be compensated: finite numbers, edges shorter than half a tick");
+        case core::GyroCompensationFault::random_walk:
+            refuse(config, {"drift.random_walk_arcsec_sqrt_s"}, "0 or more");
+        case core::GyroCompensationFault::profile:
+            refuse(config, {"gyro.discriminator_per_lambda", "compensation.relock"},
+                   "sizes 1e-6..1e6 where the light is read");
+        case core::GyroCompensationFault::magnetic:
+            refuse(config, {"compensation.magnetic", "drift.random_walk_arcsec_sqrt_s"},
+                   "a random walk of up to 1e6 arcsec/sqrt(s) where the drift is estimated");
+    }
+    return made;
+}
+
+}  // namespace zlg::rig

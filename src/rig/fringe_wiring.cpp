@@ -1,0 +1,54 @@
+#include "fringe_wiring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bias_wiring.hpp"
+
+namespace zlg::rig {
+namespace {
+
+constexpr double turn_rad = 2.0 * std::numbers::pi;
+
+// Noise and converter of both photodiodes, as an angle on the circle of amplitude 1.
+double noise_turns(const config::Photodiodes& p) {
+    const double step = std::ldexp(2.0 * twin::photodiode_range, -p.adc_bits);
+    return std::sqrt(p.noise * p.noise + step * step / 12.0) / turn_rad;
+}
+
+int counts_per_turn(const config::Config& config) {
+    return config.gyro.fidelity == config::Fidelity::laser ? twin::counts_per_turn(config.laser.quadrature) : 1;
+}
+
+// A sample that is taken this much off the latch is reported; up to 1 us is supported. Less than a five-hundredth of a turn
+// does not show among the quarters of the comparators.
+double max_skew_turns(const config::Config& config) {
+    constexpr double reported_s = 1.5e-6;
+    constexpr double least_turns = 0.002;
+    const config::Gyro& g = config.gyro;
+    const double plateau_hz = plateau_ratio(g) * g.bias_hz / counts_per_turn(config);
+    const double edge_s = std::max(g.bias_edge_s, 2.0 * reported_s);
+    return std::max(least_turns, plateau_hz * reported_s * reported_s / edge_s);
+}
+
+}  // namespace
+
+core::FringeReadoutConfig fringe_readout_of(const config::Config& config) {
+    if (config.gyro.readout != config::Readout::phase) return {};
+    core::FringeReadoutConfig made{.reads = true,
+                                   .counts_per_turn = counts_per_turn(config),
+                                   .limit = 0.999 * twin::photodiode_range,
+                                   .noise_turns = std::min(noise_turns(config.photodiodes), 0.05),
+                                   .max_skew_turns = max_skew_turns(config)};
+    // The comparators of the averaged gyro have no threshold.
+    if (config.gyro.fidelity == config::Fidelity::laser)
+        made.lag_turns = std::asin(config.laser.comparator_threshold) / turn_rad;
+    return made;
+}
+
+double fringe_noise_counts(const config::Config& config) {
+    return std::min(counts_per_turn(config) * noise_turns(config.photodiodes), 1.0);
+}
+
+}  // namespace zlg::rig

@@ -1,0 +1,23 @@
+#pragma once
+// What a part refuses, in the words of the one who wrote the configuration: keys, their values, what is allowed.
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include <zlg/config/config.hpp>
+
+namespace zlg::rig {
+
+// The message, and where it names no key that differs from its default, those that do: of a rule between several keys, the one
+// that was set may be another than the one that the rule is about.
+[[nodiscard]] std::string named(const config::Config& config, const std::string& message);
+
+// errors  config::ConfigError, always: `key = value, key = value: allowed is ...`, with what `named` adds.
+[[noreturn]] void refuse(const config::Config& config, std::initializer_list<std::string_view> keys,
+                         std::string_view allowed);
+
+// More than a counter of 64 bits can tell, or no number at all, shows only when the gyro runs.
+[[noreturn]] void refuse_rate(const config::Config& config, std::string_view what);
+
+}  // namespace zlg::rig

@@ -1,0 +1,64 @@
+"""`zlg process --switches`: the rows are those of `run`, in CSV and HDF5, with what a recorded log can tell."""
+
+import csv
+import json
+import unittest
+
+from support import CliTest, csv_text, quiet_log
+
+RUN = ["--duration", 40, "--set", "switching.interval_s=5"]
+KNOWN = ["tick", "mode", "miss_lambda", "gap_ticks", "dp_arcsec", "relock_arcsec", "sigma_arcsec"]
+
+
+def rows_of(path):
+    return list(csv.DictReader(path.read_text().splitlines()))
+
+
+class Switches(CliTest):
+    def check(self, suffix, *more):
+        out = self.folder / "run"
+        self.succeed("run", *RUN, *more, "--out", out, "--format", suffix)
+        table = self.folder / "switches.csv"
+        self.succeed("process", out / f"raw.{suffix}", "--out", self.folder / "angles.csv", "--switches", table)
+        live, replayed = rows_of(out / "switches.csv"), rows_of(table)
+        self.assertEqual(list(replayed[0]), [name for name in live[0] if name != "true_error_arcsec"])
+        self.assertGreaterEqual(len(live), 6)
+        self.assertEqual([[row[name] for name in KNOWN] for row in replayed], [[row[name] for name in KNOWN] for row in live])
+        self.assertEqual({(row["half_wave_v"], row["half_wave_sigma_v"]) for row in replayed}, {("", "inf")})
+
+    def test_csv(self):
+        self.check("csv")
+
+    def test_hdf5(self):
+        self.check("h5", "--set", "compensation.bridge=quadratic", "--set", "compensation.relock=detuning")
+
+    def test_a_log_without_light_and_one_without_switches(self):
+        rows = quiet_log(400, gap=range(200, 203))
+        for row in rows[402:]:
+            row["mode"] = -1
+        table = self.folder / "switches.csv"
+        raw = self.write("raw.csv", csv_text(rows))
+        result = self.succeed("process", raw, "--out", self.folder / "angles.csv", "--switches", table, "--json")
+        self.assertEqual(json.loads(result.stdout)["switches"], str(table))
+        (row,) = rows_of(table)
+        self.assertEqual((row["tick"], row["mode"], row["gap_ticks"], row["miss_lambda"]), ("200", "-1", "3", ""))
+        self.assertGreater(float(row["sigma_arcsec"]), 0.0)
+        missed = self.write("missed.csv", csv_text(quiet_log(400, gap=range(200, 203))))
+        self.succeed("process", missed, "--out", self.folder / "missed-angles.csv", "--switches", table, "--force")
+        self.assertEqual(rows_of(table), [], "the mode is the same behind this gap")
+
+    def test_what_is_refused(self):
+        raw = self.write("raw.csv", csv_text(quiet_log()))
+        out = self.folder / "angles.csv"
+        self.refuse(2, "process", raw, "--out", out, "--switches", self.folder / "switches.txt", says=[".csv"])
+        self.refuse(2, "process", raw, "--out", out, "--switches", out, says=["--switches"])
+        self.refuse(2, "process", raw, "--out", out, "--switches", raw, "--force", says=["--switches"])
+        self.refuse(3, "process", raw, "--out", out, "--switches", self.folder / "none" / "s.csv", says=["none"])
+        table = self.write("switches.csv", "mine")
+        self.refuse(3, "process", raw, "--out", out, "--switches", table, says=["switches.csv"])
+        self.assertEqual(table.read_text(), "mine")
+        self.assertFalse(out.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+#include <zlg/core/compensation/compensation_constants.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+
+#include "compensation_support.hpp"
+
+namespace {
+
+using namespace zlg::core;
+using namespace compensation_test;
+using Constants = CompensationConstants;
+using Fault = CompensationConstantsFault;
+
+Fault with(auto change) {
+    Constants gyro;
+    change(gyro);
+    return check(gyro);
+}
+
+void expect_fault(Fault fault, const std::function<void(Constants&, double)>& set, std::initializer_list<double> bad) {
+    for (const double value : bad) {
+        EXPECT_EQ(with([&](Constants& g) { set(g, value); }), fault) << static_cast<int>(fault) << ' ' << value;
+    }
+}
+
+TEST(CompensationConstants, CheckAcceptsTheDefaultsAndTheEdges) {
+    EXPECT_EQ(check(Constants{}), Fault::none);
+    EXPECT_EQ(check(Constants{.random_walk = ArcsecPerRootSecond{0.0},
+                              .bias = Hertz{1e12},
+                              .chi = 0.0,
+                              .temperature_coefficient_per_c = -1.0,
+                              .light_noise = Wavelengths{0.0},
+                              .light_samples = 1}),
+              Fault::none);
+}
+
+TEST(CompensationConstants, CheckNamesTheFirstBadField) {
+    const double nan = not_a_number;
+    const double inf = infinite;
+    expect_fault(Fault::tick, [](auto& g, double x) { g.tick = Seconds{x}; }, {0.0, -0.005, 1e300, 1e-300, nan, inf});
+    expect_fault(Fault::scale, [](auto& g, double x) { g.scale = Arcsec{x}; }, {0.0, -3.0, 1e300, nan, inf});
+    expect_fault(Fault::random_walk, [](auto& g, double x) { g.random_walk = ArcsecPerRootSecond{x}; },
+                 {-0.1, nan, inf});
+    expect_fault(Fault::bias, [](auto& g, double x) { g.bias = Hertz{x}; }, {0.0, -60e3, 1e300, nan, inf});
+    expect_fault(Fault::chi, [](auto& g, double x) { g.chi = x; }, {-0.1, nan, inf});
+    expect_fault(Fault::temperature, [](auto& g, double x) { g.temperature_coefficient_per_c = x; }, {nan, inf, -inf});
+    expect_fault(Fault::temperature, [](auto& g, double x) { g.reference_temperature = Celsius{x}; }, {nan, inf, -inf});
+    expect_fault(Fault::centre, [](auto& g, double x) { g.centre = Wavelengths{x}; }, {-1.1, 1.1, nan});
+    expect_fault(Fault::timer, [](auto& g, double x) { g.timer = Hertz{x}; }, {0.5, 2e15, nan});
+    expect_fault(Fault::plateau_ratio, [](auto& g, double x) { g.plateau_ratio = x; }, {0.99, 2.01, nan});
+    expect_fault(Fault::light_noise, [](auto& g, double x) { g.light_noise = Wavelengths{x}; }, {-0.1, nan, inf});
+    expect_fault(Fault::light_samples, [](auto& g, double x) { g.light_samples = static_cast<int>(x); }, {0.0, -1.0});
+    expect_fault(Fault::curve, [](auto& g, double x) { g.record_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
+    expect_fault(Fault::curve, [](auto& g, double x) { g.control_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
+}
+
+// Sums of ticks with wilder numbers than these leave the range of a double.
+TEST(CompensationConstants, CheckRefusesNumbersWithWhichNoSumIsANumber) {
+    const auto expect_ends = [&](auto set, double least, double most, Fault fault) {
+        EXPECT_EQ(with([&](auto& g) { set(g, least); }), Fault::none);
+        EXPECT_EQ(with([&](auto& g) { set(g, most); }), Fault::none);
+        EXPECT_EQ(with([&](auto& g) { set(g, std::nextafter(least, 0.0)); }), fault);
+        EXPECT_EQ(with([&](auto& g) { set(g, std::nextafter(most, infinite)); }), fault);
+    };
+    expect_ends([](auto& g, double x) { g.tick = Seconds{x}; }, 1e-9, 1e9, Fault::tick);
+    expect_ends([](auto& g, double x) { g.scale = Arcsec{x}; }, 5e-324, 1e9, Fault::scale);
+    expect_ends([](auto& g, double x) { g.bias = Hertz{x}; }, 5e-324, 1e15, Fault::bias);
+}
+
+TEST(CompensationConstants, TheBiasFollowsTheTemperature) {
+    const Constants gyro{
+        .bias = Hertz{60e3}, .temperature_coefficient_per_c = -1e-4, .reference_temperature = Celsius{25.0}};
+    EXPECT_EQ(bias_at(gyro, Celsius{25.0}).value(), 60e3);
+    EXPECT_NEAR(bias_at(gyro, Celsius{35.0}).value(), 60e3 * 0.999, 1e-9);
+    EXPECT_EQ(bias_at(gyro, Celsius{not_a_number}).value(), 60e3);
+}
+
+TEST(CompensationConstants, VariancesOfATick) {
+    const Constants gyro{.tick = Seconds{0.25}, .scale = Arcsec{3.0}, .random_walk = ArcsecPerRootSecond{2.0}};
+    EXPECT_EQ(rounding_arcsec2(gyro), 1.5);
+    EXPECT_EQ(walk_arcsec2(gyro), 1.0);
+}
+
+}  // namespace

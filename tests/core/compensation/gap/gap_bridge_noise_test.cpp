@@ -1,0 +1,145 @@
+// The sigma that the bridge states, against a free-running counter that truncates a motion of random phase.
+#include <zlg/core/compensation/gap_bridge.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "compensation/compensation_support.hpp"
+#include "gap_bridge_support.hpp"
+
+namespace {
+
+using namespace zlg::core;
+using namespace compensation_test;
+using namespace gap_bridge_support;
+
+constexpr int n_trials = 5'000;  // the scatter of a sigma is then 1 %
+constexpr double tolerance = 0.1;
+constexpr double count_arcsec = 3.263;
+
+struct Case {
+    BridgeMethod method = BridgeMethod::quadratic;
+    int gap_ticks = 3;
+    int points_before = 2;
+    int points_after = 2;
+    double walk_arcsec = 0.0;  // white angle noise of one tick
+};
+
+struct Scatter {
+    Statistics sum;     // error of the gap's final angle
+    Statistics middle;  // error of its middle tick
+    double sigma_sum = 0.0;
+    double sigma_middle = 0.0;
+};
+
+// Angle at the end of tick k: a polynomial, so that the rate of every tick is of the order of the bridge.
+struct Motion {
+    double phase_counts;
+    double rate;
+    double acceleration;
+    double jerk;
+
+    double counts_at(int k) const { return phase_counts + k * (rate + k * (acceleration + k * jerk)); }
+};
+
+Motion random_motion(Random& random, int order) {
+    return {random.uniform(0.0, 1.0), random.uniform(-40.0, 40.0), order >= 1 ? random.uniform(-0.5, 0.5) : 0.0,
+            order >= 2 ? random.uniform(-0.05, 0.05) : 0.0};
+}
+
+Log counted(Random& random, const Motion& motion, const Case& c, int first) {
+    Log log;
+    for (int k = 0; k < first + c.gap_ticks + 12; ++k) {
+        const double counts = std::floor(motion.counts_at(k + 1)) - std::floor(motion.counts_at(k));
+        TickInput tick = k >= first && k < first + c.gap_ticks ? gap_tick() : measured_tick(count_arcsec * counts);
+        tick.value_arcsec += c.walk_arcsec * random.normal();
+        tick.variance_arcsec2 = count_arcsec * count_arcsec / 6.0 + c.walk_arcsec * c.walk_arcsec;
+        log.push_back(tick);
+    }
+    return log;
+}
+
+Scatter scatter_of(const Case& c) {
+    Random random{11};
+    const GapBridgeConfig config{.method = c.method, .points_before = c.points_before, .points_after = c.points_after};
+    const int first = 10;
+    const int middle = first + c.gap_ticks / 2;
+    Scatter scatter;
+    for (int trial = 0; trial < n_trials; ++trial) {
+        const Motion motion = random_motion(random, order_of(c.method));
+        const Delivered got = run(config, counted(random, motion, c, first), {.scale = Arcsec{count_arcsec}});
+        const auto true_arcsec = [&](int from, int to) {
+            return count_arcsec * (motion.counts_at(to) - motion.counts_at(from));
+        };
+        double sum = 0.0;
+        for (int k = first; k < first + c.gap_ticks; ++k) sum += got.rows[static_cast<unsigned>(k)].dtheta_final_arcsec;
+        const AngleRow& row = got.rows[static_cast<unsigned>(middle)];
+        scatter.sum.add(sum - true_arcsec(first, first + c.gap_ticks));
+        scatter.middle.add(row.dtheta_final_arcsec - true_arcsec(middle, middle + 1));
+        scatter.sigma_sum = got.gaps.at(0).sigma_sum_arcsec;
+        scatter.sigma_middle = row.sigma_arcsec;
+    }
+    return scatter;
+}
+
+void expect_stated_sigma(const Case& c) {
+    const Scatter scatter = scatter_of(c);
+    const double sum = std::sqrt(scatter.sum.variance());
+    const double middle = std::sqrt(scatter.middle.variance());
+    EXPECT_NEAR(scatter.sigma_sum / sum, 1.0, tolerance)
+        << "method " << static_cast<int>(c.method) << " n " << c.gap_ticks;
+    EXPECT_NEAR(scatter.sigma_middle / middle, 1.0, tolerance)
+        << "method " << static_cast<int>(c.method) << " n " << c.gap_ticks;
+    EXPECT_NEAR(scatter.sum.mean(), 0.0, 5.0 * sum / std::sqrt(1.0 * n_trials));
+}
+
+TEST(GapBridgeNoise, SigmaIsThatOfADifferencedRounding) {
+    for (const auto method : {BridgeMethod::constant, BridgeMethod::linear, BridgeMethod::quadratic})
+        for (const int gap_ticks : {1, 3, 6, 16}) expect_stated_sigma({.method = method, .gap_ticks = gap_ticks});
+}
+
+TEST(GapBridgeNoise, SigmaIsThatOfADifferencedRoundingForOtherPoints) {
+    expect_stated_sigma({.points_before = 4, .points_after = 1});
+    expect_stated_sigma({.points_before = 1, .points_after = 4});
+    expect_stated_sigma({.points_before = 8, .points_after = 8});
+    expect_stated_sigma({.method = BridgeMethod::linear, .points_before = 1, .points_after = 1});
+}
+
+TEST(GapBridgeNoise, SigmaHoldsTheRandomWalk) {
+    for (const auto method : {BridgeMethod::constant, BridgeMethod::linear, BridgeMethod::quadratic})
+        expect_stated_sigma({.method = method, .walk_arcsec = 5.0});
+}
+
+// Equal noise without a shared rounding: the factors that the weights alone give.
+TEST(GapBridgeNoise, WithoutRoundingTheFactorsAreThoseOfTheWeights) {
+    for (const auto& [method, factor] : {std::pair{BridgeMethod::constant, 1.5},
+                                         {BridgeMethod::linear, 1.5},
+                                         {BridgeMethod::quadratic, std::sqrt(14.5)}}) {
+        Log log(30, measured_tick(1.0));
+        for (TickInput& tick : log) tick.variance_arcsec2 = 4.0;
+        for (unsigned k = 10; k < 13; ++k) log[k] = gap_tick();
+        const Delivered got = run({.method = method}, log, {.scale = Arcsec{0.0}});
+        EXPECT_NEAR(got.gaps.at(0).sigma_sum_arcsec, 2.0 * factor, 1e-12);
+    }
+}
+
+TEST(GapBridgeNoise, AnUnknownSigmaOfAPointMakesThatOfTheGapUnknown) {
+    Log log(30, measured_tick(1.0));
+    log[13].variance_arcsec2 = infinite;
+    for (unsigned k = 10; k < 13; ++k) log[k] = gap_tick();
+    const Delivered got = run({}, log);
+    for (unsigned k = 10; k < 13; ++k) EXPECT_TRUE(std::isinf(got.rows[k].sigma_arcsec));
+    EXPECT_TRUE(std::isinf(got.gaps.at(0).sigma_sum_arcsec));
+}
+
+// The straight line through four ticks gives the second of them no weight in the first tick of a gap.
+TEST(GapBridgeNoise, AnUnknownSigmaSpreadsEvenWhereItsWeightIsZero) {
+    Log log(30, measured_tick(1.0));
+    log[26].variance_arcsec2 = infinite;
+    log[29] = gap_tick();
+    EXPECT_TRUE(std::isinf(run({.method = BridgeMethod::linear}, log).rows[29].sigma_arcsec));
+}
+
+}  // namespace

@@ -1,0 +1,246 @@
+#include <zlg/core/compensation/relock_drift.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "compensation/compensation_support.hpp"
+#include "relock_drift_support.hpp"
+
+namespace {
+
+using namespace zlg::core;
+using namespace compensation_test;
+using namespace relock_drift_support;
+
+constexpr RelockMethod all_methods[] = {RelockMethod::frequency, RelockMethod::detuning, RelockMethod::mean_square};
+
+// A bias so high that the rounding of counts is beyond the digits looked at.
+constexpr double fine_bias_hz = 1e13;
+
+Configured fine(RelockMethod method, double bias_hz = fine_bias_hz) {
+    Configured setup = configured(method);
+    setup.gyro.bias = Hertz{bias_hz};
+    return setup;
+}
+
+// A loop that lets the detuning decay as dl0 exp(-t/tau), and what a gyro without noise would measure of it.
+struct ExponentialLoop {
+    double dl0_lambda = 0.22;
+    double tau_ticks = 3.5;
+
+    // Mean of dl^power over the half that starts at tick `start` of the decay.
+    double mean(int power, double start) const {
+        const double rate = power / tau_ticks;
+        return std::pow(dl0_lambda, power) * std::exp(-rate * start) * (1.0 - std::exp(-0.5 * rate)) / (0.5 * rate);
+    }
+
+    RelockTick tick(const Configured& c, int i, int sign, double rotation_hz) const {
+        RelockTick t{.sign = sign, .temperature_c = not_a_number};
+        t.detuning_first_lambda = mean(1, i - 1);
+        t.detuning_second_lambda = mean(1, i - 0.5);
+        t.detuning_sq_first_lambda2 = mean(2, i - 1);
+        t.detuning_sq_second_lambda2 = mean(2, i - 0.5);
+        const double half_s = 0.5 * c.gyro.tick.value();
+        const double f0 = c.gyro.bias.value();
+        t.counts_first =
+            std::llround(half_s * (rotation_hz + sign * f0 * (1.0 - c.gyro.chi * t.detuning_sq_first_lambda2)));
+        t.counts_second =
+            std::llround(half_s * (rotation_hz - sign * f0 * (1.0 - c.gyro.chi * t.detuning_sq_second_lambda2)));
+        return t;
+    }
+
+    // Closed form of the false angle: -chi f0 dl0^2 (tau/2T) q^(2(i-1)) (1-q)^2, a rate in counts/s.
+    double false_angle_arcsec(const Configured& c, int i, int sign) const {
+        const double q = std::exp(-1.0 / tau_ticks);
+        const double rate_hz = -c.gyro.chi * c.gyro.bias.value() * dl0_lambda * dl0_lambda * 0.5 * tau_ticks *
+                               std::pow(q, 2 * (i - 1)) * (1.0 - q) * (1.0 - q);
+        return sign * c.gyro.scale.value() * c.gyro.tick.value() * rate_hz;
+    }
+};
+
+// The false angle that is known of tick i, at once or one tick later.
+double corrected_arcsec(const Configured& config, RelockDriftState& state, const ExponentialLoop& loop, int i,
+                        int sign) {
+    const double rotation_hz = 3677.5;
+    const RelockDriftOutput out = step(config, state, loop.tick(config, i, sign, rotation_hz));
+    EXPECT_TRUE(out.due);
+    EXPECT_FALSE(out.first_due && i != 2);
+    if (!out.waiting) {
+        EXPECT_TRUE(out.tick.known);
+        return out.tick.value_arcsec;
+    }
+    RelockDriftState ahead = state;
+    const RelockDriftOutput next = step(config, ahead, loop.tick(config, i + 1, sign, rotation_hz));
+    EXPECT_TRUE(next.first_due && next.first.known);
+    return next.first.value_arcsec;
+}
+
+// The bias lacks chi (dl - c)^2 of itself: what the centre adds is linear in the mean.
+TEST(RelockDrift, ACentreOfTheBiasMovesTheFalseAngleByTheMeans) {
+    for (const RelockMethod method : {RelockMethod::detuning, RelockMethod::mean_square})
+        for (const double centre : {-0.1, 0.03})
+            for (const double dl0 : {0.22, -0.1}) {
+                const ExponentialLoop loop{dl0, 3.5};
+                Configured config = fine(method);
+                config.gyro.centre = Wavelengths{centre};
+                RelockDriftState state;
+                enter_gap(state);
+                for (int i = 1; i <= 5; ++i) {
+                    const double loss = loop.mean(2, i - 0.5) - loop.mean(2, i - 1) -
+                                        2.0 * centre * (loop.mean(1, i - 0.5) - loop.mean(1, i - 1));
+                    const double expected = config.gyro.scale.value() * config.gyro.tick.value() * 0.5 *
+                                            config.gyro.chi * config.gyro.bias.value() * loss;
+                    EXPECT_NEAR(corrected_arcsec(config, state, loop, i, 1) / expected, 1.0, 1e-9)
+                        << centre << ' ' << dl0 << ", tick " << i;
+                }
+            }
+}
+
+TEST(RelockDrift, EveryMethodFindsTheFalseAngleOfAnExponentialLoop) {
+    for (const RelockMethod method : all_methods)
+        for (const double dl0 : {0.22, -0.22, 0.05, -0.05})
+            for (const double tau_ticks : {1.3, 3.5})
+                for (const int sign : {1, -1}) {
+                    const ExponentialLoop loop{dl0, tau_ticks};
+                    const Configured config = fine(method);
+                    RelockDriftState state;
+                    enter_gap(state);
+                    for (int i = 1; i <= 8; ++i) {
+                        const double expected = loop.false_angle_arcsec(config, i, sign);
+                        // A third of a count, for what rounding leaves of it.
+                        EXPECT_NEAR(corrected_arcsec(config, state, loop, i, sign), expected,
+                                    1.0 + 1e-7 * std::fabs(expected))
+                            << "method " << static_cast<int>(method) << " dl0 " << dl0 << " sign " << sign << " i "
+                            << i;
+                    }
+                }
+}
+
+TEST(RelockDrift, WhatIsLeftOfTheCountsIsTheRotation) {
+    for (const RelockMethod method : all_methods)
+        for (const int sign : {1, -1}) {
+            const ExponentialLoop loop;
+            const Configured config = fine(method);
+            RelockDriftState state;
+            enter_gap(state);
+            for (int i = 1; i <= 6; ++i) {
+                const RelockTick tick = loop.tick(config, i, sign, 3677.5);
+                const double measured =
+                    config.gyro.scale.value() * static_cast<double>(tick.counts_first + tick.counts_second);
+                const double rotation = config.gyro.scale.value() * 3677.5 * config.gyro.tick.value();
+                const double false_arcsec = corrected_arcsec(config, state, loop, i, sign);
+                EXPECT_NEAR(measured - false_arcsec, rotation, 4.0 + 2e-6 * std::fabs(false_arcsec));
+            }
+        }
+}
+
+TEST(RelockDrift, FalseAnglesOfConsecutiveSwitchesHaveOppositeSigns) {
+    for (const double dl0 : {0.2, -0.2})
+        for (const RelockMethod method : all_methods) {
+            const ExponentialLoop loop{dl0, 3.5};
+            const Configured config = fine(method);
+            RelockDriftState state;
+            enter_gap(state);
+            EXPECT_LT(corrected_arcsec(config, state, loop, 1, 1), 0.0);
+            enter_gap(state);
+            EXPECT_GT(corrected_arcsec(config, state, loop, 1, -1), 0.0);
+        }
+}
+
+TEST(RelockDrift, DetuningIsEquation13InItsLongForm) {
+    Random random{1};
+    const Configured c = fine(RelockMethod::detuning, 60e3);
+    for (int trial = 0; trial < 10'000; ++trial) {
+        const long double first = random.uniform(-0.3, 0.3);
+        const long double rho = random.uniform(0.01, 0.999);
+        RelockDriftState state{.armed = true};
+        const RelockTick tick{.sign = 1,
+                              .detuning_first_lambda = static_cast<double>(first),
+                              .detuning_second_lambda = static_cast<double>(first * rho)};
+        const FalseAngle angle = step(c, state, tick).tick;
+        const long double tau_by_tick = -1.0L / (2.0L * std::log(rho));
+        const long double start = first * std::log(rho) / (rho - 1.0L);
+        const long double rate = -3.6L * 60e3L * start * start * 0.5L * tau_by_tick * std::pow(1.0L - rho * rho, 2.0L);
+        const double expected = static_cast<double>(3.263L * 0.005L * rate);
+        // Near a ratio of 1 the rounding of the second detuning is what counts.
+        ASSERT_TRUE(angle.known);
+        ASSERT_NEAR(angle.value_arcsec, expected,
+                    std::fabs(expected) * (1e-14 + 1e-15 / static_cast<double>(1.0L - rho)));
+    }
+}
+
+TEST(RelockDrift, MeanSquareIsExactForALoopThatSlews) {
+    // dl = 0.22 - 0.0616 t/T until 0.05, then held: no exponential anywhere.
+    const auto dl = [](long double t) { return std::fmax(0.22L - 0.0616L * t, 0.05L); };
+    const auto integral_of_square = [&](long double from, long double to) {
+        const long double knee = (0.22L - 0.05L) / 0.0616L;
+        const auto ramp = [&](long double a, long double b) {
+            return (dl(a) * dl(a) + dl(a) * dl(b) + dl(b) * dl(b)) * (b - a) / 3.0L;
+        };
+        if (from < knee && knee < to) return ramp(from, knee) + ramp(knee, to);
+        return ramp(from, to);
+    };
+    const Configured c = fine(RelockMethod::mean_square, 60e3);
+    RelockDriftState state{.armed = true};
+    for (int i = 1; i <= 5; ++i) {
+        const long double first = integral_of_square(i - 1.0L, i - 0.5L);
+        const long double second = integral_of_square(i - 0.5L, i);
+        const RelockTick tick{.sign = -1,
+                              .detuning_sq_first_lambda2 = static_cast<double>(2.0L * first),
+                              .detuning_sq_second_lambda2 = static_cast<double>(2.0L * second)};
+        const FalseAngle angle = step(c, state, tick).tick;
+        // Counts of bias of the tick: -f0 T integral(1 - chi dl^2) in the first half, the opposite in the second.
+        const long double counts = 60e3L * 0.005L * 3.6L * (first - second);
+        EXPECT_TRUE(angle.known);
+        EXPECT_NEAR(angle.value_arcsec, static_cast<double>(3.263L * counts), 1e-11);
+    }
+}
+
+TEST(RelockDrift, TotalFalseAngleIsAQuarterTickOfTheFirstDeficit) {
+    // Leading order in T/tau: total = (T/4) G(0), G(0) = chi f0 dl0^2.
+    const ExponentialLoop loop{0.1, 60.0};
+    Configured config = fine(RelockMethod::mean_square, 60e3);
+    config.relock.ticks = 400;
+    RelockDriftState state{.armed = true};
+    double total = 0.0;
+    for (int i = 1; i <= 400; ++i) total += step(config, state, loop.tick(config, i, 1, 0.0)).tick.value_arcsec;
+    const double deficit_hz = 3.6 * 60e3 * 0.01;
+    EXPECT_NEAR(total, -3.263 * 0.005 / 4.0 * deficit_hz, 0.01 * 3.263 * 0.005 / 4.0 * deficit_hz);
+}
+
+TEST(RelockDrift, TemperatureMovesTheBiasByItsLaw) {
+    for (const RelockMethod method : all_methods)
+        for (const double temperature_c : {-40.0, 20.0, 60.0}) {
+            const ExponentialLoop loop;
+            Configured warm = fine(method);
+            warm.gyro.bias = Hertz{fine_bias_hz * (1.0 - 5e-4 * (temperature_c - 25.0))};
+            Configured config = fine(method);
+            config.gyro.temperature_coefficient_per_c = -5e-4;
+            config.gyro.reference_temperature = Celsius{25.0};
+            RelockDriftState state{.armed = true};
+            FalseAngle angle;
+            for (int i = 1; i <= 2; ++i) {
+                RelockTick tick = loop.tick(warm, i, 1, 0.0);
+                tick.temperature_c = temperature_c;
+                angle = step(config, state, tick).tick;
+            }
+            const double expected = loop.false_angle_arcsec(warm, 2, 1);
+            EXPECT_NEAR(angle.value_arcsec, expected, 2e-6 * std::fabs(expected));
+        }
+}
+
+TEST(RelockDrift, WithoutATemperatureTheReferenceIsTaken) {
+    for (const double unknown : {not_a_number, infinite, -infinite}) {
+        Configured config = fine(RelockMethod::mean_square, 60e3);
+        config.gyro.temperature_coefficient_per_c = -5e-4;
+        RelockDriftState state{.armed = true};
+        RelockTick tick = ExponentialLoop{}.tick(config, 1, 1, 0.0);
+        tick.temperature_c = unknown;
+        const double expected = ExponentialLoop{}.false_angle_arcsec(config, 1, 1);
+        EXPECT_NEAR(step(config, state, tick).tick.value_arcsec, expected, 1e-11);
+    }
+}
+
+}  // namespace

@@ -1,0 +1,238 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <zlg/core/control/fringe_readout.hpp>
+
+namespace zlg::core {
+namespace {
+
+constexpr double tau = 2.0 * std::numbers::pi;
+constexpr FringeReadoutConfig config{.reads = true, .limit = 1.9};
+static_assert(check(config) == FringeReadoutFault::none);
+static_assert(check(FringeReadoutConfig{.counts_per_turn = 2}) == FringeReadoutFault::counts_per_turn);
+static_assert(check(FringeReadoutConfig{.amplitude = 0.0}) == FringeReadoutFault::amplitude);
+static_assert(check(FringeReadoutConfig{.limit = 0.0}) == FringeReadoutFault::limit);
+static_assert(check(FringeReadoutConfig{.noise_turns = -1.0}) == FringeReadoutFault::noise);
+static_assert(check(FringeReadoutConfig{.lag_turns = 0.2}) == FringeReadoutFault::lag);
+static_assert(check(FringeReadoutConfig{.max_skew_turns = std::numeric_limits<double>::quiet_NaN()}) ==
+              FringeReadoutFault::max_skew);
+
+// Electronics of a beat at a known phase: an ellipse, noise, a counter whose comparators lag by some turns.
+struct Electronics {
+    FringeReadoutConfig c = config;
+    FringeReadoutState state;
+    double noise = 0.01;
+    double lag_turns = 0.0;   // the counter shows this much less
+    double skew_turns = 0.0;  // the samples show this much less in the sense of the beat
+    std::int64_t half = 0;
+    std::mt19937_64 engine{3};
+    std::normal_distribution<double> normal{};
+
+    FringeReadoutInput input(double turns) {
+        const int sign = half % 2 == 0 ? 1 : -1;
+        const double seen = turns - sign * skew_turns;
+        const double quarters = std::floor(4.0 * (turns - sign * lag_turns));
+        const auto shown = static_cast<std::int64_t>(c.counts_per_turn == 4 ? quarters : std::floor(quarters / 4.0));
+        return {.present = true,
+                .c = static_cast<float>(0.05 + 1.05 * std::cos(tau * seen) + noise * normal(engine)),
+                .s = static_cast<float>(-0.04 + 0.97 * std::sin(tau * seen + 0.08) + noise * normal(engine)),
+                .quarter = static_cast<std::uint32_t>(static_cast<std::int64_t>(quarters) & 3),
+                .counter = static_cast<std::uint64_t>(shown),
+                .settled = true,
+                .sign = sign};
+    }
+    FringeReadoutOutput read(const FringeReadoutInput& in) {
+        ++half;
+        return step(c, state, in);
+    }
+    FringeReadoutOutput at(double turns) { return read(input(turns)); }
+
+    void learn() {
+        for (int k = 0; k < 800; ++k) (void)at(k * 37.6180339887);
+        ASSERT_TRUE(state.ellipse.learnt);
+    }
+};
+
+double place(const FringeReadoutOutput& out) {
+    return static_cast<double>(static_cast<std::int64_t>(out.counter)) + out.fringe / 65536.0;
+}
+
+TEST(FringeReadout, WithoutItTheCountIsAsItWasRead) {
+    Electronics e;
+    e.c.reads = false;
+    const FringeReadoutOutput out = e.at(-7.3);
+    EXPECT_EQ(out.counter, static_cast<std::uint64_t>(-8));
+    EXPECT_TRUE(std::isnan(out.fringe));
+    EXPECT_EQ(e.state, FringeReadoutState{});
+}
+
+TEST(FringeReadout, CountAndPhaseAreOneNumberOnEitherSideOfABorder) {
+    for (const int counts : {1, 4}) {
+        for (const double lag : {0.0, 0.016, 0.1}) {
+            Electronics e;
+            e.c.counts_per_turn = counts;
+            e.lag_turns = lag;
+            e.learn();
+            for (int k = -2000; k < 2000; ++k) {
+                // Through the borders of all quarters, forth and back, in steps of the noise.
+                const double turns = 5e5 * (k % 7) + k * 0.00153;
+                const FringeReadoutOutput out = e.at(turns);
+                ASSERT_GE(out.fringe, 0.0f) << turns;
+                ASSERT_LT(out.fringe, 65536.0f);
+                EXPECT_NEAR(place(out) / counts, turns, 0.012) << turns << " " << lag;
+            }
+        }
+    }
+}
+
+TEST(FringeReadout, ThePlaceIsGoodToTheNoise) {
+    Electronics e;
+    e.learn();
+    double sum = 0.0;
+    constexpr int n = 4000;
+    for (int k = 0; k < n; ++k) {
+        const double turns = k * 12.34567891;
+        const double off = place(e.at(turns)) - turns;
+        sum += off * off;
+    }
+    EXPECT_NEAR(std::sqrt(sum / n), 0.01 / tau, 0.15 * 0.01 / tau);
+}
+
+TEST(FringeReadout, AnythingBadInOneSampleCostsThisSampleAlone) {
+    Electronics e;
+    e.learn();
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    for (const float bad : {nan, inf, -inf, 2.0f, -1.95f}) {
+        for (const bool second : {false, true}) {
+            FringeReadoutInput in = e.input(1000.25);
+            (second ? in.s : in.c) = bad;
+            const FringeReadoutOutput out = e.read(in);
+            EXPECT_TRUE(std::isnan(out.fringe));
+            EXPECT_EQ(out.counter, in.counter);
+            for (int k = 0; k < 20; ++k) EXPECT_GE(e.at(1000.25 + 13.7 * k).fringe, 0) << k;
+        }
+    }
+    FringeReadoutInput in = e.input(1000.3);
+    in.present = false;
+    EXPECT_TRUE(std::isnan(e.read(in).fringe));
+    EXPECT_GE(e.at(1000.3).fringe, 0);
+}
+
+TEST(FringeReadout, ADeadPhotodiodeIsSeenWithinATickAndCostsNoFringe) {
+    for (const float shown : {0.0f, 0.3f}) {
+        for (const bool noisy : {false, true}) {
+            for (const bool second : {false, true}) {
+                Electronics e;
+                e.learn();
+                int n_wrong = 0;
+                for (int k = 0; k < 400; ++k) {
+                    const double turns = 500.0 + k * 11.381966;
+                    FringeReadoutInput in = e.input(turns);
+                    (second ? in.s : in.c) = shown + (noisy ? 0.01f * static_cast<float>(e.normal(e.engine)) : 0.0f);
+                    const FringeReadoutOutput out = e.read(in);
+                    if (std::isnan(out.fringe)) {
+                        EXPECT_EQ(out.counter, in.counter);
+                        continue;
+                    }
+                    ++n_wrong;
+                    EXPECT_LT(std::abs(place(out) - turns), 0.5);
+                }
+                EXPECT_LE(n_wrong, 2);
+            }
+        }
+    }
+}
+
+TEST(FringeReadout, BothStuckAreSeenByTheComparators) {
+    Electronics e;
+    e.learn();
+    const FringeReadoutInput first = e.input(70.1);
+    int n_read = 0;
+    for (int k = 0; k < 200; ++k) {
+        FringeReadoutInput in = e.input(70.1 + 5.3 * k);
+        in.c = first.c;
+        in.s = first.s;
+        n_read += e.read(in).fringe >= 0;
+    }
+    EXPECT_LE(n_read, 2);
+}
+
+TEST(FringeReadout, NoiseFarBeyondThePresumedOneIsNotRead) {
+    Electronics e;
+    e.learn();
+    e.noise = 0.2;
+    int n_read = 0;
+    for (int k = 0; k < 400; ++k) n_read += e.at(k * 3.7).fringe >= 0;
+    EXPECT_LE(n_read, 10);
+    e.noise = 0.01;
+    for (int k = 0; k < 300; ++k) (void)e.at(k * 3.7);
+    EXPECT_GE(e.at(8.2).fringe, 0);
+}
+
+// Twice the amplitude by a new lamp, and other offsets: learnt anew.
+TEST(FringeReadout, PhotodiodesThatChangedForGoodAreLearntAnew) {
+    Electronics e;
+    e.learn();
+    bool read = false;
+    for (int k = 0; k < 4000; ++k) {
+        FringeReadoutInput in = e.input(k * 3.7123);
+        in.c = 0.6f * in.c + 0.3f;
+        const FringeReadoutOutput out = e.read(in);
+        read = out.fringe >= 0;
+        if (read) EXPECT_NEAR(place(out), k * 3.7123, 0.1);
+    }
+    EXPECT_TRUE(read);
+}
+
+TEST(FringeReadout, AtRestItIsNotLearntAndOnceLearntItIsRead) {
+    Electronics e;
+    for (int k = 0; k < 3000; ++k) EXPECT_TRUE(std::isnan(e.at(k % 2 == 0 ? 150.2 : 0.2).fringe));
+    Electronics turned;
+    turned.learn();
+    for (int k = 0; k < 3000; ++k) EXPECT_GE(turned.at(k % 2 == 0 ? 150.2 : 0.2).fringe, 0);
+}
+
+// After a gap it is so in its last lit halves.
+TEST(FringeReadout, ACounterThatLostQuartersIsJoinedAnew) {
+    for (const bool settled : {true, false}) {
+        Electronics e;
+        e.learn();
+        int n_lost = 0;
+        double offset = 0.0;
+        for (int k = 0; k < 200; ++k) {
+            const double turns = k * 3.7123;
+            FringeReadoutInput in = e.input(turns + 0.5);  // the counter is half a turn ahead of the photodiodes
+            const FringeReadoutInput seen = e.input(turns);
+            in.c = seen.c;
+            in.s = seen.s;
+            in.settled = settled;
+            const FringeReadoutOutput out = e.read(in);
+            n_lost += std::isnan(out.fringe);
+            if (out.fringe >= 0) offset = place(out) - turns;
+        }
+        EXPECT_LE(n_lost, settled ? 9 : 1);
+        EXPECT_NEAR(offset, 0.5, 0.012);
+    }
+}
+
+TEST(FringeReadout, ASkewBetweenLatchAndSamplingIsReported) {
+    for (const double lag : {0.0, 0.016}) {
+        for (const double skew : {0.0, 0.0012, 0.0048, 0.03}) {
+            Electronics e;
+            e.c.lag_turns = e.lag_turns = lag;
+            e.skew_turns = skew;
+            e.learn();
+            bool skewed = false;
+            for (int k = 0; k < 20'000; ++k) skewed = e.at(k * 37.6180339887).skewed;
+            EXPECT_EQ(skewed, skew > 0.003) << skew << " " << lag;
+            EXPECT_NEAR(e.state.skew_turns, -skew, 0.0015);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace zlg::core

@@ -1,0 +1,162 @@
+// Recovery from darkness, from a stage that does not move, and from frames of garbage.
+#include "gyro_control_support.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace zlg::core::test {
+
+namespace {
+
+// Garbage of the kinds that electronics produce: plain noise of bits, and frames that are nearly right.
+class Garbage {
+public:
+    SensorFrame frame(std::int64_t half) {
+        SensorFrame f;
+        f.sequence = coin() ? static_cast<std::uint32_t>(half) : static_cast<std::uint32_t>(random_());
+        f.timer_ticks = coin() ? static_cast<std::uint64_t>(half) * 25000 : random_();
+        f.counter = random_();
+        f.bias_sign = coin() ? static_cast<std::int8_t>(half % 2 == 0 ? 1 : -1) : static_cast<std::int8_t>(random_());
+        f.polarity = coin() ? static_cast<std::int8_t>(coin() ? 1 : -1) : static_cast<std::int8_t>(random_());
+        f.loop_closed = coin();
+        f.has_light_b = coin();
+        f.n_light = coin() ? 16 : static_cast<std::uint8_t>(random_());
+        const int kind = static_cast<int>(random_() % 4);
+        for (float& x : f.light_a) x = light(kind);
+        for (float& x : f.light_b) x = light(kind);
+        f.piezo_v = any_double();
+        f.temperature_c = any_double();
+        f.coil_current_a = any_double();
+        f.status = random_() % 8 == 0 ? static_cast<std::uint32_t>(random_()) : 0u;
+        return f;
+    }
+
+private:
+    bool coin() { return random_() % 2 == 0; }
+    float light(int kind) {
+        if (kind == 0) return std::bit_cast<float>(static_cast<std::uint32_t>(random_()));
+        if (kind == 1) return static_cast<float>(random_() % 3) * 1e38f;
+        const float noise = static_cast<float>(random_() % 1000) * 1e-3f;
+        return kind == 2 ? 1000.0f + noise : 1000.0f - 900.0f * noise;
+    }
+    double any_double() {
+        return coin() ? std::bit_cast<double>(random_()) : 300.0 * static_cast<double>(random_() % 1000) * 1e-3;
+    }
+
+    std::mt19937_64 random_{20};
+};
+
+void expect_sane(const GyroControlOutput& out, const GyroControlState& s) {
+    ASSERT_TRUE(all_finite(out.record));
+    ASSERT_TRUE(out.actuator.polarity == 1 || out.actuator.polarity == -1);
+    ASSERT_TRUE(out.actuator.n_set_points == 1 || out.actuator.n_set_points == 16);
+    for (std::size_t k = 0; k < out.actuator.n_set_points; ++k) {
+        ASSERT_TRUE(out.actuator.set_point_v[k] >= 0.0 && out.actuator.set_point_v[k] <= 300.0);
+    }
+    for (const double weight : s.stroke.weight) ASSERT_TRUE(std::isfinite(weight));
+    for (const double play : s.stroke.play) ASSERT_TRUE(std::isfinite(play));
+    ASSERT_TRUE(s.loop.slew_ratio >= 0.25 && s.loop.slew_ratio <= 4.0);
+    ASSERT_TRUE(out.record.mode == 1 || out.record.mode == -1);
+    ASSERT_TRUE(out.record.bias_sign == 1 || out.record.bias_sign == -1);
+    ASSERT_TRUE(std::isfinite(out.event.half_wave_v) && std::isfinite(out.event.miss_lambda));
+    ASSERT_TRUE(s.half_wave.estimate_v >= 20.0 && s.half_wave.estimate_v <= 80.0);
+    ASSERT_TRUE(s.half_wave.variance_v2 > 0.0 && s.half_wave.variance_v2 <= 16.0);
+    ASSERT_TRUE(std::isfinite(s.piezo_v) && std::isfinite(s.temperature_c));
+    ASSERT_TRUE(std::isfinite(s.detector.both.level) && std::isfinite(s.detector.both.candidate));
+    ASSERT_TRUE(std::isfinite(s.detector.single.level) && std::isfinite(s.detector.single.candidate));
+    ASSERT_TRUE(std::isfinite(s.detector.mean_a));
+    ASSERT_TRUE(std::isfinite(s.mode_switch.detuning_lambda) && std::isfinite(s.mode_switch.miss_lambda));
+    ASSERT_TRUE(s.mode_switch.set_point_v >= 0.0 && s.mode_switch.set_point_v <= 300.0);
+    ASSERT_TRUE(std::isfinite(s.mode_switch.good_v));
+    ASSERT_TRUE(std::isfinite(s.bias_monitor.bias_counts) && std::isfinite(s.light_monitor.last_lambda));
+    ASSERT_TRUE(std::isfinite(s.coil_monitor.odd) && std::isfinite(s.coil_monitor.even));
+    ASSERT_TRUE(std::isfinite(s.coil_monitor.spread) && std::isfinite(s.mean_temperature_c));
+    for (const double v : s.mode_switch.readings.voltage_v) ASSERT_TRUE(std::isfinite(v));
+}
+
+}  // namespace
+
+TEST_P(EitherLoop, ADarkSecondIsSurvived) {
+    Loop loop{config_of(GetParam())};
+    loop.ticks(100);
+    loop.plant.lamp_on = false;
+    loop.ticks(200);  // the first switch falls into the dark
+    loop.plant.lamp_on = true;
+    loop.ticks(650);
+    EXPECT_EQ(loop.state.mode_switch.phase, SwitchPhase::tracking);
+    EXPECT_EQ(loop.plant.helicity(), loop.actuator.polarity);
+    EXPECT_LT(std::abs(loop.records.back().detuning_lambda), 1e-3);
+    EXPECT_TRUE(loop.records.back().valid);
+    EXPECT_EQ(loop.events.back().outcome, SwitchOutcome::switched);
+    EXPECT_EQ(loop.events.back().tick_opened % 200, 0);  // back on the grid
+}
+
+TEST_P(EitherLoop, AStageThatDoesNotMoveLeadsBackToTheOldMode) {
+    Loop loop{config_of(GetParam())};
+    loop.ticks(199);
+    loop.plant.stage_stuck = true;
+    // While the old mode lases under the new reference, the detuning stays near zero: let it be seen elsewhere.
+    loop.plant.drift_lambda += 0.1;
+    loop.ticks(64);
+    loop.plant.stage_stuck = false;
+    loop.plant.drift_lambda -= 0.1;
+    loop.ticks(60);
+    ASSERT_EQ(loop.events.size(), 1u);
+    EXPECT_EQ(loop.events[0].outcome, SwitchOutcome::returned);
+    EXPECT_EQ(loop.actuator.polarity, 1);
+    EXPECT_EQ(loop.plant.helicity(), 1);
+}
+
+TEST_P(EitherLoop, ASearchFindsAModeWhenBothKnownPlacesAreLost) {
+    Loop loop{config_of(GetParam())};
+    loop.ticks(199);
+    loop.plant.lamp_on = false;
+    loop.ticks(100);
+    EXPECT_EQ(loop.state.mode_switch.phase, SwitchPhase::searching);
+    EXPECT_NE(loop.health.back() & health_searching, 0u);
+    loop.plant.drift_lambda = 0.37;
+    loop.plant.lamp_on = true;
+    loop.ticks(90);
+    ASSERT_EQ(loop.events.size(), 1u);
+    EXPECT_EQ(loop.events[0].outcome, SwitchOutcome::found);
+    EXPECT_EQ(loop.state.mode_switch.phase, SwitchPhase::tracking);
+    EXPECT_LT(std::abs(loop.plant.detuning_lambda()), 1e-3);
+    EXPECT_EQ(loop.plant.helicity(), loop.actuator.polarity);
+}
+
+TEST_P(EitherLoop, AHundredThousandHalvesOfGarbageLeaveNoTraceOfThemselves) {
+    for (const bool monitored : {false, true}) {
+        GyroControlConfig c = config_of(GetParam());
+        if (monitored) {
+            c.bias_monitor.presumed_counts = 150.0;
+            c.coil_monitor.tolerance_ratio = 0.003;
+            c.counter_monitor.watches = true;
+            c.light_monitor = {.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
+            c.detuning_monitor.max_change_lambda2 = 0.002;
+        }
+        GyroControlState s = initial_state(c);
+        Garbage garbage;
+        for (std::int64_t half = 0; half < 100000; ++half) {
+            const GyroControlOutput out = step(c, s, garbage.frame(half));
+            ASSERT_NO_FATAL_FAILURE(expect_sane(out, s)) << half;
+            ASSERT_EQ(out.record.half, half);
+        }
+    }
+}
+
+TEST_P(EitherLoop, AfterABurstOfGarbageTheGyroFindsItselfAgain) {
+    Loop loop{config_of(GetParam())};
+    Garbage garbage;
+    loop.ticks(150);
+    for (int half = 300; half < 700; ++half) (void)loop.half([&](SensorFrame& f) { f = garbage.frame(half); });
+    loop.ticks(1000);
+    EXPECT_EQ(loop.state.mode_switch.phase, SwitchPhase::tracking);
+    EXPECT_EQ(loop.plant.helicity(), loop.actuator.polarity);
+    EXPECT_TRUE(loop.records.back().valid);
+    EXPECT_EQ(loop.health.back() & ~health_warming_up, 0u);
+    EXPECT_LT(std::abs(loop.records.back().detuning_lambda), 1e-3);
+}
+
+}  // namespace zlg::core::test

@@ -1,0 +1,53 @@
+#include <zlg/core/control/gyro_control_state.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace zlg::core {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+constexpr GyroControlConfig config_with(auto change) {
+    GyroControlConfig c;
+    change(c);
+    return c;
+}
+
+static_assert(check(GyroControlConfig{}) == GyroControlFault::none);
+static_assert(check(config_with([](auto& c) { c.loop.kind = LoopKind::digital; })) == GyroControlFault::none);
+constexpr GyroControlFault fault(auto change) { return check(config_with(change)); }
+static_assert(fault([](auto& c) { c.detector.dark_fraction = nan_value; }) == GyroControlFault::detector);
+static_assert(fault([](auto& c) { c.loop.slew_v_s = nan_value; }) == GyroControlFault::loop);
+static_assert(fault([](auto& c) { c.half_wave.gate = 0.0; }) == GyroControlFault::half_wave);
+static_assert(fault([](auto& c) { c.schedule.interval_ticks = 0; }) == GyroControlFault::schedule);
+static_assert(fault([](auto& c) { c.mode_switch.gap_ticks = 0; }) == GyroControlFault::mode_switch);
+static_assert(fault([](auto& c) { c.commutator.half_ticks = 0; }) == GyroControlFault::commutator);
+static_assert(fault([](auto& c) { c.health.counts_limit = -1; }) == GyroControlFault::health);
+static_assert(fault([](auto& c) { c.presumed_temperature = Celsius{nan_value}; }) == GyroControlFault::temperature);
+static_assert(fault([](auto& c) { c.loop.range.max = Volts{290.0}; }) == GyroControlFault::ranges_differ);
+
+TEST(GyroControlState, AnImpossibleDitherIsRefused) {
+    EXPECT_EQ(check(config_with([](GyroControlConfig& c) {
+                  c.commutator.dither = {.method = DitherMethod::paired, .half_ticks = 20000};
+              })),
+              GyroControlFault::commutator);
+}
+
+TEST(GyroControlState, StartsAtTheSetPointTheCounterAndTheTemperatureThatArePresumed) {
+    const GyroControlConfig config = config_with([](auto& c) {
+        c.mode_switch.start_set_point = Volts{160.0};
+        c.presumed_temperature = Celsius{35.0};
+    });
+    const GyroControlState state = initial_state(config, 1234);
+    EXPECT_EQ(state.loop.set_point_v, 160.0);
+    EXPECT_EQ(state.piezo_v, 160.0);
+    EXPECT_EQ(state.counter, 1234u);
+    EXPECT_EQ(state.temperature_c, 35.0);
+    EXPECT_EQ(state.half, 0);
+    EXPECT_EQ(state.up.move_v, -state.down.move_v);
+}
+
+}  // namespace
+}  // namespace zlg::core

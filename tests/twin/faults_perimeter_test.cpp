@@ -1,0 +1,107 @@
+// Faults that move the perimeter.
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "faults_support.hpp"
+
+namespace zlg::twin {
+namespace {
+
+// The loop holds its integrator in the dark: what the block does meanwhile is found as detuning afterwards.
+TEST(Faults, TheAnalogLoopHoldsInTheDark) {
+    TwinConfig config = quiet_gyro();
+    const auto halves = with_faults(config,
+                                    {{FaultKind::laser_off, 10 * half_s, 10 * half_s, 0.0},
+                                     {FaultKind::perimeter_ramp, 12 * half_s, 4 * half_s, 2.0}},
+                                    21);
+    EXPECT_NEAR(halves[19].truth.perimeter_v, halves[9].truth.perimeter_v, 1e-6);
+    EXPECT_NEAR(halves[19].truth.detuning_end_lambda, 2.0 * 4 * half_s, 1e-6);
+}
+
+TEST(Faults, LengthsThatStayAreTakenUpByTheVoltage) {
+    // U_lambda/2 = 40 V: 80 V a wavelength, against the growth.
+    const double start_v = with_faults(quiet_gyro(), {}, 1).front().truth.perimeter_v;
+    struct Case {
+        FaultKind kind;
+        double duration_s, size, grown_lambda;
+    };
+    for (const Case& c : {Case{FaultKind::piezo_step, 0.01, 0.1, 0.1}, Case{FaultKind::piezo_step, 0.0, -0.1, -0.1},
+                          Case{FaultKind::perimeter_ramp, 0.5, 0.6, 0.3}}) {
+        const auto halves = with_fault(c.kind, 0.1, c.duration_s, c.size, 500);
+        EXPECT_NEAR(halves.back().truth.perimeter_v, start_v - 80.0 * c.grown_lambda, 0.01) << facts(c.kind).name;
+        EXPECT_NEAR(halves.back().truth.detuning_end_lambda, 0.0, 1e-4);
+    }
+    // By half a wavelength another mode lases, from which the loop of the old polarity drives the length away.
+    const auto hop = with_fault(FaultKind::mode_hop, 0.1, 0.0, 0.48, 500);
+    // The lag of the high voltage makes it slower than the loop alone.
+    EXPECT_LT(hop[40].truth.detuning_end_lambda, -0.02);
+    EXPECT_GT(hop[40].truth.detuning_end_lambda, -0.02 * std::exp(half_s / 0.0065));
+    EXPECT_FALSE(hop.back().truth.lit) << "until the processor helps it";
+}
+
+// A held perimeter shows the disturbance itself.
+TEST(Faults, VibrationAndShockDetuneThePerimeter) {
+    TwinConfig config = held_gyro();
+    config.vibration_hz = 100.0;  // 4 halves a period
+    const auto swing = with_faults(config, {{FaultKind::vibration, 4 * half_s, 8 * half_s, 0.1}}, 20);
+    const double at_rest = swing[0].truth.detuning_end_lambda;
+    for (std::size_t h = 0; h < 20; ++h) {
+        const double phase = 0.5 * std::numbers::pi * (static_cast<double>(h) + 1.0 - 4.0);
+        const double expected = h >= 4 && h < 11 ? 0.1 * std::sin(phase) : 0.0;
+        EXPECT_NEAR(swing[h].truth.detuning_end_lambda - at_rest, expected, 1e-9) << h;
+    }
+    const auto bulge = with_faults(config, {{FaultKind::shock, 4 * half_s, 4 * half_s, -0.2}}, 12);
+    EXPECT_NEAR(bulge[5].truth.detuning_end_lambda - at_rest, -0.2, 1e-9);
+    EXPECT_NEAR(bulge[4].truth.detuning_end_lambda - at_rest, -0.2 * std::sqrt(0.5), 1e-9);
+    EXPECT_NEAR(bulge[9].truth.detuning_end_lambda - at_rest, 0.0, 1e-12);
+}
+
+TEST(Faults, ASwitchIsSentOffItsTarget) {
+    for (const double miss_lambda : {0.0, 0.1}) {
+        const auto landed = [&](std::vector<Fault> faults) {
+            TwinConfig config = quiet_gyro();
+            config.perimeter.miss_lambda = miss_lambda;
+            config.faults = std::move(faults);
+            Twin twin{config, Motion::rest()};
+            advance(twin, frame(true, 1), 4);
+            const double from_v = advance(twin, frame(false, -1, 190.0), 6).back().truth.perimeter_v;
+            return std::pair{from_v, twin.advance(frame(true, -1, 190.0)).truth.detuning_end_lambda};
+        };
+        const auto good = landed({});
+        const auto wrong = landed({{FaultKind::switch_wrong_mode, 2 * half_s, 10 * half_s, -0.4}});
+        const auto late = landed({{FaultKind::switch_no_mode, 6 * half_s, 10 * half_s, 0.25}});
+        EXPECT_NEAR(wrong.first - good.first, -0.4 * 80.0, 0.5) << miss_lambda;
+        EXPECT_EQ(late.first, good.first) << "a loop that is open already has its target";
+    }
+}
+
+TEST(Faults, AnotherHalfWaveVoltageChangesTheLengthOfAVoltage) {
+    TwinConfig config = held_gyro();
+    config.faults = {{FaultKind::half_wave_error, 2 * half_s, 4 * half_s, 0.25}};
+    Twin twin{config, Motion::rest()};
+    // 166 V is 16 V off the middle: 0.2 wavelength, and 0.16 where half a wave takes 50 V.
+    const auto halves = advance(twin, frame(true, 1, 166.0), 8);
+    EXPECT_NEAR(halves[5].truth.detuning_end_lambda, 0.16, 2e-3);
+    EXPECT_NEAR(halves[7].truth.detuning_end_lambda, 0.20, 2e-3);
+}
+
+TEST(Faults, AThermalShockIsReadAndMovesThePerimeter) {
+    TwinConfig config = held_gyro();
+    config.gyro.temperature_rise_c = 0.0;
+    config.perimeter.expansion_lambda_per_c = 0.025;
+    config.gyro.bias_temperature_coefficient_per_c = -1e-3;
+    const auto halves = with_faults(config, {{FaultKind::thermal_shock, 4 * half_s, 4 * half_s, 8.0}}, 40);
+    EXPECT_DOUBLE_EQ(halves[3].sensor.temperature_c, 20.0);
+    EXPECT_NEAR(halves[5].sensor.temperature_c, 24.0, 1e-9);
+    EXPECT_NEAR(halves[39].sensor.temperature_c, 28.0, 1e-9);
+    EXPECT_NEAR(halves[39].truth.detuning_end_lambda - halves[3].truth.detuning_end_lambda, 0.2, 1e-9);
+    // (1 - 8e-3)(1 - 3.6 0.2^2) of 150 counts, the share of the reversals left out.
+    EXPECT_NEAR(static_cast<double>(std::abs(counts(halves, 38))), 150.0 * 0.992 * (1.0 - 3.6 * 0.04), 1.5);
+}
+
+}  // namespace
+}  // namespace zlg::twin

@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "parts.hpp"
+#include "worst.hpp"
+
+namespace zlg::trials {
+namespace {
+
+constexpr Groups paper_and_loops{CaseGroup::paper, CaseGroup::loops};
+constexpr Groups stationary{CaseGroup::paper, CaseGroup::grid,    CaseGroup::broadband,
+                            CaseGroup::loops, CaseGroup::warm_up, CaseGroup::rest};
+
+bool is_x1(const CaseFigures& c) { return c.name.ends_with("x1"); }
+
+Verdict verdict_of(bool met) { return met ? Verdict::met : Verdict::missed; }
+
+Worst worst_rms(const Accuracy& accuracy, bool x1, Groups groups, const std::string& method) {
+    return worst_of(accuracy, groups, method, [&](const CaseFigures& c, const ErrorFigures& f, Worst& w) {
+        if (is_x1(c) == x1) w.add(f.rms_arcsec, rms_error(f), c.name);
+    });
+}
+
+void add_whole_switch(const Accuracy& accuracy, const std::string& method, std::vector<Criterion>& out) {
+    const auto add = [&](const char* wanted, const Worst& w, double limit) {
+        out.push_back({"a, f", fmt::format("{}: {}", method, wanted), w.text(), w.against(limit)});
+    };
+    add("paper's case and every loop, x1: rms at most 2.0\"", worst_rms(accuracy, true, paper_and_loops, method), 2.0);
+    add("the same, x4: at most 0.6\"", worst_rms(accuracy, false, paper_and_loops, method), 0.6);
+    add("bias at most 0.2\", chi f0 wrong by 1 % included",
+        worst_of(accuracy, paper_and_loops, method,
+                 [](const CaseFigures& c, const ErrorFigures& f, Worst& w) {
+                     w.add(std::abs(f.bias_arcsec), f.standard_error, c.name);
+                 }),
+        0.2);
+    add("at most 1.15 times the bound",
+        worst_of(accuracy, paper_and_loops, method,
+                 [](const CaseFigures& c, const ErrorFigures& f, Worst& w) {
+                     const double bound = c.bound.halves_arcsec;
+                     if (bound > 0.0) w.add(f.rms_arcsec / bound, rms_error(f) / bound, c.name);
+                 }),
+        1.15);
+}
+
+void add_flat(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    const Worst x1 = worst_rms(accuracy, true, {CaseGroup::paper}, method_name::flat);
+    const Worst x4 = worst_rms(accuracy, false, {CaseGroup::paper}, method_name::flat);
+    out.push_back({"a", "fixed flat prior, x1: at most 5.5\"", x1.text(), x1.against(5.5)});
+    out.push_back({"a", "fixed flat prior, x4: at most 2.6\"", x4.text(), x4.against(2.6)});
+}
+
+void add_relock(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    Worst bias;
+    Worst ratio;
+    for (const RelockFigures& f : accuracy.relock) {
+        bias.add(std::abs(f.error.bias_arcsec), f.error.standard_error, f.name);
+        ratio.add(f.error.sd_arcsec / f.bound_arcsec, rms_error(f.error) / f.bound_arcsec, f.name);
+    }
+    out.push_back({"light", "false angle, every loop: bias at most 0.2\"", bias.text(), bias.against(0.2)});
+    out.push_back(
+        {"light", "false angle, every loop: sd at most 1.25 times the bound", ratio.text(), ratio.against(1.25)});
+}
+
+// rms over the axes of what `of` gives of each.
+template <class Of>
+double pooled(const RecordingFigures& r, const Of& of) {
+    double sum = 0.0;
+    for (const AxisFigures& a : r.axes) sum += of(a) * of(a);
+    return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, r.axes.size())));
+}
+
+double pooled_rms(const RecordingFigures& r, const char* method) {
+    return pooled(r, [&](const AxisFigures& a) { return find_method(a.methods, method)->whole.rms_arcsec; });
+}
+
+void add_recording(const RecordingFigures& r, std::vector<Criterion>& out) {
+    const double ours = pooled_rms(r, "auto");
+    const double gain =
+        std::min({pooled_rms(r, "constant"), pooled_rms(r, "linear"), pooled_rms(r, "quadratic")}) / ours;
+    const double over_fit = ours / pooled(r, [](const AxisFigures& a) { return a.fit_rms_arcsec; });
+    Worst axis;
+    Worst outside;
+    for (const AxisFigures& a : r.axes) {
+        const ErrorFigures& f = find_method(a.methods, "auto")->whole;
+        double of_paper = 1e300;
+        for (const MethodFigures& p : a.methods)
+            if (p.of_paper) of_paper = std::min(of_paper, p.whole.rms_arcsec);
+        const std::string name = fmt::format("column {}", a.column);
+        axis.add(f.rms_arcsec / of_paper, 0.0, name);
+        outside.add(1.0 - f.within_3_sigma_ratio, 0.0, name);
+    }
+    const auto add = [&](const char* table, const char* wanted, const std::string& got, Verdict verdict) {
+        out.push_back({table, fmt::format("{}: {}", r.name, wanted), got, verdict});
+    };
+    if (r.real) {
+        add("e", "auto at least 1.30 times better than the best single method of the paper",
+            fmt::format("{:.3f}", gain), verdict_of(gain >= 1.30));
+        add("e", "auto at most 1.10 times the least-squares fit to the whole recording",
+            fmt::format("{:.3f}", over_fit), verdict_of(over_fit <= 1.10));
+    } else {
+        // Where the fit itself is hardly better than a polynomial, nothing else can be.
+        add("e", "auto at least 1.30 times better than the best of the paper, or at most 1.10 times the fit",
+            fmt::format("{:.3f} or {:.3f}", gain, over_fit), verdict_of(gain >= 1.30 || over_fit <= 1.10));
+    }
+    add("e", "on no axis more than 2 % worse than the best of the three", axis.text(), axis.against(1.02));
+    add("e", "at most 1 % beyond 3 sigma", outside.text(), outside.against(0.01));
+}
+
+// Whether the sigma that is claimed agrees with the error.
+void add_consistency(const Accuracy& accuracy, const char* method, std::vector<Criterion>& out) {
+    const auto greatest =
+        worst_of(accuracy, stationary, method,
+                 [](const CaseFigures& c, const ErrorFigures& f, Worst& w) { w.add(f.nev, nev_error(f), c.name); });
+    // The least, as the greatest of 10 - NEV.
+    const auto least = worst_of(
+        accuracy, stationary, method,
+        [](const CaseFigures& c, const ErrorFigures& f, Worst& w) { w.add(10.0 - f.nev, nev_error(f), c.name); });
+    const auto outside = worst_of(
+        accuracy, {CaseGroup::non_stationary}, method, [](const CaseFigures& c, const ErrorFigures& f, Worst& w) {
+            // Standard error of a share of 1 %.
+            w.add(1.0 - f.within_3_sigma_ratio, std::sqrt(0.01 / static_cast<double>(f.n)), c.name);
+        });
+    out.push_back({"a-h", fmt::format("{}: NEV at most 1.5 in (a)-(c), (f)-(h)", method), greatest.text(),
+                   greatest.against(1.5)});
+    out.push_back({"a-h", fmt::format("{}: NEV at least 0.6", method), least.value_text(10.0 - least.value),
+                   least.against(10.0 - 0.6)});
+    out.push_back(
+        {"d", fmt::format("{}: at most 1 % beyond 3 sigma in (d)", method), outside.text(), outside.against(0.01)});
+}
+
+bool is_at_least(const ManoeuvreFigures& f, double duration_s) { return f.duration_s > 0.99 * duration_s; }
+
+// First manoeuvres: how much worse than the best polynomial, and whether sigma knows of it.
+void add_manoeuvres(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    Worst ramps;
+    Worst others;
+    Worst long_nev;
+    Worst short_nev;
+    Worst long_outside;
+    Worst short_outside;
+    for (const ManoeuvreFigures& f : accuracy.manoeuvres) {
+        if (f.manoeuvre.empty()) continue;
+        const ErrorFigures& ours = find_method(f.methods, method_name::automatic)->whole;
+        const std::string name = fmt::format("{}, {}", f.base, f.manoeuvre);
+        // Both errors are those of the same gaps, but as if they were independent.
+        const double ratio = over_best_polynomial(f);
+        (f.is_ramp ? ramps : others).add(ratio, ratio / std::sqrt(static_cast<double>(ours.n)), name);
+        if (!f.is_ramp) continue;
+        const bool is_long = is_at_least(f, 0.05);
+        (is_long ? long_nev : short_nev).add(ours.nev, nev_error(ours), name);
+        const double limit = is_long ? 0.02 : 0.07;
+        (is_long ? long_outside : short_outside)
+            .add(1.0 - ours.within_3_sigma_ratio, std::sqrt(limit / static_cast<double>(ours.n)), name);
+    }
+    const auto add = [&](const char* wanted, const Worst& w, double limit) {
+        if (w.value >= 0.0)
+            out.push_back({"i", fmt::format("first manoeuvres: {}", wanted), w.text(), w.against(limit)});
+    };
+    add("a ramp at most 1.15 times the best polynomial", ramps, 1.15);
+    add("another law at most 1.25 times the best polynomial", others, 1.25);
+    add("ramps from 50 ms, NEV at most 2", long_nev, 2.0);
+    add("ramps of 20 ms, NEV at most 4", short_nev, 4.0);
+    add("ramps from 50 ms, at most 2 % beyond 3 sigma", long_outside, 0.02);
+    add("ramps of 20 ms, at most 7 % beyond 3 sigma", short_outside, 0.07);
+}
+
+}  // namespace
+
+std::vector<Criterion> judge(const Accuracy& accuracy) {
+    constexpr std::array ours{method_name::optimal, method_name::automatic};
+    std::vector<Criterion> criteria;
+    for (const char* method : ours) add_whole_switch(accuracy, method, criteria);
+    add_flat(accuracy, criteria);
+    add_relock(accuracy, criteria);
+    for (const RecordingFigures& r : accuracy.recordings) add_recording(r, criteria);
+    for (const char* method : ours) add_consistency(accuracy, method, criteria);
+    add_manoeuvres(accuracy, criteria);
+    add_gap_criteria(accuracy, criteria);
+    return criteria;
+}
+
+}  // namespace zlg::trials

@@ -1,0 +1,142 @@
+// Limits of gap lengths, of the first gap, of a motion that changes at the gap, of the phase and of lit halves.
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "parts.hpp"
+#include "worst.hpp"
+
+namespace zlg::trials {
+namespace {
+
+// Standard error of the mean of (error/sigma)^2 where the figures are the squares of normal variables.
+void add_nev(const ErrorFigures& f, const std::string& name, Worst& greatest, Worst& least) {
+    greatest.add(f.nev, nev_error(f), name);
+    least.add(10.0 - f.nev, nev_error(f), name);
+}
+
+struct Limits {
+    double least, most;
+};
+
+// NEV of a group within limits, both ends.
+void add_nev_limits(const Accuracy& accuracy, CaseGroup group, const char* table, const char* what, Limits limits,
+                    std::vector<Criterion>& out) {
+    Worst greatest;
+    Worst least;
+    for (const CaseFigures& c : accuracy.cases) {
+        const MethodFigures* m = c.group == group ? find_method(c.methods, method_name::automatic) : nullptr;
+        if (m != nullptr && m->whole.claimed > 0) add_nev(m->whole, c.name, greatest, least);
+    }
+    if (greatest.is_empty()) return;
+    out.push_back(
+        {table, fmt::format("{}: NEV at most {}", what, limits.most), greatest.text(), greatest.against(limits.most)});
+    out.push_back({table, fmt::format("{}: NEV at least {}", what, limits.least), least.value_text(10.0 - least.value),
+                   least.against(10.0 - limits.least)});
+}
+
+const ErrorFigures* find_whole(const Accuracy& accuracy, CaseGroup group, const std::string& name) {
+    for (const CaseFigures& c : accuracy.cases) {
+        if (c.group != group || c.name != name) continue;
+        const MethodFigures* m = find_method(c.methods, method_name::automatic);
+        return m == nullptr ? nullptr : &m->whole;
+    }
+    return nullptr;
+}
+
+void add_phase(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    const auto add = [&](const char* name, double limit) {
+        const std::string full = fmt::format("{}, {}", name, readouts[2]);
+        const ErrorFigures* f = find_whole(accuracy, CaseGroup::phase, full);
+        if (f == nullptr) return;
+        Worst w;
+        w.add(f->rms_arcsec, rms_error(*f), full);
+        out.push_back({"m", fmt::format("by phase, {}: rms at most {}\"", name, limit), w.text(), w.against(limit)});
+    };
+    add(main_case::tone, 0.15);
+    add(main_case::band, 0.55);
+    add(main_case::learnt_band, 0.55);
+}
+
+void add_changes(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    Worst nev;
+    for (const ManoeuvreFigures& f : accuracy.changes) {
+        const ErrorFigures& ours = find_method(f.methods, method_name::automatic)->whole;
+        nev.add(ours.nev, nev_error(ours), fmt::format("{}, {}", f.base, f.manoeuvre));
+    }
+    if (!nev.is_empty())
+        out.push_back({"l", "another motion from the gap on: NEV at most 3", nev.text(), nev.against(3.0)});
+}
+
+// One manoeuvre in ten gaps, of the ramps from 50 ms: sigma is not inflated for the nine in which nothing happens.
+void add_usual_mean(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    Worst least;
+    for (const ManoeuvreFigures& quiet : accuracy.manoeuvres) {
+        if (!quiet.manoeuvre.empty()) continue;
+        double sum = 0.0;
+        double n = 0.0;
+        for (const ManoeuvreFigures& f : accuracy.manoeuvres) {
+            if (f.base != quiet.base || f.manoeuvre.empty() || !f.is_ramp || f.duration_s < 0.049) continue;
+            sum += find_method(f.methods, method_name::automatic)->whole.nev;
+            n += 1.0;
+        }
+        const ErrorFigures& f = find_method(quiet.methods, method_name::automatic)->whole;
+        if (n > 0.0) least.add(10.0 - (0.9 * f.nev + 0.1 * sum / n), 0.9 * nev_error(f), quiet.base);
+    }
+    if (!least.is_empty())
+        out.push_back({"i", "nothing happens in 90 %, a ramp from 50 ms in 10 % of the gaps: NEV at least 0.5",
+                       least.value_text(10.0 - least.value), least.against(10.0 - 0.5)});
+}
+
+// How much less a switch errs by the lit halves; as the inverse, so that the greatest is the worst.
+void add_lit(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    const auto add = [&](const char* name, const char* wanted, double most) {
+        Worst inverse;
+        for (const char* readout : {readouts[0], readouts[1]}) {
+            const ErrorFigures* dark = find_whole(accuracy, CaseGroup::lit, fmt::format("{}, {}", name, readout));
+            const ErrorFigures* lit =
+                find_whole(accuracy, CaseGroup::lit, fmt::format("{}{}, {}", name, lit_halves_name, readout));
+            if (dark == nullptr || lit == nullptr) continue;
+            const double ratio = lit->rms_arcsec / dark->rms_arcsec;
+            inverse.add(ratio,
+                        ratio * std::hypot(rms_error(*lit) / lit->rms_arcsec, rms_error(*dark) / dark->rms_arcsec),
+                        readout);
+        }
+        if (!inverse.is_empty())
+            out.push_back({"n", fmt::format(fmt::runtime(wanted), name), inverse.text(), inverse.against(most)});
+    };
+    add(main_case::vibration, "lit halves, {}: error over that without them at most 1/2.5", 1.0 / 2.5);
+    add(main_case::tone, "lit halves, {}: error over that without them at most 1", 1.0);
+}
+
+void add_gap_lengths(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    Worst usual;
+    Worst all;
+    for (const GapLengthFigures& f : accuracy.gap_lengths) {
+        const std::string name = fmt::format("{}, column {}, gap of {} ticks", f.recording, f.column, f.gap_ticks);
+        usual.add(f.usual_rms_arcsec / f.usual_best_arcsec, 0.0, name);
+        all.add(f.rms_arcsec / f.best_arcsec, 0.0, name);
+    }
+    if (usual.is_empty()) return;
+    out.push_back({"o",
+                   "real motion, gaps of 1 to 10 ticks: at most 1.05 times the best polynomial, without the worst 1 %",
+                   usual.text(), usual.against(1.05)});
+    out.push_back({"o", "the same with them: at most 1.25 times", all.text(), all.against(1.25)});
+}
+
+}  // namespace
+
+void add_gap_criteria(const Accuracy& accuracy, std::vector<Criterion>& out) {
+    add_usual_mean(accuracy, out);
+    add_nev_limits(accuracy, CaseGroup::gap_lengths, "j", "gaps of 1 to 10 ticks", {0.7, 1.4}, out);
+    add_nev_limits(accuracy, CaseGroup::first_gap, "k", "first gap 10 to 300 ticks after the start", {0.5, 2.0}, out);
+    add_changes(accuracy, out);
+    add_phase(accuracy, out);
+    add_nev_limits(accuracy, CaseGroup::phase, "m", "by phase", {0.7, 1.4}, out);
+    add_lit(accuracy, out);
+    add_gap_lengths(accuracy, out);
+}
+
+}  // namespace zlg::trials

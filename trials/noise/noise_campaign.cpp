@@ -1,0 +1,186 @@
+#include <zlg/trials/noise_campaign.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <zlg/numeric/draw.hpp>
+
+namespace zlg::trials {
+namespace {
+
+using noise::FittedTerm;
+using noise::NoiseKind;
+using numeric::Draw;
+using std::numbers::pi;
+
+constexpr std::size_t n_kinds = 7;
+constexpr std::size_t markov_time = 7, sine_frequency = 8, n_scores = 9;
+constexpr std::array<const char*, n_scores> score_names{
+    "quantisation",      "angle random walk",   "bias instability", "rate random walk",   "ramp",
+    "Markov, deviation", "sinusoid, amplitude", "Markov, time",     "sinusoid, frequency"};
+
+// One sample a second, angle random walk 1.
+struct RandomGyro {
+    std::array<bool, n_kinds> has{};
+    std::array<double, n_kinds> value{};
+    double time_s = 1.0;
+    double frequency_hz = 0.1;
+
+    [[nodiscard]] bool of(NoiseKind kind) const { return has[static_cast<std::size_t>(kind)]; }
+    double& size(NoiseKind kind) { return value[static_cast<std::size_t>(kind)]; }
+    [[nodiscard]] double size(NoiseKind kind) const { return value[static_cast<std::size_t>(kind)]; }
+};
+
+RandomGyro random_gyro(Draw& draw, double n) {
+    RandomGyro g;
+    for (bool& has : g.has) has = draw.is_one_in(2);
+    g.has[static_cast<std::size_t>(NoiseKind::angle_random_walk)] = true;
+    if (g.of(NoiseKind::bias_instability) && g.of(NoiseKind::markov))
+        g.has[static_cast<std::size_t>(draw.is_one_in(2) ? NoiseKind::bias_instability : NoiseKind::markov)] = false;
+    g.size(NoiseKind::angle_random_walk) = 1.0;
+    // 3 Q^2/tau^2 = 1/tau, K^2 tau/3 = 1/tau
+    g.size(NoiseKind::quantisation) = std::sqrt(draw.within_log(2.0, 16.0) / 3.0);
+    const double crossing_s = draw.within_log(n / 1024.0, n / 64.0);
+    g.size(NoiseKind::rate_random_walk) = std::sqrt(3.0) / crossing_s;
+    const double lowest = g.of(NoiseKind::rate_random_walk) ? 2.0 / crossing_s : 32.0 / n;
+    g.size(NoiseKind::bias_instability) = draw.within(1.5, 3.0) * std::sqrt(lowest) / 0.664;
+    g.time_s = draw.within_log(16.0, n / 256.0);
+    g.size(NoiseKind::markov) = std::sqrt(draw.within(3.0, 30.0) / g.time_s);
+    g.frequency_hz = draw.within_log(64.0 / n, 0.4);
+    const noise::NoiseTerms noise{
+        .angle_random_walk_arcsec_sqrt_s = 1.0,
+        .bias_instability_arcsec_s = g.of(NoiseKind::bias_instability) ? g.size(NoiseKind::bias_instability) : 0.0,
+        .rate_random_walk_arcsec_s_sqrt_s =
+            g.of(NoiseKind::rate_random_walk) ? g.size(NoiseKind::rate_random_walk) : 0.0,
+        .markov = {
+            {.deviation_arcsec_s = g.of(NoiseKind::markov) ? g.size(NoiseKind::markov) : 0.0, .time_s = g.time_s}}};
+    // A line of amplitude A stands against noise of the spectrum S by A^2 T/(2 S); a ramp against the noise of the longest times.
+    g.size(NoiseKind::sine) =
+        draw.within(6.0, 40.0) * std::sqrt(2.0 * noise::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
+    g.size(NoiseKind::ramp) =
+        draw.sign() * draw.within(6.0, 40.0) * 2.0 * std::sqrt(noise::allan_variance(noise, n / 2.0)) / n;
+    return g;
+}
+
+// Means over the samples of an exponentially correlated rate: value and integral together.
+void add_markov(std::vector<double>& rates, double deviation, double time_s, Draw& draw) {
+    const double a = std::exp(-1.0 / time_s), loss = -std::expm1(-1.0 / time_s);
+    const double end_variance = loss * (1.0 + a);
+    const double both = time_s * loss * loss;
+    const double integral_variance = time_s * time_s * (2.0 / time_s - 3.0 + 4.0 * a - a * a);
+    // For long times the difference of nearly equal numbers: to first order.
+    const double inside = time_s > 1e3 ? 1.0 / (6.0 * time_s) : integral_variance - both * both / end_variance;
+    double b = draw.normal();
+    for (double& r : rates) {
+        const double end = std::sqrt(end_variance) * draw.normal();
+        r += deviation *
+             (b * time_s * loss + both / end_variance * end + std::sqrt(std::max(0.0, inside)) * draw.normal());
+        b = a * b + end;
+    }
+}
+
+std::vector<double> simulate(const RandomGyro& g, std::size_t n, Draw& draw) {
+    std::vector<double> rates(n, 0.0);
+    for (double& r : rates) r += draw.normal();
+    if (g.of(NoiseKind::quantisation)) {
+        double before = draw.normal();
+        for (double& r : rates) {
+            const double now = draw.normal();
+            r += g.size(NoiseKind::quantisation) * (now - before);
+            before = now;
+        }
+    }
+    // 1/f is the sum of such processes with times an octave apart, from far below a sample on.
+    if (g.of(NoiseKind::bias_instability))
+        for (double t = 1.0 / 64.0; t < 200.0 * static_cast<double>(n); t *= 2.0)
+            add_markov(rates, g.size(NoiseKind::bias_instability) * std::sqrt(std::numbers::ln2 / pi), t, draw);
+    if (g.of(NoiseKind::rate_random_walk)) {
+        double rate = 0.0;
+        for (double& r : rates) {
+            const double end = draw.normal(), within = draw.normal();
+            r += rate + g.size(NoiseKind::rate_random_walk) * (0.5 * end + within / std::sqrt(12.0));
+            rate += g.size(NoiseKind::rate_random_walk) * end;
+        }
+    }
+    if (g.of(NoiseKind::markov)) add_markov(rates, g.size(NoiseKind::markov), g.time_s, draw);
+    const double phase = draw.within(0.0, 2.0 * pi), x = pi * g.frequency_hz;
+    for (std::size_t k = 0; k < n; ++k) {
+        const double t = static_cast<double>(k) + 0.5;
+        if (g.of(NoiseKind::ramp)) rates[k] += g.size(NoiseKind::ramp) * t;
+        if (g.of(NoiseKind::sine))
+            rates[k] += g.size(NoiseKind::sine) * std::sin(x) / x * std::cos(2.0 * x * t + phase);
+    }
+    return rates;
+}
+
+void add_error(TermScore& score, double error) {
+    score.mean += error;
+    score.mean_square += error * error;
+    score.within_1 += std::abs(error) < 1.0 ? 1.0 : 0.0;
+    score.within_2 += std::abs(error) < 2.0 ? 1.0 : 0.0;
+}
+
+// The sine of the gyro is the line within two resolution widths of it; any other line is false.
+void judge(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
+    std::array<bool, n_kinds> found{}, false_found{};
+    for (const FittedTerm& t : fit.fitted) {
+        if (!t.found) continue;
+        const auto kind = static_cast<std::size_t>(t.kind);
+        const bool is_line = t.kind == NoiseKind::sine;
+        const bool is_it = g.has[kind] && (!is_line || std::abs(t.second - g.frequency_hz) < 2.0 / n);
+        (is_it ? found : false_found)[kind] = true;
+        if (!is_it) continue;
+        add_error(scores[kind], (t.value - g.value[kind]) / t.sigma);
+        if (is_line) add_error(scores[sine_frequency], (t.second - g.frequency_hz) / t.second_sigma);
+        if (t.kind == NoiseKind::markov) add_error(scores[markov_time], (t.second - g.time_s) / t.second_sigma);
+    }
+    for (std::size_t kind = 0; kind < n_kinds; ++kind) {
+        scores[kind].present += g.has[kind] ? 1 : 0;
+        scores[kind].found += found[kind] ? 1 : 0;
+        scores[kind].absent += g.has[kind] ? 0 : 1;
+        scores[kind].false_found += false_found[kind] ? 1 : 0;
+    }
+}
+
+}  // namespace
+
+NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
+    NoiseCampaign campaign;
+    for (const char* name : score_names) campaign.terms.push_back({.name = name});
+    const auto n = static_cast<double>(task.n_samples);
+    for (int k = 0; k < task.n_gyros; ++k) {
+        Draw draw(task.seed * 1'000'003 + static_cast<std::uint64_t>(k));
+        const RandomGyro gyro = random_gyro(draw, n);
+        std::vector<double> rates = simulate(gyro, static_cast<std::size_t>(task.n_samples), draw);
+        const auto fit = noise::fit_noise_in_place(rates, 1.0);
+        judge(gyro, fit, n, campaign.terms);
+        campaign.low_probability += fit.probability < 0.05 ? 1.0 / task.n_gyros : 0.0;
+    }
+    for (const auto& [second, first] :
+         {std::pair{markov_time, NoiseKind::markov}, std::pair{sine_frequency, NoiseKind::sine}}) {
+        const TermScore& of = campaign.terms[static_cast<std::size_t>(first)];
+        campaign.terms[second].present = of.present;
+        campaign.terms[second].found = of.found;
+    }
+    for (TermScore& score : campaign.terms)
+        for (double* sum : {&score.mean, &score.mean_square, &score.within_1, &score.within_2})
+            *sum /= std::max(1, score.found);
+    return campaign;
+}
+
+std::string campaign_text(const NoiseCampaign& campaign) {
+    std::string text =
+        "| term | there | found | not there | found falsely | mean error/sigma | mean square | within 1 | within 2 |\n"
+        "|---|---|---|---|---|---|---|---|---|\n";
+    for (const TermScore& s : campaign.terms)
+        text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} |\n", s.name, s.present,
+                            s.found, s.absent, s.false_found, s.mean, s.mean_square, s.within_1, s.within_2);
+    return text + fmt::format("\nGoodness below 0.05 in {:.3f} of the fits.\n", campaign.low_probability);
+}
+
+}  // namespace zlg::trials

@@ -1,0 +1,116 @@
+#include <zlg/trials/scenarios.hpp>
+
+#include <array>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/numeric/draw.hpp>
+#include <zlg/rig/laser_calibration.hpp>
+#include <zlg/twin/fault_kinds.hpp>
+
+namespace zlg::trials {
+namespace {
+
+using numeric::Draw;
+
+constexpr std::array relocks{core::RelockMethod::none, core::RelockMethod::frequency, core::RelockMethod::detuning,
+                             core::RelockMethod::mean_square, core::RelockMethod::joint};
+constexpr std::array bridges{core::BridgeMethod::none,    core::BridgeMethod::constant,
+                             core::BridgeMethod::linear,  core::BridgeMethod::quadratic,
+                             core::BridgeMethod::optimal, core::BridgeMethod::automatic};
+constexpr std::array dithers{core::DitherMethod::none, core::DitherMethod::automatic, core::DitherMethod::paired,
+                             core::DitherMethod::random};
+constexpr std::array magnetics{core::MagneticMethod::none, core::MagneticMethod::watch, core::MagneticMethod::estimate};
+// The twin's third loop is a formula that no fault moves, and the same as the first to the core.
+constexpr std::array loops{config::Loop::analog, config::Loop::digital};
+constexpr std::array schedules{config::Schedule::fixed, config::Schedule::fixed, config::Schedule::growing,
+                               config::Schedule::measured};
+constexpr std::array priors{config::MotionPrior::learnt, config::MotionPrior::flat, config::MotionPrior::lines};
+
+void draw_gyro(Draw& draw, config::Config& c) {
+    c.run.seed = draw.below(1'000'000'000);
+    c.gyro.first_bias_sign = draw.is_one_in(2) ? 1 : -1;
+    c.gyro.light_samples = draw.one_of(std::array{1, 4, 16, 16, 64});
+    // Only a laser has a lock-in against which its bias can be shifted.
+    const core::DitherMethod dither = draw.one_of(dithers);
+    if (draw.is_one_in(6)) {
+        c.gyro.fidelity = config::Fidelity::laser;
+        c.gyro.dither = dither;
+    }
+    c.gyro.bias_temperature_coefficient_per_c = draw.is_one_in(2) ? 0.0 : draw.within(-1e-4, 1e-4);
+    c.perimeter.loop = draw.one_of(loops);
+    c.perimeter.relock_halves = draw.is_one_in(2) ? 4 : 0;
+    c.perimeter.miss_lambda = draw.is_one_in(2) ? 0.0 : draw.within(0.05, 0.24);
+    c.piezo.half_wave_error = draw.within(-0.02, 0.02);
+    if (draw.is_one_in(2)) return;
+    c.piezo.hysteresis = 0.12;
+    c.piezo.creep_per_decade = 0.015;
+}
+
+void draw_switching(Draw& draw, config::Config& c) {
+    c.switching.interval_s = draw.within(1.0, 9.0);
+    c.switching.first_segment = draw.is_one_in(2) ? config::FirstSegment::full : config::FirstSegment::half;
+    c.switching.schedule = draw.one_of(schedules);
+    c.switching.interval_min_s = 1.0;
+    c.switching.interval_max_s = 10.0;
+    c.switching.gap_ticks = static_cast<int>(1 + draw.below(draw.is_one_in(4) ? 16 : 5));
+}
+
+void draw_compensation(Draw& draw, config::Config& c) {
+    c.compensation.relock = draw.one_of(relocks);
+    c.compensation.bridge = draw.one_of(bridges);
+    c.compensation.relock_ticks = static_cast<int>(1 + draw.below(30));
+    c.compensation.extrapolation_points = static_cast<int>(3 + draw.below(6));
+    c.compensation.points_before = static_cast<int>(2 + draw.below(4));
+    c.compensation.points_after = static_cast<int>(2 + draw.below(4));
+    c.compensation.prior = draw.one_of(priors);
+    c.compensation.magnetic = draw.one_of(magnetics);
+}
+
+void draw_motion(Draw& draw, config::Config& c) {
+    c.motion.kind = draw.one_of(std::array{config::MotionKind::rest, config::MotionKind::constant,
+                                           config::MotionKind::sine, config::MotionKind::sum});
+    const bool is_constant = c.motion.kind == config::MotionKind::constant;
+    c.motion.rate_arcsec_s = is_constant ? draw.within(-100'000.0, 100'000.0) : 0.0;
+    c.motion.amplitude_arcsec_s = {draw.within(10.0, 12'000.0)};
+    c.motion.frequency_hz = {draw.within(0.05, 12.0)};
+    if (c.motion.kind != config::MotionKind::sum) return;
+    c.motion.amplitude_arcsec_s.push_back(draw.within(10.0, 3'000.0));
+    c.motion.frequency_hz.push_back(draw.within(0.05, 60.0));
+    c.motion.phase_deg.push_back(draw.within(0.0, 360.0));
+}
+
+// One kind of fault after the other from scenario to scenario, and then all of them at once.
+std::string draw_faults(Draw& draw, std::int64_t k, config::Config& c) {
+    constexpr std::size_t n_kinds = twin::n_fault_kinds;
+    const auto choice = static_cast<std::size_t>(k) % (n_kinds + 2);
+    if (choice == n_kinds) return "no fault";
+    c.faults.random_seed = draw.below(1'000'000'000);
+    c.faults.random_per_hour = 600.0;
+    if (choice > n_kinds) return "faults of all kinds";
+    c.faults.random_kinds = {twin::all_fault_kinds[choice]};
+    return std::string{twin::fault_kind_names[choice]};
+}
+
+}  // namespace
+
+Scenario scenario(std::uint64_t seed, std::int64_t k, double duration_s) {
+    // Scenarios of one seed have nothing in common.
+    Draw draw{seed ^ (0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(k + 1))};
+    config::Config c;
+    c.run.duration_s = duration_s;
+    draw_gyro(draw, c);
+    draw_switching(draw, c);
+    draw_compensation(draw, c);
+    draw_motion(draw, c);
+    const std::string faults = draw_faults(draw, k, c);
+    if (c.gyro.fidelity == config::Fidelity::laser) c = rig::calibrated_by_laser(c);
+    config::check(c);
+    return {fmt::format("{}: {}, relock {}, bridge {}", k, faults, static_cast<int>(*c.compensation.relock),
+                        static_cast<int>(c.compensation.bridge)),
+            std::move(c)};
+}
+
+}  // namespace zlg::trials

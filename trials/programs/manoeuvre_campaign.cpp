@@ -1,0 +1,43 @@
+// First manoeuvres at a gap: the error of the estimate beside the best polynomial of each family, as a table to stdout.
+//
+// usage: zlg_manoeuvre_campaign [GAPS] [--quick] [--seed N] [--threads N]
+
+#include <algorithm>
+
+#include <zlg/trials/accuracy.hpp>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace zlg;
+
+int run(int gaps, bool quick, std::uint64_t seed, int threads) {
+    fmt::print(
+        "| base | manoeuvre | auto, \" | optimal, \" | best polynomial, \" | auto/best | NEV | within 3 sigma, % |\n");
+    for (const trials::ManoeuvreFigures& f : trials::measure_manoeuvres(gaps, quick, seed, threads)) {
+        double best = 1e300;
+        for (const trials::MethodFigures& m : f.methods)
+            if (m.of_paper) best = std::min(best, m.whole.rms_arcsec);
+        const trials::ErrorFigures& a = f.methods[0].whole;
+        fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} |\n", f.base, f.manoeuvre,
+                   a.rms_arcsec, f.methods[1].whole.rms_arcsec, best, a.rms_arcsec / best, a.nev,
+                   100.0 * a.within_3_sigma_ratio);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    int gaps = 500;
+    bool quick = false;
+    std::uint64_t seed = 1;
+    int threads = 2;
+    CLI::App app{"First manoeuvres at a gap", "zlg_manoeuvre_campaign"};
+    app.add_option("GAPS", gaps, "of each family")->check(CLI::PositiveNumber);
+    app.add_flag("--quick", quick, "the main families only");
+    app.add_option("--seed", seed);
+    app.add_option("--threads", threads)->check(CLI::PositiveNumber);
+    return trials::run_command(app, argc, argv, [&] { return run(gaps, quick, seed, threads); });
+}

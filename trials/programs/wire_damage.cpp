@@ -1,0 +1,126 @@
+// Frames of telemetry through damage of seven kinds: everything that comes out is compared with what was sent.
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <zlg/wire/telemetry.hpp>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace zlg;
+using Bytes = std::vector<std::uint8_t>;
+using Random = std::mt19937_64;
+
+std::uint8_t any_byte(Random& random) { return static_cast<std::uint8_t>(random()); }
+
+std::size_t place(Random& random, const Bytes& frame) { return random() % frame.size(); }
+
+void flip_bits(Random& random, Bytes& frame, int n) {
+    for (int k = 0; k < n; ++k) {
+        std::uint8_t& byte = frame[place(random, frame)];
+        byte = static_cast<std::uint8_t>(byte ^ (1u << (random() % 8)));
+    }
+}
+
+void burst(Random& random, Bytes& frame) {
+    const std::size_t from = place(random, frame);
+    for (std::size_t k = from; k < frame.size() && k < from + 1 + random() % 32; ++k) frame[k] = any_byte(random);
+}
+
+void lose(Random& random, Bytes& frame) {
+    const std::size_t from = place(random, frame);
+    const std::size_t n = std::min<std::size_t>(1 + random() % 16, frame.size() - from);
+    frame.erase(frame.begin() + static_cast<std::ptrdiff_t>(from),
+                frame.begin() + static_cast<std::ptrdiff_t>(from + n));
+}
+
+void insert(Random& random, Bytes& frame) {
+    frame.insert(frame.begin() + static_cast<std::ptrdiff_t>(place(random, frame)), any_byte(random));
+}
+
+// Noise with the zeros of a frame and of its length, which asks the CRC alone.
+void noise(Random& random, Bytes& frame) {
+    for (std::size_t k = 1; k + 1 < frame.size(); ++k) frame[k] = static_cast<std::uint8_t>(1 + random() % 255);
+    frame[1] = static_cast<std::uint8_t>(frame.size() - 2);
+}
+
+struct Kind {
+    const char* name;
+    void (*damage)(Random&, Bytes&);
+};
+
+constexpr Kind kinds[]{
+    {"one bit", [](Random& r, Bytes& f) { flip_bits(r, f, 1); }},
+    {"2 to 5 bits", [](Random& r, Bytes& f) { flip_bits(r, f, 2 + static_cast<int>(r() % 4)); }},
+    {"6 to 60 bits", [](Random& r, Bytes& f) { flip_bits(r, f, 6 + static_cast<int>(r() % 55)); }},
+    {"a burst of up to 32 bytes", burst},
+    {"1 to 16 bytes lost", lose},
+    {"a byte inserted", insert},
+    {"noise of a frame's length", noise},
+};
+
+wire::Telemetry telemetry(Random& random, std::uint32_t tick) {
+    wire::Telemetry t{.tick = tick, .has_settled = true, .settled_age_ticks = 20, .tick_s = 0.005};
+    t.angle = random();
+    t.settled_angle = random();
+    t.settled_final_angle = random();
+    t.dtheta_arcsec = static_cast<double>(random() % 100000) / 7.0;
+    t.settled_dtheta_arcsec = t.dtheta_arcsec + 1.0;
+    t.settled_final_arcsec = t.dtheta_arcsec + 1.5;
+    t.time.timer_ticks = random();
+    return t;
+}
+
+struct Tally {
+    std::uint64_t n_sent = 0;      // damaged
+    std::uint64_t n_unharmed = 0;  // came out as they were sent: the damage undid itself or hit a zero at an end
+    std::uint64_t n_wrong = 0;     // came out otherwise
+};
+
+Tally campaign(const Kind& kind, std::uint64_t n) {
+    Random random{1};
+    wire::Sender sender{.session = 1};
+    wire::Receiver receiver;
+    Tally tally;
+    for (; tally.n_sent < n; ++tally.n_sent) {
+        const wire::Telemetry sent = telemetry(random, static_cast<std::uint32_t>(tally.n_sent));
+        const wire::Frame frame = frame_of(sender, sent);
+        Bytes bytes{frame.view().begin(), frame.view().end()};
+        kind.damage(random, bytes);
+        bytes.push_back(0);
+        std::span<const std::uint8_t> rest{bytes};
+        wire::Message message;
+        while (receive(receiver, rest, message)) {
+            const bool same =
+                message.session == 1 && message.sequence == sender.sequence - 1 && wire::telemetry_in(message) == sent;
+            ++(same ? tally.n_unharmed : tally.n_wrong);
+        }
+    }
+    return tally;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::uint64_t n = 1'500'000;
+    CLI::App app{"Frames of telemetry through damage of seven kinds", "zlg_wire_damage"};
+    app.add_option("FRAMES", n, "damaged, of each kind")->check(CLI::PositiveNumber);
+    return trials::run_command(app, argc, argv, [&] {
+        std::uint64_t n_all = 0;
+        std::uint64_t n_wrong = 0;
+        fmt::print("| damage | frames | taken, unharmed | taken, wrong |\n|---|---|---|---|\n");
+        for (const Kind& kind : kinds) {
+            const Tally t = campaign(kind, n);
+            fmt::print("| {} | {} | {} | {} |\n", kind.name, t.n_sent, t.n_unharmed, t.n_wrong);
+            n_all += t.n_sent;
+            n_wrong += t.n_wrong;
+        }
+        fmt::print("| all | {} | | {} |\n", n_all, n_wrong);
+        return n_wrong == 0 ? 0 : 1;
+    });
+}
