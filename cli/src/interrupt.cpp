@@ -80,13 +80,16 @@ News wait_for_news(int ms) {
 
 // A file that is being renamed is given a second; not longer, for the file system may hang.
 [[noreturn]] void end_now() {
-    auto kept = logs::abandon_outputs();
-    for (int ms = 0; !kept && ms < 1000; ms += 5) {
+    auto remains = logs::abandon_outputs();
+    for (int ms = 0; !remains && ms < 1000; ms += 5) {
         (void)::poll(nullptr, 0, 5);
-        kept = logs::abandon_outputs();
+        remains = logs::abandon_outputs();
     }
     std::string line = complaint;
-    if (kept && !kept->empty()) line += fmt::format("; recorded until then: {}", fmt::join(*kept, ", "));
+    if (remains && !remains->parts.empty())
+        line += fmt::format("; recorded until then: {}", fmt::join(remains->parts, ", "));
+    if (remains && !remains->complete.empty())
+        line += fmt::format("; complete: {}", fmt::join(remains->complete, ", "));
     report_error(line);
     ::_exit(bad_input_or_output);
 }

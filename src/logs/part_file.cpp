@@ -109,6 +109,7 @@ void PartFile::complete(bool keep_part) {
         if (error == EEXIST) throw IoError(fmt::format("{} exists; use --force to overwrite{}", path_, where));
         throw IoError(fmt::format("cannot create {}: {}{}", path_, std::strerror(error), where));
     }
+    note_complete(path_);
 }
 
 }  // namespace zlg::logs

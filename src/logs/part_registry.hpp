@@ -9,6 +9,9 @@ namespace zlg::logs {
 void register_part(int fd, const std::string& part);
 void forget_part(int fd);
 
+// A forgotten part has got its name.
+void note_complete(const std::string& name);
+
 // False where another program has removed NAME or put a file of its own in its place.
 [[nodiscard]] bool is_still_named(int fd, const std::string& name);
 

@@ -22,6 +22,7 @@ struct Part {
 struct Unfinished {
     std::recursive_mutex mutex;
     std::map<int, Part> parts;
+    std::vector<std::string> complete;
     std::set<std::string> folders;
 };
 
@@ -62,26 +63,31 @@ void forget_part(int fd) {
     unfinished().parts.erase(fd);
 }
 
+void note_complete(const std::string& name) {
+    const Together lock;
+    unfinished().complete.push_back(name);
+}
+
 void keep_part_if_abandoned(int fd) {
     const Together lock;
     const auto part = unfinished().parts.find(fd);
     if (part != unfinished().parts.end()) part->second.stays = true;
 }
 
-std::optional<std::vector<std::string>> abandon_outputs() {
+std::optional<Remains> abandon_outputs() {
     Unfinished& u = unfinished();
     if (!u.mutex.try_lock()) return std::nullopt;
-    std::vector<std::string> kept;
+    Remains remains{.parts = {}, .complete = u.complete};
     for (const auto& [fd, part] : u.parts) {
         if (!is_still_named(fd, part.name)) continue;
         if (part.stays)
-            kept.push_back(part.name);
+            remains.parts.push_back(part.name);
         else
             ::unlink(part.name.c_str());
     }
     // The innermost first; one with something in it stays.
     for (auto folder = u.folders.rbegin(); folder != u.folders.rend(); ++folder) ::rmdir(folder->c_str());
-    return kept;
+    return remains;
 }
 
 }  // namespace zlg::logs

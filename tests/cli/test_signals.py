@@ -94,7 +94,7 @@ class Signals(CliTest):
         return {str(path.relative_to(self.folder)) for path in self.folder.rglob("*")}
 
     def check(self, arguments, max_s, may_stay=()):
-        """`may_stay`: the parts that hold rows and are named; where it ends by itself before, all is good."""
+        """What stays is named: the parts in `may_stay`, which hold rows, and a result that was complete before the signal."""
         before = self.left()
         n_ended = 0
         for _ in range(20 * ROUNDS):
@@ -119,15 +119,20 @@ class Signals(CliTest):
             self.assertEqual(len(ended.complaints), 1, said)
             self.assertIn("interrupted by a signal", ended.complaints[0])
             files = {name for name in left if (self.folder / name).is_file()}
-            named = set(re.findall(r"[\w./-]+\.part", ended.complaints[0]))
-            self.assertEqual({str(self.folder / name) for name in files}, {str(self.folder / name) for name in named}, said)
+            parts, complete = (self.named(after, ended.complaints[0]) for after in ("recorded until then: ", "complete: "))
+            self.assertEqual(files, parts | complete, said)
+            self.assertLessEqual(parts, set(may_stay), said)
+            self.assertFalse([name for name in complete if name.endswith(".part")], said)
             for name in files:
-                self.assertIn(name, may_stay, said)
                 self.assertGreater((self.folder / name).stat().st_size, 0, said)
             self.assertEqual(left - files, {os.path.dirname(name) for name in files} - {""}, said)
             self.clean(left)
         if n_ended == 0:
             self.skipTest("the work was done before any signal came")
+
+    def named(self, after, complaint):
+        found = re.search(re.escape(after) + "([^;]*)", complaint)
+        return {os.path.relpath(self.folder / name, self.folder) for name in found[1].split(", ")} if found else set()
 
     def clean(self, left):
         for name in sorted(left, reverse=True):

@@ -19,6 +19,7 @@ namespace zlg::logs {
 namespace {
 
 namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
 
 // In a process of its own, which `work` ends by `_exit`, as `abandon_outputs` is meant for: its exit code.
 int in_a_process(const std::function<void()>& work) {
@@ -52,8 +53,10 @@ TEST(Unfinished, WhatIsNotCompleteGoesAndWhatHoldsRowsStays) {
         AngleWriter other{path("other.h5"), 0.005, {}, false, {}};
         other.write({.tick = 0});
         other.flush();
-        const auto kept = abandon_outputs();
-        _exit(kept == std::vector<std::string>{path("grows.h5.part")} ? 0 : 1);
+        const auto remains = abandon_outputs();
+        const Names parts{path("grows.h5.part")};
+        const Names complete{path("full/whole.csv")};
+        _exit(remains && remains->parts == parts && remains->complete == complete ? 0 : 1);
     });
     EXPECT_EQ(code, 0);
     EXPECT_FALSE(fs::exists(path("new")));
@@ -79,8 +82,8 @@ TEST(Unfinished, ACsvLogThatCannotBeHadAgainStaysWithTheRowsFlushedSoFar) {
         grows.write({.tick = 2});
         AngleWriter empty{path("empty.csv"), 0.005, {}, false, {.keep_csv_part = true}};
         empty.flush();
-        const auto kept = abandon_outputs();
-        _exit(kept == std::vector<std::string>{path("grows.csv.part")} ? 0 : 1);
+        const auto remains = abandon_outputs();
+        _exit(remains && remains->parts == Names{path("grows.csv.part")} ? 0 : 1);
     });
     EXPECT_EQ(code, 0);
     EXPECT_FALSE(fs::exists(path("empty.csv.part")));
@@ -100,8 +103,8 @@ TEST(Unfinished, WhatAnotherProgramHasPutUnderTheNameStays) {
         loser.flush();
         fs::remove(path + ".part");
         std::ofstream{path + ".part"} << "of another";
-        const auto kept = abandon_outputs();
-        _exit(kept && kept->empty() ? 0 : 1);
+        const auto remains = abandon_outputs();
+        _exit(remains && remains->parts.empty() && remains->complete.empty() ? 0 : 1);
     });
     EXPECT_EQ(code, 0);
     EXPECT_EQ(fs::file_size(path + ".part"), 10u);
@@ -128,7 +131,7 @@ TEST(Unfinished, FilesThatAppearTogetherAreNotAbandonedHalfway) {
     EXPECT_TRUE(fs::exists(path("second.csv")));
 }
 
-TEST(Unfinished, WhatWasCompletedOrGivenUpIsForgotten) {
+TEST(Unfinished, WhatWasCompletedOrGivenUpIsNoPartAnyMore) {
     const test::TemporaryFolder folder;
     const auto path = [&](const char* name) { return folder.file(name); };
     const int code = in_a_process([&] {
@@ -139,7 +142,9 @@ TEST(Unfinished, WhatWasCompletedOrGivenUpIsForgotten) {
         TableFile{path("c.csv"), false}.close();
         fs::copy_file(path("c.csv"), path("a.csv.part"));
         fs::copy_file(path("c.csv"), path("b.csv.part"));
-        _exit(abandon_outputs() == std::vector<std::string>{} ? 0 : 1);
+        const auto remains = abandon_outputs();
+        const Names complete{path("b.csv"), path("c.csv")};
+        _exit(remains && remains->parts.empty() && remains->complete == complete ? 0 : 1);
     });
     EXPECT_EQ(code, 0);
     EXPECT_TRUE(fs::exists(path("a.csv.part")));

@@ -29,12 +29,17 @@ private:
     std::string path_;
 };
 
+// What an abandoned program leaves.
+struct Remains {
+    std::vector<std::string> parts;     // NAME.part that holds rows
+    std::vector<std::string> complete;  // files that had got their names before
+};
+
 // Removes every NAME.part that this program is writing, except those that hold rows and can be read as they are. A file
 // that another program has put under such a name stays. From then on no file is completed: a thread that tries to waits
 // for ever. To be called last, before the end of the process, by a thread that holds no `Together`.
 //
-// return  the names of the parts that were kept; nothing, and nothing done, while another thread holds a `Together`:
-//         try again.
-[[nodiscard]] std::optional<std::vector<std::string>> abandon_outputs();
+// return  what stays; nothing, and nothing done, while another thread holds a `Together`: try again.
+[[nodiscard]] std::optional<Remains> abandon_outputs();
 
 }  // namespace zlg::logs
