@@ -45,7 +45,7 @@ std::vector<Job> jobs_of(const std::vector<AccuracyCase>& cases, std::uint64_t s
 
 // By method, over all trials of the case.
 CaseFigures figures_of_case(const AccuracyCase& c, const std::vector<std::vector<SwitchError>>& errors) {
-    CaseFigures figures{.group = c.group, .name = c.name};
+    CaseFigures figures{.group = c.group, .name = c.name, .swept_hz = c.swept_hz};
     if (c.has_bound) figures.bound = bound_of(c.gyro, c.motion);
     for (std::size_t m = 0; m < c.methods.size(); ++m)
         figures.methods.push_back({.method = c.methods[m],

@@ -60,9 +60,7 @@ void add_motion_grid(Cases& cases) {
     const auto add = [&](const std::string& name, const char* readout, const MotionLaw& motion) {
         cases.push_back(make_case(CaseGroup::grid, name, readout, motion, 400));
     };
-    for (const char* readout : {x1, x4})
-        for (double frequency : {0.5, 2.0, 5.0, 7.03, 10.0, 15.0, 18.3, 20.0, 25.0, 30.0, 40.0})
-            add(fmt::format("{:.2f} Hz", frequency), readout, tone(frequency));
+    for (const char* readout : {x1, x4}) add_sweep(cases, CaseGroup::grid, readout);
     for (const char* readout : {x1, x4})
         for (double amplitude : {10.0, 100.0, 1000.0, 60000.0})
             add(fmt::format("20.06 Hz, {:.0f} \"/s", amplitude), readout, tone(20.06, amplitude));
@@ -154,6 +152,13 @@ AccuracyCase make_case(CaseGroup group, const std::string& name, const std::stri
             .motion = motion,
             .switches = switches,
             .methods = main_methods()};
+}
+
+void add_sweep(std::vector<AccuracyCase>& cases, CaseGroup group, const char* readout) {
+    for (const double frequency : {0.5, 2.0, 5.0, 7.03, 10.0, 15.0, 18.3, 20.0, 25.0, 30.0, 40.0}) {
+        cases.push_back(make_case(group, fmt::format("{:.2f} Hz", frequency), readout, tone(frequency), 400));
+        cases.back().swept_hz = frequency;
+    }
 }
 
 std::vector<AccuracyCase> accuracy_cases(bool quick) {

@@ -53,6 +53,7 @@ inline constexpr const char* lit_halves_name = ", three halves lit";
 struct AccuracyCase {
     CaseGroup group = CaseGroup::paper;
     std::string name;
+    double swept_hz = 0.0;  // of the sweep of frequencies, 0: not of it
     GyroLaw gyro;
     MotionLaw motion;
     int switches = 400;
@@ -62,6 +63,9 @@ struct AccuracyCase {
     bool has_bound = true;
     std::vector<std::string> methods;
 };
+
+// A sine of 12 000 arcsec/s at each of some frequencies, read in one way.
+void add_sweep(std::vector<AccuracyCase>& cases, CaseGroup group, const char* readout);
 
 [[nodiscard]] std::vector<AccuracyCase> accuracy_cases(bool quick);
 

@@ -54,6 +54,7 @@ std::vector<AccuracyCase> phase_cases(bool quick) {
     std::vector<AccuracyCase> cases;
     add_phase(cases, quick);
     add_lit(cases, quick);
+    if (!quick) add_sweep(cases, CaseGroup::phase, readouts[2]);
     return cases;
 }
 

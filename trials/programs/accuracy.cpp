@@ -8,6 +8,7 @@
 
 #include <zlg/logs/table_file.hpp>
 #include <zlg/trials/accuracy.hpp>
+#include <zlg/trials/physics_pictures.hpp>
 
 #include "command.hpp"
 
@@ -71,6 +72,8 @@ int run(const trials::AccuracyTask& task, const std::filesystem::path& out) {
         std::filesystem::create_directories(out);
         write(out / "accuracy.md", text);
         write(out / "accuracy.html", report::html(trials::accuracy_page(accuracy)));
+        if (!task.quick)
+            write(out / "frequency.svg", trials::svg_file({.panels = {trials::frequency_figure(accuracy)}}));
     }
     return std::ranges::count(accuracy.criteria, trials::Verdict::missed, &trials::Criterion::verdict) == 0 ? 0 : 1;
 }
@@ -84,7 +87,7 @@ int main(int argc, char** argv) {
     app.add_flag("--quick", task.quick, "a tenth of the trials, without the grid (b)");
     app.add_option("--share", task.share, "of the trials of each case")->check(CLI::PositiveNumber);
     app.add_flag("--long", task.long_runs, "the twin in closed loop over 36 000 s too");
-    app.add_option("--out", out, "folder for accuracy.md and accuracy.html");
+    app.add_option("--out", out, "folder for accuracy.md, accuracy.html and frequency.svg");
     app.add_option("--seed", task.seed);
     app.add_option("--threads", task.threads)->check(CLI::PositiveNumber);
     add_motion_options(app, task.recordings);

@@ -60,6 +60,7 @@ enum class CaseGroup : unsigned char {
 struct CaseFigures {
     CaseGroup group = CaseGroup::paper;
     std::string name;
+    double swept_hz = 0.0;  // of a case of the sweep of frequencies, 0: of another
     SwitchBound bound;
     std::vector<MethodFigures> methods;
 };
@@ -180,5 +181,8 @@ struct Accuracy {
 
 [[nodiscard]] std::string markdown(const Accuracy& accuracy);
 [[nodiscard]] report::Page accuracy_page(const Accuracy& accuracy);
+
+// The error of a switch against the frequency of a sine, of a campaign that is not quick.
+[[nodiscard]] report::Figure frequency_figure(const Accuracy& accuracy);
 
 }  // namespace zlg::trials
