@@ -15,12 +15,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int observed_halves = 2 * bound_ticks;  // on each side
+constexpr int closed_halves = 2 * bound_ticks;  // observed before the gap, and from closing on
 
-// Knots in ticks, the outer ones repeated so that the basis is complete at the ends.
-VectorXd spline_knots() {
-    std::vector<double> knots{0.0, 0.0, 0.0};
-    for (int k = 0; k <= 12; ++k) knots.push_back(0.5 * k);
+// Knots in ticks from closing on, the outer ones repeated so that the basis is complete at the ends.
+VectorXd spline_knots(int lit_halves) {
+    const double start = -0.5 * lit_halves;
+    std::vector<double> knots{start, start, start};
+    for (int k = -lit_halves; k <= 12; ++k) knots.push_back(0.5 * k);
     knots.insert(knots.end(), {7.0, 8.0, 8.0, 8.0, 8.0});
     return Eigen::Map<VectorXd>(knots.data(), static_cast<Eigen::Index>(knots.size()));
 }
@@ -42,25 +43,27 @@ VectorXd splines_at(const VectorXd& knots, double t) {
     return b;
 }
 
-// Covariance of the false angles of the halves after the gap, by the light. The Fisher information of the samples on the spline's
+// Covariance of the false angles of the lit halves of the gap and of those after it, by the light. The Fisher information of the samples on the spline's
 // coefficients a is I = sum b b'/sigma^2; the false angle of a half is chi f0 K integral (b'a)^2 dt, with the derivative S by a at the
 // true decay: S I^-1 S'.
 MatrixXd false_angle_covariance(const GyroLaw& g) {
-    const VectorXd knots = spline_knots();
+    const VectorXd knots = spline_knots(g.lit_halves);
     const Eigen::Index n = knots.size() - 4;
+    const int lit = g.lit_halves + closed_halves;
     MatrixXd information = MatrixXd::Zero(n, n);
-    MatrixXd slope = MatrixXd::Zero(observed_halves, n);
+    MatrixXd slope = MatrixXd::Zero(lit, n);
     constexpr int pieces = 200;  // of a half, by the midpoint rule
     const double gain = g.chi * g.bias_hz * g.scale_arcsec * 0.5 * g.tick_s;
-    for (int k = 0; k < observed_halves; ++k) {
+    for (int k = 0; k < lit; ++k) {
+        const int half = k - g.lit_halves;  // from closing on
         for (int j = 0; j < g.light_samples; ++j) {
-            const VectorXd b = splines_at(knots, 0.5 * (k + (j + 0.5) / g.light_samples));
+            const VectorXd b = splines_at(knots, 0.5 * (half + (j + 0.5) / g.light_samples));
             information += b * b.transpose() / (g.light_noise_lambda * g.light_noise_lambda);
         }
         for (int j = 0; j < pieces; ++j) {
-            const double t = 0.5 * (k + (j + 0.5) / pieces);
-            slope.row(k) +=
-                2.0 * gain / pieces * g.miss_lambda * detuning_ratio(g.loop, t) * splines_at(knots, t).transpose();
+            const double t = 0.5 * (half + (j + 0.5) / pieces);
+            slope.row(k) += 2.0 * gain / pieces * g.miss_lambda * detuning_ratio(g.loop, std::max(0.0, t)) *
+                            splines_at(knots, t).transpose();
         }
     }
     return slope * information.ldlt().solve(slope.transpose());
@@ -84,13 +87,17 @@ double reading_counts2(const GyroLaw& g) {
 // Where the parts of x begin.
 struct Layout {
     explicit Layout(const GyroLaw& g)
-        : halves{2 * observed_halves + 2 * g.gap_ticks}, gap_halves{2 * g.gap_ticks}, edges{halves + 1} {}
+        : halves{2 * closed_halves + 2 * g.gap_ticks},
+          dark{2 * g.gap_ticks - g.lit_halves},
+          lit{g.lit_halves + closed_halves},
+          edges{halves + 1} {}
 
     int halves;
-    int gap_halves;
+    int dark;  // the halves of the gap that nobody observes
+    int lit;   // the observed halves after them
     int edges;
     [[nodiscard]] int false_angles() const { return halves + edges; }
-    [[nodiscard]] int all() const { return halves + edges + observed_halves; }
+    [[nodiscard]] int all() const { return halves + edges + lit; }
 };
 
 MatrixXd covariance_of(const GyroLaw& g, const MotionLaw& motion, double constant_arcsec_s, const Layout& at) {
@@ -103,29 +110,29 @@ MatrixXd covariance_of(const GyroLaw& g, const MotionLaw& motion, double constan
             covariance(i, j) = lags[static_cast<std::size_t>(std::abs(i - j))] + constant;
     const double rounding = g.scale_arcsec * g.scale_arcsec * reading_counts2(g);
     covariance.block(at.halves, at.halves, at.edges, at.edges).diagonal().setConstant(rounding);
-    covariance.bottomRightCorner(observed_halves, observed_halves) = false_angle_covariance(g);
+    covariance.bottomRightCorner(at.lit, at.lit) = false_angle_covariance(g);
     return covariance;
 }
 
 LinearModel model_of(const GyroLaw& g, const MotionLaw& motion, double constant_arcsec_s) {
     const Layout at{g};
     LinearModel m{.covariance = covariance_of(g, motion, constant_arcsec_s, at),
-                  .observed = MatrixXd::Zero(2 * observed_halves, at.all()),
+                  .observed = MatrixXd::Zero(closed_halves + at.lit, at.all()),
                   .target = VectorXd::Zero(at.all())};
-    for (int row = 0; row < 2 * observed_halves; ++row) {
-        const int after = row - observed_halves;
-        const int h = after < 0 ? row : row + at.gap_halves;
+    for (int row = 0; row < closed_halves + at.lit; ++row) {
+        const int after = row - closed_halves;
+        const int h = after < 0 ? row : row + at.dark;
         m.observed(row, h) = 1.0;
         m.observed(row, at.halves + h + 1) = 1.0;
         m.observed(row, at.halves + h) = -1.0;
         if (after < 0) continue;
-        const double sign = after % 2 == 0 ? 1.0 : -1.0;
+        const double sign = h % 2 == 0 ? 1.0 : -1.0;
         m.observed(row, at.false_angles() + after) = sign;
         m.target[at.false_angles() + after] = -sign;
     }
-    m.target.segment(observed_halves, at.gap_halves).setOnes();
-    m.target[at.halves + observed_halves] = -1.0;
-    m.target[at.halves + observed_halves + at.gap_halves] = 1.0;
+    m.target.segment(closed_halves, at.dark).setOnes();
+    m.target[at.halves + closed_halves] = -1.0;
+    m.target[at.halves + closed_halves + at.dark] = 1.0;
     return m;
 }
 
@@ -152,12 +159,15 @@ double alternating_sum_sigma(const MatrixXd& covariance) {
 
 SwitchBound bound_of(const GyroLaw& gyro, const MotionLaw& motion) {
     constexpr double unknown_arcsec_s = 1e5;  // far above any rate, yet small enough to keep C well conditioned
+    GyroLaw unlit = gyro;
+    unlit.lit_halves = 0;
+    const LinearModel whole_ticks = model_of(unlit, motion, unknown_arcsec_s);
     const LinearModel free_rate = model_of(gyro, motion, unknown_arcsec_s);
     const LinearModel known_rate = model_of(gyro, motion, 0.0);
-    return {.ticks_arcsec = min_error(free_rate, pairs_of(free_rate.observed)),
+    return {.ticks_arcsec = min_error(whole_ticks, pairs_of(whole_ticks.observed)),
             .halves_arcsec = min_error(free_rate, free_rate.observed),
             .known_rate_arcsec = min_error(known_rate, known_rate.observed),
-            .relock_arcsec = alternating_sum_sigma(false_angle_covariance(gyro))};
+            .relock_arcsec = alternating_sum_sigma(false_angle_covariance(unlit))};
 }
 
 }  // namespace zlg::trials

@@ -41,7 +41,7 @@ inline constexpr std::array<Group, 4> gap_groups{{
      "come 5 to 5.6 s apart. The bound takes only the noise of the photodiodes in place of the rounding."},
     {CaseGroup::lit, "(n) Lit halves of a gap",
      "The last three of the six halves of a gap have counts and light, at the full miss. Switches come 5 to 5.6 s "
-     "apart. The bound is that without lit halves."},
+     "apart."},
 }};
 
 inline constexpr const char* manoeuvre_caption =

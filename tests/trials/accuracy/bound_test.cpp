@@ -81,6 +81,25 @@ TEST(AccuracyBound, MoreKnowledgeIsNeverWorse) {
     }
 }
 
+// By exact light, two lit halves at the end of a gap of three ticks are known as those after a gap of two; the
+// bound observes one tick more then.
+TEST(AccuracyBound, OfLitHalvesIsThatOfTheDarkOnes) {
+    MotionLaw vibration;
+    vibration.bands = {{5.0, 80.0, 8000.0}};
+    for (const double scale : {3.263, 0.81575}) {
+        GyroLaw lit = counted(scale);
+        lit.light_noise_lambda = 1e-7;
+        GyroLaw shorter = lit;
+        lit.gap_ticks = 3;
+        lit.lit_halves = 2;
+        shorter.gap_ticks = 2;
+        const double ratio = bound_of(lit, vibration).halves_arcsec / bound_of(shorter, vibration).halves_arcsec;
+        EXPECT_LE(ratio, 1.0);
+        EXPECT_GT(ratio, 0.95);
+        EXPECT_GT(bound_of(lit, vibration).ticks_arcsec, 1.5 * bound_of(lit, vibration).halves_arcsec);
+    }
+}
+
 // dl and the bound of its square are proportional: twice the miss doubles the slope of the square.
 TEST(AccuracyBound, OfTheLightGrowsWithTheMiss) {
     GyroLaw g;
