@@ -137,7 +137,7 @@ def drift_hz(rows, ticks, one, i, settings):
 
 
 def correct_relock(rows, ticks, gaps, settings):
-    """Sets final and dtheta of the measured ticks; returns what tick 1 of `frequency` still owes, by gap."""
+    """Sets final and dtheta of the measured ticks; returns what tick 1 of `frequency` has still to correct, by gap."""
     late = {}
     for tick in ticks:
         tick.final = tick.dtheta = tick.raw

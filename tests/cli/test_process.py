@@ -36,7 +36,7 @@ class OracleTest(CliTest):
             self.assert_flag(log, k, "invalid", any(row.get("valid", 1) == 0 for row in halves), what)
             for name in ("extrapolated", "interpolated", "lower_order", "unrepaired", "relock_corrected", "relock_uncorrected"):
                 self.assert_flag(log, k, name, getattr(tick, name), what)
-            # A correction tick that owes nothing may or may not say so.
+            # A correction tick that has nothing to correct may or may not say so.
             expected = None if tick.correction and tick.lump == 0 else tick.correction
             self.assert_flag(log, k, "correction", expected, what)
 
