@@ -1,16 +1,18 @@
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <new>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/text/inputs.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"
-#include "nearest_verb.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -21,6 +23,23 @@ using namespace zlg;
 void print_keys() {
     cli::print(config::reference_markdown());
     throw CLI::Success{};
+}
+
+// What was wrong with a command line, in one line: where its verb is unknown, with the nearest one that exists.
+std::string explain(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv) {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
+        verbs.push_back(verb->get_name());
+    const std::string first = argc > 1 ? argv[1] : "";
+    const bool known = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
+    if (!known && !first.empty() && first[0] != '-') {
+        const auto apart = [&](const std::string& verb) { return text::letters_apart(first, verb); };
+        return fmt::format("unknown verb '{}'; did you mean '{}'? (zlg --help lists all)", first,
+                           *std::ranges::min_element(verbs, {}, apart));
+    }
+    std::string reason = error.what();
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    return fmt::format("{} (zlg {}--help lists what is allowed)", reason, known ? first + " " : "");
 }
 
 int parse_and_run(CLI::App& program, int argc, char** argv) {
@@ -38,7 +57,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
     } catch (const CLI::ParseError& error) {
-        cli::report_error(cli::explain(program, error, argc, argv));
+        cli::report_error(explain(program, error, argc, argv));
         return cli::wrong_usage;
     }
 }

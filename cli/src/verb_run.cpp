@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/processor/qemu.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
@@ -19,12 +21,40 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
-#include "processor_option.hpp"
 #include "run_files.hpp"
 #include "verbs.hpp"
 
 namespace zlg::cli {
 namespace {
+
+// Which processor runs the core: this program, or the image of the gyro's own.
+struct ProcessorOptions {
+    std::string processor = "host";
+    std::string image;  // empty: the one beside the program
+};
+
+std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
+
+void add_processor_options(CLI::App& verb, ProcessorOptions& options) {
+    verb.add_option("--processor", options.processor,
+                    "what runs the core: host (default), or qemu, the image of the gyro's processor in lock step");
+    verb.add_option("--image", options.image,
+                    "the image of the processor, ELF; the one built with this program without it");
+}
+
+// return  null for the host.
+//
+// errors  UsageError for an unknown processor, or an image for the host; processor::QemuError.
+std::unique_ptr<rig::Processor> make_processor(const ProcessorOptions& options) {
+    if (options.processor == "host") {
+        if (!options.image.empty()) throw UsageError{"--image: is for --processor qemu"};
+        return nullptr;
+    }
+    if (options.processor != "qemu")
+        throw UsageError{fmt::format("--processor {}: allowed are host and qemu", options.processor)};
+    const std::string image = options.image.empty() ? processor::image_beside(own_folder()) : options.image;
+    return std::make_unique<processor::QemuProcessor>(processor::QemuOptions{.image = image});
+}
 
 using nlohmann::json;
 

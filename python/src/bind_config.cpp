@@ -1,3 +1,5 @@
+#include <array>
+
 #include <pybind11/stl.h>
 
 #include <zlg/config/log_settings.hpp>
@@ -11,33 +13,9 @@ namespace py = pybind11;
 
 namespace {
 
-const char* name_of(config::ValueKind kind) {
-    switch (kind) {
-        case config::ValueKind::real:
-            return "real";
-        case config::ValueKind::optional_real:
-            return "optional_real";
-        case config::ValueKind::integer:
-            return "integer";
-        case config::ValueKind::text:
-            return "text";
-        case config::ValueKind::reals:
-            return "reals";
-        case config::ValueKind::choice:
-            return "choice";
-        case config::ValueKind::optional_choice:
-            return "optional_choice";
-        case config::ValueKind::choices:
-            return "choices";
-        case config::ValueKind::column:
-            return "column";
-        case config::ValueKind::columns:
-            return "columns";
-        case config::ValueKind::interval:
-            break;
-    }
-    return "interval";
-}
+// In the order of config::ValueKind.
+constexpr std::array kind_names{"real",    "optional_real", "integer", "text",   "reals", "choice", "optional_choice",
+                                "choices", "interval",      "column",  "columns"};
 
 py::list keys() {
     py::list all;
@@ -49,7 +27,7 @@ py::list keys() {
         info["meaning"] = key.meaning;
         info["default"] = key.default_text;
         info["allowed"] = key.allowed;
-        info["kind"] = name_of(key.kind);
+        info["kind"] = kind_names.at(static_cast<std::size_t>(key.kind));
         info["choices"] = key.choices;
         all.append(info);
     }

@@ -25,22 +25,10 @@ struct Control {
 void bind_control(py::module_& m) {
     using core::GyroControlOutput;
     using core::HalfRecord;
-    py::class_<HalfRecord>(m, "HalfRecord", "One row of the raw log.")
-        .def(py::init<>())
-        .def_readwrite("half", &HalfRecord::half)
-        .def_readwrite("counts", &HalfRecord::counts)
-        .def_readwrite("detuning_lambda", &HalfRecord::detuning_lambda)
-        .def_readwrite("detuning_sq_lambda2", &HalfRecord::detuning_sq_lambda2)
-        .def_readwrite("piezo_v", &HalfRecord::piezo_v)
-        .def_readwrite("temperature_c", &HalfRecord::temperature_c)
-        .def_readwrite("bias_sign", &HalfRecord::bias_sign)
-        .def_readwrite("mode", &HalfRecord::mode)
-        .def_readwrite("loop_closed", &HalfRecord::loop_closed)
-        .def_readwrite("valid", &HalfRecord::valid)
-        .def_readwrite("edge_offset_ticks", &HalfRecord::edge_offset_ticks)
-        .def_readwrite("span", &HalfRecord::span)
-        .def_readwrite("fringe", &HalfRecord::fringe)
-        .def_readwrite("lit", &HalfRecord::lit);
+    py::class_<HalfRecord> record{m, "HalfRecord", "One row of the raw log."};
+    record.def(py::init<>());
+    logs::for_each_column<logs::RawTable>(
+        [&](const auto& column, std::size_t) { record.def_readwrite(column.name, column.member); });
     py::class_<GyroControlOutput>(m, "ControlOutput", "What control makes of one half-period.")
         .def_readonly("actuator", &GyroControlOutput::actuator)
         .def_readonly("record", &GyroControlOutput::record)

@@ -2,17 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include <unsupported/Eigen/FFT>
 #include <zlg/deviations/series.hpp>
-
-#include "fourier.hpp"
 
 namespace zlg::noise {
 namespace {
+
+// The least length from n on that has no prime factor over 5.
+std::size_t quick_length(std::size_t n) {
+    for (;; ++n) {
+        std::size_t rest = n;
+        for (const std::size_t prime : {2u, 3u, 5u})
+            while (rest % prime == 0 && rest > 1) rest /= prime;
+        if (rest <= 1) return n;
+    }
+}
+
+// Sums of x_k exp(-2 pi i j k/n), j = 0..n/2.
+std::vector<std::complex<double>> half_spectrum(const std::vector<double>& values) {
+    Eigen::FFT<double> transform;
+    transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+    std::vector<std::complex<double>> spectrum;
+    transform.fwd(spectrum, values);
+    return spectrum;
+}
 
 class Pieces {
 public:

@@ -4,16 +4,131 @@
 #include <cmath>
 #include <cstdint>
 
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "bias_wiring.hpp"
-#include "control_refusal.hpp"
 #include "fringe_wiring.hpp"
-#include "monitor_wiring.hpp"
-#include "switching_wiring.hpp"
 
 namespace zlg::rig {
 namespace {
+
+// Whole ticks of a time, 1 at least.
+std::int64_t ticks_of(double time_s, double tick_s) {
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(time_s / tick_s)));
+}
+
+// errors  config::ConfigError for an interval that is still "optimal".
+core::SwitchScheduleConfig schedule_of(const config::Config& config) {
+    if (config.switching.interval_optimal)
+        throw config::ConfigError{
+            "switching.interval_s = \"optimal\" must be resolved into seconds before a gyro can run"};
+    const config::Switching& sw = config.switching;
+    return {.interval_ticks = ticks_of(sw.interval_s, config.gyro.tick_s),
+            .first_segment = sw.first_segment,
+            .kind = sw.schedule,
+            .min_ticks = ticks_of(sw.interval_min_s, config.gyro.tick_s),
+            .max_ticks = ticks_of(sw.interval_max_s, config.gyro.tick_s),
+            .tick_s = config.gyro.tick_s,
+            .presumed = {.switch_error_arcsec = sw.switch_error_arcsec, .magnetic_arcsec_s = sw.magnetic_arcsec_s}};
+}
+
+// Counts of a half at which a counter that follows no faster would stop.
+std::int64_t counts_limit(const config::Config& config) {
+    const double most = 0.5 * config.gyro.tick_s * counter_max_hz(config.gyro);
+    return static_cast<std::int64_t>(std::clamp(most - 1.0, 1.0, 0x1p62));
+}
+
+// Arm the monitors. What of the bias and of the perimeter would be one count of a tick is not let pass.
+void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
+    const config::Gyro& g = config.gyro;
+    const double bias_counts = 0.5 * g.tick_s * g.bias_hz;
+    made.health.counts_limit = counts_limit(config);
+    made.bias_monitor.presumed_counts = std::min(bias_counts, 1e15);
+    if (bias_counts >= core::min_bias_counts) made.coil_monitor.tolerance_ratio = 0.5 / bias_counts;
+    made.counter_monitor.watches = true;
+    made.light_monitor.noise = core::Wavelengths{std::min(g.light_noise_lambda, 10.0)};
+    // A laser whose curve is not known reads several times its detuning: the bias cannot have lost what that would take.
+    const bool reads_true = g.fidelity != config::Fidelity::laser || made.detector.curve.n_nodes > 0;
+    if (!reads_true) made.light_monitor.max_gain = 10.0;
+    if (reads_true && g.bias_chi > 0.0 && bias_counts >= 100.0) made.light_monitor.bias_chi = std::min(g.bias_chi, 1e6);
+    const double false_counts = bias_counts * g.bias_chi;
+    if (false_counts > 0.0) {
+        const double noise_lambda2 = g.light_noise_lambda * g.light_noise_lambda;
+        made.detuning_monitor.max_change_lambda2 = std::min(1.0 / false_counts + 20.0 * noise_lambda2, 1e6);
+    }
+    made.detuning_monitor.relock_ticks = config.compensation.relock_ticks;
+}
+
+// What the core's check refuses, by the keys that it comes from. Single numbers that it would refuse, the table of keys does not
+// allow; these are rules between them.
+void require_loop(const config::Config& config, const core::PerimeterLoopConfig& loop) {
+    switch (check(loop)) {
+        case core::PerimeterLoopFault::none:
+        case core::PerimeterLoopFault::watch_limit:
+            return;
+        case core::PerimeterLoopFault::range:
+            refuse(config, {"piezo.range_min_v", "piezo.range_max_v"},
+                   "above -1e6 to below 1e6 V, the first the lower");
+        case core::PerimeterLoopFault::half_wave:
+            refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error"},
+                   "a presumed half-wave voltage, half_wave_v (1 + half_wave_error), of 1e-3..1e6 V");
+        case core::PerimeterLoopFault::half_period:
+            refuse(config, {"gyro.tick_s"}, "above 0 up to 1e3 s");
+        case core::PerimeterLoopFault::time_constant:
+            refuse(config, {"perimeter.tau_s", "perimeter.settled_tau_s"}, "up to 1e6 s");
+        case core::PerimeterLoopFault::error_limit:
+            refuse(config, {"perimeter.limit_lambda"}, "above 0 up to 1e3");
+        case core::PerimeterLoopFault::slew:
+            refuse(config, {"piezo.slew_v_s"}, "above 0 up to 1e12 V/s");
+        case core::PerimeterLoopFault::relock:
+            refuse(config, {"perimeter.sample_gain", "gyro.light_samples", "perimeter.relock_halves", "piezo.rc_s"},
+                   "a gain 1 - (1 - sample_gain)^light_samples above 0, and piezo.rc_s of 1e-9..1e3 s");
+    }
+}
+
+// errors  config::ConfigError where the core's check refuses what was made of the configuration.
+void require_control(const config::Config& config, const core::GyroControlConfig& made) {
+    switch (check(made)) {
+        case core::GyroControlFault::none:
+            return;
+        case core::GyroControlFault::detector:
+            refuse(config,
+                   {"gyro.discriminator_per_lambda", "perimeter.discriminator_detuning_lambda",
+                    "perimeter.discriminator_signal"},
+                   "a slope of size 1e-6..1e6, and a curve that grows, up to 1e3 wavelengths by that slope");
+        case core::GyroControlFault::loop:
+            require_loop(config, made.loop);
+            break;
+        case core::GyroControlFault::half_wave:
+        case core::GyroControlFault::stroke:
+        case core::GyroControlFault::temperature:
+            refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error", "gyro.reference_temperature_c"},
+                   "a presumed half-wave voltage of 1e-3..1e6 V, and a temperature above -1e6 to below 1e6 C");
+        case core::GyroControlFault::fringe:
+            refuse(config, {"gyro.readout", "photodiodes.noise", "laser.comparator_threshold"},
+                   "a phase of less than 1/20 of a turn of noise, and comparators that follow it within 1/8");
+        case core::GyroControlFault::schedule:
+            refuse(config,
+                   {"switching.interval_s", "switching.interval_min_s", "switching.interval_max_s", "gyro.tick_s",
+                    "switching.switch_error_arcsec", "switching.magnetic_arcsec_s"},
+                   "intervals of 1..2^53 ticks, and presumed errors above 0 up to 1e12");
+        case core::GyroControlFault::mode_switch:
+        case core::GyroControlFault::ranges_differ:
+            refuse(config,
+                   {"piezo.range_min_v", "piezo.range_max_v", "switching.gap_ticks", "switching.gap_min_ticks",
+                    "perimeter.tau_s", "gyro.tick_s"},
+                   "a range within +-1e6 V, and up to 2^24 ticks for a gap and for 12 time constants of the loop");
+        case core::GyroControlFault::commutator:
+            refuse(config, {"gyro.tick_s", "gyro.dither"}, "a tick of 1e-6..800 s, where edges shift from 1.6e-6 s on");
+        case core::GyroControlFault::health:
+        case core::GyroControlFault::monitors:
+            refuse(config, {"gyro.bias_hz", "gyro.bias_chi", "gyro.light_noise_lambda", "gyro.tick_s"},
+                   "what makes finite counts in a half");
+    }
+    throw config::ConfigError{named(config, "the control refuses this gyro")};
+}
 
 // A beam that runs may be faint: at 0.22 wavelength the weaker one of the default laser has a fifth of its light. One that
 // does not run has noise alone.

@@ -5,7 +5,6 @@
 #include <map>
 #include <thread>
 
-#include <zlg/core/common/maths.hpp>
 #include <zlg/core/health.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>

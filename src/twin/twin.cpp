@@ -1,14 +1,91 @@
 #include <zlg/twin/twin.hpp>
 
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "averaged_gyro.hpp"
 #include "gyro.hpp"
 #include "laser_gyro.hpp"
-#include "validate.hpp"
+#include "refusal.hpp"
 
 namespace zlg::twin {
 namespace {
+
+bool has_ideal_piezo(const PiezoConfig& z) {
+    return z.hysteresis == 0.0 && z.creep_per_decade == 0.0 && z.mirror_hz == 0.0;
+}
+
+void validate_piezo_mirror(const TwinConfig& c) {
+    const PiezoConfig& z = c.piezo;
+    require_within("piezo.hysteresis_stroke_v", z.hysteresis_stroke_v, 1e-3 * z.half_wave_v, 1e3 * z.half_wave_v);
+    if (has_ideal_piezo(z)) return;
+    if (c.perimeter.loop == Loop::exponential) {
+        throw std::invalid_argument(
+            "the exponential loop presumes an ideal piezo: allowed is piezo.hysteresis, piezo.creep_per_decade "
+            "and piezo.mirror_hz = 0");
+    }
+    // A third half-wave is room for what hysteresis and creep take away.
+    if (c.perimeter.miss_lambda > 0.0 && !(z.range_max_v - z.range_min_v >= 3.0 * z.half_wave_v)) {
+        refuse("piezo.half_wave_v", z.half_wave_v,
+               fmt::format("<= (piezo.range_max_v - piezo.range_min_v)/3 = {} where perimeter.miss_lambda > 0 and the "
+                           "piezo is not ideal",
+                           (z.range_max_v - z.range_min_v) / 3.0));
+    }
+}
+
+// A length of 1e6 wavelengths still resolves a detuning to 1e-10.
+constexpr double max_travel_lambda = 1e6;
+
+// At either end of the warming.
+void validate_half_wave(const TwinConfig& c, const char* key, double half_wave_v) {
+    const double range_v = c.piezo.range_max_v - c.piezo.range_min_v;
+    require_within(key, half_wave_v, 0.5 * range_v / max_travel_lambda, std::numeric_limits<double>::infinity());
+    // Only a range of two half-waves holds a place short of a mode of either helicity at any temperature.
+    if (c.perimeter.miss_lambda > 0.0 && !(range_v >= 2.0 * half_wave_v)) {
+        refuse(key, half_wave_v,
+               fmt::format("<= (piezo.range_max_v - piezo.range_min_v)/2 = {} where perimeter.miss_lambda > 0",
+                           0.5 * range_v));
+    }
+}
+
+void validate_perimeter(const TwinConfig& c) {
+    const double rise_c = c.gyro.temperature_rise_c;
+    require_within("perimeter.expansion_lambda_per_c * gyro.temperature_rise_c",
+                   c.perimeter.expansion_lambda_per_c * rise_c, -max_travel_lambda, max_travel_lambda);
+    validate_half_wave(c, "piezo.half_wave_v", c.piezo.half_wave_v);
+    validate_half_wave(
+        c, "piezo.half_wave_v * (1 + piezo.half_wave_temperature_coefficient_per_c * gyro.temperature_rise_c)",
+        c.piezo.half_wave_v * (1.0 + c.piezo.half_wave_temperature_coefficient_per_c * rise_c));
+    validate_piezo_mirror(c);
+}
+
+// The section does nothing in the averaged model.
+void validate_laser(const TwinConfig& c) {
+    if (c.gyro.fidelity == Fidelity::averaged) return;
+    validate(c.laser);
+    require_within("1 + gyro.bias_temperature_coefficient_per_c * gyro.temperature_rise_c",
+                   1.0 + c.gyro.bias_temperature_coefficient_per_c * c.gyro.temperature_rise_c, 1e-3, 1e3);
+}
+
+void validate_fault(const Fault& fault, Loop loop) {
+    const FaultFacts& known = facts(fault.kind);
+    require_within(fmt::format("fault {}: faults.size", known.name), fault.size, known.size.least, known.size.most);
+    if (loop != Loop::exponential || known.acts_on == FaultActs::elsewhere) return;
+    throw std::invalid_argument(
+        fmt::format("fault {}: the exponential loop is a formula that no light or length moves: allowed is "
+                    "perimeter.loop analog or digital",
+                    known.name));
+}
+
+// Refuse what the arithmetic cannot carry.
+//
+// errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
+void validate(const TwinConfig& config) {
+    validate_perimeter(config);
+    validate_laser(config);
+    for (const Fault& fault : config.faults) validate_fault(fault, config.perimeter.loop);
+}
 
 std::unique_ptr<Gyro> make_gyro(const TwinConfig& config, Motion motion) {
     validate(config);

@@ -2,7 +2,7 @@
 
 #include <zlg/wire/crc.hpp>
 
-#include "unpacking.hpp"
+#include "packing.hpp"
 
 namespace zlg::wire {
 namespace {
@@ -18,15 +18,17 @@ bool take_message(Receiver& r, Message& message) noexcept {
         return false;
     const auto bytes = std::span<const std::uint8_t>{r.held}.first(unstuffed.size);
     const auto covered = bytes.first(bytes.size() - crc_bytes);
-    if (Unpacker{bytes.last(crc_bytes)}.u32() != crc32c(covered)) return false;
+    std::uint32_t crc = 0;
+    Unpacker{bytes.last(crc_bytes)}(crc);
+    if (crc != crc32c(covered)) return false;
+    std::uint8_t version = 0;
     Unpacker header{covered};
-    if (header.u8() != wire_version) {
+    header(version);
+    if (version != wire_version) {
         ++r.n_foreign;
         return false;
     }
-    message.type = static_cast<MessageType>(header.u8());
-    message.session = header.u16();
-    message.sequence = header.u32();
+    header(message.type, message.session, message.sequence);
     message.body = covered.subspan(header_bytes);
     return true;
 }

@@ -8,7 +8,7 @@
 
 #include <zlg/wire/crc.hpp>
 
-#include "unpacking.hpp"
+#include "packing.hpp"
 
 namespace zlg::wire {
 namespace {

@@ -3,7 +3,6 @@
 #include <zlg/wire/telemetry.hpp>
 
 #include "packing.hpp"
-#include "unpacking.hpp"
 
 namespace zlg::wire {
 namespace {
@@ -12,6 +11,21 @@ constexpr std::size_t body_bytes = 96;
 
 enum Content : std::uint8_t { content_closed = 1, content_held = 2, content_asked = 4 };
 constexpr std::uint8_t contents = content_closed | content_held | content_asked;
+
+// What no member of its own holds: bits, and a byte that is 0.
+struct Rest {
+    std::uint8_t content = 0;
+    std::uint8_t zero = 0;
+};
+
+// The numbers of the body in their order.
+template <class Codec, class AnyStatus>
+void lay_out(Codec&& codec, AnyStatus& s, Rest& rest) noexcept {
+    codec(s.tick, s.phase, s.polarity, rest.content, rest.zero, s.tick_s, s.scale_arcsec, s.timer_hz, s.health,
+          s.n_switches, s.n_failed, s.half_wave_v, s.half_wave_sigma_v, s.piezo_v, s.temperature_c, s.detuning_lambda,
+          s.magnetic_arcsec_s, s.switch_error_arcsec, s.settings_crc, s.n_received, s.n_damaged, s.n_overruns,
+          s.stack_used_bytes, s.last_fault);
+}
 
 bool is_possible(const Status& s) noexcept {
     return s.phase <= core::SwitchPhase::searching && is_sign(s.polarity) && s.tick_s >= min_tick_s &&
@@ -44,48 +58,23 @@ Status status_of(const core::GyroControlState& control, const core::GyroCompensa
 }
 
 Frame frame_of(Sender& sender, const Status& s) noexcept {
+    Rest rest;
+    rest.content = static_cast<std::uint8_t>((s.loop_closed ? content_closed : 0) | (s.held ? content_held : 0) |
+                                             (s.asked ? content_asked : 0));
     Packer p;
-    p.u32(s.tick);
-    p.u8(static_cast<std::uint8_t>(s.phase));
-    p.i8(s.polarity);
-    p.u8(static_cast<std::uint8_t>((s.loop_closed ? content_closed : 0) | (s.held ? content_held : 0) |
-                                   (s.asked ? content_asked : 0)));
-    p.u8(0);
-    p.f64(s.tick_s);
-    p.f64(s.scale_arcsec);
-    p.f64(s.timer_hz);
-    for (const std::uint32_t x : {s.health, s.n_switches, s.n_failed}) p.u32(x);
-    for (const float x : {s.half_wave_v, s.half_wave_sigma_v, s.piezo_v, s.temperature_c, s.detuning_lambda,
-                          s.magnetic_arcsec_s, s.switch_error_arcsec})
-        p.f32(x);
-    for (const std::uint32_t x :
-         {s.settings_crc, s.n_received, s.n_damaged, s.n_overruns, s.stack_used_bytes, s.last_fault})
-        p.u32(x);
+    lay_out(p, s, rest);
     return frame_of(sender, MessageType::status, p.body());
 }
 
 std::optional<Status> status_in(const Message& message) noexcept {
     if (message.type != MessageType::status || message.body.size() != body_bytes) return std::nullopt;
-    Unpacker u{message.body};
     Status s;
-    s.tick = u.u32();
-    s.phase = static_cast<core::SwitchPhase>(u.u8());
-    s.polarity = u.i8();
-    const std::uint8_t content = u.u8();
-    if ((content & ~contents) != 0 || u.u8() != 0) return std::nullopt;
-    s.loop_closed = (content & content_closed) != 0;
-    s.held = (content & content_held) != 0;
-    s.asked = (content & content_asked) != 0;
-    s.tick_s = u.f64();
-    s.scale_arcsec = u.f64();
-    s.timer_hz = u.f64();
-    for (std::uint32_t* const x : {&s.health, &s.n_switches, &s.n_failed}) *x = u.u32();
-    for (float* const x : {&s.half_wave_v, &s.half_wave_sigma_v, &s.piezo_v, &s.temperature_c, &s.detuning_lambda,
-                           &s.magnetic_arcsec_s, &s.switch_error_arcsec})
-        *x = u.f32();
-    for (std::uint32_t* const x :
-         {&s.settings_crc, &s.n_received, &s.n_damaged, &s.n_overruns, &s.stack_used_bytes, &s.last_fault})
-        *x = u.u32();
+    Rest rest;
+    lay_out(Unpacker{message.body}, s, rest);
+    if ((rest.content & ~contents) != 0 || rest.zero != 0) return std::nullopt;
+    s.loop_closed = (rest.content & content_closed) != 0;
+    s.held = (rest.content & content_held) != 0;
+    s.asked = (rest.content & content_asked) != 0;
     if (!is_possible(s)) return std::nullopt;
     return s;
 }

@@ -1,7 +1,6 @@
 #include <zlg/wire/telemetry.hpp>
 
 #include "packing.hpp"
-#include "unpacking.hpp"
 
 namespace zlg::wire {
 namespace {
@@ -40,6 +39,22 @@ constexpr double max_arcsec = 0x1p35;
 
 // Of the flags; those above are left to whoever keeps the rows.
 constexpr std::uint32_t flags_of_the_gyro = 0xFFFF;
+
+// What no member of its own holds: bits, and bytes that are 0.
+struct Rest {
+    std::uint8_t content = 0;
+    std::uint8_t zero = 0;
+    std::uint16_t zeros = 0;
+};
+
+// The numbers of the body in their order.
+template <class Codec, class AnyTelemetry>
+void lay_out(Codec&& codec, AnyTelemetry& t, Rest& rest) noexcept {
+    codec(t.tick, t.settled_age_ticks, rest.content, rest.zero, t.angle, t.dtheta_arcsec, t.flags, t.health, t.mode,
+          t.settled_mode, rest.zeros, t.temperature_c, t.settled_dtheta_arcsec, t.settled_final_arcsec,
+          t.settled_sigma_arcsec, t.settled_angle, t.settled_final_angle, t.settled_flags, t.time.n_pulses,
+          t.time.since_pulse_ticks, t.time.timer_ticks, t.tick_s);
+}
 
 bool is_possible(const Telemetry& t) noexcept {
     if (((t.flags | t.settled_flags) & ~flags_of_the_gyro) != 0) return false;
@@ -81,62 +96,23 @@ void skip(TelemetryState& state, const TelemetryState& of_them) noexcept {
 }
 
 Frame frame_of(Sender& sender, const Telemetry& t) noexcept {
+    Rest rest;
+    rest.content = static_cast<std::uint8_t>((t.has_tick ? content_tick : 0) | (t.has_settled ? content_settled : 0) |
+                                             (t.time.synchronised ? content_synchronised : 0));
     Packer p;
-    p.u32(t.tick);
-    p.u16(t.settled_age_ticks);
-    p.u8(static_cast<std::uint8_t>((t.has_tick ? content_tick : 0) | (t.has_settled ? content_settled : 0) |
-                                   (t.time.synchronised ? content_synchronised : 0)));
-    p.u8(0);
-    p.u64(t.angle);
-    p.f64(t.dtheta_arcsec);
-    p.u32(t.flags);
-    p.u32(t.health);
-    p.i8(t.mode);
-    p.i8(t.settled_mode);
-    p.u16(0);
-    p.f32(t.temperature_c);
-    p.f64(t.settled_dtheta_arcsec);
-    p.f64(t.settled_final_arcsec);
-    p.f64(t.settled_sigma_arcsec);
-    p.u64(t.settled_angle);
-    p.u64(t.settled_final_angle);
-    p.u32(t.settled_flags);
-    p.u32(t.time.n_pulses);
-    p.u32(t.time.since_pulse_ticks);
-    p.u64(t.time.timer_ticks);
-    p.f64(t.tick_s);
+    lay_out(p, t, rest);
     return frame_of(sender, MessageType::telemetry, p.body());
 }
 
 std::optional<Telemetry> telemetry_in(const Message& message) noexcept {
     if (message.type != MessageType::telemetry || message.body.size() != body_bytes) return std::nullopt;
-    Unpacker u{message.body};
     Telemetry t;
-    t.tick = u.u32();
-    t.settled_age_ticks = u.u16();
-    const std::uint8_t content = u.u8();
-    if ((content & ~contents) != 0 || u.u8() != 0) return std::nullopt;
-    t.has_tick = (content & content_tick) != 0;
-    t.has_settled = (content & content_settled) != 0;
-    t.time.synchronised = (content & content_synchronised) != 0;
-    t.angle = u.u64();
-    t.dtheta_arcsec = u.f64();
-    t.flags = u.u32();
-    t.health = u.u32();
-    t.mode = u.i8();
-    t.settled_mode = u.i8();
-    if (u.u16() != 0) return std::nullopt;
-    t.temperature_c = u.f32();
-    t.settled_dtheta_arcsec = u.f64();
-    t.settled_final_arcsec = u.f64();
-    t.settled_sigma_arcsec = u.f64();
-    t.settled_angle = u.u64();
-    t.settled_final_angle = u.u64();
-    t.settled_flags = u.u32();
-    t.time.n_pulses = u.u32();
-    t.time.since_pulse_ticks = u.u32();
-    t.time.timer_ticks = u.u64();
-    t.tick_s = u.f64();
+    Rest rest;
+    lay_out(Unpacker{message.body}, t, rest);
+    if ((rest.content & ~contents) != 0 || rest.zero != 0 || rest.zeros != 0) return std::nullopt;
+    t.has_tick = (rest.content & content_tick) != 0;
+    t.has_settled = (rest.content & content_settled) != 0;
+    t.time.synchronised = (rest.content & content_synchronised) != 0;
     if (!is_possible(t)) return std::nullopt;
     return t;
 }

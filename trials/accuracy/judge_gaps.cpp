@@ -1,6 +1,5 @@
 // Limits of gap lengths, of the first gap, of a motion that changes at the gap, of the phase and of lit halves.
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>

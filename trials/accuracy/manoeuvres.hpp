@@ -5,7 +5,6 @@
 // manoeuvre, which then has one gap. So every manoeuvre is the first one.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <zlg/trials/accuracy.hpp>

@@ -7,8 +7,8 @@ namespace zlg::trials {
 template <class Output>
 void ComparedProcessor::compare(const Output& here, const Output& there) {
     hash_.add(here);
-    const char* const name = trials::first_difference(here, there);
-    if (name == nullptr) return;
+    const std::string name = trials::first_difference(here, there);
+    if (name.empty()) return;
     if (differing_ == 0) first_difference_ = fmt::format("half {}: {}", halves_, name);
     ++differing_;
 }

@@ -3,7 +3,6 @@
 // usage: zlg_gap_campaign [SHARE] [--threads N]
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <zlg/numeric/draw.hpp>

@@ -1,6 +1,5 @@
 // The stack: what lies below it is forbidden, and what it has used can be seen.
 
-#include <cstddef>
 #include <cstdint>
 
 #include <zlg/firmware/port.hpp>

@@ -53,7 +53,7 @@ TEST(ComparedProcessor, names_the_half_and_the_number_of_one_wrong_bit) {
     trials::ComparedProcessor both{other};
     run(both, 400);
     EXPECT_EQ(both.differing(), 1);
-    EXPECT_EQ(both.first_difference(), "half 123: health");
+    EXPECT_EQ(both.first_difference(), "half 123: control.health");
 }
 
 TEST(ComparedProcessor, answers_what_the_other_answers) {

@@ -1,7 +1,6 @@
 #include <zlg/trials/output_bits.hpp>
 
 #include <limits>
-#include <string>
 
 #include <gtest/gtest.h>
 
@@ -21,17 +20,16 @@ TEST(OutputBits, of_a_real_number_are_those_of_ieee_754) {
 TEST(OutputBits, differ_where_values_compare_equal) {
     HalfOutput a;
     HalfOutput b;
-    EXPECT_EQ(first_difference(a, b), nullptr);
+    EXPECT_EQ(first_difference(a, b), "");
     a.control.actuator.set_point_v[7] = 0.0;
     b.control.actuator.set_point_v[7] = -0.0;
-    ASSERT_NE(first_difference(a, b), nullptr);
-    EXPECT_EQ(std::string{first_difference(a, b)}, "actuator.set_point_v");
+    EXPECT_EQ(first_difference(a, b), "actuator.set_point_v");
 }
 
 TEST(OutputBits, agree_of_a_quantity_that_was_not_measured) {
     HalfOutput a;
     a.control.record.detuning_lambda = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(first_difference(a, HalfOutput{a}), nullptr);
+    EXPECT_EQ(first_difference(a, HalfOutput{a}), "");
 }
 
 // Each member by itself: one that was forgotten would not be seen.
@@ -40,20 +38,19 @@ TEST(OutputBits, see_every_member) {
     const auto sees = [&](auto&& change, const char* name) {
         HalfOutput changed;
         change(changed);
-        const char* const found = first_difference(plain, changed);
-        EXPECT_TRUE(found != nullptr && std::string{found} == name) << name;
+        EXPECT_EQ(first_difference(plain, changed), name);
     };
     sees([](HalfOutput& o) { o.control.actuator.edge_offset_ticks = 1; }, "actuator.edge_offset_ticks");
     sees([](HalfOutput& o) { o.control.record.counts = 1; }, "record.counts");
     sees([](HalfOutput& o) { o.control.record.temperature_c = 1.0; }, "record.temperature_c");
     sees([](HalfOutput& o) { o.control.record.span = 2; }, "record.span");
     sees([](HalfOutput& o) { o.control.record.lit = true; }, "record.lit");
-    sees([](HalfOutput& o) { o.control.health = 1u << 31; }, "health");
+    sees([](HalfOutput& o) { o.control.health = 1u << 31; }, "control.health");
     sees([](HalfOutput& o) { o.control.event.miss_lambda = 1e-300; }, "event.miss_lambda");
     sees([](HalfOutput& o) { o.compensation.sample.flags = 1; }, "sample.flags");
-    sees([](HalfOutput& o) { o.compensation.sample.final_row.relock_arcsec = 1.0; }, "row.relock_arcsec");
+    sees([](HalfOutput& o) { o.compensation.sample.final_row.relock_arcsec = 1.0; }, "final_row.relock_arcsec");
     sees([](HalfOutput& o) { o.compensation.sample.gap.sigma_sum_arcsec = 1.0; }, "gap.sigma_sum_arcsec");
-    sees([](HalfOutput& o) { o.compensation.angle_arcsec = 1.0; }, "angle_arcsec");
+    sees([](HalfOutput& o) { o.compensation.angle_arcsec = 1.0; }, "compensation.angle_arcsec");
 }
 
 TEST(BitHash, is_fnv_1a_of_the_bytes) {

@@ -1,8 +1,6 @@
 #pragma once
 // What a command does to the gyro: the decision, without the doing.
 
-#include <cstdint>
-
 #include <zlg/wire/command.hpp>
 #include <zlg/wire/parameters.hpp>
 

@@ -1,7 +1,6 @@
 #pragma once
 // The parameters of the core that have a number on the wire.
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
