@@ -24,13 +24,29 @@ class Switches(CliTest):
         self.assertEqual(list(replayed[0]), [name for name in live[0] if name != "true_error_arcsec"])
         self.assertGreaterEqual(len(live), 6)
         self.assertEqual([[row[name] for name in KNOWN] for row in replayed], [[row[name] for name in KNOWN] for row in live])
-        self.assertEqual({(row["half_wave_v"], row["half_wave_sigma_v"]) for row in replayed}, {("", "inf")})
+        half_wave = ["half_wave_v", "half_wave_sigma_v"]
+        self.assertEqual([[row[name] for name in half_wave] for row in replayed], [[row[name] for name in half_wave] for row in live])
+        self.assertNotIn("", [row["half_wave_v"] for row in replayed[:-1]])
 
     def test_csv(self):
         self.check("csv")
 
     def test_hdf5(self):
         self.check("h5", "--set", "compensation.bridge=quadratic", "--set", "compensation.relock=detuning")
+
+    def test_a_real_piezo_and_a_laser(self):
+        self.check("csv", "--set", "gyro.fidelity=laser", "--set", "piezo.hysteresis=0.1", "--set", "piezo.half_wave_error=0.05")
+
+    def test_a_log_without_the_voltage(self):
+        raw, table = self.folder / "raw.csv", self.folder / "switches.csv"
+        self.succeed("simulate", *RUN, "--out", raw)
+        rows = list(csv.DictReader(line for line in raw.read_text().splitlines() if not line.startswith("#")))
+        for lacking in ("piezo_v", "detuning_lambda"):
+            columns = [name for name in rows[0] if name != lacking]
+            text = "".join(",".join(row) + "\n" for row in [columns, *([row[name] for name in columns] for row in rows)])
+            self.succeed("process", self.write("without.csv", text), "--out", self.folder / "angles.csv", "--switches", table, "--force",
+                         "--set", "gyro.tick_s=0.005", "--set", "gyro.scale_arcsec=3.263")
+            self.assertEqual({(row["half_wave_v"], row["half_wave_sigma_v"]) for row in rows_of(table)}, {("", "inf")}, lacking)
 
     def test_a_log_without_light_and_one_without_switches(self):
         rows = quiet_log(400, gap=range(200, 203))
