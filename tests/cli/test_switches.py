@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import unittest
 
 from support import CliTest, csv_text, quiet_log
@@ -74,6 +75,47 @@ class Switches(CliTest):
         self.refuse(3, "process", raw, "--out", out, "--switches", table, says=["switches.csv"])
         self.assertEqual(table.read_text(), "mine")
         self.assertFalse(out.exists())
+
+
+class GapsOfOneTick(CliTest):
+    """With `gap_min_ticks = 1` and a stage that makes the move in 3 ms, every gap is one tick long."""
+
+    FAST = ["--set", "piezo.slew_v_s=20000", "--set", "piezo.rc_s=3e-4", "--set", "perimeter.miss_lambda=0"]
+    # The walk of the measured ticks beside the gap is in the error and not in sigma.
+    NO_WALK = ["--set", "drift.random_walk_arcsec_sqrt_s=0", "--set", "laser.lock_in_left_hz=0", "--set", "laser.lock_in_right_hz=0"]
+
+    def switches(self, name, *settings):
+        out = self.folder / name
+        self.succeed("run", "--duration", 300, "--set", "switching.interval_s=2", "--set", "switching.gap_min_ticks=1",
+                     "--set", "compensation.relock=joint", *settings, "--out", out, "--format", "h5")
+        rows = [row for row in rows_of(out / "switches.csv")[10:] if row["true_error_arcsec"]]
+        errors = [float(row["true_error_arcsec"]) for row in rows]
+        sigmas = [float(row["sigma_arcsec"]) for row in rows]
+        rms = math.sqrt(sum(e * e for e in errors) / len(errors))
+        over_sigma = sum((e / s) ** 2 for e, s in zip(errors, sigmas)) / len(errors)
+        return [int(row["gap_ticks"]) for row in rows], rms, over_sigma
+
+    def test_occur_and_their_errors_are_those_of_the_counter(self):
+        # Two places that are each anywhere in a count.
+        counter = 3.263 / math.sqrt(6.0)
+        for fidelity in ("averaged", "laser"):
+            for readout in ("count", "phase"):
+                with self.subTest(fidelity=fidelity, readout=readout):
+                    gaps, rms, over_sigma = self.switches(f"{fidelity}-{readout}", *self.FAST, *self.NO_WALK, "--set", f"gyro.fidelity={fidelity}",
+                                                          "--set", f"gyro.readout={readout}")
+                    self.assertGreater(len(gaps), 120)
+                    self.assertEqual(set(gaps), {1})
+                    # Of 130 squares, three standard deviations are 0.37 of the mean, and 0.19 of its root.
+                    self.assertLess(rms, 1.19 * counter if readout == "count" else 0.06)
+                    if (fidelity, readout) != ("laser", "count"):
+                        self.assertTrue(0.63 < over_sigma < 1.37, over_sigma)
+
+    def test_do_not_come_of_the_default_stage(self):
+        """40 V at 4000 V/s are 10 ms, two ticks; nor with a miss that is put in place, for the light has not arrived."""
+        gaps = self.switches("default")[0]
+        self.assertEqual(set(gaps), {3})
+        gaps = self.switches("no-miss", "--set", "perimeter.miss_lambda=0")[0]
+        self.assertEqual(min(gaps), 2)
 
 
 if __name__ == "__main__":
