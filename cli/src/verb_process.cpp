@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
 #include <zlg/rig/replay.hpp>
+#include <zlg/study/half_wave_replay.hpp>
 #include <zlg/study/switch_table.hpp>
 
 #include "as_json.hpp"
@@ -41,12 +43,14 @@ struct ProcessOptions : Options {
 class Switches {
 public:
     // errors  logs::IoError.
-    Switches(const ProcessOptions& options, std::int64_t relock_ticks) : table_{relock_ticks} {
+    Switches(const ProcessOptions& options, const config::Config& config)
+        : table_{config.compensation.relock_ticks}, half_wave_{config} {
         if (!options.switches.empty()) file_.emplace(options.switches, options.force);
     }
 
     void take(const core::HalfRecord& half) {
         if (!file_) return;
+        half_wave_.take(half);
         if (n_halves_ % 2 != 0) table_.take(n_halves_ / 2, first_, half);
         first_ = half;
         ++n_halves_;
@@ -59,12 +63,15 @@ public:
     // errors  logs::IoError.
     void close() {
         if (!file_) return;
-        file_->append(switch_csv(table_.lines(), false));
+        std::vector<study::SwitchLine> lines = table_.lines();
+        half_wave_.fill(lines);
+        file_->append(switch_csv(lines, false));
         file_->close();
     }
 
 private:
     study::SwitchTable table_;
+    study::HalfWaveReplay half_wave_;
     core::HalfRecord first_;  // of the tick
     std::int64_t n_halves_ = 0;
     std::optional<logs::TableFile> file_;
@@ -178,11 +185,12 @@ void process(const ProcessOptions& options) {
 
     rig::Replay replay{asked.compensation};
     const Interruptible interruptible;
-    Switches switches{options, asked.config.compensation.relock_ticks};
+    Switches switches{options, asked.config};
     logs::AngleWriter angles{options.out, asked.config.gyro.tick_s, rig::angle_settings(asked.config), options.force};
     const Summary summary = compensate(raw, replay, angles, switches, options, interruptible);
     replay.require_a_tick(options.raw);
     if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
+    if (const std::string wrong = replay.wrong_places(options.raw); !wrong.empty()) complain("warning: " + wrong);
     if (!raw.header().complete && !options.follow)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.raw));
     if (!raw.line_is_ended())

@@ -5,6 +5,7 @@
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/study/half_wave_replay.hpp>
 #include <zlg/study/switch_table.hpp>
 
 #include "bind.hpp"
@@ -55,6 +56,7 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
     const Progress tell{progress};
     AngleCollector angles;
     study::SwitchTable switches{asked.config.compensation.relock_ticks};
+    study::HalfWaveReplay half_wave{asked.config};
     {
         const py::gil_scoped_release released;
         const auto add = [&](const core::AngleRow& row) {
@@ -68,6 +70,7 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
             const core::HalfRecord half = raw.record(row);
             if (row % 2 != 0) switches.take(static_cast<std::int64_t>(row / 2), first, half);
             first = half;
+            half_wave.take(half);
             replay.take(half, raw.light(row), add, note);
             if (row % 65536 == 0) tell(static_cast<double>(row) / static_cast<double>(raw.size()));
         }
@@ -77,9 +80,12 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
     std::vector<std::string> warnings = std::move(asked.warnings);
     warnings.insert(warnings.end(), asked.notes.begin(), asked.notes.end());
     if (raw.size() % 2 != 0) warnings.push_back(replay.odd_half("the log"));
+    if (std::string wrong = replay.wrong_places("the log"); !wrong.empty()) warnings.push_back(std::move(wrong));
     py::dict result = angles.take_out();
     py::dict table;
-    add_columns(table, switches.lines());
+    std::vector<study::SwitchLine> lines = switches.lines();
+    half_wave.fill(lines);
+    add_columns(table, lines);
     result["switches"] = table;
     result["warnings"] = warnings;
     result["settings"] = rig::angle_settings(asked.config);

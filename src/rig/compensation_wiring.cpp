@@ -97,11 +97,7 @@ core::MagneticDriftConfig magnetic_of(const config::Config& config) {
             .thermal_time = core::Seconds{c.magnetic_thermal_time_s}};
 }
 
-// The optimal bridge has two faults: its prior, and a random walk that overflows.
-[[noreturn]] void refuse_optimal(const config::Config& config, const core::GyroCompensationConfig& made) {
-    if (check(made.gyro, made.bridge.optimal) != core::OptimalBridgeFault::prior)
-        refuse(config, {"drift.random_walk_arcsec_sqrt_s", "gyro.tick_s", "gyro.scale_arcsec"},
-               "a random walk whose square in a tick is a number");
+[[noreturn]] void refuse_prior(const config::Config& config) {
     refuse(config,
            {"compensation.prior", "compensation.prior_band_hz", "compensation.prior_rate_arcsec_s",
             "compensation.prior_line_hz", "compensation.prior_line_arcsec_s", "gyro.tick_s"},
@@ -133,7 +129,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
         case core::GyroCompensationFault::none:
             return made;
         case core::GyroCompensationFault::bridge:
-            if (check(made.gyro, made.bridge) == core::GapBridgeFault::optimal) refuse_optimal(config, made);
+            if (check(made.bridge) == core::GapBridgeFault::optimal) refuse_prior(config);
             require_points(config, bridge);
             // The keys are in order, so a constant of the gyro is not.
             [[fallthrough]];
@@ -142,13 +138,16 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
             refuse(config, {"gyro.tick_s", "gyro.scale_arcsec", "gyro.bias_hz", "gyro.bias_chi", "gyro.bias_edge_s"},
                    "a gyro that can be compensated: finite numbers, edges shorter than half a tick");
         case core::GyroCompensationFault::random_walk:
-            refuse(config, {"drift.random_walk_arcsec_sqrt_s"}, "0 or more");
+            refuse(config, {"drift.random_walk_arcsec_sqrt_s"}, "0..1e6");
         case core::GyroCompensationFault::profile:
             refuse(config, {"gyro.discriminator_per_lambda", "compensation.relock"},
                    "sizes 1e-6..1e6 where the light is read");
         case core::GyroCompensationFault::magnetic:
-            refuse(config, {"compensation.magnetic", "drift.random_walk_arcsec_sqrt_s"},
-                   "a random walk of up to 1e6 arcsec/sqrt(s) where the drift is estimated");
+            refuse(config,
+                   {"compensation.magnetic_arcsec_s", "compensation.magnetic_sigma_arcsec_s",
+                    "compensation.magnetic_thermal_arcsec_s", "compensation.magnetic_thermal_sigma_arcsec_s",
+                    "compensation.magnetic_thermal_time_s"},
+                   "drifts of up to 1e6 arcsec/s and a time constant of 1e-9..1e12 s");
     }
     return made;
 }

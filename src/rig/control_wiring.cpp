@@ -48,11 +48,11 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     made.bias_monitor.presumed_counts = std::min(bias_counts, 1e15);
     if (bias_counts >= core::min_bias_counts) made.coil_monitor.tolerance_ratio = 0.5 / bias_counts;
     made.counter_monitor.watches = true;
-    made.light_monitor.noise = core::Wavelengths{std::min(g.light_noise_lambda, 10.0)};
+    made.light_monitor.noise = core::Wavelengths{g.light_noise_lambda};
     // A laser whose curve is not known reads several times its detuning: the bias cannot have lost what that would take.
     const bool reads_true = g.fidelity != config::Fidelity::laser || made.detector.curve.n_nodes > 0;
     if (!reads_true) made.light_monitor.max_gain = 10.0;
-    if (reads_true && g.bias_chi > 0.0 && bias_counts >= 100.0) made.light_monitor.bias_chi = std::min(g.bias_chi, 1e6);
+    if (reads_true && g.bias_chi > 0.0 && bias_counts >= 100.0) made.light_monitor.bias_chi = g.bias_chi;
     const double false_counts = bias_counts * g.bias_chi;
     if (false_counts > 0.0) {
         const double noise_lambda2 = g.light_noise_lambda * g.light_noise_lambda;

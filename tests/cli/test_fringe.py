@@ -2,6 +2,7 @@
 
 import csv
 import math
+import random
 import unittest
 
 from support import AngleLog, CliTest, body_of, csv_text, quiet_log
@@ -95,6 +96,41 @@ class ClosedLoop(CliTest):
         self.assertGreater(len(errors), 100)
         # The random walk of a gap and its neighbours adds 0.07 in quadrature.
         self.assertLess(math.sqrt(max(rms * rms - 0.07**2, 0.0)), 0.15)
+
+
+class Wrong(CliTest):
+    """Places that are not those of the counts: angles that sigma does not cover are never silent."""
+
+    def warnings(self, rows, name):
+        raw = self.write(f"{name}.csv", csv_text(rows, COLUMNS))
+        said = [self.succeed("process", raw, "--out", self.folder / "angles.csv", "--force").stderr,
+                self.succeed("analyze", raw, "--out", self.folder / "analysis.html", "--force").stderr]
+        return [[line for line in text.splitlines() if "column fringe" in line] for text in said]
+
+    def simulated(self, name, *settings):
+        raw = self.folder / f"{name}.csv"
+        self.succeed("simulate", "--duration", 12, *PHASE, "--set", "switching.interval_s=2", *settings, "--out", raw)
+        rows = [{key: Text(row[key]) for key in COLUMNS} for row in rows_of(raw)]
+        return rows, [Text(row["fringe"]) for row in rows]
+
+    def test_is_said_in_one_line(self):
+        other = self.simulated("other", "--set", "motion.frequency_hz=3")[1]
+        for fidelity in ("averaged", "laser"):
+            rows, right = self.simulated(fidelity, "--set", f"gyro.fidelity={fidelity}")
+            draw = random.Random(5)
+            noise = [Text(draw.randrange(65536)) for _ in right]
+            forms = {"right": right, "stuck": [Text(20000)] * len(right), "noise": noise, "of another log": other,
+                     "shifted": right[1:] + right[:1], "in 8 bits": [x if x == "nan" else Text(int(x) // 256) for x in right],
+                     "backwards": [x if x == "nan" else Text(65535 - int(x)) for x in right]}
+            for form, places in forms.items():
+                with self.subTest(fidelity=fidelity, form=form):
+                    for row, place in zip(rows, places):
+                        row["fringe"] = place
+                    for lines in self.warnings(rows, f"{fidelity}-{form.replace(' ', '-')}"):
+                        self.assertEqual(len(lines), 0 if form == "right" else 1, lines)
+                        if lines:
+                            self.assertIn("warning:", lines[0])
+                            self.assertRegex(lines[0], r"contradicts the counts in (\d) of \1 stretches")
 
 
 class Read(CliTest):

@@ -247,5 +247,50 @@ class Inspect(RunTest):
         self.assertIsInstance(json.loads(self.succeed("inspect", self.out / "angles.csv", "--json").stdout), dict)
 
 
+class WhatIsCounted(CliTest):
+    """`switches_unrepaired` and `ticks_as_whole_counts` of the summary, against the columns of the logs."""
+
+    def result(self, *settings):
+        out = self.folder / "run"
+        shown = self.succeed("run", *settings, "--out", out, "--format", "csv", "--force").stdout
+        rows = list(csv.DictReader(body_of(out / "raw.csv").decode().splitlines()))
+        ticks = list(zip(rows[0::2], rows[1::2]))
+        measured = [all(half[name] == "1" for half in tick for name in ("loop_closed", "valid", "span")) for tick in ticks]
+        return json.loads((out / "summary.json").read_text()), shown, ticks, measured, out
+
+    def test_switches_that_no_bridge_repairs_are_counted_and_left_out(self):
+        """Without light from 5 ms before the switch at 20 s for 90 ms: more than the 16 ticks that a bridge repairs. A gap of 30 ms is repaired."""
+        summary, shown, ticks, measured, out = self.result(
+            "--duration", 40, "--set", "switching.interval_s=5", "--set", 'faults.kind=["beam_fades","laser_off"]', "--set", "faults.at_s=[10.0,19.995]",
+            "--set", "faults.duration_s=[0.03,0.09]", "--set", "faults.size=[1.0,0]")
+        begins = [k for k in range(1, len(measured)) if measured[k - 1] and not measured[k]]
+        ends = [next(k for k in range(begin, len(measured)) if measured[k]) for begin in begins]
+        switched = [(b, e) for b, e in zip(begins, ends) if ticks[b - 1][1]["mode"] != ticks[e][0]["mode"]]
+        too_long = [b for b, e in switched if e - b > 16]
+        self.assertEqual(len(too_long), 1)
+        self.assertEqual(summary["switches"], len(switched))
+        counted = {variant["name"]: variant["switches_unrepaired"] for variant in summary["variants"]}
+        self.assertEqual(counted, {name: 0 if name in ("one_mode", "switching") else 1 for name in VARIANTS})
+        self.assertIn(f"1 of {len(switched)} switches have a gap that no bridge repairs", shown)
+        lines = list(csv.DictReader((out / "switches.csv").read_text().splitlines()))
+        errors = {int(line["tick"]): abs(float(line["true_error_arcsec"])) for line in lines}
+        self.assertGreater(errors[too_long[0]], 100.0)
+        others = [error for tick, error in errors.items() if tick not in too_long]
+        self.assertAlmostEqual(summary["variants"][-1]["switch_error_max_arcsec"], max(others), places=9)
+        self.assertAlmostEqual(summary["variants"][-1]["switch_error_rms_arcsec"], math.sqrt(sum(e * e for e in others) / len(others)), places=9)
+
+    def test_ticks_that_are_read_as_whole_counts(self):
+        phase = ["--duration", 10, "--set", "switching.interval_s=2", "--set", "gyro.readout=phase"]
+        for settings, least, most in (([], 50, 200), (["--set", "photodiodes.adc_bits=1"], 1950, 2000)):
+            summary, shown, ticks, measured, _ = self.result(*phase, *settings)
+            whole = sum(is_measured and second["fringe"] == "nan" for is_measured, (_, second) in zip(measured, ticks))
+            self.assertTrue(least < whole <= most, whole)
+            self.assertEqual(summary["ticks_as_whole_counts"], whole)
+            self.assertIn(f"{whole} of 2000 ticks were read as whole counts", shown)
+        summary, shown, *_ = self.result("--duration", 10, "--set", "switching.interval_s=2")
+        self.assertEqual(summary["ticks_as_whole_counts"], 0)
+        self.assertNotIn("whole counts", shown)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import unittest
 
 from support import CliTest, csv_text, quiet_log
@@ -24,13 +25,29 @@ class Switches(CliTest):
         self.assertEqual(list(replayed[0]), [name for name in live[0] if name != "true_error_arcsec"])
         self.assertGreaterEqual(len(live), 6)
         self.assertEqual([[row[name] for name in KNOWN] for row in replayed], [[row[name] for name in KNOWN] for row in live])
-        self.assertEqual({(row["half_wave_v"], row["half_wave_sigma_v"]) for row in replayed}, {("", "inf")})
+        half_wave = ["half_wave_v", "half_wave_sigma_v"]
+        self.assertEqual([[row[name] for name in half_wave] for row in replayed], [[row[name] for name in half_wave] for row in live])
+        self.assertNotIn("", [row["half_wave_v"] for row in replayed[:-1]])
 
     def test_csv(self):
         self.check("csv")
 
     def test_hdf5(self):
         self.check("h5", "--set", "compensation.bridge=quadratic", "--set", "compensation.relock=detuning")
+
+    def test_a_real_piezo_and_a_laser(self):
+        self.check("csv", "--set", "gyro.fidelity=laser", "--set", "piezo.hysteresis=0.1", "--set", "piezo.half_wave_error=0.05")
+
+    def test_a_log_without_the_voltage(self):
+        raw, table = self.folder / "raw.csv", self.folder / "switches.csv"
+        self.succeed("simulate", *RUN, "--out", raw)
+        rows = list(csv.DictReader(line for line in raw.read_text().splitlines() if not line.startswith("#")))
+        for lacking in ("piezo_v", "detuning_lambda"):
+            columns = [name for name in rows[0] if name != lacking]
+            text = "".join(",".join(row) + "\n" for row in [columns, *([row[name] for name in columns] for row in rows)])
+            self.succeed("process", self.write("without.csv", text), "--out", self.folder / "angles.csv", "--switches", table, "--force",
+                         "--set", "gyro.tick_s=0.005", "--set", "gyro.scale_arcsec=3.263")
+            self.assertEqual({(row["half_wave_v"], row["half_wave_sigma_v"]) for row in rows_of(table)}, {("", "inf")}, lacking)
 
     def test_a_log_without_light_and_one_without_switches(self):
         rows = quiet_log(400, gap=range(200, 203))
@@ -58,6 +75,47 @@ class Switches(CliTest):
         self.refuse(3, "process", raw, "--out", out, "--switches", table, says=["switches.csv"])
         self.assertEqual(table.read_text(), "mine")
         self.assertFalse(out.exists())
+
+
+class GapsOfOneTick(CliTest):
+    """With `gap_min_ticks = 1` and a stage that makes the move in 3 ms, every gap is one tick long."""
+
+    FAST = ["--set", "piezo.slew_v_s=20000", "--set", "piezo.rc_s=3e-4", "--set", "perimeter.miss_lambda=0"]
+    # The walk of the measured ticks beside the gap is in the error and not in sigma.
+    NO_WALK = ["--set", "drift.random_walk_arcsec_sqrt_s=0", "--set", "laser.lock_in_left_hz=0", "--set", "laser.lock_in_right_hz=0"]
+
+    def switches(self, name, *settings):
+        out = self.folder / name
+        self.succeed("run", "--duration", 300, "--set", "switching.interval_s=2", "--set", "switching.gap_min_ticks=1",
+                     "--set", "compensation.relock=joint", *settings, "--out", out, "--format", "h5")
+        rows = [row for row in rows_of(out / "switches.csv")[10:] if row["true_error_arcsec"]]
+        errors = [float(row["true_error_arcsec"]) for row in rows]
+        sigmas = [float(row["sigma_arcsec"]) for row in rows]
+        rms = math.sqrt(sum(e * e for e in errors) / len(errors))
+        over_sigma = sum((e / s) ** 2 for e, s in zip(errors, sigmas)) / len(errors)
+        return [int(row["gap_ticks"]) for row in rows], rms, over_sigma
+
+    def test_occur_and_their_errors_are_those_of_the_counter(self):
+        # Two places that are each anywhere in a count.
+        counter = 3.263 / math.sqrt(6.0)
+        for fidelity in ("averaged", "laser"):
+            for readout in ("count", "phase"):
+                with self.subTest(fidelity=fidelity, readout=readout):
+                    gaps, rms, over_sigma = self.switches(f"{fidelity}-{readout}", *self.FAST, *self.NO_WALK, "--set", f"gyro.fidelity={fidelity}",
+                                                          "--set", f"gyro.readout={readout}")
+                    self.assertGreater(len(gaps), 120)
+                    self.assertEqual(set(gaps), {1})
+                    # Of 130 squares, three standard deviations are 0.37 of the mean, and 0.19 of its root.
+                    self.assertLess(rms, 1.19 * counter if readout == "count" else 0.06)
+                    if (fidelity, readout) != ("laser", "count"):
+                        self.assertTrue(0.63 < over_sigma < 1.37, over_sigma)
+
+    def test_do_not_come_of_the_default_stage(self):
+        """40 V at 4000 V/s are 10 ms, two ticks; nor with a miss that is put in place, for the light has not arrived."""
+        gaps = self.switches("default")[0]
+        self.assertEqual(set(gaps), {3})
+        gaps = self.switches("no-miss", "--set", "perimeter.miss_lambda=0")[0]
+        self.assertEqual(min(gaps), 2)
 
 
 if __name__ == "__main__":

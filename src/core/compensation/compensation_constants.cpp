@@ -9,32 +9,33 @@ bool is_within(double x, double min, double max) noexcept { return x >= min && x
 
 bool is_positive(double x, double max) noexcept { return x > 0.0 && x <= max; }
 
-bool is_size(double x) noexcept { return x >= 0.0 && is_finite(x); }
+// No gyro is that warm or cold; beyond it the product with a coefficient need not be a number.
+constexpr double max_temperature_c = 1e6;
 
 }  // namespace
 
-// Within these limits a tick's counts make an angle whose square is a number.
+// Wider than any gyro, and narrow enough that no counts and no detuning of a record make a sum or a square that overflows.
 CompensationConstantsFault check(const CompensationConstants& g) noexcept {
     using Fault = CompensationConstantsFault;
     if (!is_within(g.tick.value(), 1e-9, 1e9)) return Fault::tick;
-    if (!is_positive(g.scale.value(), 1e9)) return Fault::scale;
+    if (!is_within(g.scale.value(), 1e-9, 1e9)) return Fault::scale;
     if (!is_positive(g.bias.value(), 1e15)) return Fault::bias;
-    if (!is_size(g.chi)) return Fault::chi;
-    if (!is_finite(g.temperature_coefficient_per_c) || !is_finite(g.reference_temperature.value()))
-        return Fault::temperature;
+    if (!is_within(g.chi, 0.0, 1e6)) return Fault::chi;
+    if (!is_within(g.temperature_coefficient_per_c, -1.0, 1.0)) return Fault::temperature;
+    if (!is_within(g.reference_temperature.value(), -max_temperature_c, max_temperature_c)) return Fault::temperature;
     if (!is_within(g.centre.value(), -max_centre.value(), max_centre.value())) return Fault::centre;
     if (!is_within(g.timer.value(), 1.0, 1e15)) return Fault::timer;
     if (!is_within(g.plateau_ratio, 1.0, 2.0)) return Fault::plateau_ratio;
-    if (!is_size(g.light_noise.value())) return Fault::light_noise;
+    if (!is_within(g.light_noise.value(), 0.0, 10.0)) return Fault::light_noise;
     if (!(g.light_samples >= 1)) return Fault::light_samples;
     if (!is_within(g.fringe_noise_counts, 0.0, 1.0)) return Fault::fringe_noise;
     if (check(g.record_curve) != CurveFault::none || check(g.control_curve) != CurveFault::none) return Fault::curve;
-    if (!is_size(g.random_walk.value())) return Fault::random_walk;
+    if (!is_within(g.random_walk.value(), 0.0, 1e6)) return Fault::random_walk;
     return Fault::none;
 }
 
 Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept {
-    if (!is_finite(temperature.value())) return gyro.bias;
+    if (!is_within(temperature.value(), -max_temperature_c, max_temperature_c)) return gyro.bias;
     const double above_c = temperature.value() - gyro.reference_temperature.value();
     return (1.0 + gyro.temperature_coefficient_per_c * above_c) * gyro.bias;
 }

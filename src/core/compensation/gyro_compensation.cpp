@@ -332,9 +332,9 @@ GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
     const GyroCompensationFault fault = fault_of(check(config.gyro));
     if (fault != GyroCompensationFault::none) return fault;
     if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
-    if (check(config.gyro, config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
+    if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
     if (check(config.profile) != RelockProfileFault::none) return GyroCompensationFault::profile;
-    if (check(config.gyro, config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
+    if (check(config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
     return GyroCompensationFault::none;
 }
 

@@ -44,15 +44,17 @@ TEST(CompensationConstants, CheckNamesTheFirstBadField) {
     expect_fault(Fault::tick, [](auto& g, double x) { g.tick = Seconds{x}; }, {0.0, -0.005, 1e300, 1e-300, nan, inf});
     expect_fault(Fault::scale, [](auto& g, double x) { g.scale = Arcsec{x}; }, {0.0, -3.0, 1e300, nan, inf});
     expect_fault(Fault::random_walk, [](auto& g, double x) { g.random_walk = ArcsecPerRootSecond{x}; },
-                 {-0.1, nan, inf});
+                 {-0.1, 1.1e6, nan, inf});
     expect_fault(Fault::bias, [](auto& g, double x) { g.bias = Hertz{x}; }, {0.0, -60e3, 1e300, nan, inf});
-    expect_fault(Fault::chi, [](auto& g, double x) { g.chi = x; }, {-0.1, nan, inf});
-    expect_fault(Fault::temperature, [](auto& g, double x) { g.temperature_coefficient_per_c = x; }, {nan, inf, -inf});
-    expect_fault(Fault::temperature, [](auto& g, double x) { g.reference_temperature = Celsius{x}; }, {nan, inf, -inf});
+    expect_fault(Fault::chi, [](auto& g, double x) { g.chi = x; }, {-0.1, 1.1e6, nan, inf});
+    expect_fault(Fault::temperature, [](auto& g, double x) { g.temperature_coefficient_per_c = x; },
+                 {-1.1, 1.1, nan, inf, -inf});
+    expect_fault(Fault::temperature, [](auto& g, double x) { g.reference_temperature = Celsius{x}; },
+                 {-1.1e6, 1.1e6, nan, inf, -inf});
     expect_fault(Fault::centre, [](auto& g, double x) { g.centre = Wavelengths{x}; }, {-1.1, 1.1, nan});
     expect_fault(Fault::timer, [](auto& g, double x) { g.timer = Hertz{x}; }, {0.5, 2e15, nan});
     expect_fault(Fault::plateau_ratio, [](auto& g, double x) { g.plateau_ratio = x; }, {0.99, 2.01, nan});
-    expect_fault(Fault::light_noise, [](auto& g, double x) { g.light_noise = Wavelengths{x}; }, {-0.1, nan, inf});
+    expect_fault(Fault::light_noise, [](auto& g, double x) { g.light_noise = Wavelengths{x}; }, {-0.1, 10.1, nan, inf});
     expect_fault(Fault::light_samples, [](auto& g, double x) { g.light_samples = static_cast<int>(x); }, {0.0, -1.0});
     expect_fault(Fault::curve, [](auto& g, double x) { g.record_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
     expect_fault(Fault::curve, [](auto& g, double x) { g.control_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
@@ -67,7 +69,7 @@ TEST(CompensationConstants, CheckRefusesNumbersWithWhichNoSumIsANumber) {
         EXPECT_EQ(with([&](auto& g) { set(g, std::nextafter(most, infinite)); }), fault);
     };
     expect_ends([](auto& g, double x) { g.tick = Seconds{x}; }, 1e-9, 1e9, Fault::tick);
-    expect_ends([](auto& g, double x) { g.scale = Arcsec{x}; }, 5e-324, 1e9, Fault::scale);
+    expect_ends([](auto& g, double x) { g.scale = Arcsec{x}; }, 1e-9, 1e9, Fault::scale);
     expect_ends([](auto& g, double x) { g.bias = Hertz{x}; }, 5e-324, 1e15, Fault::bias);
 }
 
@@ -76,7 +78,8 @@ TEST(CompensationConstants, TheBiasFollowsTheTemperature) {
         .bias = Hertz{60e3}, .temperature_coefficient_per_c = -1e-4, .reference_temperature = Celsius{25.0}};
     EXPECT_EQ(bias_at(gyro, Celsius{25.0}).value(), 60e3);
     EXPECT_NEAR(bias_at(gyro, Celsius{35.0}).value(), 60e3 * 0.999, 1e-9);
-    EXPECT_EQ(bias_at(gyro, Celsius{not_a_number}).value(), 60e3);
+    for (const double none : {not_a_number, infinite, -1.1e6, 1.7e308})
+        EXPECT_EQ(bias_at(gyro, Celsius{none}).value(), 60e3) << none;
 }
 
 TEST(CompensationConstants, VariancesOfATick) {

@@ -283,25 +283,27 @@ HalfRecord any_half() {
             .valid = any(0, 15) > 0};
 }
 
-// A number of the configuration: as it is, or any that `check` lets pass.
+// A positive number of the configuration: as it is, an end of what `check` lets pass, or from between, of any magnitude.
 template <class Set>
-void vary(GyroCompensationConfig& config, Set set) {
-    if (any(0, 2) > 0) return;
-    GyroCompensationConfig varied = config;
-    set(varied, std::fabs(any_double()));
-    if (check(varied) == GyroCompensationFault::none) config = varied;
+void vary(GyroCompensationConfig& config, double least, double most, Set set) {
+    const int place = any(-200, 150);  // in hundredths of the way, beyond the ends: an end
+    if (place < -100) return;
+    const double part = std::fmin(std::fmax(0.01 * place, 0.0), 1.0);
+    set(config, part == 1.0 ? most : least * std::pow(most / least, part));
+    RC_ASSERT(check(config) == GyroCompensationFault::none);
 }
 
 GyroCompensationConfig any_checked_config() {
     GyroCompensationConfig c = any_config(any_bridge(), true);
-    vary(c, [](auto& v, double x) { v.gyro.tick = Seconds{x}; });
-    vary(c, [](auto& v, double x) { v.gyro.scale = Arcsec{x}; });
-    vary(c, [](auto& v, double x) { v.gyro.bias = Hertz{x}; });
-    vary(c, [](auto& v, double x) { v.gyro.chi = x; });
-    vary(c, [](auto& v, double x) { v.gyro.temperature_coefficient_per_c = x; });
-    vary(c, [](auto& v, double x) { v.gyro.reference_temperature = Celsius{x}; });
-    vary(c, [](auto& v, double x) { v.gyro.light_noise = Wavelengths{x}; });
-    vary(c, [](auto& v, double x) { v.gyro.random_walk = ArcsecPerRootSecond{x}; });
+    const double sign = any(0, 1) == 0 ? 1.0 : -1.0;
+    vary(c, 1e-9, 1e9, [](auto& v, double x) { v.gyro.tick = Seconds{x}; });
+    vary(c, 1e-9, 1e9, [](auto& v, double x) { v.gyro.scale = Arcsec{x}; });
+    vary(c, 1e-290, 1e15, [](auto& v, double x) { v.gyro.bias = Hertz{x}; });
+    vary(c, 1e-290, 1e6, [](auto& v, double x) { v.gyro.chi = x; });
+    vary(c, 1e-290, 1.0, [sign](auto& v, double x) { v.gyro.temperature_coefficient_per_c = sign * x; });
+    vary(c, 1e-290, 1e6, [sign](auto& v, double x) { v.gyro.reference_temperature = Celsius{sign * x}; });
+    vary(c, 1e-290, 10.0, [](auto& v, double x) { v.gyro.light_noise = Wavelengths{x}; });
+    vary(c, 1e-290, 1e6, [](auto& v, double x) { v.gyro.random_walk = ArcsecPerRootSecond{x}; });
     return c;
 }
 

@@ -207,14 +207,13 @@ void solve_probe(const GapProblemOf<capacity>& problem, const GapDataOf<capacity
 
 }  // namespace
 
-OptimalBridgeFault check(const CompensationConstants& gyro, const OptimalBridgeConfig& c) noexcept {
+OptimalBridgeFault check(const OptimalBridgeConfig& c) noexcept {
     if (!c.learns) {
         if (!(c.prior_arcsec2[0] > 0.0)) return OptimalBridgeFault::prior;
         for (const double x : c.prior_arcsec2)
             if (!(x <= c.prior_arcsec2[0] && -x <= c.prior_arcsec2[0] && is_finite(x)))
                 return OptimalBridgeFault::prior;
     }
-    if (!is_finite(walk_arcsec2(gyro))) return OptimalBridgeFault::walk;
     return OptimalBridgeFault::none;
 }
 

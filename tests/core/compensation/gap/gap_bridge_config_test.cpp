@@ -10,21 +10,22 @@ using namespace zlg::core;
 using namespace compensation_test;
 
 TEST(GapBridgeCheck, TheDefaultsAndTheEdgesAreGood) {
-    EXPECT_EQ(check({}, GapBridgeConfig{}), GapBridgeFault::none);
-    EXPECT_EQ(check({}, {.extrapolation_points = 8, .points_before = 8, .points_after = 8}), GapBridgeFault::none);
-    EXPECT_EQ(
-        check({}, {.method = BridgeMethod::constant, .extrapolation_points = 1, .points_before = 1, .points_after = 1}),
-        GapBridgeFault::none);
-    EXPECT_EQ(
-        check({}, {.method = BridgeMethod::none, .extrapolation_points = 1, .points_before = 1, .points_after = 1}),
-        GapBridgeFault::none);
+    EXPECT_EQ(check(GapBridgeConfig{}), GapBridgeFault::none);
+    EXPECT_EQ(check(GapBridgeConfig{.extrapolation_points = 8, .points_before = 8, .points_after = 8}),
+              GapBridgeFault::none);
+    EXPECT_EQ(check(GapBridgeConfig{
+                  .method = BridgeMethod::constant, .extrapolation_points = 1, .points_before = 1, .points_after = 1}),
+              GapBridgeFault::none);
+    EXPECT_EQ(check(GapBridgeConfig{
+                  .method = BridgeMethod::none, .extrapolation_points = 1, .points_before = 1, .points_after = 1}),
+              GapBridgeFault::none);
 }
 
 TEST(GapBridgeCheck, PointsAreOneToEightOnEachSide) {
     for (const int bad : {-1, 0, 9, 1 << 30}) {
-        EXPECT_EQ(check({}, {.extrapolation_points = bad}), GapBridgeFault::extrapolation_points) << bad;
-        EXPECT_EQ(check({}, {.points_before = bad}), GapBridgeFault::points_before) << bad;
-        EXPECT_EQ(check({}, {.points_after = bad}), GapBridgeFault::points_after) << bad;
+        EXPECT_EQ(check(GapBridgeConfig{.extrapolation_points = bad}), GapBridgeFault::extrapolation_points) << bad;
+        EXPECT_EQ(check(GapBridgeConfig{.points_before = bad}), GapBridgeFault::points_before) << bad;
+        EXPECT_EQ(check(GapBridgeConfig{.points_after = bad}), GapBridgeFault::points_after) << bad;
     }
 }
 
@@ -39,16 +40,16 @@ TEST(GapBridgeCheck, ThereAreMorePointsThanTheOrder) {
                                                  .points_before = before,
                                                  .points_after = after};
                     const bool enough = ahead > order_of(method) && before + after > order_of(method);
-                    EXPECT_EQ(check({}, config), enough ? GapBridgeFault::none : GapBridgeFault::order);
+                    EXPECT_EQ(check(config), enough ? GapBridgeFault::none : GapBridgeFault::order);
                 }
 }
 
-// The square of such a random walk is no number; only the estimate needs it.
+// A given covariance of the motion that is none.
 TEST(GapBridgeCheck, TheEstimateIsJudgedWhereItIsUsed) {
-    const CompensationConstants bad{.random_walk = ArcsecPerRootSecond{1e200}};
+    const OptimalBridgeConfig bad{.learns = false};
     for (const auto method : {BridgeMethod::optimal, BridgeMethod::automatic})
-        EXPECT_EQ(check(bad, {.method = method}), GapBridgeFault::optimal);
-    EXPECT_EQ(check(bad, {.method = BridgeMethod::quadratic}), GapBridgeFault::none);
+        EXPECT_EQ(check(GapBridgeConfig{.method = method, .optimal = bad}), GapBridgeFault::optimal);
+    EXPECT_EQ(check(GapBridgeConfig{.method = BridgeMethod::quadratic, .optimal = bad}), GapBridgeFault::none);
 }
 
 }  // namespace

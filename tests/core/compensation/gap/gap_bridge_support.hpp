@@ -69,7 +69,7 @@ inline GapBridgeConfig random_config(compensation_test::Random& random) {
         config.extrapolation_points = random.index(1, 8);
         config.points_before = random.index(1, 8);
         config.points_after = random.index(1, 8);
-        if (check({}, config) == GapBridgeFault::none) return config;
+        if (check(config) == GapBridgeFault::none) return config;
     }
 }
 

@@ -114,7 +114,7 @@ TEST(RelockDriftEdges, FrequencyOfOneTickIsDoneAfterTheSecond) {
     EXPECT_EQ(state, done);
 }
 
-// With chi at the largest number there is, a false angle can be finite and still drown every other number.
+// With the largest constants that are allowed, a false angle is finite and still drowns every other number.
 TEST(RelockDriftEdges, AFalseAngleBeyondBeliefIsNotUsed) {
     const RelockTick tick{.counts_first = 1000,
                           .counts_second = -1000,
@@ -124,22 +124,25 @@ TEST(RelockDriftEdges, AFalseAngleBeyondBeliefIsNotUsed) {
                           .detuning_sq_second_lambda2 = 0.04};
     for (const RelockMethod method : {RelockMethod::detuning, RelockMethod::mean_square}) {
         Configured config;
-        for (const double chi : {1e40, 1e100, 1e300}) {
+        config.gyro.tick = Seconds{1e9};
+        config.gyro.scale = Arcsec{1e9};
+        config.gyro.bias = Hertz{1e15};
+        for (const double chi : {10.0, 1e3, 1e6}) {
             config.gyro.chi = chi;
             ASSERT_EQ(check(config.gyro), CompensationConstantsFault::none);
             EXPECT_FALSE(angle_of(method, tick, config).known) << chi;
         }
-        config.gyro.chi = 1e3;
+        config.gyro.chi = 1e-3;
         EXPECT_TRUE(angle_of(method, tick, config).known);
     }
 }
 
-// (chi f0/2) K T = 1e12 C arcsec for each square of a wavelength, with chi = 2 C.
+// (chi f0/2) K T = 1e30 arcsec for each square of a wavelength.
 TEST(RelockDriftEdges, TheFalseAngleBeyondBeliefIsAboveTenToTheThirty) {
     Configured config;
-    config.gyro.tick = Seconds{1.0};
-    config.gyro.scale = Arcsec{1.0};
-    config.gyro.chi = 2e18;
+    config.gyro.tick = Seconds{1e9};
+    config.gyro.scale = Arcsec{1e9};
+    config.gyro.chi = 2.0;
     config.gyro.bias = Hertz{1e12};
     for (const int sign : {1, -1}) {
         EXPECT_TRUE(

@@ -6,6 +6,7 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/records.hpp>
+#include <zlg/rig/place_check.hpp>
 
 namespace zlg::rig {
 
@@ -45,6 +46,7 @@ public:
     core::CompensationOutput take(const core::HalfRecord& half, core::LightSamples light = {},
                                   const OnRow& on_row = ignored, const OnGap& on_gap = ignored) {
         const core::CompensationOutput out = core::step(config_, state_, half, light);
+        places_.take(half);
         ++halves_;
         if (!out.has_sample) return out;
         angle_arcsec_ = out.angle_arcsec;
@@ -64,6 +66,9 @@ public:
     // One line on a last half whose other half is missing; empty where every half has one.
     [[nodiscard]] std::string odd_half(const std::string& log_name) const;
 
+    // One line where the places within the count contradict the counts; empty where they do not.
+    [[nodiscard]] std::string wrong_places(const std::string& log_name) const { return places_.complaint(log_name); }
+
     [[nodiscard]] double angle_arcsec() const { return angle_arcsec_; }  // accumulated, up to the last whole tick
     [[nodiscard]] std::int64_t halves() const { return halves_; }
     [[nodiscard]] const core::GyroCompensationConfig& config() const { return config_; }
@@ -72,6 +77,7 @@ public:
 private:
     core::GyroCompensationConfig config_;
     core::GyroCompensationState state_{};
+    PlaceCheck places_{};
     double angle_arcsec_ = 0.0;
     std::int64_t halves_ = 0;
 };

@@ -9,12 +9,12 @@ namespace zlg::core {
 
 struct CompensationConstants {
     Seconds tick{0.005};                         // T, 1e-9..1e9
-    Arcsec scale{3.263};                         // K, per count, > 0, up to 1e9
-    ArcsecPerRootSecond random_walk{0.14};       // of the angle, >= 0
+    Arcsec scale{3.263};                         // K, per count, 1e-9..1e9
+    ArcsecPerRootSecond random_walk{0.14};       // of the angle, 0..1e6
     Hertz bias{60e3};                            // f0 at the reference temperature, > 0, up to 1e15
-    double chi = 3.6;                            // >= 0
-    double temperature_coefficient_per_c = 0.0;  // of the bias, finite
-    Celsius reference_temperature{20.0};         // finite
+    double chi = 3.6;                            // 0..1e6
+    double temperature_coefficient_per_c = 0.0;  // of the bias, +-1
+    Celsius reference_temperature{20.0};         // +-1e6
     Wavelengths centre{0.0};                     // detuning of the largest bias, +-1
 
     // Edges of the bias, where they are shifted.
@@ -22,7 +22,7 @@ struct CompensationConstants {
     double plateau_ratio = 1.0;  // plateau of the bias over its mean in an even half, 1..2: 1/(1 - t_e/T), linear edges
 
     // Light, as it was read and recorded.
-    Wavelengths light_noise{0.0033};  // of one light sample, >= 0
+    Wavelengths light_noise{0.0033};  // of one light sample, 0..10
     int light_samples = 16;           // a half, >= 1
 
     double fringe_noise_counts = 0.0016;  // of a place within the count, where it was read, rms, 0..1
@@ -61,7 +61,7 @@ enum class CompensationConstantsFault : unsigned char {
     return gyro.random_walk.value() * gyro.random_walk.value() * gyro.tick.value();
 }
 
-// f0 at a temperature; NaN: at the reference temperature.
+// f0 at a temperature; one beyond +-1e6 is none, like NaN: at the reference temperature.
 [[nodiscard]] Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept;
 
 }  // namespace zlg::core

@@ -19,7 +19,7 @@ struct GapBridgeConfig {
 
 enum class GapBridgeFault : unsigned char { none, extrapolation_points, points_before, points_after, order, optimal };
 
-[[nodiscard]] GapBridgeFault check(const CompensationConstants& gyro, const GapBridgeConfig& config) noexcept;
+[[nodiscard]] GapBridgeFault check(const GapBridgeConfig& config) noexcept;
 
 // A gap is bridged by its optimal estimate, where the motion is known.
 [[nodiscard]] constexpr bool is_estimated(const GapBridgeConfig& c) noexcept {

@@ -43,10 +43,10 @@ struct MagneticDriftConfig {
     Seconds thermal_time{3000.0};           // > 0
 };
 
-enum class MagneticDriftFault : unsigned char { none, walk, presumed, warming };
+enum class MagneticDriftFault : unsigned char { none, presumed, warming };
 
 // Of `none`, which uses no number, nothing is asked; of the others a random walk of up to 1e6.
-[[nodiscard]] MagneticDriftFault check(const CompensationConstants& gyro, const MagneticDriftConfig& config) noexcept;
+[[nodiscard]] MagneticDriftFault check(const MagneticDriftConfig& config) noexcept;
 
 struct MagneticDriftState {
     bool started = false;

@@ -41,10 +41,9 @@ struct OptimalBridgeConfig {
     Window prior_arcsec2{};  // between two half-ticks of the motion, by their distance in half-ticks
 };
 
-enum class OptimalBridgeFault : unsigned char { none, prior, walk };
+enum class OptimalBridgeFault : unsigned char { none, prior };
 
-// The random walk of a tick must be a number; it is added to a given prior alone, for what is learnt holds it.
-[[nodiscard]] OptimalBridgeFault check(const CompensationConstants& gyro, const OptimalBridgeConfig& config) noexcept;
+[[nodiscard]] OptimalBridgeFault check(const OptimalBridgeConfig& config) noexcept;
 
 // Rounding that repeats with the motion (20 Hz repeats every 10 ticks) is learnt as if it were motion; this part of its
 // covariance is added as noise. By trial on exactly 20 Hz, where without it the error is 2.7 arcsec and its square nine

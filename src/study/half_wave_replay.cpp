@@ -1,0 +1,79 @@
+#include <zlg/study/half_wave_replay.hpp>
+
+#include <cmath>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/rig/wiring.hpp>
+
+namespace zlg::study {
+namespace {
+
+// Gaps end where those of the log do, and no lock fails.
+constexpr std::int32_t never_ticks = 1 << 24;
+
+core::ModeSwitchConfig led(core::ModeSwitchConfig sequence) {
+    sequence.gap_ticks = sequence.lock_timeout_ticks = never_ticks;
+    sequence.gap_min_ticks = 1;
+    return sequence;
+}
+
+}  // namespace
+
+HalfWaveReplay::HalfWaveReplay(const config::Config& config) {
+    try {
+        const core::GyroControlConfig control = rig::control_config(config);
+        sequence_ = led(control.mode_switch);
+        config_ = control.half_wave;
+    } catch (const config::ConfigError&) {
+        possible_ = false;
+    }
+    state_ = core::initial_state(sequence_);
+    half_wave_ = core::initial_state(config_);
+}
+
+void HalfWaveReplay::take(const core::HalfRecord& half) {
+    if (possible_ && n_halves_ > 0) step(last_, half);
+    last_ = half;
+    ++n_halves_;
+}
+
+void HalfWaveReplay::step(const core::HalfRecord& half, const core::HalfRecord& next) {
+    // A loop that opens for another reason than a switch, or before the last lock: begin anew with the next closed half.
+    if (state_.loop_closed != half.loop_closed) {
+        state_ = core::initial_state(sequence_);
+        return;
+    }
+    const bool opens = half.loop_closed && !next.loop_closed;
+    const bool closes = !half.loop_closed && next.loop_closed;
+    core::ModeSwitchInput in{.due = opens && next.mode != half.mode,
+                             .tick_border = opens || closes,
+                             .next_tick = n_halves_ / 2,
+                             .light_known = half.valid,
+                             .two_way = half.valid,
+                             .usable = std::isfinite(half.detuning_lambda),
+                             .detuning = core::Wavelengths{half.detuning_lambda},
+                             .piezo = core::Volts{half.piezo_v},
+                             .set_point = core::Volts{half.piezo_v},
+                             .half_wave = core::Volts{half_wave_.estimate_v}};
+    if (!half.loop_closed) {
+        in.light_known = in.two_way = in.usable = in.at_rest = closes;
+        in.detuning = core::Wavelengths{0.0};
+    }
+    const core::ModeSwitchOutput out = core::step(sequence_, state_, in);
+    if (!out.has_event) return;
+    const bool read = out.event.has_half_wave;
+    (void)core::step(config_, half_wave_, core::Volts{read ? out.event.half_wave_v : std::nan("")});
+    measured_ = measured_ || read;
+    if (measured_) after_[out.event.tick_opened] = half_wave_;
+}
+
+void HalfWaveReplay::fill(std::vector<SwitchLine>& lines) const {
+    for (SwitchLine& line : lines) {
+        const auto known = after_.find(line.tick);
+        if (known == after_.end()) continue;
+        line.half_wave_v = known->second.estimate_v;
+        line.half_wave_sigma_v = core::sigma(known->second).value();
+    }
+}
+
+}  // namespace zlg::study
