@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include <zlg/config/schema.hpp>
 #include <zlg/trials/drift_campaign.hpp>
 
 #include "command.hpp"
@@ -25,10 +26,11 @@ void add_plain(Gyros& gyros, config::Config c) {
     }
 }
 
-void add_ours(Gyros& gyros, config::Config c) {
-    const trials::DriftMethod alone{"joint, auto", {.relock = core::RelockMethod::joint}};
-    const trials::DriftMethod magnetic{
-        "joint, auto, magnetic", {.relock = core::RelockMethod::joint, .magnetic = core::MagneticMethod::estimate}};
+void add_ours(Gyros& gyros, config::Config c, const std::vector<double>& intervals_s) {
+    trials::DriftMethod alone{"joint, auto", c.compensation};
+    alone.compensation.relock = core::RelockMethod::joint;
+    trials::DriftMethod magnetic{"joint, auto, magnetic", alone.compensation};
+    magnetic.compensation.magnetic = core::MagneticMethod::estimate;
     c.switching.first_segment = config::FirstSegment::half;
     c.switching.schedule = config::Schedule::measured;
     config::Config ending = c;
@@ -36,8 +38,10 @@ void add_ours(Gyros& gyros, config::Config c) {
     for (const auto& method : {magnetic, alone}) gyros.push_back({"measured, first half", c, {method}});
     for (const auto& method : {magnetic, alone}) gyros.push_back({"measured, first and last half", ending, {method}});
     c.switching.schedule = config::Schedule::fixed;
-    c.switching.interval_s = 61.3;
-    gyros.push_back({"fixed 61.3 s, first half", c, {alone, magnetic}});
+    for (const double interval_s : intervals_s) {
+        c.switching.interval_s = interval_s;
+        gyros.push_back({fmt::format("fixed {} s, first half", interval_s), c, {alone, magnetic}});
+    }
 }
 
 // Gyro by gyro, so that what is done is seen.
@@ -61,12 +65,17 @@ int main(int argc, char** argv) {
     double end_s = 36000.0;
     std::string base = "vibration";
     std::string part = "all";
+    std::vector<double> intervals_s{61.3};
+    std::vector<std::string> sets;
     CLI::App app{"Drift of long runs in excess of the non-magnetic one", "zlg_drift_campaign"};
     app.add_option("SEEDS", campaign.seeds)->check(CLI::PositiveNumber);
     app.add_option("SECONDS", end_s)->check(CLI::PositiveNumber);
     app.add_option("THREADS", campaign.threads)->check(CLI::PositiveNumber);
     app.add_option("BASE", base)->check(CLI::IsMember({"vibration", "rest"}));
     app.add_option("PART", part, "plain: fixed intervals")->check(CLI::IsMember({"plain", "ours", "all"}));
+    app.add_option("--interval", intervals_s, "of ours at a fixed one, s; repeatable")->check(CLI::PositiveNumber);
+    app.add_option("--set", sets, "section.key=value, of all gyros; repeatable")->allow_extra_args(false);
+    app.add_option("--first-seed", campaign.first_seed);
     return trials::run_command(app, argc, argv, [&] {
         for (const double time_s : {600.0, 900.0, 3600.0})
             if (time_s < end_s) campaign.times_s.push_back(time_s);
@@ -74,8 +83,9 @@ int main(int argc, char** argv) {
         config::Config c;
         c.motion.frequency_hz = {20.06};
         if (base == "rest") c.motion.kind = config::MotionKind::rest;
+        for (const std::string& set : sets) config::apply_set(c, set);
         if (part != "ours") add_plain(campaign.gyros, c);
-        if (part != "plain") add_ours(campaign.gyros, c);
+        if (part != "plain") add_ours(campaign.gyros, c, intervals_s);
         print_all(campaign);
         return 0;
     });
