@@ -26,21 +26,33 @@ void add_plain(Gyros& gyros, config::Config c) {
     }
 }
 
-void add_ours(Gyros& gyros, config::Config c, const std::vector<double>& intervals_s) {
+// `joint`, without the magnetic estimate and with it.
+std::vector<trials::DriftMethod> our_methods(const config::Config& c) {
     trials::DriftMethod alone{"joint, auto", c.compensation};
     alone.compensation.relock = core::RelockMethod::joint;
     trials::DriftMethod magnetic{"joint, auto, magnetic", alone.compensation};
     magnetic.compensation.magnetic = core::MagneticMethod::estimate;
+    return {magnetic, alone};
+}
+
+void add_measured(Gyros& gyros, config::Config c) {
     c.switching.first_segment = config::FirstSegment::half;
     c.switching.schedule = config::Schedule::measured;
-    config::Config ending = c;
-    ending.switching.last_segment = config::LastSegment::half;
-    for (const auto& method : {magnetic, alone}) gyros.push_back({"measured, first half", c, {method}});
-    for (const auto& method : {magnetic, alone}) gyros.push_back({"measured, first and last half", ending, {method}});
-    c.switching.schedule = config::Schedule::fixed;
+    for (const auto& method : our_methods(c)) gyros.push_back({"measured, first half", c, {method}});
+}
+
+void add_ended(Gyros& gyros, config::Config c) {
+    c.switching.first_segment = config::FirstSegment::half;
+    c.switching.schedule = config::Schedule::measured;
+    c.switching.last_segment = config::LastSegment::half;
+    for (const auto& method : our_methods(c)) gyros.push_back({"measured, first and last half", c, {method}});
+}
+
+void add_fixed(Gyros& gyros, config::Config c, const std::vector<double>& intervals_s) {
+    c.switching.first_segment = config::FirstSegment::half;
     for (const double interval_s : intervals_s) {
         c.switching.interval_s = interval_s;
-        gyros.push_back({fmt::format("fixed {} s, first half", interval_s), c, {alone, magnetic}});
+        gyros.push_back({fmt::format("fixed {} s, first half", interval_s), c, our_methods(c)});
     }
 }
 
@@ -72,7 +84,8 @@ int main(int argc, char** argv) {
     app.add_option("SECONDS", end_s)->check(CLI::PositiveNumber);
     app.add_option("THREADS", campaign.threads)->check(CLI::PositiveNumber);
     app.add_option("BASE", base)->check(CLI::IsMember({"vibration", "rest"}));
-    app.add_option("PART", part, "plain: fixed intervals")->check(CLI::IsMember({"plain", "ours", "all"}));
+    app.add_option("PART", part, "plain: the paper's compensation at fixed intervals; measured, fixed: parts of ours")
+        ->check(CLI::IsMember({"plain", "measured", "fixed", "ours", "all"}));
     app.add_option("--interval", intervals_s, "of ours at a fixed one, s; repeatable")->check(CLI::PositiveNumber);
     app.add_option("--set", sets, "section.key=value, of all gyros; repeatable")->allow_extra_args(false);
     app.add_option("--first-seed", campaign.first_seed);
@@ -84,8 +97,11 @@ int main(int argc, char** argv) {
         c.motion.frequency_hz = {20.06};
         if (base == "rest") c.motion.kind = config::MotionKind::rest;
         for (const std::string& set : sets) config::apply_set(c, set);
-        if (part != "ours") add_plain(campaign.gyros, c);
-        if (part != "plain") add_ours(campaign.gyros, c, intervals_s);
+        const bool ours = part == "ours" || part == "all";
+        if (part == "plain" || part == "all") add_plain(campaign.gyros, c);
+        if (part == "measured" || ours) add_measured(campaign.gyros, c);
+        if (ours) add_ended(campaign.gyros, c);
+        if (part == "fixed" || ours) add_fixed(campaign.gyros, c, intervals_s);
         print_all(campaign);
         return 0;
     });
