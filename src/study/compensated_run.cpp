@@ -1,72 +1,61 @@
 #include <zlg/study/compensated_run.hpp>
 
-#include <array>
-
 #include <zlg/rig/asked_compensation.hpp>
-#include <zlg/rig/closed_loop.hpp>
-#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "gyro_drift.hpp"
 #include "reading_error.hpp"
 
 namespace zlg::study {
-namespace {
 
-class CompensatedRun {
-public:
-    CompensatedRun(const config::Config& config, std::int64_t stride)
-        : config_{config},
-          loop_{config, rig::motion(config)},
-          replay_{rig::asked_compensation(config)},
-          finder_{config.compensation.relock_ticks},
-          meter_{config.gyro.tick_s, stride, gyro_drift(config)} {}
+MeteredCompensation::MeteredCompensation(const config::Config& config, std::int64_t stride)
+    : config_{config},
+      replay_{rig::asked_compensation(config)},
+      finder_{config.compensation.relock_ticks},
+      meter_{config.gyro.tick_s, stride, gyro_drift(config)} {}
 
-    void tick(std::int64_t tick) {
-        const rig::LoopHalf first = loop_.advance();
-        replay_.take(first.record, loop_.light());
-        const rig::LoopHalf second = loop_.advance();
-        finder_.take(tick, first.record, second.record);
-        forget_windows(tick);
+void MeteredCompensation::take(const rig::LoopHalf& half, core::LightSamples light) {
+    if (!is_second_) {
+        replay_.take(half.record, light);
+        first_ = half.record;
+        first_arcsec_ = half.truth.dtheta_arcsec;
+    } else {
+        finder_.take(tick_, first_, half.record);
+        forget_windows();
         const double before_arcsec = replay_.state().magnetic.subtracted_arcsec;
-        const core::AngleSample sample = replay_.take(second.record, loop_.light()).sample;
-        truth_[static_cast<std::size_t>(tick) % truth_.size()] = {
-            first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
-            replay_.state().magnetic.subtracted_arcsec - before_arcsec, reading_error_arcsec(config_, second)};
+        const core::AngleSample sample = replay_.take(half.record, light).sample;
+        truth_[static_cast<std::size_t>(tick_) % truth_.size()] = {
+            first_arcsec_ + half.truth.dtheta_arcsec, replay_.state().magnetic.subtracted_arcsec - before_arcsec,
+            reading_error_arcsec(config_, half)};
         rig::hand_over(sample, [this](const core::AngleRow& row) { take(row); });
+        ++tick_;
     }
+    is_second_ = !is_second_;
+}
 
-    ErrorMeter end() {
-        replay_.end([this](const core::AngleRow& row) { take(row); });
-        return meter_;
-    }
+const ErrorMeter& MeteredCompensation::end() {
+    replay_.end([this](const core::AngleRow& row) { take(row); });
+    return meter_;
+}
 
-private:
-    void take(const core::AngleRow& row) {
-        meter_.take(row, truth_[static_cast<std::size_t>(row.tick) % truth_.size()], finder_.windows());
-    }
+void MeteredCompensation::take(const core::AngleRow& row) {
+    meter_.take(row, truth_[static_cast<std::size_t>(row.tick) % truth_.size()], finder_.windows());
+}
 
-    void forget_windows(std::int64_t tick) {
-        auto& windows = finder_.windows();
-        while (!windows.empty() && windows.front().gap_is_over() &&
-               windows.front().last_tick < tick - core::history_ticks)
-            windows.pop_front();
-    }
-
-    config::Config config_;
-    rig::ClosedLoop loop_;
-    rig::Replay replay_;
-    SwitchFinder finder_;
-    ErrorMeter meter_;
-    std::array<TickTruth, core::history_ticks> truth_{};
-};
-
-}  // namespace
+void MeteredCompensation::forget_windows() {
+    auto& windows = finder_.windows();
+    while (!windows.empty() && windows.front().gap_is_over() && windows.front().last_tick < tick_ - core::history_ticks)
+        windows.pop_front();
+}
 
 ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {
-    CompensatedRun run{config, stride};
-    for (std::int64_t tick = 0; tick < ticks; ++tick) run.tick(tick);
-    return run.end();
+    rig::ClosedLoop loop{config, rig::motion(config)};
+    MeteredCompensation compensation{config, stride};
+    for (std::int64_t half = 0; half < 2 * ticks; ++half) {
+        const rig::LoopHalf now = loop.advance();
+        compensation.take(now, loop.light());
+    }
+    return compensation.end();
 }
 
 }  // namespace zlg::study

@@ -81,7 +81,9 @@ void AveragedGyro::count(const BiasArea& area, int bias_sign, TwinHalf& half) {
     double seen_arcsec = lit_part * half.truth.dtheta_arcsec + housing_.magnetic_arcsec_s() * area.helicity_s() +
                          config_.drift.nonmagnetic_arcsec_s * lit_part * half_s;
     if (config_.drift.random_walk_arcsec_sqrt_s > 0.0) {
-        seen_arcsec += config_.drift.random_walk_arcsec_sqrt_s * std::sqrt(half_s) * walk_noise_.gauss();
+        half.truth.random_walk_arcsec =
+            config_.drift.random_walk_arcsec_sqrt_s * std::sqrt(half_s) * walk_noise_.gauss();
+        seen_arcsec += half.truth.random_walk_arcsec;
     }
     counter_.advance(signed_hz * area.shaped_s() + false_cycles + garbage_cycles_ +
                      seen_arcsec / config_.gyro.scale_arcsec);

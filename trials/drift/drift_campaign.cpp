@@ -8,35 +8,38 @@
 
 #include <zlg/numeric/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
-#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
-#include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/study/compensated_run.hpp>
 
 namespace zlg::trials {
 namespace {
 
 constexpr int samples_before = 20;
 
-// Excess of the drift of one method at one of the times, and the sum of its squares over moments before.
+// Excess of the drift of one method at one of the times, and the sum of its squares over moments before; with the walk of
+// the gyro and without.
 struct Residual {
     double end_arcsec_s = 0.0;
     double sum_sq_before = 0.0;
+    double end_less_walk_arcsec_s = 0.0;
+    double sum_sq_before_less_walk = 0.0;
 };
 
 struct RunOfMethod {
     std::vector<Residual> at;
     double switches = 0.0;
+    std::vector<study::SwitchError> errors;
 };
 
 using RunOfGyro = std::vector<RunOfMethod>;
 
-std::vector<rig::Replay> compensations(const DriftGyro& gyro) {
-    std::vector<rig::Replay> all;
+std::vector<study::MeteredCompensation> compensations(const DriftGyro& gyro, std::int64_t stride) {
+    std::vector<study::MeteredCompensation> all;
     for (const DriftMethod& method : gyro.methods) {
         config::Config config = gyro.config;
         config.compensation = method.compensation;
-        all.emplace_back(rig::asked_compensation(config));
+        all.emplace_back(config, stride);
     }
     return all;
 }
@@ -55,7 +58,6 @@ config::Config drawn(const DriftGyro& gyro, std::uint64_t seed, double run_s) {
 struct Moment {
     std::int64_t tick = 0;
     std::size_t time = 0;
-    bool is_end = false;
 };
 
 std::vector<Moment> moments(const DriftCampaign& campaign, double tick_s) {
@@ -63,7 +65,7 @@ std::vector<Moment> moments(const DriftCampaign& campaign, double tick_s) {
     for (std::size_t i = 0; i < campaign.times_s.size(); ++i) {
         const double ticks = std::floor(campaign.times_s[i] / tick_s + 1e-6);
         for (int k = samples_before - 1; k >= 0; --k)
-            all.push_back({std::llround(ticks * (1.0 - 0.05 * k / samples_before)), i, k == 0});
+            all.push_back({std::llround(ticks * (1.0 - 0.05 * k / samples_before)), i});
     }
     std::ranges::stable_sort(all, {}, &Moment::tick);
     return all;
@@ -72,17 +74,19 @@ std::vector<Moment> moments(const DriftCampaign& campaign, double tick_s) {
 RunOfGyro run_one(const DriftCampaign& campaign, const DriftGyro& gyro, std::uint64_t seed) {
     const config::Config config = drawn(gyro, seed, campaign.times_s.back());
     rig::ClosedLoop loop{config, rig::motion(config)};
-    std::vector<rig::Replay> compensated = compensations(gyro);
-    RunOfGyro result(compensated.size(), RunOfMethod{std::vector<Residual>(campaign.times_s.size()), 0.0});
-    core::ExactSum truth;
+    const std::vector<Moment> looks = moments(campaign, config.gyro.tick_s);
+    std::vector<study::MeteredCompensation> compensated = compensations(gyro, looks.back().tick);
+    RunOfGyro result(compensated.size(), RunOfMethod{std::vector<Residual>(campaign.times_s.size()), 0.0, {}});
+    core::ExactSum truth, walk;
     std::int64_t tick = 0, switches = 0;
-    for (const Moment& moment : moments(campaign, config.gyro.tick_s)) {
+    for (const Moment& moment : looks) {
         for (; tick < moment.tick; ++tick) {
             for (int half = 0; half < 2; ++half) {
                 const rig::LoopHalf now = loop.advance();
                 truth.add(now.truth.dtheta_arcsec);
+                walk.add(now.truth.random_walk_arcsec);
                 switches += now.control.has_event;
-                for (rig::Replay& c : compensated) c.take(now.record, loop.light());
+                for (study::MeteredCompensation& c : compensated) c.take(now, loop.light());
             }
         }
         const double t_s = static_cast<double>(tick) * config.gyro.tick_s;
@@ -90,11 +94,17 @@ RunOfGyro run_one(const DriftCampaign& campaign, const DriftGyro& gyro, std::uin
             const double excess =
                 (compensated[m].angle_arcsec() - truth.value()) / t_s - config.drift.nonmagnetic_arcsec_s;
             Residual& at = result[m].at[moment.time];
+            const double less_walk = excess - walk.value() / t_s;
             at.sum_sq_before += excess * excess;
-            if (moment.is_end) at.end_arcsec_s = excess;
+            at.sum_sq_before_less_walk += less_walk * less_walk;
+            at.end_arcsec_s = excess;  // the last moment of a time is its end
+            at.end_less_walk_arcsec_s = less_walk;
         }
     }
-    for (RunOfMethod& method : result) method.switches = static_cast<double>(switches);
+    for (std::size_t m = 0; m < result.size(); ++m) {
+        result[m].switches = static_cast<double>(switches);
+        result[m].errors = compensated[m].end().switches();
+    }
     return result;
 }
 
@@ -106,10 +116,13 @@ DriftAtTime statistics(double time_s, const std::vector<Residual>& residuals) {
         at.rms_arcsec_s += r.end_arcsec_s * r.end_arcsec_s / n;
         at.mean_arcsec_s += r.end_arcsec_s / n;
         at.rms_before_arcsec_s += r.sum_sq_before / (n * samples_before);
+        at.rms_less_walk_arcsec_s += r.end_less_walk_arcsec_s * r.end_less_walk_arcsec_s / n;
+        at.rms_before_less_walk_arcsec_s += r.sum_sq_before_less_walk / (n * samples_before);
         sizes.push_back(std::abs(r.end_arcsec_s));
     }
-    at.rms_arcsec_s = std::sqrt(at.rms_arcsec_s);
-    at.rms_before_arcsec_s = std::sqrt(at.rms_before_arcsec_s);
+    for (double* rms :
+         {&at.rms_arcsec_s, &at.rms_before_arcsec_s, &at.rms_less_walk_arcsec_s, &at.rms_before_less_walk_arcsec_s})
+        *rms = std::sqrt(*rms);
     std::ranges::sort(sizes);
     at.max_arcsec_s = sizes.back();
     at.percentile_95_arcsec_s = sizes[static_cast<std::size_t>(std::ceil(0.95 * n)) - 1];
@@ -124,8 +137,16 @@ std::vector<DriftFigures> figures_of(const DriftCampaign& campaign, const std::v
         const DriftGyro& gyro = campaign.gyros[g];
         for (std::size_t m = 0; m < gyro.methods.size(); ++m) {
             DriftFigures f{.gyro = gyro.name, .method = gyro.methods[m].name};
-            for (std::size_t s = 0; s < seeds; ++s)
-                f.switches += runs[g * seeds + s][m].switches / static_cast<double>(seeds);
+            std::vector<study::SwitchError> errors;
+            for (std::size_t s = 0; s < seeds; ++s) {
+                const RunOfMethod& run = runs[g * seeds + s][m];
+                f.switches += run.switches / static_cast<double>(seeds);
+                errors.insert(errors.end(), run.errors.begin(), run.errors.end());
+            }
+            if (const auto all = study::statistics(errors)) {
+                f.switch_mean_arcsec = all->mean_arcsec;
+                f.switch_rms_arcsec = all->rms_arcsec;
+            }
             for (std::size_t i = 0; i < campaign.times_s.size(); ++i) {
                 std::vector<Residual> residuals;
                 for (std::size_t s = 0; s < seeds; ++s) residuals.push_back(runs[g * seeds + s][m].at[i]);
@@ -154,13 +175,17 @@ std::vector<DriftFigures> run(const DriftCampaign& campaign, const std::function
 
 std::string markdown(const std::vector<DriftFigures>& figures) {
     std::string text =
-        "| gyro | compensation | switches | t, s | rms | mean | 95 % | max | rms of the last 5 % of t |\n"
-        "|---|---|---|---|---|---|---|---|---|\n";
+        "| gyro | compensation | switches | a switch, arcsec: mean | rms | t, s | rms | mean | 95 % | max | rms of the "
+        "last 5 % of t | without the walk: rms | rms of the last 5 % |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const DriftFigures& f : figures) {
         for (const DriftAtTime& at : f.at)
-            text += fmt::format("| {} | {} | {:.0f} | {:.0f} | {:.5f} | {:+.5f} | {:.5f} | {:.5f} | {:.5f} |\n", f.gyro,
-                                f.method, f.switches, at.time_s, at.rms_arcsec_s, at.mean_arcsec_s,
-                                at.percentile_95_arcsec_s, at.max_arcsec_s, at.rms_before_arcsec_s);
+            text += fmt::format(
+                "| {} | {} | {:.0f} | {:+.4f} | {:.3f} | {:.0f} | {:.5f} | {:+.5f} | {:.5f} | {:.5f} | {:.5f} | {:.5f} "
+                "| {:.5f} |\n",
+                f.gyro, f.method, f.switches, f.switch_mean_arcsec, f.switch_rms_arcsec, at.time_s, at.rms_arcsec_s,
+                at.mean_arcsec_s, at.percentile_95_arcsec_s, at.max_arcsec_s, at.rms_before_arcsec_s,
+                at.rms_less_walk_arcsec_s, at.rms_before_less_walk_arcsec_s);
     }
     return text;
 }

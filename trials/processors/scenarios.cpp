@@ -82,6 +82,18 @@ void draw_motion(Draw& draw, config::Config& c) {
     c.motion.phase_deg.push_back(draw.within(0.0, 360.0));
 }
 
+// One in three reads the phase of the fringe, with photodiodes good or bad.
+void draw_readout(Draw& draw, config::Config& c) {
+    if (!draw.is_one_in(3)) return;
+    c.gyro.readout = config::Readout::phase;
+    c.photodiodes.offset_cosine = draw.within(-0.1, 0.1);
+    c.photodiodes.offset_sine = draw.within(-0.1, 0.1);
+    c.photodiodes.amplitude_error = draw.within(-0.1, 0.1);
+    c.photodiodes.angle_error_deg = draw.within(-5.0, 5.0);
+    c.photodiodes.noise = draw.one_of(std::array{0.003, 0.01, 0.03});
+    c.photodiodes.jitter_s = draw.is_one_in(2) ? 0.0 : draw.within(0.0, 1e-6);
+}
+
 // One kind of fault after the other from scenario to scenario, and then all of them at once.
 std::string draw_faults(Draw& draw, std::int64_t k, config::Config& c) {
     constexpr std::size_t n_kinds = twin::n_fault_kinds;
@@ -106,6 +118,7 @@ Scenario scenario(std::uint64_t seed, std::int64_t k, double duration_s) {
     draw_compensation(draw, c);
     draw_motion(draw, c);
     const std::string faults = draw_faults(draw, k, c);
+    draw_readout(draw, c);
     if (c.gyro.fidelity == config::Fidelity::laser) c = rig::calibrated_by_laser(c);
     config::check(c);
     return {fmt::format("{}: {}, relock {}, bridge {}", k, faults, static_cast<int>(*c.compensation.relock),

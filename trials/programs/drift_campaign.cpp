@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include <zlg/config/schema.hpp>
 #include <zlg/trials/drift_campaign.hpp>
 
 #include "command.hpp"
@@ -25,19 +26,34 @@ void add_plain(Gyros& gyros, config::Config c) {
     }
 }
 
-void add_ours(Gyros& gyros, config::Config c) {
-    const trials::DriftMethod alone{"joint, auto", {.relock = core::RelockMethod::joint}};
-    const trials::DriftMethod magnetic{
-        "joint, auto, magnetic", {.relock = core::RelockMethod::joint, .magnetic = core::MagneticMethod::estimate}};
+// `joint`, without the magnetic estimate and with it.
+std::vector<trials::DriftMethod> our_methods(const config::Config& c) {
+    trials::DriftMethod alone{"joint, auto", c.compensation};
+    alone.compensation.relock = core::RelockMethod::joint;
+    trials::DriftMethod magnetic{"joint, auto, magnetic", alone.compensation};
+    magnetic.compensation.magnetic = core::MagneticMethod::estimate;
+    return {magnetic, alone};
+}
+
+void add_measured(Gyros& gyros, config::Config c) {
     c.switching.first_segment = config::FirstSegment::half;
     c.switching.schedule = config::Schedule::measured;
-    config::Config ending = c;
-    ending.switching.last_segment = config::LastSegment::half;
-    for (const auto& method : {magnetic, alone}) gyros.push_back({"measured, first half", c, {method}});
-    for (const auto& method : {magnetic, alone}) gyros.push_back({"measured, first and last half", ending, {method}});
-    c.switching.schedule = config::Schedule::fixed;
-    c.switching.interval_s = 61.3;
-    gyros.push_back({"fixed 61.3 s, first half", c, {alone, magnetic}});
+    for (const auto& method : our_methods(c)) gyros.push_back({"measured, first half", c, {method}});
+}
+
+void add_ended(Gyros& gyros, config::Config c) {
+    c.switching.first_segment = config::FirstSegment::half;
+    c.switching.schedule = config::Schedule::measured;
+    c.switching.last_segment = config::LastSegment::half;
+    for (const auto& method : our_methods(c)) gyros.push_back({"measured, first and last half", c, {method}});
+}
+
+void add_fixed(Gyros& gyros, config::Config c, const std::vector<double>& intervals_s) {
+    c.switching.first_segment = config::FirstSegment::half;
+    for (const double interval_s : intervals_s) {
+        c.switching.interval_s = interval_s;
+        gyros.push_back({fmt::format("fixed {} s, first half", interval_s), c, our_methods(c)});
+    }
 }
 
 // Gyro by gyro, so that what is done is seen.
@@ -61,12 +77,18 @@ int main(int argc, char** argv) {
     double end_s = 36000.0;
     std::string base = "vibration";
     std::string part = "all";
+    std::vector<double> intervals_s{61.3};
+    std::vector<std::string> sets;
     CLI::App app{"Drift of long runs in excess of the non-magnetic one", "zlg_drift_campaign"};
     app.add_option("SEEDS", campaign.seeds)->check(CLI::PositiveNumber);
     app.add_option("SECONDS", end_s)->check(CLI::PositiveNumber);
     app.add_option("THREADS", campaign.threads)->check(CLI::PositiveNumber);
     app.add_option("BASE", base)->check(CLI::IsMember({"vibration", "rest"}));
-    app.add_option("PART", part, "plain: fixed intervals")->check(CLI::IsMember({"plain", "ours", "all"}));
+    app.add_option("PART", part, "plain: the paper's compensation at fixed intervals; measured, fixed: parts of ours")
+        ->check(CLI::IsMember({"plain", "measured", "fixed", "ours", "all"}));
+    app.add_option("--interval", intervals_s, "of ours at a fixed one, s; repeatable")->check(CLI::PositiveNumber);
+    app.add_option("--set", sets, "section.key=value, of all gyros; repeatable")->allow_extra_args(false);
+    app.add_option("--first-seed", campaign.first_seed);
     return trials::run_command(app, argc, argv, [&] {
         for (const double time_s : {600.0, 900.0, 3600.0})
             if (time_s < end_s) campaign.times_s.push_back(time_s);
@@ -74,8 +96,12 @@ int main(int argc, char** argv) {
         config::Config c;
         c.motion.frequency_hz = {20.06};
         if (base == "rest") c.motion.kind = config::MotionKind::rest;
-        if (part != "ours") add_plain(campaign.gyros, c);
-        if (part != "plain") add_ours(campaign.gyros, c);
+        for (const std::string& set : sets) config::apply_set(c, set);
+        const bool ours = part == "ours" || part == "all";
+        if (part == "plain" || part == "all") add_plain(campaign.gyros, c);
+        if (part == "measured" || ours) add_measured(campaign.gyros, c);
+        if (ours) add_ended(campaign.gyros, c);
+        if (part == "fixed" || ours) add_fixed(campaign.gyros, c, intervals_s);
         print_all(campaign);
         return 0;
     });

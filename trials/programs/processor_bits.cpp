@@ -31,6 +31,8 @@ struct Total {
     std::int64_t switches = 0;
     std::int64_t invalid_halves = 0;
     std::int64_t unhealthy_halves = 0;
+    std::int64_t placed_halves = 0;
+    std::int64_t lit_halves = 0;
     std::string first_difference;
     std::uint64_t hash = 0;
 };
@@ -44,6 +46,8 @@ void run(const trials::Scenario& scenario, processor::QemuProcessor& image, Tota
         total.switches += half.control.has_event ? 1 : 0;
         total.invalid_halves += half.record.valid ? 0 : 1;
         total.unhealthy_halves += half.control.health != 0 ? 1 : 0;
+        total.placed_halves += core::has_fringe(half.record) ? 1 : 0;
+        total.lit_halves += half.record.lit && !half.record.loop_closed ? 1 : 0;
     }
     rig::hand_over_rest([&] { return both.drain(); }, rig::ignored);
     if (!(image.state() == both.state())) ++total.states_differing;
@@ -63,6 +67,8 @@ void print(const Total& t, double wall_s) {
     fmt::print("| switches, returns and searches that ended in a lock | {} |\n", t.switches);
     fmt::print("| half-periods not valid | {} |\n", t.invalid_halves);
     fmt::print("| half-periods with a health bit | {} |\n", t.unhealthy_halves);
+    fmt::print("| half-periods with the place within the fringe | {} |\n", t.placed_halves);
+    fmt::print("| half-periods of gaps that are called lit | {} |\n", t.lit_halves);
     fmt::print("| outputs that differ in a bit | {} |\n", t.differing);
     fmt::print("| final states that differ | {} |\n", t.states_differing);
     fmt::print("| hash of all outputs | {:016x} |\n", t.hash);

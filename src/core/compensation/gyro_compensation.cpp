@@ -242,6 +242,22 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
     errors.mean_sq_arcsec2 += (sq - errors.mean_sq_arcsec2) / static_cast<double>(errors.n);
 }
 
+// The magnetic drift that is to be subtracted from a tick. By phase a switch is known so well that it matters how the drift
+// steps there, so that it is estimated whatever the method, and told to the bridge as far as it stays in the values.
+double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
+                       const TickInput& tick) noexcept {
+    const bool by_phase = state.bridge.learning.moments.with_phase;
+    const MagneticMethod method = config.magnetic.method;
+    if (method == MagneticMethod::none && !by_phase && !state.magnetic.started) return 0.0;
+    const double subtracted =
+        step(config.gyro, config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
+    if (!tick.measured)
+        state.bridge.magnetic_arcsec = by_phase && method != MagneticMethod::estimate
+                                           ? trusted_arcsec_s(state.magnetic) * config.gyro.tick.value()
+                                           : 0.0;
+    return subtracted;
+}
+
 // Of a tick of a gap, or of the first one after it.
 void read_lit_halves(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& second,
                      const Border& start, const TickInput& tick, double drift_arcsec) noexcept {
@@ -298,8 +314,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         state.first_waits = false;
     }
     tick.bias_arcsec = state.bias_arcsec;
-    const double drift_arcsec =
-        step(config.gyro, config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
+    const double drift_arcsec = magnetic_arcsec(config, state, tick);
     tick.value_arcsec -= drift_arcsec;
     if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
         read_lit_halves(config, state, second, borders.start, tick, drift_arcsec);

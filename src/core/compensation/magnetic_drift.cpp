@@ -36,11 +36,15 @@ void start(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
 }
 
 // (3).
+double trust_of(const MagneticFilterState& filter) noexcept {
+    const double drift = filter.estimate[of_drift];
+    const double variance = filter.covariance[of_drift][of_drift];
+    if (!is_known(square_root(variance), drift)) return 0.0;
+    return 1.0 - min_sigmas * min_sigmas * variance / (drift * drift);
+}
+
 void update_trust(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
-    const double drift = s.filter.estimate[of_drift];
-    const double variance = s.filter.covariance[of_drift][of_drift];
-    const bool acts = c.method == MagneticMethod::estimate && is_known(square_root(variance), drift);
-    s.trust = acts ? 1.0 - min_sigmas * min_sigmas * variance / (drift * drift) : 0.0;
+    s.trust = c.method == MagneticMethod::estimate ? trust_of(s.filter) : 0.0;
     s.due_arcsec = s.trust * s.filter.estimate[of_angle];
 }
 
@@ -91,7 +95,6 @@ double subtract(const CompensationConstants& gyro, const MagneticDriftConfig& c,
 MagneticDriftFault check(const MagneticDriftConfig& c) noexcept {
     const auto is_sigma = [](double x) { return x >= 0.0 && x <= 1e6; };
     const auto is_time = [](double x) { return x >= 1e-9 && x <= 1e12; };
-    if (c.method == MagneticMethod::none) return MagneticDriftFault::none;
     if (!(size(c.presumed_arcsec_s) <= 1e6 && is_sigma(c.presumed_sigma_arcsec_s))) return MagneticDriftFault::presumed;
     const bool warming = size(c.warming_arcsec_s) <= 1e6 && is_sigma(c.warming_sigma_arcsec_s);
     if (!(warming && is_time(c.thermal_time.value()))) return MagneticDriftFault::warming;
@@ -100,7 +103,6 @@ MagneticDriftFault check(const MagneticDriftConfig& c) noexcept {
 
 double step(const CompensationConstants& gyro, const MagneticDriftConfig& config, MagneticDriftState& state,
             const MagneticTick& tick) noexcept {
-    if (config.method == MagneticMethod::none) return 0.0;
     if (!state.started) start(config, state);
     const bool credible = is_credible(gyro, tick);
     if (!credible) state.segment = {};
@@ -111,6 +113,10 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
     if (mode == 0) return 0.0;
     accumulate(state.segment, tick.angle_arcsec);
     return subtract(gyro, config, state);
+}
+
+double trusted_arcsec_s(const MagneticDriftState& state) noexcept {
+    return state.started ? trust_of(state.filter) * state.filter.estimate[of_drift] : 0.0;
 }
 
 double sigma_arcsec_s(const MagneticDriftState& state) noexcept {

@@ -84,6 +84,7 @@ TEST(GyroCompensationMagnetic, AdviceIsWhatWasMeasured) {
         EXPECT_NEAR(advice(config, state).switch_error_arcsec, got.gaps.back().sigma_sum_arcsec, 1e-12);
         const double left = advice(config, state).magnetic_arcsec_s;
         if (method == MagneticMethod::none) EXPECT_EQ(left, 0.0);
+        if (method == MagneticMethod::none) EXPECT_EQ(state.magnetic, MagneticDriftState{});  // of whole counts
         if (method == MagneticMethod::watch) EXPECT_NEAR(left, drift_arcsec_s, 0.01);
         if (method == MagneticMethod::estimate) EXPECT_LT(left, 0.1);
     }

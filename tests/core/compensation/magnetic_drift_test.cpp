@@ -27,7 +27,7 @@ TEST(MagneticDrift, WhatIsNoNumberIsRefused) {
     c.presumed_sigma_arcsec_s = nan_value;
     EXPECT_EQ(check(c), MagneticDriftFault::presumed);
     c.method = MagneticMethod::none;
-    EXPECT_EQ(check(c), MagneticDriftFault::none);
+    EXPECT_EQ(check(c), MagneticDriftFault::presumed);
     c = config_of();
     c.presumed_arcsec_s = -1e7;
     EXPECT_EQ(check(c), MagneticDriftFault::presumed);
@@ -193,7 +193,10 @@ TEST(MagneticDrift, WatchingLearnsTheSameAndLeavesTheAngleAlone) {
     EXPECT_NEAR(remaining_arcsec_s(config_of(MagneticMethod::watch), watching.state), 0.7, 0.05);
     EXPECT_LT(remaining_arcsec_s(config_of(), acting.state), 0.1);
     EXPECT_EQ(remaining_arcsec_s(config_of(), {}), 0.0);
-    EXPECT_EQ(run({}, config_of(MagneticMethod::none), 100.0).state, MagneticDriftState{});
+    // As far as it is trusted, whoever asks.
+    EXPECT_NEAR(trusted_arcsec_s(watching.state), acting.state.trust * acting.state.filter.estimate[of_drift], 1e-15);
+    EXPECT_GT(trusted_arcsec_s(watching.state), 0.5);
+    EXPECT_EQ(trusted_arcsec_s({}), 0.0);
 }
 
 TEST(MagneticDrift, ItsSigmaIsTrue) {

@@ -1,5 +1,6 @@
 #include <zlg/trials/drift_campaign.hpp>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,39 @@ TEST(DriftCampaign, AMeasuredScheduleMakesUseOfIt) {
     // Where the drift is taken out there is less need to switch.
     EXPECT_LT(figures[1].switches, 0.7 * figures[0].switches);
     EXPECT_LT(figures[1].at[1].rms_before_arcsec_s, figures[0].at[1].rms_before_arcsec_s);
+}
+
+TEST(DriftCampaign, KnowsTheWalkOfTheGyro) {
+    config::Config c = gyro();
+    c.drift.magnetic_arcsec_s = 0.0;
+    c.drift.random_walk_arcsec_sqrt_s = 5.0;
+    const DriftAtTime with = run(campaign({{"walks", c, {method(core::MagneticMethod::none)}}}))[0].at[1];
+    // Three gyros after 1000 s: 5/sqrt(1000) = 0.16 arcsec/s. Without the walk the gaps remain, 3 ticks in 800, in which it is
+    // interpolated: sqrt(3/800) of it and less.
+    EXPECT_GT(with.rms_arcsec_s, 0.04);
+    EXPECT_LT(with.rms_less_walk_arcsec_s, 0.2 * with.rms_arcsec_s);
+    EXPECT_GT(with.rms_less_walk_arcsec_s, 0.0);
+}
+
+// Of the paper's gyro by phase, over 20.06 Hz; docs/long_runs.md has the figures of 36 000 s.
+TEST(DriftCampaign, ByPhaseASwitchHasNoErrorWithTheSignOfTheFalseAngle) {
+    config::Config c;
+    c.gyro.readout = config::Readout::phase;
+    c.motion.frequency_hz = {20.06};
+    c.drift.magnetic_arcsec_s = 7.0;  // ten times the paper's: what a step between the modes does is ten times as large
+    c.drift.magnetic_thermal_arcsec_s = 0.0;
+    c.switching.interval_s = 4.3;
+    c.switching.first_segment = config::FirstSegment::half;
+    DriftMethod alone{.name = "alone", .compensation = {.relock = core::RelockMethod::joint}};
+    DriftMethod magnetic = alone;
+    magnetic.compensation.magnetic = core::MagneticMethod::estimate;
+    const auto figures = run({.gyros = {{"phase", c, {alone, magnetic}}}, .times_s = {1300.0}, .seeds = 2});
+    for (const DriftFigures& f : figures) {
+        SCOPED_TRACE(f.method);
+        // 600 switches: a standard error of 0.003.
+        EXPECT_LT(std::abs(f.switch_mean_arcsec), 0.02);
+        EXPECT_LT(f.switch_rms_arcsec, 0.1);
+    }
 }
 
 TEST(DriftCampaign, DoesNotDependOnTheNumberOfThreads) {

@@ -37,6 +37,7 @@ TEST(Scenarios, choose_every_method_and_every_fault) {
     std::set<core::MagneticMethod> magnetics;
     std::set<core::DitherMethod> dithers;
     std::set<config::Schedule> schedules;
+    std::set<config::Readout> readouts;
     std::set<twin::FaultKind> faults;
     bool all_faults = false;
     bool none = false;
@@ -47,6 +48,7 @@ TEST(Scenarios, choose_every_method_and_every_fault) {
         magnetics.insert(c.compensation.magnetic);
         dithers.insert(c.gyro.dither);
         schedules.insert(c.switching.schedule);
+        readouts.insert(c.gyro.readout);
         faults.insert(c.faults.random_kinds.begin(), c.faults.random_kinds.end());
         all_faults |= c.faults.random_per_hour > 0.0 && c.faults.random_kinds.empty();
         none |= c.faults.random_per_hour == 0.0;
@@ -56,6 +58,7 @@ TEST(Scenarios, choose_every_method_and_every_fault) {
     EXPECT_EQ(magnetics.size(), 3u);
     EXPECT_EQ(dithers.size(), 4u);
     EXPECT_EQ(schedules.size(), 3u);
+    EXPECT_EQ(readouts.size(), 2u);
     EXPECT_EQ(faults.size(), twin::fault_kind_names.size());
     EXPECT_TRUE(all_faults);
     EXPECT_TRUE(none);

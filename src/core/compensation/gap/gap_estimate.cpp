@@ -75,6 +75,7 @@ void begin(GapBridgeState& state, const Gap& gap, bool halves, bool learnt) noex
     e.n_after = points_a_side(e.problem.n_gap);
     e.problem.halves = halves;
     e.learnt = learnt;
+    e.magnetic_arcsec = state.magnetic_arcsec;
     if (learnt) {
         presume(state.learning, e.problem);
         take_lit_halves(state);

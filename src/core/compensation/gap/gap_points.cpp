@@ -78,7 +78,7 @@ void add_tick(const MotionCovariance& covariance, const HistoryTick& tick, int k
     const auto n = static_cast<unsigned>(problem.factor.n);
     Column error{};
     error[n] = tick.relock_variance_arcsec2;
-    e.data.value[n] = tick.row.dtheta_final_arcsec;
+    e.data.value[n] = tick.row.dtheta_final_arcsec - tick.row.mode * e.magnetic_arcsec;
     e.relock_variance_arcsec2[n] = tick.relock_variance_arcsec2;
     e.index[n] = static_cast<std::int8_t>(k);
     add_point(covariance, problem, sample_of(e, problem, k), error);
@@ -100,6 +100,7 @@ void add_half(const MotionCovariance& covariance, GapBridgeState& state, const H
             if (is_corrected(e, other)) error[i] = half_error(state, own, other);
         }
     }
+    e.data.value[n] -= 0.5 * (own < 0 && is_corrected(e, own) ? e.lit.mode : tick.row.mode) * e.magnetic_arcsec;
     add_point(covariance, problem, sample_of(e, problem, k), error);
 }
 

@@ -2,10 +2,12 @@
 // Drift of long runs in closed loop, over many gyros that differ by their noise: what schedules and compensations leave.
 //
 // The excess at time t is (delivered angle - true angle)/t less the non-magnetic drift, which no switching removes. The
-// random walk W of the gyro is in it: no method comes below W/sqrt(t).
+// random walk W of the gyro is in it: no method comes below W/sqrt(t). The twin knows its walk, so that the excess is given
+// without it as well, of the same runs.
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,13 +43,19 @@ struct DriftAtTime {
     double mean_arcsec_s = 0.0;
     double percentile_95_arcsec_s = 0.0;  // of the magnitudes
     double max_arcsec_s = 0.0;
-    double rms_before_arcsec_s = 0.0;  // over the last twentieth of that time, for an end that nobody knew
+    double rms_before_arcsec_s = 0.0;     // over the last twentieth of that time, for an end that nobody knew
+    double rms_less_walk_arcsec_s = 0.0;  // both without the walk of that very gyro: what a method can avoid
+    double rms_before_less_walk_arcsec_s = 0.0;
 };
 
 struct DriftFigures {
     std::string gyro;
     std::string method;
     double switches = 0.0;  // mean of the runs
+    double switch_mean_arcsec =
+        std::numeric_limits<double>::quiet_NaN();  // of the errors of all switches, with the sign of the false angle
+    double switch_rms_arcsec =
+        std::numeric_limits<double>::quiet_NaN();  // NaN, as the mean, where no switch was repaired
     std::vector<DriftAtTime> at;
 };
 

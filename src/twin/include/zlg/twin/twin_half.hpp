@@ -12,7 +12,9 @@ struct TwinTruth {
     double detuning_end_lambda = 0.0;  // of the mode that lases, at the end of the half
     double perimeter_v = 0.0;          // true piezo voltage at the end of the half
     double rounding_arcsec = 0.0;      // counter less phase at the end of the half, of `averaged`; 0 of a laser
-    bool lit = true;                   // light in both directions throughout the half, of one mode
+    double random_walk_arcsec =
+        0.0;          // that the half adds to the angle, of `averaged`; 0 of a laser, whose lock-in walks
+    bool lit = true;  // light in both directions throughout the half, of one mode
 };
 
 struct TwinHalf {

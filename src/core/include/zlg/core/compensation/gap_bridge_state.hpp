@@ -79,6 +79,7 @@ struct EstimatedGap {
     std::int64_t end_tick = 0;     // the first one after it
     int n_tried = 0;               // points that were added, or found not to be measured
     bool learnt = true;            // the motion was known when the problem began
+    double magnetic_arcsec = 0.0;  // as in GapBridgeState when it began
     int n_after = 0;               // ticks after the gap that may be points; before it: problem.n_side
     bool solving = false;
     GapProblem problem{};
@@ -105,6 +106,9 @@ struct GapBridgeState {
     JointRelock joint{};
     LitHalvesState lit{};  // of the gap that lasts or ended last
     BiasScale bias_scale{};
+    // Magnetic drift in a tick of mode +1 that is still in the values, as far as it is known. The points of a gap lose it, for at
+    // the gap it steps: an estimate across it would take the step for a false angle or for motion.
+    double magnetic_arcsec = 0.0;
     double relock_to_come_arcsec2 = 0.0;  // variance of the re-lock corrections still to come
     double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far

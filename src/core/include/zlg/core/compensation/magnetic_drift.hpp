@@ -45,7 +45,7 @@ struct MagneticDriftConfig {
 
 enum class MagneticDriftFault : unsigned char { none, presumed, warming };
 
-// Of `none`, which uses no number, nothing is asked; of the others a random walk of up to 1e6.
+// Asked whatever the method: by phase every one uses the numbers.
 [[nodiscard]] MagneticDriftFault check(const MagneticDriftConfig& config) noexcept;
 
 struct MagneticDriftState {
@@ -82,6 +82,9 @@ struct MagneticTick {
 // cost    ten multiplications a tick; every 1024 ticks, and where a segment ends, products of 4 x 4 matrices.
 [[nodiscard]] double step(const CompensationConstants& gyro, const MagneticDriftConfig& config,
                           MagneticDriftState& state, const MagneticTick& tick) noexcept;
+
+// The drift as far as it is trusted: (3) times its estimate, whatever the method.
+[[nodiscard]] double trusted_arcsec_s(const MagneticDriftState& state) noexcept;
 
 [[nodiscard]] double sigma_arcsec_s(const MagneticDriftState& state) noexcept;
 
