@@ -79,7 +79,10 @@ void step(const CompensationConstants& gyro, const OptimalBridgeConfig& config, 
     const bool by_counts = state.moments.moments[fast_memory].by_phase < 1.0;
     const MotionMomentsOutput out = step(MotionMomentsConfig{config.halves}, state.moments, learnt);
     // The moments began anew: the losses were those of the old ones, and of readings with their rounding.
-    if (by_counts && state.moments.moments[fast_memory].by_phase == 1.0) state.scores = BridgeScoresState{.by_phase = true};
+    if (by_counts && state.moments.moments[fast_memory].by_phase == 1.0) {
+        state.scores = BridgeScoresState{.by_phase = true};
+        state.n_weighed = 0;
+    }
     if (out.has_window && is_judged_now(state.moments)) judge(config, state);
 }
 

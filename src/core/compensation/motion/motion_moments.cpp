@@ -120,7 +120,8 @@ void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept
     const int stride = samples_per_tick(config);
     MotionBlock& block = state.block;
     std::array<double, 2> keep{};
-    for (unsigned m = 0; m < keep.size() && !begins_anew(state); ++m)
+    const bool anew = begins_anew(state);
+    for (unsigned m = 0; m < keep.size() && !anew; ++m)
         keep[m] = exponential(-block.n_windows / memory_windows[m]);
     for (int r = 0; r < window_of(config); ++r) {
         if (r >= stride) unfold(config, state.recent, block, r);
@@ -133,7 +134,7 @@ void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept
         moments.by_phase = (before * moments.by_phase + (block.with_phase ? block.n_windows : 0)) / moments.n_windows;
         moments.scatter = scatter_of(config, moments);
     }
-    state.n_folded = (state.n_folded + 1) % 0x10000;
+    state.n_folded = anew ? 1 : (state.n_folded + 1) % 0x10000;
 }
 
 // Windows of one kind do not go into memories of the other where they are too few to stand alone.
