@@ -312,8 +312,6 @@ EstimatedAngle estimate(const CompensationConstants& gyro, const GapBridgeConfig
         misfit *= deflation(problem, found.innovation_ratio);
     out.has_history = true;
     const bool something = finds_something(state.estimate.mixture);
-    // A switch beside a manoeuvre says nothing of the gyro.
-    if (!something) learn_scale(state);
     const double of_sum = misfit * found.sum_variance_arcsec2;
     double variance = of_sum;
     const RoundingLaw law = law_of(gyro, config, state, problem.halves, problem.with_phase);
@@ -341,9 +339,12 @@ EstimatedAngle estimate(const CompensationConstants& gyro, const GapBridgeConfig
     if (config.method == BridgeMethod::automatic &&
         choose_polynomial(config, state, gap, end, problem.halves ? of_whole_ticks(law) : law, variance, misfit, out)) {
         out.polynomial_variance_arcsec2 += beyond;
-        return out;
+    } else {
+        apply(state, gap, found, variance + beyond, out);
     }
-    apply(state, gap, found, variance + beyond, out);
+    // Only now: the dual belongs to the scale and the variance with which the problem was solved. A switch beside a manoeuvre
+    // says nothing of the gyro.
+    learn_scale(state);
     return out;
 }
 

@@ -15,8 +15,12 @@ constexpr double rough_memory = 50.0;
 constexpr double min_scores = 100.0;
 constexpr double min_rough_scores = 5.0;
 
-// The slow memory has next to no prior (0.002 windows), so that its first weights are poor. By trial on bench/accuracy.
-constexpr double min_scores_for_slow = 500.0;
+// The slow memory has next to no prior (0.002 windows), so that its first weights are poor. By phase the prior of the fast
+// one, 20 arcsec^2 beside a tone of 12 000 arcsec/s, is thousands of times the noise of a reading, and already the first weights of the
+// slow one are better than that allows. By trial on bench/accuracy.
+constexpr double min_scores_for_slow(const BridgeScoresState& state) noexcept {
+    return state.by_phase ? min_scores : 500.0;
+}
 
 // A polynomial has no model of the motion: it must win by more than the standard error of a mean loss. By trial on
 // bench/accuracy.
@@ -90,7 +94,7 @@ void step(BridgeScoresState& state, WindowTicks x, bool rough) noexcept {
 bool is_judged(const BridgeScoresState& state) noexcept { return state.n >= min_scores; }
 
 MotionMemory better_memory(const BridgeScoresState& state) noexcept {
-    return state.n >= min_scores_for_slow && state.score[by_slow_memory].loss < state.score[by_fast_memory].loss
+    return state.n >= min_scores_for_slow(state) && state.score[by_slow_memory].loss < state.score[by_fast_memory].loss
                ? slow_memory
                : fast_memory;
 }

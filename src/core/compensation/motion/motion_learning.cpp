@@ -8,11 +8,6 @@
 namespace zlg::core {
 namespace {
 
-// Windows in the moments before they are used; they come by blocks, so at the end of the first whole block, 0.6 s of 5 ms
-// ticks, or of a shorter one that a gap ends. With fewer the moments describe these few ticks and not the motion. By trial
-// on bench/accuracy.
-constexpr double min_windows = 50.0;
-
 // The outlier gate. The threshold is far above the 3 to 10 standard deviations of a usual gate on purpose: it keeps out
 // faults and single shocks, while vibration that grows tenfold must be learnt at once. 16 ticks are 80 ms. By trial on
 // bench/accuracy.
@@ -81,7 +76,13 @@ void step(const CompensationConstants& gyro, const OptimalBridgeConfig& config, 
     if (idle) update_weights(gyro, config, state);
     MotionTick learnt = tick;
     learnt.usable = tick.usable && passes_gate(gyro, config, state, tick);
+    const bool by_counts = state.moments.moments[fast_memory].by_phase < 1.0;
     const MotionMomentsOutput out = step(MotionMomentsConfig{config.halves}, state.moments, learnt);
+    // The moments began anew: the losses were those of the old ones, and of readings with their rounding.
+    if (by_counts && state.moments.moments[fast_memory].by_phase == 1.0) {
+        state.scores = BridgeScoresState{.by_phase = true};
+        state.n_weighed = 0;
+    }
     if (out.has_window && is_judged_now(state.moments)) judge(config, state);
 }
 

@@ -50,7 +50,10 @@ void add_window(const MotionMomentsConfig& config, MotionMomentsState& state) no
     MotionBlock& block = state.block;
     const Window& x = state.recent;
     const auto window = static_cast<unsigned>(window_of(config));
-    if (block.n_windows == 0) block.first = x;
+    if (block.n_windows == 0) {
+        block.first = x;
+        block.with_phase = state.with_phase;
+    }
     if (config.halves) {
         add_products<max_window>(x[0], x, block.row[0]);
         const double first = block.row[1][0];
@@ -89,6 +92,12 @@ void add_row(int window, int r, const Window& row, const std::array<double, 2>& 
     }
 }
 
+// The memories hold readings without the place within the count, and the block has it: see the head of the header.
+bool begins_anew(const MotionMomentsState& state) noexcept {
+    const Moments& learnt = state.moments[fast_memory];
+    return state.block.with_phase && learnt.n_windows > 0.0 && learnt.by_phase < 1.0;
+}
+
 // Mean square about the window's mean: trace/n less the mean of all elements, x^T (I - 1 1^T/n) x/n averaged over
 // windows.
 double scatter_of(const MotionMomentsConfig& config, const Moments& moments) noexcept {
@@ -106,12 +115,14 @@ double scatter_of(const MotionMomentsConfig& config, const Moments& moments) noe
     return stride * stride * (of_samples > 0.0 ? of_samples : 0.0) / moments.n_windows;
 }
 
-// Unfold the block, which ends with the recent samples, and add it to both memories.
+// Unfold the block, which ends with the recent samples, and add it to both memories, or put it in their place.
 void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
     const int stride = samples_per_tick(config);
     MotionBlock& block = state.block;
-    std::array<double, 2> keep;
-    for (unsigned m = 0; m < keep.size(); ++m) keep[m] = exponential(-block.n_windows / memory_windows[m]);
+    std::array<double, 2> keep{};
+    const bool anew = begins_anew(state);
+    for (unsigned m = 0; m < keep.size() && !anew; ++m)
+        keep[m] = exponential(-block.n_windows / memory_windows[m]);
     for (int r = 0; r < window_of(config); ++r) {
         if (r >= stride) unfold(config, state.recent, block, r);
         add_row(window_of(config), r, block.row[static_cast<unsigned>(r % stride)], keep, state);
@@ -120,14 +131,26 @@ void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept
         Moments& moments = state.moments[m];
         const double before = keep[m] * moments.n_windows;
         moments.n_windows = before + block.n_windows;
-        moments.by_phase = (before * moments.by_phase + (state.with_phase ? block.n_windows : 0)) / moments.n_windows;
+        moments.by_phase = (before * moments.by_phase + (block.with_phase ? block.n_windows : 0)) / moments.n_windows;
         moments.scatter = scatter_of(config, moments);
     }
-    state.n_folded = (state.n_folded + 1) % 0x10000;
+    state.n_folded = anew ? 1 : (state.n_folded + 1) % 0x10000;
+}
+
+// Windows of one kind do not go into memories of the other where they are too few to stand alone.
+bool is_left_out(const MotionMomentsState& state) noexcept {
+    const MotionBlock& block = state.block;
+    if (block.with_phase) return begins_anew(state) && block.n_windows < min_windows;
+    return state.moments[fast_memory].by_phase > 0.0 && block.n_windows < block_windows;
 }
 
 // The block is complete: fold it, and move the level by its mean.
 void close_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
+    if (is_left_out(state)) {
+        state.block = MotionBlock{};
+        state.block_sum = 0.0;
+        return;
+    }
     fold(config, state);
     const double n = state.block.n_windows;
     if (state.n_levels < level_blocks) state.n_levels += n / block_windows;
@@ -152,6 +175,7 @@ MotionMomentsOutput step(const MotionMomentsConfig& config, MotionMomentsState& 
     const bool usable = tick.usable && is_possible(tick.first) && is_possible(tick.second);
     if (!usable) end_block(config, state);
     if (!usable) return out;
+    if (state.block.n_windows > 0 && state.block.with_phase != state.with_phase) close_block(config, state);
     if (state.n_levels == 0.0 && state.n_recent == 0)
         state.level = config.halves ? tick.first + tick.second : tick.first;
     shift_in(config, state, tick);

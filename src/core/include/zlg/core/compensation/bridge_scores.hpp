@@ -40,6 +40,7 @@ struct BridgeScore {
 };
 
 struct BridgeScoresState {
+    bool by_phase = false;                // the windows have the place within the count
     std::array<GapWeights, 2> weights{};  // of the two memories
     double n = 0.0, n_rough = 0.0;        // ordinary and rough windows so far, each up to its memory
     std::array<BridgeScore, n_candidates> score{};
@@ -61,7 +62,7 @@ void step(BridgeScoresState& state, WindowTicks window, bool rough) noexcept;
 // True when at least 100 ordinary windows have been judged.
 [[nodiscard]] bool is_judged(const BridgeScoresState& state) noexcept;
 
-// The memory with the smaller mean loss; the fast one before 500 windows have been judged.
+// The memory with the smaller mean loss; the fast one before 500 windows have been judged, or by phase 100.
 [[nodiscard]] MotionMemory better_memory(const BridgeScoresState& state) noexcept;
 
 // The better of the two polynomials if its mean loss is below that of the memory by a factor of 1.05, else the memory

@@ -25,6 +25,12 @@ namespace zlg::core {
 
 inline constexpr int window_ticks = 19;
 inline constexpr int max_window = 2 * window_ticks;
+
+// Windows in the moments before they are used; they come by blocks, so at the end of the first whole block, 0.6 s of 5 ms
+// ticks, or of a shorter one that a gap ends. With fewer the moments describe these few ticks and not the motion. By trial
+// on bench/accuracy.
+inline constexpr int min_windows = 50;
+
 using Window = std::array<double, max_window>;
 
 struct MotionMomentsConfig {
@@ -52,6 +58,7 @@ struct Moments {
 // A block of windows.
 struct MotionBlock {
     int n_windows = 0;
+    bool with_phase = false;      // all of them, or none
     Window first{};               // f of (2)
     std::array<Window, 2> row{};  // the first s rows of its matrix
 
