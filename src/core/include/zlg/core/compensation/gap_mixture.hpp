@@ -91,11 +91,12 @@ struct MixtureEstimate {
     bool known = false;
     double nothing = 1.0;  // weight of the model in which nothing is added
     // Of the other models together, times their weight:
-    double off_arcsec = 0.0;                                  // t_m - t_0
-    double coarse_off_arcsec = 0.0, coarse_off_arcsec2 = 0.0;  // the same with the weights of the variance, and its square
-    double variance_arcsec2 = 0.0;                            // v_m, so too
-    std::array<double, max_solved_gap> value_arcsec{};                   // ticks of the gap, less the level
-    MixtureColumn dual{};                                                // u
+    double off_arcsec = 0.0;  // t_m - t_0
+    double coarse_off_arcsec = 0.0,
+           coarse_off_arcsec2 = 0.0;                    // the same with the weights of the variance, and its square
+    double variance_arcsec2 = 0.0;                      // v_m, so too
+    std::array<double, max_solved_gap> value_arcsec{};  // ticks of the gap, less the level
+    MixtureColumn dual{};                               // u
 
     friend bool operator==(const MixtureEstimate&, const MixtureEstimate&) = default;
 };
