@@ -298,6 +298,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         state.first_waits = false;
     }
     tick.bias_arcsec = state.bias_arcsec;
+    tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
     const double drift_arcsec =
         step(config.gyro, config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
     tick.value_arcsec -= drift_arcsec;
