@@ -33,9 +33,9 @@ void apply_to_gap(const GapEstimate& found, AngleRow& row, unsigned j) noexcept 
 bool finds_something(const GapMixture& mixture) noexcept {
     const MixtureEstimate& m = mixture.estimate;
     const double learnt = mixture.nothing.variance;
-    const double changed = m.off_arcsec2 + m.variance_arcsec2 - (1.0 - m.nothing) * learnt;
+    const double changed = m.coarse_off_arcsec2 + m.variance_arcsec2 - (1.0 - m.nothing) * learnt;
     return m.known && m.nothing < most_of_nothing &&
-           (size(changed) > negligible * learnt || m.off_arcsec2 > negligible * learnt);
+           (size(changed) > negligible * learnt || m.coarse_off_arcsec2 > negligible * learnt);
 }
 
 double mixed_variance(const GapBridgeState& state, double variance) noexcept {
@@ -48,7 +48,8 @@ double mixed_variance(const GapBridgeState& state, double variance) noexcept {
     const double mean = m.nothing * off + m.off_arcsec;
     const double added = e.learnt ? added_uncertainty * (1.0 - m.nothing) : 0.0;
     const double of_others = (1.0 + added) * m.variance_arcsec2;
-    return m.nothing * (variance + off * off) + of_others + m.off_arcsec2 - mean * mean;
+    const double scatter = m.coarse_off_arcsec2 - 2.0 * mean * m.coarse_off_arcsec + (1.0 - m.nothing) * mean * mean;
+    return m.nothing * (variance + (off - mean) * (off - mean)) + of_others + scatter;
 }
 
 void apply(GapBridgeState& state, const Gap& gap, const GapEstimate& found, double variance,

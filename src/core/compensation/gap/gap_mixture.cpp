@@ -74,25 +74,39 @@ void scale(double factor, MixtureColumn& column) noexcept {
     for (double& x : column) x *= factor;
 }
 
-void rescale(double log_unit, MixtureSums& s) noexcept {
+// A weight as it counts in the variance: (3).
+double coarse(const GapMixture& m, double weight) noexcept {
+    return m.learnt ? square_root(square_root(weight)) : weight;
+}
+
+void rescale(double log_unit, GapMixture& m) noexcept {
+    MixtureSums& s = m.sums;
     const double keep = exponential(s.log_unit - log_unit);
     s.log_unit = log_unit;
     s.weight *= keep;
     s.off *= keep;
-    s.off_sq *= keep;
-    s.variance *= keep;
     s.rate *= keep;
     scale(keep, s.dual);
     scale(keep, s.reversed_dual);
     for (MixtureColumn& column : s.added) scale(keep, column);
+    const double keep_coarse = coarse(m, keep);
+    s.coarse_weight *= keep_coarse;
+    s.coarse_off *= keep_coarse;
+    s.coarse_off_sq *= keep_coarse;
+    s.coarse_variance *= keep_coarse;
 }
 
-void add(const MixtureModel& model, double off, double weight, MixtureSums& s) noexcept {
+void add(const MixtureModel& model, double weight, GapMixture& m) noexcept {
+    const double off = model.value - m.nothing.value;
+    MixtureSums& s = m.sums;
     s.weight += weight;
     s.off += weight * off;
-    s.off_sq += weight * off * off;
-    s.variance += weight * model.variance;
     s.rate += weight * model.rate;
+    const double in_variance = coarse(m, weight);
+    s.coarse_weight += in_variance;
+    s.coarse_off += in_variance * off;
+    s.coarse_off_sq += in_variance * off * off;
+    s.coarse_variance += in_variance * model.variance;
 }
 
 // Sums over the sizes of one shape, of s^2 L^T u in its coordinates as well.
@@ -113,14 +127,14 @@ void add_sizes(const Shape& shape, GapMixture& m, ShapeSums& sums) noexcept {
         if (!is_finite(log_weight)) continue;
         if (log_weight > m.sums.log_unit + most_log_weight) {
             const double keep = exponential(m.sums.log_unit - log_weight);
-            rescale(log_weight, m.sums);
+            rescale(log_weight, m);
             sums.weight *= keep;
             sums.rate *= keep;
             scale(keep, sums.dual);
             scale(keep, sums.by_size);
         }
         const double weight = exponential(log_weight - m.sums.log_unit);
-        add(model, model.value - m.nothing.value, weight, m.sums);
+        add(model, weight, m);
         sums.weight += weight;
         sums.rate += weight * model.rate;
         dual_of(m.shape, b, model.rate, y);
@@ -207,8 +221,12 @@ void conclude(const MotionCovariance& covariance, GapMixture& m) noexcept {
     MixtureEstimate& e = m.estimate;
     e.nothing = of_nothing * per_weight;
     e.off_arcsec = m.sums.off * per_weight;
-    e.off_arcsec2 = m.sums.off_sq * per_weight;
-    e.variance_arcsec2 = m.sums.variance * per_weight;
+    if (m.sums.coarse_weight > 0.0) {
+        const double per_coarse = m.sums.weight * per_weight / m.sums.coarse_weight;
+        e.coarse_off_arcsec = m.sums.coarse_off * per_coarse;
+        e.coarse_off_arcsec2 = m.sums.coarse_off_sq * per_coarse;
+        e.variance_arcsec2 = m.sums.coarse_variance * per_coarse;
+    }
     e.dual = backward(m.factor, m.sums.dual);
     for (unsigned i = 0; i < n; ++i) e.dual[i] += m.sums.reversed_dual[i];
     scale(per_weight, e.dual);
@@ -225,7 +243,7 @@ void conclude(const MotionCovariance& covariance, GapMixture& m) noexcept {
             for (unsigned i = 0; i < n; ++i)
                 e.value_arcsec[static_cast<unsigned>(j)] += per_weight * a.of(p.place[i], p.n_side + j) * dual[i];
     }
-    e.known = is_finite(e.off_arcsec2 + e.variance_arcsec2 + m.nothing.value + e.value_arcsec[0]);
+    e.known = is_finite(e.coarse_off_arcsec2 + e.variance_arcsec2 + m.nothing.value + e.value_arcsec[0]);
 }
 
 }  // namespace

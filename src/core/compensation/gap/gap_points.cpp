@@ -262,7 +262,7 @@ double scatter_of_points(const GapBridgeState& state) noexcept {
 }
 
 double relock_beyond(const GapBridgeState& state, const Gap& gap, std::int64_t end, int n_after) noexcept {
-    double sum = state.relock_to_come_arcsec2;
+    double sum = state.relock_to_come_arcsec2 + state.walk_of_switch_arcsec2;
     for (std::int64_t tick = gap.first_tick + gap.n + n_after; tick < end; ++tick)
         if (at(state, tick).measured) sum += at(state, tick).relock_variance_arcsec2;
     return sum;

@@ -71,7 +71,7 @@ void mix(GapBridgeState& state) noexcept;
 [[nodiscard]] double scatter_of_points(const GapBridgeState& state) noexcept;
 
 // Variance of the re-lock corrections in the ticks behind the points, `n_after` after the gap, with those still to come at
-// `end`.
+// `end`, and of the random walk in all re-lock ticks.
 [[nodiscard]] double relock_beyond(const GapBridgeState& state, const Gap& gap, std::int64_t end, int n_after) noexcept;
 
 // False angle in the reading of a point, as it is known, and its variance.

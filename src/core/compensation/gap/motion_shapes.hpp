@@ -70,7 +70,7 @@ constexpr Shape quiet(const std::array<std::array<double, ticks>, ticks>& table,
 
 // 13 sizes of what covers the window.
 constexpr Shape full(const std::array<std::array<double, window_ticks>, window_ticks>& table, double least) noexcept {
-    return {table[0].data(), window_ticks, -1, least, 6.0, most_sizes};
+    return {table[0].data(), window_ticks, -1, least, 8.0, most_sizes};
 }
 
 // Stationary motion of unit variance of a tick, by the distance of two ticks: a flat spectrum of the rate from 0 to c,

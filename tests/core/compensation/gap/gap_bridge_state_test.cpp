@@ -78,6 +78,24 @@ TEST(LearningBridge, AToneIsLearntAndItsSigmaIsTrue) {
     }
 }
 
+// The random walk of the re-lock ticks stays in the angle of a switch: in its sigma, and in nothing else.
+TEST(LearningBridge, SigmaOfASwitchHoldsTheRandomWalkAfterIt) {
+    constexpr double walk_arcsec2 = 0.7;
+    for (const BridgeMethod method : {BridgeMethod::quadratic, BridgeMethod::optimal, BridgeMethod::automatic}) {
+        const Log log = counted(6000, 3, tone);
+        Log walking = log;
+        for (TickInput& tick : walking) tick.walk_of_switch_arcsec2 = walk_arcsec2;
+        const Delivered without = run(learning(method), log, fine);
+        const Delivered with = run(learning(method), walking, fine);
+        EXPECT_EQ(with.rows, without.rows);
+        ASSERT_EQ(with.gaps.size(), without.gaps.size());
+        ASSERT_GT(with.gaps.size(), 30u);
+        for (std::size_t k = 0; k < with.gaps.size(); ++k)
+            EXPECT_NEAR(std::pow(with.gaps[k].sigma_sum_arcsec, 2.0),
+                        std::pow(without.gaps[k].sigma_sum_arcsec, 2.0) + walk_arcsec2, 1e-9);
+    }
+}
+
 // What is delivered in a gap is a prediction from the ticks before it, with two readings rounded at each point.
 TEST(LearningBridge, AToneIsPredictedDuringTheGap) {
     const Log log = counted(12000, 3, tone);

@@ -158,7 +158,7 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
                     add(reversed, 0.25, 40.0, 7,
                         [&](int i, int j) { return walk(of_acceleration, i - onset, j - onset); });
             }
-        add(false, of_acceleration ? 1.0 / 1024.0 : 1.0 / 16.0, 6.0, 13,
+        add(false, of_acceleration ? 1.0 / 1024.0 : 1.0 / 16.0, 8.0, 13,
             [&](int i, int j) { return walk(of_acceleration, i, j); });
     }
     if (!was_learnt) {
@@ -210,7 +210,9 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
     Column ticks = Column::Zero(all - n);
     Column dual = Column::Zero(n);
     long double off = 0.0L;
-    long double off_sq = 0.0L;
+    long double coarse = 0.0L;
+    long double coarse_off = 0.0L;
+    long double coarse_off_sq = 0.0L;
     long double variance = 0.0L;
     for (std::size_t c = 0; c < cases.size(); ++c) {
         // A walk that begins behind the last point adds nothing and is left out.
@@ -223,14 +225,19 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
             ticks += weight * f.ticks;
             dual += weight * f.dual;
             off += weight * (f.value - nothing.value);
-            off_sq += weight * (f.value - nothing.value) * (f.value - nothing.value);
-            variance += weight * f.variance;
+            const long double in_variance = was_learnt ? std::pow(weight, 0.25L) : weight;
+            coarse += in_variance;
+            coarse_off += in_variance * (f.value - nothing.value);
+            coarse_off_sq += in_variance * (f.value - nothing.value) * (f.value - nothing.value);
+            variance += in_variance * f.variance;
         }
     }
     e.nothing = static_cast<double>(prior / total);
     e.off_arcsec = static_cast<double>(off / total);
-    e.off_arcsec2 = static_cast<double>(off_sq / total);
-    e.variance_arcsec2 = static_cast<double>(variance / total);
+    const long double others = (total - prior) / total;
+    e.coarse_off_arcsec = static_cast<double>(others * coarse_off / coarse);
+    e.coarse_off_arcsec2 = static_cast<double>(others * coarse_off_sq / coarse);
+    e.variance_arcsec2 = static_cast<double>(others * variance / coarse);
     for (int j = 0; j < p.n_gap; ++j)
         e.value_arcsec[static_cast<std::size_t>(j)] = static_cast<double>(ticks[j] / total);
     for (Eigen::Index i = 0; i < n; ++i) e.dual[static_cast<std::size_t>(i)] = static_cast<double>(dual[i] / total);
@@ -249,7 +256,8 @@ void expect_near(const MixtureEstimate& got, const MixtureEstimate& wanted, cons
     const auto near = [unit](double a, double b) { EXPECT_NEAR(a, b, 1e-6 * std::abs(b) + 1e-7 * unit); };
     near(got.nothing, wanted.nothing);
     near(got.off_arcsec, wanted.off_arcsec);
-    near(got.off_arcsec2, wanted.off_arcsec2);
+    near(got.coarse_off_arcsec, wanted.coarse_off_arcsec);
+    near(got.coarse_off_arcsec2, wanted.coarse_off_arcsec2);
     near(got.variance_arcsec2, wanted.variance_arcsec2);
     for (std::size_t j = 0; j < static_cast<std::size_t>(p.n_gap); ++j)
         near(got.value_arcsec[j], wanted.value_arcsec[j]);

@@ -110,6 +110,7 @@ struct GapBridgeState {
     // the gap it steps: an estimate across it would take the step for a false angle or for motion.
     double magnetic_arcsec = 0.0;
     double relock_to_come_arcsec2 = 0.0;  // variance of the re-lock corrections still to come
+    double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
     double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
     std::array<HistoryTick, history_ticks> history{};

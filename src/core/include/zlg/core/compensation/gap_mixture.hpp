@@ -15,15 +15,23 @@
 //
 //   log p(z|m) = -1/2 (z^T P_m z + log |V_m| + log H^T V_m^-1 H) + const                                 (2)
 //
-// With the weights w_m ~ prior p(z|m) the estimate is t = sum of w_m t_m and its variance sum of w_m (v_m + (t_m - t)^2);
+// With the weights w_m ~ prior p(z|m) the estimate is t = sum of w_m t_m and its variance sum of u_m (v_m + (t_m - t)^2);
 // t_m, v_m as in optimal_bridge.hpp (3), (4); gap_final.cpp enlarges v_m where something happened. Points are whole ticks.
+//
+// A manoeuvre is none of the models: its points are so exact that (2) decides between models which are all wrong, and one
+// alone says nothing of how wrong it is. So in the variance the evidence among those in which something is added counts only
+// in part, a fourth root, while they keep their weight together:
+//
+//   u_m ~ w_m^(1/4),   sum of u_m = sum of w_m = 1 - w_0;   u_0 = w_0                                     (3)
+//
+// Where nothing was learnt the models hold every motion, and u_m = w_m.
 //
 // Computation: C + E = L L^T is factored once. In coordinates y = L^-1 z every model of one shape R is I + s^2 W, W =
 // L^-1 R L^-T, and after one reduction of W to tridiagonal form by reflections each s costs some n operations. A walk that
 // begins at point j changes the coordinates from j on alone.
 //
 // Method: restricted likelihood, Patterson and Thompson, Biometrika 58 (1971); model averaging, Hoeting et al., Statist. Sci.
-// 14 (1999); tridiagonal form, Golub and Van Loan, Matrix Computations, sec. 8.3.
+// 14 (1999); a power of the likelihood where no model is true, Miller and Dunson, J. Am. Stat. Assoc. 114 (2019); tridiagonal form, Golub and Van Loan, Matrix Computations, sec. 8.3.
 
 #include <array>
 #include <cstdint>
@@ -69,12 +77,12 @@ struct MixtureSums {
         0.0;  // weights are those of prior and (2), over that where nothing is added, times exp(-log_unit)
     double weight = 0.0;
     double off = 0.0;               // of t_m - t_0, the angle of the whole switch, 0: nothing added
-    double off_sq = 0.0;            // of its square
-    double variance = 0.0;          // of v_m
     double rate = 0.0;              // of b_m
     MixtureColumn dual{};           // of L^T u_m, u = P z
     MixtureColumn reversed_dual{};  // of u_m, of the models in reversed time, once they are done
     std::array<MixtureColumn, most_full_shapes> added{};  // of s^2 L^T u_m, by shape that covers the window
+    // With the weights of the variance: of 1, t_m - t_0, its square, v_m.
+    double coarse_weight = 0.0, coarse_off = 0.0, coarse_off_sq = 0.0, coarse_variance = 0.0;
 
     friend bool operator==(const MixtureSums&, const MixtureSums&) = default;
 };
@@ -83,9 +91,12 @@ struct MixtureEstimate {
     bool known = false;
     double nothing = 1.0;  // weight of the model in which nothing is added
     // Of the other models together, times their weight:
-    double off_arcsec = 0.0, off_arcsec2 = 0.0, variance_arcsec2 = 0.0;  // t_m - t_0, its square, v_m
-    std::array<double, max_solved_gap> value_arcsec{};                   // ticks of the gap, less the level
-    MixtureColumn dual{};                                                // u
+    double off_arcsec = 0.0;  // t_m - t_0
+    double coarse_off_arcsec = 0.0,
+           coarse_off_arcsec2 = 0.0;                    // the same with the weights of the variance, and its square
+    double variance_arcsec2 = 0.0;                      // v_m, so too
+    std::array<double, max_solved_gap> value_arcsec{};  // ticks of the gap, less the level
+    MixtureColumn dual{};                               // u
 
     friend bool operator==(const MixtureEstimate&, const MixtureEstimate&) = default;
 };
