@@ -27,7 +27,6 @@ public:
         replay_.take(first.record, loop_.light());
         const rig::LoopHalf second = loop_.advance();
         finder_.take(tick, first.record, second.record);
-        forget_windows(tick);
         const double before_arcsec = replay_.state().magnetic.subtracted_arcsec;
         const core::AngleSample sample = replay_.take(second.record, loop_.light()).sample;
         truth_[static_cast<std::size_t>(tick) % truth_.size()] = {
@@ -44,13 +43,6 @@ public:
 private:
     void take(const core::AngleRow& row) {
         meter_.take(row, truth_[static_cast<std::size_t>(row.tick) % truth_.size()], finder_.windows());
-    }
-
-    void forget_windows(std::int64_t tick) {
-        auto& windows = finder_.windows();
-        while (!windows.empty() && windows.front().gap_is_over() &&
-               windows.front().last_tick < tick - core::history_ticks)
-            windows.pop_front();
     }
 
     config::Config config_;
