@@ -21,7 +21,6 @@ void MeteredCompensation::take(const rig::LoopHalf& half, core::LightSamples lig
         first_arcsec_ = half.truth.dtheta_arcsec;
     } else {
         finder_.take(tick_, first_, half.record);
-        forget_windows();
         const double before_arcsec = replay_.state().magnetic.subtracted_arcsec;
         const core::AngleSample sample = replay_.take(half.record, light).sample;
         truth_[static_cast<std::size_t>(tick_) % truth_.size()] = {
@@ -40,12 +39,6 @@ const ErrorMeter& MeteredCompensation::end() {
 
 void MeteredCompensation::take(const core::AngleRow& row) {
     meter_.take(row, truth_[static_cast<std::size_t>(row.tick) % truth_.size()], finder_.windows());
-}
-
-void MeteredCompensation::forget_windows() {
-    auto& windows = finder_.windows();
-    while (!windows.empty() && windows.front().gap_is_over() && windows.front().last_tick < tick_ - core::history_ticks)
-        windows.pop_front();
 }
 
 ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {

@@ -1,7 +1,6 @@
 #include <zlg/study/switch_table.hpp>
 
 #include <zlg/core/common/maths.hpp>
-#include <zlg/core/compensation/gap_bridge_state.hpp>
 
 namespace zlg::study {
 namespace {
@@ -18,10 +17,7 @@ const Value* found(const std::map<std::int64_t, Value>& all, std::int64_t tick) 
 
 void SwitchTable::take(std::int64_t tick, const core::HalfRecord& first, const core::HalfRecord& second) {
     finder_.take(tick, first, second);
-    auto& windows = finder_.windows();
-    // The final row of its last tick comes within history_ticks.
-    while (!windows.empty() && windows.front().gap_is_over() && windows.front().last_tick < tick - core::history_ticks)
-        windows.pop_front();
+    const auto& windows = finder_.windows();
     if (!windows.empty() && windows.back().gap_is_over()) switches_[windows.back().first_tick] = windows.back();
 }
 

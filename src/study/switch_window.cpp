@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <zlg/core/compensation/gap_bridge_state.hpp>
+
 namespace zlg::study {
 namespace {
 
@@ -34,6 +36,9 @@ void SwitchFinder::end_gap(std::int64_t tick, const core::HalfRecord& first) {
 }
 
 void SwitchFinder::take(std::int64_t tick, const core::HalfRecord& first, const core::HalfRecord& second) {
+    while (!windows_.empty() && windows_.front().gap_is_over() &&
+           windows_.front().last_tick < tick - core::history_ticks)
+        windows_.pop_front();
     if (!is_measured(first, second)) {
         if (!in_gap_) begin_gap(tick);
         was_open_ = !second.loop_closed;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include <fmt/format.h>
 
@@ -160,15 +159,11 @@ std::vector<DriftFigures> figures_of(const DriftCampaign& campaign, const std::v
 
 }  // namespace
 
-std::vector<DriftFigures> run(const DriftCampaign& campaign, const std::function<void(std::int64_t)>& done) {
+std::vector<DriftFigures> run(const DriftCampaign& campaign) {
     const auto seeds = static_cast<std::size_t>(campaign.seeds);
     std::vector<RunOfGyro> runs(campaign.gyros.size() * seeds);
-    std::mutex mutex;
-    std::int64_t n_done = 0;
     numeric::in_parallel(runs.size(), campaign.threads, [&](std::size_t k) {
         runs[k] = run_one(campaign, campaign.gyros[k / seeds], campaign.first_seed + k % seeds);
-        const std::lock_guard lock{mutex};
-        if (done) done(++n_done);
     });
     return figures_of(campaign, runs);
 }

@@ -6,6 +6,8 @@
 
 #include <zlg/trials/physics_pictures.hpp>
 
+#include "parts.hpp"
+
 namespace zlg::trials {
 namespace {
 
@@ -26,6 +28,20 @@ Size size_of(const std::string& element) {
 }
 
 }  // namespace
+
+PhysicsPictures physics_pictures() {
+    PhysicsPictures made;
+    made.pictures.push_back(chain_picture());
+    add_waves(made);
+    add_bias(made);
+    add_discriminator(made);
+    add_field(made);
+    add_lock_in(made);
+    add_switch(made);
+    add_piezo(made);
+    add_misses(made);
+    return made;
+}
 
 std::string svg_file(const Picture& picture) {
     constexpr std::string_view tag = "<svg";

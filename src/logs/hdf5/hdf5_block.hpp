@@ -34,7 +34,12 @@ class Block {
 public:
     explicit Block(const Source& source) : source_{&source} {}
 
-    void begin(hsize_t first, std::size_t n);
+    void begin(hsize_t first, std::size_t n) {
+        first_ = first;
+        n_ = n;
+        good_rows_ = n;
+        damage_ = nullptr;
+    }
 
     [[nodiscard]] hsize_t end() const { return first_ + n_; }
     [[nodiscard]] std::size_t good_rows() const { return good_rows_; }
@@ -63,10 +68,13 @@ public:
 
     // Of a value in a row of the block.
     [[nodiscard]] FormatError complaint(std::size_t row, const std::string& column, const std::string& value,
-                                        const std::string& what) const;
+                                        const std::string& what) const {
+        return FormatError(
+            fmt::format("{}, row {}, column '{}': '{}' {}", source_->path(), first_ + row + 1, column, value, what));
+    }
 
     // Complains of the row behind the good ones. errors  FormatError or IoError, always.
-    [[noreturn]] void fail() const;
+    [[noreturn]] void fail() const { std::rethrow_exception(damage_); }
 
 private:
     // Reads the good rows, or those before the first that cannot be read; returns how many are integers of type T.

@@ -115,9 +115,7 @@ TEST(DriftCampaign, ByPhaseASwitchHasNoErrorWithTheSignOfTheFalseAngle) {
 TEST(DriftCampaign, DoesNotDependOnTheNumberOfThreads) {
     DriftCampaign c = campaign({{"a", gyro(), {method(core::MagneticMethod::estimate)}}});
     c.times_s = {100.0};
-    std::int64_t last = 0;
-    const std::string one = markdown(run(c, [&](std::int64_t n) { last = n; }));
-    EXPECT_EQ(last, 3);
+    const std::string one = markdown(run(c));
     c.threads = 3;
     EXPECT_EQ(markdown(run(c)), one);
     c.first_seed = 2;

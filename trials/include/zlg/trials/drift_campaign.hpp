@@ -6,7 +6,6 @@
 // without it as well, of the same runs.
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -61,10 +60,8 @@ struct DriftFigures {
 
 // In the order of gyros and methods. They don't depend on the number of threads.
 //
-// done    called with the number of runs done so far, from any thread, one at a time.
 // errors  config::ConfigError.
-[[nodiscard]] std::vector<DriftFigures> run(const DriftCampaign& campaign,
-                                            const std::function<void(std::int64_t)>& done = {});
+[[nodiscard]] std::vector<DriftFigures> run(const DriftCampaign& campaign);
 
 [[nodiscard]] std::string markdown(const std::vector<DriftFigures>& figures);
 

@@ -34,7 +34,6 @@ public:
 
 private:
     void take(const core::AngleRow& row);
-    void forget_windows();
 
     config::Config config_;
     rig::Replay replay_;

@@ -42,7 +42,7 @@ public:
     }
 
     // Those of which some final row may still come, oldest first.
-    [[nodiscard]] const std::deque<SwitchWindow>& windows() { return finder_.windows(); }
+    [[nodiscard]] const std::deque<SwitchWindow>& windows() const { return finder_.windows(); }
 
     // A switch is listed once its gap is over.
     [[nodiscard]] std::vector<SwitchLine> lines() const;

@@ -41,8 +41,8 @@ public:
 
     void take(std::int64_t tick, const core::HalfRecord& first, const core::HalfRecord& second);
 
-    // Oldest first. The caller drops those it has done with.
-    std::deque<SwitchWindow>& windows() { return windows_; }
+    // Oldest first. One is kept until the final row of its last tick must have come.
+    [[nodiscard]] const std::deque<SwitchWindow>& windows() const { return windows_; }
 
 private:
     void begin_gap(std::int64_t tick);
