@@ -96,7 +96,8 @@ class GapsOfOneTick(CliTest):
         return [int(row["gap_ticks"]) for row in rows], rms, over_sigma
 
     def test_occur_and_their_errors_are_those_of_the_counter(self):
-        # Two places that are each anywhere in a count.
+        # Two places that are each anywhere in a count. In fidelity laser these stay in the error, for its truth has no rounding, and sigma is
+        # of what is without them.
         counter = 3.263 / math.sqrt(6.0)
         for fidelity in ("averaged", "laser"):
             for readout in ("count", "phase"):
