@@ -95,7 +95,7 @@ double subtract(const CompensationConstants& gyro, const MagneticDriftConfig& c,
 MagneticDriftFault check(const CompensationConstants& gyro, const MagneticDriftConfig& c) noexcept {
     const auto is_sigma = [](double x) { return x >= 0.0 && x <= 1e6; };
     const auto is_time = [](double x) { return x >= 1e-9 && x <= 1e12; };
-    if (!is_sigma(gyro.random_walk.value())) return MagneticDriftFault::walk;
+    if (c.method != MagneticMethod::none && !is_sigma(gyro.random_walk.value())) return MagneticDriftFault::walk;
     if (!(size(c.presumed_arcsec_s) <= 1e6 && is_sigma(c.presumed_sigma_arcsec_s))) return MagneticDriftFault::presumed;
     const bool warming = size(c.warming_arcsec_s) <= 1e6 && is_sigma(c.warming_sigma_arcsec_s);
     if (!(warming && is_time(c.thermal_time.value()))) return MagneticDriftFault::warming;

@@ -27,7 +27,9 @@ TEST(MagneticDrift, WhatIsNoNumberIsRefused) {
     const CompensationConstants wild{.random_walk = ArcsecPerRootSecond{2e6}};
     EXPECT_EQ(check(wild, c), MagneticDriftFault::walk);
     c.method = MagneticMethod::none;
-    EXPECT_EQ(check(wild, c), MagneticDriftFault::walk);
+    EXPECT_EQ(check(wild, c), MagneticDriftFault::none);
+    c.thermal_time = Seconds{0.0};
+    EXPECT_EQ(check(constants, c), MagneticDriftFault::warming);
     c = config_of();
     c.presumed_sigma_arcsec_s = nan_value;
     EXPECT_EQ(check(constants, c), MagneticDriftFault::presumed);

@@ -45,7 +45,8 @@ struct MagneticDriftConfig {
 
 enum class MagneticDriftFault : unsigned char { none, walk, presumed, warming };
 
-// Asked whatever the method: by phase every one uses the numbers. The random walk may be up to 1e6.
+// By phase every method uses the numbers, so they are asked of `none` too. The random walk may be up to 1e6, of `none`, whose
+// estimate is then never trusted, any.
 [[nodiscard]] MagneticDriftFault check(const CompensationConstants& gyro, const MagneticDriftConfig& config) noexcept;
 
 struct MagneticDriftState {
