@@ -33,9 +33,7 @@ void meets_what_is_wanted() {
         "first manoeuvres: ramps from 50 ms, NEV at most 2",
         "first manoeuvres: ramps from 50 ms, at most 2 % beyond 3 sigma",
         "nothing happens in 90 %, a ramp from 50 ms in 10 % of the gaps: NEV at least 0.5",
-        "gaps of 1 to 10 ticks: NEV at least 0.7",
-        "another motion from the gap on: NEV at most 3",
-        "by phase, flat to 20 Hz, 8485 \"/s: rms at most 0.55\""};
+        "gaps of 1 to 10 ticks: NEV at least 0.7", "another motion from the gap on: NEV at most 3"};
     for (const Criterion& c : quick().criteria)
         EXPECT_EQ(c.verdict == Verdict::missed, known_misses.contains(c.wanted))
             << c.table << ": " << c.wanted << ": " << c.got;
