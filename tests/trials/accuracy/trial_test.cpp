@@ -73,6 +73,39 @@ TEST(AccuracyTrial, AnUncorrectedSwitchKeepsItsFalseAngle) {
     EXPECT_LT(relock.sd_arcsec, 1e-6);
 }
 
+// The first switches of 60 gyros whose ellipse of the photodiodes is not known at the start. It takes 200 ticks.
+ErrorFigures first_by_phase(const MotionLaw& motion, std::int64_t learn_ticks) {
+    const GyroLaw gyro = gyro_of("phase");
+    const auto methods = methods_for(config_of(gyro), {method_name::automatic});
+    std::vector<SwitchError> all;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        const SwitchTrial trial{.gyro = gyro,
+                                .motion = motion,
+                                .switches = 5,
+                                .learn_ticks = learn_ticks,
+                                .interval_ticks = 1000,
+                                .seed = seed};
+        const auto errors = run_trial(trial, methods);
+        all.insert(all.end(), errors[0].begin(), errors[0].end());
+    }
+    return figures_of(all);
+}
+
+// What whole counts have shown before stays in no motion that is read by phase, and the first switches, of which the scale of the false
+// angle is learnt, are as good as later ones. The mean square of 300 errors has a standard error of 8 %.
+TEST(AccuracyTrial, TheFirstSwitchesByPhaseAreAsGoodAsLaterOnes) {
+    for (const std::int64_t learn_ticks : {1000, 5000}) {
+        const ErrorFigures random = first_by_phase({.bands = {{0.0, 20.0, 8485.0}}}, learn_ticks);
+        EXPECT_LT(random.rms_arcsec, 0.55) << learn_ticks;
+        const ErrorFigures sine = first_by_phase({.tones = {{20.06, 12000.0}}}, learn_ticks);
+        EXPECT_LT(sine.rms_arcsec, 0.15) << learn_ticks;
+        for (const ErrorFigures& f : {random, sine}) {
+            EXPECT_GT(f.nev, 0.7) << learn_ticks;
+            EXPECT_LT(f.nev, 1.4) << learn_ticks;
+        }
+    }
+}
+
 TEST(AccuracyStatistics, AreThoseOfTheDefinition) {
     const std::vector<SwitchError> errors{
         {.error_arcsec = 1.0, .sigma_arcsec = 1.0, .sign = 1},

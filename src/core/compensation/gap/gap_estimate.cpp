@@ -312,6 +312,8 @@ EstimatedAngle estimate(const CompensationConstants& gyro, const GapBridgeConfig
         misfit *= deflation(problem, found.innovation_ratio);
     out.has_history = true;
     const bool something = finds_something(state.estimate.mixture);
+    // A switch beside a manoeuvre says nothing of the gyro.
+    if (!something && !problem.with_phase) learn_scale(state);
     const double of_sum = misfit * found.sum_variance_arcsec2;
     double variance = of_sum;
     const RoundingLaw law = law_of(gyro, config, state, problem.halves, problem.with_phase);
@@ -342,9 +344,10 @@ EstimatedAngle estimate(const CompensationConstants& gyro, const GapBridgeConfig
     } else {
         apply(state, gap, found, variance + beyond, out);
     }
-    // Only now: the dual belongs to the scale and the variance with which the problem was solved. A switch beside a manoeuvre
-    // says nothing of the gyro.
-    learn_scale(state);
+    // Only now, for the corrections are made of the scale, its variance and the dual of one problem: with the scale that this switch has
+    // taught, its step would be in them once more, in part. By phase that is as large as the whole error; of whole counts, whose sigma is
+    // rather too large, it makes 1.5 % at most.
+    if (problem.with_phase) learn_scale(state);
     return out;
 }
 

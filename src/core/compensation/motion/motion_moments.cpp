@@ -92,7 +92,7 @@ void add_row(int window, int r, const Window& row, const std::array<double, 2>& 
     }
 }
 
-// The memories hold readings without the place within the count, and the block has it: see the head of the header.
+// The memories hold readings without the place within the count, and the block has it.
 bool begins_anew(const MotionMomentsState& state) noexcept {
     const Moments& learnt = state.moments[fast_memory];
     return state.block.with_phase && learnt.n_windows > 0.0 && learnt.by_phase < 1.0;

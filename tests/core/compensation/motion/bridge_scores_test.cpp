@@ -79,6 +79,19 @@ TEST(BridgeScores, TheOneThatLosesLessIsTaken) {
     EXPECT_NEAR(variance_ratio(state, slow_memory), 3.5625, 0.35);
 }
 
+TEST(BridgeScores, ByPhaseTheSlowMemoryIsTakenSooner) {
+    for (const bool by_phase : {false, true}) {
+        BridgeScoresState state{.by_phase = by_phase};
+        state.weights = {mean_weights(1.0), quadratic_weights(1.0)};
+        const int least = by_phase ? 100 : 500;
+        for (int k = 0; k < least; ++k) {
+            EXPECT_EQ(better_memory(state), fast_memory) << k;
+            step(state, parabola(1.0), false);
+        }
+        EXPECT_EQ(better_memory(state), slow_memory) << by_phase;
+    }
+}
+
 TEST(BridgeScores, RoughWindowsAreAnAccountOfTheirOwn) {
     BridgeScoresState state;
     state.weights = {mean_weights(1.0), mean_weights(1.0)};

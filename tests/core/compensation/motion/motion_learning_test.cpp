@@ -51,6 +51,67 @@ TEST(MotionLearning, ABlowIsNotLearntButANewMotionIs) {
     EXPECT_NEAR(covariance_of(smooth, config, quiet, {.memory = fast_memory}).of_ticks(0, 0), 0.5e6, 0.1e6);
 }
 
+// Noise of readings by phase after a motion that whole counts read as a thousand times as large. The debounce is longer than a window.
+MotionLearningState learnt_by_phase(const OptimalBridgeConfig& config, Random& random, int n_ticks) {
+    MotionLearningState state;
+    for (int t = 0; t < 3000; ++t) step(smooth, config, state, {true, 1e3 * random.normal(), 0.0}, true);
+    learn_noise(config, state, random, 32);
+    state.moments.with_phase = true;
+    learn_noise(config, state, random, n_ticks);
+    return state;
+}
+
+TEST(MotionLearning, ByPhaseTheMotionIsLearntAnew) {
+    Random random{11};
+    const OptimalBridgeConfig config;
+    const MotionLearningState before = learnt_by_phase(config, random, 99);
+    EXPECT_EQ(before.moments.moments[fast_memory].by_phase, 0.0);
+    EXPECT_GT(before.scores.n, 0.0);
+    EXPECT_TRUE(is_ready(config, before));
+
+    const MotionLearningState after = learnt_by_phase(config, random, 100);
+    for (const MotionMemory memory : {fast_memory, slow_memory}) {
+        EXPECT_EQ(after.moments.moments[memory].by_phase, 1.0);
+        EXPECT_EQ(after.moments.moments[memory].n_windows, 100.0);
+        EXPECT_NEAR(after.moments.moments[memory].scatter, 1.0, 0.4);
+    }
+    // Its losses as well, and both memories have weights after one more block.
+    EXPECT_EQ(after.scores.n, 0.0);
+    EXPECT_TRUE(is_ready(config, after));
+    const MotionLearningState judged = learnt_by_phase(config, random, 310);
+    EXPECT_GT(judged.scores.n, 50.0);
+    EXPECT_LT(judged.scores.score[by_fast_memory].loss, 10.0);
+}
+
+TEST(MotionLearning, TooFewWindowsOfOneKindAreLeftOut) {
+    Random random{12};
+    const OptimalBridgeConfig config;
+    const auto& fast = [](const MotionLearningState& s) -> const Moments& { return s.moments.moments[fast_memory]; };
+    // A gap after 49 windows by phase, then 50 of them.
+    MotionLearningState state = learnt_by_phase(config, random, 49);
+    step(smooth, config, state, {}, true);
+    EXPECT_EQ(fast(state).by_phase, 0.0);
+    learn_noise(config, state, random, window_ticks - 1 + min_windows);
+    step(smooth, config, state, {}, true);
+    EXPECT_EQ(fast(state).by_phase, 1.0);
+    EXPECT_EQ(fast(state).n_windows, min_windows);
+
+    // The place is lost for 99 ticks, and then for 100.
+    const Moments known = fast(state);
+    learn_noise(config, state, random, window_ticks - 1);
+    state.moments.with_phase = false;
+    learn_noise(config, state, random, 99);
+    step(smooth, config, state, {}, true);
+    EXPECT_EQ(fast(state), known);
+    learn_noise(config, state, random, window_ticks - 1 + 100);
+    EXPECT_LT(fast(state).by_phase, 1.0);
+    EXPECT_GT(fast(state).n_windows, min_windows);
+    state.moments.with_phase = true;
+    learn_noise(config, state, random, 100);
+    EXPECT_EQ(fast(state).by_phase, 1.0);
+    EXPECT_EQ(fast(state).n_windows, 100.0);
+}
+
 TEST(MotionLearning, HalvesMakeTheSameTicks) {
     Random random{7};
     MotionLearningState by_ticks;

@@ -18,6 +18,11 @@
 //   M <- exp(-n/N) M + C,   n: windows of the block,   N = 500 and 3000                                   (3)
 //
 // The level, the slow mean of a tick, is an average over some 20 blocks.
+//
+// Windows of whole counts hold their rounding, ten thousand times the variance of a reading by phase, and would spoil the
+// memories for as long as these remember it. So a block holds windows of one kind, and the first one by phase, of 50
+// windows or more, begins both memories anew. Where the place within the count is lost for less than a block, the whole
+// counts are left out.
 
 #include <array>
 
