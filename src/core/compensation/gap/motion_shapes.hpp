@@ -68,9 +68,10 @@ constexpr Shape quiet(const std::array<std::array<double, ticks>, ticks>& table,
     return {table[0].data(), static_cast<int>(ticks), quiet_ticks, 0.25, 40.0, 7};
 }
 
-// 13 sizes of what covers the window.
-constexpr Shape full(const std::array<std::array<double, window_ticks>, window_ticks>& table, double least) noexcept {
-    return {table[0].data(), window_ticks, -1, least, 8.0, most_sizes};
+// 13 sizes of what covers the window: up to 100 deg/s within 20 ms, read by phase, where the steps are 8.
+constexpr Shape full(const std::array<std::array<double, window_ticks>, window_ticks>& table, double least,
+                     double step) noexcept {
+    return {table[0].data(), window_ticks, -1, least, step, most_sizes};
 }
 
 // Stationary motion of unit variance of a tick, by the distance of two ticks: a flat spectrum of the rate from 0 to c,
@@ -126,11 +127,12 @@ inline constexpr std::array<Shape, quiet_shapes> quiet_motion{quiet(rate_walk, 2
                                                               quiet(acceleration_walk, 3),
                                                               quiet(acceleration_walk_amid, 4),
                                                               quiet(acceleration_walk, 6)};
-inline constexpr std::array<Shape, 2> full_motion{full(rate_walk, 1.0 / 16.0), full(acceleration_walk, 1.0 / 1024.0)};
+inline constexpr std::array<Shape, 2> full_motion{full(rate_walk, 1.0 / 16.0, 8.0),
+                                                  full(acceleration_walk, 1.0 / 1024.0, 8.0)};
 
 // What a gyro may do of which nothing is known yet. By trial on zlg_sigma_campaign and on tones of 5 to 40 Hz.
-inline constexpr std::array<Shape, most_full_shapes> any_motion{full_motion[0],
-                                                                full_motion[1],
+inline constexpr std::array<Shape, most_full_shapes> any_motion{full(rate_walk, 1.0 / 16.0, 6.0),
+                                                                full(acceleration_walk, 1.0 / 1024.0, 6.0),
                                                                 stationary(independent_ticks, 9.0, most_sizes),
                                                                 stationary(below_10_hz, 14.0, 11),
                                                                 stationary(below_20_hz, 14.0, 11),

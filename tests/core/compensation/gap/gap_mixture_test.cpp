@@ -158,7 +158,7 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
                     add(reversed, 0.25, 40.0, 7,
                         [&](int i, int j) { return walk(of_acceleration, i - onset, j - onset); });
             }
-        add(false, of_acceleration ? 1.0 / 1024.0 : 1.0 / 16.0, 8.0, 13,
+        add(false, of_acceleration ? 1.0 / 1024.0 : 1.0 / 16.0, was_learnt ? 8.0 : 6.0, 13,
             [&](int i, int j) { return walk(of_acceleration, i, j); });
     }
     if (!was_learnt) {
