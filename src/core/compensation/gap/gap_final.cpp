@@ -18,8 +18,8 @@ constexpr double negligible = 0.02;
 constexpr double most_of_nothing = 0.6;
 
 // A manoeuvre is smoother than a random walk in one place and sharper in another, so that a model's own variance is too
-// small where it matters: by so much, in parts of it, where something is sure to have happened, and less in proportion
-// where it is not. By trial on zlg_manoeuvre_campaign.
+// small where it matters: by so much, in parts of it, where something is sure to have happened, and less, as the square,
+// where it is not. By trial on zlg_manoeuvre_campaign and, at rest, on zlg_sigma_campaign.
 constexpr double added_uncertainty = 3.5;
 
 void apply_to_gap(const GapEstimate& found, AngleRow& row, unsigned j) noexcept {
@@ -46,7 +46,8 @@ double mixed_variance(const GapBridgeState& state, double variance) noexcept {
     double off = -e.mixture.nothing.value - product(e.data.error_with_all, found.dual, e.problem.factor.n);
     for (unsigned j = 0; j < static_cast<unsigned>(e.problem.n_gap); ++j) off += found.value_arcsec[j] - e.data.level;
     const double mean = m.nothing * off + m.off_arcsec;
-    const double added = e.learnt ? added_uncertainty * (1.0 - m.nothing) : 0.0;
+    const double something = 1.0 - m.nothing;
+    const double added = e.learnt ? added_uncertainty * something * something : 0.0;
     const double of_others = (1.0 + added) * m.variance_arcsec2;
     const double scatter = m.coarse_off_arcsec2 - 2.0 * mean * m.coarse_off_arcsec + (1.0 - m.nothing) * mean * mean;
     return m.nothing * (variance + (off - mean) * (off - mean)) + of_others + scatter;

@@ -85,6 +85,8 @@ void rescale(double log_unit, GapMixture& m) noexcept {
     s.log_unit = log_unit;
     s.weight *= keep;
     s.off *= keep;
+    s.off_sq *= keep;
+    s.variance *= keep;
     s.rate *= keep;
     scale(keep, s.dual);
     scale(keep, s.reversed_dual);
@@ -101,6 +103,8 @@ void add(const MixtureModel& model, double weight, GapMixture& m) noexcept {
     MixtureSums& s = m.sums;
     s.weight += weight;
     s.off += weight * off;
+    s.off_sq += weight * off * off;
+    s.variance += weight * model.variance;
     s.rate += weight * model.rate;
     const double in_variance = coarse(m, weight);
     s.coarse_weight += in_variance;
@@ -222,10 +226,12 @@ void conclude(const MotionCovariance& covariance, GapMixture& m) noexcept {
     e.nothing = of_nothing * per_weight;
     e.off_arcsec = m.sums.off * per_weight;
     if (m.sums.coarse_weight > 0.0) {
-        const double per_coarse = m.sums.weight * per_weight / m.sums.coarse_weight;
-        e.coarse_off_arcsec = m.sums.coarse_off * per_coarse;
-        e.coarse_off_arcsec2 = m.sums.coarse_off_sq * per_coarse;
-        e.variance_arcsec2 = m.sums.coarse_variance * per_coarse;
+        const double others = m.sums.weight * per_weight;
+        const double per_coarse = others * others / m.sums.coarse_weight;
+        const double per_fine = e.nothing * per_weight;
+        e.coarse_off_arcsec = m.sums.coarse_off * per_coarse + m.sums.off * per_fine;
+        e.coarse_off_arcsec2 = m.sums.coarse_off_sq * per_coarse + m.sums.off_sq * per_fine;
+        e.variance_arcsec2 = m.sums.coarse_variance * per_coarse + m.sums.variance * per_fine;
     }
     e.dual = backward(m.factor, m.sums.dual);
     for (unsigned i = 0; i < n; ++i) e.dual[i] += m.sums.reversed_dual[i];

@@ -214,6 +214,8 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
     long double coarse_off = 0.0L;
     long double coarse_off_sq = 0.0L;
     long double variance = 0.0L;
+    long double off_sq = 0.0L;
+    long double fine_variance = 0.0L;
     for (std::size_t c = 0; c < cases.size(); ++c) {
         // A walk that begins behind the last point adds nothing and is left out.
         if (cases[c].added.topLeftCorner(n, n).isZero(0.0L)) continue;
@@ -225,6 +227,8 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
             ticks += weight * f.ticks;
             dual += weight * f.dual;
             off += weight * (f.value - nothing.value);
+            off_sq += weight * (f.value - nothing.value) * (f.value - nothing.value);
+            fine_variance += weight * f.variance;
             const long double in_variance = was_learnt ? std::pow(weight, 0.25L) : weight;
             coarse += in_variance;
             coarse_off += in_variance * (f.value - nothing.value);
@@ -235,9 +239,11 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
     e.nothing = static_cast<double>(prior / total);
     e.off_arcsec = static_cast<double>(off / total);
     const long double others = (total - prior) / total;
-    e.coarse_off_arcsec = static_cast<double>(others * coarse_off / coarse);
-    e.coarse_off_arcsec2 = static_cast<double>(others * coarse_off_sq / coarse);
-    e.variance_arcsec2 = static_cast<double>(others * variance / coarse);
+    e.coarse_off_arcsec = static_cast<double>(others * others * coarse_off / coarse + prior / total * off / total);
+    e.coarse_off_arcsec2 =
+        static_cast<double>(others * others * coarse_off_sq / coarse + prior / total * off_sq / total);
+    e.variance_arcsec2 =
+        static_cast<double>(others * others * variance / coarse + prior / total * fine_variance / total);
     for (int j = 0; j < p.n_gap; ++j)
         e.value_arcsec[static_cast<std::size_t>(j)] = static_cast<double>(ticks[j] / total);
     for (Eigen::Index i = 0; i < n; ++i) e.dual[static_cast<std::size_t>(i)] = static_cast<double>(dual[i] / total);

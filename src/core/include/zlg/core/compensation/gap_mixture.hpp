@@ -22,7 +22,7 @@
 // alone says nothing of how wrong it is. So in the variance the evidence among those in which something is added counts only
 // in part, a fourth root, while they keep their weight together:
 //
-//   u_m ~ w_m^(1/4),   sum of u_m = sum of w_m = 1 - w_0;   u_0 = w_0                                     (3)
+//   u_m = w_0 w_m + (1 - w_0)^2 w_m^(1/4)/(sum of w_k^(1/4), k > 0);   u_0 = w_0                          (3)
 //
 // Where nothing was learnt the models hold every motion, and u_m = w_m.
 //
@@ -77,6 +77,8 @@ struct MixtureSums {
         0.0;  // weights are those of prior and (2), over that where nothing is added, times exp(-log_unit)
     double weight = 0.0;
     double off = 0.0;               // of t_m - t_0, the angle of the whole switch, 0: nothing added
+    double off_sq = 0.0;            // of its square
+    double variance = 0.0;          // of v_m
     double rate = 0.0;              // of b_m
     MixtureColumn dual{};           // of L^T u_m, u = P z
     MixtureColumn reversed_dual{};  // of u_m, of the models in reversed time, once they are done
