@@ -52,11 +52,11 @@ config::Config config_of(const GyroLaw& law) {
     c.gyro.light_noise_lambda = law.light_noise_lambda;
     c.gyro.light_samples = law.light_samples;
     c.gyro.discriminator_per_lambda = synthetic_discriminator_per_lambda;
+    c.drift.random_walk_arcsec_sqrt_s = law.random_walk_arcsec_sqrt_s;
     if (law.photodiodes.reads) {
         c.gyro.readout = config::Readout::phase;
         c.photodiodes.noise = law.photodiodes.noise;
         c.photodiodes.adc_bits = law.photodiodes.adc_bits;
-        c.drift.random_walk_arcsec_sqrt_s = law.random_walk_arcsec_sqrt_s;
     }
     return c;
 }

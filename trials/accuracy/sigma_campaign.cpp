@@ -97,8 +97,7 @@ ErrorsOfGyro errors_of(const MotionClass& of, std::uint64_t seed) {
     trial.motion = of.make(draw);
     if (of.with_phase) trial.gyro.photodiodes = {.reads = true, .learnt = true};
     trial.learn_ticks = of.min_start + static_cast<int>((of.max_start - of.min_start) * draw.uniform());
-    config::Config config = config_of(trial.gyro);
-    config.drift.random_walk_arcsec_sqrt_s = 0.0;
+    const config::Config config = config_of(trial.gyro);
     ErrorsOfGyro errors;
     errors.with = run_trial(trial, methods_for(config, with_miss));
     trial.gyro.miss_lambda = 0.0;

@@ -13,10 +13,6 @@ namespace {
 // the learnt motion.
 constexpr double negligible = 0.02;
 
-// More weight than this of the learnt motion alone is no evidence against it: roundings that repeat with a steady motion
-// shift the weights a little. By trial on zlg_sigma_campaign.
-constexpr double most_of_nothing = 0.6;
-
 // A manoeuvre is smoother than a random walk in one place and sharper in another, so that a model's own variance is too
 // small where it matters: by so much, in parts of it, where something is sure to have happened, and less, as the square,
 // where it is not. By trial on zlg_manoeuvre_campaign and, at rest, on zlg_sigma_campaign.
@@ -46,7 +42,7 @@ double mixed_variance(const GapBridgeState& state, double variance) noexcept {
     double off = -e.mixture.nothing.value - product(e.data.error_with_all, found.dual, e.problem.factor.n);
     for (unsigned j = 0; j < static_cast<unsigned>(e.problem.n_gap); ++j) off += found.value_arcsec[j] - e.data.level;
     const double mean = m.nothing * off + m.off_arcsec;
-    const double something = 1.0 - m.nothing;
+    const double something = against_nothing(m);
     const double added = e.learnt ? added_uncertainty * something * something : 0.0;
     const double of_others = (1.0 + added) * m.variance_arcsec2;
     const double scatter = m.coarse_off_arcsec2 - 2.0 * mean * m.coarse_off_arcsec + (1.0 - m.nothing) * mean * mean;

@@ -227,8 +227,9 @@ void conclude(const MotionCovariance& covariance, GapMixture& m) noexcept {
     e.off_arcsec = m.sums.off * per_weight;
     if (m.sums.coarse_weight > 0.0) {
         const double others = m.sums.weight * per_weight;
-        const double per_coarse = others * others / m.sums.coarse_weight;
-        const double per_fine = e.nothing * per_weight;
+        const double in_part = against_nothing(e);
+        const double per_coarse = in_part * others / m.sums.coarse_weight;
+        const double per_fine = (1.0 - in_part) * per_weight;
         e.coarse_off_arcsec = m.sums.coarse_off * per_coarse + m.sums.off * per_fine;
         e.coarse_off_arcsec2 = m.sums.coarse_off_sq * per_coarse + m.sums.off_sq * per_fine;
         e.variance_arcsec2 = m.sums.coarse_variance * per_coarse + m.sums.variance * per_fine;

@@ -239,11 +239,14 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
     e.nothing = static_cast<double>(prior / total);
     e.off_arcsec = static_cast<double>(off / total);
     const long double others = (total - prior) / total;
-    e.coarse_off_arcsec = static_cast<double>(others * others * coarse_off / coarse + prior / total * off / total);
-    e.coarse_off_arcsec2 =
-        static_cast<double>(others * others * coarse_off_sq / coarse + prior / total * off_sq / total);
-    e.variance_arcsec2 =
-        static_cast<double>(others * others * variance / coarse + prior / total * fine_variance / total);
+    // How far the weights speak against the model in which nothing is added.
+    const long double q = std::max(0.0L, 1.0L - prior / total / 0.6L);
+    const auto both = [&](long double in_part, long double in_full) {
+        return static_cast<double>(q * others * in_part / coarse + (1.0L - q) * in_full / total);
+    };
+    e.coarse_off_arcsec = both(coarse_off, off);
+    e.coarse_off_arcsec2 = both(coarse_off_sq, off_sq);
+    e.variance_arcsec2 = both(variance, fine_variance);
     for (int j = 0; j < p.n_gap; ++j)
         e.value_arcsec[static_cast<std::size_t>(j)] = static_cast<double>(ticks[j] / total);
     for (Eigen::Index i = 0; i < n; ++i) e.dual[static_cast<std::size_t>(i)] = static_cast<double>(dual[i] / total);

@@ -22,7 +22,8 @@
 // alone says nothing of how wrong it is. So in the variance the evidence among those in which something is added counts only
 // in part, a fourth root, while they keep their weight together:
 //
-//   u_m = w_0 w_m + (1 - w_0)^2 w_m^(1/4)/(sum of w_k^(1/4), k > 0);   u_0 = w_0                          (3)
+//   u_m = (1 - q) w_m + q (1 - w_0) w_m^(1/4)/(sum of w_k^(1/4), k > 0);   u_0 = w_0                      (3)
+//   q = 1 - w_0/0.6, at least 0: how far the weights speak against the learnt motion alone
 //
 // Where nothing was learnt the models hold every motion, and u_m = w_m.
 //
@@ -48,6 +49,10 @@ inline constexpr int quiet_shapes = 8;      // that begin past the gap, or end b
 inline constexpr int most_full_shapes = 7;  // that cover the window
 inline constexpr double prior_of_nothing = 0.8;
 inline constexpr double prior_of_rest = 0.4;  // where nothing was learnt
+
+// More weight than this of the learnt motion alone is no evidence against it: roundings that repeat with a steady motion
+// shift the weights a little. By trial on zlg_sigma_campaign.
+inline constexpr double most_of_nothing = 0.6;
 
 // The points: whole ticks.
 struct MixturePoints {
@@ -102,6 +107,11 @@ struct MixtureEstimate {
 
     friend bool operator==(const MixtureEstimate&, const MixtureEstimate&) = default;
 };
+
+// q of (3).
+[[nodiscard]] constexpr double against_nothing(const MixtureEstimate& estimate) noexcept {
+    return estimate.nothing < most_of_nothing ? 1.0 - estimate.nothing / most_of_nothing : 0.0;
+}
 
 // Products of H, z and g, the covariance with the angle of the switch, under V^-1.
 struct MixtureProducts {
