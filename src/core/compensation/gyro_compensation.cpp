@@ -305,6 +305,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         begin_anew(state.stretch, detuning_sq(config.gyro, second));
     } else {
         enter_gap(state.relock, !(first.loop_closed && second.loop_closed));
+        tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);
             // After `break_off`: it sets the edges again where it knows the sum.
@@ -314,7 +315,6 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         state.first_waits = false;
     }
     tick.bias_arcsec = state.bias_arcsec;
-    tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
     const double drift_arcsec = magnetic_arcsec(config, state, tick);
     tick.value_arcsec -= drift_arcsec;
     if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))

@@ -58,16 +58,22 @@ TEST(SigmaCampaign, IsTrueAtEachSteadyRate) {
     }
 }
 
+// Each case alone within two standard errors, as the campaign judges it; all eight together, 4800 switches, without them.
 TEST(SigmaCampaign, IsTrueAtRest) {
+    double sum = 0.0;
+    int cases = 0;
     for (double scale : {3.263, 0.81575}) {
         for (const char* method : {method_name::automatic_ticks, method_name::automatic}) {
             for (double miss : {0.0, 0.22}) {
                 const ErrorFigures f = at_rate(0.0, scale, 3, method, miss);
-                EXPECT_GT(f.nev, 0.7) << scale << " " << method << " " << miss;
-                EXPECT_LT(f.nev, 1.4) << scale << " " << method << " " << miss;
+                EXPECT_TRUE(is_true({.whole = f})) << scale << " " << method << " " << miss << ": " << f.nev;
+                sum += f.nev;
+                ++cases;
             }
         }
     }
+    EXPECT_GT(sum / cases, 0.7);
+    EXPECT_LT(sum / cases, 1.4);
 }
 
 TEST(SigmaCampaign, WhereNotEverySwitchIsClaimedSigmaIsNotTrue) {

@@ -297,12 +297,13 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         .measured = input.measured,
         .with_phase = input.with_phase};
     state.relock_to_come_arcsec2 = input.relock_to_come_arcsec2;
-    state.walk_of_switch_arcsec2 = input.walk_of_switch_arcsec2;
     state.bias_arcsec = input.bias_arcsec;
     if (input.measured)
         add_measured_tick(config, state, input, tick);
-    else
+    else {
+        state.walk_of_switch_arcsec2 = input.walk_of_switch_arcsec2;
         add_gap_tick(gyro, config, state, input, tick);
+    }
 
     sample.dtheta_arcsec = entry.row.dtheta_arcsec;
     sample.flags = entry.row.flags;

@@ -62,10 +62,10 @@ struct Shape {
 
 inline constexpr int most_sizes = 13;
 
-// 7 sizes of a walk that begins past the gap.
+// 6 sizes of a walk that begins past the gap.
 template <std::size_t ticks>
 constexpr Shape quiet(const std::array<std::array<double, ticks>, ticks>& table, int quiet_ticks) noexcept {
-    return {table[0].data(), static_cast<int>(ticks), quiet_ticks, 0.25, 40.0, 7};
+    return {table[0].data(), static_cast<int>(ticks), quiet_ticks, 0.25, 64.0, 6};
 }
 
 // 13 sizes of what covers the window: up to 100 deg/s within 20 ms, read by phase, where the steps are 8.

@@ -76,10 +76,9 @@ void step(const CompensationConstants& gyro, const OptimalBridgeConfig& config, 
     if (idle) update_weights(gyro, config, state);
     MotionTick learnt = tick;
     learnt.usable = tick.usable && passes_gate(gyro, config, state, tick);
-    const bool by_counts = state.moments.moments[fast_memory].by_phase < 1.0;
     const MotionMomentsOutput out = step(MotionMomentsConfig{config.halves}, state.moments, learnt);
-    // The moments began anew: the losses were those of the old ones, and of readings with their rounding.
-    if (by_counts && state.moments.moments[fast_memory].by_phase == 1.0) {
+    if (out.began_by_phase) {
+        // The losses were those of the old moments, and of readings with their rounding.
         state.scores = BridgeScoresState{.by_phase = true};
         state.n_weighed = 0;
     }

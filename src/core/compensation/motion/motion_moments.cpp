@@ -143,13 +143,16 @@ bool is_left_out(const MotionMomentsState& state) noexcept {
     return state.moments[fast_memory].by_phase > 0.0 && block.n_windows < block_windows;
 }
 
-// The block is complete: fold it, and move the level by its mean.
-void close_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
+// The block is complete: fold it, and move the level by its mean. True where the memories hold readings by phase alone from
+// now on, and did not before.
+bool close_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
     if (is_left_out(state)) {
         state.block = MotionBlock{};
         state.block_sum = 0.0;
-        return;
+        return false;
     }
+    const Moments& learnt = state.moments[fast_memory];
+    const bool by_counts = learnt.by_phase < 1.0;
     fold(config, state);
     const double n = state.block.n_windows;
     if (state.n_levels < level_blocks) state.n_levels += n / block_windows;
@@ -161,6 +164,14 @@ void close_block(const MotionMomentsConfig& config, MotionMomentsState& state) n
     // The samples at hand move to the new level.
     const double each = moved / samples_per_tick(config);
     for (unsigned k = 0; k < static_cast<unsigned>(window_of(config)); ++k) state.recent[k] -= each;
+    return by_counts && learnt.by_phase == 1.0;
+}
+
+// The tick that follows is no neighbour of the last one.
+bool end_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
+    if (state.n_recent == 0) return false;
+    state.n_recent = 0;
+    return state.block.n_windows > 0 && close_block(config, state);
 }
 
 // No gyro turns that far in a tick. Below the limit sums of squares stay finite.
@@ -172,23 +183,18 @@ MotionMomentsOutput step(const MotionMomentsConfig& config, MotionMomentsState& 
                          const MotionTick& tick) noexcept {
     MotionMomentsOutput out;
     const bool usable = tick.usable && is_possible(tick.first) && is_possible(tick.second);
-    if (!usable) end_block(config, state);
+    if (!usable) out.began_by_phase = end_block(config, state);
     if (!usable) return out;
-    if (state.block.n_windows > 0 && state.block.with_phase != state.with_phase) close_block(config, state);
+    if (state.block.n_windows > 0 && state.block.with_phase != state.with_phase)
+        out.began_by_phase = close_block(config, state);
     if (state.n_levels == 0.0 && state.n_recent == 0)
         state.level = config.halves ? tick.first + tick.second : tick.first;
     shift_in(config, state, tick);
     if (state.n_recent < window_of(config)) return out;
     out.has_window = true;
     add_window(config, state);
-    if (state.block.n_windows == block_windows) close_block(config, state);
+    if (state.block.n_windows == block_windows && close_block(config, state)) out.began_by_phase = true;
     return out;
-}
-
-void end_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept {
-    if (state.n_recent == 0) return;
-    state.n_recent = 0;
-    if (state.block.n_windows > 0) close_block(config, state);
 }
 
 double moment(const MotionMomentsConfig& config, const Moments& moments, int a, int b) noexcept {

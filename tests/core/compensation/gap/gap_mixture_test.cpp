@@ -155,7 +155,7 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
             for (const double quiet : {2.0, 3.0, 4.5, 6.0}) {
                 const double onset = p.n_side + p.n_gap + quiet;
                 if (was_learnt)
-                    add(reversed, 0.25, 40.0, 7,
+                    add(reversed, 0.25, 64.0, 6,
                         [&](int i, int j) { return walk(of_acceleration, i - onset, j - onset); });
             }
         add(false, of_acceleration ? 1.0 / 1024.0 : 1.0 / 16.0, was_learnt ? 8.0 : 6.0, 13,

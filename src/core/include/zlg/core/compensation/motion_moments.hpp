@@ -94,7 +94,8 @@ struct MotionTick {
 };
 
 struct MotionMomentsOutput {
-    bool has_window = false;  // `recent` is a window that ends now
+    bool has_window = false;      // `recent` is a window that ends now
+    bool began_by_phase = false;  // the memories hold readings by phase alone from now on, and did not before
 };
 
 // Add one tick.
@@ -103,9 +104,6 @@ struct MotionMomentsOutput {
 //       and one for each memory.
 [[nodiscard]] MotionMomentsOutput step(const MotionMomentsConfig& config, MotionMomentsState& state,
                                        const MotionTick& tick) noexcept;
-
-// The row of usable ticks is broken: the block ends, however short, and is added.
-void end_block(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept;
 
 // Mean product of samples a and b of a window, a <= b; 0 before the first window.
 [[nodiscard]] double moment(const MotionMomentsConfig& config, const Moments& moments, int a, int b) noexcept;
