@@ -243,7 +243,7 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
 }
 
 // The magnetic drift that is to be subtracted from a tick. By phase a switch is known so well that it matters how the drift
-// steps there, so that it is estimated whatever the method, and told to the bridge as far as it stays in the values.
+// steps there, so that it is estimated whatever the method, and handed to the bridge as far as it stays in the values.
 double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
                        const TickInput& tick) noexcept {
     const bool by_phase = state.bridge.learning.moments.with_phase;
