@@ -74,11 +74,11 @@ TEST(Manoeuvres, TheFirstOneCostsNoMoreThanWithThePolynomial) {
         // What the campaign demands, and two standard errors of the ratio of a hundred.
         EXPECT_LT(over_best_polynomial(f), 1.15 * 1.2) << f.base << ": " << f.manoeuvre;
         const bool is_short = f.duration_s < 0.04 && !f.manoeuvre.empty();
-        // By phase a ramp in the gap from a slow turn reaches 5.3 and holds 81 % (docs/accuracy.md).
-        const bool is_weak = f.base == "rest, phase" && !f.manoeuvre.empty();
-        EXPECT_LT(ours.nev, is_weak ? 6.5 : is_short ? 4.0 : 2.0) << f.base << ": " << f.manoeuvre;
-        // The campaign demands 98 % and misses it (docs/accuracy.md): this only guards the 93 % that these families reach, less two standard errors.
-        EXPECT_GE(ours.within_3_sigma_ratio, (is_weak ? 0.81 : 0.93) - 0.051) << f.base << ": " << f.manoeuvre;
+        EXPECT_LT(ours.nev, is_short ? 4.0 : 2.0) << f.base << ": " << f.manoeuvre;
+        // Less two standard errors of a hundred. By counts over the sine the 98 % of the campaign are missed (docs/accuracy.md).
+        const bool is_weak = f.base == "20.06 Hz, x1" && !f.manoeuvre.empty();
+        EXPECT_GE(ours.within_3_sigma_ratio, is_short || is_weak ? 0.93 - 0.051 : 0.98 - 0.028)
+            << f.base << ": " << f.manoeuvre;
     }
 }
 
