@@ -129,8 +129,8 @@ std::vector<Claim> claims_of_interval() {
         {"figure 4", "The best interval is 1 to 2 minutes, much less than the thermal time.", not_supported,
          fmt::format("For the two shorter runs only: {:.1f} and {:.1f} s, but {:.1f} s in an hour and {:.1f} s in ten "
                      "hours, {:.0f} % of the thermal time.",
-                     best_corrected_interval_s(shortest_s), best_interval_s(900.0), hour_interval_s,
-                     best_interval_s(longest_s),
+                     best_corrected_interval_s(shortest_s), best_corrected_interval_s(900.0), hour_interval_s,
+                     best_corrected_interval_s(longest_s),
                      100.0 * best_corrected_interval_s(longest_s) / longest.gyro.thermal_time_s)},
         {"eq (9)", "A cubic for the best interval, from (8) by expansion of the exponentials.", wrong,
          fmt::format("The right side lacks a factor t, and a factor of 2 lost on the way turns the sign of the thermal "
@@ -144,7 +144,7 @@ std::vector<Claim> claims_of_interval() {
         {"figure 5", "The best interval against the length of the run, from (9).", not_supported,
          fmt::format("It rises from {:.1f} to {:.1f} s, and (9) cannot have drawn that for all four runs: in {:.0f} s "
                      "it has no root. The corrected (9c) gives {:.1f} s there, the square root {:.0f} s.",
-                     best_corrected_interval_s(shortest_s), best_interval_s(longest_s), longest_s,
+                     best_corrected_interval_s(shortest_s), best_corrected_interval_s(longest_s), longest_s,
                      design::corrected_roots(longest).smaller_s, design::closed_form_interval_s(longest))},
         {"after eq (9)", "Without thermal change the best interval is sqrt(dP t/Om).", agrees,
          fmt::format("In an hour {:.1f} s; the exact minimum without warm-up is {:.1f} s, with it {:.1f} s. It "
