@@ -41,7 +41,8 @@ double length_ratio(const BiasCommutatorConfig& c, const BiasCommutatorState& s)
 void read_counter(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
     if (o.counted) o.counts = static_cast<std::int64_t>(o.fringe.counter - s.counter);
     if (o.fresh) s.counter = o.fringe.counter;
-    o.beyond = is_beyond(c.health, o.counts, length_ratio(c.commutator, s.commutator));
+    o.max_counts = max_counts(c.health, length_ratio(c.commutator, s.commutator));
+    o.beyond = is_beyond(o.counts, o.max_counts);
 }
 
 void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
@@ -139,9 +140,9 @@ void read_span(const GyroControlConfig& c, GyroControlState& s, Observation& o) 
                       .mode = o.polarity,
                       .suspicious = o.beyond || o.bias_wrong,
                       .agrees = o.counted && !o.beyond && !(o.bias.judged && !o.bias.in_band),
-                      .bias_lost = o.bias.judged && is_lost_or_reversed(bias),
+                      .bias_lost = s.reading_monitor.suspected && o.bias.judged && is_lost_or_reversed(bias),
                       .reading = o.fringe.counter,
-                      .max_counts = length_ratio(c.commutator, s.commutator) * as_double(c.health.counts_limit),
+                      .max_counts = o.max_counts,
                       .bias_counts = bias.bias_counts > 0.0 ? bias.bias_counts : c.bias_monitor.presumed_counts,
                       .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity)});
 }
