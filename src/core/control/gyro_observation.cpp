@@ -10,8 +10,10 @@ constexpr bool is_sign(std::int8_t x) noexcept { return x == 1 || x == -1; }
 
 void read_order(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     o.received = (frame.status & frame_missed) == 0;
-    const FrameOrderOutput order =
-        step(s.order, o.received, frame.sequence, is_on_time(c.commutator, s.commutator, frame.timer_ticks));
+    // Only a number out of order is judged by its time.
+    const bool on_time =
+        frame.sequence != s.order.expected && is_on_time(c.commutator, s.commutator, frame.timer_ticks);
+    const FrameOrderOutput order = step(s.order, o.received, frame.sequence, on_time);
     o.sequence_error = order.error;
     o.fresh = order.fresh;
     o.follows = order.follows;
@@ -123,7 +125,7 @@ bool is_echoed(const Observation& o) noexcept {
 }
 
 // Half of the bias is gone, or it is that of the other helicity: b by the last two halves. A wrong reading seldom looks
-// so.
+// so. Asked only while a reading waits for its judgement.
 bool is_lost_or_reversed(const BiasMonitorState& s) noexcept {
     const double b = 0.5 * s.beat_sign * as_double(s.counts - s.counts_before);
     return b < 0.5 * s.bias_counts && b > -1.25 * s.bias_counts;
