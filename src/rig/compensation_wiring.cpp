@@ -116,15 +116,15 @@ void require_points(config::Config config, core::BridgeMethod bridge) {
 core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
                                                  core::BridgeMethod bridge) {
     const config::Compensation& c = config.compensation;
-    const core::GyroCompensationConfig made{.gyro = constants_of(config),
-                                            .relock = {.method = relock, .ticks = c.relock_ticks},
+    const core::GyroCompensationConfig made{.relock = {.method = relock, .ticks = c.relock_ticks},
                                             .profile = profile_of(config, relock),
                                             .bridge = {.method = bridge,
                                                        .extrapolation_points = c.extrapolation_points,
                                                        .points_before = c.points_before,
                                                        .points_after = c.points_after,
                                                        .optimal = optimal_config(config, relock, bridge)},
-                                            .magnetic = magnetic_of(config)};
+                                            .magnetic = magnetic_of(config),
+                                            .gyro = constants_of(config)};
     switch (check(made)) {
         case core::GyroCompensationFault::none:
             return made;

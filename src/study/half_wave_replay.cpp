@@ -60,11 +60,11 @@ void HalfWaveReplay::step(const core::HalfRecord& half, const core::HalfRecord& 
         in.detuning = core::Wavelengths{0.0};
     }
     const core::ModeSwitchOutput out = core::step(sequence_, state_, in);
-    if (!out.has_event) return;
-    const bool read = out.event.has_half_wave;
-    (void)core::step(config_, half_wave_, core::Volts{read ? out.event.half_wave_v : std::nan("")});
+    if (!out.event) return;
+    const bool read = out.event->has_half_wave;
+    (void)core::step(config_, half_wave_, core::Volts{read ? out.event->half_wave_v : std::nan("")});
     measured_ = measured_ || read;
-    if (measured_) after_[out.event.tick_opened] = half_wave_;
+    if (measured_) after_[out.event->tick_opened] = half_wave_;
 }
 
 void HalfWaveReplay::fill(std::vector<SwitchLine>& lines) const {

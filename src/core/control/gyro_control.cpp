@@ -133,8 +133,8 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
 
 // Returns whether the half-wave voltage that the switch measured was rejected.
 bool learn_half_wave(const GyroControlConfig& c, GyroControlState& s, const ModeSwitchOutput& sequenced) noexcept {
-    if (!sequenced.has_event || sequenced.event.outcome != SwitchOutcome::switched) return false;
-    const double measured_v = sequenced.event.has_half_wave ? sequenced.event.half_wave_v : __builtin_nan("");
+    if (!sequenced.event || sequenced.event->outcome != SwitchOutcome::switched) return false;
+    const double measured_v = sequenced.event->has_half_wave ? sequenced.event->half_wave_v : __builtin_nan("");
     return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
 }
 
@@ -170,9 +170,9 @@ void learn_stroke(const GyroControlConfig& c, GyroControlState& s, const Observa
     }
     const bool opens = was_closed && !sequenced.loop_closed && m.phase == SwitchPhase::open;
     if (opens) begin_move(c.stroke, s.stroke, Volts{m.good_v});
-    if (!sequenced.has_event) return;
+    if (!sequenced.event) return;
     (void)confirm(c.stroke, s.stroke,
-                  sequenced.event.outcome == SwitchOutcome::switched && sequenced.event.has_half_wave);
+                  sequenced.event->outcome == SwitchOutcome::switched && sequenced.event->has_half_wave);
 }
 
 PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, const Observation& o, bool was_closed,
@@ -269,8 +269,8 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     learn_stroke(config, state, seen, was_closed, sequenced);
     const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
 
-    GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.has_event};
-    if (sequenced.has_event) out.event = sequenced.event;
+    GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.event.has_value()};
+    if (sequenced.event) out.event = *sequenced.event;
     command(sequenced.loop_closed, sequenced.polarity, regulated, out.actuator);
     out.actuator.edge_offset_ticks =
         next_edge(config.commutator, state.commutator,

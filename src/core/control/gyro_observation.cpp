@@ -10,8 +10,10 @@ constexpr bool is_sign(std::int8_t x) noexcept { return x == 1 || x == -1; }
 
 void read_order(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     o.received = (frame.status & frame_missed) == 0;
-    const FrameOrderOutput order =
-        step(s.order, o.received, frame.sequence, is_on_time(c.commutator, s.commutator, frame.timer_ticks));
+    // Only a number out of order is judged by its time.
+    const bool on_time =
+        frame.sequence != s.order.expected && is_on_time(c.commutator, s.commutator, frame.timer_ticks);
+    const FrameOrderOutput order = step(s.order, o.received, frame.sequence, on_time);
     o.sequence_error = order.error;
     o.fresh = order.fresh;
     o.follows = order.follows;
@@ -41,7 +43,8 @@ double length_ratio(const BiasCommutatorConfig& c, const BiasCommutatorState& s)
 void read_counter(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
     if (o.counted) o.counts = static_cast<std::int64_t>(o.fringe.counter - s.counter);
     if (o.fresh) s.counter = o.fringe.counter;
-    o.beyond = is_beyond(c.health, o.counts, length_ratio(c.commutator, s.commutator));
+    o.max_counts = max_counts(c.health, length_ratio(c.commutator, s.commutator));
+    o.beyond = is_beyond(o.counts, o.max_counts);
 }
 
 void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
@@ -122,7 +125,7 @@ bool is_echoed(const Observation& o) noexcept {
 }
 
 // Half of the bias is gone, or it is that of the other helicity: b by the last two halves. A wrong reading seldom looks
-// so.
+// so. Asked only while a reading waits for its judgement.
 bool is_lost_or_reversed(const BiasMonitorState& s) noexcept {
     const double b = 0.5 * s.beat_sign * as_double(s.counts - s.counts_before);
     return b < 0.5 * s.bias_counts && b > -1.25 * s.bias_counts;
@@ -139,9 +142,9 @@ void read_span(const GyroControlConfig& c, GyroControlState& s, Observation& o) 
                       .mode = o.polarity,
                       .suspicious = o.beyond || o.bias_wrong,
                       .agrees = o.counted && !o.beyond && !(o.bias.judged && !o.bias.in_band),
-                      .bias_lost = o.bias.judged && is_lost_or_reversed(bias),
+                      .bias_lost = s.reading_monitor.suspected && o.bias.judged && is_lost_or_reversed(bias),
                       .reading = o.fringe.counter,
-                      .max_counts = length_ratio(c.commutator, s.commutator) * as_double(c.health.counts_limit),
+                      .max_counts = o.max_counts,
                       .bias_counts = bias.bias_counts > 0.0 ? bias.bias_counts : c.bias_monitor.presumed_counts,
                       .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity)});
 }

@@ -166,7 +166,6 @@ SwitchEvent completed(const ModeSwitchState& s) noexcept {
 
 void settle(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in, ModeSwitchOutput& out) noexcept {
     if (s.n_locked >= 2 * c.settle_ticks) {
-        out.has_event = s.switching;
         if (s.switching) out.event = completed(s);
         s.switching = false;
         s.phase = SwitchPhase::tracking;

@@ -21,7 +21,7 @@ double over_u(const StrokeModelConfig& c, const StrokeModelState& s, Volts v) no
 }
 
 // (2) for plays i and i + 1.
-Pair play_output(const double* position, std::size_t i, double voltage) noexcept {
+[[gnu::always_inline]] inline Pair play_output(const double* position, std::size_t i, double voltage) noexcept {
     const Pair at = load(position + i);
     const Pair lowest = voltage - load(threshold.data() + i);
     const Pair highest = voltage + load(threshold.data() + i);

@@ -25,12 +25,12 @@ TEST(Health, AWordHoldsTheBitsThatWereSeenAndNoOther) {
 }
 
 TEST(Health, MoreCountsThanTheLimitAreBeyondItInEitherDirection) {
-    EXPECT_FALSE(is_beyond(config, 1000));
-    EXPECT_FALSE(is_beyond(config, -1000));
-    EXPECT_TRUE(is_beyond(config, 1001));
-    EXPECT_TRUE(is_beyond(config, -1001));
-    EXPECT_TRUE(is_beyond(config, std::numeric_limits<std::int64_t>::min()));
-    EXPECT_TRUE(is_beyond(config, std::numeric_limits<std::int64_t>::max()));
+    EXPECT_FALSE(is_beyond(1000, max_counts(config)));
+    EXPECT_FALSE(is_beyond(-1000, max_counts(config)));
+    EXPECT_TRUE(is_beyond(1001, max_counts(config)));
+    EXPECT_TRUE(is_beyond(-1001, max_counts(config)));
+    EXPECT_TRUE(is_beyond(std::numeric_limits<std::int64_t>::min(), max_counts(config)));
+    EXPECT_TRUE(is_beyond(std::numeric_limits<std::int64_t>::max(), max_counts(config)));
 }
 
 TEST(Health, BitsHaveDistinctNamesInTheirOrder) {

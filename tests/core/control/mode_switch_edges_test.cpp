@@ -47,7 +47,7 @@ public:
                                  .half_wave = Volts{half_wave_v}};
         ++n_;
         const ModeSwitchOutput out = step(config, state, in);
-        if (out.has_event) event = out.event;
+        if (out.event) event = *out.event;
         return out;
     }
 

@@ -30,8 +30,8 @@ public:
         in.half_wave = Volts{40.0};
         ++half_;
         last_ = step(config, state, in);
-        if (last_.has_event) {
-            event = last_.event;
+        if (last_.event) {
+            event = *last_.event;
             ++n_events;
         }
         return last_;

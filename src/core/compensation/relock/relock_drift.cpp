@@ -200,11 +200,14 @@ void enter_gap(RelockDriftState& state, bool moves) noexcept {
 
 RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfig& config, RelockDriftState& state,
                        const RelockTick& tick) noexcept {
-    const RelockDriftState before = state;
-    observe_detuning(gyro, config.ticks, state, tick);
     // Tick 1 of `frequency` needs tick 2 even where only one tick is to be corrected.
     const std::int64_t last = config.method == RelockMethod::frequency && config.ticks == 1 ? 2 : config.ticks;
-    if (config.method == RelockMethod::none || !state.armed || state.since_gap >= last) return {};
+    if (config.method == RelockMethod::none || !state.armed || state.since_gap >= last) {
+        observe_detuning(gyro, config.ticks, state, tick);
+        return {};
+    }
+    const RelockDriftState before = state;
+    observe_detuning(gyro, config.ticks, state, tick);
     ++state.since_gap;
     switch (config.method) {
         case RelockMethod::frequency:

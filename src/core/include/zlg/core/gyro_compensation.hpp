@@ -23,11 +23,11 @@
 namespace zlg::core {
 
 struct GyroCompensationConfig {
-    CompensationConstants gyro{};
     RelockDriftConfig relock{};
     RelockProfileConfig profile{};  // of `joint`
     GapBridgeConfig bridge{};       // of half-ticks with `joint`
     MagneticDriftConfig magnetic{};
+    CompensationConstants gyro{};
 };
 
 // The numbers of the enumerators are sent over the gyro's line (docs/wire.md) and do not change. Of the faults of the
@@ -54,12 +54,12 @@ struct GyroCompensationState {
     EdgeShiftState edges{};
     CountedStretchState stretch{};
     RelockDriftState relock{};
-    JointRelockState joint{};
     double bias_arcsec = 0.0;  // what a positive bias adds to a half, slow mean; 0: not yet known
-    GapBridgeState bridge{};
-    MagneticDriftState magnetic{};
     SwitchErrors switch_errors{};
     Angle angle{};  // sum of all dtheta delivered
+    MagneticDriftState magnetic{};
+    GapBridgeState bridge{};
+    JointRelockState joint{};
 
     friend bool operator==(const GyroCompensationState&, const GyroCompensationState&) = default;
 };

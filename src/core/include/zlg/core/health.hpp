@@ -89,12 +89,16 @@ enum class HealthFault : unsigned char { none, counts_limit };
     return c.counts_limit > 0 ? HealthFault::none : HealthFault::counts_limit;
 }
 
-// More counts in a half than the gyro can make.
+// The most counts that the gyro can make in a half.
 //
 // length_ratio  of the half over the nominal one.
-[[nodiscard]] constexpr bool is_beyond(const HealthConfig& c, std::int64_t counts, double length_ratio = 1.0) noexcept {
-    const double most = length_ratio * as_double(c.counts_limit);
-    return as_double(counts) > most || as_double(counts) < -most;
+[[nodiscard]] constexpr double max_counts(const HealthConfig& c, double length_ratio = 1.0) noexcept {
+    return length_ratio * as_double(c.counts_limit);
+}
+
+[[nodiscard]] constexpr bool is_beyond(std::int64_t counts, double max_counts) noexcept {
+    const double x = as_double(counts);
+    return x > max_counts || x < -max_counts;
 }
 
 // The word of one half, bit by bit.

@@ -98,14 +98,6 @@ struct GapBridgeState {
     std::int64_t next_tick = 0, next_final = 0;
     OpenGap gap{};
     int n_pending = 0;
-    std::array<PendingGap, max_pending_gaps> pending{};
-    MotionLearningState learning{};
-    GapPrediction prediction{};
-    EstimatedGap estimate{};
-    // Of the gap that ended last: put here once it is known or given up, before that gap is resolved.
-    JointRelock joint{};
-    LitHalvesState lit{};  // of the gap that lasts or ended last
-    BiasScale bias_scale{};
     // Magnetic drift in a tick of mode +1 that is still in the values, as far as it is known. The points of a gap lose it, for at
     // the gap it steps: an estimate across it would take the step for a false angle or for motion.
     double magnetic_arcsec = 0.0;
@@ -113,6 +105,14 @@ struct GapBridgeState {
     double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
     double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
+    MotionLearningState learning{};
+    std::array<PendingGap, max_pending_gaps> pending{};
+    GapPrediction prediction{};
+    EstimatedGap estimate{};
+    // Of the gap that ended last: put here once it is known or given up, before that gap is resolved.
+    JointRelock joint{};
+    LitHalvesState lit{};  // of the gap that lasts or ended last
+    BiasScale bias_scale{};
     std::array<HistoryTick, history_ticks> history{};
 
     friend bool operator==(const GapBridgeState&, const GapBridgeState&) = default;

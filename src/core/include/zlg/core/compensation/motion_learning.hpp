@@ -20,10 +20,10 @@
 namespace zlg::core {
 
 struct MotionLearningState {
-    MotionMomentsState moments{};
-    BridgeScoresState scores{};
     int n_weighed = 0;      // blocks in the moments when weights were last due
     int outlier_level = 0;  // of the outlier gate, 0..135
+    BridgeScoresState scores{};
+    MotionMomentsState moments{};
 
     friend bool operator==(const MotionLearningState&, const MotionLearningState&) = default;
 };

@@ -79,8 +79,8 @@ struct MotionMomentsState {
     double level = 0.0;       // slow mean of a tick, subtracted from every sample
     double n_levels = 0.0;    // blocks in the level, up to 20
     double block_sum = 0.0;   // sum of the last tick of each window of the block
+    int n_folded = 0;         // blocks so far, modulo 2^16
     MotionBlock block{};
-    int n_folded = 0;  // blocks so far, modulo 2^16
     std::array<Moments, 2> moments{};
 
     friend bool operator==(const MotionMomentsState&, const MotionMomentsState&) = default;

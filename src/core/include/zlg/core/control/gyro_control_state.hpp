@@ -25,8 +25,8 @@
 
 namespace zlg::core {
 
+// Large arrays come last, here and in the state: an instruction of the processor reaches 1 KB from the start.
 struct GyroControlConfig {
-    SyncDetectorConfig detector{};
     PerimeterLoopConfig loop{};
     HalfWaveConfig half_wave{};
     StrokeModelConfig stroke{};  // its range is that of `loop`
@@ -41,6 +41,7 @@ struct GyroControlConfig {
     DetuningMonitorConfig detuning_monitor{};
     FringeReadoutConfig fringe{};
     Celsius presumed_temperature{20.0};  // recorded until the first reading
+    SyncDetectorConfig detector{};
 };
 
 enum class GyroControlFault : unsigned char {
@@ -95,9 +96,6 @@ struct GyroControlState {
     SyncDetectorState detector{};
     PerimeterLoopState loop{};
     HalfWaveState half_wave{};
-    StrokeModelState stroke{};
-    MoveStart up{};  // of the moves that are predicted
-    MoveStart down{};
     double closed_at_v = 0.0;  // reading of the piezo when the loop was closed last,
     bool closed_read = false;  // if there was one
     SwitchScheduleState schedule{};
@@ -126,6 +124,9 @@ struct GyroControlState {
     double mean_temperature_c = 0.0;  // running mean over 8192 halves
     double piezo_v = 0.0;             // last finite reading
     double temperature_c = 0.0;       // last finite reading
+    MoveStart up{};                   // of the moves that are predicted
+    MoveStart down{};
+    StrokeModelState stroke{};
 
     friend constexpr bool operator==(const GyroControlState&, const GyroControlState&) = default;
 };

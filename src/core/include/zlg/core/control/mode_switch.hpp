@@ -24,6 +24,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include <zlg/core/control/half_wave.hpp>
 #include <zlg/core/control/piezo_range.hpp>
@@ -135,8 +136,7 @@ struct ModeSwitchOutput {
     bool loop_closed = true;
     std::int8_t polarity = 1;
     Volts set_point{};  // second input; rules while the loop is open
-    bool has_event = false;
-    SwitchEvent event{};
+    std::optional<SwitchEvent> event{};
 };
 
 [[nodiscard]] ModeSwitchState initial_state(const ModeSwitchConfig& config) noexcept;
