@@ -165,6 +165,7 @@ private:
             set(of_laser);
             set("laser.quadrature", std::string{is_x4 ? "x4" : "x1"});
             set_one_of("gyro.dither", std::array{"auto", "auto", "random", "paired", "none"});
+            keep_light_off_the_reversals();
             return;
         }
         set(of_averaged);
@@ -172,6 +173,19 @@ private:
         const double counts = is_x4 ? 4.0 : 1.0;
         set("gyro.scale_arcsec", 3.263 * 0.16 / draw_.within(0.1, 0.28) / counts);
         set("gyro.bias_hz", counts * draw_.within_log(30e3, 120e3));
+    }
+
+    // Nobody samples the light while the field is reversed, sooner or later by up to a cycle of the bias.
+    void keep_light_off_the_reversals() {
+        const config::Laser& l = c_.laser;
+        const config::Laser usual;
+        constexpr double usual_bias_hz = 60e3;
+        const double bias_hz = usual_bias_hz * (l.round_trip_loss_ratio / usual.round_trip_loss_ratio) *
+                               (l.gain_loss_ratio / usual.gain_loss_ratio) * (l.bias_field_g / usual.bias_field_g) *
+                               (usual.perimeter_m / l.perimeter_m);
+        const double cycle_s = c_.gyro.dither == core::DitherMethod::none ? 0.0 : 1.2 / bias_hz;
+        const double most = 0.25 * c_.gyro.tick_s / (0.5 * c_.gyro.bias_edge_s + cycle_s);
+        if (c_.gyro.light_samples > most) set("gyro.light_samples", std::max(8.0, std::floor(most)));
     }
 
     void set_piezo() {
@@ -192,8 +206,9 @@ private:
     void set_perimeter() {
         set("perimeter.tau_s", draw_.within_log(std::max(0.003, 0.5 * c_.gyro.tick_s), 0.02));
         set("perimeter.relock_halves", static_cast<double>(draw_.below(9)));
-        // What comes of itself, for most; else a place where the bias and the light are known.
-        set("perimeter.miss_lambda", draw_.is_one_in(2) ? 0.0 : draw_.within(0.02, 0.2));
+        // What comes of itself, for half of them; else where the light runs both ways: of lasers of 10 cm or of little gain it
+        // does not from 0.15 wavelength on, so that no switch with such a miss succeeds.
+        set("perimeter.miss_lambda", draw_.is_one_in(2) ? 0.0 : draw_.within(0.02, is_laser_ ? 0.12 : 0.2));
     }
 
     // Of a vehicle or a turntable: up to 28 deg/s for ever, 8 deg/s there and back.
@@ -247,8 +262,10 @@ private:
     }
 
     void set_compensation() {
-        set_one_of("compensation.relock",
-                   std::array{"mean_square", "mean_square", "joint", "joint", "detuning", "frequency"});
+        set_one_of("compensation.relock", std::array{"mean_square", "mean_square", "joint", "joint"});
+        // Both take the decay for exponential.
+        if (c_.perimeter.loop != config::Loop::digital && draw_.is_one_in(3))
+            set_one_of("compensation.relock", std::array{"detuning", "frequency"});
         // The sigma of a polynomial holds no motion beyond its order (docs/compensation.md).
         const bool is_even =
             c_.motion.kind == config::MotionKind::rest || c_.motion.kind == config::MotionKind::constant;

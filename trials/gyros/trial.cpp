@@ -143,15 +143,24 @@ private:
                            [](std::uint32_t flags) { return (flags & core::flag_relock_uncorrected) != 0; });
     }
 
-    // The twin knows the phase of an averaged gyro. Of a laser the meter's error holds what the counter has rounded off at both
-    // ends of the switch, each evenly within a count.
+    // Roundings of whole counts that are in the error and that no sigma is about, each evenly within a count. The twin knows
+    // the phase of an averaged gyro; of a laser the meter's error holds those at both ends of the switch. And the sigma of
+    // a polynomial is that of the gap alone, without what both its edges keep.
     [[nodiscard]] double unknown_rounding_arcsec(const study::SwitchWindow& window) const {
-        if (config_.gyro.fidelity == config::Fidelity::averaged) return 0.0;
         const auto counts = [&](std::int64_t tick) {
-            return tick >= 0 && is_whole_count_[static_cast<std::size_t>(tick)];
+            return int{tick >= 0 && is_whole_count_[static_cast<std::size_t>(tick)]};
         };
-        const int n = int{counts(window.first_tick - 1)} + int{counts(window.last_tick)};
+        const std::int64_t last_of_gap = window.first_tick + window.n_ticks - 1;
+        int n = 0;
+        if (config_.gyro.fidelity == config::Fidelity::laser)
+            n += counts(window.first_tick - 1) + counts(window.last_tick);
+        if (is_polynomial()) n += counts(window.first_tick - 1) + counts(last_of_gap);
         return config_.gyro.scale_arcsec * std::sqrt(n / 12.0);
+    }
+
+    [[nodiscard]] bool is_polynomial() const {
+        const core::BridgeMethod bridge = config_.compensation.bridge;
+        return bridge != core::BridgeMethod::automatic && bridge != core::BridgeMethod::optimal;
     }
 
     const config::Config& config_;
