@@ -111,6 +111,7 @@ constexpr std::tuple table{
     control(0x0805, rw, "fringe.noise_turns", [](auto& c) -> auto& { return c.fringe.noise_turns; }),
     control(0x0806, rw, "fringe.lag_turns", [](auto& c) -> auto& { return c.fringe.lag_turns; }),
     control(0x0807, rw, "fringe.max_skew_turns", [](auto& c) -> auto& { return c.fringe.max_skew_turns; }),
+    control(0x0808, rw, "fringe.turned_back_turns", [](auto& c) -> auto& { return c.fringe.turned_back_turns; }),
     compensation(0x1001, ro, "relock.method", [](auto& c) -> auto& { return c.relock.method; }),
     compensation(0x1002, rw, "relock.ticks", [](auto& c) -> auto& { return c.relock.ticks; }),
     compensation(0x1003, ro, "relock.tick_s", [](auto& c) -> auto& { return c.gyro.tick; }),
