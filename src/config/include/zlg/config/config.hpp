@@ -88,10 +88,10 @@ struct Compensation {
     std::vector<double> prior_line_hz = {20.0};
     std::vector<double> prior_line_arcsec_s = {12000.0};  // amplitudes
     core::MagneticMethod magnetic = core::MagneticMethod::none;
-    double magnetic_arcsec_s = 0.0;         // at the start, by calibration
-    double magnetic_sigma_arcsec_s = 10.0;  // of that; large: not calibrated
+    double magnetic_arcsec_s = 0.0;        // at the start, by calibration
+    double magnetic_sigma_arcsec_s = 1.0;  // of that; not calibrated
     double magnetic_thermal_arcsec_s = 0.0;
-    double magnetic_thermal_sigma_arcsec_s = 10.0;
+    double magnetic_thermal_sigma_arcsec_s = 1.0;
     double magnetic_thermal_time_s = 3000.0;
 };
 
