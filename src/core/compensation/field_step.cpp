@@ -16,10 +16,10 @@ constexpr double min_sigmas_sq = 25.0;
 constexpr double agreement_sq = 9.0;
 
 // Least blocks on either side of a step.
-constexpr int min_side = 2;
+constexpr int min_side = 1;
 
 // Blocks of one length; a step is agreed on by both ways to see it within this part of itself, too.
-constexpr int most_alike = 5;
+constexpr int most_alike = 7;
 constexpr double agreement_ratio = 0.25;
 
 // Time after the re-lock in which it is decided.
@@ -44,6 +44,11 @@ double rate_variance(const CompensationConstants& g, double n_ticks, bool with_p
     const double length_s = n_ticks * g.tick.value();
     const double walk = g.random_walk.value();
     return 2.0 * reading_arcsec2(g, with_phase) / square(length_s) + walk * walk / length_s;
+}
+
+// Of a mean rate, by motion like that of the segment: slow motion counts in full, however long the stretch is.
+double motion_variance(const SegmentStep& segment, double length_s) noexcept {
+    return segment.slow_motion + 2.0 * segment.fast_motion / square(length_s);
 }
 
 void merge(SegmentBlocks& b, int first) noexcept {
@@ -166,6 +171,7 @@ void leave_open(FieldStepState& s, double nu) noexcept {
     s.drift_variance += nu * nu;
     s.is_open = true;
     if (s.before.stepped) s.waiting_arcsec2 += square(s.before.excess_arcsec);
+    if (s.field_arcsec_s != 0.0) s.waiting_arcsec2 += square(nu * s.before.length_s);
 }
 
 // last  it is now or never.
@@ -174,7 +180,8 @@ void decide(const CompensationConstants& g, const FieldStepPrior& prior, FieldSt
     const SegmentBlock now = whole(s.blocks);
     const SegmentStep& b = s.before;
     const double rate = now.arcsec / (as_double(now.n_ticks) * g.tick.value());
-    const double rate_noise = rate_variance(g, as_double(now.n_ticks), with_phase) + square(prior.sway_arcsec_s);
+    const double rate_noise = rate_variance(g, as_double(now.n_ticks), with_phase) + square(prior.sway_arcsec_s) +
+                              motion_variance(b, as_double(now.n_ticks) * g.tick.value());
     const double mode_before = -static_cast<double>(s.mode);
     const double nu = 0.5 * mode_before * (b.rate_arcsec_s - rate) - s.drift_arcsec_s;
     const double variance = 0.25 * (b.rate_variance + rate_noise) + s.drift_variance;
@@ -226,22 +233,25 @@ SegmentStep step_of(const CompensationConstants& g, const SegmentBlocks& b, bool
     const double sway = square(sway_arcsec_s);
     const SegmentBlock all = whole(b);
     out.known = true;
+    out.length_s = as_double(all.n_ticks) * tick_s;
     out.rate_arcsec_s = all.arcsec / (as_double(all.n_ticks) * tick_s);
     out.rate_variance = rate_variance(g, as_double(all.n_ticks), with_phase) + sway;
     const Cut cut = best_cut(b);
     if (cut.at == 0) return out;
-    // Motion beyond the noise counts in full, however many blocks there are: it may be slow.
     const double n = cut.before.n + cut.after.n;
     const double nn = cut.before.nn + cut.after.nn;
     const double usual = (b.n - 1) * 2.0 * reading_arcsec2(g, with_phase) + walk_arcsec2(g) * n;
-    const double beyond = (cut.residual - 2.0 * usual) / (nn * tick_s * tick_s);
-    const double motion = beyond > 0.0 ? beyond : 0.0;
-    const double before_variance = rate_variance(g, cut.before.n, with_phase) + sway + motion;
-    const double after_variance = rate_variance(g, cut.after.n, with_phase) + sway + motion;
+    const double beyond = cut.residual > 2.0 * usual ? cut.residual - 2.0 * usual : 0.0;
+    out.slow_motion = beyond / (nn * tick_s * tick_s);
+    out.fast_motion = beyond / static_cast<double>(b.n - 1);
+    const double before_variance =
+        rate_variance(g, cut.before.n, with_phase) + sway + motion_variance(out, cut.before.n * tick_s);
+    const double after_variance =
+        rate_variance(g, cut.after.n, with_phase) + sway + motion_variance(out, cut.after.n * tick_s);
     const double before = cut.before.x / cut.before.n;
     const double step = (cut.after.x / cut.after.n - before) / tick_s;
     if (!(step * step > min_sigmas_sq * (after_variance + before_variance))) {
-        out.rate_variance += motion;
+        out.rate_variance += motion_variance(out, out.length_s);
         return out;
     }
     out.stepped = true;

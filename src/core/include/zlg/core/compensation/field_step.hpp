@@ -20,7 +20,7 @@
 
 namespace zlg::core {
 
-inline constexpr int field_blocks = 64;
+inline constexpr int field_blocks = 96;
 
 struct SegmentBlock {
     std::int64_t n_ticks = 0;
@@ -44,6 +44,7 @@ bool accumulate(const CompensationConstants& gyro, SegmentBlocks& blocks, double
 
 // What a finished segment says.
 struct SegmentStep {
+    double length_s = 0.0;
     bool known = false;          // its last rate
     bool stepped = false;        // there was one step, significant and lasting up to the end
     double rate_arcsec_s = 0.0;  // after the step, and its variance
@@ -52,6 +53,9 @@ struct SegmentStep {
     double before_variance = 0.0;
     double excess_arcsec = 0.0;  // angle beyond r0 since the step
     double excess_variance = 0.0;
+    // Motion about these rates beyond the noise: (arcsec/s)^2 if it is slow, arcsec^2 at either end of a stretch if it is fast.
+    double slow_motion = 0.0;
+    double fast_motion = 0.0;
 
     friend constexpr bool operator==(const SegmentStep&, const SegmentStep&) = default;
 };
@@ -112,7 +116,8 @@ bool pause(const CompensationConstants& gyro, const FieldStepPrior& prior, Field
 //
 // Whether a field began in the last segment is decided when (1) tells it, from one second after the re-lock on. Where it tells
 // nothing in four seconds, the angle since the step may be rotation or not, and its square is added to the variance of the
-// ticks that follow; so is the variance of an angle that is subtracted. Both come with a time constant of 256 ticks.
+// ticks that follow; so is what a field that is subtracted may have been wrong by in that segment, and the variance of an angle that
+// is subtracted. All come with a time constant of 256 ticks.
 //
 // Without a step (1) is a better mean of the drift. Where it stayed open what a switch told and the next one tells the same, the
 // field follows, if there is one.
