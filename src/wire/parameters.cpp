@@ -73,6 +73,8 @@ constexpr std::tuple table{
             [](auto& c) -> auto& { return c.schedule.presumed.switch_error_arcsec; }),
     control(0x0406, rw, "schedule.presumed_magnetic_arcsec_s",
             [](auto& c) -> auto& { return c.schedule.presumed.magnetic_arcsec_s; }),
+    control(0x0407, rw, "rate_step.block_halves", [](auto& c) -> auto& { return c.rate_step.block_halves; }),
+    control(0x0408, rw, "rate_step.min_counts", [](auto& c) -> auto& { return c.rate_step.min_counts; }),
     control(0x0501, rw, "mode_switch.gap_ticks", [](auto& c) -> auto& { return c.mode_switch.gap_ticks; }),
     control(0x0502, rw, "mode_switch.gap_min_ticks", [](auto& c) -> auto& { return c.mode_switch.gap_min_ticks; }),
     control(0x0503, rw, "mode_switch.settle_ticks", [](auto& c) -> auto& { return c.mode_switch.settle_ticks; }),

@@ -55,6 +55,21 @@ bool is_newly_due(const SwitchScheduleConfig& c, SwitchScheduleState& s, const S
     return regular || s.balanced;
 }
 
+// An opening before it is planned, to learn whether a step of the rate was a field.
+bool is_due_by_step(const SwitchScheduleConfig& c, const SwitchScheduleState& s,
+                    const SwitchScheduleInput& in) noexcept {
+    if (!in.stepped || !in.ready || s.held || s.balanced || !(in.tick >= 0 && in.tick < tick_limit)) return false;
+    const std::int64_t half_interval = c.interval_ticks / 2;
+    const bool by_half = c.kind == ScheduleKind::fixed && half_interval < c.min_ticks;
+    return in.tick - s.opened_tick >= (by_half ? half_interval : c.min_ticks);
+}
+
+// What is left of the segment that ends early, the next one has less than an interval.
+void move_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
+    const std::int64_t left_ticks = s.next_tick - tick;
+    s.next_tick = tick + (left_ticks < c.interval_ticks ? c.interval_ticks - left_ticks : c.interval_ticks);
+}
+
 // Sixteen bits that look random: the last step of MurmurHash3 (A. Appleby, public domain).
 std::uint32_t scattered(std::uint32_t x) noexcept {
     x = (x ^ (x >> 16U)) * 0x85ebca6bU;
@@ -114,7 +129,9 @@ SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleStat
     const bool late = state.waiting || jumped;
     const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
     state.waiting = planned && !in.ready;
-    if (!((planned || state.asked) && in.ready)) return {};
+    const bool early = !planned && is_due_by_step(config, state, in);
+    if (!((planned || state.asked || early) && in.ready)) return {};
+    if (early && config.kind == ScheduleKind::fixed) move_grid(config, state, in.tick);
     state.asked = false;
     note_opening(config, state, in);
     return {.open = true, .late = late};
