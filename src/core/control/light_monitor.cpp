@@ -3,6 +3,7 @@
 #include <array>
 
 #include <zlg/core/common/maths.hpp>
+#include <zlg/core/records.hpp>
 
 #include "common/bounds.hpp"
 
@@ -132,7 +133,6 @@ double noise_lambda2(const LightMonitorInput& in) noexcept {
 // Errors of the curve of the discriminator itself, as detuning.
 constexpr double curve_error_lambda = 3e-4;
 constexpr std::size_t min_motion_samples = 5;
-constexpr std::size_t max_samples = 64;
 
 // A sample as detuning, through the curve.
 CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
@@ -151,7 +151,7 @@ CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
 // limit_lambda2  largest variance of a sample, as detuning at the centre, that is no fault.
 // return         whether there is more on average, and a good part of that in every third.
 bool is_noisy_throughout(const LightMonitorInput& in, double limit_lambda2) noexcept {
-    const std::size_t n = in.light_a.size() < max_samples ? in.light_a.size() : max_samples;
+    const std::size_t n = in.light_a.size() < max_light_samples ? in.light_a.size() : std::size_t{max_light_samples};
     if (n < min_motion_samples) return true;
     constexpr double gain_sq = 70.0;  // of white noise: 1 + 16 + 36 + 16 + 1
     constexpr double good_part = 0.25;

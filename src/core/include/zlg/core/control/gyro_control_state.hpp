@@ -107,7 +107,7 @@ struct GyroControlState {
     BiasCommutatorState commutator{};
     std::int64_t half = 0;       // index of the half that is latched next; 2j and 2j + 1 make tick j
     std::uint64_t counter = 0;   // reading at the end of the last half
-    bool counter_stale = false;  // no: at the end of an earlier one
+    bool counter_stale = false;  // `counter` is that of an earlier half: the last frame was not fresh
     FrameOrderState order{};
     BiasMonitorState bias_monitor{};
     CoilMonitorState coil_monitor{};
@@ -117,10 +117,10 @@ struct GyroControlState {
     DetuningMonitorState detuning_monitor{};
     FringeReadoutState fringe{};
     bool was_lit = false;          // the last half was counted, closed and lit
-    bool was_dark = false;         // a half since the loop was opened
+    bool was_dark = false;         // a half since the loop was opened showed no light in both directions
     bool first_was_blind = false;  // the first half of the tick was valid, without a mean square of the detuning;
     bool first_was_seen = false;   // with one
-    bool was_beyond = false;       // its counts were more than the gyro can make
+    bool was_beyond = false;       // the last half had more counts than the gyro can make
     bool light_spoilt = false;     // its light was not to be trusted
     bool recentring = false;       // the last switch led away from an end of the range
     std::int32_t n_near_end = 0;   // halves in a row with the piezo near an end of its range; from 512 on again from 4
