@@ -12,6 +12,7 @@ namespace zlg::trials {
 namespace {
 
 constexpr std::int64_t min_switches = 5;  // from which on the rms of a gyro says something
+constexpr std::size_t min_gyros = 50;     // and their median: its standard error is 0.05 then
 constexpr double max_sigmas = 5.0;
 constexpr double min_median = 0.9;
 constexpr double max_median = 1.2;
@@ -97,7 +98,7 @@ std::vector<std::string> complaints(const std::vector<GyroOutcome>& outcomes) {
             found.push_back(fmt::format("gyro {}: {}: {}", o.number, fault, o.command));
     const std::vector<double> ratios = rms_ratios(outcomes);
     const double median = quantile(ratios, 0.5);
-    if (!ratios.empty() && !(median >= min_median && median <= max_median))
+    if (ratios.size() >= min_gyros && !(median >= min_median && median <= max_median))
         found.push_back(
             fmt::format("error of a switch over sigma: the median of {} gyros is {:.2f}, allowed is {} to {}",
                         ratios.size(), median, min_median, max_median));

@@ -231,16 +231,17 @@ bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitor
     const bool seen = in.closed && in.light_a.size() >= line_samples && !in.light_b.empty();
     const bool follows = seen && s.has_end;
     const double before_lambda = s.end_lambda;
-    const double change_before_lambda = s.change_lambda;
+    const double change_before_lambda = static_cast<double>(s.change_lambda);
     s.has_end = seen;
     if (!seen) return false;
     const Ends ends = ends_of(in);
     s.end_lambda = ends.last_lambda;
-    s.change_lambda = size(ends.last_lambda - ends.first_lambda);
+    const double change_lambda = size(ends.last_lambda - ends.first_lambda);
+    s.change_lambda = static_cast<float>(change_lambda);
     if (!follows) s.jump_lambda = 0.0;
     if (!follows) return false;
     constexpr double lines_sq = 1.01;  // variance of the difference of two ends over that of a sample
-    const double allowed = bend_lambda(in.light_a.size(), s.change_lambda, change_before_lambda);
+    const double allowed = bend_lambda(in.light_a.size(), change_lambda, change_before_lambda);
     const double noise_sq = lines_sq * ends.slope_sq * c.noise.value() * c.noise.value();
     const double jump = in.sign * (ends.first_lambda - before_lambda);
     constexpr double weight = 0.4;  // a quarter of the variance

@@ -93,6 +93,7 @@ TEST(GyroCampaign, FiguresDoNotDependOnTheThreads) {
 }
 
 TEST(GyroCampaign, EveryLimitThatIsNotKeptIsNamed) {
+    constexpr std::size_t enough = 50;
     const GyroOutcome good{.ticks = 100, .valid = 99, .judged = 9, .mean_sq_ratio = 1.0, .worst_sigmas = 4.9};
     EXPECT_TRUE(complaints({good}).empty());
     const auto lines = [&](auto GyroOutcome::*figure, auto value) {
@@ -106,8 +107,15 @@ TEST(GyroCampaign, EveryLimitThatIsNotKeptIsNamed) {
     EXPECT_EQ(lines(&GyroOutcome::worst_flagged_sigmas, 5.1), 0u) << "it has a flag";
     EXPECT_EQ(lines(&GyroOutcome::not_finite, true), 1u);
     EXPECT_EQ(lines(&GyroOutcome::crash, std::string{"why"}), 1u);
-    EXPECT_EQ(lines(&GyroOutcome::mean_sq_ratio, 0.8), 1u) << "0.89 rms";
-    EXPECT_EQ(lines(&GyroOutcome::mean_sq_ratio, 1.5), 1u);
+    const auto lines_of_many = [&](double mean_sq_ratio) {
+        GyroOutcome bad = good;
+        bad.mean_sq_ratio = mean_sq_ratio;
+        EXPECT_TRUE(complaints(std::vector(enough - 1, bad)).empty()) << "too few know a median";
+        return complaints(std::vector(enough, bad)).size();
+    };
+    EXPECT_EQ(lines_of_many(1.0), 0u);
+    EXPECT_EQ(lines_of_many(0.8), 1u) << "0.89 rms";
+    EXPECT_EQ(lines_of_many(1.5), 1u);
     GyroOutcome alarmed = good;
     alarmed.alarms[18] = 1;
     ASSERT_EQ(complaints({alarmed}).size(), 1u);

@@ -71,8 +71,8 @@ struct GyroCampaign {
 [[nodiscard]] std::vector<GyroOutcome> run(const GyroCampaign& campaign);
 
 // One line for each limit that is not kept, with the command of the gyro where it is one: none lost, no false alarm, no unrepaired
-// tick, no NaN, no crash, no switch beyond 5 sigma without a flag; of all gyros with 5 switches, a median rms of error over
-// sigma of 0.9 to 1.2.
+// tick, no NaN, no crash, no switch beyond 5 sigma without a flag; of all gyros with 5 switches, where they are 50 at least,
+// a median rms of error over sigma of 0.9 to 1.2.
 [[nodiscard]] std::vector<std::string> complaints(const std::vector<GyroOutcome>& outcomes);
 
 // A row for each fidelity and one for all; and one for each gyro.

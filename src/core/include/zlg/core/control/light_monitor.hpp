@@ -61,8 +61,8 @@ struct LightMonitorState {
     std::int32_t n_side = 0;          // halves in a row on this side, up to the debounce limit
     bool is_unbalanced = false;
     double end_lambda = 0.0;     // detuning at the end of the half before, by its last samples, if `has_end`
-    double change_lambda = 0.0;  // size of its change in that half
     bool has_end = false;        // the half before was closed and good
+    float change_lambda = 0.0f;  // size of the detuning's change in it
     double jump_lambda = 0.0;    // from half to half where the bias is reversed, smoothed
 
     friend constexpr bool operator==(const LightMonitorState&, const LightMonitorState&) = default;
