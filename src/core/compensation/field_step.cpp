@@ -238,9 +238,9 @@ SegmentStep step_of(const CompensationConstants& g, const SegmentBlocks& b, bool
     out.rate_variance = rate_variance(g, as_double(all.n_ticks), with_phase) + sway;
     const Cut cut = best_cut(b);
     if (cut.at == 0) return out;
-    const double n = cut.before.n + cut.after.n;
     const double nn = cut.before.nn + cut.after.nn;
-    const double usual = (b.n - 1) * 2.0 * reading_arcsec2(g, with_phase) + walk_arcsec2(g) * n;
+    const double usual =
+        (b.n - 1) * 2.0 * reading_arcsec2(g, with_phase) + walk_arcsec2(g) * (cut.before.n + cut.after.n);
     const double beyond = cut.residual > 2.0 * usual ? cut.residual - 2.0 * usual : 0.0;
     out.slow_motion = beyond / (nn * tick_s * tick_s);
     out.fast_motion = beyond / static_cast<double>(b.n - 1);
