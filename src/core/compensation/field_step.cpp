@@ -22,14 +22,13 @@ constexpr int min_side = 1;
 constexpr int most_alike = 7;
 constexpr double agreement_ratio = 0.25;
 
-// Time after the re-lock in which it is decided.
-constexpr double first_look_s = 1.0;
-constexpr double last_look_s = 4.0;
+constexpr double first_look_s = 1.0;  // after the re-lock: from here
+constexpr double last_look_s = 4.0;   // to here it is decided
 
 // Gain a tick of what the past lacks: of 98 arcsec 0.4 come in the first tick.
 constexpr double past_gain = 1.0 / 256.0;
 
-// From switch to switch the drift may change by so much, (arcsec/s)^2: warming.
+// Variance by which the drift may change from switch to switch: warming.
 constexpr double drift_noise = 0.01;
 
 double square(double x) noexcept { return x * x; }

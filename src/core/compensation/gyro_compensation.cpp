@@ -244,14 +244,15 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
 
 // The magnetic drift that is to be subtracted from a tick. By phase a switch is known so well that it matters how the drift
 // steps there, so that it is estimated whatever the method, and handed to the bridge as far as it stays in the values.
-double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
-                       const TickInput& tick) noexcept {
+double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state, TickInput& tick) noexcept {
     const bool by_phase = state.bridge.learning.moments.with_phase;
     const MagneticMethod method = config.magnetic.method;
     if (method == MagneticMethod::none && !by_phase && !state.magnetic.started) return 0.0;
     const double subtracted = step(config.gyro, config.magnetic, state.magnetic,
                                    {tick.measured, tick.mode, tick.value_arcsec, tick.settled, by_phase});
-    if (!tick.measured)
+    if (tick.measured)
+        tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
+    else
         state.bridge.magnetic_arcsec = by_phase && method != MagneticMethod::estimate
                                            ? trusted_arcsec_s(state.magnetic) * config.gyro.tick.value()
                                            : 0.0;
@@ -317,7 +318,6 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     tick.bias_arcsec = state.bias_arcsec;
     const double drift_arcsec = magnetic_arcsec(config, state, tick);
     tick.value_arcsec -= drift_arcsec;
-    if (tick.measured) tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
     if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
         read_lit_halves(config, state, second, borders.start, tick, drift_arcsec);
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, config.bridge, state.bridge, tick)};
