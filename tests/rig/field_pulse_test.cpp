@@ -33,7 +33,7 @@ config::Config with_field(config::Config c, double at_s, double duration_s, doub
     return c;
 }
 
-struct Run {
+struct Life {
     std::vector<double> opened_s;
     std::vector<core::HalfRecord> records;
     double error_arcsec = 0.0;
@@ -48,9 +48,9 @@ double angle_of(const config::Config& c, const std::vector<core::HalfRecord>& re
     return angle;
 }
 
-Run run(const config::Config& c, double length_s, const twin::Motion& motion = twin::Motion::rest()) {
+Life run(const config::Config& c, double length_s, const twin::Motion& motion = twin::Motion::rest()) {
     rig::ClosedLoop loop{c, motion};
-    Run out;
+    Life out;
     double turned = 0.0;
     bool was_closed = true;
     for (std::int64_t half = 0; half < std::llround(2.0 * length_s / c.gyro.tick_s); ++half) {
@@ -71,7 +71,7 @@ TEST(FieldPulse, WithoutAStepTheScheduleIsThatOfAGyroThatWaits) {
 }
 
 TEST(FieldPulse, AfterAStepTheGyroSwitchesWithinTwoSeconds) {
-    const Run got = run(with_field(gyro(config::AfterStep::switch_early), 120.0, 30.0, 30.0), 260.0);
+    const Life got = run(with_field(gyro(config::AfterStep::switch_early), 120.0, 30.0, 30.0), 260.0);
     // Planned: 30, 90, 150, 210. The field begins at 120 and ends at 150.
     ASSERT_GE(got.opened_s.size(), 5U);
     EXPECT_DOUBLE_EQ(got.opened_s[1], 90.0);

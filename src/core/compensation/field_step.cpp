@@ -22,14 +22,13 @@ constexpr int min_side = 1;
 constexpr int most_alike = 7;
 constexpr double agreement_ratio = 0.25;
 
-// Time after the re-lock in which it is decided.
-constexpr double first_look_s = 1.0;
-constexpr double last_look_s = 4.0;
+constexpr double first_look_s = 1.0;  // after the re-lock: from here
+constexpr double last_look_s = 4.0;   // to here it is decided
 
 // Gain a tick of what the past lacks: of 98 arcsec 0.4 come in the first tick.
 constexpr double past_gain = 1.0 / 256.0;
 
-// From switch to switch the drift may change by so much, (arcsec/s)^2: warming.
+// Variance by which the drift may change from switch to switch: warming.
 constexpr double drift_noise = 0.01;
 
 double square(double x) noexcept { return x * x; }
@@ -238,9 +237,9 @@ SegmentStep step_of(const CompensationConstants& g, const SegmentBlocks& b, bool
     out.rate_variance = rate_variance(g, as_double(all.n_ticks), with_phase) + sway;
     const Cut cut = best_cut(b);
     if (cut.at == 0) return out;
-    const double n = cut.before.n + cut.after.n;
     const double nn = cut.before.nn + cut.after.nn;
-    const double usual = (b.n - 1) * 2.0 * reading_arcsec2(g, with_phase) + walk_arcsec2(g) * n;
+    const double usual =
+        (b.n - 1) * 2.0 * reading_arcsec2(g, with_phase) + walk_arcsec2(g) * (cut.before.n + cut.after.n);
     const double beyond = cut.residual > 2.0 * usual ? cut.residual - 2.0 * usual : 0.0;
     out.slow_motion = beyond / (nn * tick_s * tick_s);
     out.fast_motion = beyond / static_cast<double>(b.n - 1);

@@ -246,14 +246,15 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
 // Magnetic drift to subtract from this tick. With the fringe phase read, a switch is known well enough for the step of the
 // drift there to matter, so the drift is estimated whatever the method; what the method leaves in the values is handed to the
 // bridge. Advances the estimator.
-double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
-                       const TickInput& tick) noexcept {
+double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state, TickInput& tick) noexcept {
     const bool by_phase = state.bridge.learning.moments.with_phase;
     const MagneticMethod method = config.magnetic.method;
     if (method == MagneticMethod::none && !by_phase && !state.magnetic.started) return 0.0;
     const double subtracted = step(config.gyro, config.magnetic, state.magnetic,
                                    {tick.measured, tick.mode, tick.value_arcsec, tick.settled, by_phase});
-    if (!tick.measured)
+    if (tick.measured)
+        tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
+    else
         state.bridge.magnetic_arcsec = by_phase && method != MagneticMethod::estimate
                                            ? trusted_arcsec_s(state.magnetic) * config.gyro.tick.value()
                                            : 0.0;
@@ -319,7 +320,6 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     tick.bias_arcsec = state.bias_arcsec;
     const double drift_arcsec = magnetic_arcsec(config, state, tick);
     tick.value_arcsec -= drift_arcsec;
-    if (tick.measured) tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
     if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
         read_lit_halves(config, state, second, borders.start, tick, drift_arcsec);
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, config.bridge, state.bridge, tick)};

@@ -58,7 +58,7 @@ bool is_newly_due(const SwitchScheduleConfig& c, SwitchScheduleState& s, const S
 // An opening before it is planned, to learn whether a step of the rate was a field.
 bool is_due_by_step(const SwitchScheduleConfig& c, const SwitchScheduleState& s,
                     const SwitchScheduleInput& in) noexcept {
-    if (!in.stepped || !in.ready || s.held || s.balanced || !(in.tick >= 0 && in.tick < tick_limit)) return false;
+    if (!in.ready || s.held || s.balanced || !(in.tick >= 0 && in.tick < tick_limit)) return false;
     const std::int64_t half_interval = c.interval_ticks / 2;
     const bool by_half = c.kind == ScheduleKind::fixed && half_interval < c.min_ticks;
     return in.tick - s.opened_tick >= (by_half ? half_interval : c.min_ticks);
@@ -129,7 +129,7 @@ SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleStat
     const bool late = state.waiting || jumped;
     const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
     state.waiting = planned && !in.ready;
-    const bool early = !planned && is_due_by_step(config, state, in);
+    const bool early = in.stepped && !planned && is_due_by_step(config, state, in);
     if (!((planned || state.asked || early) && in.ready)) return {};
     if (early && config.kind == ScheduleKind::fixed) move_grid(config, state, in.tick);
     state.asked = false;
