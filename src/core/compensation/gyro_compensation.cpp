@@ -252,12 +252,13 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
     if (method == MagneticMethod::none && !by_phase && !state.magnetic.started) return 0.0;
     const double subtracted = step(config.gyro, config.magnetic, state.magnetic,
                                    {tick.measured, tick.mode, tick.value_arcsec, tick.settled, by_phase});
-    if (tick.measured)
+    if (tick.measured) {
         tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
-    else
-        state.bridge.magnetic_arcsec = by_phase && method != MagneticMethod::estimate
-                                           ? trusted_arcsec_s(state.magnetic) * config.gyro.tick.value()
-                                           : 0.0;
+    } else {
+        const double left_arcsec_s =
+            trusted_arcsec_s(state.magnetic) - state.magnetic.trust * state.magnetic.filter.estimate[of_drift];
+        state.bridge.magnetic_arcsec = by_phase ? left_arcsec_s * config.gyro.tick.value() : 0.0;
+    }
     return subtracted;
 }
 
