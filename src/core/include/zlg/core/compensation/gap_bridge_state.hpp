@@ -12,6 +12,7 @@
 #include <zlg/core/compensation/motion_learning.hpp>
 #include <zlg/core/compensation/optimal_bridge.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
+#include <zlg/core/compensation/tick_outlier.hpp>
 #include <zlg/core/records.hpp>
 
 namespace zlg::core {
@@ -100,6 +101,7 @@ struct GapBridgeState {
     int n_pending = 0;
     std::array<PendingGap, max_pending_gaps> pending{};
     MotionLearningState learning{};
+    TickOutlierState outlier{};
     GapPrediction prediction{};
     EstimatedGap estimate{};
     // Of the gap that ended last: put here once it is known or given up, before that gap is resolved.
