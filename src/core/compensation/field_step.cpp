@@ -31,8 +31,6 @@ constexpr double past_gain = 1.0 / 256.0;
 // Variance by which the drift may change from switch to switch: warming.
 constexpr double drift_noise = 0.01;
 
-double square(double x) noexcept { return x * x; }
-
 double reading_arcsec2(const CompensationConstants& g, bool with_phase) noexcept {
     const double count = g.scale.value();
     return with_phase ? square(count * g.fringe_noise_counts) : count * count / 12.0;
