@@ -42,7 +42,7 @@ class Runs(CliTest):
             self.succeed("run", "--duration", 5, "--light", "--set", f"compensation.relock={relock}", "--set",
                          "switching.interval_s=1", *[word for key in fault for word in ("--set", f"faults.{key}")], "--out", out)
             self.succeed("process", out / "raw.h5", "--out", self.folder / f"{relock}.csv")
-            self.succeed("convert", out / "angles.h5", self.folder / f"{relock}-run.csv")
+            self.succeed("convert", out / "angles.h5", "--out", self.folder / f"{relock}-run.csv")
             rows = [[line for line in (self.folder / name).read_text().splitlines() if line[0].isdigit()]
                     for name in (f"{relock}.csv", f"{relock}-run.csv")]
             self.assertEqual(rows[0], rows[1])
