@@ -5,7 +5,7 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr double rounding_counts2 = 0.25;  // A(n) of the rounding alone, see the header
+constexpr double standing_rounding_counts2 = 0.25;  // A(n) of the rounding alone, see the header
 // A variance from this many pairs is known to a third.
 constexpr std::int64_t min_pairs = 16;
 // A gyro at rest has no more than this times the expected variance, and no less than the inverse.
@@ -54,8 +54,8 @@ RestCheck check_rest(const AngleScatter& scatter, double walk_counts2_per_tick) 
         if (scatter.pairs(scale) < min_pairs) continue;
         const std::int64_t ticks = std::int64_t{1} << scale;
         const double walk = walk_counts2_per_tick * static_cast<double>(ticks);
-        const double ratio = scatter.variance(scale) / (rounding_counts2 + walk);
-        if (ratio < 1.0 && walk < 4.0 * rounding_counts2) continue;
+        const double ratio = scatter.variance(scale) / (standing_rounding_counts2 + walk);
+        if (ratio < 1.0 && walk < 4.0 * standing_rounding_counts2) continue;
         const double distance = std::abs(std::log(std::fmax(ratio, 1e-12)));
         if (!(distance > worst)) continue;
         worst = distance;

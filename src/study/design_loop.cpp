@@ -139,6 +139,8 @@ Relock relock_on_twin(const config::Config& config) {
     for (; !half.record.loop_closed; half = advance()) relock.from_lambda = std::abs(half.truth.detuning_end_lambda);
     // The twin puts a configured miss in place at the moment of closing.
     if (config.perimeter.miss_lambda > 0.0) relock.from_lambda = config.perimeter.miss_lambda;
+    // What is made up of a detuning within the tolerance says nothing of the loop.
+    const bool shows = relock.from_lambda > relock_tolerance_lambda;
     double last_outside_s = 0.0;
     for (int k = 0; k < ticks; ++k) {
         double false_arcsec = 0.0;
@@ -148,7 +150,8 @@ Relock relock_on_twin(const config::Config& config) {
             false_arcsec += half.truth.false_relock_arcsec;
             relock.mean_square_lambda2.push_back(half.record.detuning_sq_lambda2);
             if (std::abs(end) > relock_tolerance_lambda) last_outside_s = (k + 0.5 * (h + 1)) * config.gyro.tick_s;
-            if (h == 1 && k < step_ticks) relock.made_up.push_back(1.0 - std::abs(end) / relock.from_lambda);
+            if (h == 1 && k < step_ticks)
+                relock.made_up.push_back(shows ? 1.0 - std::abs(end) / relock.from_lambda : std::nan(""));
         }
         relock.false_drift_arcsec_s.push_back(-sign * false_arcsec / config.gyro.tick_s);
     }
