@@ -275,6 +275,18 @@ void read_lit_halves(const GyroCompensationConfig& config, GyroCompensationState
         add_gap_tick(config.gyro, state.bridge.lit, read, !state.bridge.gap.open, motion_arcsec2);
 }
 
+// Of a tick, and of the sum over a gap, in which eps is presumed to be that of its end.
+void subtract_asymmetry(const CompensationConstants& gyro, const CoilAsymmetry& coil, Celsius temperature,
+                        TickInput& tick) noexcept {
+    if (coil.variance == 0.0) return;
+    const double per_ratio = tick.mode * gyro.scale.value() * gyro.tick.value() * bias_at(gyro, temperature).value();
+    const double known_ticks = as_double(tick.known_ticks);
+    tick.value_arcsec -= per_ratio * coil.ratio;
+    tick.variance_arcsec2 += per_ratio * per_ratio * coil.variance;
+    tick.known_arcsec -= known_ticks * per_ratio * coil.ratio;
+    tick.known_variance_arcsec2 += known_ticks * known_ticks * per_ratio * per_ratio * coil.variance;
+}
+
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
                                  const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
@@ -315,6 +327,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         state.first_waits = false;
     }
     tick.bias_arcsec = state.bias_arcsec;
+    subtract_asymmetry(config.gyro, step(state.coil, first, second), Celsius{first.temperature_c}, tick);
     const double drift_arcsec = magnetic_arcsec(config, state, tick);
     tick.value_arcsec -= drift_arcsec;
     if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
