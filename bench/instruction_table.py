@@ -50,6 +50,8 @@ PART_OF = {
     "relock_profile_config": "relock_profile",
     "relock_profile_state": "relock_profile",
     "gap_tick": "gap_bridge",
+    "row_outlier": "gap_bridge",
+    "tick_outlier": "gap_bridge",
     "gyro_control_state": "gyro_control",
     "relock_chain": "relock_profile",
     "relock_light": "relock_profile",

@@ -13,14 +13,14 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// One line to standard error, once the work is done: with an error there is no other line. What begins with `warning: ` comes
-// after a second of work. For the thread of `main`.
+// Queue one line for standard error; queued lines are printed at the end, or dropped after an error. Lines that begin with
+// `warning: ` may be printed earlier (print_warnings). Main thread only.
 void complain(const std::string& line);
 
-// Prints the warnings of what waits.
+// Print the queued warnings now.
 void print_warnings();
 
-// Prints what waits, unless there was an error.
+// Print the rest of the queue, unless there was an error.
 void print_notes();
 
 // The one line of an error, in place of what waits; from any thread. Only the first error has one.

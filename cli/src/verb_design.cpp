@@ -122,7 +122,7 @@ std::string run_text(const study::DesignResult& result) {
     return text;
 }
 
-std::string loop_text(const config::Config& config, const study::LoopLine& l) {
+std::string loop_text(const study::LoopLine& l) {
     std::string text =
         fmt::format("\nperimeter loop, {}\n  phase margin {:.1f} deg, gain margin {:.3g}\n",
                     l.margins.stable ? "stable" : "UNSTABLE", l.margins.phase_margin_deg, l.margins.gain_margin);
@@ -132,8 +132,8 @@ std::string loop_text(const config::Config& config, const study::LoopLine& l) {
                                  ? fmt::format("{:.1f} ms (linear {:.1f} ms), false angle {:.1f} arcsec",
                                                1e3 * l.relock_s, 1e3 * l.relock_linear_s, l.false_angle_arcsec)
                                  : l.relock_note;
-    text += fmt::format("  re-lock from {} to 0.01 wavelength: {}; (T/4) G(0+) {:.1f} arcsec\n",
-                        config.perimeter.miss_lambda, time, l.false_angle_law_arcsec);
+    text += fmt::format("  re-lock from {:.4g} to 0.01 wavelength: {}; (T/4) G(0+) {:.1f} arcsec\n",
+                        l.relock_from_lambda, time, l.false_angle_law_arcsec);
     return text + fmt::format("  miss: root sum square {:.4f}, worst {:.4f} wavelength\n",
                               l.miss.root_sum_square_lambda, l.miss.worst_lambda);
 }
@@ -158,7 +158,7 @@ void design_gyro(const DesignOptions& options) {
     }
     print(options.json ? pretty(result_json(result))
                        : interval_text(result) + best_text(result) + run_text(result) + substitution_text(result) +
-                             loop_text(config, result.loop));
+                             loop_text(result.loop));
 }
 
 }  // namespace

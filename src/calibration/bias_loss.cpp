@@ -28,7 +28,7 @@ struct LightNoise {
 };
 
 // So many clusters give a scatter to be relied on.
-constexpr std::int64_t min_clusters = 8;
+constexpr std::int64_t min_relocks_of_loss = 8;
 
 // The borders of one re-lock: columns of the loss per unit of chi and of parity.
 struct Borders : RelockBorders {
@@ -140,7 +140,7 @@ void solve(const std::vector<Borders>& all, BiasLoss& loss) {
     const Eigen::Vector2d solution = inverse * total.c;
     loss.chi2_per_dof = chi2_per_dof(all, solution);
     const Eigen::Matrix2d covariance =
-        loss.n_relocks >= min_clusters
+        loss.n_relocks >= min_relocks_of_loss
             ? Eigen::Matrix2d{scatter_covariance(clusters, inverse, solution) +
                               inverse * repeated_rounding({all.begin(), all.end()}, solution).covariance * inverse}
             : Eigen::Matrix2d{std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * inverse};

@@ -13,7 +13,7 @@
 namespace zlg::calibration {
 namespace {
 
-constexpr std::int64_t min_clusters = 4;
+constexpr std::int64_t min_relocks_of_scale = 4;
 
 // Of the mean over a half by the cubic: (1 + 169 + 169 + 1)/576 of the variance of a reading.
 constexpr double cubic_noise = 340.0 / 576.0;
@@ -131,7 +131,7 @@ Fit fit(const Relocks& relocks, const HalfWaveLaw& law, Eigen::Index columns, Ma
         total.add(c);
     }
     Fit result{.n_relocks = std::ssize(clusters)};
-    if (result.n_relocks < min_clusters) return result;
+    if (result.n_relocks < min_relocks_of_scale) return result;
     const Eigen::MatrixXd inverse = total.xx.inverse();
     const Eigen::VectorXd solution = inverse * total.xy;
     const Eigen::MatrixXd scores =
@@ -156,10 +156,10 @@ DetuningScale find_detuning_scale(std::span<const LabLog> logs, const HalfWaveLa
     const Relocks relocks{logs};
     const Fit f = stepped_voltage ? fit(relocks, law, 2, stepped_cluster) : fit(relocks, law, 1, cubic_cluster);
     result.n_relocks = f.n_relocks;
-    if (result.n_relocks < min_clusters) {
+    if (result.n_relocks < min_relocks_of_scale) {
         result.scale = numeric::refused(
             fmt::format("{} re-locks with the columns detuning_lambda and piezo_v; {} or more are needed",
-                        result.n_relocks, min_clusters));
+                        result.n_relocks, min_relocks_of_scale));
         return result;
     }
     if (stepped_voltage && relocks.steepest_fall < min_stepped_fall) {

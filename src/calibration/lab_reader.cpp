@@ -9,7 +9,7 @@ namespace zlg::calibration {
 namespace {
 
 // When the perimeter is at rest after a re-lock, from how the detuning decays.
-constexpr std::int64_t min_relocks = 4;
+constexpr std::int64_t min_relocks_of_decay = 4;
 constexpr double noise_sigmas = 4.0;
 constexpr double as_long_again = 1.5;
 constexpr std::size_t tail_halves = 8;
@@ -57,7 +57,7 @@ double beyond_kept_halves(const std::vector<Moments>& decay, double noise) {
 double rest_after_ticks(const std::vector<Relock>& relocks) {
     constexpr auto least = static_cast<double>(settled_after_ticks);
     const std::vector<Moments> decay = decay_of(relocks);
-    if (decay.front().n < min_relocks) return least;
+    if (decay.front().n < min_relocks_of_decay) return least;
     const double noise = noise_of(decay);
     std::size_t halves = relock_halves;
     while (halves > 0 && !(std::abs(decay[halves - 1].mean) > noise)) --halves;

@@ -16,7 +16,7 @@ namespace zlg::calibration {
 namespace {
 
 constexpr Eigen::Index n_terms = 4;
-constexpr std::int64_t min_relocks = 20;
+constexpr std::int64_t min_relocks_of_curve = 20;
 constexpr int n_points = 24;
 constexpr double min_bend_sigmas = 6.0;
 constexpr double min_bend_ratio = 0.05;
@@ -220,10 +220,10 @@ LossCurve find_loss_curve(std::span<const LabLog> logs, const BiasLaw& law) {
     if (!law.bias_hz.determined) return refused_curve("the bias frequency is not determined");
     const Relocks relocks{logs};
     const std::int64_t n = std::ssize(relocks.views);
-    if (n < min_relocks || !has_detunings(relocks))
+    if (n < min_relocks_of_curve || !has_detunings(relocks))
         return refused_curve(
             fmt::format("{} re-locks with the columns detuning_lambda and detuning_sq_lambda2; {} or more are needed",
-                        has_detunings(relocks) ? n : 0, min_relocks));
+                        has_detunings(relocks) ? n : 0, min_relocks_of_curve));
     const double last_lambda = farthest_lambda(relocks);
     if (!(last_lambda > 0.0 && last_lambda < 1e3)) return refused_curve("no re-lock shows in the detuning");
     const Fit fit = best_fit(relocks, law, n_terms, last_lambda);

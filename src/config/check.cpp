@@ -12,7 +12,7 @@ namespace zlg::config {
 
 namespace {
 
-void check_bridge(const Config& config) {
+void check_bridge_and_prior(const Config& config) {
     const Compensation& c = config.compensation;
     // A polynomial of order m goes through m + 1 points.
     const int order = order_of(c.bridge);
@@ -143,12 +143,12 @@ void check_compensation(const Config& config) {
     for (const Key& key : all_keys()) {
         if (key.section == "compensation" || key.section == "gyro") check_range(key, config);
     }
-    check_bridge(config);
+    check_bridge_and_prior(config);
 }
 
 void check(const Config& config) {
     for (const Key& key : all_keys()) check_range(key, config);
-    check_bridge(config);
+    check_bridge_and_prior(config);
     check_times(config.gyro, config.switching);
     check_interval_limits(config.gyro, config.switching);
     check_discriminator(config.perimeter);

@@ -20,6 +20,7 @@ constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
 constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
 constexpr std::array<std::string_view, 2> last_segments{"any", "half"};
+constexpr std::array<std::string_view, 2> after_steps{"wait", "switch"};
 constexpr std::array<std::string_view, 3> schedules{"fixed", "growing", "measured"};
 constexpr std::array<std::string_view, 3> magnetics{"none", "watch", "estimate"};
 constexpr std::array<std::string_view, 5> relocks{"none", "frequency", "detuning", "mean_square", "joint"};
@@ -237,7 +238,8 @@ const Key table[] = {
      "fixed: a grid of interval_s; growing: with the cube root of time; measured: by the errors of the switches and "
      "the drift that compensation finds",
      choice<&C::switching, &Switching::schedule>(schedules)},
-    {"switching", "interval_min_s", "s", "shortest interval of a schedule that is not fixed",
+    {"switching", "interval_min_s", "s",
+     "shortest interval of a schedule that is not fixed, and before a switch after a step",
      Real{at<&C::switching, &Switching::interval_min_s>, long_interval}},
     {"switching", "interval_max_s", "s", "longest interval of a schedule that is not fixed",
      Real{at<&C::switching, &Switching::interval_max_s>, long_interval}},
@@ -246,6 +248,11 @@ const Key table[] = {
      Real{at<&C::switching, &Switching::switch_error_arcsec>, schedule_number}},
     {"switching", "magnetic_arcsec_s", "arcsec/s", "drift that changes its sign with the mode, presumed likewise",
      Real{at<&C::switching, &Switching::magnetic_arcsec_s>, schedule_number}},
+    {"switching", "after_step", "",
+     "after a lasting step of a steady rate, which may be an outer field: wait for the next switch, which tells, or "
+     "switch "
+     "early",
+     choice<&C::switching, &Switching::after_step>(after_steps)},
     {"switching", "gap_ticks", "", "ticks for which the loop stays open at a switch",
      integer<&C::switching, &Switching::gap_ticks>(1, 16)},
     {"switching", "gap_min_ticks", "",

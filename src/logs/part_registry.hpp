@@ -9,7 +9,7 @@ namespace zlg::logs {
 void register_part(int fd, const std::string& part);
 void forget_part(int fd);
 
-// A forgotten part has got its name.
+// The part was renamed to its final name: forget_part was called before.
 void note_complete(const std::string& name);
 
 // False where another program has removed NAME or put a file of its own in its place.

@@ -23,7 +23,7 @@ DriftCase paper_case(double run_s) { return study::drift_case({}, run_s); }
 DriftCase per_degree(double run_s) { return drift_case_per_degree({}, run_s); }
 Optimum printed(const DriftCase& task) { return design::optimum(IntervalMethod::as_printed, task); }
 Optimum corrected(const DriftCase& task) { return design::optimum(IntervalMethod::corrected, task); }
-double best_interval_s(double run_s) { return corrected(paper_case(run_s)).interval_s; }
+double best_corrected_interval_s(double run_s) { return corrected(paper_case(run_s)).interval_s; }
 
 // What switch errors leave in an hour that are independent, their rms a third of the greatest.
 double independent_drift_arcsec_s(DriftCase task) {
@@ -118,7 +118,7 @@ std::vector<Claim> claims_of_interval() {
     DriftCase cold = hour;
     cold.gyro.magnetic_thermal_arcsec_s = 0.0;
     const GyroDrift by_degrees = per_degree(hour_s).gyro;
-    const double hour_interval_s = best_interval_s(hour_s);
+    const double hour_interval_s = best_corrected_interval_s(hour_s);
     return {
         {"eq (8)", "The condition for the minimum of (7).", agrees,
          fmt::format("It is the derivative of (7) as printed: at {:.0f} s in an hour {:.4e} \"/s per s, by differences "
@@ -129,8 +129,9 @@ std::vector<Claim> claims_of_interval() {
         {"figure 4", "The best interval is 1 to 2 minutes, much less than the thermal time.", not_supported,
          fmt::format("For the two shorter runs only: {:.1f} and {:.1f} s, but {:.1f} s in an hour and {:.1f} s in ten "
                      "hours, {:.0f} % of the thermal time.",
-                     best_interval_s(shortest_s), best_interval_s(900.0), hour_interval_s, best_interval_s(longest_s),
-                     100.0 * best_interval_s(longest_s) / longest.gyro.thermal_time_s)},
+                     best_corrected_interval_s(shortest_s), best_corrected_interval_s(900.0), hour_interval_s,
+                     best_corrected_interval_s(longest_s),
+                     100.0 * best_corrected_interval_s(longest_s) / longest.gyro.thermal_time_s)},
         {"eq (9)", "A cubic for the best interval, from (8) by expansion of the exponentials.", wrong,
          fmt::format("The right side lacks a factor t, and a factor of 2 lost on the way turns the sign of the thermal "
                      "term. With t restored its root is {:.1f} s in an hour where (8) has {:.1f} s and (9c) {:.1f} s, "
@@ -143,7 +144,7 @@ std::vector<Claim> claims_of_interval() {
         {"figure 5", "The best interval against the length of the run, from (9).", not_supported,
          fmt::format("It rises from {:.1f} to {:.1f} s, and (9) cannot have drawn that for all four runs: in {:.0f} s "
                      "it has no root. The corrected (9c) gives {:.1f} s there, the square root {:.0f} s.",
-                     best_interval_s(shortest_s), best_interval_s(longest_s), longest_s,
+                     best_corrected_interval_s(shortest_s), best_corrected_interval_s(longest_s), longest_s,
                      design::corrected_roots(longest).smaller_s, design::closed_form_interval_s(longest))},
         {"after eq (9)", "Without thermal change the best interval is sqrt(dP t/Om).", agrees,
          fmt::format("In an hour {:.1f} s; the exact minimum without warm-up is {:.1f} s, with it {:.1f} s. It "

@@ -18,7 +18,7 @@ double plateau_ratio(const config::Gyro& g) { return 1.0 / (1.0 - std::min(g.bia
 double counter_max_hz(const config::Gyro& gyro) {
     constexpr double highest_arcsec_s = 400.0 * 3600.0;
     constexpr double room = 1.01;  // the bias may be greater than it is presumed
-    const double plateau_hz = gyro.bias_hz / (1.0 - std::min(gyro.bias_edge_s / gyro.tick_s, 0.5));
+    const double plateau_hz = plateau_ratio(gyro) * gyro.bias_hz;
     return gyro.counter_max_hz.value_or(room * (plateau_hz + highest_arcsec_s / gyro.scale_arcsec));
 }
 

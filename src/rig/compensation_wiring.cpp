@@ -131,8 +131,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
         case core::GyroCompensationFault::bridge:
             if (check(made.bridge) == core::GapBridgeFault::optimal) refuse_prior(config);
             require_points(config, bridge);
-            // The keys are in order, so a constant of the gyro is not.
-            [[fallthrough]];
+            break;
         case core::GyroCompensationFault::edges:
         case core::GyroCompensationFault::relock:
             refuse(config, {"gyro.tick_s", "gyro.scale_arcsec", "gyro.bias_hz", "gyro.bias_chi", "gyro.bias_edge_s"},
@@ -149,7 +148,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
                     "compensation.magnetic_thermal_time_s"},
                    "drifts of up to 1e6 arcsec/s and a time constant of 1e-9..1e12 s");
     }
-    return made;
+    throw config::ConfigError{named(config, "the compensation refuses this gyro")};
 }
 
 }  // namespace zlg::rig

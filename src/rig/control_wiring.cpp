@@ -34,13 +34,24 @@ core::SwitchScheduleConfig schedule_of(const config::Config& config) {
             .presumed = {.switch_error_arcsec = sw.switch_error_arcsec, .magnetic_arcsec_s = sw.magnetic_arcsec_s}};
 }
 
-// Counts of a half at which a counter that follows no faster would stop.
+// Of half a second: two of them say that a step lasts. Beside the roundings at both ends of a block the level and the random
+// walk have a part in a step.
+core::RateStepConfig rate_step_of(const config::Config& config) {
+    if (config.switching.after_step == config::AfterStep::wait) return {};
+    const std::int64_t block_ticks = std::min<std::int64_t>(ticks_of(0.5, config.gyro.tick_s), 1 << 19);
+    const double block_s = static_cast<double>(block_ticks) * config.gyro.tick_s;
+    const double walk_counts = config.drift.random_walk_arcsec_sqrt_s * std::sqrt(block_s) / config.gyro.scale_arcsec;
+    return {.block_halves = static_cast<std::int32_t>(2 * block_ticks),
+            .min_counts = std::min(2.0 + 6.0 * walk_counts, 1e9)};
+}
+
+// Most counts of a half: one less than the fastest the counter can follow.
 std::int64_t counts_limit(const config::Config& config) {
     const double most = 0.5 * config.gyro.tick_s * counter_max_hz(config.gyro);
     return static_cast<std::int64_t>(std::clamp(most - 1.0, 1.0, 0x1p62));
 }
 
-// Arm the monitors. What of the bias and of the perimeter would be one count of a tick is not let pass.
+// Arm the monitors with the change of bias and of perimeter that makes one false count in a tick.
 void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     const config::Gyro& g = config.gyro;
     const double bias_counts = 0.5 * g.tick_s * g.bias_hz;
@@ -150,13 +161,13 @@ void add_relock(const config::Config& config, core::PerimeterLoopConfig& loop) {
     loop.time_constant = core::Seconds{std::max(p.settled_tau_s, 0.5 * config.gyro.tick_s)};
 }
 
-bool has_ideal_piezo(const config::Config& config) {
+bool has_no_hysteresis_or_creep(const config::Config& config) {
     return config.piezo.hysteresis == 0.0 && config.piezo.creep_per_decade == 0.0;
 }
 
 // Each decade of time between the end of the gap and the measurement of the half-wave voltage adds its creep to the next
-// miss. One loop is no measure of the next one, most of all at first: the steady gain of its filter is 2/3, and a tenth of the
-// voltage is no outlier.
+// miss. One hysteresis loop says little of the next, least of all the first: the filter's steady gain is 2/3, and a change
+// of a tenth of the voltage passes its gate.
 void learn_piezo(core::GyroControlConfig& made) {
     made.mode_switch.settle_ticks = 10;
     made.half_wave.measurement_sigma = 0.02 * made.half_wave.presumed;
@@ -190,10 +201,11 @@ core::GyroControlConfig control_config(const config::Config& config) {
     made.stroke.half_wave = presumed;
     made.stroke.reference = core::Celsius{config.gyro.reference_temperature_c};
     made.schedule = schedule_of(config);
+    made.rate_step = rate_step_of(config);
     made.mode_switch.range = range;
     made.mode_switch.gap_ticks = config.switching.gap_ticks;
     made.mode_switch.gap_min_ticks = config.switching.gap_min_ticks;
-    if (!has_ideal_piezo(config)) learn_piezo(made);
+    if (!has_no_hysteresis_or_creep(config)) learn_piezo(made);
     // A slow loop needs longer before it may be said to have failed.
     made.mode_switch.lock_timeout_ticks = static_cast<std::int32_t>(std::max<std::int64_t>(
         60, made.mode_switch.settle_ticks + ticks_of(std::min(12.0 * config.perimeter.tau_s, 1e6 * tick_s), tick_s)));

@@ -32,6 +32,14 @@ double max_skew_turns(const config::Config& config) {
     return std::max(least_turns, plateau_hz * reported_s * reported_s / edge_s);
 }
 
+// r^2 t_e/(4 f) of one count a half.
+double turned_back_turns(const config::Config& config) {
+    const config::Gyro& g = config.gyro;
+    const double turns_s = 1.0 / (counts_per_turn(config) * 0.5 * g.tick_s);
+    const double plateau_hz = plateau_ratio(g) * g.bias_hz / counts_per_turn(config);
+    return std::min(0.25 * turns_s * turns_s * g.bias_edge_s / plateau_hz, 1.0);
+}
+
 }  // namespace
 
 core::FringeReadoutConfig fringe_readout_of(const config::Config& config) {
@@ -42,8 +50,10 @@ core::FringeReadoutConfig fringe_readout_of(const config::Config& config) {
                                    .noise_turns = std::min(noise_turns(config.photodiodes), 0.05),
                                    .max_skew_turns = max_skew_turns(config)};
     // The comparators of the averaged gyro have no threshold.
-    if (config.gyro.fidelity == config::Fidelity::laser)
+    if (config.gyro.fidelity == config::Fidelity::laser) {
         made.lag_turns = std::asin(config.laser.comparator_threshold) / turn_rad;
+        made.turned_back_turns = turned_back_turns(config);
+    }
     return made;
 }
 

@@ -14,7 +14,7 @@
 namespace zlg::rig {
 namespace {
 
-// Half of what a false angle of 40 arcsec may be off by, 2 arcsec, is a twentieth of chi.
+// 5 % of chi is 2 arcsec of a false angle of 40, half of what it may err by.
 constexpr double bias_tolerance = 0.02;
 constexpr double chi_tolerance = 0.05;
 constexpr double slope_tolerance = 0.05;
@@ -69,7 +69,7 @@ std::vector<Comparison> comparisons(const config::Config& presumed, const config
             {"gyro.scale_arcsec", mine.scale_arcsec, its.scale_arcsec, min_scale, max_scale}};
 }
 
-// What the processor reads where the light is that of a known curve, largest error up to a detuning.
+// Largest error, up to a detuning, of what the processor reads from light of a known curve.
 double reading_error_lambda(const config::Config& presumed, const config::Perimeter& light, double to_lambda) {
     const double slope = presumed.gyro.discriminator_per_lambda;
     const core::DiscriminatorCurve curve = discriminator_curve(presumed, slope);
@@ -114,7 +114,7 @@ void take_missing(const config::Config& by_laser, LaserAgreement& made) {
     // The detunings of the points count from where the loop settles, and so does the place of the largest bias.
     if (by_laser.perimeter.discriminator_centre_lambda != c.perimeter.discriminator_centre_lambda)
         take(centre_key, c.perimeter.discriminator_centre_lambda, by_laser.perimeter.discriminator_centre_lambda);
-    // A processor for which nothing else is open presumes what it does.
+    // Where every other constant is given, the given random walk stays too.
     if (list.empty()) return;
     const double walk = walk_of_lock_in(c);
     if (std::abs(walk - c.drift.random_walk_arcsec_sqrt_s) > 0.05 * c.drift.random_walk_arcsec_sqrt_s)

@@ -20,10 +20,10 @@
 namespace zlg::rig {
 namespace {
 
-// Nodes up to the detuning at which a third wave bends the curve, and beyond, closest at the bend on both sides; 31 in
-// all is what the core holds.
+// Nodes up to the detuning at which a third wave bends the curve, and beyond, closest at the bend on both sides.
 constexpr int n_before_kink = 20;
 constexpr int n_beyond_kink = 11;
+static_assert(n_before_kink + n_beyond_kink == core::max_side_nodes);
 
 std::vector<double> nodes(double kink_lambda, double max_lambda) {
     const double first = std::min(kink_lambda, max_lambda);
@@ -51,7 +51,7 @@ public:
     [[nodiscard]] double max_bias_hz() const { return max_bias_hz_; }
     // Of the largest bias, on the scale of `detuning`.
     [[nodiscard]] double centre_lambda() const { return centre_lambda_; }
-    // The one of which chi (detuning - centre)^2 is what the bias lacks.
+    // Detuning on the scale on which chi (detuning - centre)^2 is the relative loss of the bias.
     [[nodiscard]] double detuning(double dl) const { return centre_lambda_ + from_centre(dl); }
 
 private:
@@ -95,7 +95,7 @@ double third_wave_lambda(const twin::FourWave& laser, double field_g, double sig
     for (const twin::LaserZone& zone : twin::laser_zones(laser, field_g, -quarter, quarter)) {
         const double inner = sign > 0.0 ? zone.from_lambda : -zone.to_lambda;
         const double outer = sign > 0.0 ? zone.to_lambda : -zone.from_lambda;
-        if ((zone.lit & 12U) != 0 && outer > 0.0) nearest = std::min(nearest, std::max(0.0, inner));
+        if (zone.right_lit() && outer > 0.0) nearest = std::min(nearest, std::max(0.0, inner));
     }
     return nearest;
 }

@@ -21,7 +21,7 @@ bool names_key(std::string_view message, std::string_view key) {
     return false;
 }
 
-// What makes a gyro, where it differs from the default.
+// Settings other than the defaults, but for [analysis].
 config::Settings set_by_user(const config::Config& config) {
     config::Settings set;
     const config::Settings defaults = config::to_settings(config::Config{});

@@ -14,7 +14,7 @@ namespace {
 
 using namespace report;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_shown = std::numeric_limits<double>::quiet_NaN();
 
 struct Span {
     double low, high;
@@ -36,7 +36,7 @@ Series law(const View& v, const Span& span, std::string name, bool dashed, doubl
     if (!(span.high > span.low)) return s;
     for (const double tau_s : log_steps(span, 240)) {
         const double y = v.shown(std::sqrt(std::max(0.0, variance(tau_s))));
-        add_point(s, tau_s, y > floor ? y : none);
+        add_point(s, tau_s, y > floor ? y : not_shown);
     }
     return s;
 }
@@ -87,7 +87,7 @@ void add_guides(const View& v, const Span& span, double floor, double ceiling, F
         Series s = blank_series(names[k], Mark::line, true);
         for (const double tau_s : log_steps(span, 60)) {
             const double y = v.shown(middle.deviation) * std::pow(tau_s / middle.tau_s, slopes[k]);
-            add_point(s, tau_s, y > floor && y < ceiling ? y : none);
+            add_point(s, tau_s, y > floor && y < ceiling ? y : not_shown);
         }
         f.series.push_back(std::move(s));
     }

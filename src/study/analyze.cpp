@@ -15,7 +15,7 @@
 namespace zlg::study {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t course_bins = 1500;
 constexpr std::size_t spectrogram_times = 60;
 
@@ -56,7 +56,7 @@ std::vector<TimeBin> time_bins_of(const AxisRecord& record) {
             if (std::isfinite(record.rates_arcsec_s[k]))
                 known += 1.0, mean += (record.rates_arcsec_s[k] - mean) / known;
         const bool is_gap = 2.0 * known < static_cast<double>(to - from) || known == 0.0;
-        time_bins.push_back({0.5 * static_cast<double>(from + to) / record.rate_hz, is_gap ? none : mean});
+        time_bins.push_back({0.5 * static_cast<double>(from + to) / record.rate_hz, is_gap ? no_value : mean});
     }
     return time_bins;
 }
@@ -102,7 +102,7 @@ void take_modes(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) 
     for (const int mode : {1, -1}) {
         std::vector<double> one = record.rates_arcsec_s;
         for (std::size_t k = 0; k < one.size(); ++k)
-            if (record.mode[k] != mode) one[k] = none;
+            if (record.mode[k] != mode) one[k] = no_value;
         try {
             axis.mode_curves.push_back(octave_oadev(task, record_of(one, record.rate_hz)));
         } catch (const deviations::SeriesError&) {
@@ -170,7 +170,7 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
 double sigma_of_mean(const AxisResult& axis) {
     const double known_s = static_cast<double>(axis.n_known) / axis.rate_hz;
     if (!axis.fit || !axis.fit->describes) {
-        if (axis.allan.points.empty()) return none;
+        if (axis.allan.points.empty()) return no_value;
         const auto& last = axis.allan.points.back();
         return last.deviation * std::sqrt(std::min(1.0, last.tau_s / known_s));
     }

@@ -26,19 +26,27 @@ void MeteredCompensation::take(const rig::LoopHalf& half, core::LightSamples lig
         truth_[static_cast<std::size_t>(tick_) % truth_.size()] = {
             first_arcsec_ + half.truth.dtheta_arcsec, replay_.state().magnetic.subtracted_arcsec - before_arcsec,
             reading_error_arcsec(config_, half)};
-        rig::hand_over(sample, [this](const core::AngleRow& row) { take(row); });
+        rig::hand_over(
+            sample, [this](const core::AngleRow& row) { take(row); },
+            [this](const core::GapReport& gap) { take(gap); });
         ++tick_;
     }
     is_second_ = !is_second_;
 }
 
 const ErrorMeter& MeteredCompensation::end() {
-    replay_.end([this](const core::AngleRow& row) { take(row); });
+    replay_.end([this](const core::AngleRow& row) { take(row); }, [this](const core::GapReport& gap) { take(gap); });
     return meter_;
 }
 
 void MeteredCompensation::take(const core::AngleRow& row) {
-    meter_.take(row, truth_[static_cast<std::size_t>(row.tick) % truth_.size()], finder_.windows());
+    const TickTruth& truth = truth_[static_cast<std::size_t>(row.tick) % truth_.size()];
+    meter_.take(row, truth, finder_.windows());
+    if (on_row) on_row(row, truth);
+}
+
+void MeteredCompensation::take(const core::GapReport& gap) const {
+    if (on_gap) on_gap(gap);
 }
 
 ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {

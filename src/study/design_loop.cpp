@@ -40,8 +40,25 @@ design::RelockLoop relock_loop(const config::Config& config) {
             .slew_lambda_s = is_exponential(config) ? design::RelockLoop::none : config.piezo.slew_v_s * lambda_per_v};
 }
 
-// A re-lock from the configured miss, with the bias law of the gyro.
+design::MissCauses miss_causes(const config::Config& config) {
+    design::MissCauses causes{.half_wave_v = config.piezo.half_wave_v,
+                              .half_wave_error_ratio = std::abs(config.piezo.half_wave_error),
+                              .range_v = config.piezo.range_max_v - config.piezo.range_min_v,
+                              .dac_bits = static_cast<int>(config.piezo.dac_bits)};
+    causes.hysteresis_stroke_v = std::max(causes.hysteresis_stroke_v, causes.half_wave_v);
+    causes.dwell_s = std::max(config.switching.interval_s, causes.settling_s);
+    return causes;
+}
+
+// Detuning from which the loop re-locks: where none is configured, the one that its causes make together.
+double presumed_miss_lambda(const config::Config& config) {
+    const double miss = config.perimeter.miss_lambda;
+    return miss > 0.0 ? miss : design::initial_miss(miss_causes(config)).root_sum_square_lambda;
+}
+
+// A re-lock from a miss, with the bias law of the gyro.
 struct Relock {
+    double from_lambda = unknown;
     std::vector<double> false_drift_arcsec_s;  // per tick
     std::vector<double> mean_square_lambda2;   // per half
     std::vector<double> made_up;               // part of the miss, per tick
@@ -55,7 +72,7 @@ design::BiasLaw bias_law(const config::Gyro& gyro) {
 
 // Long enough for the limiter to bring the miss down and for the rest to decay.
 int ticks_needed(const config::Config& config) {
-    const double time_constants = 20.0 + 2.0 * config.perimeter.miss_lambda / config.perimeter.limit_lambda;
+    const double time_constants = 20.0 + 2.0 * presumed_miss_lambda(config) / config.perimeter.limit_lambda;
     const double ticks = time_constants * config.perimeter.tau_s / config.gyro.tick_s;
     return static_cast<int>(std::clamp(ticks, 40.0, double{relock_ticks_at_most}));
 }
@@ -69,10 +86,10 @@ int ticks_affordable(const design::RelockLoop& loop, int ticks) {
 }
 
 Relock relock_of_electronics(const config::Config& config, const design::RelockLoop& loop) {
-    const double miss = config.perimeter.miss_lambda;
+    const double miss = presumed_miss_lambda(config);
     const int ticks = ticks_affordable(loop, ticks_needed(config));
     const auto trace = design::simulate_relock(loop, miss, ticks);
-    Relock relock{.ticks = ticks};
+    Relock relock{.from_lambda = miss, .ticks = ticks};
     relock.false_drift_arcsec_s = design::false_drift_arcsec_s(bias_law(config.gyro), trace, -1);
     for (const design::HalfDetuning& half : trace.half) relock.mean_square_lambda2.push_back(half.mean_square_lambda2);
     relock.made_up = design::step_response(loop, step_ticks);
@@ -117,9 +134,11 @@ Relock relock_on_twin(const config::Config& config) {
     };
     while (advance().record.loop_closed) {
     }
-    rig::LoopHalf half = advance();
-    while (!half.record.loop_closed) half = advance();
     Relock relock{.ticks = ticks};
+    rig::LoopHalf half = advance();
+    for (; !half.record.loop_closed; half = advance()) relock.from_lambda = std::abs(half.truth.detuning_end_lambda);
+    // The twin puts a configured miss in place at the moment of closing.
+    if (config.perimeter.miss_lambda > 0.0) relock.from_lambda = config.perimeter.miss_lambda;
     double last_outside_s = 0.0;
     for (int k = 0; k < ticks; ++k) {
         double false_arcsec = 0.0;
@@ -129,7 +148,7 @@ Relock relock_on_twin(const config::Config& config) {
             false_arcsec += half.truth.false_relock_arcsec;
             relock.mean_square_lambda2.push_back(half.record.detuning_sq_lambda2);
             if (std::abs(end) > relock_tolerance_lambda) last_outside_s = (k + 0.5 * (h + 1)) * config.gyro.tick_s;
-            if (h == 1 && k < step_ticks) relock.made_up.push_back(1.0 - std::abs(end) / config.perimeter.miss_lambda);
+            if (h == 1 && k < step_ticks) relock.made_up.push_back(1.0 - std::abs(end) / relock.from_lambda);
         }
         relock.false_drift_arcsec_s.push_back(-sign * false_arcsec / config.gyro.tick_s);
     }
@@ -148,23 +167,14 @@ double linear_relock_s(config::Config config) {
     return relock_of(config).time_s;
 }
 
-design::MissCauses miss_causes(const config::Config& config) {
-    design::MissCauses causes{.half_wave_v = config.piezo.half_wave_v,
-                              .half_wave_error_ratio = std::abs(config.piezo.half_wave_error),
-                              .range_v = config.piezo.range_max_v - config.piezo.range_min_v,
-                              .dac_bits = static_cast<int>(config.piezo.dac_bits)};
-    causes.hysteresis_stroke_v = std::max(causes.hysteresis_stroke_v, causes.half_wave_v);
-    causes.dwell_s = std::max(config.switching.interval_s, causes.settling_s);
-    return causes;
-}
-
 void add_relock(const config::Config& config, LoopLine& line) {
     const Relock relock = relock_of(config);
     line.false_angle_law_arcsec = design::false_angle_law_arcsec(
-        design::bias_deficit_arcsec_s(bias_law(config.gyro), config.perimeter.miss_lambda), config.gyro.tick_s);
+        design::bias_deficit_arcsec_s(bias_law(config.gyro), relock.from_lambda), config.gyro.tick_s);
     line.false_drift_arcsec_s.assign(relock.false_drift_arcsec_s.begin(),
                                      relock.false_drift_arcsec_s.begin() + relock_ticks_shown);
     line.step = relock.made_up;
+    line.relock_from_lambda = relock.from_lambda;
     line.relock_s = relock.time_s;
     line.relock_linear_s = linear_relock_s(config);
     for (double rate : relock.false_drift_arcsec_s) line.false_angle_arcsec += rate * config.gyro.tick_s;

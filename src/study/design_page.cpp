@@ -105,7 +105,7 @@ Figure order_figure(const DesignResult& result) {
     return f;
 }
 
-report::Table loop_table(const config::Config& config, const LoopLine& l) {
+report::Table loop_table(const LoopLine& l) {
     return {.caption = "The perimeter loop.",
             .header = {"quantity", "value"},
             .rows = {{"phase margin", fmt::format("{} deg at {} rad/s", short_number(l.margins.phase_margin_deg),
@@ -114,7 +114,7 @@ report::Table loop_table(const config::Config& config, const LoopLine& l) {
                                                  short_number(l.margins.limit_rad_s))},
                      {"T/tau, and its limit of stability for " + l.stability_note,
                       fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
-                     {fmt::format("re-lock to 0.01 wavelength from {}", short_number(config.perimeter.miss_lambda)),
+                     {fmt::format("re-lock to 0.01 wavelength from {}", short_number(l.relock_from_lambda)),
                       fmt::format("{} ms {}; without limiter and slew {} ms", short_number(1e3 * l.relock_s),
                                   l.relock_note, short_number(1e3 * l.relock_linear_s))},
                      {"false angle of that re-lock",
@@ -198,7 +198,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
          .tables = {substitution_table(result)},
          .figures = {order_figure(result)}});
     page.sections.push_back({.heading = "Perimeter loop",
-                             .tables = {loop_table(config, result.loop), miss_table(result.loop)},
+                             .tables = {loop_table(result.loop), miss_table(result.loop)},
                              .figures = {false_drift_figure(result.loop, config.gyro.tick_s),
                                          step_figure(result.loop, config.gyro.tick_s)}});
     return page;

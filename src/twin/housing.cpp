@@ -29,8 +29,8 @@ double bias_ratio(std::span<const Fault> active, int bias_sign, double start_s, 
     return ratio;
 }
 
-// Mean fringe rate that a constant field adds in the left mode and takes in the right one.
-double field_hz(std::span<const Fault> active, double start_s, double end_s) {
+// Mean rate of counts that a constant field adds in the left mode and takes in the right one.
+double field_counts_s(std::span<const Fault> active, double start_s, double end_s) {
     double sum = 0.0;
     for (const Fault& fault : active) {
         if (fault.kind == FaultKind::field_pulse) sum += fault.size * share(fault, start_s, end_s);
@@ -116,7 +116,7 @@ double Housing::turned_arcsec(double from_s, double to_s) const {
 double Housing::magnetic_arcsec_s() const {
     return config_.drift.magnetic_arcsec_s +
            config_.drift.magnetic_thermal_arcsec_s * 0.5 * (warming_start_ + warming_end_) +
-           config_.gyro.scale_arcsec * field_hz(faults_.active(), start_s(), end_s());
+           config_.gyro.scale_arcsec * field_counts_s(faults_.active(), start_s(), end_s());
 }
 
 // Once for a half, however often it is entered.

@@ -103,6 +103,15 @@ TEST(DesignGyro, runs_the_digital_loop_itself_instead_of_a_model) {
     }
 }
 
+TEST(DesignGyro, a_miss_that_comes_of_itself_has_a_re_lock_too) {
+    config::Config c;
+    c.perimeter.miss_lambda = 0.0;
+    const auto formula = study::design_gyro(c).loop;
+    EXPECT_EQ(formula.relock_from_lambda, formula.miss.root_sum_square_lambda);
+    c.perimeter.miss_lambda = formula.relock_from_lambda;
+    EXPECT_EQ(study::design_gyro(c).loop.false_angle_arcsec, formula.false_angle_arcsec);
+}
+
 TEST(DesignGyro, says_why_a_re_lock_has_no_time) {
     config::Config c;
     c.perimeter.tau_s = 1000.0;

@@ -38,7 +38,7 @@ BROKEN = {
     "rig without report": ("src/rig/rig.cpp", "#include <zlg/report/page.hpp>", "rig may not include report"),
     "study below cli": ("src/study/run.cpp", "#include <zlg/cli/verbs.hpp>", "study may not include cli"),
     "firmware sees core only": ("firmware/main.cpp", "#include <zlg/twin/twin.hpp>", "firmware may not include twin"),
-    "lab beside cli": ("lab/server.cpp", "#include <zlg/cli/verbs.hpp>", "lab may not include cli"),
+    "bench beside cli": ("bench/cost.cpp", "#include <zlg/cli/verbs.hpp>", "bench may not include cli"),
     "no unknown folder": ("cli/main.cpp", "#include <zlg/utils/x.hpp>", "there is no folder utils"),
     "no source without rules": ("utils/x.cpp", "#include <array>", "without a line in the table"),
     "no clock below the border": ("src/rig/rig.cpp", "#include <chrono>", "reads a clock"),

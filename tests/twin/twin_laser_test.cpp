@@ -31,6 +31,25 @@ TEST(TwinLaser, TheBeamsAreTheLightOfBothModesAtTheFieldOfTheHalf) {
     }
 }
 
+// Of unequal isotopes the loop settles where the beams are equal, off the middle of the mode: the loop of a formula too.
+TEST(TwinLaser, AnExponentialLoopSettlesWhereTheBeamsAreEqual) {
+    TwinConfig config = as_laser(quiet_gyro());
+    config.perimeter.loop = Loop::exponential;
+    config.perimeter.miss_lambda = 0.0;
+    config.laser.upper_isotope_ratio = 0.53;
+    Twin twin{config, Motion::rest()};
+    const auto signal = [](const TwinHalf& half) {
+        const double a = half.sensor.light_a[8];
+        const double b = half.sensor.light_b[8];
+        return (a - b) / (a + b);
+    };
+    EXPECT_NEAR(signal(advance(twin, frame(true, 1), 4).back()), 0.0, 1e-4) << "from the start";
+    (void)advance(twin, frame(false, 1, 152.0), 8);
+    const TwinHalf half = advance(twin, frame(true, 1), 100).back();
+    EXPECT_NEAR(signal(half), 0.0, 1e-4) << "closed again";
+    EXPECT_NEAR(half.truth.detuning_end_lambda, 0.024, 0.002);
+}
+
 TEST(TwinLaser, AHalfCountsTheBiasOfItsPlateauLessItsEdges) {
     Twin twin{as_laser(held_gyro()), Motion::rest()};
     const TwinHalf first = twin.advance(frame(true, 1));

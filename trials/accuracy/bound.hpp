@@ -4,8 +4,9 @@
 // Model: x, zero mean and covariance C, holds the rotation of each half-period, the roundings of the counter at the edges of the
 // halves, and the errors of the false angles. Observed is z = H x, the halves or the ticks `bound_ticks` before and after the gap, and
 // the lit halves at its end; estimated is the target t = c'x, what makes the angle right for ever after: the rotation in the dark
-// part of the gap, less the roundings at its two edges, less the error of the false angle. The linear minimum mean-square-error estimate (Kay, Fundamentals of Statistical Signal
-// Processing: Estimation Theory, 1993, ch. 12) has the error variance
+// part of the gap, less the roundings at its two edges, less the error of the false angle. The linear minimum
+// mean-square-error estimate (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, ch. 12) has the
+// error variance
 //
 //   c'C c - (H C c)' (H C H')^-1 (H C c)
 //

@@ -82,7 +82,6 @@ inline void trap_division_by_zero() noexcept { reg(0xe000ed14) = reg(0xe000ed14)
 
 // Numbers of the interrupts.
 inline constexpr std::uint32_t uart0_receive_irq = 0;
-inline constexpr std::uint32_t uart1_receive_irq = 2;
 inline constexpr std::uint32_t uart2_receive_irq = 4;
 inline constexpr std::uint32_t half_timer_irq = 8;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Small arithmetic that the sources of the control share.
+// Small arithmetic that the sources of the core share.
 
 #include <cstdint>
 
@@ -11,6 +11,10 @@ namespace zlg::core {
 }
 
 [[nodiscard]] constexpr double size(double x) noexcept { return __builtin_fabs(x); }
+
+[[nodiscard]] constexpr double square(double x) noexcept { return x * x; }
+
+[[nodiscard]] constexpr bool is_within(double x, double min, double max) noexcept { return x >= min && x <= max; }
 
 // A counter that stops at its end instead of wrapping.
 constexpr void count_up(std::int32_t& n) noexcept {

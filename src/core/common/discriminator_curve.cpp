@@ -100,14 +100,6 @@ DiscriminatorCurve discriminator_curve(std::span<const double> apparent_lambda,
     return c;
 }
 
-DiscriminatorCurve curve_from_deficit(std::span<const double> apparent_lambda, std::span<const double> deficit_ratio,
-                                      double chi) noexcept {
-    std::array<double, max_curve_nodes> detuning_lambda{};
-    const std::size_t n = deficit_ratio.size() < detuning_lambda.size() ? deficit_ratio.size() : detuning_lambda.size();
-    for (std::size_t k = 0; k < n; ++k) detuning_lambda[k] = square_root(deficit_ratio[k] / chi);
-    return discriminator_curve(apparent_lambda, std::span{detuning_lambda}.first(n));
-}
-
 CurvePoint true_detuning(const DiscriminatorCurve& curve, double apparent_lambda) noexcept {
     if (curve.n_nodes == 0 || !is_finite(apparent_lambda)) return {.detuning_lambda = apparent_lambda};
     const bool mirrored = apparent_lambda < 0.0 && !(curve.apparent_lambda[0] < 0.0);

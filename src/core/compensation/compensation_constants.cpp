@@ -2,10 +2,10 @@
 
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
-
-bool is_within(double x, double min, double max) noexcept { return x >= min && x <= max; }
 
 bool is_positive(double x, double max) noexcept { return x > 0.0 && x <= max; }
 

@@ -1,6 +1,5 @@
 #include <zlg/core/compensation/edge_shift.hpp>
 
-#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 

@@ -162,7 +162,7 @@ LightSamples samples_for(const GyroCompensationConfig& config, LightSamples ligh
 }
 
 // Time constant of the mean of the bias, which follows the temperature, in ticks.
-constexpr double bias_ticks = 256.0;
+constexpr double bias_memory_ticks = 256.0;
 
 // Excess of the first half over the second, without the bias. What the bias adds is a slow mean over settled ticks,
 // each taken with the sign of its first half; a settled tick is added to the mean before it is used.
@@ -172,12 +172,12 @@ void set_half_excess(const GyroCompensationConfig& config, GyroCompensationState
     const double excess = config.gyro.scale.value() * difference;
     if (tick.settled) {
         const double bias = 0.5 * tick.sign * excess;
-        state.bias_arcsec += state.bias_arcsec == 0.0 ? bias : (bias - state.bias_arcsec) / bias_ticks;
+        state.bias_arcsec += state.bias_arcsec == 0.0 ? bias : (bias - state.bias_arcsec) / bias_memory_ticks;
     }
     tick.half_excess_arcsec = excess - 2.0 * tick.sign * state.bias_arcsec;
 }
 
-// Of half-ticks.
+// Covariance of the recent motion between half-ticks.
 MotionCovariance recent_motion(const GyroCompensationConfig& config, const GapBridgeState& bridge) noexcept {
     const MotionMomentsState& moments = bridge.learning.moments;
     return {config.gyro, config.bridge.optimal, moments, fast_memory, 1.0, moments.with_phase};
@@ -225,7 +225,8 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
     state.bridge.learning.moments.with_phase = state.n_with_phase >= phase_debounce;
 }
 
-// Of the first half over the second what is no bias: by their lengths, less by the places at their ends.
+// Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
+// the difference of their places within the count.
 double known_excess(const EdgeShiftOutput& shifted, const Borders& borders, const HalfRecord& first) noexcept {
     const Border middle = border_of(first);
     const std::int32_t parts = parts_between(borders.start, middle) - parts_between(middle, borders.end);
@@ -242,19 +243,22 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
     errors.mean_sq_arcsec2 += (sq - errors.mean_sq_arcsec2) / static_cast<double>(errors.n);
 }
 
-// The magnetic drift that is to be subtracted from a tick. By phase a switch is known so well that it matters how the drift
-// steps there, so that it is estimated whatever the method, and handed to the bridge as far as it stays in the values.
-double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
-                       const TickInput& tick) noexcept {
+// Magnetic drift to subtract from this tick. With the fringe phase read, a switch is known well enough for the step of the
+// drift there to matter, so the drift is estimated whatever the method; what the method leaves in the values is handed to the
+// bridge. Advances the estimator.
+double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state, TickInput& tick) noexcept {
     const bool by_phase = state.bridge.learning.moments.with_phase;
     const MagneticMethod method = config.magnetic.method;
     if (method == MagneticMethod::none && !by_phase && !state.magnetic.started) return 0.0;
-    const double subtracted =
-        step(config.gyro, config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
-    if (!tick.measured)
-        state.bridge.magnetic_arcsec = by_phase && method != MagneticMethod::estimate
-                                           ? trusted_arcsec_s(state.magnetic) * config.gyro.tick.value()
-                                           : 0.0;
+    const double subtracted = step(config.gyro, config.magnetic, state.magnetic,
+                                   {tick.measured, tick.mode, tick.value_arcsec, tick.settled, by_phase});
+    if (tick.measured) {
+        tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
+    } else {
+        const double left_arcsec_s =
+            trusted_arcsec_s(state.magnetic) - state.magnetic.trust * state.magnetic.filter.estimate[of_drift];
+        state.bridge.magnetic_arcsec = by_phase ? left_arcsec_s * config.gyro.tick.value() : 0.0;
+    }
     return subtracted;
 }
 
@@ -397,8 +401,7 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
 DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept {
     if (state.first_waits) {
         // No tick 2 will come: flag the row of tick 1, which is still in the history.
-        const auto last = static_cast<std::uint64_t>(state.bridge.next_tick - 1);
-        state.bridge.history[last % history_ticks].row.flags |= flag_relock_uncorrected;
+        at(state.bridge, state.bridge.next_tick - 1).row.flags |= flag_relock_uncorrected;
         state.first_waits = false;
     }
     return drain(config.gyro, config.bridge, state.bridge);

@@ -1,8 +1,8 @@
 #include <zlg/core/compensation/lit_halves.hpp>
 
-#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
 #include "compensation/relock/relock_light.hpp"
 
 namespace zlg::core {
@@ -16,8 +16,6 @@ constexpr double reading_error_lambda = 0.002;
 // the bias in a half below which nothing is called inconsistent: a first manoeuvre must not look so.
 constexpr double limit_sq = 25.0;
 constexpr double tolerated_bias_ratio = 0.02;
-
-double square(double x) noexcept { return x * x; }
 
 struct Reading {
     bool known = false;

@@ -24,7 +24,22 @@ constexpr double fastest_arcsec_s = 1e7;
 // was judged.
 constexpr double min_sigmas = 4.0;
 
-bool is_known(double sigma, double drift_arcsec_s) noexcept { return min_sigmas * sigma < size(drift_arcsec_s); }
+// sigma_p of (3) from what was presumed up to which the estimate is trusted in full, and from which on not at all.
+constexpr double near_sigmas = 2.0;
+constexpr double far_sigmas = 3.0;
+
+// The drift as presumed, without what the segments have shown.
+struct Presumed {
+    double drift_arcsec_s = 0.0;
+    double variance = 0.0;
+};
+
+Presumed presumed_at(const MagneticDriftConfig& c, double age_s) noexcept {
+    const double warmed = 1.0 - exponential(-age_s / c.thermal_time.value());
+    const double sigma = c.presumed_sigma_arcsec_s, warming = c.warming_sigma_arcsec_s * warmed;
+    return {.drift_arcsec_s = c.presumed_arcsec_s + c.warming_arcsec_s * warmed,
+            .variance = sigma * sigma + warming * warming + wander_variance(age_s, c.thermal_time.value())};
+}
 
 void start(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
     const double tau_s = c.thermal_time.value();
@@ -35,23 +50,47 @@ void start(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
     s.filter.covariance[of_trend][of_trend] = (c.warming_sigma_arcsec_s / tau_s) * (c.warming_sigma_arcsec_s / tau_s);
 }
 
-// (3).
-double trust_of(const MagneticFilterState& filter) noexcept {
-    const double drift = filter.estimate[of_drift];
-    const double variance = filter.covariance[of_drift][of_drift];
-    if (!is_known(square_root(variance), drift)) return 0.0;
-    return 1.0 - min_sigmas * min_sigmas * variance / (drift * drift);
+// Variance of the drift by the motion in step that the segments show.
+double motion_variance(const MagneticFilterState& f) noexcept {
+    const double interval_s = f.in_step.interval_s;
+    return seen_in_step(f.in_step, f.covariance[of_trend][of_trend] * interval_s * interval_s);
+}
+
+// sigma^2 of (3).
+double shown_variance(const MagneticFilterState& f) noexcept {
+    return f.covariance[of_drift][of_drift] + mismatch_sq(f.in_step) + motion_variance(f);
+}
+
+// 0..1: how far the drift contradicts what was presumed.
+double contradiction(const Presumed& presumed, double drift) noexcept {
+    const double distance = drift - presumed.drift_arcsec_s;
+    const double over = distance * distance - near_sigmas * near_sigmas * presumed.variance;
+    const double range = (far_sigmas * far_sigmas - near_sigmas * near_sigmas) * presumed.variance;
+    if (!(over > 0.0)) return 0.0;
+    return over < range ? over / range : 1.0;
+}
+
+// (3), as far as the segments go.
+double share_of(const MagneticDriftState& s) noexcept {
+    const double drift_sq = s.filter.estimate[of_drift] * s.filter.estimate[of_drift];
+    const double unknown = min_sigmas * min_sigmas * shown_variance(s.filter);
+    return unknown < drift_sq ? 1.0 - unknown / drift_sq : 0.0;
 }
 
 void update_trust(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
-    s.trust = c.method == MagneticMethod::estimate ? trust_of(s.filter) : 0.0;
+    const double drift = s.filter.estimate[of_drift];
+    s.share = share_of(s);
+    const bool acts = c.method == MagneticMethod::estimate && s.share > 0.0;
+    s.trust = acts ? s.share * (1.0 - contradiction(presumed_at(c, s.age_s), drift)) : 0.0;
     s.due_arcsec = s.trust * s.filter.estimate[of_angle];
 }
 
 // Predict up to the present tick.
 void predict_to_now(const CompensationConstants& gyro, const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
     if (s.pending_ticks == 0) return;
-    predict(s.filter, s.mode, static_cast<double>(s.pending_ticks) * gyro.tick.value(), c.thermal_time.value());
+    const double time_s = static_cast<double>(s.pending_ticks) * gyro.tick.value();
+    predict(s.filter, s.mode, time_s, c.thermal_time.value());
+    s.age_s += time_s;
     s.pending_ticks = 0;
     update_trust(c, s);
 }
@@ -69,6 +108,14 @@ void end_segment(const CompensationConstants& gyro, const MagneticDriftConfig& c
     }
     s.segment = {};
     s.mode = 0;
+}
+
+void begin_segment(MagneticDriftState& s, std::int8_t mode) noexcept {
+    if (s.last_mode == -mode) {
+        if (s.switched_s > 0.0) note_switch(s.filter.in_step, s.age_s - s.switched_s);
+        s.switched_s = s.age_s;
+    }
+    s.last_mode = mode;
 }
 
 bool is_credible(const CompensationConstants& gyro, const MagneticTick& tick) noexcept {
@@ -90,6 +137,29 @@ double subtract(const CompensationConstants& gyro, const MagneticDriftConfig& c,
     return now + past;
 }
 
+// Take the steps of the field out of a tick, and see to it that the filter learns nothing from what was not yet taken out.
+double without_steps(const CompensationConstants& gyro, const MagneticDriftConfig& c, MagneticDriftState& s,
+                     const MagneticTick& tick, bool measured) noexcept {
+    s.variance_arcsec2 = 0.0;
+    if (c.method != MagneticMethod::estimate) return 0.0;
+    const FieldStepPrior prior{.drift_arcsec_s = c.presumed_arcsec_s,
+                               .drift_variance = c.presumed_sigma_arcsec_s * c.presumed_sigma_arcsec_s,
+                               .sway_arcsec_s = s.filter.scatter_arcsec_s};
+    if (!measured) {
+        if (s.mode != 0 && pause(gyro, prior, s.field, tick.with_phase)) s.segment = {};
+        return 0.0;
+    }
+    const FieldStepOutput found =
+        step(gyro, prior, s.field, {tick.mode, tick.angle_arcsec, tick.settled, tick.with_phase});
+    s.variance_arcsec2 = found.variance_arcsec2;
+    if (s.field.change_variance > 0.0) {
+        s.segment = {};
+        s.filter.covariance[of_drift][of_drift] += s.field.change_variance;
+        update_trust(c, s);
+    }
+    return found.subtract_arcsec;
+}
+
 }  // namespace
 
 MagneticDriftFault check(const MagneticDriftConfig& c) noexcept {
@@ -106,30 +176,42 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
     if (!state.started) start(config, state);
     const bool credible = is_credible(gyro, tick);
     if (!credible) state.segment = {};
-    const std::int8_t mode = tick.measured && credible ? tick.mode : std::int8_t{0};
-    if (mode != state.mode) end_segment(gyro, config, state);
+    const bool measured = tick.measured && credible && tick.mode != 0;
+    const double of_steps = without_steps(gyro, config, state, tick, measured);
+    const std::int8_t mode = measured ? tick.mode : std::int8_t{0};
+    if (mode != state.mode) {
+        end_segment(gyro, config, state);
+        if (mode != 0) begin_segment(state, mode);
+    }
     state.mode = mode;
     if (++state.pending_ticks >= block_ticks) predict_to_now(gyro, config, state);
     if (mode == 0) return 0.0;
-    accumulate(state.segment, tick.angle_arcsec);
-    return subtract(gyro, config, state);
+    const double of_field = state.field.field_arcsec_s * gyro.tick.value() * static_cast<double>(mode);
+    accumulate(state.segment, tick.angle_arcsec - of_field);
+    return of_steps + subtract(gyro, config, state);
 }
 
 double trusted_arcsec_s(const MagneticDriftState& state) noexcept {
-    return state.started ? trust_of(state.filter) * state.filter.estimate[of_drift] : 0.0;
+    return state.share * state.filter.estimate[of_drift];
 }
 
-double sigma_arcsec_s(const MagneticDriftState& state) noexcept {
-    return square_root(state.filter.covariance[of_drift][of_drift]);
+double sigma_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept {
+    const MagneticFilterState& f = state.filter;
+    const Presumed presumed = presumed_at(config, state.age_s);
+    const double distance = f.estimate[of_drift] - presumed.drift_arcsec_s;
+    // All that motion can have done to a drift that was presumed rightly, and what is open where the two contradict.
+    const double most = presumed.variance + distance * distance;
+    const double least = contradiction(presumed, f.estimate[of_drift]) * most;
+    const double motion = motion_variance(f) + unseen_in_step(f.in_step);
+    const double open = motion < most ? motion : most;
+    return square_root(f.covariance[of_drift][of_drift] + mismatch_sq(f.in_step) + (open > least ? open : least));
 }
 
 double remaining_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept {
-    const double drift = state.filter.estimate[of_drift];
-    const double sigma = sigma_arcsec_s(state);
-    if (config.method == MagneticMethod::none || !state.started || !is_known(sigma, drift)) return 0.0;
-    const double residual = (1.0 - state.trust) * drift;
-    const double wrong = state.trust * sigma;
-    return square_root(residual * residual + wrong * wrong);
+    if (config.method == MagneticMethod::none || state.share == 0.0) return 0.0;
+    const double residual = (1.0 - state.trust) * state.filter.estimate[of_drift];
+    const double wrong_sq = state.trust * state.trust * shown_variance(state.filter);
+    return square_root(residual * residual + wrong_sq);
 }
 
 }  // namespace zlg::core

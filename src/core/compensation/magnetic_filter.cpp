@@ -21,6 +21,9 @@ constexpr std::int32_t scatter_memory = 12;
 // Beyond this scatter a segment holds no information on a drift of some arcsec/s.
 constexpr double max_scatter_arcsec_s = 300.0;
 
+// Bounds the weight of a segment without noise, (arcsec/s)^2.
+constexpr double least_noise = 1e-12;
+
 // Variance of change and curvature over that of the mean, at most (segment_rate.hpp).
 constexpr double within_noise = 21.0;
 
@@ -130,6 +133,11 @@ void predict(MagneticFilterState& s, std::int8_t mode, double time_s, double the
     s.covariance[of_trend][of_trend] += (trend_noise + trend_noise_ratio * trend * trend / thermal_time_s) * time_s;
 }
 
+double wander_variance(double time_s, double thermal_time_s) noexcept {
+    const double lasting_s = min_of(time_s, thermal_time_s);
+    return (drift_noise + trend_noise * lasting_s * lasting_s / 3.0) * time_s;
+}
+
 void update(MagneticFilterState& s, const Segment& segment) noexcept {
     if (!s.base_known) return initialise_base(s, segment);
     MagneticVector h = observation_without_base(segment);
@@ -146,6 +154,10 @@ void update(MagneticFilterState& s, const Segment& segment) noexcept {
     if (!(base < max_scatter_arcsec_s * max_scatter_arcsec_s)) return drop_base(s);
     s.covariance[of_base][of_base] += base;
     const double noise = segment.variance + 0.5 * base;
+    note_segment(s.in_step, 1.0 / (noise + least_noise),
+                 {segment.mode * 0.5 * innovation,
+                  segment.mode * segment.rate.change_arcsec_s - s.estimate[of_trend] * segment.length_s,
+                  segment.mode * segment.rate.curvature_arcsec_s});
     const MagneticVector ph = product(s.covariance, h);
     correct(s, ph, innovation, product(h, ph) + noise);
 }

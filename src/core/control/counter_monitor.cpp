@@ -1,93 +1,135 @@
 #include <zlg/core/control/counter_monitor.hpp>
 
-#include "common/bounds.hpp"
+#include <bit>
 
 namespace zlg::core {
 namespace {
 
-constexpr std::uint32_t judged_bits = 0x7ffffffe;
+constexpr int part_bits = 8;  // of a count: 1/256
+constexpr std::int32_t count = 1 << part_bits;
 
-// Steps beyond are no rotation; their sums stay far from an overflow.
-constexpr std::int64_t max_unevenness = std::int64_t{1} << 40;
+// Larger than the error of any bit that is judged.
+constexpr int most_bit = 12;
+constexpr std::int32_t most_error = std::int32_t{1} << (most_bit + 1 + part_bits);
 
-void count_changes(CounterMonitorState& s, std::uint32_t bits) noexcept {
-    s.changed |= bits;
-    const std::uint32_t carry = s.changed_odd & bits;
-    s.changed_odd ^= bits;
-    s.changed_often |= s.changed_two & carry;
-    s.changed_two ^= carry;
-}
+// Counts in a tick that the rate can hold: 2^18.
+constexpr std::int32_t most_step = std::int32_t{1} << (18 + part_bits);
 
-// Of ways: beyond the limit they are long enough for every bit.
-std::int64_t limited_sum(std::int64_t a, std::int64_t b) noexcept {
-    if (b > max_unevenness || a > max_unevenness) return max_unevenness;
-    if (b < -max_unevenness || a < -max_unevenness) return -max_unevenness;
-    return a + b;
-}
+constexpr std::int32_t lost_debounce = 4;
+constexpr std::int32_t passed_debounce = 6;
+constexpr std::int32_t calm_halves = 400;
 
-// Second difference of the steps in halves of the same bias sign: the bias drops out, and a constant acceleration too.
-std::int64_t unevenness(const CounterMonitorState& s, std::int64_t step) noexcept {
-    const auto wrapped =
-        static_cast<std::int64_t>(static_cast<std::uint64_t>(step) - 2 * static_cast<std::uint64_t>(s.steps[1]) +
-                                  static_cast<std::uint64_t>(s.steps[3]));
-    if (wrapped > max_unevenness || wrapped < -max_unevenness) return max_unevenness;
-    return wrapped < 0 ? -wrapped : wrapped;
-}
+// Of even rotation: the rounding of counts. A stuck bit that looked like roughness is so tried again every second.
+constexpr std::int32_t smooth = 48;
 
-// Rounding alone makes a mean of one count and a half, shifted edges two. A stuck bit makes 1.5 of its own value.
-std::uint32_t bits_below(std::int64_t unevenness) noexcept {
-    constexpr std::int64_t min_mean_counts = 5;  // in halves: 2.5
-    std::uint32_t bits = 0;
-    for (int k = 1; k < 31; ++k) {
-        const std::int64_t by_value = std::int64_t{counter_window_halves} << (k - 1);
-        const std::int64_t least = counter_window_halves * min_mean_counts / 2;
-        if (unevenness >= (by_value > least ? by_value : least)) bits |= std::uint32_t{1} << k;
+// To the last bit, and never an overflow.
+std::int32_t size(std::int32_t x) noexcept { return x ^ (x >> 31); }
+
+std::int32_t difference(std::uint32_t a, std::uint32_t b) noexcept { return static_cast<std::int32_t>(a - b); }
+
+void remember(CounterMonitorState& s, std::uint32_t place) noexcept { s.place = {place, s.place[0]}; }
+
+// The first readings of a stretch: two of each sign.
+void begin(CounterMonitorState& s, std::uint32_t place) noexcept {
+    if (++s.n_known == 4) {
+        const std::int32_t step = difference(place, s.place[1]);
+        s.rate = step > -most_step && step < most_step ? step * 16 : 0;
+        s.n_lost = 0;
+        s.suspect.error_of = {};
+        s.suspect.has_from = false;
     }
-    return bits;
+    remember(s, place);
 }
 
-// A bit whose error is no longer seen for a second may be right again, or at rest: what it holds does no harm.
-constexpr std::int32_t calm_windows = 12;
+// A bit that changes is not stuck.
+void acquit(CounterMonitorState& s, std::uint32_t reading) noexcept {
+    if ((reading & s.suspect.value) == s.suspect.shown) return;
+    s.cleared |= s.suspect.value;
+    s.suspect = {};
+    s.stuck = false;
+}
 
-// Windows in a row in one direction before a bit is reported: an oscillation whose period is a few halves never has so
-// many.
-constexpr std::int32_t window_debounce = 6;
+// The bit whose value is nearest to that size; 0 where it is none that is judged, or was found to change.
+std::uint32_t bit_near(const CounterMonitorState& s, std::int32_t apart, std::int32_t tolerance) noexcept {
+    if (apart >= most_error) return 0;
+    const auto nearest = static_cast<std::uint32_t>(apart + apart / 3) >> part_bits;
+    const std::uint32_t value = std::bit_floor(nearest) & ~s.cleared;
+    const auto error = static_cast<std::int32_t>(value << part_bits);
+    const bool good = value > 1 && tolerance <= error && size(apart - error) <= tolerance;
+    return good ? value : 0;
+}
 
-// Bits that looked stuck all the way, which was so long that they should have changed several times.
-std::uint32_t still_all_the_way(CounterMonitorState& s, std::uint32_t still) noexcept {
-    const auto net = static_cast<std::int64_t>(s.reading - s.window_reading);
-    s.window_reading = s.reading;
-    const bool same_way = (net > 0 && s.way > 0) || (net < 0 && s.way < 0);
-    const bool goes_on = s.n_same_way > 0 && same_way && (s.still & still) != 0;
-    s.still = goes_on ? s.still & still : still;
-    s.n_same_way = goes_on ? s.n_same_way + (s.n_same_way < window_debounce) : 1;
-    s.way = goes_on ? limited_sum(s.way, net) : net;
-    if (s.n_same_way < window_debounce || s.still == 0) return 0;
-    std::uint32_t passed = 0;
-    const std::int64_t way = s.way < 0 ? -s.way : s.way;
-    for (int k = 1; k < 31; ++k) {
-        if (way >= std::int64_t{1} << (k + 3)) passed |= std::uint32_t{1} << k;
+// A step that the rate does not explain. After some the counter is followed anew.
+void lose(CounterMonitorState& s, std::int32_t apart, std::uint32_t predicted) noexcept {
+    remember(s, predicted);
+    s.suspect.error_of = {s.suspect.error_of[1], s.suspect.error_of[0]};
+    if (++s.n_lost < lost_debounce) return;
+    s.n_known = 0;
+    s.n_lost = 0;
+    s.cleared = 0;
+    if (!s.stuck) s.suspect = {};
+    const std::int32_t most = 256 * count;
+    s.rough += ((apart < most ? apart : most) - s.rough) / 64;
+}
+
+// How far the counter has gone without the error, at readings of one bias sign.
+void pass(CounterMonitorState& s, std::uint32_t true_reading, bool toggled) noexcept {
+    SuspectedBit& bit = s.suspect;
+    if (!bit.has_from) {
+        bit.from = true_reading;
+        bit.has_from = true;
+        bit.has_toggled = false;
+        return;
     }
-    return s.still & passed;
-}
-
-void begin_window(CounterMonitorState& s) noexcept {
-    s.changed = s.changed_odd = s.changed_two = s.changed_often = 0;
-    s.unevenness = 0;
-    s.n_halves = 0;
-}
-
-void end_window(CounterMonitorState& s) noexcept {
-    std::uint32_t still = ~s.changed & (s.changed_often << 1) & (s.changed_often >> 1) & judged_bits;
-    if (still != 0) still &= bits_below(s.unevenness);
-    s.n_calm = s.unevenness < 2 * counter_window_halves ? s.n_calm + 1 : 0;
-    s.stuck &= ~s.changed;
-    if (s.n_calm >= calm_windows) {
-        s.stuck = 0;
-        s.n_calm = 0;
+    bit.has_toggled = bit.has_toggled || toggled;
+    const std::int32_t way = difference(true_reading, bit.from);
+    const auto value = static_cast<std::int32_t>(bit.value);
+    if (!bit.has_toggled || (way < value && way > -value)) return;
+    if ((way > 0) != bit.upwards) bit.n_passed = 0;
+    bit.upwards = way > 0;
+    bit.from = true_reading;
+    bit.has_toggled = false;
+    bit.n_calm = 0;
+    ++bit.n_passed;
+    if (bit.n_passed >= passed_debounce) {
+        bit.n_passed = passed_debounce;
+        s.stuck = true;
     }
-    s.stuck |= still_all_the_way(s, still);
-    begin_window(s);
+}
+
+void follow(CounterMonitorState& s, std::uint32_t reading, std::uint32_t predicted, std::int32_t d,
+            std::int8_t error) noexcept {
+    if (s.n_lost > 0) --s.n_lost;
+    remember(s, predicted + static_cast<std::uint32_t>(d >> 2));
+    s.rate = static_cast<std::int32_t>(static_cast<std::uint32_t>(s.rate) + static_cast<std::uint32_t>(d));
+    s.rough += (size(d) - s.rough) >> 6;
+    SuspectedBit& bit = s.suspect;
+    if (bit.value != 0 && !s.is_odd)
+        pass(s, reading - static_cast<std::uint32_t>(error) * bit.value, error != bit.error_of[1]);
+    bit.error_of = {error, bit.error_of[0]};
+    if (++bit.n_calm < calm_halves) return;
+    bit = {};
+    s.cleared = 0;
+    if (s.rough > smooth) s.rough = smooth;
+    s.stuck = false;
+}
+
+void judge(CounterMonitorState& s, std::uint32_t reading) noexcept {
+    const std::uint32_t predicted = s.place[1] + static_cast<std::uint32_t>(s.rate >> 4);
+    const std::int32_t d = difference(reading << part_bits, predicted);
+    const std::int32_t tolerance = count + 2 * s.rough;
+    const std::int32_t apart = size(d);
+    const auto of_bit = [&] { return static_cast<std::int32_t>(s.suspect.value << part_bits); };
+    bool is_error = s.suspect.value != 0 && apart > of_bit() / 2;
+    if (size(is_error ? apart - of_bit() : apart) > tolerance) {
+        const bool open = s.suspect.n_passed == 0;
+        const std::uint32_t value = open ? bit_near(s, apart, tolerance) : 0;
+        if (value == 0) return lose(s, apart, predicted);
+        s.suspect = {.value = value, .shown = reading & value};
+        is_error = true;
+    }
+    const auto error = static_cast<std::int8_t>(is_error ? (d > 0 ? 1 : -1) : 0);
+    follow(s, reading, predicted, d - error * of_bit(), error);
 }
 
 }  // namespace
@@ -95,24 +137,15 @@ void end_window(CounterMonitorState& s) noexcept {
 bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool counted,
           std::uint64_t reading) noexcept {
     if (!config.watches) return false;
-    if (!counted) {
-        state.n_known = 0;
-        state.n_same_way = 0;
-        state.window_reading = reading;
-        begin_window(state);
-    }
-    const auto step = static_cast<std::int64_t>(reading - state.reading);
-    if (state.n_known >= 2) count_changes(state, static_cast<std::uint32_t>(reading ^ state.reading_before));
-    if (state.n_known >= 5) {
-        state.unevenness += unevenness(state, step);
-        if (state.unevenness > max_unevenness) state.unevenness = max_unevenness;
-    }
-    state.steps = {step, state.steps[0], state.steps[1], state.steps[2]};
-    state.reading_before = state.reading;
-    state.reading = reading;
-    if (state.n_known < 6) ++state.n_known;
-    if (++state.n_halves >= counter_window_halves) end_window(state);
-    return state.stuck != 0;
+    const auto low = static_cast<std::uint32_t>(reading);
+    acquit(state, low);
+    state.is_odd = !state.is_odd;
+    if (!counted) state.n_known = 0;
+    if (state.n_known < 4)
+        begin(state, low << part_bits);
+    else
+        judge(state, low);
+    return state.stuck;
 }
 
 }  // namespace zlg::core

@@ -1,5 +1,6 @@
 #include <zlg/core/control/fringe_readout.hpp>
 
+#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
@@ -42,7 +43,9 @@ constexpr std::int32_t offset_debounce_after_gap = 2;
 constexpr std::int32_t forgets_after_halves = 1024;  // 2.6 s without a fringe: the photodiodes have changed
 
 // Blocks of 128 samples, evenly over the octants, in each of which d is spread over 1/8 turn: a block has the skew to
-// 1/8/sqrt(12*128) = 0.003 turns.
+// 1/8/sqrt(12*128) = 0.003 turns. At rest the shifted edges bring the same places in a quarter several times: up to three
+// times that, so that of n blocks this much over sqrt(n) is not trusted.
+constexpr double block_turns = 0.01;
 constexpr std::int32_t skew_blocks = 64;
 constexpr std::int32_t min_skew_blocks = 16;
 
@@ -124,18 +127,31 @@ QuadratureSample at_usual_amplitude(const FringeReadoutState& s, const Quadratur
     return {m.c0 + part * (x.c - m.c0), m.s0 + part * (x.s - m.s0)};
 }
 
-void learn(const FringeReadoutConfig& c, FringeReadoutState& s, const QuadratureSample& x, int sign,
+// What d is in the sense of the beat, on average.
+double usual_off_turns(const FringeReadoutConfig& c, const FringeReadoutInput& in) noexcept {
+    const double against_counts = -0.5 * in.sign * as_double(in.rotation_counts);
+    if (!(against_counts > 0.0)) return c.lag_turns;
+    const double back_turns = c.turned_back_turns * against_counts * against_counts;
+    return back_turns < 2.0 * c.lag_turns ? c.lag_turns - back_turns : -c.lag_turns;
+}
+
+void learn(const FringeReadoutConfig& c, FringeReadoutState& s, const QuadratureSample& x, const FringeReadoutInput& in,
            std::int32_t off) noexcept {
     const bool was_learnt = s.ellipse.learnt;
-    const EllipseLearning done = learn(s.ellipse, at_usual_amplitude(s, x), sign);
+    const EllipseLearning done = learn(s.ellipse, at_usual_amplitude(s, x), in.sign);
     if (done.is_first) s.skew_sum_turns = 0.0;
-    if (done.taken) s.skew_sum_turns += sign * (static_cast<double>(off) / turn_parts) - c.lag_turns;
+    if (done.taken) s.skew_sum_turns += in.sign * (static_cast<double>(off) / turn_parts) - usual_off_turns(c, in);
     if (!done.completes) return;
     if (!was_learnt && s.ellipse.learnt) s.level = 1.0;
     const double mean = s.skew_sum_turns / (samples_a_bin * ellipse_bins);
     if (!was_learnt) return;
     if (s.n_skews < skew_blocks) ++s.n_skews;
     s.skew_turns += (mean - s.skew_turns) / s.n_skews;
+}
+
+bool is_skewed(const FringeReadoutConfig& c, const FringeReadoutState& s) noexcept {
+    const double over = size(s.skew_turns) - c.max_skew_turns;
+    return s.n_skews >= min_skew_blocks && over > 0.0 && over * over * s.n_skews > block_turns * block_turns;
 }
 
 // The skew and the offset of the counter are not theirs, and stay.
@@ -173,7 +189,7 @@ bool read(const FringeReadoutConfig& c, FringeReadoutState& s, const FringeReado
         off = off_quarter(s, p, in.quarter);
         agrees = is_beside(off);
     }
-    if (in.settled) learn(c, s, x, in.sign, off);
+    if (in.settled) learn(c, s, x, in, off);
     return learnt && agrees && !s.noisy;
 }
 
@@ -192,8 +208,7 @@ FringeReadoutOutput step(const FringeReadoutConfig& config, FringeReadoutState& 
         if (state.n_unread >= forgets_after_halves) forget_photodiodes(state);
     }
     // A phase that belongs to another instant than the count is worth less than the count alone; its skew is still watched.
-    if (state.n_skews >= min_skew_blocks && size(state.skew_turns) > config.max_skew_turns)
-        return {.counter = input.counter, .skewed = true};
+    if (is_skewed(config, state)) return {.counter = input.counter, .skewed = true};
     return out;
 }
 

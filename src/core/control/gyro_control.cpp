@@ -64,10 +64,15 @@ void decide_switch(const GyroControlConfig& c, GyroControlState& s, const Observ
                    ModeSwitchInput& in) noexcept {
     // Without usable light the outcome of a switch would be unknown, and the rotation in its gap would be lost.
     const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt && o.fresh;
+    const bool stepped = c.rate_step.block_halves > 0 && step(c.rate_step, s.rate_step,
+                                                              {.is_second = in.tick_border,
+                                                               .closed = o.loop_closed && o.settled,
+                                                               .good = o.valid && o.reading.span == 1,
+                                                               .counts = o.reading.counts});
     if (in.tick_border) {
-        in.due =
-            step(c.schedule, s.schedule, {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice})
-                .open;
+        in.due = step(c.schedule, s.schedule,
+                      {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice, .stepped = stepped})
+                     .open;
     }
     // In a switch, a return or a search the ends of the range are not watched.
     if (s.mode_switch.phase != SwitchPhase::tracking) return;

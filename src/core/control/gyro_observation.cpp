@@ -37,7 +37,8 @@ double length_ratio(const BiasCommutatorConfig& c, const BiasCommutatorState& s)
                      .quarter = frame.fringe_quarter,
                      .counter = frame.counter,
                      .settled = o.settled,
-                     .sign = o.commuted.sign * o.polarity});
+                     .sign = o.commuted.sign * o.polarity,
+                     .rotation_counts = s.bias_monitor.counts + s.bias_monitor.counts_before});
 }
 
 void read_counter(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {

@@ -14,9 +14,9 @@ constexpr std::int32_t agreeing_debounce = 4;
 // Longer than the longest gap that is bridged, wherever it begins in a tick.
 constexpr std::int32_t held_halves = 36;
 
-// Halves in a row with less than half of the bias: no disturbance of readings lasts so long. A measured current shows
-// it at once.
-constexpr std::int32_t lost_settled = 16;
+// Halves in a row with less than half of the bias: no disturbance of readings lasts so long (the coil current, where it
+// is measured, shows it at once).
+constexpr std::int32_t lost_debounce_halves = 16;
 
 // A counter that cannot follow stops near the end of its range; more than that is no count of a fringe.
 constexpr double stop_from = 0.98;
@@ -32,7 +32,8 @@ double apart(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::i
     return as_double(difference(in.reading, s.good)) - halves(m) * s.rate_counts - bias;
 }
 
-// What the rate may have changed in m halves, and what the bias is known to.
+// T and P agree within this: the bias is known to a sixth, the rate may go on changing as it last did; half of the bias at
+// most.
 bool has_returned(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::int32_t m) noexcept {
     if (!s.rate_known || !in.agrees) return false;
     const double bias = in.bias_counts > min_bias_counts ? in.bias_counts : min_bias_counts;
@@ -103,8 +104,8 @@ void watch(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
         count_up(s.n_agreeing);
     else
         s.n_agreeing = 0;
-    s.n_lost = in.bias_lost ? s.n_lost + (s.n_lost < lost_settled) : 0;
-    if (s.n_lost >= lost_settled) s.countable = false;
+    s.n_lost = in.bias_lost ? s.n_lost + (s.n_lost < lost_debounce_halves) : 0;
+    if (s.n_lost >= lost_debounce_halves) s.countable = false;
     if (s.has_last && is_at_stop(in, difference(in.reading, s.last), 1)) s.over_range = true;
 }
 

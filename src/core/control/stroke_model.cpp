@@ -32,22 +32,20 @@ double above_reference_c(const StrokeModelConfig& c, Celsius temperature) noexce
     return is_finite(temperature.value()) ? limited((temperature - c.reference).value(), 200.0) : 0.0;
 }
 
-double squared(double x) noexcept { return x * x; }
-
 // Prior variances of the weights. That of b, 0.01 wavelength, was set by hand.
 StrokeWeights prior_variance(const StrokeModelConfig& c) noexcept {
     StrokeWeights v{};
-    v[direct] = squared(half_lambda * c.half_wave_sigma_ratio);
-    v[by_temperature] = squared(half_lambda * c.temperature_sigma_per_c);
-    v[constant] = squared(0.01);
-    for (std::size_t i = 0; i < n_plays; ++i) v[first_play + i] = squared(half_lambda * c.play_sigma_ratio);
+    v[direct] = square(half_lambda * c.half_wave_sigma_ratio);
+    v[by_temperature] = square(half_lambda * c.temperature_sigma_per_c);
+    v[constant] = square(0.01);
+    for (std::size_t i = 0; i < n_plays; ++i) v[first_play + i] = square(half_lambda * c.play_sigma_ratio);
     return v;
 }
 
 // Q of (3): the process noise is shared by w0 and b; k is a constant of the piezo. No variance grows beyond `most`, its
 // prior.
 void add_process_noise(const StrokeModelConfig& c, StrokeModelState& s, const StrokeWeights& most) noexcept {
-    const double added = 0.5 * squared(c.process_sigma.value());
+    const double added = 0.5 * square(c.process_sigma.value());
     for (const std::size_t j : {std::size_t{direct}, std::size_t{constant}}) {
         if (s.covariance[j][j] < most[j]) s.covariance[j][j] += added;
     }
@@ -123,7 +121,7 @@ void finish(StrokeModelState& s) noexcept {
 void restart(const StrokeModelConfig& c, StrokeModelState& s) noexcept {
     reset_covariance(c, s);
     for (std::size_t i = 0; i < n_stroke_weights; ++i) s.gain[i] = s.covariance[i][i] * s.regressor[i];
-    s.spread = dot(s.regressor, s.gain) + squared(s.length_sigma_lambda);
+    s.spread = dot(s.regressor, s.gain) + square(s.length_sigma_lambda);
 }
 
 }  // namespace
@@ -184,7 +182,7 @@ void arrive(const StrokeModelConfig& config, StrokeModelState& state, const Stro
         state.regressor[first_play + i] = state.play[i] - state.start_play[i];
     }
     state.length_lambda = arrival.sign * half_lambda + miss;
-    const double sigma_sq = squared(config.measurement_sigma.value()) + squared(0.1 * miss);
+    const double sigma_sq = square(config.measurement_sigma.value()) + square(0.1 * miss);
     state.length_sigma_lambda = square_root(sigma_sq);
     add_process_noise(config, state, prior_variance(config));
     state.n_gain = 0;
@@ -196,10 +194,10 @@ bool confirm(const StrokeModelConfig& config, StrokeModelState& state, bool neig
     state.pending = false;
     if (!measured) return true;
     const double known = dot(state.regressor, state.gain);
-    state.spread = known + squared(state.length_sigma_lambda);
+    state.spread = known + square(state.length_sigma_lambda);
     const double innovation = state.length_lambda - dot(state.regressor, state.weight);
     const std::int8_t side = innovation * state.length_lambda > 0.0 ? 1 : -1;
-    const bool inside = squared(innovation) <= squared(config.gate) * state.spread;
+    const bool inside = square(innovation) <= square(config.gate) * state.spread;
     if (!inside && state.outlier_side != side) {
         state.outlier_side = side;
         return false;

@@ -55,10 +55,37 @@ bool is_newly_due(const SwitchScheduleConfig& c, SwitchScheduleState& s, const S
     return regular || s.balanced;
 }
 
-// Up to a sixteenth shorter, by multiples of the golden section: equal intervals could hold a whole number of periods of a
-// vibration, and every switch would then meet it at the same phase and leave the same error.
+// An opening before it is planned, to learn whether a step of the rate was a field.
+bool is_due_by_step(const SwitchScheduleConfig& c, const SwitchScheduleState& s,
+                    const SwitchScheduleInput& in) noexcept {
+    if (!in.ready || s.held || s.balanced || !(in.tick >= 0 && in.tick < tick_limit)) return false;
+    const std::int64_t half_interval = c.interval_ticks / 2;
+    const bool by_half = c.kind == ScheduleKind::fixed && half_interval < c.min_ticks;
+    return in.tick - s.opened_tick >= (by_half ? half_interval : c.min_ticks);
+}
+
+// What is left of the segment that ends early, the next one has less than an interval.
+void move_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
+    const std::int64_t left_ticks = s.next_tick - tick;
+    s.next_tick = tick + (left_ticks < c.interval_ticks ? c.interval_ticks - left_ticks : c.interval_ticks);
+}
+
+// Sixteen bits that look random: the last step of MurmurHash3 (A. Appleby, public domain).
+std::uint32_t scattered(std::uint32_t x) noexcept {
+    x = (x ^ (x >> 16U)) * 0x85ebca6bU;
+    x = (x ^ (x >> 13U)) * 0xc2b2ae35U;
+    return x >> 16U;
+}
+
+// Openings for which the larger part of what is left out stays the same.
+constexpr std::uint32_t run_of_openings = 4;
+
+// Up to a sixteenth shorter, at random, the same in every run. A quarter of it is drawn for each opening: equal intervals
+// could hold a whole number of periods of a vibration, and every switch would then meet it at the same phase and leave the
+// same error. Three quarters are drawn for four openings at a time, so that the switches wander soon from any regular grid,
+// and no rotation of a steady period stays in step with them.
 std::int64_t varied(std::int64_t interval_ticks, std::uint32_t n_openings) noexcept {
-    const std::uint32_t part = (n_openings * 2654435769U) >> 16U;  // of 65536
+    const std::uint32_t part = (3 * scattered(n_openings / run_of_openings) + scattered(~n_openings)) / 4;  // of 65536
     const std::int64_t sixteenth = interval_ticks / 16;
     return interval_ticks - sixteenth / 65536 * part - sixteenth % 65536 * part / 65536;
 }
@@ -102,7 +129,9 @@ SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleStat
     const bool late = state.waiting || jumped;
     const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
     state.waiting = planned && !in.ready;
-    if (!((planned || state.asked) && in.ready)) return {};
+    const bool early = in.stepped && !planned && is_due_by_step(config, state, in);
+    if (!((planned || state.asked || early) && in.ready)) return {};
+    if (early && config.kind == ScheduleKind::fixed) move_grid(config, state, in.tick);
     state.asked = false;
     note_opening(config, state, in);
     return {.open = true, .late = late};

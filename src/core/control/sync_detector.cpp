@@ -1,6 +1,7 @@
 #include <zlg/core/control/sync_detector.hpp>
 
 #include <zlg/core/common/maths.hpp>
+#include <zlg/core/records.hpp>
 
 #include "common/pair.hpp"
 
@@ -10,11 +11,10 @@ namespace {
 constexpr std::int32_t agreements_learnt = 4;
 constexpr std::int32_t faint_learnt = 64;
 constexpr double dark_share = 0.1;
-constexpr std::size_t max_samples = 64;
 
 bool well_formed(const SyncDetectorInput& in) noexcept {
     const std::size_t n = in.light_a.size();
-    return n > 0 && n <= max_samples && (in.light_b.empty() || in.light_b.size() == n);
+    return n > 0 && n <= max_light_samples && (in.light_b.empty() || in.light_b.size() == n);
 }
 
 // Sums of samples and of their squares: of even and of odd samples apart, on every machine.

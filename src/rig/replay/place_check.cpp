@@ -34,9 +34,9 @@ void PlaceCheck::take(const core::HalfRecord& half) {
     const std::uint64_t before = borders_[last_].counts;
     last_ = (last_ + 1) % n_borders;
     borders_[last_].counts = before + static_cast<std::uint64_t>(half.counts);
-    borders_[last_].place = static_cast<double>(half.fringe) / 65536.0;
+    borders_[last_].place = static_cast<double>(half.fringe) / core::count_parts;
     half_ = half.half;
-    const bool measured = half.loop_closed && half.valid && half.span == 1 && core::has_fringe(half);
+    const bool measured = core::is_measured(half) && core::has_fringe(half);
     n_known_ = measured ? std::min(n_known_ + 1, n_borders) : 0;
     if (n_known_ == n_borders) add_difference();
 }

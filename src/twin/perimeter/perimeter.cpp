@@ -38,9 +38,11 @@ Perimeter::Perimeter(const TwinConfig& config, int n_steps, std::shared_ptr<cons
       n_steps_{n_steps},
       step_s_{0.5 * config.gyro.tick_s / n_steps},
       stage_{config, step_s_},
+      settled_lambda_{signal ? signal->settled_lambda() : 0.0},
       dac_{config.piezo.range_min_v, config.piezo.range_max_v, config.piezo.dac_bits},
       loop_{config, stage_, step_s_, std::move(signal)},
-      piezo_{config, step_s_} {
+      piezo_{config, step_s_},
+      centre_{settled_lambda_} {
     set_points_.reserve(core::max_set_points);
     for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.perimeter.tau_s));
 }
@@ -144,7 +146,7 @@ void Perimeter::close() {
         injected_ = v_ - set_points_.back();
     }
     command_ = v_;
-    centre_ = nearest_centre_lambda(polarity_, length_lambda());
+    centre_ = nearest_centre_lambda(polarity_, length_lambda()) + settled_lambda_;
     miss_at_closing_ = length_lambda() - centre_;
     halves_since_closing_ = 0.0;
 }

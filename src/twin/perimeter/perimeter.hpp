@@ -59,6 +59,7 @@ private:
     int n_steps_;
     double step_s_;
     HighVoltage stage_;
+    double settled_lambda_;  // detuning at which the light says that there is none
     Converter dac_;
     AnalogLoop loop_;
     PiezoMirror piezo_;
@@ -87,8 +88,8 @@ private:
     double injected_ = 0.0;   // error of the second input
     double direction_ = 1.0;  // of the last move in the open loop
 
-    // The exponential loop: dl = amplitude exp(-t/tau) about a centre.
-    double centre_ = 0.0;
+    // The exponential loop: dl = amplitude exp(-t/tau) about the place where it settles.
+    double centre_;
     double miss_at_closing_ = 0.0;
     double amplitude_ = 0.0;  // at the start of the half
     double halves_since_closing_ = 0.0;

@@ -212,17 +212,6 @@ TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrow) {
     EXPECT_EQ(check(steep), CurveFault::slope);
 }
 
-TEST(DiscriminatorCurve, ADeficitTableGivesTheDetuningWithThatDeficit) {
-    const std::array<double, 3> x = {0.05, 0.12, 0.3};
-    const std::array<double, 3> deficit = {0.009, 0.036, 0.16};  // 3.6 times the squares of 0.05, 0.1, 0.2108
-    const DiscriminatorCurve c = curve_from_deficit(x, deficit, 3.6);
-    ASSERT_EQ(check(c), CurveFault::none);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double dl = true_detuning(c, x[k]).detuning_lambda;
-        EXPECT_NEAR(3.6 * dl * dl, deficit[k], 1e-15);
-    }
-}
-
 struct Half {
     std::array<float, 16> a{};
     std::array<float, 16> b{};

@@ -73,6 +73,19 @@ TEST(LitHalves, HaveTheirReadingAndTheFalseAngleOfTheirDetuning) {
     }
 }
 
+// Detunings that the control has read through a curve have the noise that the curve has made larger.
+TEST(LitHalves, TheNoiseIsThatBehindTheCurveOfTheControl) {
+    Scene curved;
+    curved.gyro.control_curve = discriminator_curve(std::vector{0.25}, std::vector{0.5});
+    Scene noisy;
+    noisy.gyro.light_noise = Wavelengths{2.0 * curved.gyro.light_noise.value()};
+    ASSERT_EQ(curved.run().n, 7);
+    for (unsigned k = 0; k < 7; ++k) {
+        EXPECT_DOUBLE_EQ(curved.run().half[k].variance_arcsec2, noisy.run().half[k].variance_arcsec2);
+        EXPECT_DOUBLE_EQ(curved.run().half[k].correction_arcsec, noisy.run().half[k].correction_arcsec);
+    }
+}
+
 TEST(LitHalves, HalfOfTheDriftOfATickIsSubtracted) {
     const LitHalvesState plain = Scene{}.run();
     const LitHalvesState less = Scene{}.run(0.5);

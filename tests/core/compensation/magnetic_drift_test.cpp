@@ -18,6 +18,13 @@ constexpr double tick_s = 0.05;  // long ticks: fewer of them
 
 MagneticDriftConfig config_of(MagneticMethod method = MagneticMethod::estimate) { return {.method = method}; }
 
+// Of a gyro whose drift may be ten times that of the paper's.
+MagneticDriftConfig coarsely_calibrated() {
+    MagneticDriftConfig c = config_of();
+    c.presumed_sigma_arcsec_s = c.warming_sigma_arcsec_s = 10.0;
+    return c;
+}
+
 constexpr CompensationConstants constants{
     .tick = Seconds{tick_s}, .scale = Arcsec{0.8}, .random_walk = ArcsecPerRootSecond{0.14}};
 
@@ -86,9 +93,9 @@ Outcome run(const Gyro& gyro, const MagneticDriftConfig& config, double length_s
 TEST(MagneticDrift, AtRestTheDriftIsFoundAndItsSawtoothGone) {
     for (const double drift : {0.7, -0.7, 14.0}) {
         const Gyro gyro{.drift_arcsec_s = [=](double) { return drift; }};
-        const Outcome got = run(gyro, config_of(), 3600.0);
+        const Outcome got = run(gyro, coarsely_calibrated(), 3600.0);
         EXPECT_NEAR(got.state.filter.estimate[of_drift], drift, 0.03);
-        EXPECT_LT(sigma_arcsec_s(got.state), 0.05);
+        EXPECT_LT(std::sqrt(got.state.filter.covariance[of_drift][of_drift]), 0.05);
         // The sawtooth alone: 0.7 arcsec/s for 22.5 s.
         EXPECT_LT(got.worst_left_arcsec, 0.1 * std::abs(drift) * 22.5);
     }
@@ -107,7 +114,7 @@ TEST(MagneticDrift, TheErrorOfTheStartDoesNotStayInTheAngle) {
 TEST(MagneticDrift, AWarmingGyroIsFollowed) {
     const Gyro gyro{.interval_s = 90.0,
                     .drift_arcsec_s = [](double t) { return 0.7 + 14.0 * (1.0 - std::exp(-t / 3000.0)); }};
-    const Outcome got = run(gyro, config_of(), 3600.0);
+    const Outcome got = run(gyro, coarsely_calibrated(), 3600.0);
     EXPECT_NEAR(got.state.filter.estimate[of_drift], 0.7 + 14.0 * (1.0 - std::exp(-1.2)), 0.1);
     EXPECT_NEAR(got.state.filter.estimate[of_trend], 14.0 / 3000.0 * std::exp(-1.2), 5e-4);
     EXPECT_LT(got.worst_left_arcsec, 0.05 * got.worst_without_arcsec);
@@ -140,8 +147,10 @@ TEST(MagneticDrift, SteadyRotationAndVibrationAreNoDrift) {
 }
 
 TEST(MagneticDrift, ItStandsBackWhereTheBaseMoves) {
-    const auto sways = {std::pair{10.0, 0.05}, std::pair{10.0, 0.011}, std::pair{10.0, 1.0 / 90.0},
-                        std::pair{10.0, 0.003}, std::pair{100.0, 0.02}};
+    const auto sways = {std::pair{10.0, 0.05},         std::pair{10.0, 0.011},       std::pair{0.5, 1.0 / 90.0},
+                        std::pair{10.0, 1.0 / 90.0},   std::pair{25.0, 1.0 / 90.0},  std::pair{100.0, 1.0 / 90.0},
+                        std::pair{1000.0, 1.0 / 90.0}, std::pair{25.0, 1.01 / 90.0}, std::pair{10.0, 0.003},
+                        std::pair{100.0, 0.02}};
     for (const auto& [amplitude, frequency_hz] : sways)
         for (const double phase : {0.0, 1.0, 2.0, 3.0}) {
             const auto base = [amplitude = amplitude, frequency_hz = frequency_hz, phase](double t) {
@@ -151,6 +160,56 @@ TEST(MagneticDrift, ItStandsBackWhereTheBaseMoves) {
             EXPECT_LE(got.worst_left_arcsec, 1.05 * got.worst_without_arcsec)
                 << amplitude << " arcsec/s at " << frequency_hz << " Hz";
         }
+}
+
+// Turns its sign at the middle of every gap but the first half interval: the times of the switches of `Gyro`.
+double square_wave(double amplitude, double interval_s, double late_s, double t_s) {
+    const auto n = static_cast<std::int64_t>(std::floor((t_s - late_s) / interval_s + 0.5));
+    return n % 2 == 0 ? amplitude : -amplitude;
+}
+
+TEST(MagneticDrift, ARotationThatJumpsWithTheSwitchesIsBoundedByWhatIsPresumed) {
+    for (const double interval_s : {20.0, 45.0, 150.0})
+        for (const double amplitude : {-1000.0, -30.0, -5.0, -2.0, 0.5, 2.0, 5.0, 30.0, 1000.0}) {
+            const auto base = [=](double t) { return square_wave(amplitude, interval_s, 0.0, t); };
+            const Outcome got = run({.interval_s = interval_s, .base_arcsec_s = base}, config_of(), 3600.0);
+            const double error = got.state.filter.estimate[of_drift] - 0.7;
+            EXPECT_LT(std::abs(error), 3.0 * sigma_arcsec_s(config_of(), got.state)) << amplitude;
+            // Three standard deviations of 1 and of 0.7 by warming, and of the random walk.
+            const bool within = std::abs(0.7 + amplitude) < 3.0 * std::sqrt(1.0 + 0.7 * 0.7 + 0.04);
+            if (!within) {
+                EXPECT_LE(got.worst_left_arcsec, 1.05 * got.worst_without_arcsec) << amplitude;
+            }
+        }
+}
+
+TEST(MagneticDrift, ARotationThatJumpsBesideTheSwitchesIsSeen) {
+    // A tenth of the interval late: the curvature is 0.37 of the amplitude.
+    for (const double amplitude : {1.0, 2.0, 5.0, 30.0}) {
+        const auto base = [=](double t) { return square_wave(amplitude, 45.0, 4.5, t); };
+        const Outcome got = run({.base_arcsec_s = base}, config_of(), 3600.0);
+        EXPECT_EQ(got.state.trust, 0.0) << amplitude;
+        EXPECT_LE(got.worst_left_arcsec, 1.05 * got.worst_without_arcsec) << amplitude;
+    }
+}
+
+TEST(MagneticDrift, ACalibrationThatIsContradictedIsNotOverruled) {
+    // Whether the calibration is wrong or the base moves in step, is not known.
+    MagneticDriftConfig c = config_of();
+    c.presumed_arcsec_s = -2.0;
+    c.presumed_sigma_arcsec_s = c.warming_sigma_arcsec_s = 0.05;
+    const Outcome got = run({}, c, 3600.0);
+    EXPECT_EQ(got.state.trust, 0.0);
+    const auto error = [&](const Outcome& o) { return std::abs(o.state.filter.estimate[of_drift] - 0.7); };
+    EXPECT_GT(error(got), 1.0);
+    EXPECT_LT(error(got), 2.0 * sigma_arcsec_s(c, got.state));
+    EXPECT_LE(got.worst_left_arcsec, 1.01 * got.worst_without_arcsec);
+    // One that is right bounds a rotation in step to what it leaves open.
+    c.presumed_arcsec_s = 0.7;
+    const auto base = [=](double t) { return square_wave(2.0, 45.0, 0.0, t); };
+    const Outcome in_step = run({.base_arcsec_s = base}, c, 3600.0);
+    EXPECT_EQ(in_step.state.trust, 0.0);
+    EXPECT_LT(error(in_step), 2.0 * sigma_arcsec_s(c, in_step.state));
 }
 
 TEST(MagneticDrift, ItStandsBackWhereTheRateOfTheBaseWalks) {
@@ -228,6 +287,8 @@ TEST(MagneticDrift, NothingThatIsReadMakesTheStateNotFinite) {
             for (const double x : s.filter.covariance[i]) ASSERT_TRUE(std::isfinite(x));
         }
         ASSERT_TRUE(std::isfinite(s.filter.scatter_arcsec_s));
+        ASSERT_TRUE(std::isfinite(s.trust) && s.trust >= 0.0 && s.trust <= 1.0);
+        ASSERT_TRUE(std::isfinite(sigma_arcsec_s(config_of(), s)));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <random>
 #include <zlg/core/control/counter_monitor.hpp>
 
@@ -9,21 +10,22 @@ namespace zlg::core {
 namespace {
 
 constexpr CounterMonitorConfig config{.watches = true};
+constexpr double pi = 3.14159265358979;
 
-// A counter of a biased gyro; one bit of what it shows can be stuck.
+// A counter of a biased gyro; bits of what it shows can be stuck, at 1 or at 0.
 class Counter {
 public:
     double rate = 0.0;    // counts per half
     double jitter = 0.0;  // counts, of each reading
-    int stuck_bit = -1;
+    double bias = 150.0;  // counts of a half
+    std::uint64_t stuck_at_1 = 0, stuck_at_0 = 0;
 
     bool half() {
         sign_ = -sign_;
-        phase_ += rate + sign_ * 150.0;
+        phase_ += rate + sign_ * bias;
         const double shown = std::floor(phase_ + jitter * uniform_(random_));
-        auto reading = static_cast<std::uint64_t>(static_cast<std::int64_t>(shown));
-        if (stuck_bit >= 0) reading |= std::uint64_t{1} << stuck_bit;
-        return step(config, state, true, reading);
+        const auto true_reading = static_cast<std::uint64_t>(static_cast<std::int64_t>(shown));
+        return step(config, state, true, (true_reading | stuck_at_1) & ~stuck_at_0);
     }
     // Halves until a bit is found stuck; n if none is.
     int until_stuck(int n) {
@@ -32,6 +34,8 @@ public:
         }
         return n;
     }
+    void stick(int bit, bool at_1) { (at_1 ? stuck_at_1 : stuck_at_0) |= std::uint64_t{1} << bit; }
+    void release() { stuck_at_1 = stuck_at_0 = 0; }
 
     CounterMonitorState state;
     double phase_ = 1e6;
@@ -54,12 +58,14 @@ TEST(CounterMonitor, AnEvenRotationHasNoStuckBit) {
 }
 
 TEST(CounterMonitor, ASwingingGyroHasNoStuckBit) {
-    for (const double frequency_hz : {0.01, 0.3, 7.03, 20.06}) {
-        Counter counter;
-        counter.jitter = 1.0;
-        for (int k = 0; k < 20000; ++k) {
-            counter.rate = 9.2 * std::sin(2.0 * 3.14159265 * frequency_hz * 0.0025 * k);
-            ASSERT_FALSE(counter.half()) << frequency_hz << " Hz, half " << k;
+    for (const double frequency_hz : {0.01, 0.3, 7.03, 20.0, 20.06, 100.0}) {
+        for (const double swing : {9.2, 200.0}) {
+            Counter counter;
+            counter.jitter = 1.0;
+            for (int k = 0; k < 20000; ++k) {
+                counter.rate = swing * std::sin(2.0 * pi * frequency_hz * 0.0025 * k);
+                ASSERT_FALSE(counter.half()) << frequency_hz << " Hz, half " << k;
+            }
         }
     }
 }
@@ -72,7 +78,7 @@ TEST(CounterMonitor, ASwingOfAFewHalvesHasNoStuckBit) {
                 Counter counter;
                 counter.phase_ = 1e6 + 17.3 * start;
                 for (int k = 0; k < 600; ++k) {
-                    counter.rate = swing * std::sin(2.0 * 3.14159265 * k / halves + 0.1 * start);
+                    counter.rate = swing * std::sin(2.0 * pi * k / halves + 0.1 * start);
                     ASSERT_FALSE(counter.half()) << swing << " counts, " << halves << " halves, half " << k;
                 }
             }
@@ -80,41 +86,121 @@ TEST(CounterMonitor, ASwingOfAFewHalvesHasNoStuckBit) {
     }
 }
 
-TEST(CounterMonitor, AStuckBitIsFoundWithinEightWindowsWhereTheGyroTurns) {
-    for (int bit = 2; bit <= 8; ++bit) {
+// Turns to and fro at random, by steps of every size, of a gyro that was quiet: each of them may look like a bit.
+TEST(CounterMonitor, ShocksAndStepsOfTheBiasAreNoStuckBit) {
+    std::mt19937 random{7};
+    std::uniform_real_distribution<double> uniform{0.0, 1.0};
+    for (int gyro = 0; gyro < 300; ++gyro) {
         Counter counter;
-        counter.rate = 37.3;
-        ASSERT_EQ(counter.until_stuck(1000), 1000);
-        counter.stuck_bit = bit;
-        EXPECT_LE(counter.until_stuck(1000), 8 * counter_window_halves) << bit;
-        EXPECT_EQ(counter.state.stuck, std::uint32_t{1} << bit);
+        const double even = gyro % 2 == 0 ? 0.0 : 40.0 * uniform(random);
+        for (int k = 0; k < 4000; ++k) {
+            const bool struck = uniform(random) < 0.02;
+            const double size = std::pow(2.0, 1.0 + 7.0 * uniform(random));
+            counter.rate = even + (struck ? (uniform(random) < 0.5 ? -size : size) : 0.0);
+            if (uniform(random) < 0.005) counter.bias = 150.0 * (1.0 - 0.05 * uniform(random));
+            ASSERT_FALSE(counter.half()) << "gyro " << gyro << ", half " << k;
+        }
     }
 }
 
-TEST(CounterMonitor, ABitThatChangesAgainIsBelievedAgain) {
+// Six times 2^k counts of rotation, each of them up to a half-period of the bit late, and what it takes to begin.
+TEST(CounterMonitor, AStuckBitIsFoundAfterSixTimesItsValueOfRotation) {
+    for (int bit = 1; bit <= 9; ++bit) {
+        for (const bool at_1 : {false, true}) {
+            for (const double rate : {0.37, -2.31, 11.17, 37.31}) {
+                Counter counter;
+                counter.rate = rate;
+                ASSERT_EQ(counter.until_stuck(1000), 1000);
+                counter.stick(bit, at_1);
+                const double counts = std::exp2(bit);
+                // A suspicion that does not grow for 400 halves is given up.
+                if (2.0 * counts > 400.0 * std::abs(rate)) continue;
+                const int most = static_cast<int>(12.0 * counts / std::abs(rate)) + 400;
+                EXPECT_LT(counter.until_stuck(most), most) << "bit " << bit << " at " << at_1 << ", rate " << rate;
+                EXPECT_EQ(counter.state.suspect.value, 1u << bit);
+            }
+        }
+    }
+}
+
+TEST(CounterMonitor, AStuckBitIsFoundInASlowSwing) {
+    for (const int bit : {1, 2, 3, 4}) {
+        Counter counter;
+        const auto swing = [&](int k) { counter.rate = 2.0 * std::sin(2.0 * pi * 0.2 * 0.0025 * k); };
+        for (int k = 0; k < 2000; ++k) {
+            swing(k);
+            ASSERT_FALSE(counter.half());
+        }
+        counter.stick(bit, true);
+        bool found = false;
+        for (int k = 2000; k < 4000 && !found; ++k) {
+            swing(k);
+            found = counter.half();
+        }
+        EXPECT_TRUE(found) << bit;
+    }
+}
+
+TEST(CounterMonitor, OfTwoStuckBitsOneIsFound) {
+    for (const int low : {1, 2}) {
+        Counter counter;
+        counter.rate = 0.61;
+        ASSERT_EQ(counter.until_stuck(1000), 1000);
+        counter.stick(low, true);
+        counter.stick(low + 4, false);
+        EXPECT_LT(counter.until_stuck(2000), 2000) << low;
+    }
+}
+
+TEST(CounterMonitor, AtRestABitProvesNothingAndDoesNoHarm) {
+    for (int bit = 1; bit <= 12; ++bit) {
+        Counter counter;
+        ASSERT_EQ(counter.until_stuck(1000), 1000);
+        counter.stick(bit, true);
+        EXPECT_EQ(counter.until_stuck(3000), 3000) << bit;
+    }
+}
+
+TEST(CounterMonitor, ABitThatChangesAgainIsAcceptedAtOnce) {
     Counter counter;
     counter.rate = 37.3;
-    counter.stuck_bit = 5;
+    counter.stick(5, true);
     ASSERT_LT(counter.until_stuck(300), 300);
-    counter.stuck_bit = -1;
-    for (int k = 0; k < 2 * counter_window_halves; ++k) (void)counter.half();
+    counter.release();
+    // It is 0 in one of two halves-periods of the bit: two counts of 2^5 are passed in a tick.
+    for (int k = 0; k < 8; ++k) (void)counter.half();
     EXPECT_EQ(counter.until_stuck(2000), 2000);
 }
 
-TEST(CounterMonitor, ABitThatStaysStuckStaysFound) {
+TEST(CounterMonitor, ABitThatStaysStuckStaysFoundWhileTheGyroTurns) {
     Counter counter;
     counter.rate = 37.3;
-    counter.stuck_bit = 5;
+    counter.stick(5, true);
     ASSERT_LT(counter.until_stuck(300), 300);
     for (int k = 0; k < 4000; ++k) ASSERT_TRUE(counter.half()) << k;
+    counter.rate = 0.0;
+    for (int k = 0; k < 500; ++k) (void)counter.half();
+    EXPECT_FALSE(counter.half()) << "a second at rest";
 }
 
 TEST(CounterMonitor, ReadingsThatDoNotFollowSayNothing) {
     CounterMonitorState s;
     std::mt19937_64 random{5};
-    for (int k = 0; k < 5000; ++k) ASSERT_FALSE(step(config, s, k % 5 != 0, random() & ~std::uint64_t{16}));
+    for (int k = 0; k < 5000; ++k) ASSERT_FALSE(step(config, s, k % 4 != 0, random() & ~std::uint64_t{16}));
     CounterMonitorState off;
     for (int k = 0; k < 500; ++k) ASSERT_FALSE(step({}, off, true, random() & ~std::uint64_t{16}));
+}
+
+// The counter wraps, and so do its lower bits: what is found is the same.
+TEST(CounterMonitor, ACounterThatWrapsIsFollowed) {
+    for (const double start : {-1000.0, 16777216.0 - 1000.0, 4294967296.0 - 1000.0}) {
+        Counter counter;
+        counter.phase_ = start;
+        counter.rate = 3.3;
+        ASSERT_EQ(counter.until_stuck(1000), 1000) << start;
+        counter.stick(4, true);
+        EXPECT_LT(counter.until_stuck(300), 300) << start;
+    }
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ public:
     double detuning_lambda = 0.0;
     double noise_lambda = 0.0033;
     double share_a = 1.0;  // of beam A that is left
+    double share = 1.0;    // of both beams
     bool stuck = false;
     bool two_way = true;
     bool dark = false;
@@ -73,8 +74,8 @@ private:
         const double noise = std::sqrt(2.0) * 1000.0 * slope * noise_lambda;
         for (std::size_t k = 0; k < a_.size(); ++k) {
             const double signal = sign_ * slope * detuning_lambda;
-            a_[k] = static_cast<float>(share_a * 1000.0 * (1.0 + signal) + noise * normal_(random_));
-            b_[k] = static_cast<float>(1000.0 * (1.0 - signal) + noise * normal_(random_));
+            a_[k] = static_cast<float>(share * share_a * 1000.0 * (1.0 + signal) + noise * normal_(random_));
+            b_[k] = static_cast<float>(share * 1000.0 * (1.0 - signal) + noise * normal_(random_));
         }
     }
 
@@ -182,6 +183,63 @@ TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
         // It has come back, but the loop has not locked yet.
         fading.share_a = 1.0;
         EXPECT_TRUE(fading.halves(8).unbalanced) << lost;
+    }
+}
+
+// The field, the detuning and the isotopes change the light of a healthy laser by 0.3 %, however quiet its converters are.
+TEST(LightMonitor, LightThatFallsByAThirdOfAPercentIsNoFadedBeam) {
+    for (const double lost : {0.003, 0.01}) {
+        Light light;
+        light.settled = false;
+        light.noise_lambda = 3e-4;
+        light.detuning_lambda = 0.03;
+        const LightMonitorConfig quiet{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
+        for (int k = 0; k < 10; ++k) ASSERT_FALSE(light.half(quiet).unbalanced);
+        light.share = 1.0 - lost;
+        EXPECT_EQ(light.half(quiet).unbalanced, lost > 0.005) << lost;
+    }
+}
+
+// Halves of few samples on a way to a lock that decays to a sixth in each.
+bool is_unbalanced_on_the_way(std::size_t n_samples, double start_lambda, double lost) {
+    std::mt19937 random{7};
+    std::normal_distribution<double> normal;
+    const LightMonitorConfig c{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
+    LightMonitorState state;
+    bool unbalanced = false;
+    for (int h = 0; h < 6; ++h) {
+        const int sign = h % 2 == 0 ? 1 : -1;
+        const double left = h >= 3 ? 1.0 - lost : 1.0;  // of beam A
+        std::vector<float> a, b;
+        for (std::size_t k = 0; k < n_samples; ++k) {
+            const double time = h + (static_cast<double>(k) + 0.5) / static_cast<double>(n_samples);
+            const double signal = sign * 0.332 * start_lambda * std::exp(-1.8 * time);
+            const auto noise = [&] { return std::sqrt(2.0) * 332.0 * 3e-4 * normal(random); };
+            a.push_back(static_cast<float>(left * 1000.0 * (1.0 + signal) + noise()));
+            b.push_back(static_cast<float>(1000.0 * (1.0 - signal) + noise()));
+        }
+        unbalanced = unbalanced || step(c, state,
+                                        {.light_a = a,
+                                         .light_b = b,
+                                         .sign = sign,
+                                         .closed = true,
+                                         .beats = true,
+                                         .two_way = true,
+                                         .light = 2000.0,
+                                         .signal_per_lambda = 0.332,
+                                         .usable = true,
+                                         .detuning = Wavelengths{0.01},
+                                         .mean_sq_lambda2 = 1e-4})
+                                       .unbalanced;
+    }
+    return unbalanced;
+}
+
+TEST(LightMonitor, AFastWayToALockIsNoFadedBeamHoweverFewTheSamples) {
+    for (const std::size_t n_samples : {8u, 9u, 11u, 13u, 16u, 32u}) {
+        for (const double start_lambda : {-0.05, 0.03, 0.05})
+            EXPECT_FALSE(is_unbalanced_on_the_way(n_samples, start_lambda, 0.0)) << n_samples << " " << start_lambda;
+        EXPECT_TRUE(is_unbalanced_on_the_way(n_samples, 0.05, 0.1)) << n_samples;
     }
 }
 

@@ -297,5 +297,63 @@ TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
     EXPECT_FALSE(step(c, s, {.tick = 111}).open);
 }
 
+// Openings of a gyro whose rate has stepped in [from, to), as (tick, lead of mode + there).
+struct Opening {
+    std::int64_t tick = 0, lead_ticks = 0;
+};
+
+std::vector<Opening> openings_with_step(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t from,
+                                        std::int64_t to) {
+    SwitchScheduleState s = initial_state(c);
+    std::vector<Opening> result;
+    std::int8_t mode = 1;
+    std::int64_t lead = 0;
+    bool seen = false;  // a switch answers
+    for (std::int64_t tick = 1; tick < n_ticks; ++tick) {
+        lead += mode;
+        if (!step(c, s, {.tick = tick, .mode = mode, .stepped = tick >= from && tick < to && !seen}).open) continue;
+        seen = seen || tick >= from;
+        mode = static_cast<std::int8_t>(-mode);
+        result.push_back({tick, lead});
+    }
+    return result;
+}
+
+TEST(SwitchSchedule, AStepOpensEarlyAndTheNextSegmentMakesGoodForIt) {
+    for (const FirstSegment first : {FirstSegment::full, FirstSegment::half}) {
+        const SwitchScheduleConfig c{.interval_ticks = 100, .first_segment = first, .min_ticks = 20};
+        const std::vector<Opening> planned = openings_with_step(c, 1000, 2000, 2000);
+        const std::int64_t top = planned[0].lead_ticks;
+        const std::int64_t bottom = planned[1].lead_ticks;
+        const std::int64_t from = planned[1].tick + 30;
+        const std::vector<Opening> got = openings_with_step(c, 1000, from, 1000);
+        EXPECT_EQ(got[2].tick, from);
+        for (std::size_t k = 3; k < got.size(); ++k) EXPECT_EQ(got[k].lead_ticks, k % 2 == 0 ? top : bottom);
+    }
+}
+
+TEST(SwitchSchedule, AStepWaitsForTheShortestInterval) {
+    const SwitchScheduleConfig c{.interval_ticks = 100, .min_ticks = 30};
+    EXPECT_EQ(openings_with_step(c, 1000, 105, 1000)[1].tick, 130);
+    // On a grid at most for half an interval.
+    const SwitchScheduleConfig coarse{.interval_ticks = 100, .min_ticks = 2000};
+    EXPECT_EQ(openings_with_step(coarse, 1000, 105, 1000)[1].tick, 150);
+    const SwitchScheduleConfig growing{
+        .interval_ticks = 100, .kind = ScheduleKind::growing, .min_ticks = 300, .max_ticks = 9000};
+    const std::vector<Opening> planned = openings_with_step(growing, 30'000, 40'000, 40'000);
+    const std::int64_t from = planned[1].tick + 5;
+    EXPECT_EQ(openings_with_step(growing, 30'000, from, 30'000)[2].tick, planned[1].tick + 300);
+    EXPECT_GT(planned[2].tick, planned[1].tick + 600);
+}
+
+TEST(SwitchSchedule, AStepOpensNothingThatIsHeld) {
+    const SwitchScheduleConfig c{.interval_ticks = 100, .min_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    s.held = true;
+    for (std::int64_t tick = 1; tick < 500; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .stepped = true}).open);
+    EXPECT_FALSE(step(c, s, {.tick = Limits::min(), .stepped = true}).open);
+    EXPECT_FALSE(step(c, s, {.tick = Limits::max(), .stepped = true}).open);
+}
+
 }  // namespace
 }  // namespace zlg::core

@@ -30,6 +30,7 @@ DriftMethod method(core::MagneticMethod magnetic) {
     DriftMethod m{.name = magnetic == core::MagneticMethod::none ? "alone" : "magnetic", .compensation = {}};
     m.compensation.bridge = core::BridgeMethod::constant;
     m.compensation.magnetic = magnetic;
+    m.compensation.magnetic_sigma_arcsec_s = 10.0;
     return m;
 }
 

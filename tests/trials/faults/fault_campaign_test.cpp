@@ -115,12 +115,9 @@ TEST(FaultCampaign, AFieldPulseIsNotDetected) {
     }
 }
 
-TEST(FaultCampaign, NoValidTickIsWrongButThoseOfAStuckBit) {
-    for (const FaultFigures& f : short_campaign()) {
-        // A bit that is stuck is no different from rotation until it has shown itself in several halves.
-        const std::int64_t allowed = f.kind == "counter_bit_stuck" || f.kind == "all" ? 3 : 0;
-        EXPECT_LE(f.with_wrong_ticks, allowed) << f.kind << ": " << f.worst_sigmas << " sigma";
-    }
+TEST(FaultCampaign, NoValidTickIsWrong) {
+    for (const FaultFigures& f : short_campaign())
+        EXPECT_EQ(f.with_wrong_ticks, 0) << f.kind << ": " << f.worst_sigmas << " sigma";
 }
 
 TEST(FaultCampaign, TheAngleIsConservedWhereItIsClaimed) {

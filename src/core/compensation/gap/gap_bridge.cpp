@@ -9,6 +9,7 @@
 #include "gap_interpolation.hpp"
 #include "gap_known.hpp"
 #include "gap_points.hpp"
+#include "row_outlier.hpp"
 
 namespace zlg::core {
 namespace {
@@ -312,6 +313,7 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         sample.final_row = at(state, state.next_final++).row;
     }
     if (!is_estimated(config)) return sample;
+    if (sample.has_final) hold_apart(gyro, state, tick - sample.final_row.tick, sample.final_row);
     learn(gyro, config, state, input, !resolved && !state.gap.open && state.n_pending == 0);
     if (state.n_pending > 0 && !resolved) advance_estimate(gyro, config, state);
     return sample;
@@ -335,6 +337,7 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     if (state.next_final < state.next_tick) {
         out.has_row = true;
         out.row = at(state, state.next_final++).row;
+        if (is_estimated(config)) hold_apart(gyro, state, state.next_tick - state.next_final, out.row);
     }
     return out;
 }

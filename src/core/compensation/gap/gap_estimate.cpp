@@ -26,16 +26,9 @@ constexpr int min_points = 2;
 // A longer gap is estimated from whole ticks: the stages of half-ticks would not be ready in time.
 constexpr int max_joint_gap = 8;
 
-// (1).
-double inflation(double scale, double innovation_ratio) noexcept {
-    // A calibration below 1 says that the angle is known better than the points: that alone is no misfit.
-    const double ratio = innovation_ratio * (scale < 1.0 ? scale : 1.0);
-    return ratio > 1.0 ? ratio : 1.0;
-}
-
 // Before pseudo-gaps have judged the covariance, the points beside the gap do: the smooth prior is then a large part of
-// it, and a motion that it does not describe is learnt with far too much uncertainty. A ratio below 1, of so many degrees
-// of freedom, is averaged with 1, which counts as so many. By trial on first gaps 70 to 300 ticks after the start.
+// it, and a motion that it does not describe is learnt with far too much uncertainty. A ratio q < 1 with n degrees of freedom
+// is averaged with 1, which weighs as `presumed_freedom` degrees. By trial on first gaps 70 to 300 ticks after the start.
 constexpr double presumed_freedom = 1.0;
 
 double deflation(const GapProblem& problem, double innovation_ratio) noexcept {
@@ -108,12 +101,7 @@ void begin_or_change(const GapBridgeConfig& config, GapBridgeState& state, const
 MotionCovariance covariance_of(const CompensationConstants& gyro, const GapBridgeConfig& config,
                                const GapBridgeState& state) noexcept {
     const EstimatedGap& e = state.estimate;
-    return {gyro,
-            e.learnt ? config.optimal : readings_alone,
-            state.learning.moments,
-            e.problem.memory,
-            e.problem.scale,
-            e.problem.with_phase};
+    return covariance_of(gyro, e.learnt ? config.optimal : readings_alone, state.learning, e.problem);
 }
 
 // Add points of ticks before `end`, then solve, as far as `work` goes: a point is 1, a stage of ticks 1, of half-ticks
@@ -236,8 +224,7 @@ void predict_gap(const CompensationConstants& gyro, const GapBridgeConfig& confi
     if (!is_ready(config.optimal, state.learning)) return;
     PredictionProblem problem{.n_gap = predicted_ticks, .n_side = max_points_a_side};
     presume(state.learning, problem);
-    const MotionCovariance covariance{gyro,           config.optimal, state.learning.moments,
-                                      problem.memory, problem.scale,  problem.with_phase};
+    const MotionCovariance covariance = covariance_of(gyro, config.optimal, state.learning, problem);
     const PredictionData data = points_before(covariance, state, tick, problem);
     if (problem.failed || problem.factor.n < min_points) return;
     // Only the stages of the single ticks are needed.
@@ -325,7 +312,7 @@ EstimatedAngle estimate(const CompensationConstants& gyro, const GapBridgeConfig
         const double unexpected = misfit > certain_misfit ? variance : 0.0;
         variance = unexpected > expected ? unexpected : expected;
     }
-    if (misfit > certain_misfit)  // as the sum
+    if (misfit > certain_misfit)  // inflated like the variance of the sum
         for (double& x : found.variance_arcsec2) x *= misfit;
     else
         take_out_own_rounding(state, law, config.optimal.learns, misfit, found);
@@ -344,8 +331,8 @@ EstimatedAngle estimate(const CompensationConstants& gyro, const GapBridgeConfig
     } else {
         apply(state, gap, found, variance + beyond, out);
     }
-    // Only now, for the corrections are made of the scale, its variance and the dual of one problem: with the scale that this switch has
-    // taught, its step would be in them once more, in part. By phase that is as large as the whole error; of whole counts, whose sigma is
+    // After `apply`: the corrections must use the scale and variance that the problem was solved with; the scale just learnt
+    // would count this switch's step twice. By phase that is as large as the whole error; of whole counts, whose sigma is
     // rather too large, it makes 1.5 % at most.
     if (problem.with_phase) learn_scale(state);
     return out;

@@ -8,7 +8,8 @@
 //   rounding the learnt moments come from windows that were counted throughout, the gap was not: with both kinds of c^T R c
 //            (rounding_law.hpp), variance = broken + f max(0, var - continuing)                              (2)
 //
-// Where f > 1.4 the points deviate by more than chance, and the variance is at least f var.
+// Before pseudo-gaps have judged the covariance, f is further multiplied by (1 + n q)/(1 + n) where q < 1, n its degrees of
+// freedom. Where f > 1.4 the points deviate by more than chance, and the variance is at least f var.
 
 #include <cstdint>
 
@@ -21,6 +22,12 @@ namespace zlg::core {
 // Ticks of a gap that are predicted when it begins; the later ones get the mean rate.
 inline constexpr int predicted_ticks = 4;
 
+// The misfit (1). A calibration below 1 says that the angle is known better than the points: that alone is no misfit.
+[[nodiscard]] constexpr double inflation(double calibration, double innovation_ratio) noexcept {
+    const double ratio = innovation_ratio * (calibration < 1.0 ? calibration : 1.0);
+    return ratio > 1.0 ? ratio : 1.0;
+}
+
 // A gap begins at `tick`: predict it from the ticks before, if the motion is known.
 void predict_gap(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                  std::int64_t tick) noexcept;
@@ -29,8 +36,8 @@ void predict_gap(const CompensationConstants& gyro, const GapBridgeConfig& confi
 // half-ticks that is not ready in time leaves its gap to the polynomial.
 void advance_estimate(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state) noexcept;
 
-// Points or stages in one half-period, that which needs the estimate included: the 36 points of half-ticks and their
-// solution need ten.
+// Points or stages done in one half-period, also in the one that delivers the estimate: 36 half-tick points and their
+// solution take ten half-periods.
 inline constexpr int work_a_half = 6;
 
 struct EstimatedAngle {

@@ -20,7 +20,7 @@ namespace zlg::core {
 void apply(GapBridgeState& state, const Gap& gap, const GapEstimate& found, double variance,
            EstimatedAngle& out) noexcept;
 
-// By the mixture. Its ticks err together or against each other; as if they did so independently.
+// By the mixture. The correlation between its ticks is not known; their sigma is set as if they were independent.
 //
 // of_learnt  variance of the whole angle by the learnt motion alone.
 // variance   of the whole angle.

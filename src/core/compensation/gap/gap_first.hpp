@@ -10,7 +10,7 @@
 
 namespace zlg::core {
 
-// Ticks on each side that such a gap uses: what each shape of the bank costs fits into one half.
+// Ticks on each side that such a gap uses: what each shape of the mixture costs fits into one half.
 inline constexpr int points_beside_first = 6;
 
 // Nothing moves but at a constant rate: the readings and the random walk are all that there is.

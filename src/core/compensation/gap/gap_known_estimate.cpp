@@ -6,6 +6,7 @@
 #include <zlg/core/compensation/motion_learning.hpp>
 #include <zlg/core/compensation/optimal_bridge.hpp>
 
+#include "gap_estimate.hpp"
 #include "gap_interpolation.hpp"
 #include "gap_known.hpp"
 
@@ -87,9 +88,7 @@ void solve(const Problem& p, double level, double scale, KnownEstimate& out) noe
     const double rate = product(rate_column, rest, p.n) / information;
     for (unsigned k = 0; k < static_cast<unsigned>(p.n); ++k) rest[k] -= rate * rate_column[k];
     const FewColumn dual = backward(p.factor, rest);
-    // As in gap_estimate.cpp: a calibration below 1 alone is no misfit.
-    const double ratio = product(rest, rest, p.n) / (p.n - 1) * (scale < 1.0 ? scale : 1.0);
-    const double misfit = ratio > 1.0 ? ratio : 1.0;
+    const double misfit = inflation(scale, product(rest, rest, p.n) / (p.n - 1));
     const double sum_sq = rest[static_cast<unsigned>(p.n - 1)] * rest[static_cast<unsigned>(p.n - 1)];
     double sum_variance = 0.0;
     for (unsigned j = 0; j < static_cast<unsigned>(p.n_gap); ++j) {

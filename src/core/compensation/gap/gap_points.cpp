@@ -93,8 +93,10 @@ void add_half(const MotionCovariance& covariance, GapBridgeState& state, const H
     Column error{};
     const int own = half_after(e, problem, n);
     if (is_corrected(e, own)) {
-        e.data.probe[n] = (1.0 + state.bias_scale.value) * correction(state, own);
-        e.data.value[n] = (own < 0 ? lit_half(e, own).value_arcsec : half_as_read(tick, own)) + e.data.probe[n];
+        const double correction_arcsec = correction(state, own);
+        e.data.probe[n] = correction_arcsec;
+        e.data.value[n] = (own < 0 ? lit_half(e, own).value_arcsec : half_as_read(tick, own)) +
+                          (1.0 + state.bias_scale.value) * correction_arcsec;
         for (unsigned i = 0; i <= n; ++i) {
             const int other = half_after(e, problem, i);
             if (is_corrected(e, other)) error[i] = half_error(state, own, other);
@@ -311,7 +313,6 @@ void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& c
     }
 }
 
-// Measurement update, e = -p d + ..: information p^T P p, innovation p^T P z.
 void learn_scale(GapBridgeState& state) noexcept {
     if (!state.estimate.problem.halves) return;
     BiasScale& scale = state.bias_scale;

@@ -5,7 +5,8 @@
 //   whole ticks  z_k: the tick; E: diagonal
 //   half-ticks   z_k = y_k + (1 + d) s D_k (joint_relock.hpp), d the learnt scale of chi f0;
 //                E_kl = cov(sD_k, sD_l) + var(d) sD_k sD_l
-//                and those at the end of the gap whose light tells their D (lit_halves.hpp), which go on as a row before them
+//                those lit at the end of the gap (lit_halves.hpp) are points too, numbered -1, -2, ... backwards from
+//                the first half after it
 //
 // All have a number k, in order of time: those before the gap, the lit halves in it, those after it.
 
@@ -86,7 +87,9 @@ void correct_ticks(GapBridgeState& state, const GapEstimate& found, ExactSum& ch
 // The same for half-ticks, which were corrected by the profile of the detuning.
 void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& change) noexcept;
 
-// The scale of chi f0, by this switch: P <- P - P^2 p^T P p.
+// Learn the scale d of chi f0 from this switch. v: its variance; P: the projection (2) of optimal_bridge.hpp.
+//
+//   d <- d - v p^T P z,  v <- v - v^2 p^T P p + process noise
 void learn_scale(GapBridgeState& state) noexcept;
 
 }  // namespace zlg::core

@@ -71,13 +71,6 @@ RoundingSums rounding_of_fit(const GapBridgeConfig& config, const GapBridgeState
     return sums_of(state, gap, law, weights);
 }
 
-FitWeights weights_in_sum(const PolynomialFit& fit, std::int64_t n) noexcept {
-    FitWeights out{};
-    for (unsigned k = 0; k < static_cast<unsigned>(fit.n()); ++k)
-        out[k] = weight_in_sum(fit.weight_of(k), static_cast<double>(n));
-    return out;
-}
-
 RoundingSums rounding_of_score(BridgeCandidate polynomial, const RoundingLaw& law) noexcept {
     const double inner = polynomial == by_constant ? 0.75 : 2.5;
     const double outer = 1.5 - inner;

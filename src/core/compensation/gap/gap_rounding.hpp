@@ -28,9 +28,6 @@ void take_out_own_rounding(const GapBridgeState& state, const RoundingLaw& law, 
 [[nodiscard]] RoundingSums rounding_of_fit(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,
                                            const PolynomialFit& fit, const RoundingLaw& law) noexcept;
 
-// Weights of its points in the sum of the ticks 1..n.
-[[nodiscard]] FitWeights weights_in_sum(const PolynomialFit& fit, std::int64_t n) noexcept;
-
 // Of a pseudo-gap by which the polynomials are judged.
 [[nodiscard]] RoundingSums rounding_of_score(BridgeCandidate polynomial, const RoundingLaw& law) noexcept;
 

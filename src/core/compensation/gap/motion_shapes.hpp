@@ -88,25 +88,25 @@ constexpr ByDistance by_distance(const std::array<double, window_ticks>& covaria
 }
 
 // c = 0.05.
-inline constexpr ByDistance below_10_hz = by_distance(
+inline constexpr ByDistance below_0_05_a_tick = by_distance(
     {1, 0.98366746408924377, 0.93562955834588768, 0.85869826928722226, 0.75734162056754173, 0.63737322113463835,
      0.50555115072421375, 0.3691164625542645, 0.23530591034745157, 0.11087509150717319, 0.0016669340432088793,
      -0.087743531692615589, -0.15430353663206159, -0.19661968993367404, -0.21497081908487117, -0.21119924019738129,
      -0.1884924976129459, -0.15107579276764366, -0.10384171146989089});
 // c = 0.1.
-inline constexpr ByDistance below_20_hz = by_distance(
+inline constexpr ByDistance below_0_1_a_tick = by_distance(
     {1, 0.93605024967561012, 0.7588859488954881, 0.50855095969012687, 0.23960754309008872, 0.0066708327832372769,
      -0.14946312968909378, -0.21116456852445198, -0.18633668232551553, -0.10352218724948177, -0.0016476585878919721,
      0.082197001302517822, 0.12316804962321665, 0.11430166860864767, 0.066094085137734654, 0.00073067400809300473,
      -0.056708062816058419, -0.086967300002171719, -0.082453557488629314});
 // c = 0.15.
-inline constexpr ByDistance below_30_hz = by_distance(
+inline constexpr ByDistance below_0_15_a_tick = by_distance(
     {1, 0.8611332062887429, 0.51354949197367383, 0.12354674872966044, -0.14137530997588857, -0.20306998184542321,
      -0.10293980910819378, 0.041541142055215162, 0.11948032408614713, 0.092063030356935041, 0.0016156373144746647,
      -0.073534412324270215, -0.080416786312798139, -0.024919273246487135, 0.041739548783359684, 0.067327726102851843,
      0.037607227632154419, -0.017824703521620411, -0.05319590602267938});
 // c = 0.225.
-inline constexpr ByDistance below_45_hz = by_distance(
+inline constexpr ByDistance below_0_225_a_tick = by_distance(
     {1, 0.71142409967375908, 0.14138680405962076, -0.18194043460772455, -0.10140006851606426, 0.085239379961754944,
      0.08788826172680439, -0.038195580504373147, -0.075882387121610245, 0.0090963599344952, 0.063156653444114363,
      0.010239313696934493, -0.049704410746432261, -0.022857273865767819, 0.036011619656443866, 0.03023577328872587,
@@ -134,10 +134,10 @@ inline constexpr std::array<Shape, 2> full_motion{full(rate_walk, 1.0 / 16.0, 8.
 inline constexpr std::array<Shape, most_full_shapes> any_motion{full(rate_walk, 1.0 / 16.0, 6.0),
                                                                 full(acceleration_walk, 1.0 / 1024.0, 6.0),
                                                                 stationary(independent_ticks, 9.0, most_sizes),
-                                                                stationary(below_10_hz, 14.0, 11),
-                                                                stationary(below_20_hz, 14.0, 11),
-                                                                stationary(below_30_hz, 14.0, 11),
-                                                                stationary(below_45_hz, 14.0, 11)};
+                                                                stationary(below_0_05_a_tick, 14.0, 11),
+                                                                stationary(below_0_1_a_tick, 14.0, 11),
+                                                                stationary(below_0_15_a_tick, 14.0, 11),
+                                                                stationary(below_0_225_a_tick, 14.0, 11)};
 
 // Models in which something is added.
 constexpr int models_of(std::span<const Shape> shapes) noexcept {

@@ -89,9 +89,4 @@ bool is_ready(const OptimalBridgeConfig& config, const MotionLearningState& stat
     return !config.learns || state.moments.moments[fast_memory].n_windows >= min_windows;
 }
 
-MotionCovariance covariance_of(const CompensationConstants& gyro, const OptimalBridgeConfig& config,
-                               const MotionLearningState& state, const GapProblem& problem) noexcept {
-    return {gyro, config, state.moments, problem.memory, problem.scale, problem.with_phase};
-}
-
 }  // namespace zlg::core

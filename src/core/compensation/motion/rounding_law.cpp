@@ -13,7 +13,7 @@ constexpr int refinements = 5;
 constexpr double converged_counts2 = 1e-6;
 
 // Beyond this variance, counts^2, the coherence is below 6e-5 and counts as 0.
-constexpr double max_scatter = 0.5;
+constexpr double max_scatter_counts2 = 0.5;
 
 // Distance to the nearest whole number; beyond 2^51 counts no fraction is known.
 double distance_to_whole(double x) noexcept {
@@ -32,7 +32,7 @@ double at_steady_rate(double rotation_counts) noexcept {
 
 // The coherence exp(-2 pi^2 s^2) of (2).
 double coherence_of(double variance) noexcept {
-    return variance < max_scatter ? exponential(-two_pi_squared * variance) : 0.0;
+    return variance < max_scatter_counts2 ? exponential(-two_pi_squared * variance) : 0.0;
 }
 
 // Learnt mean square of the angle of the first n = 0, 1.. ticks of a window about n times the level: sums over the
@@ -66,7 +66,7 @@ double rounding_covariance(double rotation_counts, double variance_counts2) noex
 double scatter_of_rotation(double rotation_counts, double read_variance_counts2) noexcept {
     const double covariance = at_steady_rate(rotation_counts);
     const double without = read_variance_counts2 - 1.0 / 6.0;
-    if (!(without < max_scatter)) return without;
+    if (!(without < max_scatter_counts2)) return without;
     // Solve v + 1/6 - 2 R(x, v) = read variance for v. R > 0: Newton's method from v = 0, monotone because the left
     // side is concave; R <= 0: fixed-point steps to the smallest solution.
     double v = 0.0;

@@ -3,18 +3,14 @@
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
+#include "relock_light.hpp"
+
 namespace zlg::core {
 namespace {
 
-// No perimeter is detuned by a thousand wavelengths: such a number is damage, and would overflow further on.
-constexpr double max_detuning_lambda = 1e3;
-
 // No rotation is that large, whatever the scale; its square and any sum of such angles are still numbers.
 constexpr double max_false_angle_arcsec = 1e30;
-
-bool is_within(double x, double min, double max) noexcept { return x >= min && x <= max; }
-
-double square(double x) noexcept { return x * x; }
 
 double bias_at_hz(const CompensationConstants& g, double temperature_c) noexcept {
     return bias_at(g, Celsius{temperature_c}).value();
@@ -34,7 +30,8 @@ FalseAngle missing(const CompensationConstants& g, double rate_hz) noexcept {
     return angle;
 }
 
-// The square falls from tick to tick like q^(4 i): its part (1 - q^2) q^(4 (n - 1)) in tick n is at most 1/(2 n - 1).
+// With rho the ratio of the detuning from half to half, its square falls from tick to tick by rho^4: its change within
+// tick n, (1 - rho^2) rho^(4 (n - 1)) of the first, is at most 1/(2 n - 1).
 //
 // before  the state when this tick began: its own second half shows the detuning that remains after it.
 double max_missing_hz(const CompensationConstants& g, const RelockDriftState& before, const RelockTick& t) noexcept {
@@ -54,13 +51,6 @@ TrueTick true_tick(const CompensationConstants& g, const RelockTick& t) noexcept
     const double s2 = square(g.light_noise.value());
     return {true_moments(g.record_curve, t.detuning_first_lambda, t.detuning_sq_first_lambda2, s2),
             true_moments(g.record_curve, t.detuning_second_lambda, t.detuning_sq_second_lambda2, s2)};
-}
-
-// Of the variance of a sample's noise: by the slope of the curve that the detuning has come through, here or in the
-// control.
-double noise_gain(const CompensationConstants& g, const TrueMoments& seen) noexcept {
-    if (g.record_curve.n_nodes != 0 || g.control_curve.n_nodes == 0) return square(seen.slope);
-    return square(slope_behind(g.control_curve, seen.mean_lambda));
 }
 
 FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t) noexcept {
@@ -153,7 +143,7 @@ RelockDriftOutput frequency_step(const CompensationConstants& g, std::int64_t ti
     RelockDriftOutput out{.due = s.since_gap <= ticks};
     if (s.since_gap == 1) {
         s.first_deficit_hz = deficit_hz(g, t);
-        s.first_most_hz = max_missing_hz(g, before, t);
+        s.first_max_hz = max_missing_hz(g, before, t);
         out.waiting = true;
         return out;
     }
@@ -164,7 +154,7 @@ RelockDriftOutput frequency_step(const CompensationConstants& g, std::int64_t ti
     if (d.usable && out.first_due) out.first = first_by_frequency(g, s, t, deficit, d.q);
     const double max_hz = max_missing_hz(g, before, t);
     if (out.due) out.tick = or_deficit(g, out.tick, deficit, max_hz);
-    if (out.first_due) out.first = or_deficit(g, out.first, s.first_deficit_hz, s.first_most_hz);
+    if (out.first_due) out.first = or_deficit(g, out.first, s.first_deficit_hz, s.first_max_hz);
     return out;
 }
 
@@ -174,7 +164,7 @@ void observe_detuning(const CompensationConstants& g, std::int64_t ticks, Relock
     const TrueMoments seen = true_moments(g.record_curve, t.detuning_second_lambda, t.detuning_sq_second_lambda2,
                                           square(g.light_noise.value()));
     const bool squared = t.detuning_sq_second_lambda2 > 0.0;
-    // A mean that falls to a thirtieth within the half has half of its mean square as its own square.
+    // Where the detuning falls thirtyfold within the half, the square of its mean is about half of its mean square.
     const double by_mean = 2.0 * square(seen.mean_lambda - g.centre.value());
     const double second = squared ? about(g.centre, seen) : by_mean;
     const bool measured = squared || t.detuning_second_lambda != 0.0;

@@ -2,11 +2,12 @@
 
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
 constexpr std::size_t min_samples = 4;
-constexpr double max_detuning_lambda = 1e3;
 
 // Below it a converter may well give the same number throughout a half.
 constexpr double min_noise_ratio = 1e-4;
@@ -17,8 +18,6 @@ constexpr double min_slope_sq = 1e-6;
 constexpr int max_newton_steps = 12;
 
 constexpr double not_good = __builtin_nan("");
-
-double square(double x) noexcept { return x * x; }
 
 // Mean of a beam; NaN where a sample is not finite or not positive, or where all are the same although they must not
 // be.
@@ -101,7 +100,7 @@ void read_samples(const CompensationConstants& gyro, const RelockProfileConfig& 
                   LightSamples light, DetuningSamples& out) noexcept {
     out.n = 0;
     const std::size_t n = light.a.size();
-    if (n < min_samples || n > static_cast<std::size_t>(max_profile_samples)) return;
+    if (n < min_samples || n > static_cast<std::size_t>(max_light_samples)) return;
     if (!light.b.empty() && light.b.size() != n) return;
     const double noise_ratio = light_noise_lambda(gyro) * c.discriminator_per_lambda;
     const bool may_stand_still = !(noise_ratio > min_noise_ratio || noise_ratio < -min_noise_ratio);
@@ -125,13 +124,18 @@ void read_samples(const CompensationConstants& gyro, const RelockProfileConfig& 
     about_centre(gyro.centre.value(), out);
 }
 
+double noise_gain(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
+    if (gyro.record_curve.n_nodes != 0 || gyro.control_curve.n_nodes == 0) return square(seen.slope);
+    return square(slope_behind(gyro.control_curve, seen.mean_lambda));
+}
+
 RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
     const double noise_sq = square(light_noise_lambda(gyro));
     const bool is_refused = noise_sq > 0.0 && half.detuning_sq_lambda2 <= 0.0;
     const TrueMoments seen = true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise_sq);
     const double from_centre = about(gyro.centre, seen);
     if (!(from_centre >= 0.0 && from_centre < square(max_detuning_lambda))) return {};
-    const double s2 = noise_sq * square(seen.slope);
+    const double s2 = noise_sq * noise_gain(gyro, seen);
     const double above = from_centre - s2;
     const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 2.0 * s2 * s2) / gyro.light_samples;
     if (is_refused || !is_finite(variance)) return {.refused = is_refused};

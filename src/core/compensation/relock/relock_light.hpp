@@ -11,6 +11,9 @@
 
 namespace zlg::core {
 
+// No perimeter is detuned by a thousand wavelengths: such a number is damage, and would overflow further on.
+inline constexpr double max_detuning_lambda = 1e3;
+
 // Of one sample of both beams. What is larger is no measurement, and its powers would overflow.
 [[nodiscard]] constexpr double light_noise_lambda(const CompensationConstants& gyro) noexcept {
     const double noise_lambda = gyro.light_noise.value();
@@ -18,9 +21,9 @@ namespace zlg::core {
 }
 
 struct DetuningSamples {
-    std::int32_t n = 0;                              // 0: the light cannot be used
-    double weight = 1.0;                             // noise variance of the configuration over that of these samples
-    std::array<double, max_profile_samples> lambda;  // the first n
+    std::int32_t n = 0;                            // 0: the light cannot be used
+    double weight = 1.0;                           // noise variance of the configuration over that of these samples
+    std::array<double, max_light_samples> lambda;  // the first n
 };
 
 //   both beams   dl = sign F((A - B)/(A + B)/K)
@@ -30,6 +33,10 @@ struct DetuningSamples {
 // although there is noise, detunings beyond the curve or beyond any perimeter.
 void read_samples(const CompensationConstants& gyro, const RelockProfileConfig& config, const HalfRecord& half,
                   LightSamples light, DetuningSamples& out) noexcept;
+
+// Of the variance of a sample's noise: by the slope of the curve that the detuning has come through, here or in the
+// control.
+[[nodiscard]] double noise_gain(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
 
 // Mean square of a half and its variance, from the record.
 struct RecordedSquare {

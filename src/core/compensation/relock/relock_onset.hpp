@@ -15,7 +15,8 @@
 //
 // F_j is the form of the mean square over half j. The term of fourth order in sigma is left out of (3); for a half that
 // the chain passes it is in the variance (relock_chain.hpp). The average over the onsets has the weights of (1), which
-// are likelihoods at their maximum, without the factor |A|^-1/2 of a Bayesian average, the onset 0 doubled, and by the law of total covariance the mean of (3) plus the covariance of the estimates over the onsets.
+// are likelihoods at their maximum, without the factor |A|^-1/2 of a Bayesian average, the onset 0 doubled. Its covariance is,
+// by the law of total covariance, the mean of (3) plus the covariance of the estimates over the onsets.
 
 #include <cstdint>
 

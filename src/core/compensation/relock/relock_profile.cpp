@@ -4,6 +4,7 @@
 
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
 #include "relock_chain.hpp"
 #include "relock_light.hpp"
 #include "relock_onset.hpp"
@@ -23,8 +24,6 @@ constexpr double max_deviation = 2.0;
 
 // Residuals above this multiple of the noise from sample to sample are not noise either. Set by hand.
 constexpr double max_over_rough = 2.0;
-
-double square(double x) noexcept { return x * x; }
 
 double weighted_sum_sq(const RelockProfileState& s, std::size_t from, std::size_t to) noexcept {
     double sum = 0.0;

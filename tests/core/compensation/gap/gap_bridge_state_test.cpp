@@ -225,6 +225,41 @@ TEST(LearningBridge, AStateIsAPlainValue) {
     EXPECT_LT(sizeof(GapBridgeState), 44u * 1024u);
 }
 
+// False angles of 1 + d times what is presumed, of which the scale has learnt a part: d after one switch.
+double learnt_scale(double d, double before) {
+    constexpr std::int64_t n_before = 20, n_gap = 2;
+    GapBridgeConfig config = learning(BridgeMethod::optimal);
+    config.optimal = {.learns = false, .halves = true};
+    config.optimal.prior_arcsec2[0] = 1.0;
+    GapBridgeState state;
+    state.bias_scale.value = before;
+    state.joint = {.first_tick = n_before + n_gap, .known = true};
+    Delivered result;
+    for (std::int64_t t = 0; t < n_before + n_gap + 20; ++t) {
+        TickInput tick = t >= n_before && t < n_before + n_gap ? gap_tick() : measured_tick(10.0);
+        for (std::int64_t h = 0; h < 2; ++h) {
+            const std::int64_t k = 2 * (t - state.joint.first_tick) + h;
+            if (k < 0 || k >= zlg::core::profile_halves) continue;
+            double& correction = state.joint.correction_arcsec[static_cast<std::size_t>(k)];
+            correction = (h == 0 ? 1000.0 : -1000.0) * std::exp(-0.3 * static_cast<double>(k));
+            tick.value_arcsec -= (1.0 + d) * correction;
+            tick.half_excess_arcsec -= (h == 0 ? 1.0 : -1.0) * (1.0 + d) * correction;
+        }
+        for (int half = 0; half < 2; ++half) advance_estimate(fine, config, state);
+        step_into(config, state, tick, result, fine);
+    }
+    return state.bias_scale.value;
+}
+
+// What is left of the false angles is (d - learnt) times what is presumed, whatever is learnt: the points and their
+// covariance are the same, and so must be the step.
+TEST(LearningBridge, ASwitchTeachesTheScaleOfTheBiasAsMuchWhateverIsLearntOfIt) {
+    const double first = learnt_scale(0.01, 0.0);
+    EXPECT_NEAR(first, 0.01, 0.0002);
+    for (const double before : {-0.08, 0.05, 0.08})
+        EXPECT_NEAR(learnt_scale(before + 0.01, before) - before, first, 1e-9) << before;
+}
+
 // To weigh the judgement of a motion takes as much as to estimate a gap: it waits while a gap lasts or is not yet resolved.
 TEST(LearningBridge, WeightsOfAMotionWaitUntilNoGapDoes) {
     const GapBridgeConfig config = learning(BridgeMethod::automatic);

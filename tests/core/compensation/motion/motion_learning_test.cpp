@@ -25,7 +25,7 @@ TEST(MotionLearning, WhiteNoiseIsLearntAsSuch) {
     MotionLearningState state;
     const OptimalBridgeConfig config;
     learn_noise(config, state, random, 12000);
-    const MotionCovariance covariance = covariance_of(smooth, config, state, {.memory = slow_memory});
+    const MotionCovariance covariance = covariance_of(smooth, config, state, GapProblem{.memory = slow_memory});
     for (int lag = 0; lag < 10; ++lag) EXPECT_NEAR(covariance.of_ticks(3, 3 + lag), lag == 0 ? 1.0 : 0.0, 0.12) << lag;
     // The mean of 16 bridges 3 ticks of variance 1 with 3.5625; 16 learnt weights cost a little more.
     EXPECT_NEAR(state.scores.score[by_slow_memory].loss, 3.56, 0.4);
@@ -42,13 +42,14 @@ TEST(MotionLearning, ABlowIsNotLearntButANewMotionIs) {
         step(smooth, config, quiet, {true, value, 0.0}, true);
         step(smooth, config, struck, {true, t >= 2000 && t < 2006 ? 1e6 : value, 0.0}, true);
     }
-    const double usual = covariance_of(smooth, config, quiet, {.memory = fast_memory}).of_ticks(0, 0);
-    EXPECT_NEAR(covariance_of(smooth, config, struck, {.memory = fast_memory}).of_ticks(0, 0) / usual, 1.0, 0.2);
+    const double usual = covariance_of(smooth, config, quiet, GapProblem{.memory = fast_memory}).of_ticks(0, 0);
+    EXPECT_NEAR(covariance_of(smooth, config, struck, GapProblem{.memory = fast_memory}).of_ticks(0, 0) / usual, 1.0,
+                0.2);
     EXPECT_NEAR(variance_ratio(struck.scores, fast_memory), variance_ratio(quiet.scores, fast_memory), 0.2);
 
     // A vibration a thousand times as large that stays is the motion before long.
     for (int t = 0; t < 3000; ++t) step(smooth, config, quiet, {true, 1e3 * std::sin(0.63 * t), 0.0}, true);
-    EXPECT_NEAR(covariance_of(smooth, config, quiet, {.memory = fast_memory}).of_ticks(0, 0), 0.5e6, 0.1e6);
+    EXPECT_NEAR(covariance_of(smooth, config, quiet, GapProblem{.memory = fast_memory}).of_ticks(0, 0), 0.5e6, 0.1e6);
 }
 
 // Noise of readings by phase after a motion that whole counts read as a thousand times as large. The debounce is longer than a window.

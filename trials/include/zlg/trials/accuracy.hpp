@@ -126,7 +126,7 @@ struct SwitchingDrift {
     std::string method;
     bool of_paper = false;
     int runs = 0;
-    std::vector<double> rms_arcsec_s;  // by `run_lengths_s`
+    std::vector<double> rms_arcsec_s;  // by accuracy_run_lengths_s
 };
 
 inline const std::vector<double> accuracy_run_lengths_s{600.0, 900.0, 3600.0};

@@ -32,6 +32,7 @@ using Laser = twin::LaserConfig;
 using Photodiodes = twin::PhotodiodesConfig;
 
 enum class LastSegment { any, half };
+enum class AfterStep { wait, switch_early };
 enum class MotionPrior { learnt, flat, lines };
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
@@ -72,6 +73,7 @@ struct Switching {
     double switch_error_arcsec = 2.0;  // presumed, of one switch, rms
     double magnetic_arcsec_s = 0.7;    // presumed
     int gap_ticks = 3;
+    AfterStep after_step = AfterStep::wait;
     int gap_min_ticks = 0;  // from which on a switch that has arrived closes the loop; 0: gap_ticks
 };
 
@@ -88,10 +90,10 @@ struct Compensation {
     std::vector<double> prior_line_hz = {20.0};
     std::vector<double> prior_line_arcsec_s = {12000.0};  // amplitudes
     core::MagneticMethod magnetic = core::MagneticMethod::none;
-    double magnetic_arcsec_s = 0.0;         // at the start, by calibration
-    double magnetic_sigma_arcsec_s = 10.0;  // of that; large: not calibrated
+    double magnetic_arcsec_s = 0.0;        // at the start, by calibration
+    double magnetic_sigma_arcsec_s = 1.0;  // of that; not calibrated
     double magnetic_thermal_arcsec_s = 0.0;
-    double magnetic_thermal_sigma_arcsec_s = 10.0;
+    double magnetic_thermal_sigma_arcsec_s = 1.0;
     double magnetic_thermal_time_s = 3000.0;
 };
 

@@ -63,7 +63,7 @@ struct ActuatorFrame {
 
 // One row of the raw log: all that compensation knows of half-period `half`.
 //
-// Optional quantities that were not measured are NaN.
+// A detuning or mean square that was not measured is 0 where control recorded the half. What a log has no column for is NaN.
 struct HalfRecord {
     std::int64_t half = 0;
     std::int64_t counts = 0;           // counter difference over `span` halves, positive for positive rotation
@@ -118,12 +118,12 @@ struct LightSamples {
     std::span<const float> b{};  // beam B, as many, or none
 };
 
-// Provenance of one tick of the angle log, a sum of bits.
+// Provenance of one tick of the angle log, a sum of bits. eq (n) here: of the paper, see docs/compensation.md.
 enum AngleFlag : std::uint32_t {
-    flag_switching = 1u << 0,           // in a gap, and the commanded helicity has changed since it began
-    flag_extrapolated = 1u << 1,        // in a gap: dtheta is eq (14), 0 before the first measured tick
-    flag_interpolated = 1u << 2,        // in a gap: dtheta_final is eq (15), from both sides
-    flag_correction = 1u << 3,          // dtheta contains the correction of earlier ticks, eq (17)
+    flag_switching = 1u << 0,     // in a gap, and the commanded helicity has changed since it began
+    flag_extrapolated = 1u << 1,  // in a gap: dtheta comes from earlier ticks alone; 0 before the first measured tick
+    flag_interpolated = 1u << 2,  // in a gap: dtheta_final comes from both sides
+    flag_correction = 1u << 3,    // dtheta contains the correction of earlier ticks, eq (17)
     flag_relock_corrected = 1u << 4,    // false drift after re-lock was subtracted
     flag_relock_uncorrected = 1u << 5,  // it should have been, but the data did not allow it
     flag_lower_order = 1u << 6,         // too few measured ticks for the order asked for

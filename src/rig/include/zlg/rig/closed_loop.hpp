@@ -27,8 +27,8 @@ class ClosedLoop {
 public:
     // processor  runs the core in place of this program, and outlives the loop; null: this program runs it.
     //
-    // errors  config::ConfigError where the configuration does not make a gyro, or the motion file cannot be read; those of
-    //         the processor, here and in the other functions.
+    // errors  config::ConfigError where the configuration does not make a gyro, or the run is longer than the motion;
+    //         those of the processor, here and in the other functions.
     ClosedLoop(const config::Config& config, twin::Motion motion, Processor* processor = nullptr);
 
     LoopHalf advance();

@@ -7,13 +7,14 @@
 #include <zlg/config/config.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/replay.hpp>
+#include <zlg/twin/twin_config.hpp>
 #include <zlg/wire/status.hpp>
 #include <zlg/wire/telemetry.hpp>
 
 namespace zlg::rig {
 
 // The pulse of a clock outside that the simulated gyro is given: one a second, the first with the first half.
-inline constexpr std::uint64_t pulse_ticks = 10'000'000;
+inline constexpr std::uint64_t pulse_ticks = static_cast<std::uint64_t>(twin::timer_hz);
 
 class WireStream {
 public:

@@ -32,7 +32,7 @@ using twin::timer_hz;
 // errors            config::ConfigError where the points make no curve.
 [[nodiscard]] core::DiscriminatorCurve discriminator_curve(const config::Config& config, double slope_per_lambda);
 
-// errors  config::ConfigError: the part of the core that refuses, and what its check says.
+// errors  config::ConfigError: the keys from which a refused value comes, their values, and what is allowed.
 [[nodiscard]] core::GyroControlConfig control_config(const config::Config& config);
 [[nodiscard]] core::GyroCompensationConfig compensation_config(const config::Config& config, core::RelockMethod relock,
                                                                core::BridgeMethod bridge);

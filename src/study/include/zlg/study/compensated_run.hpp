@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include <zlg/config/config.hpp>
 #include <zlg/core/gyro_compensation.hpp>
@@ -18,6 +19,10 @@ namespace zlg::study {
 // The configured compensation beside a loop, and its errors. Several may follow one loop.
 class MeteredCompensation {
 public:
+    // Both optional: what else is done with a final row and what is true of its tick, and with a gap.
+    std::function<void(const core::AngleRow&, const TickTruth&)> on_row;
+    std::function<void(const core::GapReport&)> on_gap;
+
     // stride  ticks between two points of the curve of the error.
     //
     // errors  config::ConfigError.
@@ -34,6 +39,7 @@ public:
 
 private:
     void take(const core::AngleRow& row);
+    void take(const core::GapReport& gap) const;
 
     config::Config config_;
     rig::Replay replay_;

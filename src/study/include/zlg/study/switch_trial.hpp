@@ -20,7 +20,8 @@ struct SwitchTrial {
 // which a gyro has without switching too. What is left is known no better than the walk's own scatter, the standard error
 // sqrt(2 sum walk^4)/(n - 1) of the mean square: no less is ever claimed.
 //
-// Of a loop that needs many seconds to lock fewer switches are tried. Of a motion file as much is used as it holds. The seed is that of the configuration: the answer is the same each time.
+// Of a loop that needs many seconds to lock fewer switches are tried. Of a motion file as much is used as it holds. The
+// seed is that of the configuration: the answer is the same each time.
 //
 // accuracy  about 9 %, from 60 switches; the best interval goes with the power 2/3 of it.
 // errors    config::ConfigError; those of a motion file.

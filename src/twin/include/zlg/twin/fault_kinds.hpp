@@ -31,11 +31,11 @@ enum class FaultKind : unsigned char {
     frame_late,       // by one half: the first is missed, each next one is that of the half before, the last is lost
     bias_lost,        // the bias current is 1 - size times its own
     bias_asymmetric,  // 1 + size times in halves of positive sign, 1 - size times in the others
-    field_pulse,  // a constant field that adds size Hz to the fringe rate of the left mode and takes it from the right
-    thermal_shock,  // the gyro warms by size degrees within the time; it stays so
-    vibration,      // the perimeter swings by size wavelengths at vibration_hz
-    shock,          // the perimeter bulges by size wavelengths, a half-sine over the time
-    overspeed,      // the case turns faster, by size arcsec/s at half of the time
+    field_pulse,      // a constant field: size counts a second more in the left mode and fewer in the right one
+    thermal_shock,    // the gyro warms by size degrees within the time; it stays so
+    vibration,        // the perimeter swings by size wavelengths at vibration_hz
+    shock,            // the perimeter bulges by size wavelengths, a half-sine over the time
+    overspeed,        // the case turns faster, by size arcsec/s at half of the time
 };
 
 inline constexpr double default_vibration_hz = 170.0;
@@ -100,7 +100,7 @@ inline constexpr auto fault_table = [] {
          .random_size = {0.02, 1.0}, .random_s = {0.02, 1.0}},
         {.kind = bias_asymmetric, .name = "bias_asymmetric", .size = {-1.0, 1.0},
          .random_size = {0.003, 0.1}, .either_sign = true, .random_s = {0.02, 1.0}},
-        {.kind = field_pulse, .name = "field_pulse", .unit = "Hz", .size = {-1e6, 1e6},
+        {.kind = field_pulse, .name = "field_pulse", .unit = "counts/s", .size = {-1e6, 1e6},
          .random_size = {0.3, 30.0}, .either_sign = true, .random_s = {0.1, 2.0}},
         {.kind = thermal_shock, .name = "thermal_shock", .unit = "C", .acts_on = loop, .size = {-1000.0, 1000.0},
          .random_size = {5.0, 30.0}, .either_sign = true, .random_s = {0.5, 3.0}},

@@ -14,6 +14,8 @@ struct LaserZone {
     unsigned lit = 0;  // as LaserLight::lit
 
     [[nodiscard]] bool dark() const { return lit == 0; }
+    // A wave of the right mode is lit.
+    [[nodiscard]] bool right_lit() const { return (lit & 12U) != 0; }
     // Light, but of no mode in both directions.
     [[nodiscard]] bool one_way() const { return !dark() && (lit & 3U) != 3U && (lit & 12U) != 12U; }
 };

@@ -75,10 +75,6 @@ enum class CurveFault : unsigned char { none, size, node, slope };
 [[nodiscard]] DiscriminatorCurve discriminator_curve(std::span<const double> apparent_lambda,
                                                      std::span<const double> detuning_lambda) noexcept;
 
-// The same from a deficit (f0 - f)/f0 of the bias at each apparent detuning: dl = sqrt(deficit/chi), chi > 0.
-[[nodiscard]] DiscriminatorCurve curve_from_deficit(std::span<const double> apparent_lambda,
-                                                    std::span<const double> deficit_ratio, double chi) noexcept;
-
 struct CurvePoint {
     double detuning_lambda = 0.0;
     double slope = 1.0;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <zlg/core/common/as_double.hpp>
+#include <zlg/core/compensation/border.hpp>
 
 namespace zlg::core {
 
@@ -45,7 +45,7 @@ public:
         counts =
             static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) + static_cast<std::uint64_t>(tick_counts));
         if (tick_parts != 0) add_parts(tick_parts);
-        const double counted_arcsec = scale_arcsec * (as_double(tick_counts) + tick_parts / 65536.0);
+        const double counted_arcsec = scale_arcsec * counts_and_parts(tick_counts, tick_parts);
         if (dtheta_arcsec == counted_arcsec) return;
         remainder_arcsec.add(dtheta_arcsec);
         remainder_arcsec.add(-counted_arcsec);
@@ -53,7 +53,7 @@ public:
 
     // accuracy  one rounding of the result.
     [[nodiscard]] constexpr double value_arcsec(double scale_arcsec) const noexcept {
-        return scale_arcsec * (as_double(counts) + parts / 65536.0) + remainder_arcsec.value();
+        return scale_arcsec * counts_and_parts(counts, parts) + remainder_arcsec.value();
     }
 
 private:

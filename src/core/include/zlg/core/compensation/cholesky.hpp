@@ -10,8 +10,10 @@
 
 namespace zlg::core {
 
-inline constexpr std::size_t max_unknowns = 36;  // eight ticks on each side of a gap as halves, and three lit halves
-inline constexpr std::size_t few_unknowns = 8;   // of a small problem, which has room on a small stack
+// Eight ticks on each side of a gap as halves, and four more for lit halves; with more of them the earliest ticks give way
+// (take_lit_halves).
+inline constexpr std::size_t max_unknowns = 36;
+inline constexpr std::size_t few_unknowns = 8;  // of a small problem, which has room on a small stack
 
 template <std::size_t capacity>
 using ColumnOf = std::array<double, capacity>;
@@ -26,7 +28,7 @@ struct CholeskyFactorOf {
 };
 using CholeskyFactor = CholeskyFactorOf<max_unknowns>;
 
-// Add a row, n < capacity. There are functions for the capacities 8, 16 and 32.
+// Add a row, n < capacity. There are functions for the capacities 8, 16 and 36.
 //
 // covariance  of the new unknown with the n earlier ones and, at index n, with itself.
 // return      false, and nothing added, where the matrix would not be positive definite (within 1e-12 of the

@@ -8,6 +8,9 @@
 //   eq (17)  their difference is added in ONE tick, j = n + 1 + points_after, or in the first measured tick after it
 //            where that one lies in the next gap
 //
+// With `optimal` and `auto` the estimate of gap_estimate.hpp takes the place of (14) and (15) once the motion is known,
+// and `points_after` of (17) is `ticks_to_correction`.
+//
 // Only measured ticks take part, with their final values; where some of the standard positions are missing, the fit is
 // made with the others, of an order that they allow. At the start of a log eq (14) is used in reversed time.
 //

@@ -29,7 +29,7 @@ enum class GapBridgeFault : unsigned char { none, extrapolation_points, points_b
 // Ticks that the computation of an estimate lasts after the last point.
 inline constexpr int estimate_ticks = 5;
 
-// Measured ticks after a gap before the one that carries its correction.
+// Ticks from the first one after a gap to the one that carries its correction.
 [[nodiscard]] constexpr int ticks_to_correction(const GapBridgeConfig& c) noexcept {
     return is_estimated(c) ? max_points_a_side + estimate_ticks : c.points_after;
 }

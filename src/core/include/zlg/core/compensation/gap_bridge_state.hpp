@@ -12,6 +12,7 @@
 #include <zlg/core/compensation/motion_learning.hpp>
 #include <zlg/core/compensation/optimal_bridge.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
+#include <zlg/core/compensation/tick_outlier.hpp>
 #include <zlg/core/records.hpp>
 
 namespace zlg::core {
@@ -105,6 +106,7 @@ struct GapBridgeState {
     double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
     double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
+    TickOutlierState outlier{};
     MotionLearningState learning{};
     std::array<PendingGap, max_pending_gaps> pending{};
     GapPrediction prediction{};

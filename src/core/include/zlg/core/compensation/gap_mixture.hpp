@@ -15,24 +15,25 @@
 //
 //   log p(z|m) = -1/2 (z^T P_m z + log |V_m| + log H^T V_m^-1 H) + const                                 (2)
 //
-// With the weights w_m ~ prior p(z|m) the estimate is t = sum of w_m t_m and its variance sum of u_m (v_m + (t_m - t)^2);
+// With the weights w_m ~ prior p(z|m) the estimate is t = sum of w_m t_m and its variance sum of c_m (v_m + (t_m - t)^2);
 // t_m, v_m as in optimal_bridge.hpp (3), (4); gap_final.cpp enlarges v_m where something happened. Points are whole ticks.
 //
 // A manoeuvre is none of the models: its points are so exact that (2) decides between models which are all wrong, and one
 // alone says nothing of how wrong it is. So in the variance the evidence among those in which something is added counts only
 // in part, a fourth root, while they keep their weight together:
 //
-//   u_m = (1 - q) w_m + q (1 - w_0) w_m^(1/4)/(sum of w_k^(1/4), k > 0);   u_0 = w_0                      (3)
+//   c_m = (1 - q) w_m + q (1 - w_0) w_m^(1/4)/(sum of w_k^(1/4), k > 0);   c_0 = w_0                      (3)
 //   q = 1 - w_0/0.6, at least 0: how far the weights speak against the learnt motion alone
 //
-// Where nothing was learnt the models hold every motion, and u_m = w_m.
+// Where nothing was learnt the models hold every motion, and c_m = w_m.
 //
 // Computation: C + E = L L^T is factored once. In coordinates y = L^-1 z every model of one shape R is I + s^2 W, W =
 // L^-1 R L^-T, and after one reduction of W to tridiagonal form by reflections each s costs some n operations. A walk that
 // begins at point j changes the coordinates from j on alone.
 //
 // Method: restricted likelihood, Patterson and Thompson, Biometrika 58 (1971); model averaging, Hoeting et al., Statist. Sci.
-// 14 (1999); a power of the likelihood where no model is true, Miller and Dunson, J. Am. Stat. Assoc. 114 (2019); tridiagonal form, Golub and Van Loan, Matrix Computations, sec. 8.3.
+// 14 (1999); a power of the likelihood where no model is true, Miller and Dunson, J. Am. Stat. Assoc. 114 (2019);
+// tridiagonal form, Golub and Van Loan, Matrix Computations, sec. 8.3.
 
 #include <array>
 #include <cstdint>
@@ -57,7 +58,6 @@ inline constexpr double most_of_nothing = 0.6;
 // The points: whole ticks.
 struct MixturePoints {
     int n_gap = 0, n_side = 0, n = 0;                   // the window begins n_side ticks before the gap
-    int first = 0;                                      // point of the gap's problem that is the first here, as ticks
     std::array<std::int8_t, mixture_unknowns> place{};  // of each, in ticks from the start of the window
     MixtureColumn value{};                              // less the level, arcsec
     MixtureColumn error_with_all{};                     // covariance of each point's e with the sum of all e
@@ -88,7 +88,7 @@ struct MixtureSums {
     MixtureColumn dual{};           // of L^T u_m, u = P z
     MixtureColumn reversed_dual{};  // of u_m, of the models in reversed time, once they are done
     std::array<MixtureColumn, most_full_shapes> added{};  // of s^2 L^T u_m, by shape that covers the window
-    // With the weights of the variance: of 1, t_m - t_0, its square, v_m.
+    // With the weights c_m, not normalised: of 1, t_m - t_0, its square, v_m.
     double coarse_weight = 0.0, coarse_off = 0.0, coarse_off_sq = 0.0, coarse_variance = 0.0;
 
     friend bool operator==(const MixtureSums&, const MixtureSums&) = default;

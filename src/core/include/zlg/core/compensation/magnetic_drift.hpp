@@ -22,6 +22,7 @@
 #include <cstdint>
 
 #include <zlg/core/compensation/compensation_constants.hpp>
+#include <zlg/core/compensation/field_step.hpp>
 #include <zlg/core/compensation/magnetic_filter.hpp>
 #include <zlg/core/compensation/segment_rate.hpp>
 #include <zlg/core/units.hpp>
@@ -36,11 +37,11 @@ enum class MagneticMethod : unsigned char {
 
 struct MagneticDriftConfig {
     MagneticMethod method = MagneticMethod::none;
-    double presumed_arcsec_s = 0.0;         // Om at the start, by calibration, and its standard deviation
-    double presumed_sigma_arcsec_s = 10.0;  // >= 0
-    double warming_arcsec_s = 0.0;          // A: growth of Om in operation, and its standard deviation
-    double warming_sigma_arcsec_s = 10.0;   // >= 0
-    Seconds thermal_time{3000.0};           // > 0
+    double presumed_arcsec_s = 0.0;        // Om at the start, by calibration, and its standard deviation
+    double presumed_sigma_arcsec_s = 1.0;  // >= 0
+    double warming_arcsec_s = 0.0;         // A: growth of Om in operation, and its standard deviation
+    double warming_sigma_arcsec_s = 1.0;   // >= 0
+    Seconds thermal_time{3000.0};          // > 0
 };
 
 enum class MagneticDriftFault : unsigned char { none, presumed, warming };
@@ -53,10 +54,16 @@ struct MagneticDriftState {
     SegmentRateState segment{};
     std::int8_t mode = 0;            // of the last tick; 0 in a gap
     std::int32_t pending_ticks = 0;  // since the filter was at the present
+    std::int8_t last_mode = 0;       // that was measured
+    double age_s = 0.0;              // of the filter
+    double switched_s = 0.0;         // age at the last switch; 0: none yet
     MagneticFilterState filter{};
-    double trust = 0.0;              // 0..1: the part of M that is subtracted
+    double share = 0.0;              // 0..1: (3)
+    double trust = 0.0;              // 0..1: (3), the part of M that is subtracted
     double due_arcsec = 0.0;         // trust M, by now
     double subtracted_arcsec = 0.0;  // so far
+    FieldStepState field{};          // of `estimate`
+    double variance_arcsec2 = 0.0;   // that the last tick has more, by steps of the field
 
     friend constexpr bool operator==(const MagneticDriftState&, const MagneticDriftState&) = default;
 };
@@ -65,15 +72,22 @@ struct MagneticTick {
     bool measured = true;
     std::int8_t mode = 1;
     double angle_arcsec = 0.0;  // as read, re-lock corrected
+    bool settled = true;        // no re-lock is corrected in it
+    bool with_phase = false;    // readings have the place within the count, as a rule
 };
 
 // Advance by one tick. A gap, or a change of the mode, ends a segment.
 //
-//   trust = 1 - 16 sigma^2/Om^2, not below 0                                                             (3)
+//   share = 1 - 16 sigma^2/Om^2, not below 0;    trust = share where Om is within 2 sigma_p of what was presumed,
+//   0 beyond 3 sigma_p, by the square of the distance between                                            (3)
 //
 // so it acts only where the drift is known to a quarter of itself: base motion that looks like drift increases the
-// scatter of the innovations, and that increases sigma. Segments whose rate scatters by more than 300 arcsec/s are not
-// used.
+// scatter of the innovations, and that increases sigma; so does motion in step with the switches (motion_in_step.hpp). A
+// rotation in step that jumps with the switches is bounded by sigma_p alone, the standard deviation of the presumed drift,
+// of its warming by now and of its random walk. Segments whose rate scatters by more than 300 arcsec/s are not used.
+//
+// Steps of the drift are found at the switches (field_step.hpp) and subtracted before all this: they are sure where they are
+// told, and too fast for the filter. What it knew of the drift loses their variance.
 //
 // config  passed `check`.
 // state   from MagneticDriftState{}.
@@ -83,12 +97,17 @@ struct MagneticTick {
 [[nodiscard]] double step(const CompensationConstants& gyro, const MagneticDriftConfig& config,
                           MagneticDriftState& state, const MagneticTick& tick) noexcept;
 
-// The drift as far as it is trusted: (3) times its estimate, whatever the method.
+// The drift as far as the segments show it: `share` of (3) times its estimate, whatever the method and what was presumed. It
+// is the rate that alternates with the mode, drift or not.
 [[nodiscard]] double trusted_arcsec_s(const MagneticDriftState& state) noexcept;
 
-[[nodiscard]] double sigma_arcsec_s(const MagneticDriftState& state) noexcept;
+// Standard deviation of the drift: that of (3), with what a rotation in step could be unseen (motion_in_step.hpp). On a
+// regular grid that is all that was presumed, and the distance from it; where the two contradict each other, sigma spans
+// both.
+[[nodiscard]] double sigma_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept;
 
-// The drift that remains in the angle, rms: all of it where nothing is subtracted.
+// The drift that remains in the angle, rms: all of it where nothing is subtracted. As a schedule asks for it, that is without
+// what could be there unseen.
 //
 // return  arcsec/s; 0 before the drift is known to a quarter of itself.
 [[nodiscard]] double remaining_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 
+#include <zlg/core/compensation/motion_in_step.hpp>
 #include <zlg/core/compensation/segment_rate.hpp>
 
 namespace zlg::core {
@@ -26,12 +27,16 @@ struct MagneticFilterState {
     MagneticCovariance covariance{};
     std::int32_t n_compared = 0;                          // segments that were compared with a prediction
     double scatter_arcsec_s = presumed_scatter_arcsec_s;  // of the innovations, beyond what noise explains
+    MotionInStepState in_step{};
 
     friend constexpr bool operator==(const MagneticFilterState&, const MagneticFilterState&) = default;
 };
 
 // Advance by `time_s` in one mode, +1 or -1; 0 in a gap, where M stays.
 void predict(MagneticFilterState& state, std::int8_t mode, double time_s, double thermal_time_s) noexcept;
+
+// Variance that Q adds to Om in `time_s`, nearly.
+[[nodiscard]] double wander_variance(double time_s, double thermal_time_s) noexcept;
 
 struct Segment {
     double mode = 1.0;

@@ -8,10 +8,8 @@
 // expensive steps in one tick.
 //
 // Outlier gate: a tick whose square, about the level, is beyond 10^4 times the learnt variance (100 standard deviations)
-// plus the square of a count is not learnt, because its square would dominate the moments for minutes. A level counts such ticks, +8 for each and -1 for any
-// other; from 128 on, 16 outliers in a row, they are learnt as a new motion.
-
-#include <cstdint>
+// plus the square of a count is not learnt, because its square would dominate the moments for minutes. A level counts such
+// ticks, +8 for each and -1 for any other; from 128 on, 16 outliers in a row, they are learnt as a new motion.
 
 #include <zlg/core/compensation/bridge_scores.hpp>
 #include <zlg/core/compensation/motion_moments.hpp>
@@ -40,8 +38,12 @@ void step(const CompensationConstants& gyro, const OptimalBridgeConfig& config, 
 [[nodiscard]] bool is_ready(const OptimalBridgeConfig& config, const MotionLearningState& state) noexcept;
 
 // The covariance of the motion that a problem presumes.
+template <std::size_t capacity>
 [[nodiscard]] MotionCovariance covariance_of(const CompensationConstants& gyro, const OptimalBridgeConfig& config,
-                                             const MotionLearningState& state, const GapProblem& problem) noexcept;
+                                             const MotionLearningState& state,
+                                             const GapProblemOf<capacity>& problem) noexcept {
+    return {gyro, config, state.moments, problem.memory, problem.scale, problem.with_phase};
+}
 
 // Place of the k-th of the points around a gap, in ticks from the start of the window.
 [[nodiscard]] constexpr int place_of(int k, int n_side, int n_gap) noexcept { return k < n_side ? k : k + n_gap; }

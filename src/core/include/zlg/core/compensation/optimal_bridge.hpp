@@ -32,7 +32,7 @@
 namespace zlg::core {
 
 inline constexpr int max_points_a_side = 8;  // ticks
-inline constexpr int max_solved_gap = 15;    // ticks, with two on each side; a longer one is no such problem
+inline constexpr int max_solved_gap = 15;    // ticks: with two points a side it fills the learnt window of 19
 inline constexpr int max_nuisances = 2;      // columns of H but the rate
 
 struct OptimalBridgeConfig {
@@ -50,13 +50,13 @@ enum class OptimalBridgeFault : unsigned char { none, prior };
 // times the claimed variance, and with it 1.65 arcsec and 1.35 times.
 inline constexpr double learnt_rounding_part = 0.3;
 
-// Ticks after a gap of n ticks that it leaves in a window.
+// Points after a gap of n ticks that fit into the learnt window.
 [[nodiscard]] constexpr int points_a_side(int n_gap) noexcept {
     const int room = (window_ticks - n_gap) / 2;
     return room < max_points_a_side ? room : max_points_a_side;
 }
 
-// Ticks before it: there the odd one lies that an even gap leaves over.
+// Points before it; one more where an even gap leaves an odd number.
 [[nodiscard]] constexpr int points_before_gap(int n_gap) noexcept {
     const int room = window_ticks - n_gap - points_a_side(n_gap);
     return room < max_points_a_side ? room : max_points_a_side;
@@ -106,7 +106,7 @@ private:
 };
 
 // A gap and the points around it, with the Cholesky factor L of C + E, which grows point by point. This and the
-// following types exist for 32 unknowns and for 8.
+// following types exist for 36 unknowns and for 8.
 template <std::size_t capacity>
 struct GapProblemOf {
     bool halves = false;        // points are half-ticks

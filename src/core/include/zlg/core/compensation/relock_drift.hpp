@@ -38,9 +38,8 @@ struct RelockTick {
     int sign = 1;  // bias_sign * mode in the first half
     std::int64_t counts_first = 0;
     std::int64_t counts_second = 0;
-    double known_excess_counts = 0.0;    // of the first over the second, by shifted edges and less the places within
-                                         // the count: not the bias's deficit
-    double detuning_first_lambda = 0.0;  // NaN where not measured
+    double known_excess_counts = 0.0;    // part of first minus second that is not the bias (gyro_compensation.cpp)
+    double detuning_first_lambda = 0.0;  // NaN or 0 where not measured
     double detuning_second_lambda = 0.0;
     double detuning_sq_first_lambda2 = 0.0;
     double detuning_sq_second_lambda2 = 0.0;
@@ -51,7 +50,7 @@ struct RelockDriftState {
     std::int64_t since_gap = 0;     // index i of the last tick after a gap; 0: no gap yet, or in one
     bool armed = false;             // a gap has been seen and its ticks are not used up
     double first_deficit_hz = 0.0;  // f_1 - f0
-    double first_most_hz = 0.0;     // false rate that tick 1 can have, by the detuning before it
+    double first_max_hz = 0.0;      // false rate that tick 1 can have, by the detuning before it
     double last_sq_lambda2 =
         -1.0;  // mean square of the detuning in the last half that has one; negative: none since it moved
     std::int64_t n_unknown = 0;  // ticks since then without one

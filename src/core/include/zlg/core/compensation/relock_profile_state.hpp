@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include <zlg/core/records.hpp>
+
 namespace zlg::core {
 
 inline constexpr int profile_halves = 16;  // after the loop is closed
@@ -79,8 +81,6 @@ struct RelockLink {
     friend bool operator==(const RelockLink&, const RelockLink&) = default;
 };
 
-inline constexpr int max_profile_samples = 64;
-
 struct RelockProfileState {
     bool armed = false;  // a gap has been seen, and this is within its first halves
     std::int32_t n_halves = 0;
@@ -89,7 +89,7 @@ struct RelockProfileState {
     double noise_sq_lambda2 = 0.0;   // of one sample: as configured, or larger where the samples say so
     double scale_lambda = 0.0;       // size of the detuning at first
     std::array<double, 7> powers{};  // sums of u^p over the samples of a half
-    std::array<std::array<double, max_profile_samples>, 2> first_tick_lambda{};  // its samples
+    std::array<std::array<double, max_light_samples>, 2> first_tick_lambda{};  // its samples
     std::array<RelockHalf, profile_halves> halves{};
     RelockInformation information{};
     RelockTail tail{};

@@ -31,7 +31,7 @@ struct BiasMonitorState {
     std::int64_t counts_before = 0;
     std::int64_t counts_long_before = 0;  // and of the one before that
     double bias_counts = 0.0;             // b of a settled gyro, learnt and followed
-    std::int32_t n_learnt = 0;            // up to `learning_halves`
+    std::int32_t n_learnt = 0;            // up to 32, when it counts as learnt
     double steady_counts = 0.0;           // mean of b since it is out of its band and steady,
     std::int32_t n_steady = 0;            // for so many halves
     std::int32_t n_reversed = 0;          // halves in a row in which b was that of the other helicity

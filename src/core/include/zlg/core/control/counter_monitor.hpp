@@ -1,11 +1,19 @@
 #pragma once
-// The fringe counter, bit by bit: whether one of them is stuck.
+// The fringe counter, bit by bit: whether one of them is stuck, at 0 or at 1.
 //
-// A stuck bit k shows as a bit that never changes while the ones beside it do, in a counter whose steps are not smooth:
-// it is wrong by 2^k in some halves and right in others. A counter that stands still, or that moves evenly by a
-// multiple of a power of two, has bits that do not change either, but its steps are smooth. One that swings and comes
-// back to the same few readings has them too: so only a counter that goes one way is judged, which must pass through
-// both values of a bit.
+// A stuck bit k puts an error of 0 or 2^k into a reading, by what the bit should be. So the counter is followed as a steady
+// rotation goes on, x for the readings of either bias sign and one rate v for both, and the error e that
+// makes the reading fit best is taken off:
+//
+//   p = x_(h-2) + 2 v,   d = R_h - e_h - p,   e_h = 0, or the 2^k of the bit under suspicion, either way
+//   x_h = p + d/4,       v <- v + d/32
+//
+// A first d near a power of two, larger than the tolerance, puts that bit under suspicion. The suspicion ends where the bit
+// changes. It grows by one where the counter has moved on by 2^k while the error came or went, always one way and with
+// every d within the tolerance: then the true counter has passed both values of the bit. A counter that stands still or swings to and
+// fro over the same few readings proves nothing.
+//
+//   tolerance = 1 count + 2 a,   a: the mean size of d, which grows no faster than by 1/64 of a larger d
 
 #include <array>
 #include <cstdint>
@@ -16,26 +24,31 @@ struct CounterMonitorConfig {
     bool watches = false;
 };
 
-// Halves that are judged together.
-inline constexpr std::int32_t counter_window_halves = 32;
+// A bit under suspicion.
+struct SuspectedBit {
+    std::uint32_t value = 0;                // 2^k; 0: none
+    std::uint32_t shown = 0;                // what it shows: 0 or its value
+    std::array<std::int8_t, 2> error_of{};  // of the last two readings: e over 2^k
+    bool has_from = false;
+    bool has_toggled = false;   // the error has come or gone since then
+    bool upwards = false;       // the way of the counter
+    std::uint32_t from = 0;     // the counter without the error, where the suspicion grew last
+    std::int32_t n_passed = 0;  // so many times it did
+    std::int32_t n_calm = 0;    // halves since
+
+    friend constexpr bool operator==(const SuspectedBit&, const SuspectedBit&) = default;
+};
 
 struct CounterMonitorState {
-    std::int32_t n_known = 0;   // readings in a row, one a half, up to 6
-    std::uint64_t reading = 0;  // the last one, and the one before
-    std::uint64_t reading_before = 0;
-    std::array<std::int64_t, 4> steps{};  // from reading to reading, the last one first
-    std::uint32_t changed = 0;            // in the window: bits that changed between readings of the same bias sign
-    std::uint32_t changed_odd = 0;        // how often, modulo 4: two binary digits for each bit
-    std::uint32_t changed_two = 0;
-    std::uint32_t changed_often = 0;   // four times at least
-    std::int64_t unevenness = 0;       // sum of the sizes of the second differences of those steps
-    std::uint64_t window_reading = 0;  // at the end of the window before
-    std::int64_t way = 0;              // counts since the windows in a row began that all went the same way
-    std::int32_t n_same_way = 0;       // and how many there were
-    std::uint32_t still = 0;           // bits that looked stuck in all of them
-    std::int32_t n_halves = 0;         // in the window
-    std::int32_t n_calm = 0;           // windows in a row without unevenness
-    std::uint32_t stuck = 0;           // bits found stuck, which have not changed since
+    std::int32_t n_known = 0;              // readings in a row, one a half, up to 4
+    bool is_odd = false;                   // the half
+    std::array<std::uint32_t, 2> place{};  // x at the last half and the one before, 1/256 count
+    std::int32_t rate = 0;                 // v, 1/8192 count
+    std::int32_t rough = 256;              // a, 1/256 count
+    std::int32_t n_lost = 0;               // of the last halves, so many more with a d beyond the tolerance than within
+    SuspectedBit suspect{};
+    std::uint32_t cleared = 0;  // bits that were under suspicion and have changed
+    bool stuck = false;         // the one under suspicion
 
     friend constexpr bool operator==(const CounterMonitorState&, const CounterMonitorState&) = default;
 };
@@ -43,10 +56,11 @@ struct CounterMonitorState {
 // Advance by one half-period; returns whether a bit is stuck: no later counts are to be trusted.
 //
 // counted  the reading is that of this half, the one before was that of the half before, and the gyro lased in both.
-// latency  eight windows, where the counter moves by more than 2^(k + 2) counts within one, always the same way. A bit that
-//          changes again is accepted at the end of the window, and any bit after twelve windows without an uneven step.
-// errors   bit 0 is not judged (a count more or less is within every sigma), nor are those from 31 on, whose errors are
-//          beyond any rate. At rest and in a swing a stuck bit does not show.
+// latency  six times 2^k counts of rotation, and at least 20 halves. A bit that changes again is accepted at once, and so is
+//          any after 400 halves in which the suspicion did not grow.
+// errors   bit 0 is not judged (a count more or less is within every sigma), nor are those from 13 on, whose errors are
+//          out of the bias's band. Bit k is judged where the tolerance is at most 2^k. Of two stuck bits the one is found
+//          whose error comes and goes while that of the other stays.
 [[nodiscard]] bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool counted,
                         std::uint64_t reading) noexcept;
 

@@ -15,6 +15,10 @@
 // A skew tau between latch and sampling shows in d: the beat turns round at the latch, where its frequency goes from f to
 // -f within the edge time t_e, at the rate 2 f/t_e; so the phase is tau^2 f/t_e behind in the sense of the beat that ends,
 // 1.2e9 tau^2 turns for the default gyro.
+//
+// The comparators follow the phase by a lag, in the sense of the beat, so that d has it as its mean. A rotation of r turns a
+// second against the beat lets it turn round before the latch: there it has turned back by r^2 t_e/(4 f), up to two lags
+// before the comparators follow.
 
 #include <cstdint>
 
@@ -24,15 +28,25 @@ namespace zlg::core {
 
 struct FringeReadoutConfig {
     bool reads = false;
-    int counts_per_turn = 1;        // of the beat: 1 or 4
-    double amplitude = 1.0;         // presumed, of both photodiodes, 1e-9..1e9, their unit
-    double limit = 1e9;             // samples from this size on are saturated, > 0
-    double noise_turns = 0.0016;    // presumed, of one phase, rms, 0..0.05
-    double lag_turns = 0.0;         // by which the comparators follow the phase, 0..1/8
-    double max_skew_turns = 0.003;  // of the phase by the skew, > 0: 1.6 us of the default gyro
+    int counts_per_turn = 1;         // of the beat: 1 or 4
+    double amplitude = 1.0;          // presumed, of both photodiodes, 1e-9..1e9, their unit
+    double limit = 1e9;              // samples from this size on are saturated, > 0
+    double noise_turns = 0.0016;     // presumed, of one phase, rms, 0..0.05
+    double lag_turns = 0.0;          // by which the comparators follow the phase, 0..1/8
+    double max_skew_turns = 0.003;   // of the phase by the skew, > 0: 1.6 us of the default gyro
+    double turned_back_turns = 0.0;  // at the latch, by a rotation of one count a half against the beat, 0..1
 };
 
-enum class FringeReadoutFault : unsigned char { none, counts_per_turn, amplitude, limit, noise, lag, max_skew };
+enum class FringeReadoutFault : unsigned char {
+    none,
+    counts_per_turn,
+    amplitude,
+    limit,
+    noise,
+    lag,
+    max_skew,
+    turned_back
+};
 
 [[nodiscard]] constexpr FringeReadoutFault check(const FringeReadoutConfig& c) noexcept {
     if (c.counts_per_turn != 1 && c.counts_per_turn != 4) return FringeReadoutFault::counts_per_turn;
@@ -41,6 +55,7 @@ enum class FringeReadoutFault : unsigned char { none, counts_per_turn, amplitude
     if (!(c.noise_turns >= 0.0 && c.noise_turns <= 0.05)) return FringeReadoutFault::noise;
     if (!(c.lag_turns >= 0.0 && c.lag_turns <= 0.125)) return FringeReadoutFault::lag;
     if (!(c.max_skew_turns > 0.0)) return FringeReadoutFault::max_skew;
+    if (!(c.turned_back_turns >= 0.0 && c.turned_back_turns <= 1.0)) return FringeReadoutFault::turned_back;
     return FringeReadoutFault::none;
 }
 
@@ -72,8 +87,9 @@ struct FringeReadoutInput {
     float s = 0.0f;
     std::uint32_t quarter = 0;  // of the turn, by the comparators: 0..3
     std::uint64_t counter = 0;
-    bool settled = false;  // the beat has its usual amplitude
-    int sign = 1;          // of the beat in the half that ended
+    bool settled = false;              // the beat has its usual amplitude
+    int sign = 1;                      // of the beat in the half that ended
+    std::int64_t rotation_counts = 0;  // of a tick, about
 };
 
 struct FringeReadoutOutput {

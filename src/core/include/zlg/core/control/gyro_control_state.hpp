@@ -15,6 +15,7 @@
 #include <zlg/core/control/light_monitor.hpp>
 #include <zlg/core/control/mode_switch.hpp>
 #include <zlg/core/control/perimeter_loop.hpp>
+#include <zlg/core/control/rate_step.hpp>
 #include <zlg/core/control/reading_monitor.hpp>
 #include <zlg/core/control/stroke_model.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
@@ -31,6 +32,7 @@ struct GyroControlConfig {
     HalfWaveConfig half_wave{};
     StrokeModelConfig stroke{};  // its range is that of `loop`
     SwitchScheduleConfig schedule{};
+    RateStepConfig rate_step{};      // after which the schedule switches early
     ModeSwitchConfig mode_switch{};  // its range is that of `loop`
     BiasCommutatorConfig commutator{};
     HealthConfig health{};
@@ -66,7 +68,8 @@ enum class GyroControlFault : unsigned char {
     if (check(c.loop) != PerimeterLoopFault::none) return GyroControlFault::loop;
     if (check(c.half_wave) != HalfWaveFault::none) return GyroControlFault::half_wave;
     if (check(c.stroke) != StrokeModelFault::none) return GyroControlFault::stroke;
-    if (check(c.schedule) != SwitchScheduleFault::none) return GyroControlFault::schedule;
+    if (check(c.schedule) != SwitchScheduleFault::none || check(c.rate_step) != RateStepFault::none)
+        return GyroControlFault::schedule;
     if (check(c.mode_switch) != ModeSwitchFault::none) return GyroControlFault::mode_switch;
     if (check(c.commutator) != BiasCommutatorFault::none) return GyroControlFault::commutator;
     if (check(c.health) != HealthFault::none) return GyroControlFault::health;
@@ -99,11 +102,12 @@ struct GyroControlState {
     double closed_at_v = 0.0;  // reading of the piezo when the loop was closed last,
     bool closed_read = false;  // if there was one
     SwitchScheduleState schedule{};
+    RateStepState rate_step{};
     ModeSwitchState mode_switch{};
     BiasCommutatorState commutator{};
     std::int64_t half = 0;       // index of the half that is latched next; 2j and 2j + 1 make tick j
     std::uint64_t counter = 0;   // reading at the end of the last half
-    bool counter_stale = false;  // no: at the end of an earlier one
+    bool counter_stale = false;  // `counter` is that of an earlier half: the last frame was not fresh
     FrameOrderState order{};
     BiasMonitorState bias_monitor{};
     CoilMonitorState coil_monitor{};
@@ -113,10 +117,10 @@ struct GyroControlState {
     DetuningMonitorState detuning_monitor{};
     FringeReadoutState fringe{};
     bool was_lit = false;          // the last half was counted, closed and lit
-    bool was_dark = false;         // a half since the loop was opened
+    bool was_dark = false;         // a half since the loop was opened showed no light in both directions
     bool first_was_blind = false;  // the first half of the tick was valid, without a mean square of the detuning;
     bool first_was_seen = false;   // with one
-    bool was_beyond = false;       // its counts were more than the gyro can make
+    bool was_beyond = false;       // the last half had more counts than the gyro can make
     bool light_spoilt = false;     // its light was not to be trusted
     bool recentring = false;       // the last switch led away from an end of the range
     std::int32_t n_near_end = 0;   // halves in a row with the piezo near an end of its range; from 512 on again from 4

@@ -15,7 +15,7 @@
 //                 chi <dl^2> less the deficit of the bias: the detuning that
 //                 is read should weaken the bias                               0.03                  -
 //                 on the way to a lock: jump of the detuning where the bias
-//                 is reversed, or loss of light                                8 sigma               -
+//                 is reversed; loss of light, at least 0.5 %                   8 sigma               -
 //   contradicted  the bias beats although the light is too little for it       -                     8 halves
 //
 // sigma: light noise of one sample, as detuning. Method: Gertler, Fault Detection and Diagnosis in Engineering Systems,
@@ -60,9 +60,10 @@ struct LightMonitorState {
     std::int8_t side = 0;             // 1: beam A was too bright for B in the last half; -1: B for A
     std::int32_t n_side = 0;          // halves in a row on this side, up to the debounce limit
     bool is_unbalanced = false;
-    double end_lambda = 0.0;   // detuning at the end of the half before, by its last samples, if `has_end`
-    bool has_end = false;      // the half before was closed and good
-    double jump_lambda = 0.0;  // from half to half where the bias is reversed, smoothed
+    double end_lambda = 0.0;     // detuning at the end of the half before, by its last samples, if `has_end`
+    bool has_end = false;        // the half before was closed and good
+    float change_lambda = 0.0f;  // size of the detuning's change in it
+    double jump_lambda = 0.0;    // from half to half where the bias is reversed, smoothed
 
     friend constexpr bool operator==(const LightMonitorState&, const LightMonitorState&) = default;
 };

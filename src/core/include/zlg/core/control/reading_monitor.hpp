@@ -45,7 +45,7 @@ struct ReadingMonitorState {
 struct ReadingMonitorInput {
     bool read = false;        // the reading is that of the end of this half
     bool follows = true;      // no half was lost between: where not, nothing before counts
-    bool countable = false;   // closed; where it was read, lit, with its current
+    bool countable = false;   // the loop was closed; where a frame came, with light and the right coil current
     std::int8_t mode = 1;     // helicity
     bool suspicious = false;  // counts out of the bias's band, or beyond any rate
     bool agrees = false;      // in step with the reading before, whatever that is worth

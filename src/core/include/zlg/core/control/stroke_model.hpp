@@ -38,9 +38,9 @@ inline constexpr std::size_t n_stroke_weights = n_plays + 3;  // w0, k, b, plays
 struct StrokeModelConfig {
     PiezoRange range{};
     Volts half_wave{40.0};                   // presumed, 1e-3..1e6 V
-    double half_wave_sigma_ratio = 0.1;      // one standard deviation over itself, 0..1 exclusive
+    double half_wave_sigma_ratio = 0.1;      // one standard deviation of w0 over 1/2, 0..1 exclusive
     double play_sigma_ratio = 0.1;           // one standard deviation of each w_i over 1/2, 0..1
-    double temperature_sigma_per_c = 0.002;  // one standard deviation of k, 0..1; 0: no temperature
+    double temperature_sigma_per_c = 0.002;  // one standard deviation of k over 1/2, 0..1; 0: no temperature
     Celsius reference{20.0};                 // T0
     Wavelengths measurement_sigma{0.001};    // of one length, 0 exclusive..0.5; a tenth of the miss is added
     Wavelengths process_sigma{0.001};        // true change from one switch to the next, 0..0.5

@@ -77,6 +77,7 @@ struct SwitchScheduleInput {
     bool ready = true;      // the gyro is tracking: what is due when it is not waits, several that wait are one
     std::int8_t mode = 1;   // of the tick that ends now
     SwitchAdvice advice{};  // for `measured`
+    bool stepped = false;   // the rate has stepped, and a switch would tell whether by a field
 };
 
 struct SwitchScheduleOutput {
@@ -94,6 +95,9 @@ struct SwitchScheduleOutput {
 //             different part each time, so that no vibration keeps step. 15/16 of min_ticks pass between two openings
 //             at least; what exceeds max_ticks is forgotten.
 //   end_tick  the last opening is due where the time that is left just makes up for the imbalance.
+//   stepped   an opening at once, but not before min_ticks, on a grid half an interval if that is less, have passed since the
+//             last one. On a grid the next segment makes good for it: it ends where the lead of one mode over the
+//             other is what it would have been two points of the grid on, and the grid is laid anew from there.
 //   held      points of the grid pass; when it ends, the others are due at once where the time in the modes asks for it.
 //
 // An interval that has been made shorter since counts from now.

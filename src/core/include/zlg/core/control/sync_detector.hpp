@@ -4,7 +4,6 @@
 // The reversal of the bias modulates the light of each beam in proportion to the detuning, with a phase that the
 // helicity sets (eq 1). Both beams normalise each other; one beam alone needs its own level, tracked meanwhile.
 
-#include <array>
 #include <cstdint>
 #include <span>
 
