@@ -119,7 +119,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     }
     replay.end(take);
     replay.require_a_tick(path);
-    if (const std::string wrong = replay.wrong_places(path); !wrong.empty()) complain("warning: " + wrong);
+    for (const std::string& wrong : replay.contradictions(path)) complain("warning: " + wrong);
     ticks.finish(axes);
     return asked.config;
 }

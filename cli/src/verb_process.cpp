@@ -190,7 +190,7 @@ void process(const ProcessOptions& options) {
     const Summary summary = compensate(raw, replay, angles, switches, options, interruptible);
     replay.require_a_tick(options.raw);
     if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
-    if (const std::string wrong = replay.wrong_places(options.raw); !wrong.empty()) complain("warning: " + wrong);
+    for (const std::string& wrong : replay.contradictions(options.raw)) complain("warning: " + wrong);
     if (!raw.header().complete && !options.follow)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.raw));
     if (!raw.line_is_ended())

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -188,6 +189,8 @@ void run(const RunOptions& options) {
         raw_part = files.raw_part();
         angles_part = files.angles_part();
         const study::RunResult result = run_into(files, resolved, options, processor.get(), interruptible);
+        for (const std::string& warning : std::span{result.warnings}.subspan(resolved.warnings.size()))
+            complain("warning: " + warning);
         const std::string summary = pretty(summary_json(config, result));
         files.finish(result.switches, summary, report::html(study::run_page(config, result)));
         print(options.json ? summary : text(result, files));

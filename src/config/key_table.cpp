@@ -227,7 +227,9 @@ const Key table[] = {
     {"photodiodes", "jitter_s", "s", "scatter of that time",
      Real{at<&C::photodiodes, &Photodiodes::jitter_s>, {.min = 0.0, .max = 1e-3}}},
 
-    {"switching", "interval_s", "s", "from one opening of the loop to the next; at least gap_ticks + 2 ticks",
+    {"switching", "interval_s", "s",
+     "from one opening of the loop to the next; at least gap_ticks + 2 ticks, and no shorter than the loop needs to "
+     "lock anew",
      Interval{long_interval}},
     {"switching", "first_segment", "", "length of the first segment: an interval or half of one",
      choice<&C::switching, &Switching::first_segment>(first_segments)},

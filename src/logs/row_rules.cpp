@@ -15,6 +15,10 @@ std::string out_of_range(const std::string& allowed) { return "is out of range; 
 std::string RowNumber::allowed() { return Whole{0, std::numeric_limits<std::int64_t>::max()}.allowed(); }
 std::string RowNumber::fault(std::int64_t value, std::int64_t row) {
     if (value < 0) return out_of_range(allowed());
+    if (row == 0)
+        return "leaves a hole; expected 0, where the numbers of every log begin: number the rows of one that was cut "
+               "out of a longer log "
+               "anew; a raw log must be cut at an even half-period";
     return fmt::format("{}; expected {}", value > row ? "leaves a hole" : "is a repetition", row);
 }
 
@@ -35,6 +39,9 @@ std::string Real::fault(double value, std::int64_t) const {
 
 std::string Fringe::allowed() { return fmt::format("{}, or nan where it is not known", Whole{0, max}.allowed()); }
 std::string Fringe::fault(double, std::int64_t) { return out_of_range(allowed()); }
+
+std::string Sample::allowed() { return "a finite number, or nan where the converter gave none"; }
+std::string Sample::fault(double, std::int64_t) { return out_of_range(allowed()); }
 
 std::string Deviation::allowed() { return "a number or inf"; }
 std::string Deviation::fault(double value, std::int64_t) {

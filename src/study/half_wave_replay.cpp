@@ -43,18 +43,24 @@ void HalfWaveReplay::step(const core::HalfRecord& half, const core::HalfRecord& 
         state_ = core::initial_state(sequence_);
         return;
     }
+    // The control records 0 where the light tells no detuning, and uses one that it tells also where the counts are not valid.
+    const bool usable = std::isfinite(half.detuning_lambda) && half.detuning_lambda != 0.0;
+    const bool lit = half.valid || usable;
     const bool opens = half.loop_closed && !next.loop_closed;
     const bool closes = !half.loop_closed && next.loop_closed;
     core::ModeSwitchInput in{.due = opens && next.mode != half.mode,
                              .tick_border = opens || closes,
                              .next_tick = n_halves_ / 2,
-                             .light_known = half.valid,
-                             .two_way = half.valid,
-                             .usable = std::isfinite(half.detuning_lambda),
+                             .light_known = lit,
+                             .two_way = lit,
+                             .usable = usable,
                              .detuning = core::Wavelengths{half.detuning_lambda},
                              .piezo = core::Volts{half.piezo_v},
                              .set_point = core::Volts{half.piezo_v},
                              .half_wave = core::Volts{half_wave_.estimate_v}};
+    // Led back from an end of its range, the piezo teaches nothing.
+    in.recentre = in.due && core::near_end(sequence_.range, in.piezo) &&
+                  !core::choose_direction(sequence_.range, in.piezo, in.half_wave).out_of_range;
     if (!half.loop_closed) {
         in.light_known = in.two_way = in.usable = in.at_rest = closes;
         in.detuning = core::Wavelengths{0.0};

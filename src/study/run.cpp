@@ -1,9 +1,14 @@
 #include <zlg/study/run.hpp>
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <map>
+#include <optional>
+#include <string>
 #include <thread>
+
+#include <fmt/format.h>
 
 #include <zlg/core/health.hpp>
 #include <zlg/rig/closed_loop.hpp>
@@ -170,6 +175,22 @@ private:
     std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen
 };
 
+// Where the interval is shorter than what the loop needs to lock anew.
+std::optional<std::string> late_switches(const config::Config& config, const std::vector<SwitchLine>& switches) {
+    const config::Switching& asked = config.switching;
+    if (asked.schedule != config::Schedule::fixed || switches.size() < 4) return {};
+    std::vector<std::int64_t> ticks;
+    for (std::size_t k = 1; k < switches.size(); ++k) ticks.push_back(switches[k].tick - switches[k - 1].tick);
+    std::ranges::nth_element(ticks, ticks.begin() + static_cast<std::ptrdiff_t>(ticks.size() / 2));
+    const double reached_s = static_cast<double>(ticks[ticks.size() / 2]) * config.gyro.tick_s;
+    if (!(reached_s > asked.interval_s + config.gyro.tick_s)) return {};
+    return fmt::format(
+        "switching.interval_s = {}: the gyro switched every {:g} s (median), for a switch waits until the loop is "
+        "locked "
+        "after the one before",
+        asked.interval_s, reached_s);
+}
+
 // The same gyro without switching: its error is what switching is to remove.
 VariantResult one_mode(const config::Config& config, const twin::Motion& motion, std::int64_t ticks) {
     const config::Config unswitched = rig::without_switching(config);
@@ -240,6 +261,7 @@ RunResult run(const RunTask& task) {
         switching_run(task, motion, ticks, result);
         unswitched = one_mode(task.config, motion, ticks);
     }
+    if (auto late = late_switches(task.config, result.switches)) result.warnings.push_back(std::move(*late));
     result.variants.insert(result.variants.begin(), std::move(unswitched));
     return result;
 }

@@ -254,7 +254,7 @@ TEST(RawLogHdf5, a_log_of_one_beam_has_no_other) {
     EXPECT_TRUE(reader.light().b.empty());
 }
 
-TEST(RawLogHdf5, light_samples_are_as_many_as_announced_and_finite) {
+TEST(RawLogHdf5, light_samples_are_as_many_as_announced_and_not_infinite) {
     const TemporaryFolder folder;
     RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 2, .light_b = true}};
     const std::array<float, 2> good{};
@@ -276,6 +276,21 @@ TEST(RawLogHdf5, light_samples_are_as_many_as_announced_and_finite) {
         message_of<FormatError>([&] { RawWriter(folder.file("b.h5"), {}, false, all_raw_columns, {.light_b = true}); }),
         "allowed is with those of beam A");
     EXPECT_FALSE(std::filesystem::exists(folder.file("b.h5.part")));
+}
+
+TEST(RawLogHdf5, a_converter_that_gave_no_number_is_logged_as_nan) {
+    const TemporaryFolder folder;
+    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, {.light_samples = 2, .light_b = true}};
+    const std::array<float, 2> light{std::numeric_limits<float>::quiet_NaN(), 0.5f};
+    for (int half = 0; half < 3; ++half) writer.write(row_of(half), {light, light});
+    writer.close();
+    RawReader reader{folder.file("raw.h5")};
+    HalfRecord record;
+    for (int half = 0; half < 3; ++half) {
+        ASSERT_TRUE(reader.next(record));
+        EXPECT_TRUE(std::isnan(reader.light().a[0]) && std::isnan(reader.light().b[0]));
+        EXPECT_EQ(reader.light().a[1], 0.5f);
+    }
 }
 
 TEST(RawLogHdf5, has_units_and_the_facts_of_the_counts_in_its_root) {

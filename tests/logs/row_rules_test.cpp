@@ -15,6 +15,7 @@ TEST(RowRules, rows_are_counted_without_holes) {
     EXPECT_FALSE(RowNumber::allows(8, 7));
     EXPECT_EQ(RowNumber::fault(8, 7), "leaves a hole; expected 7");
     EXPECT_EQ(RowNumber::fault(6, 7), "is a repetition; expected 7");
+    EXPECT_NE(RowNumber::fault(796, 0).find("expected 0, where the numbers of every log begin"), std::string::npos);
     EXPECT_EQ(RowNumber::fault(-1, 7), "is out of range; allowed is 0..9223372036854775807");
 }
 
@@ -43,6 +44,13 @@ TEST(RowRules, real_numbers_are_finite) {
     EXPECT_TRUE(unit.allows(1.0, 0));
     EXPECT_FALSE(unit.allows(1.1, 0) || unit.allows(-0.1, 0) || unit.allows(nan, 0));
     EXPECT_EQ(unit.fault(1.1, 0), "is out of range; allowed is 0..1 lambda");
+}
+
+TEST(RowRules, a_light_sample_may_be_missing_but_not_infinite) {
+    EXPECT_TRUE(Sample::allows(0.7, 0) && Sample::allows(nan, 0));
+    EXPECT_FALSE(Sample::allows(infinity, 0) || Sample::allows(-infinity, 0));
+    EXPECT_EQ(Sample::fault(infinity, 0),
+              "is out of range; allowed is a finite number, or nan where the converter gave none");
 }
 
 TEST(RowRules, a_deviation_may_be_unknown) {

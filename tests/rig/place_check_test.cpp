@@ -1,5 +1,6 @@
 #include <zlg/rig/place_check.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -59,6 +60,46 @@ TEST(PlaceCheck, right_places_agree_with_the_counts_whatever_the_motion) {
 TEST(PlaceCheck, noise_is_found_moving_or_at_rest) {
     for (const auto& motion : {vibration, earth, slow})
         EXPECT_NE(complaint(motion, noise()).find("contradicts the counts in 2 of 2 stretches"), std::string::npos);
+}
+
+double halved(int, double p) { return 0.5 * p; }
+double inverted(int, double p) { return 0.999 - 0.999 * p; }
+double coarse(int, double p) { return std::floor(16.0 * p) / 16.0; }
+double periodic(int, double p) { return std::fmod(1.0 + p + 0.05 * std::sin(2.0 * M_PI * p), 1.0); }
+
+std::function<double(int, double)> one_in_ten() {
+    return [random = std::mt19937_64{7}](int, double p) mutable {
+        std::uniform_real_distribution<> even{};
+        return even(random) < 0.1 ? even(random) : p;
+    };
+}
+
+TEST(PlaceCheck, a_scaled_inverted_coarse_or_partly_random_place_is_found_in_a_motion) {
+    for (const auto& [amplitude, frequency] : {std::pair{400.0, 0.0032}, std::pair{29.0, 0.0503}}) {
+        const auto motion = [&](int t) { return amplitude * std::sin(2.0 * M_PI * frequency * t) + 0.0057 * t; };
+        EXPECT_EQ(complaint(motion, right, 16 + 4096), "");
+        for (const std::function<double(int, double)>& place :
+             {std::function<double(int, double)>{halved}, std::function<double(int, double)>{inverted},
+              std::function<double(int, double)>{coarse}, std::function<double(int, double)>{periodic}, one_in_ten()})
+            EXPECT_NE(complaint(motion, place, 16 + 4096), "");
+    }
+}
+
+// Fast, of a fraction of a count or of some, at an angle that drifts slowly; places that are read to 0.05 counts.
+TEST(PlaceCheck, right_places_agree_in_every_fast_vibration) {
+    std::mt19937_64 random{5};
+    std::normal_distribution<> gauss{0.0, 0.05};
+    for (const double frequency : {0.05, 0.08, 0.11, 0.151, 0.2003, 0.237, 0.31})
+        for (const double amplitude : {0.1, 0.3, 0.6, 1.0, 2.3})
+            for (const double drift : {0.0003, 0.0012, 0.0115})
+                for (const double from : {0.01, 0.3, 0.7}) {
+                    const auto motion = [&](int t) {
+                        return from + drift * t + amplitude * std::sin(2.0 * M_PI * frequency * t);
+                    };
+                    const auto read = [&](int, double p) { return std::clamp(p + gauss(random), 0.0, 0.9999); };
+                    EXPECT_EQ(complaint(motion, right, 16 + 4096), "") << frequency << ' ' << amplitude << ' ' << drift;
+                    EXPECT_EQ(complaint(motion, read, 16 + 4096), "") << frequency << ' ' << amplitude << ' ' << drift;
+                }
 }
 
 TEST(PlaceCheck, places_that_stand_still_are_found_where_the_counts_move) {

@@ -266,13 +266,16 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
 void read_lit_halves(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& second,
                      const Border& start, const TickInput& tick, double drift_arcsec) noexcept {
     const MotionMomentsState& moments = state.bridge.learning.moments;
-    const double motion_arcsec2 = second_difference_arcsec2(recent_motion(config, state.bridge));
-    const LitTick read{.first = state.first,
-                       .second = second,
-                       .start = start,
-                       .tick = state.bridge.next_tick,
-                       .bias_arcsec = state.bias_arcsec,
-                       .with_phase = moments.with_phase};
+    const MotionCovariance motion = recent_motion(config, state.bridge);
+    const double motion_arcsec2 = second_difference_arcsec2(motion);
+    const LitTick read{
+        .first = state.first,
+        .second = second,
+        .start = start,
+        .tick = state.bridge.next_tick,
+        .bias_arcsec = state.bias_arcsec,
+        .difference_arcsec2 = motion.of_samples(0, 0) + motion.of_samples(2, 2) - 2.0 * motion.of_samples(0, 2),
+        .with_phase = moments.with_phase};
     if (tick.measured)
         end_gap(config.gyro, state.bridge.lit, read, motion_arcsec2, drift_arcsec);
     else
@@ -321,6 +324,9 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         begin_anew(state.stretch, detuning_sq(config.gyro, second));
     } else {
         enter_gap(state.relock, !(first.loop_closed && second.loop_closed));
+        tick.settled_tick = state.settled_tick;
+        if ((tick.flags & flag_loop_unlocked) != 0)
+            state.settled_tick = state.bridge.next_tick + 1 + config.relock.ticks;
         tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);

@@ -58,9 +58,9 @@ private:
                                           samples.size(), name, light_samples_));
         }
         for (const float value : samples)
-            if (!Real{}.allows(value, r.half))
-                throw FormatError(
-                    fmt::format("half {} cannot be logged: {} is {}; allowed is a finite number", r.half, name, value));
+            if (!Sample::allows(value, r.half))
+                throw FormatError(fmt::format("half {} cannot be logged: {} is {}; allowed is {}", r.half, name, value,
+                                              Sample::allowed()));
     }
 
     std::size_t light_samples_;
@@ -100,8 +100,8 @@ private:
     }
 
     void take_others(hdf5::Block& block) override {
-        block.take(light_, Real{});
-        block.take(light_b_, Real{});
+        block.take(light_, Sample{});
+        block.take(light_b_, Sample{});
     }
 
     hdf5::Column<float> light_;

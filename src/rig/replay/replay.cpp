@@ -17,4 +17,10 @@ std::string Replay::odd_half(const std::string& log_name) const {
                        log_name, halves_ - 1);
 }
 
+std::vector<std::string> Replay::contradictions(const std::string& log_name) const {
+    std::vector<std::string> found{bias_.complaint(log_name), places_.complaint(log_name)};
+    std::erase(found, std::string{});
+    return found;
+}
+
 }  // namespace zlg::rig

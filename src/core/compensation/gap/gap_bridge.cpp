@@ -9,15 +9,18 @@
 #include "gap_interpolation.hpp"
 #include "gap_known.hpp"
 #include "gap_points.hpp"
+#include "polynomial_motion.hpp"
 #include "row_outlier.hpp"
 
 namespace zlg::core {
 namespace {
 
-void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept {
+void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick,
+               std::int64_t settled_tick) noexcept {
     OpenGap& open = state.gap;
     open.open = true;
     open.gap.first_tick = tick;
+    open.gap.settled_tick = settled_tick;
     Points points;
     points.collect(state, tick - 1, 1 - config.extrapolation_points, 0, tick);
     if (points.n == 0) return;
@@ -97,7 +100,7 @@ void give_up(GapBridgeState& state) noexcept {
 void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                   const TickInput& input, std::int64_t tick) noexcept {
     if (!state.gap.open) {
-        begin_gap(config, state, tick);
+        begin_gap(config, state, tick, input.settled_tick);
         if (is_estimated(config) && state.gap.gap.has_before) predict_gap(gyro, config, state, tick);
     }
     Gap& gap = state.gap.gap;
@@ -121,6 +124,11 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
     gap.final_minus_delivered_arcsec.add(change.low);
 }
 
+// Each half of the gap that is no point may turn by as much as the lit ones beside it show.
+double unread_arcsec2(const LitHalvesState& lit, std::int64_t gap_ticks, std::int64_t end) noexcept {
+    return lit.end_tick == end ? lit.turned_arcsec2 * static_cast<double>(2 * gap_ticks - lit.n) : 0.0;
+}
+
 // The first tick after a gap: from here on the gap waits.
 void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input, std::int64_t tick) noexcept {
     const bool at_start = !state.gap.gap.has_before && config.extrapolation_points > ticks_to_correction(config);
@@ -128,8 +136,12 @@ void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInp
     const int wait = at_start ? config.extrapolation_points : ticks_to_correction(config);
     // A guard: in the 13 ticks that a gap waits at most, no more than 7 gaps can end.
     if (state.n_pending < max_pending_gaps) {
-        state.pending[static_cast<unsigned>(state.n_pending++)] = PendingGap{
-            .gap = state.gap.gap, .due_tick = tick + wait, .sign_after = input.sign, .mode_after = input.mode};
+        state.pending[static_cast<unsigned>(state.n_pending++)] =
+            PendingGap{.gap = state.gap.gap,
+                       .due_tick = tick + wait,
+                       .sign_after = input.sign,
+                       .mode_after = input.mode,
+                       .unread_arcsec2 = unread_arcsec2(state.lit, state.gap.gap.n, tick)};
     }
     state.gap = OpenGap{};
 }
@@ -148,6 +160,7 @@ ExactSum interpolate(GapBridgeState& state, const Gap& gap, const GapSums& sums,
         row.dtheta_final_arcsec = sums.value_arcsec[j];
         row.sigma_arcsec = deviation(sums.variance_arcsec2[j] + more_arcsec2);
         row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | gained;
+        if (!is_finite(row.sigma_arcsec)) row.flags |= flag_unrepaired;
         difference.add(row.dtheta_final_arcsec);
         difference.add(-row.dtheta_arcsec);
     }
@@ -159,18 +172,30 @@ ExactSum interpolate(GapBridgeState& state, const Gap& gap, const GapSums& sums,
 // return  final minus delivered.
 ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
              std::int64_t end, const EstimatedAngle& found, GapReport& report) noexcept {
-    GapSums sums = sums_of(gyro, config, state, gap, end, found.order);
+    const double judged = found.polynomial_variance_arcsec2;
+    const bool is_judged = judged > 0.0;
+    GapSums sums = is_estimated(config) && !is_judged ? sums_with_motion(gyro, config, state, gap, end, found.order)
+                                                      : sums_of(gyro, config, state, gap, end, found.order);
     // The polynomial stands in for an estimate, because nothing is known of the motion yet.
     const bool in_place = is_estimated(config) && !found.has_history;
-    // Without an estimate: with the re-lock behind the points.
-    if (!is_estimated(config)) sums.angle_variance_arcsec2 += relock_beyond(state, gap, end, config.points_after);
-    const double judged = found.polynomial_variance_arcsec2;
+    // An estimate judges with the re-lock behind the points.
+    if (!is_judged) sums.angle_variance_arcsec2 += relock_beyond(state, gap, end, config.points_after);
     const double variance = sums.angle_variance_arcsec2;
     report.sigma_sum_arcsec = deviation(judged > 0.0 ? judged : variance);
     // As an error that all rows have in common, whose sum is n times that of one.
     const auto n = static_cast<double>(gap.n);
     const double more = variance < judged ? (judged - variance) / (n * n) : 0.0;
     return interpolate(state, gap, sums, in_place || sums.fit.order() < found.order, more);
+}
+
+// Add a variance to the angle of a gap: to each of its ticks an equal part.
+void widen(GapBridgeState& state, const Gap& gap, double variance_arcsec2, GapReport& report) noexcept {
+    const double of_tick = variance_arcsec2 / static_cast<double>(gap.n);
+    for (std::int64_t j = 0; j < gap.n; ++j) {
+        double& sigma = at(state, gap.first_tick + j).row.sigma_arcsec;
+        sigma = square_root(sigma * sigma + of_tick);
+    }
+    report.sigma_sum_arcsec = square_root(report.sigma_sum_arcsec * report.sigma_sum_arcsec + variance_arcsec2);
 }
 
 // Work at the end of a log, in the units of `estimate`: unbounded.
@@ -194,6 +219,7 @@ GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& conf
                                                           : EstimatedAngle{.order = order_of(config.method)};
         difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, found, report);
         if (found.known) report.sigma_sum_arcsec = found.sigma_sum_arcsec;
+        if (pending.unread_arcsec2 > 0.0) widen(state, gap, pending.unread_arcsec2, report);
         pending.correction_arcsec.add(found.after_arcsec.high);
         pending.correction_arcsec.add(found.after_arcsec.low);
         const ExactSum change = settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
@@ -263,13 +289,20 @@ void add_measured_tick(const GapBridgeConfig& config, GapBridgeState& state, con
     entry.row.sigma_arcsec = square_root(input.variance_arcsec2);
 }
 
+// Its estimate is there, and a later gap waits for the memory that it lies in: that one would not be ready in time.
+bool makes_room(const GapBridgeState& state, int k) noexcept {
+    const EstimatedGap& e = state.estimate;
+    return k + 1 < state.n_pending && e.solution.done &&
+           e.first_tick == state.pending[static_cast<unsigned>(k)].gap.first_tick;
+}
+
 // return  some gap was due.
 bool resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                  std::int64_t tick, AngleSample& sample) noexcept {
     bool any = false;
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.resolved || pending.due_tick > tick) continue;
+        if (pending.resolved || (pending.due_tick > tick && !makes_room(state, k))) continue;
         any = true;
         const GapReport report = resolve(gyro, config, state, pending, tick, work_a_half);
         if (!pending.gap.has_before) continue;

@@ -91,8 +91,10 @@ bool is_given_up(const GapBridgeState& state, const Gap& gap) noexcept {
 // Begin the problem of a gap, or begin it anew with whole ticks.
 void begin_or_change(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, bool at_end) noexcept {
     const bool learnt = is_learnt(config, state, gap);
-    const bool wanted = config.optimal.halves && learnt && gap.n <= max_joint_gap && !is_given_up(state, gap) &&
-                        (!at_end || is_profile_of(state, gap));
+    // In a re-lock the halves before the gap hold a bias that still grows: together they are a tick, of which that is corrected.
+    const bool settled = gap.first_tick - points_before_gap(static_cast<int>(gap.n)) >= gap.settled_tick;
+    const bool wanted = config.optimal.halves && learnt && settled && gap.n <= max_joint_gap &&
+                        !is_given_up(state, gap) && (!at_end || is_profile_of(state, gap));
     const bool begun = state.estimate.first_tick == gap.first_tick;
     if (!begun || (state.estimate.problem.halves && !wanted)) begin(state, gap, wanted, learnt);
 }

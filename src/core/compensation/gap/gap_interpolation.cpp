@@ -3,6 +3,11 @@
 #include <zlg/core/compensation/border.hpp>
 
 namespace zlg::core {
+namespace {
+
+int smaller(int a, int b) noexcept { return a < b ? a : b; }
+
+}  // namespace
 
 void Points::collect(const GapBridgeState& state, std::int64_t origin, int from, int to, std::int64_t end) noexcept {
     const int first = origin + from < 0 ? static_cast<int>(-origin) : from;
@@ -19,10 +24,14 @@ PolynomialFit fit_of(const GapBridgeConfig& config, const GapBridgeState& state,
                      int order) noexcept {
     const int n = static_cast<int>(gap.n);
     const std::int64_t origin = gap.first_tick - 1;
+    // Where the motion is learnt, as far as its window reaches: there its covariance is known.
+    const int before =
+        is_estimated(config) ? smaller(config.points_before, points_before_gap(n)) : config.points_before;
+    const int after = is_estimated(config) ? smaller(config.points_after, points_a_side(n)) : config.points_after;
     Points points;
     if (gap.has_before) {
-        points.collect(state, origin, 1 - config.points_before, 0, end);
-        points.collect(state, origin, n + 1, n + config.points_after, end);
+        points.collect(state, origin, 1 - before, 0, end);
+        points.collect(state, origin, n + 1, n + after, end);
     } else {
         points.collect(state, origin, n + 1, n + config.extrapolation_points, end);
     }

@@ -51,6 +51,7 @@ struct GyroCompensationState {
     bool first_waits = false;       // the last tick was tick 1 of `frequency`
     Border border{};                // at the end of the last half
     std::int32_t n_with_phase = 0;  // measured ticks in a row with the place within the count at both ends, up to 32
+    std::int64_t settled_tick = 0;  // the first tick whose re-lock was over, after the loop was open last
     bool start_unknown = false;     // the reversal that begins the next half is recorded where none can have been
     EdgeShiftState edges{};
     CountedStretchState stretch{};

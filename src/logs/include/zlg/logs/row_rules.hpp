@@ -80,6 +80,15 @@ struct Fringe {
     static std::string fault(double value, std::int64_t row);
 };
 
+// A light sample: a finite number, or NaN where the converter gave none.
+struct Sample {
+    static constexpr bool allows(double value, std::int64_t row) {
+        return (value != value) | Real{}.allows(value, row);
+    }
+    static std::string allowed();
+    static std::string fault(double value, std::int64_t row);
+};
+
 // A standard deviation: 0 or more, inf where it is not known.
 struct Deviation {
     static constexpr bool allows(double value, std::int64_t) { return value >= 0.0; }

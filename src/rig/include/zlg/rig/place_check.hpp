@@ -9,7 +9,8 @@
 //                                      others        <y^2 - x^2> = -<q^2>, for y knows nothing of q
 //
 // whatever the motion; its part of y, where it is rougher than two units, makes the mean uncertain, and nothing is decided.
-// Places that stand still while the counts move show y without q. Squares are limited, so that a single jerk decides nothing.
+// Where the angle has been evenly in all parts of a count, x knows nothing of a right place at all, <x q> = 0: half a place, a
+// random one in ten or a periodic error show there. Places that stand still while the counts move show y without q. Squares are limited, so that a single jerk decides nothing.
 
 #include <array>
 #include <cstdint>
@@ -32,11 +33,14 @@ private:
 
     struct Stretch {
         int n = 0;
-        int n_rough = 0;     // y beyond 3
-        int n_counts = 0;    // y beyond 1/2
-        double y_sq = 0.0;   // sum of y^2, each up to 9
-        double q_sq = 0.0;   // sum of q^2, each up to 9
-        double agree = 0.0;  // sum of y^2 - x^2, each within +-9
+        int n_rough = 0;                                     // y beyond 3
+        int n_counts = 0;                                    // y beyond 1/2
+        double y_sq = 0.0;                                   // sum of y^2, each up to 9
+        double q_sq = 0.0;                                   // sum of q^2, each up to 9
+        double agree = 0.0;                                  // sum of y^2 - x^2, each within +-9
+        double motion_sq = 0.0, place_sq = 0.0, both = 0.0;  // sums of x^2, q^2, x q without limits
+        std::array<int, 8> n_in_part{};  // differences whose mean angle lies in each eighth of a count
+        std::uint32_t bits = 0;          // that were set in any place
     };
     enum class Verdict : unsigned char { open, right, wrong };
 
@@ -45,6 +49,7 @@ private:
         double place = 0.0;        // 0..1
     };
 
+    static bool is_even(const Stretch& s);
     static Verdict verdict(const Stretch& s);
     void add_difference();
 

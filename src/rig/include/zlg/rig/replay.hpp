@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/records.hpp>
+#include <zlg/rig/bias_check.hpp>
 #include <zlg/rig/place_check.hpp>
 
 namespace zlg::rig {
@@ -36,7 +38,7 @@ void hand_over_rest(const Drain& drain, const OnRow& on_row, const OnGap& on_gap
 class Replay {
 public:
     // config  passed `check`.
-    explicit Replay(const core::GyroCompensationConfig& config) : config_{config} {}
+    explicit Replay(const core::GyroCompensationConfig& config) : config_{config}, bias_{config.gyro} {}
 
     // The next half.
     //
@@ -47,6 +49,7 @@ public:
                                   const OnRow& on_row = ignored, const OnGap& on_gap = ignored) {
         const core::CompensationOutput out = core::step(config_, state_, half, light);
         places_.take(half);
+        bias_.take(half);
         ++halves_;
         if (!out.has_sample) return out;
         angle_arcsec_ = out.angle_arcsec;
@@ -66,8 +69,8 @@ public:
     // One line on a last half whose other half is missing; empty where every half has one.
     [[nodiscard]] std::string odd_half(const std::string& log_name) const;
 
-    // One line where the places within the count contradict the counts; empty where they do not.
-    [[nodiscard]] std::string wrong_places(const std::string& log_name) const { return places_.complaint(log_name); }
+    // One line for each kind of columns that contradict the counts: mode and bias_sign, fringe.
+    [[nodiscard]] std::vector<std::string> contradictions(const std::string& log_name) const;
 
     [[nodiscard]] double angle_arcsec() const { return angle_arcsec_; }  // accumulated, up to the last whole tick
     [[nodiscard]] std::int64_t halves() const { return halves_; }
@@ -78,6 +81,7 @@ private:
     core::GyroCompensationConfig config_;
     core::GyroCompensationState state_{};
     PlaceCheck places_{};
+    BiasCheck bias_;
     double angle_arcsec_ = 0.0;
     std::int64_t halves_ = 0;
 };

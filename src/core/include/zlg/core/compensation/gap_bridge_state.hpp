@@ -27,6 +27,7 @@ struct Gap {
     bool has_before = false;  // a measured tick precedes it
     std::int8_t mode_before = 1;
     std::int64_t first_tick = 0, n = 0;       // n: ticks so far
+    std::int64_t settled_tick = 0;            // as in TickInput
     ExactSum final_minus_delivered_arcsec{};  // of a gap that is too long
     std::int64_t known_ticks = 0;             // whose sums are known
     double known_variance_arcsec2 = 0.0;      // of all these together
@@ -52,6 +53,7 @@ struct PendingGap {
     std::int64_t due_tick = 0;
     std::int8_t sign_after = 1, mode_after = 1;
     bool resolved = false;
+    double unread_arcsec2 = 0.0;   // variance of what its halves without a point may turn by, as its lit halves show
     ExactSum correction_arcsec{};  // pending: final minus delivered, of the gap and of the ticks that it amended
 
     friend bool operator==(const PendingGap&, const PendingGap&) = default;

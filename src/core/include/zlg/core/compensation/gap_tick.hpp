@@ -18,8 +18,11 @@ struct TickInput {
     double bias_arcsec = 0.0;              // what a positive bias adds to a half, as far as half-ticks are used
     double relock_to_come_arcsec2 = 0.0;   // variance of the corrections after this one, as far as this one tells
     double walk_of_switch_arcsec2 =
-        0.0;                  // of a tick of a gap: variance of the random walk in the re-lock ticks after it
-    bool settled = true;      // re-lock is over: the tick shows the motion alone
+        0.0;  // of a tick of a gap: variance of the random walk in the re-lock ticks after it
+    std::int64_t settled_tick =
+        0;                // of a tick of a gap: the first one whose re-lock was over before this gap; its halves and
+                          // those of later ones hold the same bias
+    bool settled = true;  // re-lock is over: the tick shows the motion alone
     bool with_phase = false;  // the place within the count is known at both ends and in the middle
     std::int8_t mode = 1;
     std::int8_t sign = 1;  // bias_sign * mode in its first half

@@ -12,10 +12,13 @@
 // Used are the halves that reach up to the end of the gap without a break, up to 16. A half that is recorded as lit but was
 // not alternates with the bias in another way than its neighbours do. The second difference of three corrected halves in a
 // row is therefore compared with that of the learnt motion: a triple beyond the limit removes its first half and all before.
+// What it is off by may be a rotation as well, and so may what the difference of the outer two, in which the common error
+// cancels, exceeds three standard deviations by: each half of the gap without a point may hold as much.
 
 #include <array>
 #include <cstdint>
 
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 #include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/compensation/optimal_bridge.hpp>
@@ -38,7 +41,10 @@ struct LitHalvesState {
     std::int64_t end_tick = -1;  // the first one behind them
     int n = 0;                   // in a row, up to the end
     std::int8_t mode = 1;
-    bool starts_even = false;  // the reversal before the next half is not shifted
+    double turned_arcsec2 =
+        0.0;  // square of a rotation beside them that is not that of the motion, as they show it; 0: none
+    bool first_is_whole = false;  // until the end of the gap: the first one is read to a count alone
+    bool starts_even = false;     // the reversal before the next half is not shifted
     std::array<LitHalf, max_lit_halves> half{};
 
     friend bool operator==(const LitHalvesState&, const LitHalvesState&) = default;
@@ -51,7 +57,9 @@ struct LitTick {
     Border start{};  // of its first half
     std::int64_t tick = 0;
     double bias_arcsec = 0.0;  // that a positive bias adds to a half; 0: not known, nothing is used
-    bool with_phase = false;   // halves without a place within the count at both ends are not used
+    // Variance of the difference of two half-ticks of the motion between which another one lies; infinite: not known.
+    double difference_arcsec2 = infinity;
+    bool with_phase = false;  // halves without a place within the count at both ends are no points
 };
 
 // Variance of the second difference of three half-ticks in a row. The covariance is that of half-ticks.

@@ -1,0 +1,61 @@
+#include <zlg/rig/bias_check.hpp>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace zlg::rig {
+namespace {
+
+// The control sees a mode of the other helicity within 4 halves, and follows it within 20.
+constexpr int lasting_halves = 32;
+
+// Below, roundings and an ordinary rotation hide the bias.
+constexpr double min_bias_counts = 16.0;
+
+int beat_sign(const core::HalfRecord& half) { return half.bias_sign * half.mode; }
+
+}  // namespace
+
+BiasCheck::BiasCheck(const core::CompensationConstants& gyro)
+    : least_counts_{std::max(min_bias_counts, 0.25 * gyro.bias.value() * 0.5 * gyro.tick.value())} {}
+
+void BiasCheck::take(const core::HalfRecord& half) {
+    const bool measured = core::is_measured(half);
+    if (measured && has_last_ && half.mode == last_.mode && half.bias_sign != last_.bias_sign) judge({last_, half});
+    last_ = half;
+    has_last_ = measured;
+}
+
+void BiasCheck::judge(const Pair& pair) {
+    const double change = static_cast<double>(pair.half.counts) - static_cast<double>(pair.before.counts);
+    const double bias_counts = 0.5 * beat_sign(pair.half) * change;
+    if (bias_counts > -least_counts_ && bias_counts < least_counts_) return;
+    ++n_judged_;
+    if (bias_counts > 0.0) {
+        n_in_a_row_ = 0;
+        return;
+    }
+    ++n_wrong_;
+    if (n_in_a_row_ == 0) first_in_row_ = pair;
+    n_in_a_row_ = std::min(n_in_a_row_ + 1, lasting_halves);
+    if (n_in_a_row_ < lasting_halves || lasts_) return;
+    lasts_ = true;
+    first_wrong_ = first_in_row_;
+}
+
+std::string BiasCheck::complaint(const std::string& log_name) const {
+    if (!lasts_) return {};
+    const auto& [before, half] = first_wrong_;
+    return fmt::format(
+        "{}: the columns mode and bias_sign contradict the counts in {} of {} half-periods that show the bias, first "
+        "in "
+        "half-period {}: bias_sign * mode is {:+d} and then {:+d}, and the counts are {} and then {}; right are more "
+        "counts "
+        "where bias_sign * mode is +1. The correction after re-lock has the wrong sign there, and a switch that mode "
+        "does "
+        "not show is taken for an open loop",
+        log_name, n_wrong_, n_judged_, before.half, beat_sign(before), beat_sign(half), before.counts, half.counts);
+}
+
+}  // namespace zlg::rig
