@@ -25,6 +25,12 @@ constexpr double noise_ticks = 1024.0;
 constexpr double max_noise_ratio = 16.0;  // of one square over the mean
 constexpr std::int32_t forgetting_ticks = 400;
 
+// A single wrong reading is no change.
+constexpr double trusted_ticks = 3.0;
+
+// With noise of 0.7 of the converter's step a fifth of the ticks repeat the one before; with less a mean does not tell parts of the step.
+constexpr double max_repeated = 0.2;
+
 // No coil has less, and no reading is more.
 constexpr double min_a = 1e-6;
 constexpr double max_a = 1e9;
@@ -38,11 +44,13 @@ void add(MeanAsymmetry& mean, double ratio) noexcept {
 
 void learn_noise(CoilAsymmetryState& s, double ratio) noexcept {
     const double found = 0.5 * squared(ratio - s.last_ratio);
+    const double repeated = ratio == s.last_ratio ? 1.0 : 0.0;
     s.last_ratio = ratio;
     // A step is no noise.
     const double most = s.n_differences < learning_ticks ? found : max_noise_ratio * s.variance;
     if (s.n_differences < noise_ticks) s.n_differences += 1.0;
     s.variance += ((found < most ? found : most) - s.variance) / s.n_differences;
+    s.repeated += (repeated - s.repeated) / s.n_differences;
 }
 
 // A change is soonest seen by a mean that holds it in part; the next shorter one, or the last tick, holds it nearly whole.
@@ -122,7 +130,7 @@ CoilAsymmetry step(CoilAsymmetryState& state, const HalfRecord& first, const Hal
         count_up(state.n_unknown);
         if (state.n_unknown >= forgetting_ticks) state = {};
     }
-    if (!(state.change.n_ticks > 0.0)) return {};
+    if (!(state.change.n_ticks >= trusted_ticks) || state.repeated > max_repeated) return {};
     return {state.change.ratio - state.usual.ratio, variance_of_change(state)};
 }
 

@@ -23,7 +23,7 @@ constexpr double noise_a = 0.001;        // of a reading
 // A coil of 1 A, as it is read.
 class Coil {
 public:
-    explicit Coil(std::uint64_t seed) : random_{seed} {}
+    explicit Coil(std::uint64_t seed, double noise = noise_a) : noise_a_{noise}, random_{seed} {}
 
     CoilAsymmetry tick(double eps, double offset_a = 0.0) {
         HalfRecord first{.coil_current_a = read(1.0 + eps + offset_a), .bias_sign = 1};
@@ -41,8 +41,9 @@ public:
     bool starts_negative = false;
 
 private:
-    double read(double current_a) { return code_a * std::round((current_a + noise_a * random_.normal()) / code_a); }
+    double read(double current_a) { return code_a * std::round((current_a + noise_a_ * random_.normal()) / code_a); }
 
+    double noise_a_;
     Random random_;
 };
 
@@ -91,6 +92,28 @@ TEST(CoilAsymmetry, WhatIsOverIsNoLongerSubtracted) {
                 coil.ticks(duration, eps);
                 EXPECT_EQ(coil.ticks(3 * second, 0.0).variance, 0.0) << eps << ' ' << duration << ' ' << seed;
             }
+}
+
+TEST(CoilAsymmetry, ASingleWrongReadingIsNoChange) {
+    for (const double wrong : {0.005, 0.007, 0.01, 0.02, 0.1, -0.5})
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            Coil coil{seed};
+            coil.ticks(30 * second, 0.0);
+            EXPECT_EQ(coil.tick(wrong).variance, 0.0) << wrong << ' ' << seed;
+            for (int k = 0; k < second; ++k)
+                EXPECT_EQ(coil.tick(0.0).variance, 0.0) << wrong << ' ' << seed << ' ' << k;
+        }
+}
+
+// A fifth of a step of the converter is read as none or as a whole one, 480 ppm.
+TEST(CoilAsymmetry, AConverterTooCoarseForItsNoiseTellsNothing) {
+    for (const double noise : {0.0, 1e-5, 1e-4, 2e-4})
+        for (const double offset_a : {0.0, 0.2 * code_a, 0.5 * code_a}) {
+            Coil coil{1, noise};
+            coil.ticks(30 * second, 0.0, offset_a);
+            for (int k = 0; k < 5 * second; ++k)
+                ASSERT_EQ(coil.tick(0.2 * code_a, offset_a).variance, 0.0) << noise << ' ' << offset_a << ' ' << k;
+        }
 }
 
 TEST(CoilAsymmetry, AnErrorOfTheReadingThatStaysIsNone) {

@@ -36,6 +36,7 @@ struct CoilAsymmetryState {
     double return_sq = 0.0;                       // how much better than `change` the last ticks fit `usual`
     double last_ratio = 0.0;
     double variance = 0.0;  // of the reading of one tick, by the differences of neighbours
+    double repeated = 0.0;  // share of ticks that read the same as the one before
     double n_differences = 0.0;
     std::int32_t n_unknown = 0;  // ticks in a row without both readings
 
@@ -51,11 +52,12 @@ struct CoilAsymmetry {
 // Advance by one tick.
 //
 // A change is seen where an exponential mean over 4, 16, 64, 256 or 1024 ticks is 6 standard deviations from the mean before
-// it; from there on eps is averaged anew. It is over where the ticks fit the usual value better, by
-// the cumulative sum of their likelihoods, or where the new level is within 2 of it. An asymmetry that was there from the start is the usual one, but one that gets smaller is taken for the end of a
-// fault, and is the usual one from then on.
+// it; from there on eps is averaged anew. It is over where the ticks fit the usual value better, by the cumulative sum of
+// their likelihoods, or where the new level is within 2 standard deviations of it. An asymmetry that was there from the
+// start is the usual one. One that gets smaller is taken for the end of a fault, and is the usual one from then on.
 //
-// return   nothing in the first 64 ticks, and where the current has not been read for 400 ticks.
+// return   nothing in the first 64 ticks, in the first two of a change, where the current has not been read for 400 ticks,
+//          and where the noise of the readings is too small against the steps of their converter to be averaged.
 [[nodiscard]] CoilAsymmetry step(CoilAsymmetryState& state, const HalfRecord& first, const HalfRecord& second) noexcept;
 
 }  // namespace zlg::core
