@@ -9,8 +9,10 @@ namespace {
 
 constexpr std::array<double, n_recent_means> recent_ticks{4.0, 16.0, 64.0, 256.0, 1024.0};
 
-// Ticks of a plain mean with the variance of an exponential one.
-constexpr double equivalent_ticks(std::size_t k) noexcept { return 2.0 * recent_ticks[k] - 1.0; }
+// Ticks of a plain mean with the variance of an exponential one. Those made of every fourth value of the shortest have up to a tenth more.
+constexpr double equivalent_ticks(std::size_t k) noexcept {
+    return (2.0 * recent_ticks[k] - 1.0) / (k > 0 ? 1.1 : 1.0);
+}
 
 // Squares of numbers of standard deviations.
 constexpr double change_gate_sq = 36.0;
@@ -61,21 +63,30 @@ void begin_anew(CoilAsymmetryState& s, std::size_t seen_by, double ratio) noexce
     s.return_sq = 0.0;
 }
 
+// Moves one of the means, and asks whether it is off the level.
+bool is_off(CoilAsymmetryState& s, const MeanAsymmetry& level, std::size_t k, double ratio, double weight) noexcept {
+    double& mean = s.recent[k];
+    mean += weight * (ratio - mean);
+    return squared(mean - level.ratio) >
+           change_gate_sq * s.variance * (1.0 / equivalent_ticks(k) + 1.0 / level.n_ticks);
+}
+
 // Returns whether a new level has begun, this tick in it.
 bool has_changed(CoilAsymmetryState& s, double ratio) noexcept {
     const MeanAsymmetry level = s.change.n_ticks > 0.0 ? s.change : s.usual;
     // A mean that is younger than its memory is that of the level.
     const double age_ticks = level.n_ticks + 1.0;
-    for (std::size_t k = 0; k < s.recent.size(); ++k)
-        s.recent[k] += (ratio - s.recent[k]) / (recent_ticks[k] < age_ticks ? recent_ticks[k] : age_ticks);
-    for (std::size_t k = 0; k < s.recent.size(); ++k) {
-        const double variance = s.variance * (1.0 / equivalent_ticks(k) + 1.0 / level.n_ticks);
-        if (squared(s.recent[k] - level.ratio) > change_gate_sq * variance) {
-            begin_anew(s, k, ratio);
-            return true;
-        }
+    std::size_t k = 0;
+    if (!is_off(s, level, k, ratio, 1.0 / (age_ticks < recent_ticks[k] ? age_ticks : recent_ticks[k]))) {
+        // The longer ones take turns, each once in four ticks, and are made of the shortest.
+        s.turn = s.turn < n_recent_means - 1 ? s.turn + 1 : 1;
+        k = s.turn;
+        const double memory_ticks = age_ticks < recent_ticks[k] ? age_ticks : recent_ticks[k];
+        const double weight = memory_ticks > recent_ticks[0] ? recent_ticks[0] / memory_ticks : 1.0;
+        if (!is_off(s, level, k, s.recent[0], weight)) return false;
     }
-    return false;
+    begin_anew(s, k, ratio);
+    return true;
 }
 
 double variance_of_change(const CoilAsymmetryState& s) noexcept {

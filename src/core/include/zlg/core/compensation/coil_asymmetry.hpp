@@ -33,6 +33,7 @@ struct CoilAsymmetryState {
     MeanAsymmetry usual{};                        // where there is no change
     MeanAsymmetry change{};                       // since the last change; none: there is none
     std::array<double, n_recent_means> recent{};  // exponential means over 4, 16 .. 1024 ticks
+    std::size_t turn = 0;                         // the one of the longer means that was moved last
     double return_sq = 0.0;                       // how much better than `change` the last ticks fit `usual`
     double last_ratio = 0.0;
     double variance = 0.0;  // of the reading of one tick, by the differences of neighbours
