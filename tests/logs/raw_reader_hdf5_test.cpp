@@ -139,7 +139,7 @@ TEST(RawReader, refuses_values_of_an_hdf5_log_that_no_gyro_can_have_recorded) {
         complaint([](Hdf5File& file) {
             file.table<float>("/raw/light", {1, 2, 3, 4, std::numeric_limits<float>::infinity(), 6}, {3, 2});
         }),
-        "row 3, column '/raw/light': 'inf' is not finite");
+        "row 3, column '/raw/light': 'inf' is out of range; allowed is a finite number, or nan");
 }
 
 TEST(RawReader, refuses_detunings_of_an_hdf5_log_that_no_perimeter_can_have) {

@@ -112,6 +112,7 @@ public:
         set_motion();
         set_switching();
         set_compensation();
+        set_one_of("switching.after_step", std::array{"wait", "wait", "switch"});
         return std::move(settings_);
     }
 
