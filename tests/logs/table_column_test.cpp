@@ -45,7 +45,6 @@ TEST(TableColumn, a_value_goes_into_a_row_and_comes_out_again) {
     EXPECT_EQ(row.span, 12);
     EXPECT_EQ(row.fringe, 13.0f);
     EXPECT_TRUE(row.lit);
-    EXPECT_EQ(row.coil_current_a, 15.0);
     AngleTable::Row angle;
     std::get<5>(AngleTable::columns).set(angle, std::int8_t{-1});
     EXPECT_EQ(angle.row.mode, -1);

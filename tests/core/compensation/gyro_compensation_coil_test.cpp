@@ -46,10 +46,8 @@ TEST(GyroCompensation, AnUnevenCurrentIsNoRotation) {
                 ASSERT_EQ(got.rows[j].dtheta_final_arcsec, 0.0);
                 ASSERT_EQ(got.rows[j].sigma_arcsec, sigma);
             }
-            // 19.6 arcsec a tick. Two ticks could be a wrong reading; the control calls so large a change not valid.
-            for (unsigned j = n_before; j < n_before + 2; ++j)
-                ASSERT_NEAR(std::abs(got.rows[j].dtheta_final_arcsec), 6 * 3.263, 1e-9) << j;
-            for (unsigned j = n_before + 2; j < n_ticks; ++j) {
+            // 19.6 arcsec a tick.
+            for (unsigned j = n_before; j < n_ticks; ++j) {
                 ASSERT_LT(std::abs(got.rows[j].dtheta_final_arcsec), 5.0 * got.rows[j].sigma_arcsec) << j;
                 ASSERT_GT(got.rows[j].sigma_arcsec, sigma);
             }
