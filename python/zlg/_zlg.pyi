@@ -114,7 +114,6 @@ class HalfRecord:
     span: int
     fringe: float
     lit: bool
-    coil_current_a: float
 
 class IoError(Error, OSError): ...
 

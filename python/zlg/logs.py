@@ -43,8 +43,6 @@ class RawLog:
     fringe: Optional[NDArray[np.float64]] = None
     #: both beams were lit and steady throughout the half: its counts are good, in an open loop too
     lit: Optional[NDArray[np.bool_]] = None
-    #: of the bias coil, as it was read in the half; 0 where it was not
-    coil_current_a: Optional[NDArray[np.float64]] = None
     #: photodiodes, shape (halves, samples)
     light_a: Optional[NDArray[np.float32]] = None
     light_b: Optional[NDArray[np.float32]] = None

@@ -15,8 +15,7 @@ from support import ZLG, CliTest, body_of, csv_text, quiet_log, run
 
 INPUT, USAGE = 3, 2
 UNITS = {"half": "1", "bias_sign": "1", "mode": "1", "counts": "count", "loop_closed": "1", "valid": "1", "span": "1", "lit": "1",
-         "detuning_lambda": "wavelength", "detuning_sq_lambda2": "wavelength^2", "piezo_v": "V", "temperature_c": "degC",
-         "coil_current_a": "A"}
+         "detuning_lambda": "wavelength", "detuning_sq_lambda2": "wavelength^2", "piezo_v": "V", "temperature_c": "degC"}
 ANGLE_UNITS = {"tick": "1", "t_s": "s", "dtheta_arcsec": "arcsec", "dtheta_final_arcsec": "arcsec", "sigma_arcsec": "arcsec",
                "mode": "1", "flags": "1"}
 SHORT = ["--duration", 20, "--set", "switching.interval_s=4"]

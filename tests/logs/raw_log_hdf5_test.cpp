@@ -80,7 +80,6 @@ std::vector<HalfRecord> any_records(bool with_edges = false) {
         r.detuning_sq_lambda2 = *rc::gen::arbitrary<bool>() ? r.detuning_lambda * r.detuning_lambda : 0.0;
         r.piezo_v = *any_finite_double();
         r.temperature_c = *any_finite_double();
-        r.coil_current_a = *any_finite_double();
         if (with_edges) r.edge_offset_ticks = *rc::gen::arbitrary<std::int32_t>();
     }
     return rows;
@@ -326,7 +325,6 @@ TEST(RawLogHdf5, has_units_and_the_facts_of_the_counts_in_its_root) {
     EXPECT_EQ(unit("/raw/detuning_sq_lambda2"), "wavelength^2");
     EXPECT_EQ(unit("/raw/piezo_v"), "V");
     EXPECT_EQ(unit("/raw/temperature_c"), "degC");
-    EXPECT_EQ(unit("/raw/coil_current_a"), "A");
     H5Fclose(file);
 }
 

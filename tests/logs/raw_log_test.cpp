@@ -69,7 +69,6 @@ std::vector<HalfRecord> any_records() {
         r.detuning_sq_lambda2 = *rc::gen::arbitrary<bool>() ? r.detuning_lambda * r.detuning_lambda : 0.0;
         r.piezo_v = *any_finite_double();
         r.temperature_c = *any_finite_double();
-        r.coil_current_a = *any_finite_double();
     }
     return rows;
 }
@@ -290,7 +289,6 @@ TEST(RawWriter, writes_settings_names_and_shortest_numbers) {
                   .detuning_sq_lambda2 = 0.01,
                   .piezo_v = 150.0,
                   .temperature_c = 20.25,
-                  .coil_current_a = -1.001,
                   .bias_sign = -1,
                   .mode = 1,
                   .loop_closed = true,
@@ -299,8 +297,8 @@ TEST(RawWriter, writes_settings_names_and_shortest_numbers) {
     EXPECT_EQ(content_of(folder.file("raw.csv")),
               "# gyro.scale_arcsec = 3.263\n"
               "half,bias_sign,mode,counts,loop_closed,valid,detuning_lambda,detuning_sq_lambda2,piezo_v,temperature_c,"
-              "span,lit,coil_current_a\n"
-              "0,-1,1,-150,1,0,0.1,0.01,150,20.25,1,0,-1.001\n");
+              "span,lit\n"
+              "0,-1,1,-150,1,0,0.1,0.01,150,20.25,1,0\n");
 }
 
 TEST(RawWriter, refuses_what_no_reader_accepts) {
@@ -336,7 +334,6 @@ TEST(RawWriter, has_room_for_the_longest_row) {
                          .detuning_sq_lambda2 = -longest,
                          .piezo_v = longest,
                          .temperature_c = longest,
-                         .coil_current_a = longest,
                          .bias_sign = -1,
                          .mode = -1,
                          .span = std::numeric_limits<std::int32_t>::min()};
@@ -345,7 +342,7 @@ TEST(RawWriter, has_room_for_the_longest_row) {
     const std::string text = content_of(folder.file("raw.csv"));
     EXPECT_EQ(text.substr(text.find('\n') + 1),
               "-9223372036854775808,-1,-1,-9223372036854775808,1,1,-2.2250738585072014e-308,2.2250738585072014e-308,"
-              "-2.2250738585072014e-308,-2.2250738585072014e-308,-2147483648,0,-2.2250738585072014e-308\n");
+              "-2.2250738585072014e-308,-2.2250738585072014e-308,-2147483648,0\n");
 }
 
 TEST(RawReader, knows_how_much_of_the_file_it_has_read) {

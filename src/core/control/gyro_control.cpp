@@ -31,7 +31,6 @@ HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
             .detuning_sq_lambda2 = o.has_mean_square ? o.monitored.mean_sq_lambda2 : 0.0,
             .piezo_v = s.piezo_v,
             .temperature_c = s.temperature_c,
-            .coil_current_a = o.coil_current_a,
             .bias_sign = o.commuted.sign,
             .mode = o.polarity,
             .loop_closed = o.loop_closed,

@@ -69,9 +69,7 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
                    .settled = o.settled && s.was_lit});
     // A half without light makes the difference to the next one meaningless.
     o.bias_wrong = o.bias.judged && !o.bias.in_band && s.was_lit;
-    if (!o.fresh) return;
-    o.coil = step(c.coil_monitor, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
-    if (is_finite(frame.coil_current_a)) o.coil_current_a = frame.coil_current_a;
+    if (o.fresh) o.coil = step(c.coil_monitor, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
 }
 
 void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {

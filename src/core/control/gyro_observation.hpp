@@ -34,7 +34,6 @@ struct Observation {
     BiasMonitorOutput bias;
     bool bias_wrong = false;
     CoilMonitorOutput coil;
-    double coil_current_a = 0.0;  // to be recorded
     SyncDetectorOutput light;
     LightMonitorOutput monitored;
     bool detuning_usable = false;

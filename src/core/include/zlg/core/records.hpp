@@ -71,7 +71,6 @@ struct HalfRecord {
     double detuning_sq_lambda2 = 0.0;  // mean of the squared samples over the half
     double piezo_v = 0.0;
     double temperature_c = 0.0;
-    double coil_current_a = 0.0;  // as it was read in this half; 0: not read
     std::int8_t bias_sign = 1;
     std::int8_t mode = 1;  // helicity commanded
     bool loop_closed = true;
@@ -89,10 +88,9 @@ struct HalfRecord {
     friend constexpr bool operator==(const HalfRecord& a, const HalfRecord& b) noexcept {
         return a.half == b.half && a.counts == b.counts && same_bits(a.detuning_lambda, b.detuning_lambda) &&
                same_bits(a.detuning_sq_lambda2, b.detuning_sq_lambda2) && same_bits(a.piezo_v, b.piezo_v) &&
-               same_bits(a.temperature_c, b.temperature_c) && same_bits(a.coil_current_a, b.coil_current_a) &&
-               a.bias_sign == b.bias_sign && a.mode == b.mode && a.loop_closed == b.loop_closed && a.valid == b.valid &&
-               a.edge_offset_ticks == b.edge_offset_ticks && a.span == b.span && same_bits(a.fringe, b.fringe) &&
-               a.lit == b.lit;
+               same_bits(a.temperature_c, b.temperature_c) && a.bias_sign == b.bias_sign && a.mode == b.mode &&
+               a.loop_closed == b.loop_closed && a.valid == b.valid && a.edge_offset_ticks == b.edge_offset_ticks &&
+               a.span == b.span && same_bits(a.fringe, b.fringe) && a.lit == b.lit;
     }
 };
 

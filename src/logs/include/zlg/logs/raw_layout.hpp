@@ -25,7 +25,6 @@ struct RawColumns {
     bool has_span = false;
     bool has_fringe = false;
     bool has_lit = false;
-    bool has_coil_current = false;
 };
 
 inline constexpr RawColumns all_raw_columns{.has_valid = true,
@@ -34,8 +33,7 @@ inline constexpr RawColumns all_raw_columns{.has_valid = true,
                                             .has_piezo = true,
                                             .has_temperature = true,
                                             .has_span = true,
-                                            .has_lit = true,
-                                            .has_coil_current = true};
+                                            .has_lit = true};
 
 // What stands above the rows.
 struct RawHeader : RawColumns {
@@ -86,7 +84,6 @@ struct RawTable {
         optional_column("span", "1", &Row::span, any_whole<std::int32_t>, &Presence::has_span, std::int32_t{1}, true),
         optional_column<double>("fringe", "1/65536", &Row::fringe, Fringe{}, &Presence::has_fringe, not_measured),
         optional_column<std::uint8_t>("lit", "1", &Row::lit, Flag{}, &Presence::has_lit, 0),
-        optional_column("coil_current_a", "A", &Row::coil_current_a, Real{}, &Presence::has_coil_current, not_measured),
     };
 };
 
