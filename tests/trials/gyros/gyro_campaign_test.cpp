@@ -53,7 +53,7 @@ TEST(GyroCampaign, EveryKeyThatMakesAGyroIsDrawn) {
         if (sections.contains(key.section)) wanted.insert(key.section + "." + key.name);
     }
     // A laser's own constants take a second.
-    for (const auto [fidelity, gyros] : {std::pair{Fidelity::averaged, 40U}, {Fidelity::laser, 8U}})
+    for (const auto& [fidelity, gyros] : {std::pair{Fidelity::averaged, 40U}, {Fidelity::laser, 8U}})
         for (std::uint64_t number = 0; number < gyros; ++number)
             for (const auto& [key, text] : random_gyro(5, number, fidelity).settings) wanted.erase(key);
     for (const std::string& key : wanted) ADD_FAILURE() << key;
