@@ -192,7 +192,9 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
 }
 
 double trusted_arcsec_s(const MagneticDriftState& state) noexcept {
-    return state.share * state.filter.estimate[of_drift];
+    const double drift = state.filter.estimate[of_drift];
+    const double unknown = min_sigmas * min_sigmas * state.filter.covariance[of_drift][of_drift];
+    return state.started && unknown < drift * drift ? drift - unknown / drift : 0.0;
 }
 
 double sigma_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept {

@@ -99,10 +99,10 @@ TEST(DriftCampaign, ByPhaseASwitchHasNoErrorWithTheSignOfTheFalseAngle) {
     c.motion.frequency_hz = {20.06};
     c.drift.magnetic_arcsec_s = 7.0;  // ten times the paper's: what a step between the modes does is ten times as large
     c.drift.magnetic_thermal_arcsec_s = 0.0;
-    c.compensation.magnetic_sigma_arcsec_s = 10.0;
     c.switching.interval_s = 4.3;
     c.switching.first_segment = config::FirstSegment::half;
     DriftMethod alone{.name = "alone", .compensation = {.relock = core::RelockMethod::joint}};
+    alone.compensation.magnetic_sigma_arcsec_s = 10.0;
     DriftMethod magnetic = alone;
     magnetic.compensation.magnetic = core::MagneticMethod::estimate;
     const auto figures = run({.gyros = {{"phase", c, {alone, magnetic}}}, .times_s = {1300.0}, .seeds = 2});

@@ -69,11 +69,9 @@ void add_motion(const CompensationConstants& gyro, const GapBridgeConfig& config
 
 GapSums sums_with_motion(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
                          const Gap& gap, std::int64_t end, int order) noexcept {
-    GapSums sums = sums_of(gyro, config, state, gap, end, order);
+    GapSums sums = sums_of(gyro, config, state, gap, end, order < 1 ? order : 1);
     add_motion(gyro, config, state, gap, sums);
-    GapSums line = sums_of(gyro, config, state, gap, end, 1);
-    add_motion(gyro, config, state, gap, line);
-    return line.angle_variance_arcsec2 < sums.angle_variance_arcsec2 ? line : sums;
+    return sums;
 }
 
 }  // namespace zlg::core

@@ -97,8 +97,8 @@ struct MagneticTick {
 [[nodiscard]] double step(const CompensationConstants& gyro, const MagneticDriftConfig& config,
                           MagneticDriftState& state, const MagneticTick& tick) noexcept;
 
-// The drift as far as the segments show it: `share` of (3) times its estimate, whatever the method and what was presumed. It
-// is the rate that alternates with the mode, drift or not.
+// The rate that alternates with the mode, drift or motion in step, as far as the filter knows it: its estimate times
+// 1 - 16 sigma^2/Om^2, sigma that of the filter alone, whatever the method and what was presumed.
 [[nodiscard]] double trusted_arcsec_s(const MagneticDriftState& state) noexcept;
 
 // Standard deviation of the drift: that of (3), with what a rotation in step could be unseen (motion_in_step.hpp). On a
