@@ -65,7 +65,6 @@ MODULES = [
     "gyro_control", "relock_drift", "relock_profile", "edge_shift", "gap_bridge", "motion_moments",
     "bridge_scores", "motion_learning", "optimal_bridge", "gap_mixture", "counted_stretch", "joint_relock", "angle", "gyro_compensation",
 ]
-CONTROL = MODULES[:MODULES.index("relock_drift")]
 WHOLE = "whole half-period"
 USUAL = "steady, 16 samples"
 
