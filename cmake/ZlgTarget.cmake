@@ -41,8 +41,9 @@ option(ZLG_BATCHES "compile the sources of large targets in batches; off for too
 function(zlg_in_batches target size)
     if(ZLG_BATCHES)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
-        # A local name is not hidden by what another source of the batch calls the same.
-        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow -Wshadow=local>)
+        # A local name is not hidden by what another source of the batch calls the same. What a source has for itself, GCC takes for a part
+        # of a header, since a batch includes it.
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow -Wshadow=local -Wno-subobject-linkage>)
     endif()
 endfunction()
 

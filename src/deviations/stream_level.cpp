@@ -9,7 +9,6 @@ namespace zlg::deviations {
 namespace {
 
 constexpr std::int64_t kept_windows = 3;  // a term spans up to three
-constexpr std::int64_t block_starts = 4096;
 constexpr std::int64_t run_means = 256;
 constexpr std::uint64_t runs_before_thinning = 16;
 

@@ -147,13 +147,13 @@ void tell(const CompensationConstants& g, FieldStepState& s, double by_jump, dou
     s.change_variance = variance;
 }
 
-// Without a step: a better mean of the drift; after a switch that was not understood, of the field in it.
+// Without a step: a better mean of the drift; after a switch that was left open, of the field in it.
 void follow(FieldStepState& s, double nu, double variance) noexcept {
     const double gain = s.drift_variance / variance;
     s.drift_arcsec_s += gain * nu;
     s.drift_variance -= gain * s.drift_variance;
     if (!s.is_open) return;
-    // Nobody knows when this came.
+    // The moment at which this came is unknown.
     if (s.field_arcsec_s != 0.0) {
         s.field_arcsec_s += gain * nu;
         s.change_variance = square(gain * nu);

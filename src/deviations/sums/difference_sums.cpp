@@ -9,8 +9,6 @@
 namespace zlg::deviations {
 namespace {
 
-// Starts that are taken through all averaging times before the next: what they share stays in the cache.
-constexpr std::int64_t block_starts = 4096;
 constexpr std::int64_t chunk_starts = 16 * block_starts;  // of one thread
 
 ZLG_VECTOR_WIDTHS double second_squares(const double* a, std::int64_t m, std::int64_t n) {

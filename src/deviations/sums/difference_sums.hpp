@@ -39,6 +39,10 @@ struct RecordView {
 // Known intervals that a window of m needs.
 [[nodiscard]] double min_known(std::int64_t m, double ratio);
 
+// Terms that are summed at once, in memory and as a stream: the same sums are added in both, and what averaging times share stays in
+// the cache.
+inline constexpr std::int64_t block_starts = 4096;
+
 // Terms begin .. end-1 of one averaging time, `order` 2 or 3: those that begin at border i.
 [[nodiscard]] TermSum difference_sum(const RecordView& view, int order, std::int64_t m, std::int64_t begin,
                                      std::int64_t end);

@@ -45,7 +45,7 @@ public:
         sample_.is_terminated = lines_.terminated();
     }
 
-    [[nodiscard]] const Sample& sample() const { return sample_; }
+    [[nodiscard]] const FirstLines& sample() const { return sample_; }
     [[nodiscard]] const std::string& path() const { return lines_.path(); }
     [[nodiscard]] std::int64_t number() const { return number_; }
     [[nodiscard]] bool terminated() const { return lines_.terminated(); }
@@ -78,7 +78,7 @@ private:
 
     LineReader lines_;
     const TextLayout& layout_;
-    Sample sample_;
+    FirstLines sample_;
     std::size_t n_handed_out_ = 0;
     std::int64_t n_skipped_ = 0;
     std::int64_t number_ = 0;

@@ -121,7 +121,7 @@ bool is_unit(std::string_view name) {
 
 // The columns that the header names without leaving their number open: none where a unit stands for itself among the names,
 // or a comma among them may be one of prose.
-std::vector<bool> named_columns(const Sample& sample, const Dialect& dialect) {
+std::vector<bool> named_columns(const FirstLines& sample, const Dialect& dialect) {
     std::vector<bool> named(dialect.n_fields, false);
     if (!dialect.has_header || dialect.names.size() != dialect.n_fields) return named;
     std::vector<Field> names;
@@ -149,7 +149,7 @@ bool may_be_thousands(const Field& before, const Field& field, char separator) {
 
 }  // namespace
 
-std::optional<std::size_t> likely_fraction(const Sample& sample, const Dialect& dialect) {
+std::optional<std::size_t> likely_fraction(const FirstLines& sample, const Dialect& dialect) {
     const std::vector<bool> named = named_columns(sample, dialect);
     std::vector<Suspect> suspects(dialect.n_fields);
     Points points{dialect.n_fields};
@@ -165,7 +165,7 @@ std::optional<std::size_t> likely_fraction(const Sample& sample, const Dialect& 
     return std::nullopt;
 }
 
-std::optional<std::size_t> likely_thousands(const Sample& sample, const Dialect& dialect) {
+std::optional<std::size_t> likely_thousands(const FirstLines& sample, const Dialect& dialect) {
     std::vector<bool> open(dialect.n_fields, true);
     std::vector<Field> fields;
     for (std::size_t k = dialect.has_header ? 1 : 0; k < sample.lines.size(); ++k) {
@@ -178,7 +178,7 @@ std::optional<std::size_t> likely_thousands(const Sample& sample, const Dialect&
     return static_cast<std::size_t>(found - open.begin());
 }
 
-bool header_counts_columns(const Sample& sample, const Dialect& dialect) {
+bool header_counts_columns(const FirstLines& sample, const Dialect& dialect) {
     const std::vector<bool> named = named_columns(sample, dialect);
     return named.size() > 1 && std::all_of(named.begin() + 1, named.end(), [](bool each) { return each; });
 }

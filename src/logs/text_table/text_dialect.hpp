@@ -15,7 +15,7 @@ struct Line {
 };
 
 // What stands at the head of a file, comments and lines to skip left out.
-struct Sample {
+struct FirstLines {
     std::vector<Line> lines;
     std::string comment;        // the last one above the first line, without its mark
     bool is_whole = false;      // the file has no more lines

@@ -64,7 +64,7 @@ bool commas_part_names(std::string_view header) {
 
 class Judge {
 public:
-    Judge(const Sample& sample, const std::string& path, const TextLayout& layout)
+    Judge(const FirstLines& sample, const std::string& path, const TextLayout& layout)
         : sample_{sample}, path_{path}, layout_{layout} {}
 
     [[nodiscard]] Reading read(char separator, Mark mark) const {
@@ -195,7 +195,7 @@ private:
         if (number && number->mark != Mark::none && !number->is_grouped) dialect.mark_is_sure = true;
     }
 
-    const Sample& sample_;
+    const FirstLines& sample_;
     const std::string& path_;
     const TextLayout& layout_;
 };
@@ -242,7 +242,8 @@ std::size_t field_of(const std::string& column, const Dialect& dialect, const st
     return static_cast<std::size_t>(found - dialect.names.begin());
 }
 
-Reading read_as(char separator, Mark mark, const Sample& sample, const std::string& path, const TextLayout& layout) {
+Reading read_as(char separator, Mark mark, const FirstLines& sample, const std::string& path,
+                const TextLayout& layout) {
     return Judge{sample, path, layout}.read(separator, mark);
 }
 

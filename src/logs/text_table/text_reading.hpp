@@ -24,7 +24,7 @@ struct Reading {
 };
 
 // The lines with that separator and that mark. It never fails: the verdict says how far it came, the reason what is wrong.
-[[nodiscard]] Reading read_as(char separator, Mark mark, const Sample& sample, const std::string& path,
+[[nodiscard]] Reading read_as(char separator, Mark mark, const FirstLines& sample, const std::string& path,
                               const TextLayout& layout);
 
 // The field of a column that is asked for by number or name.

@@ -28,7 +28,7 @@ constexpr std::array<Separator, 5> separators{{{'\t', TextSeparator::tab, "tab"}
 
 const char* name_of(char separator) { return std::ranges::find(separators, separator, &Separator::letter)->name; }
 
-bool has_quoted_comma(const Sample& sample) {
+bool has_quoted_comma(const FirstLines& sample) {
     std::vector<Field> fields;
     for (const Line& line : sample.lines) {
         if (line.text.find('"') == std::string::npos) continue;
@@ -40,7 +40,7 @@ bool has_quoted_comma(const Sample& sample) {
 }
 
 // As many tabs in every row, each between two fields, part columns; the blanks stand in words, dates and numbers.
-bool tabs_part_rows(const Sample& sample) {
+bool tabs_part_rows(const FirstLines& sample) {
     std::vector<Field> fields;
     std::size_t n_fields = 0;
     split_fields(sample.lines.front().text, '\t', fields);
@@ -55,7 +55,7 @@ bool tabs_part_rows(const Sample& sample) {
     return true;
 }
 
-std::vector<Reading> all_readings(const Sample& sample, const std::string& path, const TextLayout& layout) {
+std::vector<Reading> all_readings(const FirstLines& sample, const std::string& path, const TextLayout& layout) {
     const bool quoted_commas = has_quoted_comma(sample);
     const bool tabs_part = layout.separator == TextSeparator::automatic && tabs_part_rows(sample);
     std::vector<Reading> readings;
@@ -84,7 +84,7 @@ std::string in_words(const Reading& reading) {
                        reading.dialect.n_fields == 1 ? "" : "s", numbers);
 }
 
-[[noreturn]] void refuse_ambiguous(const Sample& sample, const std::string& path, const TextLayout& layout,
+[[noreturn]] void refuse_ambiguous(const FirstLines& sample, const std::string& path, const TextLayout& layout,
                                    const Reading& a, const std::string& other) {
     const Line& line = sample.lines[a.dialect.has_header ? 1 : 0];
     throw FormatError(
@@ -93,7 +93,7 @@ std::string in_words(const Reading& reading) {
 }
 
 // Every row has a number with parted thousands, or two columns of which the second has three digits.
-void refuse_parted_thousands(const Sample& sample, const std::string& path, const TextLayout& layout,
+void refuse_parted_thousands(const FirstLines& sample, const std::string& path, const TextLayout& layout,
                              const Reading& reading) {
     const Dialect& dialect = reading.dialect;
     if (dialect.separator != ',' && dialect.separator != blanks_separator) return;
@@ -109,7 +109,7 @@ void refuse_parted_thousands(const Sample& sample, const std::string& path, cons
 }
 
 // Between commas, any number might be the fraction of the one before.
-void refuse_double_commas(const Sample& sample, const std::string& path, const TextLayout& layout,
+void refuse_double_commas(const FirstLines& sample, const std::string& path, const TextLayout& layout,
                           const Reading& reading) {
     if (reading.dialect.separator != ',' || layout.separator != TextSeparator::automatic) return;
     if (layout.mark == TextMark::point) return;
@@ -122,7 +122,7 @@ void refuse_double_commas(const Sample& sample, const std::string& path, const T
 
 }  // namespace
 
-Dialect recognise_dialect(const Sample& sample, const std::string& path, const TextLayout& layout) {
+Dialect recognise_dialect(const FirstLines& sample, const std::string& path, const TextLayout& layout) {
     std::vector<Reading> readings = all_readings(sample, path, layout);
     std::vector<const Reading*> good;
     for (const Reading& reading : readings)

@@ -10,6 +10,6 @@
 namespace zlg::logs {
 
 // errors  FormatError: no way to read the lines as a table, or more than one; both are named, with the keys that decide.
-[[nodiscard]] Dialect recognise_dialect(const Sample& sample, const std::string& path, const TextLayout& layout);
+[[nodiscard]] Dialect recognise_dialect(const FirstLines& sample, const std::string& path, const TextLayout& layout);
 
 }  // namespace zlg::logs

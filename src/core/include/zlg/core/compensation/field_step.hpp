@@ -1,5 +1,6 @@
 #pragma once
-// Steps of the magnetic drift: an outer field that came, changed or went, told from a rotation by the next switch.
+// Steps of the magnetic drift: an outer field that came, changed or went, distinguished from a
+// rotation by the next switch.
 //
 // In mode m = +1 or -1 a gyro reads b + m Om, b the rotation and Om the magnetic drift. A step of the rate in a segment, from r0
 // to r1, is one of the rotation, or of the drift by d = m (r1 - r0). At the switch that ends the segment the mode turns its
@@ -10,7 +11,7 @@
 // Where nu is not 0 and agrees with d, the drift has stepped: its angle since then, the sum of (rate - r0) T over the rest of
 // the segment, was no rotation, and m d T of each tick to come is none. What r1 - r0 and (1) say of d counts by its variance.
 //
-// A field that came and went between two switches leaves (1) at 0, as a rotation does: nothing in the data tells it from one.
+// A field that came and went between two switches leaves (1) at 0, as a rotation does: nothing in the data distinguishes them.
 // docs/faults.md says how often that is.
 
 #include <array>
@@ -74,12 +75,12 @@ struct FieldStepState {
     SegmentStep before{};         // the segment before this one
     bool waits = false;           // until it is decided whether a field began there
     std::int64_t n_ticks = 0;     // of this segment
-    double drift_arcsec_s = 0.0;  // Om as the switches tell it, and its variance; 0: not started
+    double drift_arcsec_s = 0.0;  // Om by the switches, and its variance; 0: not started
     double drift_variance = 0.0;
-    bool is_open = false;          // what the last switch told was not understood
-    double unseen_arcsec_s = 0.0;  // the part of it that came where no step was seen: nobody knows when
+    bool is_open = false;          // the last switch was neither of the field nor of a rotation
+    double unseen_arcsec_s = 0.0;  // the part of it that came where no step was seen, at a moment unknown
     double field_arcsec_s = 0.0;   // the part of it that came in steps, and is subtracted
-    double change_variance = 0.0;  // of that part, by what this tick has told
+    double change_variance = 0.0;  // of that part, by this tick's measurement
     double waiting_arcsec = 0.0;   // angle that is still to be subtracted, over some seconds
     double waiting_arcsec2 = 0.0;  // variance that is still to be added to ticks, over some seconds
 
@@ -114,13 +115,13 @@ bool pause(const CompensationConstants& gyro, const FieldStepPrior& prior, Field
 
 // Advance by one measured tick.
 //
-// Whether a field began in the last segment is decided when (1) tells it, from one second after the re-lock on. Where it tells
-// nothing in four seconds, the angle since the step may be rotation or not, and its square is added to the variance of the
+// Whether a field began in the last segment is decided by (1), from one second after the re-lock on. Where it is not decided
+// in four seconds, the angle since the step may be rotation or not, and its square is added to the variance of the
 // ticks that follow; so is what a field that is subtracted may have been wrong by in that segment, and the variance of an angle that
 // is subtracted. All come with a time constant of 256 ticks.
 //
-// Without a step (1) is a better mean of the drift. Where it stayed open what a switch told and the next one tells the same, the
-// field follows, if there is one.
+// Without a step (1) is a better mean of the drift. Where one switch left it open and the next one has the same (1), the field
+// follows, if there is one.
 //
 // cost  25 instructions a tick; some 300 where a block ends.
 [[nodiscard]] FieldStepOutput step(const CompensationConstants& gyro, const FieldStepPrior& prior,

@@ -86,8 +86,8 @@ struct MagneticTick {
 // rotation in step that jumps with the switches is bounded by sigma_p alone, the standard deviation of the presumed drift,
 // of its warming by now and of its random walk. Segments whose rate scatters by more than 300 arcsec/s are not used.
 //
-// Steps of the drift are found at the switches (field_step.hpp) and subtracted before all this: they are sure where they are
-// told, and too fast for the filter. What it knew of the drift loses their variance.
+// Steps of the drift are found at the switches (field_step.hpp) and subtracted before all this: they are certain where they are
+// found, and too fast for the filter. What it knew of the drift loses their variance.
 //
 // config  passed `check`.
 // state   from MagneticDriftState{}.

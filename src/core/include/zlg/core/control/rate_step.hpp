@@ -1,6 +1,6 @@
 #pragma once
 // A lasting step of the rate after a steady stretch. Within one mode an outer field and a rotation look alike; a switch tells
-// them apart, so that a schedule that is told of the step can switch early (switch_schedule.hpp).
+// them apart, so that a schedule that knows of the step can switch early (switch_schedule.hpp).
 
 #include <cstdint>
 
