@@ -81,6 +81,13 @@ rig::LogCompensation log_compensation(const Options& options, const logs::RawHea
                         "angles come from {}",
                         log_path, by_phase ? "phase" : "count", log.has_fringe ? "has" : "lacks",
                         log.has_fringe ? "counts and fringe" : "whole counts"));
+    const bool by_coil = asked.gyro.coil_current == config::CoilCurrent::record;
+    if (config::is_given(asked, "gyro.coil_current") && by_coil != log.has_coil)
+        made.notes.push_back(fmt::format(
+            "{}: gyro.coil_current = \"{}\" is for a gyro that runs; this log {} the column coil_ua, and an asymmetry "
+            "of the current {}",
+            log_path, by_coil ? "record" : "monitor", log.has_coil ? "has" : "lacks",
+            log.has_coil ? "is subtracted" : "stays in its angles"));
     for (const std::string& note : made.notes) complain("note: " + note);
     for (const std::string& warning : made.warnings) complain("warning: " + warning);
     return made;
@@ -147,6 +154,7 @@ int logged_light_samples(const Options& options, const config::Config& config, l
 logs::RawColumns raw_columns(const config::Config& config) {
     logs::RawColumns columns = logs::all_raw_columns;
     columns.has_fringe = config.gyro.readout == config::Readout::phase;
+    columns.has_coil = config.gyro.coil_current == config::CoilCurrent::record;
     columns.has_edge_offset = config.gyro.dither != core::DitherMethod::none;
     columns.timer_hz = rig::timer_hz;
     return columns;

@@ -114,6 +114,7 @@ class HalfRecord:
     span: int
     fringe: float
     lit: bool
+    coil_ua: int
 
 class IoError(Error, OSError): ...
 

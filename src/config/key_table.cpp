@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "ran
 constexpr std::array<std::string_view, 2> fidelities{"averaged", "laser"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
 constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
+constexpr std::array<std::string_view, 2> coil_currents{"monitor", "record"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
 constexpr std::array<std::string_view, 2> last_segments{"any", "half"};
 constexpr std::array<std::string_view, 2> after_steps{"wait", "switch"};
@@ -101,6 +102,10 @@ const Key table[] = {
     {"gyro", "readout", "",
      "what is latched of the beat: whole counts, or with both photodiodes the place within the fringe too",
      choice<&C::gyro, &Gyro::readout>(readouts)},
+
+    {"gyro", "coil_current", "",
+     "what the current of the bias coil is read for: monitors, or records too, by which an asymmetry is subtracted",
+     choice<&C::gyro, &Gyro::coil_current>(coil_currents)},
 
     {"laser", "perimeter_m", "m", "length of the ring",
      Real{at<&C::laser, &Laser::perimeter_m>, {.min = 1e-3, .max = 1e3}}},

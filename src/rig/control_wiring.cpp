@@ -58,6 +58,7 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     made.health.counts_limit = counts_limit(config);
     made.bias_monitor.presumed_counts = std::min(bias_counts, 1e15);
     if (bias_counts >= core::min_bias_counts) made.coil_monitor.tolerance_ratio = 0.5 / bias_counts;
+    made.records_coil = g.coil_current == config::CoilCurrent::record;
     made.counter_monitor.watches = true;
     made.light_monitor.noise = core::Wavelengths{g.light_noise_lambda};
     // A laser whose curve is not known reads several times its detuning: the bias cannot have lost what that would take.

@@ -106,6 +106,7 @@ constexpr std::tuple table{
             [](auto& c) -> auto& { return c.detuning_monitor.max_change_lambda2; }),
     control(0x0709, rw, "detuning_monitor.relock_ticks",
             [](auto& c) -> auto& { return c.detuning_monitor.relock_ticks; }),
+    control(0x070A, ro, "records_coil", [](auto& c) -> auto& { return c.records_coil; }),
     control(0x0801, ro, "fringe.reads", [](auto& c) -> auto& { return c.fringe.reads; }),
     control(0x0802, ro, "fringe.counts_per_turn", [](auto& c) -> auto& { return c.fringe.counts_per_turn; }),
     control(0x0803, rw, "fringe.amplitude", [](auto& c) -> auto& { return c.fringe.amplitude; }),

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <zlg/numeric/parallel.hpp>
+#include <zlg/trials/table_head.hpp>
 
 namespace zlg::trials {
 namespace {
@@ -154,11 +155,9 @@ std::vector<std::string> complaints(const std::vector<FaultFigures>& figures) {
 
 std::string markdown(const std::vector<FaultFigures>& figures) {
     std::string text =
-        "| fault | number | detected | after, ms: median, longest | valid outside | valid after | mean square of error "
-        "over sigma | wrong ticks: valid, "
-        "bridged | faults with them | angle claimed | beyond 5 sigma | rms of the others, arcsec | recovered | NaN | "
-        "crash |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        table_head({"fault", "number", "detected", "after, ms: median, longest", "valid outside", "valid after",
+                    "mean square of error over sigma", "wrong ticks: valid, bridged", "faults with them",
+                    "angle claimed", "beyond 5 sigma", "rms of the others, arcsec", "recovered", "NaN", "crash"});
     for (const FaultFigures& f : figures) {
         const std::string detected =
             f.kind == "none" ? "" : fmt::format("{:.1f} %", 100.0 * ratio(f.detected, f.faults));

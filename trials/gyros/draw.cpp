@@ -113,6 +113,7 @@ public:
         set_switching();
         set_compensation();
         set_one_of("switching.after_step", std::array{"wait", "wait", "switch"});
+        set_one_of("gyro.coil_current", std::array{"monitor", "record"});
         return std::move(settings_);
     }
 

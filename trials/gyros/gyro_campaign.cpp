@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <zlg/numeric/parallel.hpp>
+#include <zlg/trials/table_head.hpp>
 
 namespace zlg::trials {
 namespace {
@@ -107,12 +108,10 @@ std::vector<std::string> complaints(const std::vector<GyroOutcome>& outcomes) {
 
 std::string summary_markdown(const std::vector<GyroOutcome>& outcomes) {
     std::string text =
-        "| fidelity | gyros | draws refused | lost | with false alarms | with unrepaired ticks | ticks valid | "
-        "switches | "
-        "flagged, failed | gyros with 5 switches | their rms error of a switch, arcsec: median | rms of error over "
-        "sigma: "
-        "5 %, median, 95 % | worst switch, sigma: without, with flag | valid ticks beyond 5 sigma |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        table_head({"fidelity", "gyros", "draws refused", "lost", "with false alarms", "with unrepaired ticks",
+                    "ticks valid", "switches", "flagged, failed", "gyros with 5 switches",
+                    "their rms error of a switch, arcsec: median", "rms of error over sigma: 5 %, median, 95 %",
+                    "worst switch, sigma: without, with flag", "valid ticks beyond 5 sigma"});
     for (const config::Fidelity fidelity : {config::Fidelity::averaged, config::Fidelity::laser}) {
         std::vector<GyroOutcome> some;
         std::ranges::copy_if(outcomes, std::back_inserter(some),
@@ -124,11 +123,9 @@ std::string summary_markdown(const std::vector<GyroOutcome>& outcomes) {
 
 std::string gyros_markdown(const std::vector<GyroOutcome>& outcomes) {
     std::string text =
-        "| gyro | fidelity | refused | ticks | valid | unrepaired | switches | flagged | failed | rms error, arcsec | "
-        "rms of "
-        "error over sigma | worst, sigma: without, with flag | wrong ticks | drift, arcsec/s | lost | false alarms | "
-        "command |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        table_head({"gyro", "fidelity", "refused", "ticks", "valid", "unrepaired", "switches", "flagged", "failed",
+                    "rms error, arcsec", "rms of error over sigma", "worst, sigma: without, with flag", "wrong ticks",
+                    "drift, arcsec/s", "lost", "false alarms", "command"});
     for (const GyroOutcome& o : outcomes)
         text += fmt::format(
             "| {} | {} | {} | {} | {:.2f} % | {} | {} | {} | {} | {:.3g} | {:.2f} | {:.1f}, {:.1f} | {} | {:.3g} | {} "

@@ -282,6 +282,26 @@ void read_lit_halves(const GyroCompensationConfig& config, GyroCompensationState
         add_gap_tick(config.gyro, state.bridge.lit, read, !state.bridge.gap.open, motion_arcsec2);
 }
 
+// Of a tick, and of the sum over a gap, in which eps is presumed to be that of its end. Returns what is subtracted from the tick.
+double subtract_asymmetry(const CompensationConstants& gyro, CoilAsymmetryState& state, const HalfRecord& first,
+                          const HalfRecord& second, TickInput& tick) noexcept {
+    // Most logs have no current.
+    if (second.coil_ua == 0 && state.n_differences == 0.0) return 0.0;
+    const double bias_hz = bias_at(gyro, Celsius{first.temperature_c}).value();
+    const double per_ratio = tick.mode * gyro.scale.value() * gyro.tick.value() * bias_hz;
+    const CoilAsymmetry coil =
+        step(state, first, second, {tick.measured, tick.mode, tick.value_arcsec, rounding_arcsec2(gyro), per_ratio});
+    if (coil.variance == 0.0) return 0.0;
+    const double known_ticks = as_double(tick.known_ticks);
+    const double subtracted = per_ratio * coil.ratio;
+    const double variance_arcsec2 = per_ratio * per_ratio * coil.variance;
+    tick.value_arcsec -= subtracted;
+    tick.variance_arcsec2 += variance_arcsec2;
+    tick.known_arcsec -= known_ticks * subtracted;
+    tick.known_variance_arcsec2 += known_ticks * known_ticks * variance_arcsec2;
+    return subtracted;
+}
+
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
                                  const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
@@ -325,10 +345,11 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         state.first_waits = false;
     }
     tick.bias_arcsec = state.bias_arcsec;
-    const double drift_arcsec = magnetic_arcsec(config, state, tick);
-    tick.value_arcsec -= drift_arcsec;
+    const double uneven_arcsec = subtract_asymmetry(config.gyro, state.coil, first, second, tick);
+    const double magnetic = magnetic_arcsec(config, state, tick);
+    tick.value_arcsec -= magnetic;
     if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
-        read_lit_halves(config, state, second, borders.start, tick, drift_arcsec);
+        read_lit_halves(config, state, second, borders.start, tick, uneven_arcsec + magnetic);
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, config.bridge, state.bridge, tick)};
     remember(state.switch_errors, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;

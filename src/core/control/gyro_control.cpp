@@ -38,7 +38,8 @@ HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
             .edge_offset_ticks = o.commuted.edge_offset_ticks,
             .span = has_counts ? o.reading.span : 1,
             .fringe = o.fringe.fringe,
-            .lit = o.steady};
+            .lit = o.steady,
+            .coil_ua = o.coil_ua};
 }
 
 // Whether the piezo has been near an end of its range for so long that it should be led back towards the middle, and a

@@ -37,6 +37,12 @@ enum class MotionPrior { learnt, flat, lines };
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
 
+// What the current of the bias coil is read for.
+enum class CoilCurrent {
+    monitor,  // health alone
+    record,   // the raw log and the compensation, too
+};
+
 struct Run {
     std::optional<double> duration_s;  // unset: 3600, or the length of the motion file
     std::uint64_t seed = 1;
@@ -45,6 +51,7 @@ struct Run {
 // What makes the gyro itself stands in the sections of the twin; added here is what its processor presumes or does.
 struct Gyro : twin::GyroConfig {
     core::DitherMethod dither = core::DitherMethod::none;
+    CoilCurrent coil_current = CoilCurrent::monitor;
     std::optional<double> counter_max_hz;  // unset: 1.01 times that of 400 deg/s and the bias
 };
 

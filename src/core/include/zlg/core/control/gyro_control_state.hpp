@@ -38,6 +38,7 @@ struct GyroControlConfig {
     HealthConfig health{};
     BiasMonitorConfig bias_monitor{};
     CoilMonitorConfig coil_monitor{};
+    bool records_coil = false;  // the coil's current goes into the records, and compensation uses it
     CounterMonitorConfig counter_monitor{};
     LightMonitorConfig light_monitor{};
     DetuningMonitorConfig detuning_monitor{};
