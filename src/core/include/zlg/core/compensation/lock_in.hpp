@@ -14,8 +14,8 @@
 // that of random phases, by the first term of (L^2 t_e/2 f0) ln|(f0 + r)/(f0 - r)|: what it leaves out is less than 0.003 of the whole below
 // the bias and 0.02 beyond it, with edges of T/100.
 //
-// Where the threshold is known, a half whose beat may stand still (|b| below the largest threshold and one count) tells only that |f| is no larger than that: the
-// variance holds it.
+// Where the threshold is known: a half whose beat may stand still (|b| below the largest threshold and a count) tells only that |f| is
+// no larger than that, and the variance holds it.
 
 #include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/units.hpp>
