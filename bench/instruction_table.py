@@ -39,6 +39,7 @@ PART_OF = {
     "gap_known": "counted_stretch",
     "gap_known_estimate": "counted_stretch",
     "joint_relock": "optimal_bridge",
+    "lock_in": "edge_shift",
     "lit_halves": "optimal_bridge",
     "motion_covariance": "optimal_bridge",
     "mixture_models": "gap_mixture",

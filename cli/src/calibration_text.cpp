@@ -14,6 +14,8 @@ using nlohmann::json;
 
 // No key of a configuration: it says how to renew two of them.
 constexpr std::string_view scale_name = "detuning_scale";
+// What the compensation is told with its sigma.
+constexpr std::string_view lock_in_key = "compensation.lock_in_hz";
 constexpr std::string_view curve_name = "perimeter.discriminator_signal";
 
 std::string with_unit(const std::string& text, const std::string& unit) {
@@ -165,8 +167,11 @@ std::string calibration_toml(const CalibrationResult& result) {
     for (const Constant& c : result.calibration.constants)
         if (c.key == scale_name) text += scale_comment(c, result.calibration.curve.determined);
     text += "\n[perimeter]\n" + curve_section(result);
-    for (const char* section : {"piezo", "drift"})
+    for (const char* section : {"piezo", "drift", "compensation"})
         text += fmt::format("\n[{}]\n{}", section, toml_section(result, section));
+    for (const Constant& c : result.calibration.constants)
+        if (c.key == lock_in_key && c.estimate.determined)
+            text += fmt::format("lock_in_sigma_hz = {:.3g}\n", c.estimate.sigma);
     return text;
 }
 

@@ -28,7 +28,7 @@ constexpr double max_rate_arcsec_s = 1e9;
 
 struct CalibrateOptions : Options {
     std::vector<std::string> raws;
-    double rate_arcsec_s = 0.0;
+    std::vector<double> rate_arcsec_s;
     bool from_laser = false;
 };
 
@@ -106,6 +106,8 @@ calibration::Presumed presumed(const CalibrateOptions& options, const Lab& lab) 
     return {.scale_arcsec = of_logs.gyro.scale_arcsec,
             .reference_temperature_c = of_logs.gyro.reference_temperature_c,
             .rate_arcsec_s = options.rate_arcsec_s,
+            .bias_edge_s = of_logs.gyro.bias_edge_s,
+            .counts_per_turn = static_cast<double>(counts_per_turn(of_logs.laser.quadrature)),
             .stepped_voltage = of_logs.perimeter.loop == config::Loop::digital,
             .read_by_slope = read_by_one_slope(lab),
             .bias_temperature_coefficient_per_c = said.gyro.bias_temperature_coefficient_per_c,
@@ -151,9 +153,13 @@ std::string far_reference(const CalibrateOptions& options, const Lab& lab,
 }
 
 void check_usage(const CalibrateOptions& options) {
-    if (!(std::abs(options.rate_arcsec_s) <= max_rate_arcsec_s))
-        throw UsageError{
-            fmt::format("--rate-arcsec-s {}: allowed is -1e9..1e9, more than any gyro turns", options.rate_arcsec_s)};
+    for (const double rate_arcsec_s : options.rate_arcsec_s)
+        if (!(std::abs(rate_arcsec_s) <= max_rate_arcsec_s))
+            throw UsageError{
+                fmt::format("--rate-arcsec-s {}: allowed is -1e9..1e9, more than any gyro turns", rate_arcsec_s)};
+    if (options.rate_arcsec_s.size() > 1 && options.rate_arcsec_s.size() != options.raws.size())
+        throw UsageError{fmt::format("--rate-arcsec-s: {} rates of {} logs; allowed is one for all or one for each",
+                                     options.rate_arcsec_s.size(), options.raws.size())};
     if (options.from_laser && !options.raws.empty())
         throw UsageError{fmt::format("--from-laser: takes no log; {} is one. A configuration is named by --config",
                                      options.raws.front())};
@@ -205,7 +211,12 @@ void add_calibrate(CLI::App& program) {
         "calibrate", "laboratory logs in, the constants that compensation presumes out, each with its sigma");
     verb->add_option("RAW", options->raws, "raw logs of one gyro, at rest or at a known rate");
     verb->add_flag("--from-laser", options->from_laser, "derive bias, chi and discriminator from [laser] instead");
-    verb->add_option("--rate-arcsec-s", options->rate_arcsec_s, "known rate of rotation, arcsec/s");
+    verb->add_option(
+            "--rate-arcsec-s", options->rate_arcsec_s,
+            "known rate of rotation, arcsec/s; one for all logs, or one for each in their order, with commas between")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { calibrate(*options); });

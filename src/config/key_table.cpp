@@ -305,6 +305,13 @@ const Key table[] = {
      Real{at<&C::compensation, &Compensation::magnetic_thermal_sigma_arcsec_s>, drift_sigma}},
     {"compensation", "magnetic_thermal_time_s", "s", "time constant of the warming, presumed",
      Real{at<&C::compensation, &Compensation::magnetic_thermal_time_s>, {.min = 1e-9, .max = 1e12}}},
+    {"compensation", "lock_in_hz", "Hz",
+     "beat frequency below which the waves lock, by calibration: what it takes from the counts is put back; 0: nothing "
+     "is",
+     Real{at<&C::compensation, &Compensation::lock_in_hz>, {.min = 0.0, .max = 1e6}}},
+    {"compensation", "lock_in_sigma_hz", "Hz",
+     "standard deviation of lock_in_hz; the default is that of no calibration",
+     Real{at<&C::compensation, &Compensation::lock_in_sigma_hz>, {.min = 0.0, .max = 1e6}}},
 
     {"motion", "kind", "", "how the gyro is turned", choice<&C::motion, &Motion::kind>(motions)},
     {"motion", "rate_arcsec_s", "arcsec/s", "constant rate; added to sine and sum",

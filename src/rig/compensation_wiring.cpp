@@ -97,6 +97,13 @@ core::MagneticDriftConfig magnetic_of(const config::Config& config) {
             .thermal_time = core::Seconds{c.magnetic_thermal_time_s}};
 }
 
+// Thresholds of the beat; the core counts `counts_per_turn` in a cycle of it.
+core::LockInConfig lock_in_of(const config::Config& config) {
+    const double counts = counts_per_turn(config.laser.quadrature);
+    return {.threshold = core::Hertz{counts * config.compensation.lock_in_hz},
+            .sigma = core::Hertz{counts * config.compensation.lock_in_sigma_hz}};
+}
+
 [[noreturn]] void refuse_prior(const config::Config& config) {
     refuse(config,
            {"compensation.prior", "compensation.prior_band_hz", "compensation.prior_rate_arcsec_s",
@@ -124,6 +131,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
                                                        .points_after = c.points_after,
                                                        .optimal = optimal_config(config, relock, bridge)},
                                             .magnetic = magnetic_of(config),
+                                            .lock_in = lock_in_of(config),
                                             .gyro = constants_of(config)};
     switch (check(made)) {
         case core::GyroCompensationFault::none:
@@ -147,6 +155,8 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
                     "compensation.magnetic_thermal_arcsec_s", "compensation.magnetic_thermal_sigma_arcsec_s",
                     "compensation.magnetic_thermal_time_s"},
                    "drifts of up to 1e6 arcsec/s and a time constant of 1e-9..1e12 s");
+        case core::GyroCompensationFault::lock_in:
+            refuse(config, {"compensation.lock_in_hz", "compensation.lock_in_sigma_hz"}, "0..1e6");
     }
     throw config::ConfigError{named(config, "the compensation refuses this gyro")};
 }

@@ -143,7 +143,9 @@ constexpr std::tuple table{
             [](auto& c) -> auto& { return c.magnetic.presumed_arcsec_s; }),
     compensation(0x1303, ro, "magnetic.presumed_sigma_arcsec_s",
             [](auto& c) -> auto& { return c.magnetic.presumed_sigma_arcsec_s; }),
-    compensation(0x1304, rw, "magnetic.thermal_time_s", [](auto& c) -> auto& { return c.magnetic.thermal_time; })};
+    compensation(0x1304, rw, "magnetic.thermal_time_s", [](auto& c) -> auto& { return c.magnetic.thermal_time; }),
+    compensation(0x1401, rw, "lock_in.threshold_hz", [](auto& c) -> auto& { return c.lock_in.threshold; }),
+    compensation(0x1402, rw, "lock_in.sigma_hz", [](auto& c) -> auto& { return c.lock_in.sigma; })};
 // clang-format on
 
 template <class Unit>

@@ -45,6 +45,7 @@ struct SyntheticGyro {
     int gap_ticks = 3;
     int mode_changes = 1;  // 0: the same mode after every gap
     std::uint64_t seed = 1;
+    double lock_hz = 0.0;  // of a gyro whose field turns round in no time
 
     [[nodiscard]] double temperature_c(double t_s, double duration_s) const {
         return start_c + rise_c * t_s / duration_s;
@@ -121,6 +122,9 @@ private:
         const double angle = (g_.rate_arcsec_s + mode_ * magnetic + sway) * half_s +
                              g_.walk_arcsec_sqrt_s * std::sqrt(half_s) * normal();
         double cycles = r.bias_sign * mode_ * f * (1.0 - g_.chi * true_square_) * half_s + angle / g_.scale_arcsec;
+        // Adler's mean beat.
+        const double locked = g_.lock_hz * half_s;
+        cycles = std::copysign(std::sqrt(std::fmax(cycles * cycles - locked * locked, 0.0)), cycles);
         if (gap) cycles += 10.0 * normal();
         const double before = std::floor(phase_);
         phase_ += cycles;

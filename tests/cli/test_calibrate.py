@@ -195,6 +195,45 @@ class Discriminator(CliTest):
                     "perimeter.discriminator_detuning_lambda=[0.1,0.2]", "--out", self.folder / "a.csv", says=("growing",))
 
 
+class RateTable(Simulated):
+    RATES = [0, 60000, -120000, 160000, -165000, 170000, -175000, 180000, -183000, 186000, -188000]
+    LASER = {"gyro.fidelity": "laser", "gyro.dither": "auto", "gyro.light_samples": 4, "laser.lock_in_left_hz": 300.0,
+             "laser.lock_in_right_hz": 300.0, "motion.kind": "constant", "switching.interval_s": 5.0}
+
+    def table(self):
+        logs = []
+        for k, rate in enumerate(self.RATES):
+            logs.append(self.folder / f"table_{k}.csv")
+            self.succeed("simulate", "--duration", 30, "--seed", k + 1, *settings({**self.LASER, "motion.rate_arcsec_s": rate}),
+                         "--out", logs[-1])
+        return logs
+
+    def test_the_threshold_of_lock_in_is_found_and_used(self):
+        logs, toml = self.table(), self.folder / "found.toml"
+        rates = "--rate-arcsec-s=" + ",".join(map(str, self.RATES))
+        result = json.loads(self.succeed("calibrate", *logs, rates, "--out", toml, "--json").stdout)
+        self.assert_found(result, {"compensation.lock_in_hz": 300.0}, 3.0)
+        self.assertLess(result["constants"]["compensation.lock_in_hz"]["sigma"], 20.0)
+        self.assertIn("several rates", result["not_determined"]["drift.magnetic_arcsec_s"])
+        found = dict(line.split("  #")[0].split(" = ") for line in toml.read_text().splitlines() if line.startswith("lock_in"))
+        self.assertEqual(set(found), {"lock_in_hz", "lock_in_sigma_hz"})
+
+        def scale_error_ppm(*options):
+            angles = self.folder / "angles.csv"
+            self.succeed("process", logs[-1], *options, "--out", angles, "--force")
+            final = AngleLog(angles).final
+            return 1e6 * (sum(final) / (len(final) * 0.005) / -188000 - 1)
+
+        used = [word for key, value in found.items() for word in ("--set", f"compensation.{key}={value}")]
+        self.assertGreater(scale_error_ppm(), 120.0)
+        self.assertLess(abs(scale_error_ppm(*used)), 20.0)
+
+    def test_rates_are_one_for_all_or_one_for_each(self):
+        log = self.write("log.csv", csv_text(quiet_log()))
+        self.refuse(2, "calibrate", log, "--rate-arcsec-s=1,2", says=("2 rates of 1 logs",))
+        self.refuse(2, "calibrate", log, "--rate-arcsec-s=1e10", says=("1e9",))
+
+
 class Output(Simulated):
     def test_toml_configures_process_and_run(self):
         log, toml = self.simulate(duration=100), self.folder / "found.toml"

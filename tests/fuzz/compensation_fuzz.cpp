@@ -46,6 +46,7 @@ GyroCompensationConfig config_from(Bytes& bytes) {
     if (bytes.flag()) c.gyro.timer = Hertz{bytes.real(1e7)};
     if (bytes.flag()) c.gyro.random_walk = ArcsecPerRootSecond{bytes.real(0.14)};
     c.magnetic.method = static_cast<MagneticMethod>(bytes.index(3));
+    if (bytes.flag()) c.lock_in = {.threshold = Hertz{bytes.real(150.0)}, .sigma = Hertz{bytes.real(300.0)}};
     return c;
 }
 

@@ -104,6 +104,22 @@ TEST(Wiring, the_magnetic_estimate_is_told_the_calibration) {
     EXPECT_EQ(made.thermal_time.value(), 2500.0);
 }
 
+TEST(Wiring, the_threshold_of_lock_in_is_counted_as_the_beat_is) {
+    config::Config c;
+    c.compensation.lock_in_hz = 140.0;
+    c.compensation.lock_in_sigma_hz = 2.0;
+    const auto made = [&] {
+        return rig::compensation_config(c, core::RelockMethod::none, core::BridgeMethod::constant).lock_in;
+    };
+    EXPECT_EQ(made().threshold.value(), 140.0);
+    EXPECT_EQ(made().sigma.value(), 2.0);
+    c.laser.quadrature = config::Quadrature::x4;
+    EXPECT_EQ(made().threshold.value(), 560.0);
+    EXPECT_EQ(made().sigma.value(), 8.0);
+    c.compensation.lock_in_hz = -1.0;
+    EXPECT_THROW((void)made(), config::ConfigError);
+}
+
 TEST(Wiring, a_run_lasts_an_hour_or_as_long_as_it_is_told) {
     config::Config c;
     const auto motion = rig::motion(c);

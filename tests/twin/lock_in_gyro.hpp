@@ -43,8 +43,12 @@ public:
     // One period: the angle read, arcsec.
     double tick() {
         const double first = half(+1);
+        seen_first_ = seen_;
         return first + half(-1);
     }
+    // The counts of its halves, with their parts.
+    [[nodiscard]] double seen_first() const { return seen_first_; }
+    [[nodiscard]] double seen_second() const { return seen_; }
     // n periods: the mean rate read, arcsec/s.
     double mean_rate(int n) {
         double sum = 0.0;
@@ -86,11 +90,11 @@ private:
                                      counts};
             (void)core::step(dither_, state_, in);
         }
-        const double seen = g_.counts_only ? static_cast<double>(counts) : latched_.minus(before);
+        seen_ = g_.counts_only ? static_cast<double>(counts) : latched_.minus(before);
         const double bias = sign * g_.helicity * g_.bias_hz * (0.5 * g_.tick_s - 0.5 * g_.edge_s) +
                             g_.helicity * g_.bias_hz * excess / timer_hz;
         // The latch moves with the edge: of the rotation meanwhile the nominal half is wanted.
-        return g_.scale_arcsec * (seen - bias) - g_.rate_arcsec_s * (length_s - 0.5 * g_.tick_s);
+        return g_.scale_arcsec * (seen_ - bias) - g_.rate_arcsec_s * (length_s - 0.5 * g_.tick_s);
     }
 
     LockInGyro g_;
@@ -100,6 +104,7 @@ private:
     Turns latched_;
     core::EdgeDitherConfig dither_;
     core::EdgeDitherState state_;
+    double seen_ = 0.0, seen_first_ = 0.0;
 };
 
 }  // namespace zlg::twin

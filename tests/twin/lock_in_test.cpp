@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
+#include <zlg/core/compensation/lock_in.hpp>
 
 #include "lock_in_gyro.hpp"
 
@@ -156,6 +158,74 @@ TEST(LockIn, TheScaleFactorGrowsByTheExactStepperToo) {
     for (const double rate : {60e3, -120e3}) {
         const LockInGyro g{.lock_hz = 300.0, .rate_arcsec_s = rate, .dithered = true};
         EXPECT_NEAR(scale_error(g, 200'000) / scale_error_formula(g), 1.0, 0.05) << rate;
+    }
+}
+
+// Mean error of the rate, as it is read and with what the core puts back, and the mean of what it claims of that.
+struct PutBack {
+    double plain_arcsec_s = 0.0;
+    double left_arcsec_s = 0.0;
+    double sigma_arcsec_s = 0.0;
+};
+
+void add_run(const LockInGyro& g, const core::LockInConfig& config, int n, double share, PutBack& sum) {
+    const double edge_ratio = g.edge_s / g.tick_s;
+    const core::CompensationConstants gyro{.tick = core::Seconds{g.tick_s},
+                                           .bias = core::Hertz{g.bias_hz * (1.0 - edge_ratio)},
+                                           .plateau_ratio = 1.0 / (1.0 - edge_ratio)};
+    LockInRun run{g};
+    run.mean_rate(200);
+    const double to_rate = share * g.scale_arcsec / (n * g.tick_s);
+    for (int i = 0; i < n; ++i) {
+        const double plain = share / (n * g.tick_s) * run.tick() - share / n * g.rate_arcsec_s;
+        const double first = run.seen_first(), second = run.seen_second();
+        const core::LostCounts lost =
+            config.threshold.value() > 0.0
+                ? core::lost_to_lock_in(gyro, config, first, second)
+                : core::LostCounts{.variance = core::unknown_loss_counts2(gyro, config, first + second)};
+        sum.plain_arcsec_s += plain;
+        sum.left_arcsec_s += plain + to_rate * lost.value;
+        sum.sigma_arcsec_s += to_rate * std::sqrt(lost.variance);
+    }
+}
+
+// Over rates within three dynamic zones to either side: near the bias each pulls towards its centre, in spite of the dither.
+PutBack put_back(LockInGyro g, const core::LockInConfig& config, double rate_arcsec_s) {
+    constexpr int n_rates = 60, n_ticks = 600;
+    std::mt19937_64 random{7};
+    std::uniform_real_distribution<double> beside{-3.0, 3.0};
+    PutBack sum;
+    for (int i = 0; i < n_rates; ++i) {
+        g.rate_arcsec_s = rate_arcsec_s + beside(random) * zone_spacing_arcsec_s(g);
+        g.start_turns = beside(random);
+        add_run(g, config, n_ticks, 1.0 / n_rates, sum);
+    }
+    return sum;
+}
+
+// With the exact stepper, which knows Adler's equation alone. The walk of 300 Hz is 0.28 arcsec/sqrt(s), over 180 s; 60 readings of
+// whole counts over 3 s are rounded.
+TEST(LockIn, ACalibratedThresholdTakesTheScaleErrorAway) {
+    const core::LockInConfig known{.threshold = core::Hertz{300.0}};
+    const double walk = 0.28 / std::sqrt(180.0);
+    const double rounding = 3.263 / 3.0 / std::sqrt(6.0 * 60.0);
+    for (const double rate : {0.0, 60e3, -120e3, 188e3, -188e3, 203e3, 400e3}) {
+        for (const bool counts_only : {false, true}) {
+            const LockInGyro g{.dithered = true, .counts_only = counts_only};
+            const PutBack read = put_back(g, known, rate);
+            const double noise = counts_only ? std::hypot(walk, rounding) : walk;
+            const double near_bias = std::abs(rate) > 180e3 && std::abs(rate) < 210e3 ? 0.04 : 0.0;
+            EXPECT_NEAR(read.left_arcsec_s, 0.0, 4.0 * noise + near_bias * std::abs(read.plain_arcsec_s)) << rate;
+        }
+    }
+}
+
+TEST(LockIn, AnUnknownThresholdOfItsPresumedSizeLeavesOneSigma) {
+    const core::LockInConfig unknown{.sigma = core::Hertz{300.0}};
+    for (const double rate : {-120e3, 188e3, 203e3}) {
+        const PutBack read = put_back({.dithered = true}, unknown, rate);
+        EXPECT_EQ(read.left_arcsec_s, read.plain_arcsec_s);
+        EXPECT_NEAR(std::abs(read.plain_arcsec_s) / read.sigma_arcsec_s, 1.0, 0.05) << rate;
     }
 }
 

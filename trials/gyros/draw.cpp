@@ -114,6 +114,7 @@ public:
         set_compensation();
         set_one_of("switching.after_step", std::array{"wait", "wait", "switch"});
         set_one_of("gyro.coil_current", std::array{"monitor", "record"});
+        set_lock_in();
         return std::move(settings_);
     }
 
@@ -310,6 +311,16 @@ private:
         set_known("compensation.magnetic_thermal_arcsec_s", "compensation.magnetic_thermal_sigma_arcsec_s",
                   c_.drift.magnetic_thermal_arcsec_s);
         set("compensation.magnetic_thermal_time_s", c_.drift.thermal_time_s * draw_.within(0.8, 1.25));
+    }
+
+    // Not calibrated, or by both modes together, of which either is off by half of their difference. The averaged gyro does not lock.
+    void set_lock_in() {
+        const double left_hz = c_.laser.lock_in_left_hz, right_hz = c_.laser.lock_in_right_hz;
+        const bool is_calibrated = is_laser_ && draw_.is_one_in(2);
+        const double mean_hz = 0.5 * (left_hz + right_hz);
+        const double sigma_hz = std::hypot(0.5 * (left_hz - right_hz), 0.03 * mean_hz);
+        set("compensation.lock_in_hz", is_calibrated ? mean_hz : 0.0);
+        set("compensation.lock_in_sigma_hz", is_calibrated ? sigma_hz : c_.compensation.lock_in_sigma_hz);
     }
 
     numeric::Draw& draw_;

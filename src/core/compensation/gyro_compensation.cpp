@@ -129,13 +129,40 @@ HalfRecord with_true_detuning(const CompensationConstants& gyro, HalfRecord half
     return half;
 }
 
+// What lock-in takes from the halves, given back to the tick. The counter shows the beat of each half.
+void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
+                       const Borders& borders, double turn_counts, TickInput& tick) noexcept {
+    const double scale = config.gyro.scale.value();
+    if (!(config.lock_in.threshold.value() > 0.0)) {
+        tick.variance_arcsec2 += scale * scale * unknown_loss_counts2(config.gyro, config.lock_in, turn_counts);
+        return;
+    }
+    const Border middle = border_of(first);
+    const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in,
+                                            counts_and_parts(first.counts, parts_between(borders.start, middle)),
+                                            counts_and_parts(second.counts, parts_between(middle, borders.end)));
+    tick.value_arcsec += scale * lost.value;
+    tick.variance_arcsec2 += scale * scale * lost.variance;
+}
+
+// The same of the known sum of a gap's ticks, at their mean rate.
+void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts, Hertz bias, TickInput& tick) noexcept {
+    const bool is_known = config.lock_in.threshold.value() > 0.0;
+    const LostCounts lost = is_known ? lost_to_lock_in(config.gyro, config.lock_in, turn_counts, bias)
+                                     : LostCounts{0.0, unknown_loss_counts2(config.gyro, config.lock_in, turn_counts)};
+    const double arcsec = config.gyro.scale.value() * as_double(tick.known_ticks);
+    tick.known_arcsec += arcsec * lost.value;
+    tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
+}
+
 // The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
 // drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
 // exceeds the rounding of the counter, as in a re-lock, the motion around the gap gives the better estimate, and the
 // sum is not used.
-void set_known_sum(const CompensationConstants& gyro, GyroCompensationState& state, const HalfRecord& first,
+void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
                    const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
                    TickInput& tick) noexcept {
+    const CompensationConstants& gyro = config.gyro;
     const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
     const CountedStretch known = step(gyro, state.stretch, with_true_detuning(gyro, first),
                                       with_true_detuning(gyro, second), bias, edges_before, state.edges, borders.start);
@@ -150,6 +177,7 @@ void set_known_sum(const CompensationConstants& gyro, GyroCompensationState& sta
     tick.known_arcsec = known.angle_arcsec;
     tick.known_drift_arcsec2 = drift_variance;
     tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
+    give_back_lock_in(config, state.edges.turn_counts, bias, tick);
 }
 
 bool uses_halves(const GyroCompensationConfig& config) noexcept {
@@ -320,6 +348,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     if (tick.measured) {
         tick.with_phase = borders.start.is_known() && border_of(first).is_known() && borders.end.is_known();
         note_phase(state, tick.with_phase);
+        give_back_lock_in(config, first, second, borders, state.edges.turn_counts, tick);
         const double excess = known_excess(shifted, borders, first);
         const RelockTick read = relock_tick(tick.sign, first, second, excess);
         allow_for_start(config.gyro, config.relock, state.relock, read, state.bridge.next_tick, tick);
@@ -339,7 +368,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);
             // After `break_off`: it sets the edges again where it knows the sum.
-            set_known_sum(config.gyro, state, first, second, borders, edges_before, tick);
+            set_known_sum(config, state, first, second, borders, edges_before, tick);
         }
         if (state.first_waits) give_up_first(tick);
         state.first_waits = false;
@@ -382,6 +411,7 @@ GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
     if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
     if (check(config.profile) != RelockProfileFault::none) return GyroCompensationFault::profile;
     if (check(config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
+    if (check(config.lock_in) != LockInFault::none) return GyroCompensationFault::lock_in;
     return GyroCompensationFault::none;
 }
 

@@ -86,6 +86,8 @@ GyroCompensationConfig any_config(BridgeMethod bridge, bool with_relock) {
     c.relock.method = with_relock ? static_cast<RelockMethod>(any(0, 4)) : RelockMethod::none;
     c.relock.ticks = any(0, 30);
     c.gyro.bias = Hertz{2e3};
+    // No law of the counts: it is not linear in them.
+    if (with_relock) c.lock_in = {.threshold = Hertz{1.0 * any(0, 100)}, .sigma = Hertz{1.0 * any(0, 100)}};
     c.bridge.method = bridge;
     c.bridge.optimal.halves = c.relock.method == RelockMethod::joint;
     const int order = order_of(bridge);

@@ -102,6 +102,8 @@ struct Compensation {
     double magnetic_thermal_arcsec_s = 0.0;
     double magnetic_thermal_sigma_arcsec_s = 1.0;
     double magnetic_thermal_time_s = 3000.0;
+    double lock_in_hz = 0.0;          // threshold of lock-in, by calibration; 0: not calibrated, nothing is corrected
+    double lock_in_sigma_hz = 300.0;  // of that; not calibrated
 };
 
 struct Motion {

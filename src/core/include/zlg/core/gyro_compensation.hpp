@@ -15,6 +15,7 @@
 #include <zlg/core/compensation/edge_shift.hpp>
 #include <zlg/core/compensation/gap_bridge.hpp>
 #include <zlg/core/compensation/joint_relock.hpp>
+#include <zlg/core/compensation/lock_in.hpp>
 #include <zlg/core/compensation/magnetic_drift.hpp>
 #include <zlg/core/compensation/relock_drift.hpp>
 #include <zlg/core/compensation/relock_profile.hpp>
@@ -28,12 +29,22 @@ struct GyroCompensationConfig {
     RelockProfileConfig profile{};  // of `joint`
     GapBridgeConfig bridge{};       // of half-ticks with `joint`
     MagneticDriftConfig magnetic{};
+    LockInConfig lock_in{};
     CompensationConstants gyro{};
 };
 
 // The numbers of the enumerators are sent over the gyro's line (docs/wire.md) and do not change. Of the faults of the
 // constants, those of timer and plateau are `edges`, that of the random walk is `random_walk`, the others are `relock`.
-enum class GyroCompensationFault : unsigned char { none, relock, edges, bridge, random_walk, magnetic, profile };
+enum class GyroCompensationFault : unsigned char {
+    none,
+    relock,
+    edges,
+    bridge,
+    random_walk,
+    magnetic,
+    profile,
+    lock_in
+};
 
 [[nodiscard]] GyroCompensationFault check(const GyroCompensationConfig& config) noexcept;
 
