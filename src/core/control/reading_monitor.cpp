@@ -135,7 +135,9 @@ ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitor
     if (!in.follows) s.has_last = s.countable = false;
     ReadingMonitorOutput out;
     if (s.countable) out = judge(s, in);
-    return s.countable ? out : alone(s, in);
+    if (s.countable) return out;
+    // What the counter may have lost is missing on the other side of a switch, too.
+    return s.over_range && s.n_since < held_halves ? ReadingMonitorOutput{} : alone(s, in);
 }
 
 }  // namespace

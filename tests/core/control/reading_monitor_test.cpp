@@ -163,6 +163,22 @@ TEST(ReadingMonitor, CountsAtTheStopOfTheCounterAreNoAngle) {
     EXPECT_EQ(all.sum, 0);
 }
 
+// A switch while it lasts, or soon after, does not end the hold.
+TEST(ReadingMonitor, CountsAtTheStopBeforeASwitchAreNoAngleEither) {
+    for (std::size_t opens = 21; opens < 54; ++opens) {
+        auto halves = turning(100, 0);
+        for (std::size_t h = 20; h < 24; ++h) halves[h].turned = 1260 - (h % 2 == 0 ? bias : -bias);
+        for (std::size_t h = opens; h < 100; ++h) {
+            halves[h].mode = -1;
+            halves[h].countable = h >= opens + 6;
+        }
+        const Readout all = run(halves);
+        for (std::size_t h = 20; h < 20 + 36; ++h) EXPECT_FALSE(all.out[h].trusted) << opens << " " << h;
+        for (std::size_t h = 20 + 37 + 6; h < 100; ++h) EXPECT_TRUE(all.out[h].trusted) << opens << " " << h;
+        EXPECT_EQ(all.sum, 0) << opens;
+    }
+}
+
 TEST(ReadingMonitor, OfAnOpenLoopOrAnotherModeNothingIsTakenAcross) {
     for (const bool opens : {true, false}) {
         auto halves = turning(60, 3);

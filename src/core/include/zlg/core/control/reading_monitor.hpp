@@ -16,7 +16,7 @@
 // Either way T is what the counter has turned: nothing is lost, and an error of the readings that stays for a while, as
 // of a stuck bit, is in the angle for that while and leaves it with the step back. But a step of more counts than the
 // gyro can make is none of its rotation; and one in which the counter may have lost counts, at the end of its range, is
-// held for so long that no gap keeps a finite sigma.
+// held for so long, over switches too, that no gap keeps a finite sigma.
 
 #include <cstdint>
 
