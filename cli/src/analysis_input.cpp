@@ -119,6 +119,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     }
     replay.end(take);
     replay.require_a_tick(path);
+    if (asked.lacks_detuning) warn_uncorrected(replay, path);
     for (const std::string& wrong : replay.contradictions(path)) complain("warning: " + wrong);
     ticks.finish(axes);
     return asked.config;

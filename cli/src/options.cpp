@@ -93,6 +93,10 @@ rig::LogCompensation log_compensation(const Options& options, const logs::RawHea
     return made;
 }
 
+void warn_uncorrected(const rig::Replay& replay, const std::string& log_path) {
+    if (const std::string line = replay.uncorrected(log_path); !line.empty()) complain("warning: " + line);
+}
+
 void add_config_argument(CLI::App& verb, Options& options) {
     auto* positional =
         verb.add_option("CONFIG", options.config_path, "configuration, TOML; the paper's gyro without it");

@@ -13,6 +13,7 @@
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/asked_compensation.hpp>
+#include <zlg/rig/replay.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/study/resolved.hpp>
 
@@ -56,6 +57,9 @@ enum class LogFacts { none, tick, tick_and_scale };
 // errors  those of load_log_config and of rig::asked_compensation.
 [[nodiscard]] rig::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log,
                                                     const std::string& log_path);
+
+// Of a log for whose want of detuning nothing is subtracted after a closing: a line on standard error where its loop was opened.
+void warn_uncorrected(const rig::Replay& replay, const std::string& log_path);
 
 // As study::resolved, with a line on standard error for each note and warning.
 //

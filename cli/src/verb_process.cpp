@@ -190,6 +190,7 @@ void process(const ProcessOptions& options) {
     const Summary summary = compensate(raw, replay, angles, switches, options, interruptible);
     replay.require_a_tick(options.raw);
     if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
+    if (asked.lacks_detuning) warn_uncorrected(replay, options.raw);
     for (const std::string& wrong : replay.contradictions(options.raw)) complain("warning: " + wrong);
     if (!raw.header().complete && !options.follow)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.raw));

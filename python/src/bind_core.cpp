@@ -80,6 +80,8 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
     std::vector<std::string> warnings = std::move(asked.warnings);
     warnings.insert(warnings.end(), asked.notes.begin(), asked.notes.end());
     if (raw.size() % 2 != 0) warnings.push_back(replay.odd_half("the log"));
+    if (const std::string line = replay.uncorrected("the log"); asked.lacks_detuning && !line.empty())
+        warnings.push_back(line);
     for (std::string& wrong : replay.contradictions("the log")) warnings.push_back(std::move(wrong));
     py::dict result = angles.take_out();
     py::dict table;

@@ -17,6 +17,14 @@ double noise_turns(const config::Photodiodes& p) {
     return std::sqrt(p.noise * p.noise + step * step / 12.0) / turn_rad;
 }
 
+// While the bias is reversed the phase goes on by f t^2/t_e in a time t beside its middle: root mean square over the jitter.
+double jitter_counts(const config::Config& config) {
+    const config::Gyro& g = config.gyro;
+    const double jitter_s = config.photodiodes.jitter_s;
+    const double edge_s = std::max(g.bias_edge_s, 2.0 * jitter_s);
+    return edge_s > 0.0 ? std::numbers::sqrt3 * plateau_ratio(g) * g.bias_hz * jitter_s * jitter_s / edge_s : 0.0;
+}
+
 int counts_per_turn(const config::Config& config) {
     return config.gyro.fidelity == config::Fidelity::laser ? twin::counts_per_turn(config.laser.quadrature) : 1;
 }
@@ -58,7 +66,7 @@ core::FringeReadoutConfig fringe_readout_of(const config::Config& config) {
 }
 
 double fringe_noise_counts(const config::Config& config) {
-    return std::min(counts_per_turn(config) * noise_turns(config.photodiodes), 1.0);
+    return std::min(std::hypot(counts_per_turn(config) * noise_turns(config.photodiodes), jitter_counts(config)), 1.0);
 }
 
 }  // namespace zlg::rig

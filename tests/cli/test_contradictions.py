@@ -28,6 +28,21 @@ class Contradictions(CliTest):
             row["bias_sign"] = -row["bias_sign"]
         self.assertEqual(len(self.warnings(rows, "coil")), 1)
 
+    def test_a_closing_without_detuning_is_answered_unless_that_is_asked_for(self):
+        rows = quiet_log(QUIET)
+
+        def lines(name, *options):
+            raw = self.write(f"{name}.csv", csv_text(rows))
+            said = self.succeed("process", raw, "--out", self.folder / "angles.csv", "--force", *options).stderr
+            return [line for line in said.splitlines() if "compensation.relock is not set" in line]
+
+        self.assertEqual(lines("closed"), [], "no loop was opened")
+        for row in rows[40:46]:
+            row["loop_closed"] = 0
+        self.assertEqual(len(lines("opened")), 1)
+        for relock in ("none", "frequency"):
+            self.assertEqual(lines("opened", "--set", f"compensation.relock={relock}"), [])
+
     def test_a_log_that_was_cut_out_is_refused_with_what_to_do(self):
         raw = self.write("cut.csv", csv_text(quiet_log(QUIET)[20:]))
         self.refuse((2, 3), "process", raw, "--out", self.folder / "angles.csv",

@@ -54,6 +54,14 @@ TEST(FringeLoop, WhatIsPresumedIsTheNoiseOfThePhotodiodes) {
     EXPECT_EQ(rig::fringe_readout_of(x4).counts_per_turn, 4);
 }
 
+// In a time t beside the middle of a reversal the phase goes on by f t^2/t_e; the mean of t^4 is 3 jitter^4.
+TEST(FringeLoop, WhatIsPresumedHoldsTheJitter) {
+    config::Config jittered = by_phase({"photodiodes.jitter_s=5e-6"});
+    const double plateau_hz = 60e3 / (1.0 - 50e-6 / 5e-3);
+    const double expected = std::sqrt(3.0) * plateau_hz * 5e-6 * 5e-6 / 50e-6;
+    EXPECT_NEAR(rig::fringe_noise_counts(jittered), std::hypot(expected, rig::fringe_noise_counts(by_phase())), 1e-12);
+}
+
 TEST(FringeLoop, APlaceIsKnownWhereverThereIsLightAndIsThatOfTheTwin) {
     const auto halves = advance(by_phase(), 8000);
     double sum = 0.0;

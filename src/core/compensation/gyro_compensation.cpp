@@ -93,21 +93,66 @@ void apply(const RelockDriftOutput& relock, TickInput& tick) noexcept {
     tick.amend_flags = relock.first.known ? flag_relock_corrected : flag_relock_uncorrected;
 }
 
-// Square of the number of standard deviations from which on a false angle at the start of a log is taken to be real.
-constexpr double start_gate_sq = 9.0;
+// Square of the number of standard deviations from which on a false angle that no correction subtracts is taken to be real.
+constexpr double unsubtracted_gate_sq = 9.0;
 
-// The start of a log is no gap, so its first ticks get no re-lock correction. Where their light shows a false angle
-// beyond the noise, the loop was still settling, and the variance contains the square of that angle. It is found by a
-// trial step from the state just after a gap.
+// Part of the variance of a tick up to which a false angle is not looked for.
+constexpr double hidden_part = 0.25;
 
-void allow_for_start(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& relock,
-                     const RelockTick& read, std::int64_t tick_number, TickInput& tick) noexcept {
-    const bool by_light = config.method != RelockMethod::none && config.method != RelockMethod::frequency;
-    if (!by_light || relock.armed || relock.since_gap > 0 || tick_number >= config.ticks) return;
+// Mean square of the detuning about its mean in a tick, over that of the light's noise, from which on the perimeter moves.
+constexpr double moving_ratio = 2.0;
+
+bool is_moving(const CompensationConstants& gyro, const RelockTick& read) noexcept {
+    const double mean_lambda = 0.5 * (read.detuning_first_lambda + read.detuning_second_lambda);
+    const double mean_sq_lambda2 = 0.5 * (read.detuning_sq_first_lambda2 + read.detuning_sq_second_lambda2);
+    const double noise = gyro.light_noise.value();
+    return mean_sq_lambda2 - mean_lambda * mean_lambda > moving_ratio * noise * noise;
+}
+
+// Before the first gap of a log, and later than `relock_ticks` after one, no false angle is subtracted. Where the light shows
+// one beyond its noise, because the loop still settled or the perimeter was pushed, the variance contains its square. It is
+// found by a trial step from the state just after a gap. Where the perimeter moves, the noise of what is found is contained, too.
+void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& relock,
+                    const RelockTick& read, TickInput& tick) noexcept {
+    if (relock.armed && relock.since_gap < config.ticks) return;
+    const double change_lambda2 = read.detuning_sq_second_lambda2 - read.detuning_sq_first_lambda2;
+    const double shown_arcsec =
+        0.5 * gyro.chi * gyro.bias.value() * gyro.scale.value() * gyro.tick.value() * change_lambda2;
+    const bool moves = is_moving(gyro, read);
+    if (!moves && shown_arcsec * shown_arcsec <= hidden_part * tick.variance_arcsec2) return;
+    if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return;
     RelockDriftState closing{.armed = true};
     const FalseAngle residual = step(gyro, config, closing, read).tick;
+    if (!residual.known) return;
     const double sq = residual.value_arcsec * residual.value_arcsec;
-    if (residual.known && sq > start_gate_sq * residual.variance_arcsec2) tick.variance_arcsec2 += sq;
+    if (moves)
+        tick.variance_arcsec2 += sq + residual.variance_arcsec2;
+    else if (sq > unsubtracted_gate_sq * residual.variance_arcsec2)
+        tick.variance_arcsec2 += sq;
+}
+
+// A half that was read, and refused: not one that was missed, whose counts are in a later one.
+bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !half.valid && half.counts != 0; }
+
+// What a half may hold of a fault that begins or ends in it, over the bias: a change of the current is seen from 1.2 % of it
+// on, darkness from one sample's time.
+constexpr double unseen_part = 0.01;
+
+double unseen_arcsec2(const CompensationConstants& gyro) noexcept {
+    const double unseen = unseen_part * 0.5 * gyro.tick.value() * gyro.bias.value() * gyro.scale.value();
+    return unseen * unseen;
+}
+
+// A fault may have begun in the last half before the one in which a monitor saw it.
+void allow_for_onset(const CompensationConstants& gyro, TickInput& tick) noexcept {
+    tick.amend_previous = true;
+    tick.amend_variance_arcsec2 = unseen_arcsec2(gyro);
+}
+
+// It may end in the first half after those.
+void allow_for_end(const CompensationConstants& gyro, TickInput& tick) noexcept {
+    tick.variance_arcsec2 += unseen_arcsec2(gyro);
+    tick.relock_variance_arcsec2 += unseen_arcsec2(gyro);
 }
 
 // `frequency` corrects tick 1 with the help of tick 2. Where there is none, tick 1 stays uncorrected and is flagged.
@@ -330,6 +375,13 @@ double subtract_asymmetry(const CompensationConstants& gyro, CoilAsymmetryState&
     return subtracted;
 }
 
+// Nothing can be subtracted: the motion is learnt from all ticks, and the switch is as uncertain as these together.
+void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& relock, TickInput& tick) noexcept {
+    if (relock.due) state.uncorrected_arcsec2 += relock.tick.variance_arcsec2;
+    tick.relock_to_come_arcsec2 = state.uncorrected_arcsec2;
+    tick.settled = true;
+}
+
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
                                  const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
@@ -351,16 +403,24 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         give_back_lock_in(config, first, second, borders, state.edges.turn_counts, tick);
         const double excess = known_excess(shifted, borders, first);
         const RelockTick read = relock_tick(tick.sign, first, second, excess);
-        allow_for_start(config.gyro, config.relock, state.relock, read, state.bridge.next_tick, tick);
+        allow_for_push(config.gyro, config.relock, state.relock, read, tick);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
         apply(relock, tick);
+        if (state.refused) allow_for_end(config.gyro, tick);
         const std::int64_t to_come = config.relock.ticks - state.relock.since_gap;
-        if (relock.due && to_come > 0) tick.relock_to_come_arcsec2 = as_double(to_come) * tick.relock_variance_arcsec2;
+        if (relock.tick.known && to_come > 0)
+            tick.relock_to_come_arcsec2 = as_double(to_come) * relock.tick.variance_arcsec2;
+        if (config.relock.presumes) leave_uncorrected(state, relock, tick);
         if (uses_halves(config)) set_half_excess(config, state, first, second, excess, tick);
         state.first_waits = relock.waiting;
         begin_anew(state.stretch, detuning_sq(config.gyro, second));
     } else {
-        enter_gap(state.relock, !(first.loop_closed && second.loop_closed));
+        const bool moves = !(first.loop_closed && second.loop_closed);
+        // What is not corrected is uncertain only where the perimeter may have moved.
+        if (!config.relock.presumes || moves || is_refused(first) || is_refused(second)) {
+            enter_gap(state.relock, moves);
+            state.uncorrected_arcsec2 = 0.0;
+        }
         tick.settled_tick = state.settled_tick;
         if ((tick.flags & flag_loop_unlocked) != 0)
             state.settled_tick = state.bridge.next_tick + 1 + config.relock.ticks;
@@ -372,7 +432,9 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         }
         if (state.first_waits) give_up_first(tick);
         state.first_waits = false;
+        if (is_refused(first) && !state.bridge.gap.open) allow_for_onset(config.gyro, tick);
     }
+    state.refused = is_refused(second);
     tick.bias_arcsec = state.bias_arcsec;
     const double uneven_arcsec = subtract_asymmetry(config.gyro, state.coil, first, second, tick);
     const double magnetic = magnetic_arcsec(config, state, tick);

@@ -74,6 +74,8 @@ LogCompensation asked_compensation(const config::Config& config, const logs::Raw
     const RelockMethod relock = relock_of(config, log, log_name);
     LogCompensation made{.config = config,
                          .compensation = compensation_config(config, relock, config.compensation.bridge)};
+    made.lacks_detuning = !config.compensation.relock && relock == RelockMethod::none;
+    made.compensation.relock.presumes = made.lacks_detuning;
     made.config.compensation.relock = relock;
     if (relock == RelockMethod::joint && log.light_samples == 0)
         made.notes.push_back(

@@ -17,6 +17,16 @@ std::string Replay::odd_half(const std::string& log_name) const {
                        log_name, halves_ - 1);
 }
 
+std::string Replay::uncorrected(const std::string& log_name) const {
+    if (!is_opened_ || config_.relock.method != core::RelockMethod::none) return {};
+    return fmt::format(
+        "{}: has no column detuning_sq_lambda2, and compensation.relock is not set: the false drift after the loop is "
+        "closed is not "
+        "subtracted, and sigma_arcsec of {} ticks after each closing presumes a miss of 0.18 wavelength; "
+        "compensation.relock = \"frequency\" needs no such column",
+        log_name, config_.relock.ticks);
+}
+
 std::vector<std::string> Replay::contradictions(const std::string& log_name) const {
     std::vector<std::string> found{bias_.complaint(log_name), places_.complaint(log_name)};
     std::erase(found, std::string{});

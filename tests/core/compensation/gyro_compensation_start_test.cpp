@@ -36,8 +36,14 @@ constexpr double of_rounding_arcsec2 = 3.263 * 3.263 / 6.0;
 TEST(LogStart, SigmaHoldsWhatTheLoopHasYetToSettle) {
     // chi f0/2 (dl_2^2 - dl_1^2) K T: 4.23 arcsec.
     const double false_arcsec = 0.5 * 3.6 * 60e3 * (2.6e-3 - 2e-4) * 3.263 * 0.005;
-    const double sigma = first_sigma(RelockMethod::mean_square, 2.6e-3, 2e-4);
-    EXPECT_NEAR(sigma, std::sqrt(of_rounding_arcsec2 + false_arcsec * false_arcsec), 1e-9);
+    // Noise of the light in it: the mean of n squares of dl + e has the variance (4 dl^2 s^2 + 2 s^4)/n.
+    const CompensationConstants gyro;
+    const double s2 = gyro.light_noise.value() * gyro.light_noise.value();
+    const double noise_lambda2 = (4.0 * (2.8e-3 - 2.0 * s2) * s2 + 4.0 * s2 * s2) / gyro.light_samples;
+    const double per_lambda2 = 0.5 * 3.6 * 60e3 * 3.263 * 0.005;
+    const double expected =
+        of_rounding_arcsec2 + false_arcsec * false_arcsec + per_lambda2 * per_lambda2 * noise_lambda2;
+    EXPECT_NEAR(first_sigma(RelockMethod::mean_square, 2.6e-3, 2e-4), std::sqrt(expected), 1e-9);
 }
 
 TEST(LogStart, ASettledLoopCostsNothing) {

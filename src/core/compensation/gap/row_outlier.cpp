@@ -1,5 +1,7 @@
 #include "row_outlier.hpp"
 
+#include <initializer_list>
+
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
@@ -15,12 +17,20 @@ struct Side {
     double variance_arcsec2 = 0.0;  // the larger one
 };
 
-Side neighbours(const GapBridgeState& state, std::int64_t tick, int way, std::int64_t n_ticks) noexcept {
+// Above so many times the variance of the row that is judged, a neighbour tells nothing of it.
+constexpr double comparable = 9.0;
+
+bool is_comparable(const HistoryTick& entry, double variance_arcsec2) noexcept {
+    return entry.measured && entry.row.sigma_arcsec * entry.row.sigma_arcsec <= comparable * variance_arcsec2;
+}
+
+Side neighbours(const GapBridgeState& state, std::int64_t tick, int way, std::int64_t n_ticks,
+                double variance_arcsec2) noexcept {
     Side side;
     for (std::int64_t k = 1; k <= n_ticks && k <= max_gap_ticks && side.n < 2; ++k) {
         const HistoryTick& entry = at(state, tick + way * k);
+        if (!is_comparable(entry, variance_arcsec2)) continue;
         const double variance = entry.row.sigma_arcsec * entry.row.sigma_arcsec;
-        if (!entry.measured || !is_finite(variance)) continue;
         ++side.n;
         const double n = side.n;
         side.value_arcsec += (entry.row.dtheta_final_arcsec - side.value_arcsec) / n;
@@ -38,17 +48,20 @@ double expected_arcsec(const Side& before, const Side& after) noexcept {
     return before.value_arcsec + slope * before.place;
 }
 
-// Beside a gap, or at an end of the log.
+// Beside a gap or a tick of little worth, or at an end of the log.
 [[gnu::noinline]] double gained_beside_gap(GapBridgeState& state, std::int64_t to_come, const AngleRow& row,
                                            double variance_arcsec2) noexcept {
-    const Side before = neighbours(state, row.tick, -1, row.tick);
-    const Side after = neighbours(state, row.tick, 1, to_come);
+    const Side before = neighbours(state, row.tick, -1, row.tick, variance_arcsec2);
+    const Side after = neighbours(state, row.tick, 1, to_come, variance_arcsec2);
     if (before.n + after.n == 0) return 0.0;
     double variance = variance_arcsec2;
     if (before.variance_arcsec2 > variance) variance = before.variance_arcsec2;
     if (after.variance_arcsec2 > variance) variance = after.variance_arcsec2;
     return step(state.outlier, row.dtheta_final_arcsec - expected_arcsec(before, after), variance, false);
 }
+
+// Over the variance of a tick; that of whole counts is a sixth of the square of a count.
+constexpr double glance = 6.0;
 
 // One tick in four is learnt, by a sequence without a period.
 bool is_drawn(std::int64_t tick) noexcept { return (static_cast<std::uint32_t>(tick) * 0x9e3779b9u) >> 30 == 0; }
@@ -61,17 +74,25 @@ double gained_arcsec2(const CompensationConstants& gyro, GapBridgeState& state, 
     const bool drawn = is_drawn(tick);
     const bool inside = to_come >= 2 && before.measured && after.measured;
     const double beside = before.row.dtheta_final_arcsec + after.row.dtheta_final_arcsec;
-    // Then it is within 1.5 counts of all four, too.
-    if (inside && !drawn && size(row.dtheta_final_arcsec - 0.5 * beside) <= gyro.scale.value()) return 0.0;
+    const double off = row.dtheta_final_arcsec - 0.5 * beside;
     double variance = row.sigma_arcsec * row.sigma_arcsec;
-    if (!is_finite(variance)) return 0.0;
-    const double least = rounding_arcsec2(gyro);
+    const double least = rounding_arcsec2(gyro, state.learning.moments.with_phase);
     if (variance < least) variance = least;
+    // Of whole counts it is then within a count of those two, and within 1.5 counts of all four.
+    if (inside && !drawn && off * off <= glance * variance) return 0.0;
+    if (!is_finite(variance)) return 0.0;
     const HistoryTick& first = at(state, tick - 2);
     const HistoryTick& last = at(state, tick + 2);
-    if (!(inside && first.measured && last.measured)) return gained_beside_gap(state, to_come, row, variance);
+    double largest = variance;
+    bool all = inside;
+    for (const HistoryTick* const near : {&first, &before, &after, &last}) {
+        all = all && is_comparable(*near, variance);
+        const double of_near = near->row.sigma_arcsec * near->row.sigma_arcsec;
+        if (of_near > largest) largest = of_near;
+    }
+    if (!all) return gained_beside_gap(state, to_come, row, variance);
     const double others = first.row.dtheta_final_arcsec + beside + last.row.dtheta_final_arcsec;
-    return step(state.outlier, row.dtheta_final_arcsec - 0.25 * others, variance, drawn);
+    return step(state.outlier, row.dtheta_final_arcsec - 0.25 * others, largest, drawn);
 }
 
 }  // namespace

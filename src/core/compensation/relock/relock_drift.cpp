@@ -192,7 +192,8 @@ RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfi
                        const RelockTick& tick) noexcept {
     // Tick 1 of `frequency` needs tick 2 even where only one tick is to be corrected.
     const std::int64_t last = config.method == RelockMethod::frequency && config.ticks == 1 ? 2 : config.ticks;
-    if (config.method == RelockMethod::none || !state.armed || state.since_gap >= last) {
+    const bool is_idle = config.method == RelockMethod::none && !config.presumes;
+    if (is_idle || !state.armed || state.since_gap >= last) {
         observe_detuning(gyro, config.ticks, state, tick);
         return {};
     }
@@ -210,7 +211,7 @@ RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfi
         case RelockMethod::none:
             break;
     }
-    return {};
+    return {.due = true, .tick = or_missing(gyro, before, tick, {})};
 }
 
 }  // namespace zlg::core

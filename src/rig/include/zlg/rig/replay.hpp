@@ -50,6 +50,7 @@ public:
         const core::CompensationOutput out = core::step(config_, state_, half, light);
         places_.take(half);
         bias_.take(half);
+        is_opened_ = is_opened_ || !half.loop_closed;
         ++halves_;
         if (!out.has_sample) return out;
         angle_arcsec_ = out.angle_arcsec;
@@ -69,6 +70,9 @@ public:
     // One line on a last half whose other half is missing; empty where every half has one.
     [[nodiscard]] std::string odd_half(const std::string& log_name) const;
 
+    // One line where the loop was opened and no false drift after it is subtracted; empty otherwise.
+    [[nodiscard]] std::string uncorrected(const std::string& log_name) const;
+
     // One line for each kind of columns that contradict the counts: mode and bias_sign, fringe.
     [[nodiscard]] std::vector<std::string> contradictions(const std::string& log_name) const;
 
@@ -84,6 +88,7 @@ private:
     BiasCheck bias_;
     double angle_arcsec_ = 0.0;
     std::int64_t halves_ = 0;
+    bool is_opened_ = false;
 };
 
 }  // namespace zlg::rig

@@ -25,6 +25,8 @@ namespace zlg::core {
 struct RelockDriftConfig {
     RelockMethod method = RelockMethod::none;
     std::int64_t ticks = 20;  // ticks after a gap that are corrected, >= 0
+    bool presumes =
+        false;  // with `none`: these ticks are due, and what they may lack is presumed; it is not that there is none
 };
 
 enum class RelockDriftFault : unsigned char { none, ticks };

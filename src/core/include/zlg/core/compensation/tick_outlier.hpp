@@ -12,6 +12,7 @@
 //
 // As a tick adds at most l^2, an error in fewer than one tick of 16 is never learnt as rotation. One in all of them is, by
 // an eighth with each that is learnt: a vibration that begins with a d of 8 counts is the usual motion after 0.5 s of 5 ms ticks.
+// By phase v is that of such a reading.
 // A tick that stands apart gains the variance d^2/4: whether d was turned is not known. Bridges that learn the motion do so;
 // with a polynomial a row depends on the ticks around it alone.
 
