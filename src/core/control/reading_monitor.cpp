@@ -136,7 +136,8 @@ ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitor
     ReadingMonitorOutput out;
     if (s.countable) out = judge(s, in);
     if (s.countable) return out;
-    // What the counter may have lost is missing on the other side of a switch, too.
+    // What the counter may have lost is missing on the other side of a switch, too, and so is what it loses within one.
+    if (s.has_last && is_at_stop(in, difference(in.reading, s.last), 1)) s.suspected = s.over_range = true;
     return s.over_range && s.n_since < held_halves ? ReadingMonitorOutput{} : alone(s, in);
 }
 
