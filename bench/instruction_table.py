@@ -39,7 +39,6 @@ PART_OF = {
     "gap_known": "counted_stretch",
     "gap_known_estimate": "counted_stretch",
     "joint_relock": "optimal_bridge",
-    "lock_in": "edge_shift",
     "lit_halves": "optimal_bridge",
     "motion_covariance": "optimal_bridge",
     "mixture_models": "gap_mixture",
@@ -55,6 +54,7 @@ PART_OF = {
     "row_outlier": "gap_bridge",
     "rate_step": "switch_schedule",
     "tick_outlier": "gap_bridge",
+    "mixture_factor": "gap_mixture",
     "gyro_control_state": "gyro_control",
     "relock_chain": "relock_profile",
     "relock_light": "relock_profile",
@@ -63,7 +63,7 @@ PART_OF = {
 MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "stroke_model", "mode_switch", "switch_schedule", "bias_commutator",
     "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "fringe_readout", "health",
-    "gyro_control", "relock_drift", "relock_profile", "edge_shift", "gap_bridge", "motion_moments",
+    "gyro_control", "relock_drift", "relock_profile", "edge_shift", "lock_in", "gap_bridge", "motion_moments",
     "bridge_scores", "motion_learning", "optimal_bridge", "gap_mixture", "counted_stretch", "coil_asymmetry", "joint_relock", "angle", "gyro_compensation",
 ]
 WHOLE = "whole half-period"

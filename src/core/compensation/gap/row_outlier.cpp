@@ -1,6 +1,6 @@
 #include "row_outlier.hpp"
 
-#include <initializer_list>
+#include <array>
 
 #include <zlg/core/common/maths.hpp>
 
@@ -85,7 +85,7 @@ double gained_arcsec2(const CompensationConstants& gyro, GapBridgeState& state, 
     const HistoryTick& last = at(state, tick + 2);
     double largest = variance;
     bool all = inside;
-    for (const HistoryTick* const near : {&first, &before, &after, &last}) {
+    for (const HistoryTick* const near : std::array{&first, &before, &after, &last}) {
         all = all && is_comparable(*near, variance);
         const double of_near = near->row.sigma_arcsec * near->row.sigma_arcsec;
         if (of_near > largest) largest = of_near;
