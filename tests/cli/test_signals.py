@@ -218,6 +218,8 @@ class Signals(CliTest):
             resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
 
         for number in ENDING:
+            # What the last one left would hide when this one has begun.
+            (self.folder / "r.csv.part").unlink(missing_ok=True)
             child = subprocess.Popen([ZLG, "simulate", "--duration", "40000", "--out", self.folder / "r.csv", "--force"],
                                      preexec_fn=no_thread, stderr=subprocess.PIPE)
             with child.stderr:
