@@ -142,7 +142,7 @@ void work_on_mixture(const CompensationConstants& gyro, const GapBridgeConfig& c
     if (!config.optimal.learns || !e.solution.estimate.known || is_done(e.mixture)) return;
     const MotionCovariance covariance = covariance_of(gyro, config, state);
     if (!e.mixing && work >= cost_of_points) {
-        begin_mixture(covariance, 0.5 * rounding_arcsec2(gyro, e.problem.with_phase), state);
+        begin_mixture(covariance, state);
         work -= cost_of_points;
     }
     while (e.mixing && !is_done(e.mixture)) {
@@ -254,7 +254,7 @@ std::int64_t end_of_amended(const GapBridgeState& state) noexcept {
 }
 
 // In thousands of instructions: what an estimate may cost in a half, and each point or stage of it.
-constexpr int most_of_half = 48;
+constexpr int most_of_half = 50;
 constexpr int cost_of_work = 6;
 constexpr int cost_of_most_points = 7;  // with lit halves beside all others
 constexpr int most_of_mixture = 1000;

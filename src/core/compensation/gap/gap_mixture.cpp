@@ -4,7 +4,6 @@
 
 #include <zlg/core/common/maths.hpp>
 
-#include "mixture_factor.hpp"
 #include "mixture_models.hpp"
 #include "motion_shapes.hpp"
 #include "tridiagonal.hpp"
@@ -14,7 +13,7 @@ namespace {
 
 // What a stage does, with its cost in thousands of instructions for 13 points or more. A shape that covers the window is
 // reduced in one stage and its sizes are added in the next.
-enum class Work : std::uint8_t { begin, rounding, turn, quiet, reduction, sizes, amid, conclusion };
+enum class Work : std::uint8_t { begin, turn, quiet, reduction, sizes, conclusion };
 
 struct Stage {
     Work work;
@@ -23,23 +22,11 @@ struct Stage {
 
 // In an order that fills the halves well between the last point of a gap and the tick in which its correction is due.
 constexpr std::array stages = std::to_array<Stage>({
-    {Work::begin},
-    {Work::rounding},
-    {Work::quiet, 0},
-    {Work::quiet, 1},
-    {Work::quiet, 2},
-    {Work::quiet, 3},
-    {Work::turn},
-    {Work::amid, 2},
-    {Work::quiet, 1},
-    {Work::reduction, 0},
-    {Work::sizes, 0},
-    {Work::quiet, 0},
-    {Work::quiet, 2},
-    {Work::reduction, 1},
-    {Work::sizes, 1},
-    {Work::quiet, 3},
-    {Work::conclusion},
+    {Work::begin},    {Work::quiet, 0}, {Work::quiet, 1},   {Work::quiet, 2},     {Work::quiet, 3},
+    {Work::quiet, 4}, {Work::quiet, 5}, {Work::quiet, 6},   {Work::quiet, 7},     {Work::turn},
+    {Work::quiet, 0}, {Work::quiet, 1}, {Work::quiet, 2},   {Work::quiet, 3},     {Work::reduction, 0},
+    {Work::sizes, 0}, {Work::quiet, 4}, {Work::quiet, 5},   {Work::reduction, 1}, {Work::sizes, 1},
+    {Work::quiet, 6}, {Work::quiet, 7}, {Work::conclusion},
 });
 
 // The same where nothing was learnt: only what covers the window, in the order of time.
@@ -75,9 +62,9 @@ double prior_of_each(const GapMixture& m) noexcept {
                     : (1.0 - prior_of_rest) / (n_models_of_any * prior_of_rest);
 }
 
-constexpr std::array<std::int8_t, 8> cost{18, 16, 20, 0, 46, 30, 20, 6};
-constexpr std::array<std::int8_t, 8> cost_of_few{14, 0, 14, 0, 26, 22, 0, 5};
-constexpr std::array<std::int8_t, quiet_motion.size()> cost_of_quiet{9, 6, 9, 6};
+constexpr std::array<std::int8_t, 6> cost{18, 20, 0, 46, 30, 5};
+constexpr std::array<std::int8_t, 6> cost_of_few{14, 14, 0, 26, 24, 5};
+constexpr std::array<std::int8_t, quiet_shapes> cost_of_quiet{9, 8, 6, 5, 9, 8, 6, 5};
 constexpr int few_points = 12;
 
 // A model may be so many times more probable, as a logarithm, before the sums are scaled anew.
@@ -111,7 +98,7 @@ void rescale(double log_unit, GapMixture& m) noexcept {
     s.coarse_variance *= keep_coarse;
 }
 
-void add(const MixtureModel& model, double weight, double in_variance, GapMixture& m) noexcept {
+void add(const MixtureModel& model, double weight, GapMixture& m) noexcept {
     const double off = model.value - m.nothing.value;
     MixtureSums& s = m.sums;
     s.weight += weight;
@@ -119,6 +106,7 @@ void add(const MixtureModel& model, double weight, double in_variance, GapMixtur
     s.off_sq += weight * off * off;
     s.variance += weight * model.variance;
     s.rate += weight * model.rate;
+    const double in_variance = coarse(m, weight);
     s.coarse_weight += in_variance;
     s.coarse_off += in_variance * off;
     s.coarse_off_sq += in_variance * off * off;
@@ -150,8 +138,7 @@ void add_sizes(const Shape& shape, GapMixture& m, ShapeSums& sums) noexcept {
             scale(keep, sums.by_size);
         }
         const double weight = exponential(log_weight - m.sums.log_unit);
-        // What happened within the gap alone has few points to say how large it was: a root of their evidence leaves that open.
-        add(model, weight, shape.quiet_ticks == amid_gap ? 0.0 : coarse(m, weight), m);
+        add(model, weight, m);
         sums.weight += weight;
         sums.rate += weight * model.rate;
         dual_of(m.shape, b, model.rate, y);
@@ -177,7 +164,48 @@ void add_shape(const Shape& shape, MixtureColumn* added, GapMixture& m) noexcept
     for (unsigned i = 0; i < c.n; ++i) m.sums.dual[c.first + i] += sums.dual[i];
     if (added == nullptr) return;
     reflect_back(c.reflections, c.n, sums.by_size);
-    for (unsigned i = 0; i < c.n; ++i) (*added)[c.first + i] = sums.by_size[i];
+    *added = sums.by_size;
+}
+
+// Factor of C + E in the order of the present stages; H, z and k in its coordinates.
+void factorize(const MotionCovariance& covariance, GapMixture& m) noexcept {
+    const MixturePoints& p = m.points;
+    const auto n = static_cast<unsigned>(p.n);
+    m.factor.n = 0;
+    MixtureColumn ones{};
+    MixtureColumn value{};
+    MixtureColumn with_sum{};
+    double largest = 0.0;
+    for (unsigned i = 0; i < n; ++i) {
+        MixtureColumn row{};
+        for (unsigned k = 0; k <= i; ++k) row[k] = covariance_of(m, i, k);
+        if (!add_row(m.factor, row)) m.failed = true;
+        if (m.failed) return;
+        const double inverse = row_of(m.factor, i)[i];
+        if (inverse > largest) largest = inverse;
+        const unsigned own = point_of(m, i);
+        ones[i] = 1.0;
+        value[i] = p.value[own];
+        with_sum[i] = -p.error_with_all[own];
+        for (int j = 0; j < p.n_gap; ++j) with_sum[i] += covariance.of_ticks(p.place[own], p.n_side + j);
+    }
+    m.ones = forward(m.factor, ones);
+    m.value = forward(m.factor, value);
+    m.with_sum = forward(m.factor, with_sum);
+    m.smallest = 1.0 / (largest * largest);
+    m.nothing = nothing_added(m);
+}
+
+void begin(const MotionCovariance& covariance, GapMixture& m) noexcept {
+    const MixturePoints& p = m.points;
+    m.sum_variance = p.error_variance;
+    for (int a = p.n_side; a < p.n_side + p.n_gap; ++a) {
+        m.sum_variance += covariance.of_ticks(a, a);
+        for (int b = p.n_side; b < a; ++b) m.sum_variance += 2.0 * covariance.of_ticks(b, a);
+    }
+    m.reversed = m.learnt;
+    factorize(covariance, m);
+    if (p.n < 3 || !is_finite(m.smallest)) m.failed = true;
 }
 
 // From reversed time to the order of time.
@@ -211,15 +239,15 @@ void conclude(const MotionCovariance& covariance, GapMixture& m) noexcept {
     scale(per_weight, e.dual);
     for (int j = 0; j < p.n_gap; ++j) {
         double value = per_weight * m.sums.rate;
-        for (unsigned i = 0; i < n; ++i) value += covariance_with(covariance, m, p.place[i], p.n_side + j) * e.dual[i];
+        for (unsigned i = 0; i < n; ++i) value += covariance.of_ticks(p.place[i], p.n_side + j) * e.dual[i];
         e.value_arcsec[static_cast<unsigned>(j)] = value;
     }
     const std::span<const Shape> full = full_of(m);
     for (unsigned s = 0; s < full.size(); ++s) {
         const MixtureColumn dual = backward(m.factor, m.sums.added[s]);
-        const Added a = added_by(full[s], m);
+        const Added a{.shape = full[s]};
         for (int j = 0; j < p.n_gap; ++j)
-            for (unsigned i = a.first; i < n; ++i)
+            for (unsigned i = 0; i < n; ++i)
                 e.value_arcsec[static_cast<unsigned>(j)] += per_weight * a.of(p.place[i], p.n_side + j) * dual[i];
     }
     e.known = is_finite(e.coarse_off_arcsec2 + e.variance_arcsec2 + m.nothing.value + e.value_arcsec[0]);
@@ -253,11 +281,7 @@ int cost_of_stage(const GapMixture& m) noexcept {
 void advance(const MotionCovariance& covariance, GapMixture& m) noexcept {
     const Stage stage = stages_of(m)[static_cast<unsigned>(m.stage++)];
     const unsigned k = stage.shape;
-    // Beside a long gap there is no time for these two.
-    const bool is_short_of_time = m.points.n <= few_points;
-    if (is_short_of_time && (stage.work == Work::rounding || stage.work == Work::amid)) return;
     if (stage.work == Work::begin) return begin(covariance, m);
-    if (stage.work == Work::rounding) return add_rounding(covariance, m);
     if (stage.work == Work::turn) return turn_round(covariance, m);
     if (stage.work == Work::conclusion) return conclude(covariance, m);
     const bool is_quiet = stage.work == Work::quiet;

@@ -191,7 +191,7 @@ bool begins_tick(const GapProblem& problem, int k) noexcept {
 
 }  // namespace
 
-void begin_mixture(const MotionCovariance& covariance, double reading_variance, GapBridgeState& state) noexcept {
+void begin_mixture(const MotionCovariance& covariance, GapBridgeState& state) noexcept {
     EstimatedGap& e = state.estimate;
     const GapProblem& problem = e.problem;
     const int stride = stride_of(problem);
@@ -200,7 +200,6 @@ void begin_mixture(const MotionCovariance& covariance, double reading_variance, 
     mixture.points.n_gap = problem.n_gap;
     mixture.points.n_side = problem.n_side;
     mixture.points.error_variance = e.data.error_variance;
-    mixture.points.reading_variance = reading_variance;
     const int side = mixture_side(e);
     // Those that are lit in the gap stand for as many before it.
     const int lit = e.lit.n / 2;

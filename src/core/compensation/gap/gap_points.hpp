@@ -63,7 +63,7 @@ static_assert(max_points_a_side <= static_cast<int>(few_unknowns));
 void begin_solution(GapBridgeState& state) noexcept;
 
 // The points of the mixture, as ticks.
-void begin_mixture(const MotionCovariance& covariance, double reading_variance, GapBridgeState& state) noexcept;
+void begin_mixture(const MotionCovariance& covariance, GapBridgeState& state) noexcept;
 
 // Replace a part of the estimate by that of the mixture: the ticks of the gap, and the dual by which e is estimated.
 void mix(GapBridgeState& state) noexcept;

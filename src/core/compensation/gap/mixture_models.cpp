@@ -8,12 +8,11 @@ namespace {
 // W of the points from `first` on: the columns of L^-1 R, then the lower half of (L^-1 R) L^-T.
 void whiten(const GapMixture& m, const Added& a, Reflections& w) noexcept {
     const unsigned n = static_cast<unsigned>(m.points.n) - a.first;
-    std::array<int, mixture_unknowns> place{};
-    for (unsigned i = 0; i < n; ++i) place[i] = place_of(m, a.first + i);
     for (unsigned j = 0; j < n; ++j) {
+        const int place = place_of(m, a.first + j);
         for (unsigned i = 0; i < n; ++i) {
             const double* const row = row_of(m.factor, a.first + i) + a.first;
-            double x = a.of(place[i], place[j]);
+            double x = a.of(place_of(m, a.first + i), place);
 #pragma GCC unroll 4
             for (unsigned k = 0; k < i; ++k) x -= row[k] * w.of[j][k];
             w.of[j][i] = x * row[i];
@@ -63,24 +62,18 @@ void add_gap(const GapMixture& m, const Added& a, ShapeColumns& c) noexcept {
     const MixturePoints& p = m.points;
     MixtureColumn with_gap{};
     for (int j = p.n_side; j < p.n_side + p.n_gap; ++j) {
-        for (unsigned i = 0; i < c.n; ++i) with_gap[a.first + i] += a.of(p.place[a.first + i], j);
+        for (unsigned i = 0; i < c.n; ++i) with_gap[i] += a.of(p.place[i], j);
         for (int k = p.n_side; k < p.n_side + p.n_gap; ++k) c.more_variance += a.of(j, k);
     }
-    const MixtureColumn whitened = forward(m.factor, with_gap);
-    for (unsigned i = 0; i < c.n; ++i) c.more_with_sum[i] = whitened[a.first + i];
+    c.more_with_sum = forward(m.factor, with_gap);
 }
 
 }  // namespace
 
 Added added_by(const Shape& shape, const GapMixture& m) noexcept {
     Added a{.shape = shape};
-    if (shape.quiet_ticks == covers_window) return a;
-    if (shape.quiet_ticks == amid_gap) {
-        a.origin = m.points.n_side - 1;
-        a.end = m.points.n_gap + 2;
-    } else {
-        a.origin = (m.reversed ? 0 : m.points.n_side) + m.points.n_gap + shape.quiet_ticks;
-    }
+    if (shape.quiet_ticks < 0) return a;
+    a.origin = (m.reversed ? 0 : m.points.n_side) + m.points.n_gap + shape.quiet_ticks;
     while (a.first < static_cast<unsigned>(m.points.n) && place_of(m, a.first) < a.origin) ++a.first;
     return a;
 }

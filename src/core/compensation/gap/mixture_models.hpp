@@ -25,13 +25,9 @@ struct Added {
     const Shape& shape;
     int origin = 0;
     unsigned first = 0;
-    int end = window_ticks;  // ticks after which the walk stands still
 
     [[nodiscard]] double of(int place_a, int place_b) const noexcept {
-        const int a = place_a - origin;
-        const int b = place_b - origin;
-        if (a >= end && b >= end) return end;
-        return shape.table[a * shape.row + b];
+        return shape.table[(place_a - origin) * shape.row + place_b - origin];
     }
 };
 

@@ -50,14 +50,11 @@ inline constexpr auto acceleration_walk = walk_table<window_ticks>(Walk::of_acce
 inline constexpr auto rate_walk_amid = walk_table<max_points_a_side>(Walk::of_rate, -0.5);
 inline constexpr auto acceleration_walk_amid = walk_table<max_points_a_side>(Walk::of_acceleration, -0.5);
 
-inline constexpr int covers_window = -1;
-inline constexpr int amid_gap = -2;  // a walk of the rate from a tick before the gap to a tick after it
-
 // One shape R and its sizes: s^2 = least times powers of `step`, over the smallest variance of a point.
 struct Shape {
     const double* table;  // of two ticks, by rows; or by their distance, from the middle of the table on
     int row;              // its length; -1: by distance
-    int quiet_ticks;      // past the gap, before it begins; covers_window, amid_gap
+    int quiet_ticks;      // past the gap, before it begins; -1: it covers the window
     double least;
     double step;
     int n;
@@ -71,16 +68,10 @@ constexpr Shape quiet(const std::array<std::array<double, ticks>, ticks>& table,
     return {table[0].data(), static_cast<int>(ticks), quiet_ticks, 0.25, 64.0, 6};
 }
 
-// 5 sizes of what happens within the gap: a small one is no manoeuvre.
-template <std::size_t ticks>
-constexpr Shape amid(const std::array<std::array<double, ticks>, ticks>& table) noexcept {
-    return {table[0].data(), static_cast<int>(ticks), amid_gap, 16.0, 64.0, 5};
-}
-
 // 13 sizes of what covers the window: up to 100 deg/s within 20 ms, read by phase, where the steps are 8.
 constexpr Shape full(const std::array<std::array<double, window_ticks>, window_ticks>& table, double least,
                      double step) noexcept {
-    return {table[0].data(), window_ticks, covers_window, least, step, most_sizes};
+    return {table[0].data(), window_ticks, -1, least, step, most_sizes};
 }
 
 // Stationary motion of unit variance of a tick, by the distance of two ticks: a flat spectrum of the rate from 0 to c,
@@ -124,14 +115,20 @@ inline constexpr ByDistance below_0_225_a_tick = by_distance(
 inline constexpr ByDistance independent_ticks = by_distance({1.0});
 
 constexpr Shape stationary(const ByDistance& table, double step, int n) noexcept {
-    return {table.data() + window_ticks - 1, -1, covers_window, 0.3, step, n};
+    return {table.data() + window_ticks - 1, -1, -1, 0.3, step, n};
 }
 
-// A walk begins 2 or 4.5 ticks past the gap. By trial on zlg_manoeuvre_campaign.
-inline constexpr std::array quiet_motion{quiet(rate_walk, 2), quiet(rate_walk_amid, 4), quiet(acceleration_walk, 2),
-                                         quiet(acceleration_walk_amid, 4)};
-inline constexpr std::array<Shape, 3> full_motion{full(rate_walk, 1.0 / 16.0, 8.0),
-                                                  full(acceleration_walk, 1.0 / 1024.0, 8.0), amid(rate_walk)};
+// A walk begins 2, 3, 4.5 or 6 ticks past the gap. By trial on zlg_manoeuvre_campaign.
+inline constexpr std::array<Shape, quiet_shapes> quiet_motion{quiet(rate_walk, 2),
+                                                              quiet(rate_walk, 3),
+                                                              quiet(rate_walk_amid, 4),
+                                                              quiet(rate_walk, 6),
+                                                              quiet(acceleration_walk, 2),
+                                                              quiet(acceleration_walk, 3),
+                                                              quiet(acceleration_walk_amid, 4),
+                                                              quiet(acceleration_walk, 6)};
+inline constexpr std::array<Shape, 2> full_motion{full(rate_walk, 1.0 / 16.0, 8.0),
+                                                  full(acceleration_walk, 1.0 / 1024.0, 8.0)};
 
 // What a gyro may do of which nothing is known yet. By trial on zlg_sigma_campaign and on tones of 5 to 40 Hz.
 inline constexpr std::array<Shape, most_full_shapes> any_motion{full(rate_walk, 1.0 / 16.0, 6.0),

@@ -57,10 +57,8 @@ Points points_of(int n_gap, int n_side, double (*value)(int place)) {
     return p;
 }
 
-MixtureEstimate estimate_of(const MotionCovariance& covariance, const Points& p, bool learnt = true,
-                            double reading_variance = 0.0) {
+MixtureEstimate estimate_of(const MotionCovariance& covariance, const Points& p, bool learnt = true) {
     GapMixture m;
-    m.points.reading_variance = reading_variance;
     m.learnt = learnt;
     m.points.n_gap = p.n_gap;
     m.points.n_side = p.n_side;
@@ -117,8 +115,7 @@ double below(double c, int distance) {
 }
 
 // Every model, with explicit inverses in long double. Where nothing was learnt: walks, white motion and bands.
-MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool was_learnt = true,
-                      double reading_variance = 0.0) {
+MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool was_learnt = true) {
     using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
     using Column = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
     const auto n = static_cast<Eigen::Index>(p.place.size());
@@ -138,7 +135,6 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
         bool reversed;
         double least, step;
         int sizes;
-        bool in_variance = true;
     };
     std::vector<Case> cases;
     const auto add = [&](bool reversed, double least, double step, int sizes, auto&& of) {
@@ -156,7 +152,7 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
     };
     for (const bool of_acceleration : {false, true}) {
         for (const bool reversed : {true, false})
-            for (const double quiet : {2.0, 4.5}) {
+            for (const double quiet : {2.0, 3.0, 4.5, 6.0}) {
                 const double onset = p.n_side + p.n_gap + quiet;
                 if (was_learnt)
                     add(reversed, 0.25, 64.0, 6,
@@ -164,16 +160,6 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
             }
         add(false, of_acceleration ? 1.0 / 1024.0 : 1.0 / 16.0, was_learnt ? 8.0 : 6.0, 13,
             [&](int i, int j) { return walk(of_acceleration, i, j); });
-    }
-    // Beside a long gap there is no time for these.
-    const bool is_long = n <= 12;
-    if (was_learnt && !is_long) {
-        // From a tick before the gap to a tick after it; from then on its rate stays.
-        const double onset = p.n_side - 1.0;
-        const double end = p.n_gap + 2.0;
-        add(false, 16.0, 64.0, 5,
-            [&](int i, int j) { return std::min(i, j) - onset < end ? walk(false, i - onset, j - onset) : end; });
-        cases.back().in_variance = false;
     }
     if (!was_learnt) {
         add(false, 0.3, 9.0, 13, [](int i, int j) { return i == j ? 1.0 : 0.0; });
@@ -184,10 +170,9 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
                 [&](int i, int j) { return by_distance[static_cast<std::size_t>(std::abs(i - j))]; });
         }
     }
-    int models = was_learnt && is_long ? 5 : 0;
+    int models = 0;
     for (const Case& c : cases) models += c.sizes;
 
-    const Wide alone = learnt;
     // Least variance of a point, the earlier ones given, in the order of the factor in which a shape is treated: both orders.
     const auto smallest_of = [&](bool reversed) {
         Matrix v = learnt.topLeftCorner(n, n).cast<double>();
@@ -199,16 +184,8 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
         long double log_weight, value, variance, rate;
         Column dual, ticks;
     };
-    // What that of the learnt motion lacks to one reading is added to each reading.
-    const double missing = was_learnt && !is_long ? reading_variance - smallest_of(true) : 0.0;
-    for (Eigen::Index i = 0; i < all && missing > 0.0; ++i)
-        for (Eigen::Index j = 0; j < all; ++j)
-            for (const int edge_i : {0, 1})
-                for (const int edge_j : {0, 1})
-                    if (place[static_cast<std::size_t>(i)] + edge_i == place[static_cast<std::size_t>(j)] + edge_j)
-                        learnt(i, j) += edge_i == edge_j ? missing : -missing;
-    const auto solve = [&](const Wide& base, const Wide& added, long double s2) {
-        const Wide v = base + s2 * added;
+    const auto solve = [&](const Wide& added, long double s2) {
+        const Wide v = learnt + s2 * added;
         const Wide inverse = v.topLeftCorner(n, n).inverse();
         const Column h = Column::Ones(n);
         const Column z = p.value.cast<long double>();
@@ -226,7 +203,7 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
         f.log_weight = -0.5L * (z.dot(f.dual) + std::log(v.topLeftCorner(n, n).determinant()) + std::log(information));
         return f;
     };
-    const Found nothing = solve(alone, Wide::Zero(all, all), 0.0L);
+    const Found nothing = solve(Wide::Zero(all, all), 0.0L);
     const long double prior = was_learnt ? 0.8L : 0.4L;
     MixtureEstimate e{.known = true};
     long double total = prior;
@@ -244,7 +221,7 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
         if (cases[c].added.topLeftCorner(n, n).isZero(0.0L)) continue;
         long double s2 = cases[c].least * smallest_of(cases[c].reversed);
         for (int k = 0; k < cases[c].sizes; ++k, s2 *= cases[c].step) {
-            const Found f = solve(learnt, cases[c].added, s2);
+            const Found f = solve(cases[c].added, s2);
             const long double weight = (1.0L - prior) / models * std::exp(f.log_weight - nothing.log_weight);
             total += weight;
             ticks += weight * f.ticks;
@@ -252,8 +229,7 @@ MixtureEstimate dense(const MotionCovariance& covariance, const Points& p, bool 
             off += weight * (f.value - nothing.value);
             off_sq += weight * (f.value - nothing.value) * (f.value - nothing.value);
             fine_variance += weight * f.variance;
-            const long double in_variance =
-                !cases[c].in_variance ? 0.0L : (was_learnt ? std::pow(weight, 0.25L) : weight);
+            const long double in_variance = was_learnt ? std::pow(weight, 0.25L) : weight;
             coarse += in_variance;
             coarse_off += in_variance * (f.value - nothing.value);
             coarse_off_sq += in_variance * (f.value - nothing.value) * (f.value - nothing.value);
@@ -305,18 +281,6 @@ TEST_P(MixtureLaw, IsThatOfDenseMatrices) {
     for (const auto& [n_gap, n_side] : {std::pair{3, 8}, std::pair{1, 8}, std::pair{6, 6}}) {
         const Points p = points_of(n_gap, n_side, GetParam());
         expect_near(estimate_of(covariance, p), dense(covariance, p), p, 1.0);
-    }
-}
-
-// A learnt motion that shows less than the roundings of a counter that moves.
-TEST_P(MixtureLaw, WithTheRoundingsOfAMotionIsThatOfDenseMatrices) {
-    const Given given;
-    const MotionCovariance covariance = given.covariance();
-    for (const auto& [n_gap, n_side] : {std::pair{3, 8}, std::pair{1, 8}, std::pair{6, 6}}) {
-        const Points p = points_of(n_gap, n_side, GetParam());
-        const MixtureEstimate e = estimate_of(covariance, p, true, 9.0);
-        expect_near(e, dense(covariance, p, true, 9.0), p, 1.0);
-        EXPECT_EQ(e.off_arcsec == estimate_of(covariance, p).off_arcsec, n_gap == 6);
     }
 }
 

@@ -6,19 +6,14 @@
 //
 //   V_m = C + E + s^2 R                                                                                  (1)
 //
-//   R  random walk of the rate or of the acceleration, over the whole window; either walk beginning only p ticks
-//      past the gap, or ending p ticks before it: a manoeuvre that leaves the gap itself alone; and a random walk of the
-//      rate from a tick before the gap to a tick after it, between two constant rates
+//   R  random walk of the rate or of the acceleration, over the whole window; and either walk beginning only p ticks
+//      past the gap, or ending p ticks before it: a manoeuvre that leaves the gap itself alone
 //   s  one of a geometric series
 //
 // Model m has the prior probability 0.8 where nothing is added, the others share 0.2 evenly (one whose walk begins behind
 // the last point is left out), and the restricted likelihood of the points z (constant rate unknown, H = 1)
 //
 //   log p(z|m) = -1/2 (z^T P_m z + log |V_m| + log H^T V_m^-1 H) + const                                 (2)
-//
-// A gyro at rest reads the same count again and again, so C holds hardly any rounding. Where something is added the gyro
-// moves, and each reading is rounded by itself: C then gains what the least variance of a point in it lacks to that of one
-// reading, LSB^2/12. Without that, roundings of the points would pass for motion and s come out too large.
 //
 // With the weights w_m ~ prior p(z|m) the estimate is t = sum of w_m t_m and its variance sum of c_m (v_m + (t_m - t)^2);
 // t_m, v_m as in optimal_bridge.hpp (3), (4); gap_final.cpp enlarges v_m where something happened. Points are whole ticks.
@@ -51,7 +46,8 @@ namespace zlg::core {
 inline constexpr std::size_t mixture_unknowns = 2 * max_points_a_side;
 using MixtureColumn = ColumnOf<mixture_unknowns>;
 
-inline constexpr int most_full_shapes = 7;  // that reach into the gap
+inline constexpr int quiet_shapes = 8;      // that begin past the gap, or end before it
+inline constexpr int most_full_shapes = 7;  // that cover the window
 inline constexpr double prior_of_nothing = 0.8;
 inline constexpr double prior_of_rest = 0.4;  // where nothing was learnt
 
@@ -66,7 +62,6 @@ struct MixturePoints {
     MixtureColumn value{};                              // less the level, arcsec
     MixtureColumn error_with_all{};                     // covariance of each point's e with the sum of all e
     double error_variance = 0.0;                        // of that sum
-    double reading_variance = 0.0;  // of one reading of the counter in irregular motion; 0: not used
 
     friend bool operator==(const MixturePoints&, const MixturePoints&) = default;
 };
@@ -92,7 +87,7 @@ struct MixtureSums {
     double rate = 0.0;              // of b_m
     MixtureColumn dual{};           // of L^T u_m, u = P z
     MixtureColumn reversed_dual{};  // of u_m, of the models in reversed time, once they are done
-    std::array<MixtureColumn, most_full_shapes> added{};  // of s^2 L^T u_m, by shape that reaches into the gap
+    std::array<MixtureColumn, most_full_shapes> added{};  // of s^2 L^T u_m, by shape that covers the window
     // With the weights c_m, not normalised: of 1, t_m - t_0, its square, v_m.
     double coarse_weight = 0.0, coarse_off = 0.0, coarse_off_sq = 0.0, coarse_variance = 0.0;
 
@@ -163,7 +158,6 @@ struct GapMixture {
     MixtureColumn ones{}, value{}, with_sum{};  // L^-1 of H, z and k, the covariance with the angle of the switch
     double sum_variance = 0.0;                  // of that angle
     double smallest = 0.0;                      // least variance of a point, the earlier ones given
-    double more_rounding = 0.0;                 // variance of one reading, beside that in C, where something is added
     MixtureModel nothing{};                     // where nothing is added
     ShapeColumns shape{};                       // at hand
     MixtureSums sums{};
