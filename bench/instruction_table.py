@@ -54,7 +54,6 @@ PART_OF = {
     "row_outlier": "gap_bridge",
     "rate_step": "switch_schedule",
     "tick_outlier": "gap_bridge",
-    "mixture_factor": "gap_mixture",
     "gyro_control_state": "gyro_control",
     "relock_chain": "relock_profile",
     "relock_light": "relock_profile",
