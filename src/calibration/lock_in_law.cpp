@@ -19,7 +19,7 @@ namespace {
 // A beat below this part of the bias may stand for some of the time.
 constexpr double min_beat_ratio = 0.01;
 constexpr std::int64_t min_dof = 3;
-// A square that is known to less than half of itself says no more than that the threshold is not larger.
+// A square that is known to a third of itself or worse says no more than that the threshold is not larger.
 constexpr double min_significance = 3.0;
 
 // Means of a tick over one log in one mode.
@@ -137,14 +137,16 @@ double jackknife_variance(const std::vector<Stage>& stages, std::size_t n_logs, 
                    : std::numeric_limits<double>::infinity();
 }
 
-// Half of what the thresholds of both modes differ by, as far as each mode tells its own.
-double half_difference(const std::vector<Stage>& stages, double tick_s, double edge_ratio) {
+// Half of what the thresholds of both modes differ by; 0 of a single mode, none where a mode alone has too few rates.
+std::optional<double> half_difference(const std::vector<Stage>& stages, double tick_s, double edge_ratio) {
     std::vector<double> threshold;
     for (const int mode : {1, -1}) {
         std::vector<Stage> of_mode = stages;
         std::erase_if(of_mode, [mode](const Stage& s) { return s.mode != mode; });
+        if (of_mode.empty()) continue;
         const std::optional<SquareFit> fit = fit_of(of_mode, tick_s, edge_ratio);
-        if (fit) threshold.push_back(std::sqrt(std::max(0.0, fit->square_counts2)));
+        if (!fit) return std::nullopt;
+        threshold.push_back(std::sqrt(std::max(0.0, fit->square_counts2)));
     }
     return threshold.size() == 2 ? 0.5 * std::abs(threshold[0] - threshold[1]) : 0.0;
 }
@@ -170,12 +172,13 @@ LockInLaw find_lock_in_law(std::span<const LabLog> logs, std::span<const double>
     const double tick_s = logs.front().tick_s;
     const double edge_ratio = std::min(gyro.edge_s / tick_s, 0.5);
     const std::optional<SquareFit> fit = n_rates < 5 ? std::nullopt : fit_of(stages, tick_s, edge_ratio);
-    if (!fit) {
-        law.threshold_hz =
-            numeric::refused(fmt::format("{} known rate{} of {} log{}; 6 or more logs at 5 or more different rates are "
-                                         "needed, some of them within a fifth "
-                                         "of the rate that cancels the bias",
-                                         n_rates, n_rates == 1 ? "" : "s", logs.size(), logs.size() == 1 ? "" : "s"));
+    const std::optional<double> between_modes = fit ? half_difference(stages, tick_s, edge_ratio) : std::nullopt;
+    if (!between_modes) {
+        law.threshold_hz = numeric::refused(
+            fmt::format("{} known rate{} of {} log{}; 6 or more logs in each of its modes at 5 or more "
+                        "different rates are needed, some of them within a fifth "
+                        "of the rate that cancels the bias",
+                        n_rates, n_rates == 1 ? "" : "s", logs.size(), logs.size() == 1 ? "" : "s"));
         return law;
     }
     law.dof = fit->dof;
@@ -194,8 +197,7 @@ LockInLaw find_lock_in_law(std::span<const LabLog> logs, std::span<const double>
     }
     const double counts = std::sqrt(fit->square_counts2);
     const double to_hz = 2.0 / tick_s / gyro.counts_per_turn;
-    law.threshold_hz = numeric::estimated(
-        to_hz * counts, to_hz * std::hypot(0.5 * sigma / counts, half_difference(stages, tick_s, edge_ratio)));
+    law.threshold_hz = numeric::estimated(to_hz * counts, to_hz * std::hypot(0.5 * sigma / counts, *between_modes));
     return law;
 }
 

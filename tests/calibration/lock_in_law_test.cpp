@@ -17,7 +17,7 @@ constexpr double cancelling_arcsec_s = 3.263 * 60'123.4;
 
 const std::vector<double> to_near_the_bias{0.0, 0.3, -0.5, 0.8, -0.85, 0.9, -0.92, 0.94, -0.95, 0.96, -0.965};
 
-// Of a gyro whose scale is not what anybody presumes.
+// Of a gyro whose scale is not what is presumed.
 LockInLaw law_of(SyntheticGyro gyro, const std::vector<double>& parts, double duration_s) {
     std::vector<LabLog> logs;
     std::vector<double> rates;

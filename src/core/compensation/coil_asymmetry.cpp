@@ -47,7 +47,7 @@ constexpr double degrees = 3.0;  // of Student's distribution
 constexpr double decided_odds = 1000.0;
 constexpr double max_odds = 1e12;
 
-// A sensor whose two signs differ by 10 ppm/K and that warms by 0.1 K/s: 1e-6 a second.
+// A sensor whose two signs differ by 10 ppm/K and that warms by 0.1 K/s: 1e-6 a second, with ticks of 5 ms.
 constexpr double sensor_drift = 5e-9;  // a tick
 
 constexpr double squared(double x) noexcept { return x * x; }
@@ -177,11 +177,11 @@ void weigh(CoilAsymmetryState& s, const CoilTick& tick) noexcept {
     const double turned = s.change.turned_arcsec - s.usual.turned_arcsec;
     const double whole = tick.per_ratio_arcsec * (s.change.ratio - s.usual.ratio);
     const double expected = whole * s.n_turned / (s.n_turned + lag_ticks);
-    const double variance = turned_variance(s, tick.variance_arcsec2);
-    const double of_current = variance + squared(tick.per_ratio_arcsec) * variance_of_change(s);
+    // Of either: a gyro at rest, whose readings repeat, may begin to move as well as its current may change.
+    const double variance =
+        turned_variance(s, tick.variance_arcsec2) + squared(tick.per_ratio_arcsec) * variance_of_change(s);
     if (!(variance > 0.0)) return;
-    const double ratio =
-        (1.0 + squared(turned) / (degrees * variance)) / (1.0 + squared(turned - expected) / (degrees * of_current));
+    const double ratio = (degrees * variance + squared(turned)) / (degrees * variance + squared(turned - expected));
     const double odds = limited_odds(s.odds_before * squared(ratio), max_odds);  // to the power (degrees + 1)/2
     // What was certain is not made uncertain by a later motion.
     if (s.odds <= decided_odds || odds > s.odds) s.odds = odds;
@@ -192,7 +192,7 @@ void judge(CoilAsymmetryState& s, const CoilTick& tick) noexcept {
     s.changed_ticks += 1.0;
     if (!tick.measured) return;
     if (tick.mode != s.mode) {
-        s.odds_before = limited_odds(s.odds, decided_odds);
+        s.odds = s.odds_before = limited_odds(s.odds, decided_odds);
         s.n_turned = -settling_ticks;
         s.change.turned_arcsec = 0.0;
     }

@@ -125,10 +125,13 @@ void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& 
     const FalseAngle residual = step(gyro, config, closing, read).tick;
     if (!residual.known) return;
     const double sq = residual.value_arcsec * residual.value_arcsec;
+    double unsubtracted = 0.0;
     if (moves)
-        tick.variance_arcsec2 += sq + residual.variance_arcsec2;
+        unsubtracted = sq + residual.variance_arcsec2;
     else if (sq > unsubtracted_gate_sq * residual.variance_arcsec2)
-        tick.variance_arcsec2 += sq;
+        unsubtracted = sq;
+    tick.variance_arcsec2 += unsubtracted;
+    tick.relock_variance_arcsec2 += unsubtracted;
 }
 
 // A half that was read, and refused: not one that was missed, whose counts are in a later one.
@@ -196,6 +199,8 @@ void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts,
     const LostCounts lost = is_known ? lost_to_lock_in(config.gyro, config.lock_in, turn_counts, bias)
                                      : LostCounts{0.0, unknown_loss_counts2(config.gyro, config.lock_in, turn_counts)};
     const double arcsec = config.gyro.scale.value() * as_double(tick.known_ticks);
+    const double scale = config.gyro.scale.value();
+    tick.variance_arcsec2 += scale * scale * lost.variance;
     tick.known_arcsec += arcsec * lost.value;
     tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
 }
@@ -382,6 +387,8 @@ void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& re
     tick.settled = true;
 }
 
+// What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the perimeter or
+// the re-lock, the edges of faults, the current of the coil, the magnetic drift. What remains goes to the gap interpolation.
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
                                  const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;

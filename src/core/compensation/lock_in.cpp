@@ -22,7 +22,10 @@ struct Beats {
 };
 
 // threshold  as counts in T/2.
+//
+// A beat of less than a count may stand still, and then has no sign: nothing is given back, and the variance holds all.
 double lost_on_plateau(double beat, double threshold) noexcept {
+    if (size(beat) < reading_counts) return 0.0;
     const double lost = threshold * threshold / (size(beat) + square_root(square(beat) + square(threshold)));
     return beat < 0.0 ? -lost : lost;
 }

@@ -137,8 +137,10 @@ ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitor
     if (s.countable) out = judge(s, in);
     if (s.countable) return out;
     // What the counter may have lost is missing on the other side of a switch, too, and so is what it loses within one.
-    if (s.has_last && is_at_stop(in, difference(in.reading, s.last), 1)) s.suspected = s.over_range = true;
-    return s.over_range && s.n_since < held_halves ? ReadingMonitorOutput{} : alone(s, in);
+    const bool at_stop = s.has_last && is_at_stop(in, difference(in.reading, s.last), 1);
+    if (at_stop) s.suspected = s.over_range = true;
+    const bool held = s.over_range && (at_stop || s.n_since < held_halves);
+    return held ? ReadingMonitorOutput{} : alone(s, in);
 }
 
 }  // namespace

@@ -173,6 +173,22 @@ TEST(CoilAsymmetry, AnErrorOfTheSensorIsNoRotation) {
             }
 }
 
+// But for a turn of just the rate that the step would explain, 196 arcsec/s, which nothing distinguishes.
+TEST(CoilAsymmetry, ATurnThatBeginsWithAStepOfTheSensorIsNoCurrent) {
+    for (const double rate : {50.0, -50.0, 400.0, -400.0, 3000.0, -3000.0})
+        for (const double delay_s : {0.0, 0.2, 0.6})
+            for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+                Coil coil{seed};
+                coil.ticks(60 * second, 0.0);
+                coil.rate_arcsec_s = [=](double t) { return t < 60.0 + delay_s ? 0.0 : rate; };
+                coil.begin();
+                coil.ticks(10 * second, 0.0, 0.001);
+                EXPECT_LE(std::abs(coil.left_arcsec), 3.0 * coil.sigma_arcsec) << rate << ' ' << delay_s;
+                coil.mode = static_cast<std::int8_t>(-coil.mode);
+                EXPECT_NEAR(coil.ticks(10 * second, 0.0, 0.001).ratio, 0.0, 3e-4) << rate << ' ' << delay_s;
+            }
+}
+
 TEST(CoilAsymmetry, AStuckNoisyOrMisscaledSensorTurnsNothing) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         Coil coil{seed};

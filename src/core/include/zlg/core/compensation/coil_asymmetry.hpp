@@ -86,7 +86,7 @@ struct CoilAsymmetry {
 // their likelihoods, or where the new level is within 2 standard deviations of it. An asymmetry that was there from the
 // start is the usual one. One that gets smaller is taken for the end of a fault, and is the usual one from then on.
 //
-// Whether it is one of the current is told by the mean turn since then against the usual one, with the variance that such
+// Whether it is one of the current is decided by the mean turn since then against the usual one, with the variance that such
 // means had before (Student's distribution of 3 degrees: motions have rare large steps). Both are as probable before. With
 // the odds against the current beyond 1000, the new level is the usual one: the sensor has changed.
 //
