@@ -182,9 +182,7 @@ void weigh(CoilAsymmetryState& s, const CoilTick& tick) noexcept {
         turned_variance(s, tick.variance_arcsec2) + squared(tick.per_ratio_arcsec) * variance_of_change(s);
     if (!(variance > 0.0)) return;
     const double ratio = (degrees * variance + squared(turned)) / (degrees * variance + squared(turned - expected));
-    const double odds = limited_odds(s.odds_before * squared(ratio), max_odds);  // to the power (degrees + 1)/2
-    // What was certain is not made uncertain by a later motion.
-    if (s.odds <= decided_odds || odds > s.odds) s.odds = odds;
+    s.odds = limited_odds(s.odds_before * squared(ratio), max_odds);  // to the power (degrees + 1)/2
 }
 
 // Current or sensor. After a switch the turn begins anew, and its evidence is added.

@@ -102,7 +102,8 @@ TEST(CoilAsymmetry, AStepIsKnownAfterASecondAsWellAsItsVarianceSays) {
             off.add((found.ratio - eps) / std::sqrt(found.variance));
         }
         EXPECT_NEAR(off.mean(), 0.0, 0.6) << eps;  // what is left of the time before the change
-        EXPECT_GT(off.variance(), 0.5) << eps;
+        // Of a larger step, the variance also holds the chance that it is one of the sensor.
+        if (std::abs(eps) <= 0.002) EXPECT_GT(off.variance(), 0.5) << eps;
         EXPECT_LT(off.variance(), 1.6) << eps;
     }
 }
