@@ -113,6 +113,11 @@ void set_final(HistoryTick& tick, double value_arcsec, double relock_arcsec, Exa
     tick.row.relock_arcsec = relock_arcsec;
 }
 
+// Where the motion jumped, the estimate would take it for an error of the re-lock that the correction cannot have.
+bool is_plausible(double error_arcsec, double variance_arcsec2) noexcept {
+    return error_arcsec * error_arcsec <= max_step_sq * variance_arcsec2;
+}
+
 }  // namespace
 
 void take_lit_halves(GapBridgeState& state) noexcept {
@@ -287,6 +292,7 @@ void correct_ticks(GapBridgeState& state, const GapEstimate& found, ExactSum& ch
         if (half_after(e, problem, k) < 0 || !(e.relock_variance_arcsec2[k] > 0.0)) continue;
         HistoryTick& tick = at(state, tick_of(e, problem, e.index[k]));
         const double error = e.relock_variance_arcsec2[k] * found.dual[k];
+        if (!is_plausible(error, e.relock_variance_arcsec2[k])) continue;
         set_final(tick, tick.row.dtheta_final_arcsec - error, tick.row.relock_arcsec + error, change);
     }
 }
@@ -299,11 +305,13 @@ void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& c
         const int first = half_after(e, problem, k);
         double sum = 0.0;
         for (int own = first; own < first + 2; ++own) {
-            sum += (1.0 + state.bias_scale.value) * correction(state, own);
+            double error = 0.0;
             for (unsigned i = 0; i < n; ++i) {
                 const int other = half_after(e, problem, i);
-                if (is_corrected(e, other)) sum -= half_error(state, own, other) * found.dual[i];
+                if (is_corrected(e, other)) error += half_error(state, own, other) * found.dual[i];
             }
+            sum += (1.0 + state.bias_scale.value) * correction(state, own);
+            if (is_plausible(error, half_error(state, own, own))) sum -= error;
         }
         if (sum == 0.0) continue;
         HistoryTick& tick = at(state, tick_of(e, problem, e.index[k]));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -122,6 +123,30 @@ TEST(GapBridgeNoise, WithoutRoundingTheFactorsAreThoseOfTheWeights) {
         for (unsigned k = 10; k < 13; ++k) log[k] = gap_tick();
         const Delivered got = run({.method = method}, log, {.scale = Arcsec{0.0}});
         EXPECT_NEAR(got.gaps.at(0).sigma_sum_arcsec, 2.0 * factor, 1e-12);
+    }
+}
+
+// Each of four points has a quarter of a line over the gap, by symmetry, and the error of a correction behind the gap stays there, too.
+TEST(GapBridgeNoise, TheErrorOfARelockIsInTheGapAndBehindIt) {
+    constexpr double relock_arcsec2 = 0.7;
+    const GapBridgeConfig config{.method = BridgeMethod::linear, .points_before = 2, .points_after = 2};
+    for (const int n : {1, 3, 8}) {
+        std::array<double, 2> variance{};
+        for (const bool corrected : {false, true}) {
+            Log log;
+            for (int k = 0; k < 40; ++k) {
+                TickInput tick = k >= 10 && k < 10 + n ? gap_tick() : measured_tick(0.0);
+                tick.variance_arcsec2 = 4.0;
+                if (corrected && k >= 10 + n) {
+                    tick.variance_arcsec2 += relock_arcsec2;
+                    tick.relock_variance_arcsec2 = relock_arcsec2;
+                }
+                log.push_back(tick);
+            }
+            const Delivered got = run(config, log, {.scale = Arcsec{0.0}});
+            variance[corrected] = std::pow(got.gaps.at(0).sigma_sum_arcsec, 2.0);
+        }
+        EXPECT_NEAR(variance[1] - variance[0], 2.0 * std::pow(0.25 * n + 1.0, 2.0) * relock_arcsec2, 1e-9) << n;
     }
 }
 
