@@ -43,7 +43,8 @@ function(zlg_in_batches target size)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
         # A local name is not hidden by what another source of the batch calls the same. What a source has for itself, GCC takes for a part
         # of a header, since a batch includes it.
-        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow -Wshadow=local -Wno-subobject-linkage>)
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow -Wshadow=local -Wno-subobject-linkage>
+            $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
     endif()
 endfunction()
 

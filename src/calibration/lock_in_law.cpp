@@ -166,8 +166,7 @@ LockInLaw find_lock_in_law(std::span<const LabLog> logs, std::span<const double>
     LockInLaw law;
     std::vector<double> distinct(rates_arcsec_s.begin(), rates_arcsec_s.end());
     std::ranges::sort(distinct);
-    const auto repeated = std::ranges::unique(distinct);
-    const auto n_rates = static_cast<std::int64_t>(repeated.begin() - distinct.begin());
+    const std::int64_t n_rates = std::unique(distinct.begin(), distinct.end()) - distinct.begin();
     const std::vector<Stage> stages = stages_of(logs, rates_arcsec_s);
     const double tick_s = logs.front().tick_s;
     const double edge_ratio = std::min(gyro.edge_s / tick_s, 0.5);
