@@ -10,6 +10,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
+#include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
@@ -17,13 +18,6 @@ using namespace zlg::test;
 using zlg::core::HalfRecord;
 
 namespace {
-
-std::vector<HalfRecord> rows_of(const std::string& path) {
-    RawReader reader{path};
-    std::vector<HalfRecord> rows;
-    for (HalfRecord row; reader.next(row);) rows.push_back(row);
-    return rows;
-}
 
 std::vector<HalfRecord> halves(const std::vector<std::int32_t>& currents_ua) {
     std::vector<HalfRecord> all(currents_ua.size());

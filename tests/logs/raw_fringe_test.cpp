@@ -9,6 +9,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
+#include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
@@ -18,13 +19,6 @@ using zlg::core::HalfRecord;
 namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-
-std::vector<HalfRecord> rows_of(const std::string& path) {
-    RawReader reader{path};
-    std::vector<HalfRecord> rows;
-    for (HalfRecord row; reader.next(row);) rows.push_back(row);
-    return rows;
-}
 
 std::vector<HalfRecord> halves(const std::vector<float>& fringes) {
     std::vector<HalfRecord> all(fringes.size());

@@ -7,6 +7,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
+#include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
@@ -14,13 +15,6 @@ using namespace zlg::test;
 using zlg::core::HalfRecord;
 
 namespace {
-
-std::vector<HalfRecord> rows_of(const std::string& path) {
-    RawReader reader{path};
-    std::vector<HalfRecord> rows;
-    for (HalfRecord row; reader.next(row);) rows.push_back(row);
-    return rows;
-}
 
 // Halves 0 .. 9, of which `missed` before half 6 have no frame; half 6 has this span.
 std::vector<HalfRecord> halves(int missed, std::int32_t span) {

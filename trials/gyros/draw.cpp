@@ -178,7 +178,7 @@ private:
         set("gyro.bias_hz", counts * draw_.within_log(30e3, 120e3));
     }
 
-    // Nobody samples the light while the field is reversed, sooner or later by up to a cycle of the bias.
+    // The light is not sampled while the field is reversed, sooner or later by up to a cycle of the bias.
     void keep_light_off_the_reversals() {
         const config::Laser& l = c_.laser;
         const config::Laser usual;

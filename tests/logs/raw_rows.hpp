@@ -1,0 +1,18 @@
+#pragma once
+// All rows of a raw log.
+
+#include <string>
+#include <vector>
+
+#include <zlg/logs/raw_log.hpp>
+
+namespace zlg::test {
+
+inline std::vector<core::HalfRecord> rows_of(const std::string& path) {
+    logs::RawReader reader{path};
+    std::vector<core::HalfRecord> rows;
+    for (core::HalfRecord row; reader.next(row);) rows.push_back(row);
+    return rows;
+}
+
+}  // namespace zlg::test
