@@ -75,8 +75,10 @@ std::function<double(int, double)> one_in_ten() {
 }
 
 TEST(PlaceCheck, a_scaled_inverted_coarse_or_partly_random_place_is_found_in_a_motion) {
-    for (const auto& [amplitude, frequency] : {std::pair{400.0, 0.0032}, std::pair{29.0, 0.0503}}) {
-        const auto motion = [&](int t) { return amplitude * std::sin(2.0 * M_PI * frequency * t) + 0.0057 * t; };
+    for (const auto& [of_sine, hertz] : {std::pair{400.0, 0.0032}, std::pair{29.0, 0.0503}}) {
+        const auto motion = [amplitude = of_sine, frequency = hertz](int t) {
+            return amplitude * std::sin(2.0 * M_PI * frequency * t) + 0.0057 * t;
+        };
         EXPECT_EQ(complaint(motion, right, 16 + 4096), "");
         for (const std::function<double(int, double)>& place :
              {std::function<double(int, double)>{halved}, std::function<double(int, double)>{inverted},
