@@ -131,7 +131,6 @@ void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& 
     else if (sq > unsubtracted_gate_sq * residual.variance_arcsec2)
         unsubtracted = sq;
     tick.variance_arcsec2 += unsubtracted;
-    tick.relock_variance_arcsec2 += unsubtracted;
 }
 
 // A half that was read, and refused: not one that was missed, whose counts are in a later one.

@@ -17,6 +17,10 @@ constexpr double scale_walk = 1e-8;
 constexpr double max_innovation_ratio = 4.0;
 constexpr double max_step_sq = 9.0;
 
+// Square of the standard deviations beyond which an estimated error of a re-lock is a jump of the motion: by phase the first
+// ticks after a closing err by up to thirteen.
+constexpr double max_relock_error_sq = 900.0;
+
 // A scale farther off is no property of a gyro whose chi f0 was calibrated at all.
 constexpr double max_scale = 0.1;
 
@@ -115,7 +119,7 @@ void set_final(HistoryTick& tick, double value_arcsec, double relock_arcsec, Exa
 
 // Where the motion jumped, the estimate would take it for an error of the re-lock that the correction cannot have.
 bool is_plausible(double error_arcsec, double variance_arcsec2) noexcept {
-    return error_arcsec * error_arcsec <= max_step_sq * variance_arcsec2;
+    return error_arcsec * error_arcsec <= max_relock_error_sq * variance_arcsec2;
 }
 
 }  // namespace
