@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
@@ -148,6 +150,33 @@ TEST(GapBridgeNoise, TheErrorOfARelockIsInTheGapAndBehindIt) {
         }
         EXPECT_NEAR(variance[1] - variance[0], 2.0 * std::pow(0.25 * n + 1.0, 2.0) * relock_arcsec2, 1e-9) << n;
     }
+}
+
+// In another unit of the angle every choice is the same, and every sigma but for the unit: no number of arcseconds decides.
+TEST(GapBridgeNoise, TheSizeOfACountChangesNoChoice) {
+    constexpr double smaller = 1.0 / 1024.0;
+    const auto rows_of = [&](double unit) {
+        Random random{5};
+        const double scale = unit * count_arcsec;
+        double turned = 0.0, rate = 0.0;
+        Log log;
+        for (int k = 0; k < 6000; ++k) {
+            // A walk, at last ever smoother.
+            rate += (k < 2000 ? 0.3 : 0.0) * random.normal() + 0.05 * std::cos(0.002 * k) - 0.002 * rate;
+            const double before = std::floor(turned);
+            turned += rate;
+            TickInput tick = k > 20 && k % 40 < 3 ? gap_tick() : measured_tick(scale * (std::floor(turned) - before));
+            tick.variance_arcsec2 = scale * scale / 6.0;
+            log.push_back(tick);
+        }
+        return run({.method = BridgeMethod::automatic}, log,
+                   {.scale = Arcsec{scale}, .random_walk = zlg::core::ArcsecPerRootSecond{0.14 * unit}})
+            .rows;
+    };
+    const std::vector<AngleRow> large = rows_of(1.0), small = rows_of(smaller);
+    ASSERT_EQ(large.size(), small.size());
+    for (std::size_t k = 0; k < large.size(); ++k)
+        EXPECT_NEAR(small[k].sigma_arcsec / smaller, large[k].sigma_arcsec, 1e-6 * large[k].sigma_arcsec) << k;
 }
 
 TEST(GapBridgeNoise, AnUnknownSigmaOfAPointMakesThatOfTheGapUnknown) {
