@@ -27,6 +27,17 @@ Size size_of(const std::string& element) {
     return {width, std::stod(rest.substr(used))};
 }
 
+// A reader's dark mode: a dark ground, light ink, and the series in lighter shades of their colours.
+constexpr std::string_view dark_mode =
+    "<style>@media (prefers-color-scheme:dark){"
+    "[fill=\"#fff\"]{fill:#16181b}[fill=\"#dce9f3\"]{fill:#22384a}[fill=\"#111\"],[fill=\"#222222\"],[fill=\"#444\"]{"
+    "fill:#e4e6e9}"
+    "[stroke=\"#444\"],[stroke=\"#222222\"]{stroke:#c4c8ce}[stroke=\"#d4d4d4\"],[stroke=\"#eee\"]{stroke:#3a3e45}"
+    "[stroke=\"#0072b2\"]{stroke:#4aa8e8}[fill=\"#0072b2\"]{fill:#4aa8e8}"
+    "[stroke=\"#d55e00\"]{stroke:#f39a55}[fill=\"#d55e00\"]{fill:#f39a55}"
+    "[stroke=\"#009e73\"]{stroke:#3cc79c}[fill=\"#009e73\"]{fill:#3cc79c}"
+    "}</style>";
+
 }  // namespace
 
 PhysicsPictures physics_pictures() {
@@ -57,8 +68,8 @@ std::string svg_file(const Picture& picture) {
     }
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" "
-        "width=\"{0}\" height=\"{1}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{2}</svg>\n",
-        sheet.width, sheet.height, body);
+        "width=\"{0}\" height=\"{1}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{2}\n{3}</svg>\n",
+        sheet.width, sheet.height, dark_mode, body);
 }
 
 std::string markdown(const std::vector<Reading>& readings) {

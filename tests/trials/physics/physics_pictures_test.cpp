@@ -74,7 +74,7 @@ TEST(PhysicsPictures, ShowWhatTheModelIsKnownFor) {
     EXPECT_EQ(panel(made, "misses").series[0].x.size(), 10U);
 }
 
-TEST(PhysicsPictures, StackTheirPanelsOnWhite) {
+TEST(PhysicsPictures, StackTheirPanelsOnAGroundOfTheReadersMode) {
     report::Figure figure{.id = "a",
                           .title = "t",
                           .caption = "c",
@@ -93,6 +93,7 @@ TEST(PhysicsPictures, StackTheirPanelsOnWhite) {
     const std::size_t ground = one.find("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>");
     ASSERT_NE(ground, std::string::npos);
     EXPECT_LT(ground, one.find("<path"));
+    EXPECT_NE(one.find("prefers-color-scheme:dark"), std::string::npos);
     EXPECT_NEAR(std::atof(two.c_str() + two.rfind("<svg y=\"") + 8), height(one), 0.02);
     EXPECT_EQ(one.find("<svg y=\"0\""), one.rfind("<svg y="));
 }
