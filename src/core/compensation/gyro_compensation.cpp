@@ -332,9 +332,13 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
     if (tick.measured) {
         tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
     } else {
-        const double left_arcsec_s =
-            trusted_arcsec_s(state.magnetic) - state.magnetic.trust * state.magnetic.filter.estimate[of_drift];
-        state.bridge.magnetic_arcsec = by_phase ? left_arcsec_s * config.gyro.tick.value() : 0.0;
+        // In the angle of a tick.
+        const double tick_s = by_phase ? config.gyro.tick.value() : 0.0;
+        const MagneticFilterState& filter = state.magnetic.filter;
+        const double trusted = trusted_arcsec_s(state.magnetic), untrusted = filter.estimate[of_drift] - trusted;
+        const double variance = filter.covariance[of_drift][of_drift] + untrusted * untrusted;
+        state.bridge.magnetic_arcsec = (trusted - state.magnetic.trust * filter.estimate[of_drift]) * tick_s;
+        state.bridge.magnetic_variance_arcsec2 = variance * tick_s * tick_s;
     }
     return subtracted;
 }

@@ -69,6 +69,8 @@ void begin(GapBridgeState& state, const Gap& gap, bool halves, bool learnt) noex
     e.problem.halves = halves;
     e.learnt = learnt;
     e.magnetic_arcsec = state.magnetic_arcsec;
+    const bool steps = at(state, e.end_tick).row.mode != gap.mode_before;
+    e.magnetic_variance_arcsec2 = steps ? state.magnetic_variance_arcsec2 : 0.0;
     if (learnt) {
         presume(state.learning, e.problem);
         take_lit_halves(state);

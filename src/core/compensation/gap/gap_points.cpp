@@ -77,14 +77,28 @@ unsigned first_after(const EstimatedGap& e, const GapProblem& problem) noexcept 
     return k;
 }
 
+// Covariance of the errors of points k and l by the magnetic drift, which steps at the gap; of whole ticks.
+double magnetic_error(const EstimatedGap& e, unsigned k, unsigned l) noexcept {
+    const bool same = is_corrected(e, half_after(e, e.problem, k)) == is_corrected(e, half_after(e, e.problem, l));
+    return same ? e.magnetic_variance_arcsec2 : -e.magnetic_variance_arcsec2;
+}
+
+// Those of the newest point with all others.
+void add_magnetic_error(const EstimatedGap& e, double share, Column& error) noexcept {
+    if (e.magnetic_variance_arcsec2 == 0.0) return;
+    const auto n = static_cast<unsigned>(e.problem.factor.n);
+    for (unsigned k = 0; k <= n; ++k) error[k] += share * magnetic_error(e, k, n);
+}
+
 void add_tick(const MotionCovariance& covariance, const HistoryTick& tick, int k, EstimatedGap& e) noexcept {
     GapProblem& problem = e.problem;
     const auto n = static_cast<unsigned>(problem.factor.n);
+    e.index[n] = static_cast<std::int8_t>(k);
     Column error{};
-    error[n] = tick.relock_variance_arcsec2;
+    add_magnetic_error(e, 1.0, error);
+    error[n] += tick.relock_variance_arcsec2;
     e.data.value[n] = tick.row.dtheta_final_arcsec - tick.row.mode * e.magnetic_arcsec;
     e.relock_variance_arcsec2[n] = tick.relock_variance_arcsec2;
-    e.index[n] = static_cast<std::int8_t>(k);
     add_point(covariance, problem, sample_of(e, problem, k), error);
 }
 
@@ -95,6 +109,7 @@ void add_half(const MotionCovariance& covariance, GapBridgeState& state, const H
     e.index[n] = static_cast<std::int8_t>(k);
     e.data.value[n] = half_value(tick, k % 2);
     Column error{};
+    add_magnetic_error(e, 0.25, error);
     const int own = half_after(e, problem, n);
     if (is_corrected(e, own)) {
         const double correction_arcsec = correction(state, own);
@@ -103,7 +118,7 @@ void add_half(const MotionCovariance& covariance, GapBridgeState& state, const H
                           (1.0 + state.bias_scale.value) * correction_arcsec;
         for (unsigned i = 0; i <= n; ++i) {
             const int other = half_after(e, problem, i);
-            if (is_corrected(e, other)) error[i] = half_error(state, own, other);
+            if (is_corrected(e, other)) error[i] += half_error(state, own, other);
         }
     }
     e.data.value[n] -= 0.5 * (own < 0 && is_corrected(e, own) ? e.lit.mode : tick.row.mode) * e.magnetic_arcsec;
@@ -222,6 +237,8 @@ void begin_mixture(const MotionCovariance& covariance, GapBridgeState& state) no
         first_of[n] = static_cast<std::int8_t>(k);
         double value = 0.0;
         MixtureColumn error{};
+        for (unsigned earlier = 0; earlier <= n && e.magnetic_variance_arcsec2 > 0.0; ++earlier)
+            error[earlier] = magnetic_error(e, static_cast<unsigned>(first_of[earlier]), static_cast<unsigned>(k));
         for (int point = k; point < k + stride; ++point) {
             const auto own = static_cast<unsigned>(point);
             value += e.data.value[own];
@@ -234,7 +251,7 @@ void begin_mixture(const MotionCovariance& covariance, GapBridgeState& state) no
                     if (is_corrected(e, other)) error[earlier] += half_error(state, after, other);
                 }
         }
-        if (!problem.halves) error[n] = e.relock_variance_arcsec2[static_cast<unsigned>(k)];
+        if (!problem.halves) error[n] += e.relock_variance_arcsec2[static_cast<unsigned>(k)];
         add_point(covariance, mixture, place, value, error);
     }
     e.mixing = true;

@@ -83,6 +83,7 @@ struct EstimatedGap {
     int n_tried = 0;               // points that were added, or found not to be measured
     bool learnt = true;            // the motion was known when the problem began
     double magnetic_arcsec = 0.0;  // as in GapBridgeState when it began
+    double magnetic_variance_arcsec2 = 0.0;
     int n_after = 0;               // ticks after the gap that may be points; before it: problem.n_side
     bool solving = false;
     GapProblem problem{};
@@ -104,6 +105,7 @@ struct GapBridgeState {
     // Magnetic drift in a tick of mode +1 that is still in the values, as far as it is known. The points of a gap lose it, for at
     // the gap it steps: an estimate across it would take the step for a false angle or for motion.
     double magnetic_arcsec = 0.0;
+    double magnetic_variance_arcsec2 = 0.0;
     double relock_to_come_arcsec2 = 0.0;  // variance of the re-lock corrections still to come
     double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
     double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
