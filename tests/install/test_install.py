@@ -70,8 +70,8 @@ class Installed(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("pkg-config"), "pkg-config is not installed")
     def test_pkg_config_names_the_core(self):
-        env = {**os.environ, "PKG_CONFIG_PATH": str(self.prefix / "lib" / "pkgconfig")}
-        said = run("pkg-config", f"--define-variable=prefix={self.prefix}", "--cflags", "--libs", "zlg-core", env=env).split()
+        env = {**os.environ, "PKG_CONFIG_PATH": str(self.prefix / "share" / "pkgconfig")}
+        said = run("pkg-config", "--cflags", "--libs", "zlg-core", env=env).split()
         self.assertIn("-lzlg_core", said)
         folder = next(part[2:] for part in said if part.startswith("-I"))
         self.assertTrue((Path(folder) / "zlg" / "core" / "records.hpp").is_file())

@@ -31,7 +31,7 @@ class Scripts(unittest.TestCase):
         return done.stderr
 
     def test_an_unknown_set_of_packages_is_refused(self):
-        self.assertIn("'everything', allowed: build, bench, python, test, deep, tidy",
+        self.assertIn("'everything', allowed: build, bench, python, package, test, deep, tidy",
                       self.refused("scripts/install", "everything"))
 
     def test_an_unknown_kind_of_test_is_refused(self):
