@@ -1,19 +1,19 @@
 # One way to declare a library of the product: its sources, its own include root, what it may see.
 
-set(CMAKE_CXX_STANDARD 20)
-set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
+option(ZLG_WERROR "a warning is an error; on in the project's own presets, for another compiler may warn of more" OFF)
 option(ZLG_COVERAGE "instrument for line coverage" OFF)
 
 # -Wno-missing-field-initializers: a designated initialiser names what differs from the members' own defaults.
 # -ffp-contract=off: a fused multiply-add rounds once where two operations round twice, and only some machines have it.
 function(zlg_flags target)
+    target_compile_features(${target} PUBLIC cxx_std_20)
     target_compile_options(${target} PRIVATE
         -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Wno-missing-field-initializers
         -ffp-contract=off)
     # What a sanitizer adds to the code makes the compiler warn of what is not there: warnings are judged without it.
-    if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    if(ZLG_WERROR AND NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
         target_compile_options(${target} PRIVATE -Werror)
     endif()
     if(ZLG_COVERAGE)
@@ -53,12 +53,13 @@ function(zlg_quick_to_compile target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# zlg_library(name SOURCES ... USES ...): library zlg_<name> of the folder src/<name>/, seeing only the include roots it USES. Its own
+# zlg_library(name SOURCES ... USES ...): library zlg_<name>, zlg::<name> to others, of the folder src/<name>/, seeing only the include roots it USES. Its own
 # private headers in other rooms than the source's are named from that folder: "common/bounds.hpp".
 function(zlg_library name)
     cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
     add_library(zlg_${name} STATIC ${arg_SOURCES})
-    target_include_directories(zlg_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    add_library(zlg::${name} ALIAS zlg_${name})
+    target_include_directories(zlg_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
     target_include_directories(zlg_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(zlg_${name} PUBLIC ${arg_USES})
     # The Python module is made of the same archives. Without the right of others to replace our functions it costs next to nothing.

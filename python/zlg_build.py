@@ -49,6 +49,13 @@ def get_requires_for_build_wheel(config_settings=None):
 get_requires_for_build_sdist = get_requires_for_build_wheel
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    info = pathlib.Path(metadata_directory) / f"zlg-{version()}.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(metadata())
+    return info.name
+
+
 def built_package(config_settings):
     """The folder with the package. The setting `build-dir` names a build folder to go on with."""
     build = pathlib.Path((config_settings or {}).get("build-dir", ROOT / "build" / "wheel"))

@@ -13,6 +13,7 @@
 
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "manual.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
@@ -101,6 +102,7 @@ int main(int argc, char** argv) {
     cli::add_follow(program);
     cli::add_inspect(program);
     cli::add_analyze(program);
+    cli::add_manual(program);
     const cli::InterruptGuard guard;
     const int exit_code = guarded(program, argc, argv);
     cli::print_notes();

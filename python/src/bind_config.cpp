@@ -34,11 +34,20 @@ py::list keys() {
     return all;
 }
 
+// As --set of the program, whose name nobody has typed here.
+void apply_setting(config::Config& config, const std::string& setting) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos)
+        throw config::ConfigError{"zlg.Config: " + setting +
+                                  ": \"section.key=value\" is wanted, an equals sign is missing"};
+    config::apply_pair(config, setting.substr(0, equals), setting.substr(equals + 1), "zlg.Config");
+}
+
 // Only the end is checked: what stands between members and `sets` need not be allowed.
 config::Config of_pairs(const config::Settings& settings, const std::vector<std::string>& sets) {
     config::Config config;
     for (const auto& [key, value] : settings) config::apply_pair(config, key, value, "zlg.Config");
-    for (const std::string& set : sets) config::apply_set(config, set);
+    for (const std::string& set : sets) apply_setting(config, set);
     config::check(config);
     return config;
 }
@@ -46,7 +55,7 @@ config::Config of_pairs(const config::Settings& settings, const std::vector<std:
 config::Config of_layers(const std::string& toml, const std::string& source, const std::vector<std::string>& sets) {
     config::Config config;
     config::apply_toml(config, toml, source);
-    for (const std::string& set : sets) config::apply_set(config, set);
+    for (const std::string& set : sets) apply_setting(config, set);
     config::check(config);
     return config;
 }

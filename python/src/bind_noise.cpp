@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/noise/imu_yaml.hpp>
 #include <zlg/noise/mode_split.hpp>
@@ -78,6 +80,26 @@ void add_pairs(py::class_<NoiseTerms>& terms, const char* name, std::vector<Term
         meaning);
 }
 
+// Those that are there.
+std::string text_of(const NoiseTerms& t) {
+    std::string text;
+    const auto add = [&text](const char* name, double value) {
+        if (value != 0.0) text += fmt::format("{}{}={:.6g}", text.empty() ? "" : ", ", name, value);
+    };
+    add("quantisation_arcsec", t.quantisation_arcsec);
+    add("angle_random_walk_arcsec_sqrt_s", t.angle_random_walk_arcsec_sqrt_s);
+    add("bias_instability_arcsec_s", t.bias_instability_arcsec_s);
+    add("rate_random_walk_arcsec_s_sqrt_s", t.rate_random_walk_arcsec_s_sqrt_s);
+    add("ramp_arcsec_s2", t.ramp_arcsec_s2);
+    for (const MarkovNoise& each : t.markov)
+        text +=
+            fmt::format("{}markov=({:.6g}, {:.6g})", text.empty() ? "" : ", ", each.deviation_arcsec_s, each.time_s);
+    for (const SineTerm& each : t.sines)
+        text += fmt::format("{}sine=({:.6g}, {:.6g})", text.empty() ? "" : ", ", each.amplitude_arcsec_s,
+                            each.frequency_hz);
+    return fmt::format("NoiseTerms({})", text);
+}
+
 void bind_terms(py::module_& m) {
     py::class_<NoiseTerms> terms{m, "NoiseTerms", "The terms of a gyro's noise, arcsec and seconds; 0: absent."};
     add_pairs(terms, "markov", &NoiseTerms::markov, &MarkovNoise::deviation_arcsec_s, &MarkovNoise::time_s,
@@ -85,6 +107,7 @@ void bind_terms(py::module_& m) {
     add_pairs(terms, "sines", &NoiseTerms::sines, &SineTerm::amplitude_arcsec_s, &SineTerm::frequency_hz,
               "Pairs (amplitude_arcsec_s, frequency_hz); assign a whole list.");
     terms.def(py::init<>())
+        .def("__repr__", &text_of)
         .def_readwrite("quantisation_arcsec", &NoiseTerms::quantisation_arcsec)
         .def_readwrite("angle_random_walk_arcsec_sqrt_s", &NoiseTerms::angle_random_walk_arcsec_sqrt_s)
         .def_readwrite("bias_instability_arcsec_s", &NoiseTerms::bias_instability_arcsec_s)

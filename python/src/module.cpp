@@ -2,6 +2,7 @@
 
 PYBIND11_MODULE(_zlg, m) {
     m.doc() = "The C++ behind zlg. Use the modules of the package; what they take and give is said there.";
+    m.attr("version") = ZLG_VERSION;
     zlg::python::bind_errors(m);
     zlg::python::bind_config(m);
     zlg::python::bind_logs(m);

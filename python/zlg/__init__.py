@@ -9,12 +9,15 @@ Long calls release the interpreter. `run`, `simulate`, `compensate`, `paper`, `a
 `progress`, a function of the fraction done, and end on Ctrl-C; a deviation, a fit and `design_gyro` go on to their end.
 """
 
-from . import analysis, config, core, design, logs, rig, study, twin
+from . import _zlg, analysis, config, core, design, logs, rig, study, twin
 from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, SeriesError
 from .config import Config
+from .logs import convert
 from .rig import simulate
 from .core import compensate
 from .study import RunResult, run
+
+__version__: str = _zlg.version
 
 __all__ = [
     "Config",
@@ -25,9 +28,11 @@ __all__ = [
     "IoError",
     "RunResult",
     "SeriesError",
+    "__version__",
     "analysis",
     "compensate",
     "config",
+    "convert",
     "core",
     "design",
     "logs",

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, Optional, Union
+from typing import Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _zlg
 from ._columns import floats, made_of, mask
+from ._shown import Columns, axes_of
 from .logs import AngleLog
 
 __all__ = [
@@ -29,8 +30,8 @@ TotalBias = Literal["removed", "published", "as_computed"]
 KINDS = ("adev", "oadev", "mdev", "tdev", "hdev", "ohdev", "totdev", "mtotdev", "htotdev")
 
 
-@dataclass
-class Deviations:
+@dataclass(repr=False)
+class Deviations(Columns):
     """A deviation against averaging time: arrays of shape (taus,). A tau at which nothing is known is left out."""
 
     kind: str
@@ -54,6 +55,16 @@ class Deviations:
     as_computed: Floats
     #: what was done about that bias: "removed", "published" or "as_computed"
     bias: str
+
+    _index = "tau_s"
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """The curve with its intervals, both scales logarithmic; on these axes of matplotlib, or on new ones, returned."""
+        ax = axes_of(ax)
+        errors = np.maximum([self.deviation - self.low, self.high - self.deviation], 0.0)
+        ax.errorbar(self.tau_s, self.deviation, errors, **{"fmt": ".-", "capsize": 2, "label": self.kind, **style})
+        ax.set(xscale="log", yscale="log", xlabel="averaging time, s", ylabel=f"{self.kind}, unit of the data")
+        return ax
 
 
 class Known(NamedTuple):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _zlg
 from ._columns import floats, made_of, mask, signs
+from ._shown import Shown, axes_of
 from ._deviations import DataType, Floats, Unit
 from ._zlg import NoiseTerms
 
@@ -23,8 +24,8 @@ __all__ = [
 Estimate = Optional[tuple[float, float]]
 
 
-@dataclass
-class FittedTerm:
+@dataclass(repr=False)
+class FittedTerm(Shown):
     """A noise term, found or not; NaN: not known."""
 
     name: str
@@ -42,8 +43,8 @@ class FittedTerm:
     read_at_s: float
 
 
-@dataclass
-class NoiseFit:
+@dataclass(repr=False)
+class NoiseFit(Shown):
     """The terms of a gyro's noise, and the Hadamard variances from which they were found."""
 
     terms: NoiseTerms
@@ -66,6 +67,15 @@ class NoiseFit:
             if term.name == name:
                 return term
         raise KeyError(f"{name}: allowed are {', '.join(term.name for term in self.fitted)}")
+
+    def plot(self, ax: Any = None) -> Any:
+        """Measured and fitted Hadamard deviation, arcsec/s; on these axes of matplotlib, or on new ones, returned."""
+        ax = axes_of(ax)
+        ax.loglog(self.tau_s, np.sqrt(self.measured), "o", label="measured")
+        ax.loglog(self.tau_s, np.sqrt(self.fitted_variance), label="fitted")
+        ax.set(xlabel="averaging time, s", ylabel="Hadamard deviation, arcsec/s")
+        ax.legend()
+        return ax
 
 
 def fit_noise(
@@ -100,8 +110,8 @@ def terms_of_data_sheet(
     )  # fmt: skip
 
 
-@dataclass
-class DiscreteNoise:
+@dataclass(repr=False)
+class DiscreteNoise(Shown):
     """Noise of one sample at a rate, standard deviations."""
 
     white_rate_arcsec_s: float
@@ -149,8 +159,8 @@ def spectrogram(
     return _zlg.spectrogram(floats(rates_arcsec_s), rate_hz, piece, least_known_ratio)
 
 
-@dataclass
-class ModeSplit:
+@dataclass(repr=False)
+class ModeSplit(Shown):
     """A switched gyro's rate, in what follows the mode and what does not. An estimate is (value, sigma), None: not determined."""
 
     segment_time_s: Floats
@@ -187,8 +197,8 @@ def split_modes(
     return made_of(ModeSplit, _zlg.split_modes(floats(rates_arcsec_s), signs(mode), rate_hz, bridged, settling_samples))
 
 
-@dataclass
-class RateTable:
+@dataclass(repr=False)
+class RateTable(Shown):
     """Scale factor and bias from a rate table. An estimate is (value, sigma), None: not determined."""
 
     #: of each stage, shape (stages,)

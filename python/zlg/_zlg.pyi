@@ -129,6 +129,8 @@ class Motion:
     @property
     def duration_s(self) -> float: ...
 
+version: str
+
 class NoiseTerms:
     def __init__(self) -> None: ...
     quantisation_arcsec: float

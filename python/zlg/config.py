@@ -15,6 +15,7 @@ from typing import Any, Optional, Union
 
 from . import _zlg
 from . import sections as _sections
+from ._shown import table_html
 from .section import give, given_of, keys_of
 from .sections import *
 from .sections import Sections
@@ -37,7 +38,7 @@ def _toml(value: Any) -> str:
     return repr(number) if math.isfinite(number) else "nan" if math.isnan(number) else f"{number:+}".lower()
 
 
-@dataclass
+@dataclass(repr=False)
 class Config(Sections):
     """Everything configurable. The defaults are the gyro of the paper.
 
@@ -48,7 +49,7 @@ class Config(Sections):
 
     @classmethod
     def of(cls, *settings: str) -> Config:
-        """The defaults, and over them settings as the program's --set takes them: "section.key=value".
+        """The defaults, and over them settings "section.key=value".
 
         Raises ConfigError.
         """
@@ -109,6 +110,13 @@ class Config(Sections):
                 if value is not None and (key in given_of(mine) or not _same(value, getattr(theirs, key))):
                     pairs.append((f"{section.name}.{key}", _toml(value)))
         return pairs
+
+    def __repr__(self) -> str:
+        """What was given or is not the default, as the call that makes the same."""
+        return f"zlg.Config.of({', '.join(repr(f'{key}={value}') for key, value in self.settings())})"
+
+    def _repr_html_(self) -> str:
+        return table_html("zlg.Config, beside the defaults", ["key", "value"], self.settings())
 
     def check(self) -> None:
         """Raises ConfigError with the first rule that is broken."""

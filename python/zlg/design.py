@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _zlg
 from ._columns import made_of
+from ._shown import Shown
 from .config import Config, checked, resolved
 
 __all__ = [
@@ -36,8 +37,8 @@ class Optimum(NamedTuple):
     status: str
 
 
-@dataclass
-class IntervalLine:
+@dataclass(repr=False)
+class IntervalLine(Shown):
     """The best interval of one budget for one length of run."""
 
     run_s: float
@@ -47,8 +48,8 @@ class IntervalLine:
     status: str
 
 
-@dataclass
-class SubstitutionLine:
+@dataclass(repr=False)
+class SubstitutionLine(Shown):
     """Error of a gap's angle, arcsec, by order of the polynomial; frequency NaN: the whole configured motion."""
 
     order: int
@@ -62,8 +63,8 @@ class SubstitutionLine:
     total_arcsec: float
 
 
-@dataclass
-class Design:
+@dataclass(repr=False)
+class Design(Shown):
     """What `design_gyro` gives."""
 
     #: rms of a switch: design.switch_error_arcsec where it is given, else of a trial of the gyro on the twin
@@ -83,8 +84,8 @@ class Design:
     page: str
 
 
-@dataclass
-class Relock:
+@dataclass(repr=False)
+class Relock(Shown):
     """The perimeter loop from its closing on."""
 
     step_s: float

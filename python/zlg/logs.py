@@ -6,22 +6,23 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, columns_of, made_of, warn_each
+from ._shown import Columns, axes_of
 from .config import Config, checked
 
-__all__ = ["AngleLog", "RawLog", "Switches", "kind", "read_angles", "read_raw", "read_text_columns", "write_angles", "write_raw"]
+__all__ = ["AngleLog", "RawLog", "Switches", "convert", "kind", "read_angles", "read_raw", "read_text_columns", "write_angles", "write_raw"]
 
 Path = Union[str, os.PathLike[str]]
 
 
-@dataclass
-class RawLog:
+@dataclass(repr=False)
+class RawLog(Columns):
     """What a gyro's processor recorded: arrays of shape (halves,), one element per half of a bias period. None: not recorded."""
 
     counts: NDArray[np.int64]
@@ -60,18 +61,18 @@ class RawLog:
 
     @property
     def config(self) -> Config:
-        """The configuration that the settings warn_each, over the defaults."""
+        """The configuration that the settings say, over the defaults."""
         return Config.from_settings(self.settings)
 
     @property
     def tick_s(self) -> float:
-        """Length of a tick, two halves; NaN where the settings do not warn_each it."""
+        """Length of a tick, two halves; NaN where the settings do not say it."""
         config = self.config
         return config.gyro.tick_s if config.says("gyro.tick_s") else math.nan
 
 
-@dataclass
-class Switches:
+@dataclass(repr=False)
+class Switches(Columns):
     """Switches and what compensation made of them, arrays of shape (switches,); NaN where unknown."""
 
     tick: NDArray[np.int64]
@@ -85,8 +86,8 @@ class Switches:
     true_error_arcsec: NDArray[np.float64]
 
 
-@dataclass
-class AngleLog:
+@dataclass(repr=False)
+class AngleLog(Columns):
     """What compensation made of a raw log: arrays of shape (ticks,), one element per tick."""
 
     #: as delivered in real time, arcsec
@@ -106,6 +107,8 @@ class AngleLog:
     complete: bool = True
     #: what `compensate` found; None: of a log that was read
     switches: Optional[Switches] = None
+
+    _index = "t_s"
 
     def __len__(self) -> int:
         return len(self.flags)
@@ -127,6 +130,14 @@ class AngleLog:
         if self.truth_dtheta_arcsec is None:
             raise ValueError("the log has no true angle: it was not made by the twin")
         return np.cumsum(self.dtheta_final_arcsec - self.truth_dtheta_arcsec)
+
+    def plot(self, ax: Any = None) -> Any:
+        """The error of the angle over time, without truth the angle itself; on these axes of matplotlib, or on new ones, returned."""
+        ax = axes_of(ax)
+        known = self.truth_dtheta_arcsec is not None
+        ax.plot(self.t_s, self.error_arcsec if known else np.cumsum(self.dtheta_final_arcsec))
+        ax.set(xlabel="time, s", ylabel="angle error, arcsec" if known else "angle, arcsec")
+        return ax
 
 
 def kind(path: Path) -> str:
@@ -168,6 +179,28 @@ def read_angles(path: Path, progress: Progress = None) -> AngleLog:
 def write_angles(path: Path, log: AngleLog, force: bool = False, progress: Progress = None) -> None:
     """Write an angle log, .csv, .h5 or .hdf5; the truth is kept in HDF5. Raises IoError, FormatError."""
     _zlg.write_angles(os.fspath(path), columns_of(log), log.tick_s, log.settings, force, progress)
+
+
+def convert(source: Path, target: Path, force: bool = False, progress: Progress = None) -> None:
+    """A raw or angle log in the other format, every value the same; light samples stay behind where the target is CSV.
+
+    The log is held in memory meanwhile; `zlg convert` is not bound by that. Raises IoError, FormatError; ValueError for a file
+    that is no log.
+    """
+
+    tell = progress if progress is not None else lambda fraction: None
+
+    def half(first: int) -> Progress:
+        return lambda fraction: tell(0.5 * (first + fraction))
+
+    found = kind(source)
+    if found == "raw":
+        light = not os.fspath(target).lower().endswith(".csv")
+        write_raw(target, read_raw(source, light, half(0)), None, force, half(1))
+    elif found == "angles":
+        write_angles(target, read_angles(source, half(0)), force, half(1))
+    else:
+        raise ValueError(f"{os.fspath(source)}: is neither a raw log nor an angle log")
 
 
 def read_text_columns(

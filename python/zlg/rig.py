@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, made_of
+from ._shown import Columns
 from .config import Config, checked, resolved
 from .logs import RawLog
 from .twin import Motion
@@ -17,8 +18,8 @@ from .twin import Motion
 __all__ = ["ClosedLoop", "Simulation", "calibrated_by_laser", "simulate", "without_switching"]
 
 
-@dataclass
-class Simulation:
+@dataclass(repr=False)
+class Simulation(Columns):
     """Some halves of a closed loop; arrays of shape (halves,)."""
 
     raw: RawLog

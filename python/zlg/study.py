@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Optional
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, floats, made_of, signs
+from ._shown import Shown, axes_of, short, table_html
 from .analysis import Deviations, ModeSplit, NoiseFit
 from .config import Config, checked, resolved
 from .logs import AngleLog, RawLog, Switches
@@ -33,8 +35,8 @@ __all__ = [
 ]
 
 
-@dataclass
-class Variant:
+@dataclass(repr=False)
+class Variant(Shown):
     """One way to compensate a run, and what comes of it."""
 
     name: str
@@ -53,9 +55,16 @@ class Variant:
     t_s: NDArray[np.float64]
     error_arcsec: NDArray[np.float64]
 
+    def plot(self, ax: Any = None) -> Any:
+        """The error of the angle over time; on these axes of matplotlib, or on new ones, returned."""
+        ax = axes_of(ax)
+        ax.plot(self.t_s, self.error_arcsec, label=self.name)
+        ax.set(xlabel="time, s", ylabel="angle error, arcsec")
+        return ax
 
-@dataclass
-class RunResult:
+
+@dataclass(repr=False)
+class RunResult(Shown):
     """What `run` gives."""
 
     tick_s: float
@@ -83,6 +92,26 @@ class RunResult:
                 return variant
         raise KeyError(f"{name}: allowed are {', '.join(variant.name for variant in self.variants)}")
 
+    def _repr_html_(self) -> str:
+        columns = ("name", "drift_arcsec_s", "angle_error_arcsec", "switch_mean_arcsec", "switch_rms_arcsec", "switch_max_arcsec")
+        rows = [[short(getattr(variant, column)).strip("'") for column in columns] for variant in self.variants]
+        return table_html(f"{self.ticks * self.tick_s:g} s, {len(self.switches.tick)} switches", columns, rows)
+
+    def to_pandas(self) -> Any:
+        """One row a variant: drift, error at the end and errors of switches, as a pandas.DataFrame. Needs pandas."""
+        columns = ("drift_arcsec_s", "angle_error_arcsec", "switch_mean_arcsec", "switch_rms_arcsec", "switch_max_arcsec")
+        values = [[getattr(variant, column) for column in columns] for variant in self.variants]
+        names = [variant.name for variant in self.variants]
+        return importlib.import_module("pandas").DataFrame(values, index=names, columns=columns)
+
+    def plot(self, ax: Any = None) -> Any:
+        """The error of the angle over time, of each variant; on these axes of matplotlib, or on new ones, returned."""
+        ax = axes_of(ax)
+        for variant in self.variants:
+            variant.plot(ax)
+        ax.legend()
+        return ax
+
 
 def run(
     config: Optional[Config] = None,
@@ -108,8 +137,8 @@ def run(
     return made_of(RunResult, result)
 
 
-@dataclass
-class Claim:
+@dataclass(repr=False)
+class Claim(Shown):
     """Something that the paper says, and what became of it."""
 
     where: str
@@ -118,8 +147,8 @@ class Claim:
     finding: str
 
 
-@dataclass
-class Paper:
+@dataclass(repr=False)
+class Paper(Shown):
     """The paper recomputed."""
 
     claims: list[Claim]
@@ -136,8 +165,8 @@ def paper(
     return made_of(Paper, _zlg.paper(checked(config), threads, switches_per_point, progress))
 
 
-@dataclass
-class Axis:
+@dataclass(repr=False)
+class Axis(Shown):
     """One axis of a gyro as it was read."""
 
     name: str
@@ -152,8 +181,8 @@ class Axis:
     group: str = ""
 
 
-@dataclass
-class Readout:
+@dataclass(repr=False)
+class Readout(Shown):
     """The Allan deviation at a time, between two points of its curve."""
 
     what: str
@@ -161,8 +190,8 @@ class Readout:
     deviation_arcsec_s: float
 
 
-@dataclass
-class AxisResult:
+@dataclass(repr=False)
+class AxisResult(Shown):
     """What is known of the noise of one axis."""
 
     name: str
@@ -183,8 +212,8 @@ class AxisResult:
     mode_curves: list[Deviations]
 
 
-@dataclass
-class EarthLine:
+@dataclass(repr=False)
+class EarthLine(Shown):
     """The Earth's rate as three axes at right angles see it: the norm of their mean rates."""
 
     group: str
@@ -193,8 +222,8 @@ class EarthLine:
     sigma_arcsec_s: float
 
 
-@dataclass
-class Analysis:
+@dataclass(repr=False)
+class Analysis(Shown):
     """What `analyze` gives."""
 
     axes: list[AxisResult]

@@ -23,6 +23,20 @@ class Configuration(unittest.TestCase):
                 self.assertIsNone(re.search(r"^\s*check_\w+\(", path.read_text(encoding="utf-8"), re.M))
 
 
+class Version(unittest.TestCase):
+    def test_a_citation_names_the_version_that_is_built(self):
+        built = re.search(r"project\(zlg VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+        cited = re.search(r"^version: (.*)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.M).group(1)
+        self.assertEqual(cited, built)
+
+
+class Workflows(unittest.TestCase):
+    def test_they_call_scripts_that_are_there(self):
+        called = [re.findall(r"^ *- run: (scripts/\w+)", path.read_text(encoding="utf-8"), re.M)
+                  for path in sorted((ROOT / ".github" / "workflows").iterdir())]
+        self.assertEqual(called, [["scripts/test"], ["scripts/test"]])
+
+
 class Scripts(unittest.TestCase):
     def refused(self, *command):
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
@@ -31,7 +45,7 @@ class Scripts(unittest.TestCase):
         return done.stderr
 
     def test_an_unknown_set_of_packages_is_refused(self):
-        self.assertIn("'everything', allowed: build, bench, python, site, test, deep, tidy",
+        self.assertIn("'everything', allowed: build, bench, python, site, package, test, deep, tidy",
                       self.refused("scripts/install", "everything"))
 
     def test_an_unknown_kind_of_test_is_refused(self):

@@ -1,0 +1,82 @@
+"""How results show themselves: as one line, as a table in a notebook, as a data frame."""
+
+from __future__ import annotations
+
+import dataclasses
+import html
+import importlib
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+__all__ = ["Columns", "Shown", "axes_of", "short"]
+
+
+def short(value: Any) -> str:
+    """At most a few words, however much is in it."""
+    if isinstance(value, np.ndarray):
+        shape = " x ".join(str(n) for n in value.shape)
+        if value.ndim != 1 or not len(value):
+            return f"<{shape} of {value.dtype}>"
+        return f"<{shape}: {short(value[0].item())} .. {short(value[-1].item())}>"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, str):
+        return repr(value) if len(value) <= 60 else f"<{len(value)} characters>"
+    if isinstance(value, (list, dict)) and len(value) > 3 or isinstance(value, list) and any(map(_is_large, value)):
+        return f"<{len(value)} of {type(next(iter(value))).__name__}>"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(short(each) for each in value) + "]"
+    if dataclasses.is_dataclass(value):
+        return f"<{type(value).__name__}>"
+    return repr(value)
+
+
+def _is_large(value: Any) -> bool:
+    return dataclasses.is_dataclass(value) or isinstance(value, (list, tuple, dict, str)) and len(value) > 60
+
+
+class Shown:
+    """A dataclass whose repr stays short; arrays are told by their length and ends."""
+
+    def _rows(self) -> list[tuple[str, str]]:
+        members = ((field.name, getattr(self, field.name)) for field in dataclasses.fields(self))
+        return [(name, short(value)) for name, value in members if value is not None]
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
+
+    def _repr_html_(self) -> str:
+        return table_html(type(self).__name__, [], self._rows())
+
+
+def table_html(title: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table as notebooks show it."""
+
+    def line(tag: str, cells: Sequence[str]) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+    body = "".join(line("td", row) for row in rows)
+    return f"<table><caption>{html.escape(title)}</caption>{line('th', head) if head else ''}{body}</table>"
+
+
+class Columns(Shown):
+    """A dataclass of columns of one length."""
+
+    #: member that numbers the rows of the data frame; empty: they are counted from 0
+    _index = ""
+
+    def to_pandas(self) -> Any:
+        """The columns as a pandas.DataFrame; those of light samples, which are tables, are left out. Needs pandas."""
+        arrays = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        columns = {name: each for name, each in arrays.items() if isinstance(each, np.ndarray) and each.ndim == 1}
+        index = columns.pop(self._index, getattr(self, self._index)) if self._index else None
+        frame = importlib.import_module("pandas").DataFrame(columns, index=index)
+        frame.index.name = self._index or None
+        return frame
+
+
+def axes_of(ax: Any) -> Any:
+    """The given axes of matplotlib, or new ones."""
+    return importlib.import_module("matplotlib.pyplot").subplots()[1] if ax is None else ax
