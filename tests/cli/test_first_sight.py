@@ -64,7 +64,7 @@ class Table(CliTest):
         self.assertTrue(lines[0].startswith("12 s, 2 switches"))
         summary = json.loads((self.folder / "run" / "summary.json").read_text())
         best = summary["variants"][2]
-        (row,) = [line for line in lines if line.startswith(" relock_frequency ")]
+        (row,) = [line for line in lines if line.startswith("relock_frequency ")]
         numbers = re.findall(r"-?\d+\.\d+", row)
         self.assertEqual(numbers[:4], [f"{best['switch_error_rms_arcsec']:.2f}", f"{best['switch_error_mean_arcsec']:.2f}",
                                        f"{best['switch_error_max_arcsec']:.2f}", f"{best['drift_without_nonmagnetic_arcsec_s']:.4f}"])
