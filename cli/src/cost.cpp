@@ -31,14 +31,6 @@ std::string size_text(double bytes) {
     return fmt::format("{:.3g} MB", bytes / 1e6);
 }
 
-std::string time_text(double s) {
-    if (s >= 2.0 * 365.25 * 86400.0) return fmt::format("{:.3g} years", s / (365.25 * 86400.0));
-    if (s >= 2.0 * 86400.0) return fmt::format("{:.3g} days", s / 86400.0);
-    if (s >= 2.0 * 3600.0) return fmt::format("{:.2g} hours", s / 3600.0);
-    if (s >= 120.0) return fmt::format("{:.2g} minutes", s / 60.0);
-    return fmt::format("{:.2g} s", s);
-}
-
 std::optional<double> free_bytes(const std::string& out) {
     namespace fs = std::filesystem;
     std::error_code ignored;
@@ -87,6 +79,14 @@ std::string cost_text(double time_s, double bytes) {
 }
 
 }  // namespace
+
+std::string time_text(double s) {
+    if (s >= 2.0 * 365.25 * 86400.0) return fmt::format("{:.3g} years", s / (365.25 * 86400.0));
+    if (s >= 2.0 * 86400.0) return fmt::format("{:.3g} days", s / 86400.0);
+    if (s >= 2.0 * 3600.0) return fmt::format("{:.2g} hours", s / 3600.0);
+    if (s >= 120.0) return fmt::format("{:.2g} minutes", s / 60.0);
+    return fmt::format("{:.2g} s", s);
+}
 
 void announce(const Cost& cost, const std::function<void(std::int64_t)>& work) {
     require_room(cost);

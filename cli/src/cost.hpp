@@ -19,6 +19,9 @@ inline constexpr double raw_csv_bytes = 194.0;
 inline constexpr double angles_bytes = 60.0;  // CSV and HDF5
 inline constexpr double wire_bytes = 124.0;
 
+// For a reader: "12 s", "3.4 hours".
+[[nodiscard]] std::string time_text(double s);
+
 // A warning of work that lasts over half a minute or fills a gigabyte; says nothing of less.
 //
 // work    does so many ticks of it, for its time to be measured.

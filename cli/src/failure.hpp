@@ -17,6 +17,12 @@ struct UsageError : std::runtime_error {
 // `warning: ` may be printed earlier (print_warnings). Main thread only.
 void complain(const std::string& line);
 
+// The same of a line that explains the exit code: it is no note, --quiet or not.
+void explain_exit(const std::string& line);
+
+// From now on only warnings are queued.
+void be_quiet();
+
 // Print the queued warnings now.
 void print_warnings();
 

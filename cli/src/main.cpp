@@ -9,9 +9,9 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/text/inputs.hpp>
-#include <zlg/text/spelling.hpp>
 
 #include "failure.hpp"
+#include "help.hpp"
 #include "interrupt.hpp"
 #include "manual.hpp"
 #include "output.hpp"
@@ -28,16 +28,10 @@ void print_keys() {
 
 // What was wrong with a command line, in one line: where its verb is unknown, with the nearest one that exists.
 std::string explain(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv) {
-    std::vector<std::string> verbs;
-    for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
-        verbs.push_back(verb->get_name());
-    const std::string first = argc > 1 ? argv[1] : "";
-    const bool known = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
-    if (!known && !first.empty() && first[0] != '-') {
-        const auto apart = [&](const std::string& verb) { return text::letters_apart(first, verb); };
-        return fmt::format("unknown verb '{}'; did you mean '{}'? (zlg --help lists all)", first,
-                           *std::ranges::min_element(verbs, {}, apart));
-    }
+    if (argc == 1) return "no verb is given";
+    const std::string first = argv[1];
+    const bool known = cli::find_verb(program, first) != nullptr;
+    if (!known && !first.empty() && first[0] != '-') return cli::unknown_verb(program, first);
     std::string reason = error.what();
     std::replace(reason.begin(), reason.end(), '\n', ' ');
     return fmt::format("{} (zlg {}--help lists what is allowed)", reason, known ? first + " " : "");
@@ -45,6 +39,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error, int a
 
 int parse_and_run(CLI::App& program, int argc, char** argv) {
     try {
+        if (argc == 1) cli::print(program.help());
         program.parse(argc, argv);
         return cli::good;
     } catch (const CLI::CallForHelp&) {
@@ -102,6 +97,7 @@ int main(int argc, char** argv) {
     cli::add_follow(program);
     cli::add_inspect(program);
     cli::add_analyze(program);
+    cli::complete_help(program);
     cli::add_manual(program);
     const cli::InterruptGuard guard;
     const int exit_code = guarded(program, argc, argv);

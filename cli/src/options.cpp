@@ -30,9 +30,9 @@ void add_config_options(CLI::App& verb, Options& options) {
 }
 
 void add_run_options(CLI::App& verb, Options& options) {
-    verb.add_option("--seed", options.seed, "seed of all noise");
-    verb.add_option("--duration", options.duration_s, "length of the run, s");
-    verb.add_option("--threads", options.threads, "threads, 1..64")->check(CLI::Range(1, 64));
+    verb.add_option("--seed", options.seed, "seed of all noise (1)");
+    verb.add_option("--duration", options.duration_s, "length of the run");
+    verb.add_option("--threads", options.threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
 }
 
 void add_output_options(CLI::App& verb, Options& options) {
@@ -113,7 +113,7 @@ study::Resolved resolve(const config::Config& config) {
 
 void refuse_a_run_without_switches(const rig::SwitchTally& tally) {
     if (!tally.none_succeeded()) return;
-    complain(rig::sentence(tally));
+    explain_exit(rig::sentence(tally));
     throw CLI::RuntimeError{result_says_no};
 }
 

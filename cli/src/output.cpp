@@ -27,8 +27,10 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 constexpr double quiet_for_s = 1.0;
 constexpr double redraw_every_s = 0.1;
 constexpr int bar_width = 40;
+constexpr int line_width = bar_width + 30;  // with its brackets, the percentage and the time that is left
 
 std::vector<std::string> notes;  // wait to be printed; for the thread of `main` alone
+bool is_quiet = false;
 
 // Only the first error is printed, by whichever thread it comes.
 std::atomic<bool> is_error_said{false};
@@ -40,7 +42,13 @@ void write_line(const std::string& line) {
 
 }  // namespace
 
-void complain(const std::string& line) { notes.push_back(line); }
+void be_quiet() { is_quiet = true; }
+
+void complain(const std::string& line) {
+    if (!is_quiet || line.starts_with("warning: ")) explain_exit(line);
+}
+
+void explain_exit(const std::string& line) { notes.push_back(line); }
 
 void print_notes() {
     for (const std::string& line : notes)
@@ -72,11 +80,10 @@ std::string printable(const std::string& text) { return text::escaped(text); }
 std::string name_of_file(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
 Progress::Progress(std::string part)
-    : growth_{std::move(part)}, terminal_{isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
+    : growth_{std::move(part)}, is_drawn_{!is_quiet && isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
 
 Progress::~Progress() {
-    // Blanks over the bar, its brackets and the percentage.
-    if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", bar_width + 10).c_str(), stderr);
+    if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", line_width).c_str(), stderr);
 }
 
 void Progress::show(double fraction) {
@@ -85,11 +92,13 @@ void Progress::show(double fraction) {
     if (t_s - started_s_ < quiet_for_s || t_s - last_s_ < redraw_every_s) return;
     last_s_ = t_s;
     print_warnings();
-    if (!terminal_) return;
+    if (!is_drawn_) return;
     drawn_ = true;
     const int done = static_cast<int>(fraction * bar_width);
-    (void)std::fputs(
-        fmt::format("\r[{:=<{}}{:{}}] {:3.0f} %", "", done, "", bar_width - done, 100.0 * fraction).c_str(), stderr);
+    const double left_s = (t_s - started_s_) * (1.0 - fraction) / fraction;
+    const std::string bar = fmt::format("[{:=<{}}{:{}}] {:3.0f} %{}", "", done, "", bar_width - done, 100.0 * fraction,
+                                        fraction > 0.0 ? fmt::format(", {} left", time_text(left_s)) : "");
+    (void)std::fputs(fmt::format("\r{:<{}}", bar, line_width).c_str(), stderr);
     (void)std::fflush(stderr);
 }
 

@@ -20,7 +20,7 @@ void print(std::string_view text);
 // Without the folder.
 [[nodiscard]] std::string name_of_file(const std::string& path);
 
-// A bar on standard error, if that is a terminal and the work lasts over a second. Warnings that wait are printed then,
+// A bar with the time that is left, on standard error, if that is a terminal and the work lasts over a second. Warnings that wait are printed then,
 // on a terminal or not.
 class Progress {
 public:
@@ -35,7 +35,7 @@ public:
 
 private:
     Growth growth_;
-    bool terminal_;
+    bool is_drawn_;  // on a terminal, and wanted
     bool drawn_ = false;
     double started_s_;
     double last_s_ = 0.0;

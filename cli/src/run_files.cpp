@@ -45,22 +45,31 @@ std::string health_head() {
 }  // namespace
 
 RunFiles::RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format,
-                   int light_samples)
+                   KeptLogs kept, int light_samples)
     : tick_s_{config.gyro.tick_s}, names_{file_names(format)} {
     if (out.empty())
         make_new_folder(folder_);
     else
         folder_.emplace(out);
-    raw_.emplace(
-        path(raw_file), config::to_settings(config), force, raw_columns(config),
-        logs::RawWriterOptions{.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true});
-    angles_.emplace(path(angles_file), config.gyro.tick_s, rig::angle_settings(config), force,
-                    logs::AngleWriterOptions{.has_truth = true, .keep_part = true});
+    open_logs(config, force, kept, light_samples);
     health_.emplace(path(health_file), force);
     health_->append(health_head());
     switches_.emplace(path(switches_file), force);
     summary_.emplace(path(summary_file), force);
     page_.emplace(path(page_file), force);
+}
+
+void RunFiles::open_logs(const config::Config& config, bool force, KeptLogs kept, int light_samples) {
+    for (const File log : {raw_file, angles_file})
+        if (!force && fs::exists(path(log)))
+            throw logs::IoError{fmt::format("{} exists; use --force to overwrite", path(log))};
+    if (kept == KeptLogs::all)
+        raw_.emplace(
+            path(raw_file), config::to_settings(config), force, raw_columns(config),
+            logs::RawWriterOptions{.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true});
+    if (kept != KeptLogs::none)
+        angles_.emplace(path(angles_file), config.gyro.tick_s, rig::angle_settings(config), force,
+                        logs::AngleWriterOptions{.has_truth = true, .keep_part = true});
 }
 
 RunFiles::~RunFiles() {
@@ -93,11 +102,25 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
     complete(switches_, switches_file);
     complete(summary_, summary_file);
     complete(page_, page_file);
-    complete(angles_, angles_file);
-    complete(raw_, raw_file);
+    const auto complete_log = [&](auto& file, File which) {
+        std::error_code ignored;
+        if (file)
+            complete(file, which);
+        else
+            fs::remove(path(which), ignored);
+    };
+    complete_log(angles_, angles_file);
+    complete_log(raw_, raw_file);
     finished_ = true;
 }
 
-std::string RunFiles::list() const { return fmt::format("{}", fmt::join(names_, ", ")); }
+std::string RunFiles::list() const {
+    std::vector<std::string> written{names_.begin() + health_file, names_.end()};
+    if (angles_) written.insert(written.begin(), names_[angles_file]);
+    if (raw_) written.insert(written.begin(), names_[raw_file]);
+    return fmt::format("{}", fmt::join(written, ", "));
+}
+
+std::string RunFiles::page() const { return path(page_file); }
 
 }  // namespace zlg::cli

@@ -17,20 +17,25 @@
 
 namespace zlg::cli {
 
+// Which logs stay beside the summary and the page.
+enum class KeptLogs { none, angles, all };
+
 class RunFiles {
 public:
     // out  the folder; empty: a new zlg-run-NNN here.
     //
     // errors  logs::IoError: the folder holds one of the files and not `force`, or cannot be made.
-    // An error later on leaves the HDF5 logs as they are then, NAME.part; nothing else.
-    RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format,
+    // An error later on leaves the HDF5 logs as they are then, NAME.part; nothing else. A log that is not kept is a file of
+    // the run all the same: one of an earlier run must not stay beside the page of this one.
+    RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format, KeptLogs kept,
              int light_samples);
     ~RunFiles();
     RunFiles(const RunFiles&) = delete;
     RunFiles& operator=(const RunFiles&) = delete;
 
-    logs::RawWriter& raw() { return *raw_; }
-    logs::AngleWriter& angles() { return *angles_; }
+    // Null where they are not kept.
+    logs::RawWriter* raw() { return raw_ ? &*raw_ : nullptr; }
+    logs::AngleWriter* angles() { return angles_ ? &*angles_ : nullptr; }
     void write_health(std::int64_t half, std::uint32_t bits);
     [[nodiscard]] const std::string& folder() const { return folder_->path(); }
 
@@ -38,12 +43,14 @@ public:
 
     // Their names, for a reader.
     [[nodiscard]] std::string list() const;
+    [[nodiscard]] std::string page() const;
 
-    // Where the logs grow.
-    [[nodiscard]] std::string raw_part() const { return raw_->part_path(); }
-    [[nodiscard]] std::string angles_part() const { return angles_->part_path(); }
+    // Where the logs grow; empty where they are not kept.
+    [[nodiscard]] std::string raw_part() const { return raw_ ? raw_->part_path() : ""; }
+    [[nodiscard]] std::string angles_part() const { return angles_ ? angles_->part_path() : ""; }
 
 private:
+    void open_logs(const config::Config& config, bool force, KeptLogs kept, int light_samples);
     [[nodiscard]] std::string path(std::size_t file) const { return folder_->path(names_[file]); }
 
     std::optional<OwnFolder> folder_;

@@ -115,7 +115,7 @@ void add_analyze(CLI::App& program) {
     CLI::App* verb = program.add_subcommand(
         "analyze", "Allan deviations, noise terms, drift by mode and errors of switches of recorded gyros");
     verb->add_option("FILE", options->files, "angle logs, raw logs, or text files of columns")->required();
-    verb->add_option("--threads", options->threads, "threads, 1..64")->check(CLI::Range(1, 64));
+    verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     verb->add_option("--imu-yaml", options->imu_yaml, "write the noise as Kalibr's imu.yaml");
     verb->add_option("--compare", options->compare,
                      "an imu.yaml whose noise is printed, and drawn by --out, beside the measured one");

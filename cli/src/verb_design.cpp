@@ -167,7 +167,7 @@ void add_design(CLI::App& program) {
     const auto options = std::make_shared<DesignOptions>();
     CLI::App* verb = program.add_subcommand("design", "drift budget, best interval, substitution errors, loop margins");
     add_config_argument(*verb, *options);
-    verb->add_option("--run-lengths", options->run_lengths, "lengths of run, s, separated by commas");
+    verb->add_option("--run-lengths", options->run_lengths, "lengths of run, with commas between");
     add_output_options(*verb, *options);
     verb->callback([options] { design_gyro(*options); });
 }

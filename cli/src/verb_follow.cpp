@@ -213,7 +213,7 @@ void add_follow(CLI::App& program) {
     verb->add_option("--out", options->out, "angle log to write: .csv, .h5 or .hdf5");
     verb->add_option("--baud", options->baud, "speed of a serial device (921600)");
     verb->add_option("--duration", options->duration_s,
-                     "seconds after which it ends, of the log or of the clock, whichever comes first")
+                     "end after so long, of the log or of the clock, whichever comes first")
         ->check([](const std::string& duration) {
             double seconds = 0.0;
             const bool read = CLI::detail::lexical_cast(duration, seconds);

@@ -8,12 +8,12 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
-#include <zlg/logs/file_nature.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
+#include "foreign_file.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -263,9 +263,8 @@ json inspect_log(const InspectOptions& options) {
     const logs::LogKind kind = logs::recognise(options.file);
     if (is_raw(kind)) return inspect_raw(options);
     if (is_angles(kind)) return inspect_angles(options);
-    const std::string nature = logs::foreign_nature(options.file);
-    throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log{}", options.file,
-                                        nature.empty() ? ": no line names the columns of one" : "; it is " + nature)};
+    throw logs::FormatError{
+        fmt::format("{}: neither a raw log nor an angle log; {}", options.file, foreign_file(options.file))};
 }
 
 void inspect(const InspectOptions& options) {

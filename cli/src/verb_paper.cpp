@@ -157,7 +157,7 @@ void run(const Options& options) {
     folder.write(report::html(paper::paper_page(paper)), files);
     print(options.json ? pretty(result_json(paper)) : text(paper, options.out, files.size()));
     if (agrees(paper)) return;
-    complain(
+    explain_exit(
         fmt::format("the twin does not agree with theory: chi-square {:.3f} per degree of freedom, allowed is {} to {}",
                     paper.chi2_per_dof, min_chi2_per_dof, max_chi2_per_dof));
     throw CLI::RuntimeError{result_says_no};

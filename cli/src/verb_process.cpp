@@ -208,9 +208,9 @@ void add_process(CLI::App& program) {
     const auto options = std::make_shared<ProcessOptions>();
     CLI::App* verb = program.add_subcommand("process", "a recorded raw log through the compensation");
     verb->add_option("RAW", options->raw, "raw log")->required();
-    verb->add_option("--switches", options->switches, "CSV file for one row per switch");
+    verb->add_option("--switches", options->switches, "one row per switch, CSV");
     verb->add_flag("--follow", options->follow, "go on while the log (HDF5) is being written, until it is complete");
-    verb->add_option("--give-up", options->give_up_s, "seconds without a new row after which following ends (10)")
+    verb->add_option("--give-up", options->give_up_s, "end following after so long without a new row (10)")
         ->check([](const std::string& text) {
             double seconds = -1.0;
             const bool read = CLI::detail::lexical_cast(text, seconds);

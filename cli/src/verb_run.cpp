@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/core/health.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/processor/qemu.hpp>
@@ -14,6 +15,7 @@
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
+#include <zlg/study/what_happened.hpp>
 
 #include "as_json.hpp"
 #include "cost.hpp"
@@ -23,6 +25,7 @@
 #include "options.hpp"
 #include "output.hpp"
 #include "run_files.hpp"
+#include "run_text.hpp"
 #include "verbs.hpp"
 
 namespace zlg::cli {
@@ -38,9 +41,8 @@ std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe"
 
 void add_processor_options(CLI::App& verb, ProcessorOptions& options) {
     verb.add_option("--processor", options.processor,
-                    "what runs the core: host (default), or qemu, the image of the gyro's processor in lock step");
-    verb.add_option("--image", options.image,
-                    "the image of the processor, ELF; the one built with this program without it");
+                    "what runs the core: this program (host), or the image of the gyro's processor in lock step");
+    verb.add_option("--image", options.image, "of that processor; default: the one built with this program");
 }
 
 // return  null for the host.
@@ -68,6 +70,13 @@ json variant_json(const study::VariantResult& v) {
     return j;
 }
 
+json bit_names(std::uint32_t bits) {
+    json names = json::array();
+    for (std::size_t bit = 0; bit < core::health_bit_names.size(); ++bit)
+        if ((bits & (1u << bit)) != 0) names.push_back(core::health_bit_names[bit]);
+    return names;
+}
+
 json summary_json(const config::Config& config, const study::RunResult& result) {
     json variants = json::array();
     for (const study::VariantResult& v : result.variants) variants.push_back(variant_json(v));
@@ -78,50 +87,23 @@ json summary_json(const config::Config& config, const study::RunResult& result) 
             {"ticks_as_whole_counts", result.whole_count_ticks},
             {"warnings", result.warnings},
             {"relock_false_drift_deg_h", result.relock_false_drift_deg_h},
+            {"what_happened", study::what_happened(config, result)},
+            {"health_raised", bit_names(result.health_raised)},
+            {"ticks_invalid", result.invalid_ticks},
             {"variants", variants},
+            {"magnetic_estimate", variant_json(result.magnetic_estimate)},
             {"config", config_json(config)}};
 }
 
-std::string cell(const std::optional<study::SwitchStatistics>& s, double study::SwitchStatistics::*member) {
-    return s ? fmt::format("{:.3f}", (*s).*member) : "-";
-}
-
-std::string table(const study::RunResult& result) {
-    std::string text =
-        fmt::format("{:<20}{:>12}{:>14}   error per switch, arcsec\n{:<20}{:>12}{:>14}{:>10}{:>10}{:>10}\n", "",
-                    "drift", "angle error", "variant", "arcsec/s", "arcsec", "mean", "rms", "max");
-    for (const study::VariantResult& v : result.variants)
-        // A blank before each, however long it is.
-        text += fmt::format("{:<19} {:>11.5f} {:>13.2f} {:>9} {:>9} {:>9}\n", v.name, v.drift_arcsec_s,
-                            v.angle_error_arcsec, cell(v.switch_error, &study::SwitchStatistics::mean_arcsec),
-                            cell(v.switch_error, &study::SwitchStatistics::rms_arcsec),
-                            cell(v.switch_error, &study::SwitchStatistics::max_arcsec));
-    if (const std::int64_t n = result.variants.back().unrepaired; n > 0)
-        text += fmt::format(
-            "\n{} of {} switches have a gap that no bridge repairs (flag unrepaired): their errors are not in the "
-            "table\n",
-            n, result.switches.size());
-    if (result.whole_count_ticks > 0)
-        text += fmt::format(
-            "\n{} of {} ticks were read as whole counts: the ellipse of the photodiodes was not learnt yet, or not "
-            "good enough "
-            "({} of them with fringe_lost in health.csv)\n",
-            result.whole_count_ticks, result.ticks, result.fringe_lost_ticks);
-    return text;
-}
-
-std::string text(const study::RunResult& result, const RunFiles& files) {
-    return fmt::format(
-        "{} s, {} switches{}, all compensations of one run's records (one_mode: a run without switching)\n\n{}\n"
-        "drift: slope of the angle error (final minus true); 1 arcsec/s is 1 deg/h\nwritten to {}: {}\n",
-        static_cast<double>(result.ticks) * result.tick_s, result.switches.size(),
-        result.tally.failed > 0 ? fmt::format(" ({})", rig::sentence(result.tally)) : "", table(result),
-        printable(files.folder()), files.list());
+std::string text(const study::Resolved& resolved, const study::RunResult& result, const RunFiles& files) {
+    return fmt::format("{}written to {}: {}\nopen {} in a browser\n", run_text(resolved.config, result),
+                       printable(files.folder()), files.list(), printable(files.page()));
 }
 
 struct RunOptions : Options {
     ProcessorOptions processor;
     std::string format = "h5";
+    std::string logs = "all";
 };
 
 logs::LogFormat format_named(const std::string& name) {
@@ -130,9 +112,20 @@ logs::LogFormat format_named(const std::string& name) {
     throw UsageError{fmt::format("--format {}: allowed are h5 and csv", name)};
 }
 
+KeptLogs kept_logs(const RunOptions& options) {
+    const auto kept = options.logs == "all"      ? KeptLogs::all
+                      : options.logs == "angles" ? KeptLogs::angles
+                      : options.logs == "none"
+                          ? KeptLogs::none
+                          : throw UsageError{fmt::format("--logs {}: allowed are none, angles and all", options.logs)};
+    if (options.light && kept != KeptLogs::all)
+        throw UsageError{fmt::format("--light: is for the raw log, which --logs {} leaves out", options.logs)};
+    return kept;
+}
+
 study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, const RunOptions& options,
                           rig::Processor* processor, const Interruptible& interruptible) {
-    Progress progress{files.raw_part()};
+    Progress progress{files.raw() != nullptr ? files.raw_part() : files.angles_part()};
     study::RunTask task{.config = resolved.config,
                         .warnings = resolved.warnings,
                         .threads = options.threads,
@@ -140,12 +133,24 @@ study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, cons
                         .on_record =
                             [&](const core::HalfRecord& record, const core::LightSamples& light) {
                                 interruptible.check();
-                                files.raw().write(record, options.light ? light : core::LightSamples{});
+                                if (logs::RawWriter* raw = files.raw())
+                                    raw->write(record, options.light ? light : core::LightSamples{});
                             },
-                        .on_row = [&](const core::AngleRow& row, double truth) { files.angles().write(row, truth); },
+                        .on_row = {},
                         .on_health = [&](std::int64_t half, std::uint32_t bits) { files.write_health(half, bits); },
                         .on_progress = [&](double fraction) { progress.show(fraction); }};
+    if (logs::AngleWriter* angles = files.angles())
+        task.on_row = [angles](const core::AngleRow& row, double truth) { angles->write(row, truth); };
     return study::run(task);
+}
+
+// What the logs take of the disk.
+double bytes_a_tick(const RunOptions& options, logs::LogFormat format, int light_samples) {
+    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
+    const KeptLogs kept = kept_logs(options);
+    const double raw = format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes;
+    return (kept == KeptLogs::all ? raw + light_bytes * light_samples : 0.0) +
+           (kept == KeptLogs::none ? 0.0 : angles_bytes);
 }
 
 // The least that a run does of a tick. A file is not read again for it.
@@ -160,10 +165,8 @@ void announce_run(const config::Config& config, const RunOptions& options, logs:
     const bool has_file = config.motion.kind == config::MotionKind::file;
     if (has_file && !std::filesystem::is_regular_file(config.motion.path)) return;
     const twin::Motion motion = rig::motion(config);
-    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
-    const double raw = format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes;
     announce({.ticks = rig::run_ticks(config, motion),
-              .bytes_a_tick = raw + angles_bytes + light_bytes * light_samples,
+              .bytes_a_tick = bytes_a_tick(options, format, light_samples),
               .out = options.out},
              [&](std::int64_t ticks) {
                  if (has_file) return advance(config, motion, processor, ticks);
@@ -176,6 +179,7 @@ void announce_run(const config::Config& config, const RunOptions& options, logs:
 // The files are gone when this returns by an exception, but for the logs that grew until then.
 void run(const RunOptions& options) {
     const logs::LogFormat format = format_named(options.format);
+    const KeptLogs kept = kept_logs(options);
     const study::Resolved resolved = resolve(load_config(options));
     const config::Config& config = resolved.config;
     const std::unique_ptr<rig::Processor> processor = make_processor(options.processor);
@@ -185,7 +189,7 @@ void run(const RunOptions& options) {
     std::string angles_part;
     rig::SwitchTally tally;
     try {
-        RunFiles files{options.out, options.force, config, format, logged_light_samples(options, config, format)};
+        RunFiles files{options.out, options.force, config, format, kept, logged_light_samples(options, config, format)};
         raw_part = files.raw_part();
         angles_part = files.angles_part();
         const study::RunResult result = run_into(files, resolved, options, processor.get(), interruptible);
@@ -193,7 +197,9 @@ void run(const RunOptions& options) {
             complain("warning: " + warning);
         const std::string summary = pretty(summary_json(config, result));
         files.finish(result.switches, summary, report::html(study::run_page(config, result)));
-        print(options.json ? summary : text(result, files));
+        // The page to open is the last line, so what waits goes before.
+        print_notes();
+        print(options.json ? summary : text(resolved, result, files));
         tally = result.tally;
     } catch (...) {
         rethrow_with({raw_part, angles_part});
@@ -208,7 +214,8 @@ void add_run(CLI::App& program) {
     CLI::App* verb =
         program.add_subcommand("run", "twin and core in closed loop: logs, summary and report into a folder");
     add_config_argument(*verb, *options);
-    verb->add_option("--format", options->format, "of the logs: h5 (default) or csv");
+    verb->add_option("--format", options->format, "format of the logs (h5)");
+    verb->add_option("--logs", options->logs, "which logs stay (all): an hour of the paper's gyro takes 113 MB");
     add_light_option(*verb, *options);
     add_processor_options(*verb, options->processor);
     add_run_options(*verb, *options);

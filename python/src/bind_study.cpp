@@ -4,6 +4,7 @@
 #include <zlg/study/analyze.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
+#include <zlg/study/what_happened.hpp>
 
 #include "analysis_dicts.hpp"
 #include "bind.hpp"
@@ -51,6 +52,9 @@ py::dict run(const config::Config& config, const std::vector<std::string>& warni
     d["none_succeeded"] = result.tally.none_succeeded();
     d["warnings"] = result.warnings;
     d["variants"] = variants;
+    d["magnetic_estimate"] = of(std::move(result.magnetic_estimate));
+    d["what_happened"] = study::what_happened(config, result);
+    d["ticks_invalid"] = result.invalid_ticks;
     d["switches"] = switches;
     d["relock_false_drift_deg_h"] = as_array(std::move(result.relock_false_drift_deg_h));
     d["raw"] = raw ? py::object{records.take_out()} : py::none();

@@ -42,8 +42,11 @@ class Variant(Shown):
     name: str
     #: slope of the angle error over the run, arcsec/s
     drift_arcsec_s: float
+    #: the same without the constant non-magnetic drift, which a measurement removes as a bias
+    drift_without_nonmagnetic_arcsec_s: float
     #: at the end
     angle_error_arcsec: float
+    angle_error_without_nonmagnetic_arcsec: float
     #: errors per switch, with the sign of the false drift; None without a switch
     switch_mean_arcsec: Optional[float]
     switch_rms_arcsec: Optional[float]
@@ -70,7 +73,13 @@ class RunResult(Shown):
     tick_s: float
     ticks: int
     variants: list[Variant]
+    #: as configured, with the magnetic drift estimated
+    magnetic_estimate: Variant
     switches: Switches
+    #: in words, one sentence each: length, switches, faults and what the core made of them
+    what_happened: list[str]
+    #: outside the switches, whose counts could not be trusted
+    ticks_invalid: int
     #: true false drift 1, 2, ... ticks after the loop is closed, deg/h, mean over the switches
     relock_false_drift_deg_h: NDArray[np.float64]
     #: after which the gyro went back, had to be searched for, or held nothing
@@ -86,11 +95,12 @@ class RunResult(Shown):
     page: Optional[str]
 
     def __getitem__(self, name: str) -> Variant:
-        """The variant of a name: "one_mode", "switching", "relock_frequency", ..., "configured". Raises KeyError."""
-        for variant in self.variants:
+        """The variant of a name: "one_mode", "switching", ..., "configured", "magnetic_estimate". Raises KeyError."""
+        variants = [*self.variants, self.magnetic_estimate]
+        for variant in variants:
             if variant.name == name:
                 return variant
-        raise KeyError(f"{name}: allowed are {', '.join(variant.name for variant in self.variants)}")
+        raise KeyError(f"{name}: allowed are {', '.join(variant.name for variant in variants)}")
 
     def _repr_html_(self) -> str:
         columns = ("name", "drift_arcsec_s", "angle_error_arcsec", "switch_mean_arcsec", "switch_rms_arcsec", "switch_max_arcsec")

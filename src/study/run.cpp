@@ -19,6 +19,7 @@
 #include "reading_error.hpp"
 #include "relock_profile.hpp"
 #include "run_variant.hpp"
+#include "trouble.hpp"
 
 namespace zlg::study {
 namespace {
@@ -83,6 +84,9 @@ public:
 
     void report(RunResult& result) const {
         for (const Variant& v : variants_) result.variants.push_back(v.result());
+        take_out_magnetic(result);
+        result.health_raised = health_raised_;
+        result.invalid_ticks = invalid_ticks_;
         result.switches = switch_lines();
         result.tally = count_.tally();
         result.whole_count_ticks = whole_count_ticks_;
@@ -93,6 +97,17 @@ public:
 
 private:
     [[nodiscard]] bool is_configured(const Variant& v) const { return &v == &variants_.back(); }
+
+    static void take_out_magnetic(RunResult& result) {
+        const auto found = std::ranges::find(result.variants, magnetic_estimate, &VariantResult::name);
+        if (found == result.variants.end()) {
+            result.magnetic_estimate = result.variants.back();
+            result.magnetic_estimate.name = magnetic_estimate;
+        } else {
+            result.magnetic_estimate = std::move(*found);
+            result.variants.erase(found);
+        }
+    }
 
     // Its compensation runs in an outside processor (RunTask::processor).
     [[nodiscard]] bool is_outside(const Variant& v) const { return task_.processor != nullptr && is_configured(v); }
@@ -126,6 +141,7 @@ private:
                      switches_.windows());
         if (!is_configured(v)) return;
         switches_.take(row);
+        if ((row.flags & core::flag_invalid) != 0 && (row.flags & core::flag_switching) == 0) ++invalid_ticks_;
         MagnifiedTick shown = waiting.shown;
         shown.dtheta_arcsec = row.dtheta_arcsec;
         shown.final_arcsec = row.dtheta_final_arcsec;
@@ -158,6 +174,7 @@ private:
     }
 
     void take_health(const rig::LoopHalf& half) {
+        health_raised_ |= trouble_bits(half.control.health);
         if (!task_.on_health || (half.record.half > 0 && half.control.health == health_)) return;
         health_ = half.control.health;
         task_.on_health(half.record.half, health_);
@@ -171,6 +188,8 @@ private:
     Magnifier magnifier_;
     std::array<WaitingTick, core::history_ticks> waiting_{};  // by tick modulo the size: a final row comes sooner
     std::uint32_t health_ = 0;
+    std::uint32_t health_raised_ = 0;
+    std::int64_t invalid_ticks_ = 0;
     std::int64_t whole_count_ticks_ = 0, fringe_lost_ticks_ = 0;
     std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen
 };

@@ -30,7 +30,6 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride)
                BridgeMethod::linear},
         Choice{"bridge_quadratic", "re-lock by detuning, gap by quadratic", RelockMethod::detuning,
                BridgeMethod::quadratic},
-        Choice{"configured", "as the configuration says", rig::asked_relock(config), config.compensation.bridge},
     };
     // The named variants are the paper's, with its points; only the last takes those of the configuration.
     config::Config paper = config;
@@ -39,12 +38,20 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride)
     paper.compensation.points_before = points.points_before;
     paper.compensation.points_after = points.points_after;
 
+    config::Config estimating = config;
+    estimating.compensation.magnetic = core::MagneticMethod::estimate;
+
     std::vector<Variant> all;
-    for (const Choice& c : choices) {
-        const config::Config& of = &c == &choices.back() ? config : paper;
+    const auto add = [&](const config::Config& of, const Choice& c) {
         all.push_back({c.name, c.meaning, rig::Replay{rig::compensation_config(of, c.relock, c.bridge)},
                        ErrorMeter{config.gyro.tick_s, stride, gyro_drift(config)}});
-    }
+    };
+    for (const Choice& c : choices) add(paper, c);
+    const RelockMethod relock = rig::asked_relock(config);
+    const BridgeMethod bridge = config.compensation.bridge;
+    if (config.compensation.magnetic != core::MagneticMethod::estimate)
+        add(estimating, {magnetic_estimate, "as configured, with the magnetic drift estimated", relock, bridge});
+    add(config, {"configured", "as the configuration says", relock, bridge});
     return all;
 }
 

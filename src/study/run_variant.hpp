@@ -12,6 +12,8 @@
 
 namespace zlg::study {
 
+inline constexpr const char* magnetic_estimate = "magnetic_estimate";
+
 // One compensation of the records, with its error meter.
 struct Variant {
     const char* name;
@@ -24,7 +26,9 @@ struct Variant {
         return {name,
                 meaning,
                 meter.drift_arcsec_s(),
+                meter.drift_without_nonmagnetic_arcsec_s(),
                 meter.angle_error_arcsec(),
+                meter.angle_error_without_nonmagnetic_arcsec(),
                 statistics(meter.switches()),
                 std::ranges::count(meter.switches(), true, &SwitchError::unrepaired),
                 meter.switches(),
@@ -32,7 +36,8 @@ struct Variant {
     }
 };
 
-// Those that the paper compares, and last the configured one. stride: as of ErrorMeter.
+// Those that the paper compares, magnetic_estimate unless the configuration is that, and last the configured one.
+// stride: as of ErrorMeter.
 [[nodiscard]] std::vector<Variant> variants(const config::Config& config, std::int64_t stride);
 
 }  // namespace zlg::study

@@ -45,6 +45,7 @@ double ErrorMeter::drift_arcsec(const core::AngleRow& row, const TickTruth& trut
 void ErrorMeter::take(const core::AngleRow& row, const TickTruth& truth, const std::deque<SwitchWindow>& windows) {
     const double own = row.dtheta_final_arcsec - truth.rotation_arcsec;
     error_.add(own);
+    ++n_ticks_;
     const double t_s = static_cast<double>(row.tick + 1) * tick_s_;
     drift_.add(t_s, error_.value());
     if ((row.tick + 1) % stride_ == 0) {

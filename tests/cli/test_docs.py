@@ -1,5 +1,6 @@
 """The documentation says what the program says."""
 
+import os
 import re
 import subprocess
 import tempfile
@@ -28,6 +29,35 @@ class Readme(unittest.TestCase):
             rows = [row for row in angles.read_text().splitlines() if not row.startswith("#")]
         column = rows[0].split(",").index("dtheta_arcsec")
         self.assertEqual([row.split(",")[column] for row in rows[1:]], ["6.526", "0", "3.263"])
+
+
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
+
+
+class Result(unittest.TestCase):
+    """The table and the picture of the README are what the program gives."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="zlg-readme-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.made = Path(folder.name)
+        subprocess.run([ROOT / "tools" / "readme_result", cls.made], check=True, timeout=600, env={**os.environ, "ZLG": str(ZLG)})
+
+    def assert_same(self, committed, made, allowed):
+        """The same text; numbers differ by no more than another C library's last digits."""
+        self.assertEqual(NUMBER.split(committed), NUMBER.split(made), "renew with tools/readme_result")
+        for ours, theirs in zip(NUMBER.findall(committed), NUMBER.findall(made)):
+            self.assertLessEqual(abs(float(ours) - float(theirs)), allowed(ours), f"{ours} and {theirs}: renew with tools/readme_result")
+
+    def test_the_table_of_the_readme(self):
+        made = (self.made / "result.md").read_text()
+        lines = (ROOT / "README.md").read_text().splitlines(True)
+        start = lines.index(made.splitlines(True)[0])
+        self.assert_same("".join(lines[start:start + made.count("\n")]), made, lambda text: 1.001 * 10.0 ** -len(text.partition(".")[2]))
+
+    def test_the_picture_of_the_readme(self):
+        self.assert_same((ROOT / "docs" / "result.svg").read_text(), (self.made / "result.svg").read_text(), lambda _: 1.001)
 
 
 class Paper(unittest.TestCase):

@@ -392,10 +392,11 @@ class Sizes(Hostile):
         result = run("run", "--duration", "20", "--set", "motion.kind=rest", "--out", self.folder / "run",
                      "--set", "drift.random_walk_arcsec_sqrt_s=1e5", "--set", "switching.interval_s=3")
         self.assertEqual(result.returncode, 0, result.stderr)
-        rows = [row.split() for row in result.stdout.splitlines() if row.startswith(("switching", "relock_"))]
-        self.assertGreater(len(rows), 2)
+        rows = [row.split() for row in result.stdout.splitlines() if row.startswith(("switching", "relock_", "bridge_", "configured"))
+                and not row.endswith(",")]
+        self.assertGreater(len(rows), 2, result.stdout)
         for row in rows:
-            self.assertEqual(len(row), 6, row)
+            self.assertEqual(len(row), 8, row)
 
 
 if __name__ == "__main__":

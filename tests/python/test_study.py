@@ -88,17 +88,21 @@ def test_the_same_numbers_as_the_program_whatever_is_configured(settings, tmp_pa
     result = zlg.run(zlg.Config.of(*settings))
     members = {
         "drift_arcsec_s": "drift_arcsec_s",
+        "drift_without_nonmagnetic_arcsec_s": "drift_without_nonmagnetic_arcsec_s",
         "angle_error_arcsec": "angle_error_arcsec",
+        "angle_error_without_nonmagnetic_arcsec": "angle_error_without_nonmagnetic_arcsec",
         "switch_error_mean_arcsec": "switch_mean_arcsec",
         "switch_error_rms_arcsec": "switch_rms_arcsec",
         "switch_error_max_arcsec": "switch_max_arcsec",
     }
-    for theirs, ours in zip(program["variants"], result.variants):
+    for theirs, ours in zip([*program["variants"], program["magnetic_estimate"]], [*result.variants, result["magnetic_estimate"]]):
         assert theirs["name"] == ours.name
         assert {key: theirs[key] for key in members} == {key: getattr(ours, name) for key, name in members.items()}
     assert program["switches"] == len(result.switches.tick) and program["switches"] > 0
     assert program["switches_failed"] == result.switches_failed
     assert program["warnings"] == result.warnings
+    assert program["what_happened"] == result.what_happened
+    assert program["ticks_invalid"] == result.ticks_invalid
     assert program["relock_false_drift_deg_h"] == list(result.relock_false_drift_deg_h)
 
 

@@ -86,6 +86,34 @@ TEST(Run, switching_turns_the_magnetic_drift_into_a_sawtooth) {
     EXPECT_NEAR(named(r, "configured").angle_error_arcsec, 200.0 * 0.5, 60.0);
 }
 
+TEST(Run, figures_without_the_non_magnetic_drift_are_those_of_a_gyro_that_has_none) {
+    config::Config c = short_run();
+    c.drift.nonmagnetic_arcsec_s = 0.0;
+    const auto without = run_of(c);
+    c.drift.nonmagnetic_arcsec_s = 0.5;
+    const auto with = run_of(c);
+    const auto& theirs = named(without, "one_mode");
+    const auto& ours = named(with, "one_mode");
+    // The two gyros are rounded differently, to a count of 3.263 arcsec, in 200 s.
+    EXPECT_NEAR(ours.drift_arcsec_s - theirs.drift_arcsec_s, 0.5, 0.005);
+    EXPECT_NEAR(ours.drift_without_nonmagnetic_arcsec_s, theirs.drift_arcsec_s, 0.005);
+    EXPECT_NEAR(ours.angle_error_without_nonmagnetic_arcsec, theirs.angle_error_arcsec, 3.27);
+    EXPECT_EQ(theirs.drift_without_nonmagnetic_arcsec_s, theirs.drift_arcsec_s);
+}
+
+TEST(Run, the_magnetic_estimate_is_the_configured_compensation_where_that_estimates) {
+    config::Config c = short_run();
+    c.run.duration_s = 60.0;
+    const auto asked_not = run_of(c);
+    c.compensation.magnetic = core::MagneticMethod::estimate;
+    const auto asked = run_of(c);
+    EXPECT_EQ(asked.variants.size(), asked_not.variants.size());
+    EXPECT_EQ(asked.magnetic_estimate.curve.error_arcsec, asked.variants.back().curve.error_arcsec);
+    EXPECT_EQ(asked.magnetic_estimate.name, "magnetic_estimate");
+    EXPECT_EQ(asked.variants.back().name, "configured");
+    EXPECT_EQ(asked_not.magnetic_estimate.curve.error_arcsec, asked.magnetic_estimate.curve.error_arcsec);
+}
+
 TEST(Run, same_bits_on_one_thread_and_on_two) {
     const auto one = run_of(short_run(), 1);
     const auto two = run_of(short_run(), 2);

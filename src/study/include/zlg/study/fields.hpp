@@ -23,7 +23,8 @@
 
 BOOST_HANA_ADAPT_STRUCT(zlg::study::SwitchLine, tick, mode, miss_lambda, half_wave_v, half_wave_sigma_v, gap_ticks,
                         dp_arcsec, relock_arcsec, sigma_arcsec, true_error_arcsec);
-BOOST_HANA_ADAPT_STRUCT(zlg::study::VariantResult, name, drift_arcsec_s, angle_error_arcsec);
+BOOST_HANA_ADAPT_STRUCT(zlg::study::VariantResult, name, drift_arcsec_s, drift_without_nonmagnetic_arcsec_s,
+                        angle_error_arcsec, angle_error_without_nonmagnetic_arcsec);
 BOOST_HANA_ADAPT_STRUCT(zlg::study::SwitchStatistics, mean_arcsec, rms_arcsec, max_arcsec);
 BOOST_HANA_ADAPT_STRUCT(zlg::design::Optimum, interval_s, drift_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::design::DriftTerms, nonmagnetic_arcsec_s, quasi_nonmagnetic_arcsec_s, sawtooth_arcsec_s,

@@ -23,11 +23,16 @@ struct RunResult {
     double tick_s = 0.0;
     std::int64_t ticks = 0;
     std::vector<VariantResult> variants;  // one_mode first, configured last
-    std::vector<SwitchLine> switches;     // of the configured compensation
+    // As configured, with compensation.magnetic = "estimate". Beside the list, whose names and order are those of old files.
+    VariantResult magnetic_estimate;
+    std::vector<SwitchLine> switches;  // of the configured compensation
     std::vector<MagnifiedTick> magnified;
     // True false drift on ticks 1, 2, ... after the loop is closed, averaged over the switches with their sign, deg/h.
     std::vector<double> relock_false_drift_deg_h;
     rig::SwitchTally tally;  // of what the control tried
+    // Health bits of trouble, as `trouble.hpp` has them, and ticks outside the switches whose counts could not be trusted.
+    std::uint32_t health_raised = 0;
+    std::int64_t invalid_ticks = 0;
     // By phase: measured ticks whose end was read as a whole count, and those of them with health_fringe_lost.
     std::int64_t whole_count_ticks = 0, fringe_lost_ticks = 0;
     std::vector<std::string> warnings;  // what a reader of the figures must know of the configuration

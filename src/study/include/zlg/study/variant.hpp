@@ -79,7 +79,14 @@ public:
     // The run has ended: a switch whose window is not over is dropped.
     [[nodiscard]] const std::vector<SwitchError>& switches() const { return done_; }
     [[nodiscard]] double drift_arcsec_s() const { return drift_.slope_arcsec_s(); }
+    // Without the constant part that both modes share, which a measurement removes with its bias.
+    [[nodiscard]] double drift_without_nonmagnetic_arcsec_s() const {
+        return drift_arcsec_s() - drift_law_.nonmagnetic_arcsec_s;
+    }
     [[nodiscard]] double angle_error_arcsec() const { return error_.value(); }
+    [[nodiscard]] double angle_error_without_nonmagnetic_arcsec() const {
+        return angle_error_arcsec() - drift_law_.nonmagnetic_arcsec_s * tick_s_ * static_cast<double>(n_ticks_);
+    }
     [[nodiscard]] const Curve& curve() const { return curve_; }
 
 private:
@@ -89,6 +96,7 @@ private:
     double tick_s_;
     std::int64_t stride_;
     design::GyroDrift drift_law_;
+    std::int64_t n_ticks_ = 0;
     core::ExactSum error_;
     Drift drift_;
     Curve curve_;
@@ -100,9 +108,11 @@ private:
 // What one compensation of a run gave.
 struct VariantResult {
     std::string name;
-    std::string meaning;              // in words
-    double drift_arcsec_s = 0.0;      // least-squares slope of the angle error over the run
+    std::string meaning;          // in words
+    double drift_arcsec_s = 0.0;  // least-squares slope of the angle error over the run
+    double drift_without_nonmagnetic_arcsec_s = 0.0;
     double angle_error_arcsec = 0.0;  // at the end
+    double angle_error_without_nonmagnetic_arcsec = 0.0;
     std::optional<SwitchStatistics> switch_error;
     std::int64_t unrepaired = 0;  // switches that are not in it
     std::vector<SwitchError> switches;

@@ -1,0 +1,146 @@
+#include "help.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <zlg/text/spelling.hpp>
+
+#include "failure.hpp"
+#include "output.hpp"
+
+namespace zlg::cli {
+namespace {
+
+struct VerbHelp {
+    std::string_view verb;
+    const char* group;
+    const char* examples;
+};
+
+constexpr const char* simulating = "Simulate a gyro";
+constexpr const char* processing = "Process records";
+constexpr const char* analysing = "Analyse";
+constexpr const char* designing = "Design";
+
+constexpr std::array verb_table{
+    VerbHelp{"run", simulating,
+             "  zlg run                                       an hour of the paper's gyro\n"
+             "  zlg run --duration 600 --set motion.kind=rest --logs none --out demo\n"
+             "  zlg run my_gyro.toml --seed 7 --format csv"},
+    VerbHelp{"simulate", simulating, "  zlg simulate --duration 600 --set switching.interval_s=60 --out raw.h5"},
+    VerbHelp{"paper", simulating, "  zlg paper --out paper                         some half a minute"},
+    VerbHelp{"process", processing,
+             "  zlg process raw.h5 --out angles.h5\n"
+             "  zlg process raw.csv --set compensation.relock=none --switches switches.csv --out angles.csv"},
+    VerbHelp{"calibrate", processing,
+             "  zlg calibrate rest.h5 --out constants.toml\n"
+             "  zlg calibrate --from-laser --set laser.perimeter_m=0.2 --out constants.toml"},
+    VerbHelp{"follow", processing,
+             "  zlg follow /dev/ttyUSB0 --baud 921600 --out angles.h5\n"
+             "  zlg follow tcp:192.168.0.7:5000 --duration 3600 --out angles.csv"},
+    VerbHelp{"convert", processing, "  zlg convert raw.h5 --out raw.csv"},
+    VerbHelp{"inspect", processing,
+             "  zlg inspect raw.h5\n"
+             "  zlg inspect raw.h5.part --repair --out raw.h5"},
+    VerbHelp{"analyze", analysing,
+             "  zlg analyze angles.h5 --out analysis.html\n"
+             "  zlg analyze rates.csv --set analysis.column_holds=rate --set analysis.rate_hz=100 --set "
+             "analysis.skip_lines=1"},
+    VerbHelp{"design", designing,
+             "  zlg design --out design.html\n"
+             "  zlg design --set drift.magnetic_arcsec_s=2 --run-lengths 600,3600"},
+};
+
+// Of the same name in every verb.
+struct Kind {
+    std::string_view option;
+    const char* value;
+};
+
+constexpr std::array kinds{
+    Kind{"CONFIG", "FILE.toml"},
+    Kind{"--config", "FILE.toml"},
+    Kind{"--set", "KEY=VALUE"},
+    Kind{"--seed", "NUMBER"},
+    Kind{"--duration", "SECONDS"},
+    Kind{"--threads", "NUMBER"},
+    Kind{"--out", "PATH"},
+    Kind{"--format", "h5|csv"},
+    Kind{"--logs", "none|angles|all"},
+    Kind{"--image", "FILE.elf"},
+    Kind{"--processor", "host|qemu"},
+    Kind{"--wire", "FILE"},
+    Kind{"RAW", "FILE"},
+    Kind{"FILE", ""},
+    Kind{"SOURCE", "FILE|DEVICE|ADDRESS"},
+    Kind{"--switches", "FILE.csv"},
+    Kind{"--give-up", "SECONDS"},
+    Kind{"--run-lengths", "SECONDS,..."},
+    Kind{"--baud", "NUMBER"},
+    Kind{"--rate-arcsec-s", "NUMBER,..."},
+    Kind{"--imu-yaml", "FILE.yaml"},
+    Kind{"--compare", "FILE.yaml"},
+};
+
+void name_kinds(CLI::App& verb) {
+    for (const Kind& kind : kinds)
+        if (CLI::Option* option = verb.get_option_no_throw(std::string{kind.option})) option->type_name(kind.value);
+}
+
+void complete(CLI::App& verb) {
+    const auto* row = std::ranges::find(verb_table, verb.get_name(), &VerbHelp::verb);
+    if (row == verb_table.end()) throw std::logic_error{verb.get_name() + ": has no row in the table of the help"};
+    verb.group(row->group);
+    name_kinds(verb);
+    verb.add_flag_callback("--quiet", be_quiet, "no notes, no bar of progress; warnings and errors stay")
+        ->trigger_on_parse();
+    verb.footer(fmt::format("Examples:\n{}", row->examples));
+}
+
+void add_help(CLI::App& program) {
+    const auto name = std::make_shared<std::string>();
+    CLI::App* help = program.add_subcommand("help", "the options of a verb, with examples");
+    help->group("Help");
+    help->add_option("VERB", *name, "which; without it all verbs are listed")->type_name("");
+    help->callback([name, &program] {
+        const CLI::App* verb = name->empty() ? &program : find_verb(program, *name);
+        if (verb == nullptr) throw UsageError{unknown_verb(program, *name)};
+        // Not App::help, which for the program shows the verb that was parsed: this one.
+        const std::string call = verb == &program ? "zlg" : "zlg " + *name;
+        print(program.get_formatter()->make_help(verb, call, CLI::AppFormatMode::Normal));
+    });
+}
+
+std::vector<const CLI::App*> all_verbs(const CLI::App& program) {
+    return program.get_subcommands([](const CLI::App*) { return true; });
+}
+
+}  // namespace
+
+const CLI::App* find_verb(const CLI::App& program, const std::string& name) {
+    const std::vector<const CLI::App*> all = all_verbs(program);
+    const auto found = std::ranges::find(all, name, &CLI::App::get_name);
+    return found == all.end() ? nullptr : *found;
+}
+
+void complete_help(CLI::App& program) {
+    for (CLI::App* verb : program.get_subcommands([](CLI::App*) { return true; })) complete(*verb);
+    add_help(program);
+    program.get_formatter()->label("SUBCOMMAND", "VERB");
+    program.footer("zlg help VERB lists the options of a verb, with examples.");
+}
+
+std::string unknown_verb(const CLI::App& program, const std::string& name) {
+    const std::vector<const CLI::App*> verbs = all_verbs(program);
+    const auto apart = [&](const CLI::App* verb) { return text::letters_apart(name, verb->get_name()); };
+    return fmt::format("unknown verb '{}'; did you mean '{}'? (zlg --help lists all)", name,
+                       (*std::ranges::min_element(verbs, {}, apart))->get_name());
+}
+
+}  // namespace zlg::cli
