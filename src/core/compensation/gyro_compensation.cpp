@@ -163,19 +163,6 @@ void give_up_first(TickInput& tick) noexcept {
     tick.amend_flags = flag_relock_uncorrected;
 }
 
-// Mean square of the detuning from the centre of the bias, by the curve of the discriminator; 0 where it was not
-// measured.
-double detuning_sq(const CompensationConstants& g, const HalfRecord& half) noexcept {
-    if (!(half.detuning_sq_lambda2 > 0.0)) return 0.0;
-    const double noise = g.light_noise.value();
-    return about(g.centre, true_moments(g.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise * noise));
-}
-
-HalfRecord with_true_detuning(const CompensationConstants& gyro, HalfRecord half) noexcept {
-    half.detuning_sq_lambda2 = detuning_sq(gyro, half);
-    return half;
-}
-
 // What lock-in takes from the halves, given back to the tick. The counter shows the beat of each half.
 void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
                        const Borders& borders, double turn_counts, TickInput& tick) noexcept {
@@ -204,29 +191,40 @@ void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts,
     tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
 }
 
+// Part of the false angle of a stretch, at its most, by which the constants err: the quartic term of the bias, chi f0 and
+// the reading of a large detuning (lit_halves.hpp).
+constexpr double law_part = 0.03;
+
 // The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
 // drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
-// exceeds the rounding of the counter, as in a re-lock, the motion around the gap gives the better estimate, and the
-// sum is not used.
+// exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any case the
+// sum is rough.
 void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
                    const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
                    TickInput& tick) noexcept {
     const CompensationConstants& gyro = config.gyro;
     const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
-    const CountedStretch known = step(gyro, state.stretch, with_true_detuning(gyro, first),
-                                      with_true_detuning(gyro, second), bias, edges_before, state.edges, borders.start);
+    const CountedStretch known =
+        step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
     if (known.n_ticks == 0) return;
-    const double drift_hz = 0.5 * gyro.chi * bias.value() * known.fall_lambda2;
-    const double drift_arcsec = gyro.scale.value() * gyro.tick.value() * drift_hz;
+    const double arcsec_per_lambda2 = 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
+    const double drift_arcsec = arcsec_per_lambda2 * known.fall_lambda2;
     const double rounding = rounding_arcsec2(gyro, known.start_border, borders.end);
-    const double drift_variance = drift_arcsec * drift_arcsec;
-    // Not used, and neither is what `step` has concluded from it about the edges.
-    if (!(drift_variance <= rounding_arcsec2(gyro))) return break_off(state.edges);
+    double drift_variance = drift_arcsec * drift_arcsec;
     tick.known_ticks = known.n_ticks;
     tick.known_arcsec = known.angle_arcsec;
+    const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
+    if (settles && known.seen) {
+        tick.known_arcsec += arcsec_per_lambda2 * known.deficit_lambda2;
+        drift_variance = law_part * law_part * drift_variance +
+                         arcsec_per_lambda2 * arcsec_per_lambda2 * known.deficit_variance_lambda4;
+    }
+    tick.known_is_rough = settles;
     tick.known_drift_arcsec2 = drift_variance;
     tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
     give_back_lock_in(config, state.edges.turn_counts, bias, tick);
+    // What `step` has concluded from the sum about the edges holds for an even bias.
+    if (settles) break_off(state.edges);
 }
 
 bool uses_halves(const GyroCompensationConfig& config) noexcept {

@@ -5,6 +5,7 @@
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
+#include "common/bounds.hpp"
 #include "gap_estimate.hpp"
 #include "gap_interpolation.hpp"
 #include "gap_known.hpp"
@@ -119,7 +120,8 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
     // Its rows become final before its end is known.
     if (gap.n == max_gap_ticks + 1) give_up(state);
     const std::int64_t first = gap.n == max_gap_ticks + 1 ? gap.first_tick : tick;
-    const ExactSum change = settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec);
+    const ExactSum change =
+        settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec).change_arcsec;
     gap.final_minus_delivered_arcsec.add(change.high);
     gap.final_minus_delivered_arcsec.add(change.low);
 }
@@ -204,7 +206,7 @@ constexpr int all_work = 1000;
 // Give a gap its final values from the ticks before `end`, and its pending correction, eq (17).
 GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                   PendingGap& pending, std::int64_t end, int work) noexcept {
-    const Gap& gap = pending.gap;
+    Gap& gap = pending.gap;
     GapReport report{.first_tick = gap.first_tick,
                      .n_ticks = gap.n,
                      .sign_after = pending.sign_after,
@@ -222,9 +224,12 @@ GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& conf
         if (pending.unread_arcsec2 > 0.0) widen(state, gap, pending.unread_arcsec2, report);
         pending.correction_arcsec.add(found.after_arcsec.high);
         pending.correction_arcsec.add(found.after_arcsec.low);
-        const ExactSum change = settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
-        difference.add(change.high);
-        difference.add(change.low);
+        const KnownShift known =
+            settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
+        difference.add(known.change_arcsec.high);
+        difference.add(known.change_arcsec.low);
+        if (known.variance_arcsec2 > 0.0)
+            report.sigma_sum_arcsec = deviation(square(report.sigma_sum_arcsec) + known.variance_arcsec2);
     }
     if (is_known(gap)) report.sigma_sum_arcsec = deviation(gap.known_variance_arcsec2);
     report.dp_arcsec = -difference.value();

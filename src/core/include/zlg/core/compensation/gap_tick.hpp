@@ -35,6 +35,7 @@ struct TickInput {
     double known_arcsec = 0.0;     // that sum
     double known_variance_arcsec2 = 0.0;
     double known_drift_arcsec2 = 0.0;  // the part of it that the detuning makes
+    bool known_is_rough = false;       // the motion around the gap may tell more (gap_known.hpp)
 };
 
 struct HistoryTick {
@@ -47,6 +48,8 @@ struct HistoryTick {
     bool with_phase = false;       // as in TickInput
     std::int64_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
     double known_arcsec = 0.0;
+    double known_variance_arcsec2 = 0.0;
+    bool known_is_rough = false;  // as in TickInput
 
     friend bool operator==(const HistoryTick&, const HistoryTick&) = default;
 };
