@@ -60,8 +60,8 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
     return tick;
 }
 
-RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second,
-                       double known_excess_counts) noexcept {
+RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second, double known_excess_counts,
+                       bool with_phase) noexcept {
     return {.sign = sign,
             .counts_first = first.counts,
             .counts_second = second.counts,
@@ -71,15 +71,25 @@ RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& seco
             .detuning_sq_first_lambda2 = first.detuning_sq_lambda2,
             .detuning_sq_second_lambda2 = second.detuning_sq_lambda2,
             // Sampled at the end of the first half: the middle of the tick.
-            .temperature_c = first.temperature_c};
+            .temperature_c = first.temperature_c,
+            .with_phase = with_phase};
 }
 
-void apply(const RelockDriftOutput& relock, TickInput& tick) noexcept {
+// Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide it.
+constexpr double other_loop_part = 0.3;
+
+double other_loop_arcsec2(const RelockDriftConfig& config, bool with_phase, double false_arcsec) noexcept {
+    if (!with_phase || config.method != RelockMethod::frequency) return 0.0;
+    return other_loop_part * other_loop_part * false_arcsec * false_arcsec;
+}
+
+void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, TickInput& tick) noexcept {
     tick.settled = !relock.due;
     if (relock.tick.known) {
         tick.value_arcsec -= relock.tick.value_arcsec;
         tick.relock_arcsec = relock.tick.value_arcsec;
         tick.variance_arcsec2 += relock.tick.variance_arcsec2;
+        tick.variance_arcsec2 += other_loop_arcsec2(config, tick.with_phase, relock.tick.value_arcsec);
         tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
         tick.flags |= flag_relock_corrected;
     } else if (relock.due && !relock.waiting) {
@@ -133,7 +143,7 @@ void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& 
     tick.variance_arcsec2 += unsubtracted;
 }
 
-// A half that was read, and refused: not one that was missed, whose counts are in a later one.
+// A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later one.
 bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !half.valid && half.counts != 0; }
 
 // What a half may hold of a fault that begins or ends in it, over the bias: a change of the current is seen from 1.2 % of it
@@ -168,7 +178,8 @@ void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& f
                        const Borders& borders, double turn_counts, TickInput& tick) noexcept {
     const double scale = config.gyro.scale.value();
     if (!(config.lock_in.threshold.value() > 0.0)) {
-        tick.variance_arcsec2 += scale * scale * unknown_loss_counts2(config.gyro, config.lock_in, turn_counts);
+        tick.common_arcsec2 = scale * scale * unknown_loss_counts2(config.gyro, config.lock_in, turn_counts);
+        tick.variance_arcsec2 += tick.common_arcsec2;
         return;
     }
     const Border middle = border_of(first);
@@ -176,7 +187,8 @@ void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& f
                                             counts_and_parts(first.counts, parts_between(borders.start, middle)),
                                             counts_and_parts(second.counts, parts_between(middle, borders.end)));
     tick.value_arcsec += scale * lost.value;
-    tick.variance_arcsec2 += scale * scale * lost.variance;
+    tick.common_arcsec2 = scale * scale * lost.variance;
+    tick.variance_arcsec2 += tick.common_arcsec2;
 }
 
 // The same of the known sum of a gap's ticks, at their mean rate.
@@ -379,7 +391,10 @@ double subtract_asymmetry(const CompensationConstants& gyro, CoilAsymmetryState&
 
 // Nothing can be subtracted: the motion is learnt from all ticks, and the switch is as uncertain as these together.
 void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& relock, TickInput& tick) noexcept {
-    if (relock.due) state.uncorrected_arcsec2 += relock.tick.variance_arcsec2;
+    if (relock.due)
+        state.uncorrected_arcsec2 += relock.tick.variance_arcsec2;
+    else if (state.bridge.n_pending == 0)
+        state.uncorrected_arcsec2 = 0.0;  // the angle of its gap has it; a later gap has not
     tick.relock_to_come_arcsec2 = state.uncorrected_arcsec2;
     tick.settled = true;
 }
@@ -406,10 +421,10 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         note_phase(state, tick.with_phase);
         give_back_lock_in(config, first, second, borders, state.edges.turn_counts, tick);
         const double excess = known_excess(shifted, borders, first);
-        const RelockTick read = relock_tick(tick.sign, first, second, excess);
+        const RelockTick read = relock_tick(tick.sign, first, second, excess, tick.with_phase);
         allow_for_push(config.gyro, config.relock, state.relock, read, tick);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
-        apply(relock, tick);
+        apply(config.relock, relock, tick);
         if (state.refused) allow_for_end(config.gyro, tick);
         const std::int64_t to_come = config.relock.ticks - state.relock.since_gap;
         if (relock.tick.known && to_come > 0)
@@ -428,6 +443,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         tick.settled_tick = state.settled_tick;
         if ((tick.flags & flag_loop_unlocked) != 0)
             state.settled_tick = state.bridge.next_tick + 1 + config.relock.ticks;
+        tick.relock_ticks = config.relock.ticks;
         tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);
@@ -438,7 +454,8 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         state.first_waits = false;
         if (is_refused(first) && !state.bridge.gap.open) allow_for_onset(config.gyro, tick);
     }
-    state.refused = is_refused(second);
+    // The counts of a half that was missed go over into the next one, which then is not measured.
+    state.refused = second.loop_closed && !second.valid;
     tick.bias_arcsec = state.bias_arcsec;
     const double uneven_arcsec = subtract_asymmetry(config.gyro, state.coil, first, second, tick);
     const double magnetic = magnetic_arcsec(config, state, tick);
