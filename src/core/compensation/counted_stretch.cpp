@@ -4,6 +4,7 @@
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
+#include "compensation/relock/relock_light.hpp"
 
 namespace zlg::core {
 namespace {
@@ -17,8 +18,16 @@ void see_detuning(CountedStretchState& s, double sq_lambda2) noexcept {
     if (sq_lambda2 > s.max_sq_lambda2) s.max_sq_lambda2 = sq_lambda2;
 }
 
-void add_half(CountedStretchState& s, const HalfRecord& half) noexcept {
-    see_detuning(s, half.detuning_sq_lambda2);
+void add_deficit(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
+    const RecordedSquare recorded = recorded_square(gyro, half);
+    if (!recorded.known) s.seen = false;
+    s.deficit_lambda2 += half.bias_sign * half.mode * recorded.mean_sq_lambda2;
+    s.deficit_variance_lambda4 += recorded.variance_lambda4;
+}
+
+void add_half(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
+    see_detuning(s, detuning_sq(gyro, half));
+    add_deficit(gyro, s, half);
     if (!half.loop_closed) s.known_before = false;
     if (!half.loop_closed || half.mode != s.mode) s.broken = true;
     if (!half.valid) return count_up(s.uncovered);
@@ -32,7 +41,9 @@ void add_half(CountedStretchState& s, const HalfRecord& half) noexcept {
 
 void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges, const Border& border) noexcept {
     s.start_border = border;
-    s.broken = !s.known_before;
+    s.broken = false;
+    s.seen = true;
+    s.deficit_lambda2 = s.deficit_variance_lambda4 = 0.0;
     s.mode = mode;
     s.counts = s.area_ticks = 0;
     s.start_ticks = edges.offset_ticks;
@@ -65,25 +76,37 @@ double angle(const CompensationConstants& gyro, const CountedStretchState& s, He
 
 }  // namespace
 
+double detuning_sq(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
+    if (!(half.detuning_sq_lambda2 > 0.0)) return 0.0;
+    const double noise = gyro.light_noise.value();
+    return about(gyro.centre,
+                 true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise * noise));
+}
+
 CountedStretch step(const CompensationConstants& gyro, CountedStretchState& state, const HalfRecord& first,
                     const HalfRecord& second, Hertz bias, const EdgeShiftState& edges_before, EdgeShiftState& edges,
                     const Border& start_border) noexcept {
     if (state.n_ticks == 0) begin(state, first.mode, edges_before, start_border);
     ++state.n_ticks;
-    add_half(state, first);
-    add_half(state, second);
+    add_half(gyro, state, first);
+    add_half(gyro, state, second);
     add_area(state, first, second, edges_before.offset_ticks);
     if (state.uncovered > 0) return {};
     CountedStretch out;
-    if (!state.broken) {
+    // Without either nothing bounds the false drift.
+    if (!state.broken && (state.known_before || state.seen)) {
         out.n_ticks = state.n_ticks;
         out.angle_arcsec = angle(gyro, state, bias, second, edges);
         out.start_border = state.start_border;
         out.fall_lambda2 = state.max_sq_lambda2 - state.min_sq_lambda2;
+        out.seen = state.seen;
+        out.deficit_lambda2 = state.deficit_lambda2;
+        out.deficit_variance_lambda4 = state.deficit_variance_lambda4;
     }
     state.n_ticks = 0;
-    if (second.detuning_sq_lambda2 > 0.0 && is_finite(second.detuning_sq_lambda2))
-        state.min_sq_lambda2 = state.max_sq_lambda2 = second.detuning_sq_lambda2;
+    const double last_sq_lambda2 = detuning_sq(gyro, second);
+    if (last_sq_lambda2 > 0.0 && is_finite(last_sq_lambda2))
+        state.min_sq_lambda2 = state.max_sq_lambda2 = last_sq_lambda2;
     return out;
 }
 

@@ -60,8 +60,8 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
     return tick;
 }
 
-RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second,
-                       double known_excess_counts) noexcept {
+RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second, double known_excess_counts,
+                       bool with_phase) noexcept {
     return {.sign = sign,
             .counts_first = first.counts,
             .counts_second = second.counts,
@@ -71,15 +71,25 @@ RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& seco
             .detuning_sq_first_lambda2 = first.detuning_sq_lambda2,
             .detuning_sq_second_lambda2 = second.detuning_sq_lambda2,
             // Sampled at the end of the first half: the middle of the tick.
-            .temperature_c = first.temperature_c};
+            .temperature_c = first.temperature_c,
+            .with_phase = with_phase};
 }
 
-void apply(const RelockDriftOutput& relock, TickInput& tick) noexcept {
+// Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide it.
+constexpr double other_loop_part = 0.3;
+
+double other_loop_arcsec2(const RelockDriftConfig& config, bool with_phase, double false_arcsec) noexcept {
+    if (!with_phase || config.method != RelockMethod::frequency) return 0.0;
+    return other_loop_part * other_loop_part * false_arcsec * false_arcsec;
+}
+
+void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, TickInput& tick) noexcept {
     tick.settled = !relock.due;
     if (relock.tick.known) {
         tick.value_arcsec -= relock.tick.value_arcsec;
         tick.relock_arcsec = relock.tick.value_arcsec;
         tick.variance_arcsec2 += relock.tick.variance_arcsec2;
+        tick.variance_arcsec2 += other_loop_arcsec2(config, tick.with_phase, relock.tick.value_arcsec);
         tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
         tick.flags |= flag_relock_corrected;
     } else if (relock.due && !relock.waiting) {
@@ -133,7 +143,7 @@ void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& 
     tick.variance_arcsec2 += unsubtracted;
 }
 
-// A half that was read, and refused: not one that was missed, whose counts are in a later one.
+// A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later one.
 bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !half.valid && half.counts != 0; }
 
 // What a half may hold of a fault that begins or ends in it, over the bias: a change of the current is seen from 1.2 % of it
@@ -163,25 +173,13 @@ void give_up_first(TickInput& tick) noexcept {
     tick.amend_flags = flag_relock_uncorrected;
 }
 
-// Mean square of the detuning from the centre of the bias, by the curve of the discriminator; 0 where it was not
-// measured.
-double detuning_sq(const CompensationConstants& g, const HalfRecord& half) noexcept {
-    if (!(half.detuning_sq_lambda2 > 0.0)) return 0.0;
-    const double noise = g.light_noise.value();
-    return about(g.centre, true_moments(g.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise * noise));
-}
-
-HalfRecord with_true_detuning(const CompensationConstants& gyro, HalfRecord half) noexcept {
-    half.detuning_sq_lambda2 = detuning_sq(gyro, half);
-    return half;
-}
-
 // What lock-in takes from the halves, given back to the tick. The counter shows the beat of each half.
 void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
                        const Borders& borders, double turn_counts, TickInput& tick) noexcept {
     const double scale = config.gyro.scale.value();
     if (!(config.lock_in.threshold.value() > 0.0)) {
-        tick.variance_arcsec2 += scale * scale * unknown_loss_counts2(config.gyro, config.lock_in, turn_counts);
+        tick.common_arcsec2 = scale * scale * unknown_loss_counts2(config.gyro, config.lock_in, turn_counts);
+        tick.variance_arcsec2 += tick.common_arcsec2;
         return;
     }
     const Border middle = border_of(first);
@@ -189,7 +187,8 @@ void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& f
                                             counts_and_parts(first.counts, parts_between(borders.start, middle)),
                                             counts_and_parts(second.counts, parts_between(middle, borders.end)));
     tick.value_arcsec += scale * lost.value;
-    tick.variance_arcsec2 += scale * scale * lost.variance;
+    tick.common_arcsec2 = scale * scale * lost.variance;
+    tick.variance_arcsec2 += tick.common_arcsec2;
 }
 
 // The same of the known sum of a gap's ticks, at their mean rate.
@@ -204,29 +203,40 @@ void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts,
     tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
 }
 
+// Part of the false angle of a stretch, at its most, by which the constants err: the quartic term of the bias, chi f0 and
+// the reading of a large detuning (lit_halves.hpp).
+constexpr double law_part = 0.03;
+
 // The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
 // drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
-// exceeds the rounding of the counter, as in a re-lock, the motion around the gap gives the better estimate, and the
-// sum is not used.
+// exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any case the
+// sum is rough.
 void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
                    const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
                    TickInput& tick) noexcept {
     const CompensationConstants& gyro = config.gyro;
     const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
-    const CountedStretch known = step(gyro, state.stretch, with_true_detuning(gyro, first),
-                                      with_true_detuning(gyro, second), bias, edges_before, state.edges, borders.start);
+    const CountedStretch known =
+        step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
     if (known.n_ticks == 0) return;
-    const double drift_hz = 0.5 * gyro.chi * bias.value() * known.fall_lambda2;
-    const double drift_arcsec = gyro.scale.value() * gyro.tick.value() * drift_hz;
+    const double arcsec_per_lambda2 = 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
+    const double drift_arcsec = arcsec_per_lambda2 * known.fall_lambda2;
     const double rounding = rounding_arcsec2(gyro, known.start_border, borders.end);
-    const double drift_variance = drift_arcsec * drift_arcsec;
-    // Not used, and neither is what `step` has concluded from it about the edges.
-    if (!(drift_variance <= rounding_arcsec2(gyro))) return break_off(state.edges);
+    double drift_variance = drift_arcsec * drift_arcsec;
     tick.known_ticks = known.n_ticks;
     tick.known_arcsec = known.angle_arcsec;
+    const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
+    if (settles && known.seen) {
+        tick.known_arcsec += arcsec_per_lambda2 * known.deficit_lambda2;
+        drift_variance = law_part * law_part * drift_variance +
+                         arcsec_per_lambda2 * arcsec_per_lambda2 * known.deficit_variance_lambda4;
+    }
+    tick.known_is_rough = settles;
     tick.known_drift_arcsec2 = drift_variance;
     tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
     give_back_lock_in(config, state.edges.turn_counts, bias, tick);
+    // What `step` has concluded from the sum about the edges holds for an even bias.
+    if (settles) break_off(state.edges);
 }
 
 bool uses_halves(const GyroCompensationConfig& config) noexcept {
@@ -385,7 +395,10 @@ double subtract_asymmetry(const CompensationConstants& gyro, CoilAsymmetryState&
 
 // Nothing can be subtracted: the motion is learnt from all ticks, and the switch is as uncertain as these together.
 void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& relock, TickInput& tick) noexcept {
-    if (relock.due) state.uncorrected_arcsec2 += relock.tick.variance_arcsec2;
+    if (relock.due)
+        state.uncorrected_arcsec2 += relock.tick.variance_arcsec2;
+    else if (state.bridge.n_pending == 0)
+        state.uncorrected_arcsec2 = 0.0;  // the angle of its gap has it; a later gap has not
     tick.relock_to_come_arcsec2 = state.uncorrected_arcsec2;
     tick.settled = true;
 }
@@ -412,10 +425,10 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         note_phase(state, tick.with_phase);
         give_back_lock_in(config, first, second, borders, state.edges.turn_counts, tick);
         const double excess = known_excess(shifted, borders, first);
-        const RelockTick read = relock_tick(tick.sign, first, second, excess);
+        const RelockTick read = relock_tick(tick.sign, first, second, excess, tick.with_phase);
         allow_for_push(config.gyro, config.relock, state.relock, read, tick);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
-        apply(relock, tick);
+        apply(config.relock, relock, tick);
         if (state.refused) allow_for_end(config.gyro, tick);
         const std::int64_t to_come = config.relock.ticks - state.relock.since_gap;
         if (relock.tick.known && to_come > 0)
@@ -434,6 +447,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         tick.settled_tick = state.settled_tick;
         if ((tick.flags & flag_loop_unlocked) != 0)
             state.settled_tick = state.bridge.next_tick + 1 + config.relock.ticks;
+        tick.relock_ticks = config.relock.ticks;
         tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);
@@ -444,7 +458,8 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         state.first_waits = false;
         if (is_refused(first) && !state.bridge.gap.open) allow_for_onset(config.gyro, tick);
     }
-    state.refused = is_refused(second);
+    // The counts of a half that was missed go over into the next one, which then is not measured.
+    state.refused = second.loop_closed && !second.valid;
     tick.bias_arcsec = state.bias_arcsec;
     const double uneven_arcsec = subtract_asymmetry(config.gyro, state.coil, first, second, tick);
     const double magnetic = magnetic_arcsec(config, state, tick);

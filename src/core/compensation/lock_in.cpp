@@ -44,7 +44,7 @@ LostCounts lost_counts(const LockInConfig& config, double half_s, const Beats& b
     out.variance = square(lost(b, largest) - out.value);
     const double standing = largest + reading_counts;
     if (size(b.first) < standing || size(b.second) < standing) out.variance += square(largest);
-    return is_finite(out.value + out.variance) ? out : LostCounts{};
+    return is_finite(out.value + out.variance) ? out : LostCounts{.variance = infinity};
 }
 
 Beats beats_of(const CompensationConstants& gyro, double tick_counts) noexcept {
@@ -79,6 +79,7 @@ LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig
 
 double unknown_loss_counts2(const CompensationConstants& gyro, const LockInConfig& config,
                             double tick_counts) noexcept {
+    if (!(config.sigma.value() > 0.0)) return 0.0;
     const double half_s = 0.5 * gyro.tick.value();
     const double bias = gyro.plateau_ratio * gyro.bias.value() * half_s;
     const double threshold = config.sigma.value() * half_s / bias;
@@ -86,7 +87,7 @@ double unknown_loss_counts2(const CompensationConstants& gyro, const LockInConfi
     const double from_bias_sq = square(1.0 - x * x) + 4.0 * threshold * threshold;
     const double loss = bias * threshold * threshold * x;
     const double loss_sq = loss * loss / from_bias_sq;
-    return is_finite(loss_sq) ? loss_sq : 0.0;
+    return is_finite(loss_sq) ? loss_sq : infinity;
 }
 
 }  // namespace zlg::core

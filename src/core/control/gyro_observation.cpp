@@ -75,7 +75,8 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
                    .beat_sign = static_cast<std::int8_t>(o.commuted.sign * o.polarity),
                    .settled = o.settled && s.was_lit});
     // A half without light makes the difference to the next one meaningless.
-    o.bias_wrong = o.bias.judged && !o.bias.in_band && s.was_lit;
+    const bool was_lit = s.was_lit || (o.loop_closed && s.was_steady);
+    o.bias_wrong = o.bias.judged && !o.bias.in_band && was_lit;
     if (!o.fresh) return;
     o.coil = step(c.coil_monitor, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
     if (c.records_coil) o.coil_ua = microamperes(frame.coil_current_a);
@@ -233,6 +234,7 @@ void observe(const GyroControlConfig& config, GyroControlState& state, const Sen
     read_span(config, state, seen);
     judge(config, state, seen);
     judge_steadiness(config, state, seen);
+    state.was_steady = seen.steady;
     leave_counts(state, seen);
 }
 

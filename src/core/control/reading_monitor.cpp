@@ -133,6 +133,11 @@ ReadingMonitorOutput judge(ReadingMonitorState& s, const ReadingMonitorInput& in
 
 ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
     if (!in.follows) s.has_last = s.countable = false;
+    // The first half of a loop that closes: its start was read, whatever the counter did before.
+    if (!s.countable && in.countable && in.suspicious && s.has_last && !s.over_range) {
+        begin(s, in);
+        s.good = s.last;
+    }
     ReadingMonitorOutput out;
     if (s.countable) out = judge(s, in);
     if (s.countable) return out;

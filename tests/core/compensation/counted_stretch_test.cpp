@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace zlg::core {
@@ -71,6 +72,34 @@ TEST(CountedStretch, AfterAnOpenLoopTheFalseDriftIsNotBoundedBeforeATickWasMeasu
     expect(after({missed(1), read(-1, 7, 2)}, state), 0, 0);
     begin_anew(state, 0.0);
     expect(after({missed(1), read(-1, 7, 2)}, state), 1, 7);
+}
+
+// <dl^2> is the mean square without that of the light's noise; half after half it counts with the sign of the bias.
+TEST(CountedStretch, WhatTheDetuningTakesFromTheBiasIsSummedWhereTheLightWasRead) {
+    const double noise = config.light_noise.value() * config.light_noise.value();
+    const auto seen = [&](HalfRecord half, double sq_lambda2) {
+        half.detuning_sq_lambda2 = sq_lambda2 + noise;
+        half.detuning_lambda = std::sqrt(sq_lambda2);
+        return half;
+    };
+    std::vector<HalfRecord> halves{seen(missed(1), 0.04), seen(missed(-1), 0.03), seen(missed(1), 0.02),
+                                   seen(read(-1, 7, 4), 0.005)};
+    const CountedStretch out = after(halves);
+    EXPECT_TRUE(out.seen);
+    EXPECT_NEAR(out.deficit_lambda2, 0.04 - 0.03 + 0.02 - 0.005, 1e-12);
+    EXPECT_NEAR(out.deficit_variance_lambda4, (4.0 * 0.095 + 2.0 * 4.0 * noise) * noise / 16.0, 1e-12);
+    halves[2].detuning_sq_lambda2 = 0.0;
+    EXPECT_FALSE(after(halves).seen);
+}
+
+TEST(CountedStretch, AfterAnOpenLoopTheSumIsKnownWhereTheLightWasReadThroughout) {
+    CountedStretchState state;
+    state.known_before = false;
+    HalfRecord first = missed(1), second = read(-1, 7, 2);
+    first.detuning_sq_lambda2 = second.detuning_sq_lambda2 = 0.01;
+    expect(after({first, second}, state), 1, 7);
+    first.detuning_sq_lambda2 = 0.0;
+    expect(after({first, second}, state), 0, 0);
 }
 
 // 2.5 us more of plateau at 60 kHz is .15 counts, in each half of its own sign.

@@ -76,6 +76,39 @@ TEST(FaultEdges, AMissedHalfIsNoFaultOfTheGyro) {
     for (std::size_t t = 190; t < 210; ++t) EXPECT_NEAR(sigma_of(all, t), std::sqrt(of_count_arcsec2), 1e-3) << t;
 }
 
+// Without its bias a gyro at rest counts nothing. What tells it from a missed half is that the next one has only its own counts.
+TEST(FaultEdges, AFaultInWhichNothingIsCountedMayEndUnseenToo) {
+    Halves halves = at_rest(300, true);
+    for (const std::size_t h : {400u, 401u, 402u, 403u}) {
+        halves[h].valid = false;
+        halves[h].counts = 0;
+    }
+    EXPECT_GT(sigma_of(run(without_walk(), halves), 202), std::sqrt(unseen_arcsec2));
+}
+
+// The error of an unknown threshold is the same in all ticks: those of the gap have it from the points beside it, and with those of
+// the re-lock it adds up in the switch.
+TEST(FaultEdges, ASwitchHoldsTheUnknownLockInOfItsTicks) {
+    GyroCompensationConfig config = without_walk();
+    config.lock_in.sigma = Hertz{300.0};
+    for (const std::int64_t rate : {0, 120}) {
+        Halves halves = at_rest(400, true);
+        for (HalfRecord& half : halves) half.counts += rate;
+        for (std::size_t h = 600; h < 606; ++h) halves[h].loop_closed = halves[h].valid = false;
+        const Delivered all = run(config, halves);
+        const auto in_tick = static_cast<double>(2 * rate);
+        const double common = scale * std::sqrt(unknown_loss_counts2(config.gyro, config.lock_in, in_tick));
+        const double ratio = static_cast<double>(rate) / 150.0;
+        // Adler's, of 0.75 counts in a half, to the second order: (1/2) (L/f0)^2 r T/(1 - (r/f0)^2).
+        const double adler = 0.5 * 0.005 * 0.005 * in_tick / (1.0 - ratio * ratio);
+        EXPECT_NEAR(common, scale * adler, 0.01 * scale * adler);
+        ASSERT_EQ(all.gaps.size(), 1u);
+        EXPECT_GE(all.gaps[0].sigma_sum_arcsec, 23.0 * common);
+        EXPECT_LE(all.gaps[0].sigma_sum_arcsec, 23.0 * common + 0.5);
+        for (std::size_t t = 300; t < 303; ++t) EXPECT_GE(sigma_of(all, t), common);
+    }
+}
+
 // Detuning that comes and goes within a tick, far from any gap, which no correction subtracts: its false angle is
 // chi f0/2 (<dl^2>_second - <dl^2>_first) K T.
 TEST(FaultEdges, APushOfThePerimeterIsInSigmaByPhase) {
@@ -133,6 +166,24 @@ TEST(Uncorrected, WhatAClosingLeavesIsInSigmaAndFlagged) {
     EXPECT_EQ(all.rows[223].flags & flag_relock_uncorrected, 0u);
     ASSERT_EQ(all.gaps.size(), 1u);
     EXPECT_GE(all.gaps[0].sigma_sum_arcsec, std::sqrt(sum));
+}
+
+TEST(Uncorrected, ALaterGapDoesNotHaveWhatAClosingLeft) {
+    GyroCompensationConfig config = without_walk();
+    config.relock = {.method = RelockMethod::none, .presumes = true};
+    double sigma[2] = {};
+    for (const bool opened : {false, true}) {
+        Halves halves = at_rest(600, false);
+        for (HalfRecord& half : halves) half.detuning_sq_lambda2 = 0.0;
+        for (std::size_t h = 400; h < 406; ++h) halves[h].loop_closed = !opened;
+        // Half of the tick is missing for good.
+        halves[900].valid = false;
+        halves[900].counts = 0;
+        const Delivered all = run(config, halves);
+        ASSERT_EQ(all.gaps.size(), opened ? 2u : 1u);
+        sigma[opened] = all.gaps.back().sigma_sum_arcsec;
+    }
+    EXPECT_NEAR(sigma[1], sigma[0], 0.05);
 }
 
 TEST(Uncorrected, AMissedHalfMovesNoPerimeter) {

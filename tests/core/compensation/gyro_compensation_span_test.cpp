@@ -228,6 +228,86 @@ TEST(GyroCompensationSpan, ASumOfAReLockIsNoSumOfTheRotation) {
     }
 }
 
+// A rest with a switch behind which the gyro turns at once, by `turn_arcsec` within one half; the halves from `first` after the
+// closing on are waited for, and the light is read in them, or not.
+struct Jerk {
+    std::size_t first = 2;
+    std::size_t n = 6;
+    bool lit = true;
+    double turn_arcsec = 0.0;
+};
+
+struct Error {
+    double angle_arcsec = 0.0, sigma_arcsec = 0.0, worst_sigmas = 0.0;
+};
+
+Error error_after(const GyroCompensationConfig& config, const Jerk& jerk) {
+    Recorder recorder{config, 1, 1};
+    Halves halves;
+    for (int t = 0; t < 600; ++t) recorder.tick_into(halves, 7.3);
+    for (int t = 0; t < 3; ++t) recorder.tick_into(halves, 7.3, false);
+    recorder.flip();
+    const std::size_t closed = halves.size();
+    std::vector<double> true_arcsec(240, 7.3);
+    const std::size_t turned = jerk.first + 1;
+    for (std::size_t h = 0; h < 400; ++h) {
+        const double square = 0.22 * 0.22 * std::pow(0.68, 2 * h) + 1e-5;
+        halves.push_back(recorder.half(0.5 * 7.3 + (h == turned ? jerk.turn_arcsec : 0.0), square));
+    }
+    true_arcsec[3 + turned / 2] += jerk.turn_arcsec;
+    miss(halves, closed + jerk.first, jerk.n);
+    for (std::size_t h = closed + jerk.first; h < closed + jerk.first + jerk.n && !jerk.lit; ++h)
+        halves[h].detuning_sq_lambda2 = halves[h].detuning_lambda = 0.0;
+    const Delivered all = run(config, halves);
+    Error out;
+    for (std::size_t t = 600; t < 640; ++t) {
+        const double off = all.rows[t].dtheta_final_arcsec - true_arcsec[t - 600];
+        out.angle_arcsec += off;
+        out.worst_sigmas = std::max(out.worst_sigmas, std::abs(off) / all.rows[t].sigma_arcsec);
+    }
+    double variance = 0.0;
+    for (const GapReport& gap : all.gaps) variance += gap.sigma_sum_arcsec * gap.sigma_sum_arcsec;
+    out.sigma_arcsec = std::sqrt(variance);
+    return out;
+}
+
+// The false angle of the settling detuning, up to 40 arcsec, is known to 3 % where the light was read, and is in sigma where it was
+// not. The roundings of two sums, up to 2 arcsec each, are in what differs from a gyro that rests.
+TEST(GyroCompensationSpan, AJerkInAReLockIsInTheSumOfTheCounter) {
+    for (const BridgeMethod method : {BridgeMethod::automatic, BridgeMethod::quadratic}) {
+        GyroCompensationConfig config = with(method);
+        config.relock.method = RelockMethod::mean_square;
+        for (const double turn : {-2500.0, -300.0, 300.0, 2500.0}) {
+            for (std::size_t first = 2; first < 8; ++first) {
+                for (const bool lit : {true, false}) {
+                    const Error quiet = error_after(config, {.first = first, .n = 7, .lit = lit});
+                    const Error error = error_after(config, {.first = first, .n = 7, .lit = lit, .turn_arcsec = turn});
+                    const double more = lit ? 5.2 : 44.0;
+                    EXPECT_NEAR(error.angle_arcsec, quiet.angle_arcsec, more) << turn << " from " << first;
+                    EXPECT_LT(std::abs(error.angle_arcsec), 4.0 * error.sigma_arcsec) << turn << " from " << first;
+                    EXPECT_LT(error.sigma_arcsec, quiet.sigma_arcsec + more) << turn << " from " << first;
+                    EXPECT_LT(error.worst_sigmas, 4.0) << turn << " from " << first;
+                }
+            }
+        }
+    }
+}
+
+// From the very closing on, the sum is that of a part of the gap, and the jerk may have begun beside that.
+TEST(GyroCompensationSpan, AJerkAtAClosingMayHaveBegunBeforeIt) {
+    GyroCompensationConfig config = with(BridgeMethod::automatic);
+    config.relock.method = RelockMethod::mean_square;
+    for (const double turn : {-2500.0, 2500.0}) {
+        const Error error = error_after(config, {.first = 0, .turn_arcsec = turn});
+        EXPECT_LT(std::abs(error.angle_arcsec), 7.0);
+        EXPECT_GT(error.sigma_arcsec, 2500.0);
+        EXPECT_LT(error.sigma_arcsec, 3.5 * 2500.0);
+    }
+    const Error quiet = error_after(config, {.first = 0});
+    EXPECT_LT(std::abs(quiet.angle_arcsec), 4.0);
+    EXPECT_LT(quiet.sigma_arcsec, 4.0);
+}
+
 // `none` bridges nothing: what the counter says is the angle, in the tick in which it says it.
 TEST(GyroCompensationSpan, WithoutABridgeTheCountsAreTheAngle) {
     const GyroCompensationConfig config = with(BridgeMethod::none);

@@ -141,7 +141,8 @@ RC_GTEST_PROP(LostToLockIn, TurnsItsSignWithTheRotationAndKnowsNoOrderOfTheHalve
     RC_ASSERT(one.variance >= 0.0);
 }
 
-TEST(LostToLockIn, EveryInputGivesNumbers) {
+// What overflows is not known to be nothing.
+TEST(LostToLockIn, EveryInputGivesNumbersOrAnInfiniteVariance) {
     const CompensationConstants tiny{.bias = Hertz{1e-300}};
     for (const double counts : {0.0, 1.0, 0x1p53, -0x1p53, infinite, not_a_number}) {
         for (const CompensationConstants& gyro : {gyro_of(60e3), tiny}) {
@@ -150,9 +151,15 @@ TEST(LostToLockIn, EveryInputGivesNumbers) {
                      {lost_to_lock_in(gyro, config, counts, -counts), lost_to_lock_in(gyro, config, counts, counts),
                       lost_to_lock_in(gyro, config, counts, Hertz{counts})}) {
                     EXPECT_TRUE(std::isfinite(lost.value));
-                    EXPECT_TRUE(std::isfinite(lost.variance));
+                    EXPECT_GE(lost.variance, 0.0);
+                    const bool is_possible = std::isfinite(counts) && gyro.bias.value() > 1.0;
+                    if (is_possible) EXPECT_TRUE(std::isfinite(lost.variance));
+                    if (config.threshold.value() > 0.0 && !std::isfinite(counts)) EXPECT_EQ(lost.variance, infinite);
                 }
-                EXPECT_TRUE(std::isfinite(unknown_loss_counts2(gyro, config, counts)));
+                const double unknown = unknown_loss_counts2(gyro, config, counts);
+                EXPECT_GE(unknown, 0.0);
+                if (std::isnan(counts)) EXPECT_EQ(unknown, config.sigma.value() > 0.0 ? infinite : 0.0);
+                EXPECT_EQ(unknown_loss_counts2(gyro, known(0.0), counts), 0.0);
             }
         }
     }

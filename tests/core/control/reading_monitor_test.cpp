@@ -196,6 +196,18 @@ TEST(ReadingMonitor, OfAnOpenLoopOrAnotherModeNothingIsTakenAcross) {
     }
 }
 
+// The reading before the first half of a closed loop is as good as any: what turns in that half is not lost.
+TEST(ReadingMonitor, AJerkInTheFirstHalfAfterAnOpenLoopIsKept) {
+    std::vector<Half> halves(40);
+    for (std::size_t h = 10; h < 16; ++h) halves[h].countable = false;
+    halves[16].turned = -200;
+    halves[17].turned = -190;
+    const Readout all = run(halves);
+    EXPECT_FALSE(all.out[16].trusted);
+    EXPECT_EQ(all.sum, -390);
+    EXPECT_EQ(all.covered, 40);
+}
+
 TEST(ReadingMonitor, NumbersBegunAnewBeginAnew) {
     ReadingMonitorState state;
     ReadingMonitorInput in{.read = true, .countable = true, .reading = 5000, .max_counts = static_cast<double>(limit)};

@@ -98,6 +98,28 @@ TEST(FaultCampaign, ABiasCurrentLostForLongerThanASecondComesBack) {
     }
 }
 
+// Right after a closing, where a re-lock falsifies the sum of the counter: at 15 ms after the opening the loop is closed.
+TEST(FaultCampaign, AJerkRightAfterASwitchIsWithinSigma) {
+    for (const auto readout : {config::Readout::counts, config::Readout::phase}) {
+        for (const auto relock : {core::RelockMethod::mean_square, core::RelockMethod::joint}) {
+            for (int k = 0; k < 20; ++k) {
+                FaultTrial trial;
+                trial.config.motion.kind = config::MotionKind::rest;
+                trial.config.switching.interval_s = 2.0;
+                trial.config.gyro.readout = readout;
+                trial.config.compensation.relock = relock;
+                const double at_s = 2.0125 + 0.0025 * k;
+                trial.fault = twin::Fault{FaultKind::overspeed, at_s, k % 2 == 0 ? 0.005 : 0.01, 500'000.0};
+                trial.watched_s = 2.2;
+                trial.end_s = 3.0;
+                const FaultOutcome out = run(trial);
+                EXPECT_EQ(out.wrong + out.wrong_bridged, 0) << at_s;
+                EXPECT_LT(std::abs(out.angle_error_arcsec), 5.0 * out.angle_sigma_arcsec) << at_s;
+            }
+        }
+    }
+}
+
 // What the processor can know of, it knows of.
 TEST(FaultCampaign, FaultsThatShowAreDetected) {
     const std::set<std::string> always{"laser_off",       "light_nan",    "piezo_adc_nan",

@@ -2,9 +2,11 @@
 
 #include <memory>
 
+#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
+#include "common/bounds.hpp"
 #include "gap_estimate.hpp"
 #include "gap_interpolation.hpp"
 #include "gap_known.hpp"
@@ -119,7 +121,8 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
     // Its rows become final before its end is known.
     if (gap.n == max_gap_ticks + 1) give_up(state);
     const std::int64_t first = gap.n == max_gap_ticks + 1 ? gap.first_tick : tick;
-    const ExactSum change = settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec);
+    const ExactSum change =
+        settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec).change_arcsec;
     gap.final_minus_delivered_arcsec.add(change.high);
     gap.final_minus_delivered_arcsec.add(change.low);
 }
@@ -198,13 +201,24 @@ void widen(GapBridgeState& state, const Gap& gap, double variance_arcsec2, GapRe
     report.sigma_sum_arcsec = square_root(report.sigma_sum_arcsec * report.sigma_sum_arcsec + variance_arcsec2);
 }
 
+// An error that the points beside a gap have in common goes over to each of its ticks, and with those of the re-lock into the
+// angle of the switch, all with one sign.
+void widen_in_common(GapBridgeState& state, const Gap& gap, GapReport& report) noexcept {
+    for (std::int64_t j = 0; j < gap.n; ++j) {
+        double& sigma = at(state, gap.first_tick + j).row.sigma_arcsec;
+        sigma = square_root(sigma * sigma + state.common_arcsec2);
+    }
+    const double n_ticks = as_double(gap.n + state.relock_ticks);
+    report.sigma_sum_arcsec = square_root(square(report.sigma_sum_arcsec) + n_ticks * n_ticks * state.common_arcsec2);
+}
+
 // Work at the end of a log, in the units of `estimate`: unbounded.
 constexpr int all_work = 1000;
 
 // Give a gap its final values from the ticks before `end`, and its pending correction, eq (17).
 GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                   PendingGap& pending, std::int64_t end, int work) noexcept {
-    const Gap& gap = pending.gap;
+    Gap& gap = pending.gap;
     GapReport report{.first_tick = gap.first_tick,
                      .n_ticks = gap.n,
                      .sign_after = pending.sign_after,
@@ -222,11 +236,17 @@ GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& conf
         if (pending.unread_arcsec2 > 0.0) widen(state, gap, pending.unread_arcsec2, report);
         pending.correction_arcsec.add(found.after_arcsec.high);
         pending.correction_arcsec.add(found.after_arcsec.low);
-        const ExactSum change = settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
-        difference.add(change.high);
-        difference.add(change.low);
+        const KnownShift known =
+            settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
+        difference.add(known.change_arcsec.high);
+        difference.add(known.change_arcsec.low);
+        if (known.variance_arcsec2 > 0.0)
+            report.sigma_sum_arcsec = deviation(square(report.sigma_sum_arcsec) + known.variance_arcsec2);
     }
-    if (is_known(gap)) report.sigma_sum_arcsec = deviation(gap.known_variance_arcsec2);
+    if (is_known(gap))
+        report.sigma_sum_arcsec = deviation(gap.known_variance_arcsec2);
+    else if (gap.n <= max_gap_ticks && state.common_arcsec2 > 0.0)
+        widen_in_common(state, gap, report);
     report.dp_arcsec = -difference.value();
     pending.correction_arcsec.add(difference.high);
     pending.correction_arcsec.add(difference.low);
@@ -332,10 +352,12 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         .with_phase = input.with_phase};
     state.relock_to_come_arcsec2 = input.relock_to_come_arcsec2;
     state.bias_arcsec = input.bias_arcsec;
-    if (input.measured)
+    if (input.measured) {
+        state.common_arcsec2 = input.common_arcsec2;
         add_measured_tick(config, state, input, tick);
-    else {
+    } else {
         state.walk_of_switch_arcsec2 = input.walk_of_switch_arcsec2;
+        state.relock_ticks = input.relock_ticks;
         add_gap_tick(gyro, config, state, input, tick);
     }
 

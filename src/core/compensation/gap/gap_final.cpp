@@ -18,6 +18,10 @@ constexpr double negligible = 0.02;
 // where it is not. By trial on zlg_manoeuvre_campaign and, at rest, on zlg_sigma_campaign.
 constexpr double added_uncertainty = 3.5;
 
+// Variances beyond which an estimated error of a re-lock may be the motion: three standard deviations, and any where
+// something beside the learnt motion was found.
+constexpr double sure_error_sq = 9.0;
+
 void apply_to_gap(const GapEstimate& found, AngleRow& row, unsigned j) noexcept {
     row.dtheta_final_arcsec = found.value_arcsec[j];
     row.sigma_arcsec = deviation(found.variance_arcsec2[j]);
@@ -57,10 +61,11 @@ void apply(GapBridgeState& state, const Gap& gap, const GapEstimate& found, doub
         out.gap_arcsec.add(row.dtheta_final_arcsec);
         out.gap_arcsec.add(-row.dtheta_arcsec);
     }
+    const double sure_sq = finds_something(state.estimate.mixture) ? 0.0 : sure_error_sq;
     if (state.estimate.problem.halves)
-        correct_halves(state, found, out.after_arcsec);
+        correct_halves(state, found, sure_sq, out.after_arcsec);
     else
-        correct_ticks(state, found, out.after_arcsec);
+        correct_ticks(state, found, sure_sq, out.after_arcsec);
     out.known = true;
     out.sigma_sum_arcsec = deviation(variance);
 }

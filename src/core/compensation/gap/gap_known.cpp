@@ -4,12 +4,13 @@
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
+#include "common/bounds.hpp"
 #include "gap_interpolation.hpp"
 
 namespace zlg::core {
 namespace {
 
-// Variances beyond which a rate does not belong to the learnt motion: three standard deviations.
+// Variances beyond which a rate does not belong to the learnt motion, or a sum to the bridge: three standard deviations.
 constexpr double outlier_sq = 9.0;
 
 // A stretch of known sum, and its rows that are not delivered yet: `n` of them, from `first` on.
@@ -22,12 +23,19 @@ struct Stretch {
     [[nodiscard]] double n() const noexcept { return as_double(last - first + 1); }
 };
 
-Stretch stretch_of(const GapBridgeState& state, const HistoryTick& entry) noexcept {
+Stretch stretch_of(const GapBridgeState& state, const HistoryTick& entry, std::int64_t n_ticks) noexcept {
     const std::int64_t last = entry.row.tick;
-    const std::int64_t start = last + 1 - entry.known_ticks;
+    const std::int64_t start = last + 1 - n_ticks;
     const std::int64_t first = start < state.next_final ? state.next_final : start;
     return {first, last, first - start, entry.known_arcsec, entry.variance_arcsec2};
 }
+
+// What the bridge says of a stretch against its sum.
+struct Judgement {
+    double off_arcsec = 0.0;
+    double claimed_arcsec2 = 0.0;  // of the rows, as if independent
+    bool contradicts = false;      // (3)
+};
 
 double deficit_of(const GapBridgeState& state, const Stretch& s, double constant_arcsec) noexcept {
     ExactSum deficit;
@@ -78,19 +86,40 @@ void shift_rows(const CompensationConstants& gyro, const GapBridgeConfig& config
     }
 }
 
+Judgement judge(const GapBridgeState& state, const HistoryTick& entry, const Stretch& s) noexcept {
+    Judgement out{.off_arcsec = deficit_of(state, s, 0.0)};
+    for (std::int64_t t = s.first; t <= s.last; ++t) {
+        const double sigma = at(state, t).row.sigma_arcsec;
+        out.claimed_arcsec2 += sigma * sigma;
+    }
+    const double limit = outlier_sq * (entry.known_variance_arcsec2 + s.n() * out.claimed_arcsec2);
+    out.contradicts = out.off_arcsec * out.off_arcsec > limit;
+    return out;
+}
+
+void count_in(double rounding_arcsec2, std::int64_t n_ticks, double variance_arcsec2, Gap& gap) noexcept {
+    // Of the reading between two stretches the one has more what the other has less.
+    if (gap.known_ticks > 0)
+        gap.known_variance_arcsec2 -= shared_rounding(rounding_arcsec2, gap.known_variance_arcsec2, variance_arcsec2);
+    gap.known_ticks += n_ticks;
+    gap.known_variance_arcsec2 += variance_arcsec2;
+}
+
 void settle(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
-            const HistoryTick& entry, double constant_arcsec, ExactSum& change) noexcept {
-    const Stretch s = stretch_of(state, entry);
+            const HistoryTick& entry, const Stretch& s, double constant_arcsec, ExactSum& change) noexcept {
     if (s.first > s.last) return;
     if (s.first == s.last && s.n_delivered == 0)
         return set_row(at(state, s.last).row, s.sum_arcsec, s.variance_arcsec2, change);
-    const bool is_whole = s.n_delivered == 0 && entry.known_ticks == gap.n;
+    const bool is_whole = s.n_delivered == 0 && s.last + 1 - s.first == gap.n;
+    // The rows get the sum as it is; of its own error each has a part.
+    const double error_arcsec2 = entry.known_is_rough ? entry.relock_variance_arcsec2 / (s.n() * s.n()) : 0.0;
+    const double inner_arcsec2 = entry.known_is_rough ? 0.0 : entry.relock_variance_arcsec2;
     const KnownEstimate found =
-        is_whole ? estimate_known(gyro, config, state, gap, s.sum_arcsec, entry.relock_variance_arcsec2)
-                 : KnownEstimate{};
+        is_whole ? estimate_known(gyro, config, state, gap, s.sum_arcsec, inner_arcsec2) : KnownEstimate{};
     if (!found.known) return shift_rows(gyro, config, state, s, is_whole, constant_arcsec, change);
     for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j)
-        set_row(at(state, gap.first_tick + j).row, found.value_arcsec[j], found.variance_arcsec2[j], change);
+        set_row(at(state, gap.first_tick + j).row, found.value_arcsec[j], found.variance_arcsec2[j] + error_arcsec2,
+                change);
     // Rounding of the estimate. The change is that of the stored value, which is rounded once more.
     AngleRow& last = at(state, s.last).row;
     change.add(-last.dtheta_final_arcsec);
@@ -104,26 +133,45 @@ void note_known(double rounding_arcsec2, const TickInput& input, Gap& gap, Histo
     if (input.known_ticks <= 0 || input.known_ticks > gap.n - gap.known_ticks) return;
     entry.known_ticks = input.known_ticks;
     entry.known_arcsec = input.known_arcsec;
+    entry.known_variance_arcsec2 = input.known_variance_arcsec2;
+    entry.known_is_rough = input.known_is_rough;
     entry.variance_arcsec2 += input.known_drift_arcsec2;
     entry.relock_variance_arcsec2 = input.known_drift_arcsec2;
-    // Of the reading between two stretches the one has more what the other has less.
-    if (gap.known_ticks > 0)
-        gap.known_variance_arcsec2 -=
-            shared_rounding(rounding_arcsec2, gap.known_variance_arcsec2, input.known_variance_arcsec2);
-    gap.known_ticks += input.known_ticks;
-    gap.known_variance_arcsec2 += input.known_variance_arcsec2;
+    if (!input.known_is_rough) count_in(rounding_arcsec2, input.known_ticks, input.known_variance_arcsec2, gap);
 }
 
-ExactSum settle_known(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                      const Gap& gap, std::int64_t first, std::int64_t last, double constant_arcsec) noexcept {
-    ExactSum change;
+KnownShift settle_known(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                        Gap& gap, std::int64_t first, std::int64_t last, double constant_arcsec) noexcept {
+    // The rows of a longer gap were delivered before the sum was known.
+    const bool is_short = gap.n <= max_gap_ticks;
+    KnownShift out;
+    std::uint32_t covered = 0;  // one bit for each tick of a short gap
+    double beside_arcsec2 = 0.0;
     for (std::int64_t t = first; t <= last; ++t) {
         HistoryTick& entry = at(state, t);
-        if (entry.known_ticks == 0) continue;
-        settle(gyro, config, state, gap, entry, constant_arcsec, change);
+        const std::int64_t n = entry.known_ticks;
+        if (n == 0) continue;
         entry.known_ticks = 0;
+        const Stretch s = stretch_of(state, entry, n);
+        const Judgement bridge = is_short ? judge(state, entry, s) : Judgement{};
+        if (entry.known_is_rough) {
+            if (!bridge.contradicts && !(entry.known_variance_arcsec2 < bridge.claimed_arcsec2)) continue;
+            count_in(rounding_arcsec2(gyro, state.learning.moments.with_phase), n, entry.known_variance_arcsec2, gap);
+            out.variance_arcsec2 += entry.known_variance_arcsec2;
+        }
+        if (is_short) covered |= ((1u << n) - 1u) << (t + 1 - n - gap.first_tick);
+        if (bridge.contradicts) beside_arcsec2 += square(bridge.off_arcsec);
+        settle(gyro, config, state, gap, entry, s, constant_arcsec, out.change_arcsec);
     }
-    return change;
+    double n_beside = 0.0;
+    for (std::int64_t j = 0; j < gap.n && beside_arcsec2 > 0.0; ++j) {
+        if ((covered >> j & 1u) != 0) continue;
+        double& sigma = at(state, gap.first_tick + j).row.sigma_arcsec;
+        sigma = deviation(sigma * sigma + beside_arcsec2);
+        n_beside += 1.0;
+    }
+    out.variance_arcsec2 += n_beside * n_beside * beside_arcsec2;
+    return out;
 }
 
 }  // namespace zlg::core

@@ -137,6 +137,16 @@ bool is_plausible(double error_arcsec, double variance_arcsec2) noexcept {
     return error_arcsec * error_arcsec <= max_relock_error_sq * variance_arcsec2;
 }
 
+// Part of a false angle by which the law of the bias errs, as its quartic term does near the miss: what the learnt motion
+// tells from a motion, and another one does not.
+constexpr double law_part = 0.03;
+
+void hold_unsure(AngleRow& row, double error_arcsec, double sure_arcsec2) noexcept {
+    if (!(error_arcsec * error_arcsec > sure_arcsec2)) return;
+    const double by_law = law_part * row.relock_arcsec;
+    row.sigma_arcsec = square_root(row.sigma_arcsec * row.sigma_arcsec + error_arcsec * error_arcsec + by_law * by_law);
+}
+
 }  // namespace
 
 void take_lit_halves(GapBridgeState& state) noexcept {
@@ -306,7 +316,7 @@ FalseReading false_reading(const GapBridgeState& state, unsigned point) noexcept
     return {-(1.0 + state.bias_scale.value) * correction(state, own), half_error(state, own, own)};
 }
 
-void correct_ticks(GapBridgeState& state, const GapEstimate& found, ExactSum& change) noexcept {
+void correct_ticks(GapBridgeState& state, const GapEstimate& found, double sure_sq, ExactSum& change) noexcept {
     const EstimatedGap& e = state.estimate;
     const GapProblem& problem = state.estimate.problem;
     for (unsigned k = 0; k < static_cast<unsigned>(problem.factor.n); ++k) {
@@ -315,16 +325,17 @@ void correct_ticks(GapBridgeState& state, const GapEstimate& found, ExactSum& ch
         const double error = e.relock_variance_arcsec2[k] * found.dual[k];
         if (!is_plausible(error, e.relock_variance_arcsec2[k])) continue;
         set_final(tick, tick.row.dtheta_final_arcsec - error, tick.row.relock_arcsec + error, change);
+        hold_unsure(tick.row, error, sure_sq * e.relock_variance_arcsec2[k]);
     }
 }
 
-void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& change) noexcept {
+void correct_halves(GapBridgeState& state, const GapEstimate& found, double sure_sq, ExactSum& change) noexcept {
     const EstimatedGap& e = state.estimate;
     const GapProblem& problem = state.estimate.problem;
     const auto n = static_cast<unsigned>(problem.factor.n);
     for (unsigned k = first_after(e, problem); k + 1 < n; k += 2) {
         const int first = half_after(e, problem, k);
-        double sum = 0.0;
+        double sum = 0.0, error_of_tick = 0.0, variance = 0.0;
         for (int own = first; own < first + 2; ++own) {
             double error = 0.0;
             for (unsigned i = 0; i < n; ++i) {
@@ -332,12 +343,17 @@ void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& c
                 if (is_corrected(e, other)) error += half_error(state, own, other) * found.dual[i];
             }
             sum += (1.0 + state.bias_scale.value) * correction(state, own);
-            if (is_plausible(error, half_error(state, own, own))) sum -= error;
+            const double of_half = half_error(state, own, own);
+            if (!is_plausible(error, of_half)) continue;
+            sum -= error;
+            error_of_tick += error;
+            variance += of_half;
         }
         if (sum == 0.0) continue;
         HistoryTick& tick = at(state, tick_of(e, problem, e.index[k]));
         const double read = tick.row.dtheta_final_arcsec + tick.row.relock_arcsec;
         set_final(tick, read + sum, -sum, change);
+        hold_unsure(tick.row, error_of_tick, sure_sq * variance);
         tick.row.flags = (tick.row.flags & ~std::uint32_t{flag_relock_uncorrected}) | flag_relock_corrected;
     }
 }

@@ -81,11 +81,12 @@ struct FalseReading {
 };
 [[nodiscard]] FalseReading false_reading(const GapBridgeState& state, unsigned point) noexcept;
 
-// Subtract the estimated errors of the re-lock correction from the final values after the gap; `change` is their sum.
-void correct_ticks(GapBridgeState& state, const GapEstimate& found, ExactSum& change) noexcept;
+// Subtract the estimated errors of the re-lock correction from the final values after the gap; `change` is their sum. What is
+// beyond `sure_sq` times its variance may be the motion: sigma of the tick then holds it.
+void correct_ticks(GapBridgeState& state, const GapEstimate& found, double sure_sq, ExactSum& change) noexcept;
 
 // The same for half-ticks, which were corrected by the profile of the detuning.
-void correct_halves(GapBridgeState& state, const GapEstimate& found, ExactSum& change) noexcept;
+void correct_halves(GapBridgeState& state, const GapEstimate& found, double sure_sq, ExactSum& change) noexcept;
 
 // Learn the scale d of chi f0 from this switch. v: its variance; P: the projection (2) of optimal_bridge.hpp.
 //

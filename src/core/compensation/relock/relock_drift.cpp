@@ -131,8 +131,13 @@ FalseAngle first_by_frequency(const CompensationConstants& g, const RelockDriftS
 }
 
 // Of a tick by its deficit alone: a false rate is no larger. Within its rounding it is none.
-FalseAngle or_deficit(const CompensationConstants& g, FalseAngle found, double deficit, double max_hz) noexcept {
+FalseAngle or_deficit(const CompensationConstants& g, const RelockDriftState& before, const RelockTick& t,
+                      FalseAngle found, double deficit, double max_hz) noexcept {
     if (found.known) return found;
+    if (t.with_phase) {
+        const bool is_bound = before.last_sq_lambda2 >= 0.0 || size(deficit) > max_hz;
+        return missing(g, is_bound ? max_hz : deficit);
+    }
     const double above = square(deficit) - 2.0 * rounding_variance(g, 1.0, 0.0, false);
     if (!(above > 0.0)) return missing(g, 0.0);
     return missing(g, above < square(max_hz) ? deficit : max_hz);
@@ -153,8 +158,8 @@ RelockDriftOutput frequency_step(const CompensationConstants& g, std::int64_t ti
     if (d.usable && out.due) out.tick = by_frequency(g, s, t, deficit, d.q);
     if (d.usable && out.first_due) out.first = first_by_frequency(g, s, t, deficit, d.q);
     const double max_hz = max_missing_hz(g, before, t);
-    if (out.due) out.tick = or_deficit(g, out.tick, deficit, max_hz);
-    if (out.first_due) out.first = or_deficit(g, out.first, s.first_deficit_hz, s.first_max_hz);
+    if (out.due) out.tick = or_deficit(g, before, t, out.tick, deficit, max_hz);
+    if (out.first_due) out.first = or_deficit(g, before, t, out.first, s.first_deficit_hz, s.first_max_hz);
     return out;
 }
 

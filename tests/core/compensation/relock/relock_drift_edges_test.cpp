@@ -52,6 +52,26 @@ TEST(RelockDriftEdges, AThousandWavelengthsAreTooMany) {
     }
 }
 
+// A deficit that has changed its sign names no decay. By phase nothing of it is rounding: as large as the light of the tick before
+// lets it be, or without light as the tick's own deficit.
+TEST(RelockDriftEdges, WhatFrequencyCannotCorrectIsInSigmaByPhase) {
+    const Configured config = configured(RelockMethod::frequency);
+    for (const bool by_phase : {false, true}) {
+        for (const double before_lambda2 : {-1.0, 0.0004}) {
+            RelockDriftState state{.since_gap = 3, .armed = true, .first_deficit_hz = -900.0};
+            state.last_sq_lambda2 = before_lambda2;
+            // 0.2 counts more than the bias.
+            const RelockTick tick{
+                .counts_first = 150, .counts_second = -150, .known_excess_counts = -0.2, .with_phase = by_phase};
+            const FalseAngle found = step(config, state, tick).tick;
+            EXPECT_FALSE(found.known);
+            const double by_light = arcsec_per_lambda2 * before_lambda2;
+            const double left = before_lambda2 > 0.0 ? by_light : 3.263 * 0.2;
+            EXPECT_NEAR(std::sqrt(found.variance_arcsec2), by_phase ? left : 0.0, 1e-9);
+        }
+    }
+}
+
 // Ticks 1..i of a decaying deficit with a count so fine that derivatives by it are differences of one of a thousand.
 struct Decay {
     Configured config{.gyro = {.bias = Hertz{1e12}}, .relock = {.method = RelockMethod::frequency}};

@@ -61,7 +61,7 @@ struct GyroCompensationState {
     HalfRecord first{};                // the half that waits for the other one of its tick
     bool first_waits = false;          // the last tick was tick 1 of `frequency`
     double uncorrected_arcsec2 = 0.0;  // variance of the false angles since the last gap, where none are subtracted
-    bool refused = false;              // the last half was read, and refused
+    bool refused = false;              // the last half was closed, and not valid
     Border border{};                   // at the end of the last half
     std::int32_t n_with_phase = 0;     // measured ticks in a row with the place within the count at both ends, up to 32
     std::int64_t settled_tick = 0;     // the first tick whose re-lock was over, after the loop was open last

@@ -7,7 +7,11 @@
 // c are all counts from the last reading before tick a to the one that ends tick b, p what the places within the count
 // differ by at these two borders; what shifted edges add (d, x) is
 // that of edge_shift.hpp. A tick has one half of each bias sign, so the bias cancels in whole ticks, where the loop was
-// closed in one mode.
+// closed in one mode. While the detuning dl settles it does not: with s = bias_sign * mode the sum lacks
+//
+//   K (T/2) chi f0 sum of s <dl^2>
+//
+// which is known where the light was read in all halves.
 
 #include <cstdint>
 
@@ -19,7 +23,10 @@ namespace zlg::core {
 
 struct CountedStretchState {
     bool known_before =
-        true;  // a closed tick was measured since the loop was open: its detuning bounds the false drift
+        true;          // a closed tick was measured since the loop was open: its detuning bounds the false drift
+    bool seen = true;  // in all halves since the last border between ticks with a reading the light was read
+    double deficit_lambda2 = 0.0;           // sum of s <dl^2> over them
+    double deficit_variance_lambda4 = 0.0;  // by the noise of the light
     double min_sq_lambda2 = 0.0;  // of the detuning in the halves from the last measured one to now; 0: not known
     double max_sq_lambda2 = 0.0;
     std::int64_t n_ticks = 0;    // since the last border between ticks with a reading
@@ -41,8 +48,15 @@ struct CountedStretch {
     double angle_arcsec = 0.0;
     Border start_border{};  // its last one is that of the tick
     double fall_lambda2 =
-        0.0;  // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
+        0.0;            // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
+    bool seen = false;  // the light was read in all halves:
+    double deficit_lambda2 = 0.0;  // sum of s <dl^2>
+    double deficit_variance_lambda4 = 0.0;
 };
+
+// Mean square of the detuning from the centre of the bias, by the curve of the discriminator; 0 where it was not
+// measured.
+[[nodiscard]] double detuning_sq(const CompensationConstants& gyro, const HalfRecord& half) noexcept;
 
 // Add a tick that was not measured.
 //

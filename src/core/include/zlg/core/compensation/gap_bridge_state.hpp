@@ -108,6 +108,8 @@ struct GapBridgeState {
     double magnetic_variance_arcsec2 = 0.0;
     double relock_to_come_arcsec2 = 0.0;  // variance of the re-lock corrections still to come
     double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
+    double common_arcsec2 = 0.0;          // of the last measured tick, as in TickInput
+    std::int64_t relock_ticks = 0;        // as in TickInput
     double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
     TickOutlierState outlier{};

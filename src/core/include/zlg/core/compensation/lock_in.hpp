@@ -36,7 +36,8 @@ struct LostCounts {
     double variance = 0.0;  // of that, the same from tick to tick at an even rate: over n ticks n^2 of it
 };
 
-// Of one tick, by the counts of its halves with their parts, where the threshold is known. Only finite numbers come out.
+// Of one tick, by the counts of its halves with their parts, where the threshold is known. Where the numbers overflow, 0 with an
+// infinite variance.
 //
 // config, gyro  passed `check`.
 [[nodiscard]] LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig& config,

@@ -46,6 +46,7 @@ struct RelockTick {
     double detuning_sq_first_lambda2 = 0.0;
     double detuning_sq_second_lambda2 = 0.0;
     double temperature_c = 0.0;  // NaN where not measured: the reference temperature
+    bool with_phase = false;     // the places within the count are in `known_excess_counts`
 };
 
 struct RelockDriftState {
@@ -89,7 +90,8 @@ void enter_gap(RelockDriftState& state, bool moves = true) noexcept;
 // return  what to subtract. `known` is false where the data do not allow a correction (no detuning, or a ratio outside
 //         (0, 1)): what is missing is then as large as the last detuning that is known lets it be, or half of what
 //         `max_detuning` does; tick n after that has no more than a part 1/(2n - 1) of it, however the loop settles.
-//         With `frequency` it is no larger than the tick's own deficit f_i - f0 either. No number in it is ever NaN.
+//         With `frequency` it is no larger than the tick's own deficit f_i - f0 either, but where the detuning is known and the
+//         reading exact: there an acceleration may hide the deficit. No number in it is ever NaN.
 [[nodiscard]] RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfig& config,
                                      RelockDriftState& state, const RelockTick& tick) noexcept;
 

@@ -118,6 +118,7 @@ struct GyroControlState {
     DetuningMonitorState detuning_monitor{};
     FringeReadoutState fringe{};
     bool was_lit = false;          // the last half was counted, closed and lit
+    bool was_steady = false;       // both beams were lit and steady throughout the last half
     bool was_dark = false;         // a half since the loop was opened showed no light in both directions
     bool first_was_blind = false;  // the first half of the tick was valid, without a mean square of the detuning;
     bool first_was_seen = false;   // with one
