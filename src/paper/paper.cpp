@@ -31,8 +31,7 @@ SubstitutionFigures substitution_of(const PaperTask& task) {
 
 report::Section claims_section(const std::vector<Claim>& claims) {
     report::Table table{.caption = "What the paper says, and what came of it.",
-                        .header = {"where", "claim", "verdict", "finding"},
-                        .prose = true};
+                        .header = {"where", "claim", "verdict", "finding"}};
     for (const Claim& c : claims) table.rows.push_back({c.where, c.claim, verdict_name(c.verdict), c.finding});
     return {
         .heading = "All claims",

@@ -60,8 +60,7 @@ report::Table parts_table() {
                      {"first input, opens the loop", "core, mode_switch"},
                      {"second input, voltage by DAC", "core, mode_switch, with the estimate of half_wave"},
                      {"when to switch", "core, switch_schedule"},
-                     {"voltage amplifier, piezo", "twin, slew rate and time constant"}},
-            .prose = true};
+                     {"voltage amplifier, piezo", "twin, slew rate and time constant"}}};
 }
 
 // --- figure 7 --------------------------------------------------------------------------------------------------------

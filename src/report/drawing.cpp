@@ -16,7 +16,7 @@ std::string opening(const std::string& id, double height, const std::string& tit
 
 std::string text_at(const Line& line, const char* anchor) {
     return fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\">{}</text>\n", coordinate(line.x),
-                       coordinate(line.y), coordinate(line.font_size), anchor, escaped(line.text));
+                       coordinate(line.y), coordinate(line.font_size), anchor, escaped(typeset(line.text)));
 }
 
 }  // namespace zlg::report

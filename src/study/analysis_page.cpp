@@ -43,8 +43,7 @@ report::Table term_table(const View& v) {
                         "Fitted terms with one standard error; below: 95 %. Chi-square {:.3g} of {} degrees of "
                         "freedom, probability {:.2g}; each variance allowed an error of {:g} % beside chance.",
                         v.axis.fit->chi2, v.axis.fit->dof, v.axis.fit->probability, 100.0 * v.axis.fit->model_error),
-                    .header = {"term", "value, continuous", "read at tau, s"},
-                    .prose = true};
+                    .header = {"term", "value, continuous", "read at tau, s"}};
     for (const noise::FittedTerm& term : v.axis.fit->fitted)
         t.rows.push_back({std::string{noise::name_of(term.kind)}, value_text(term),
                           term.found && std::isfinite(term.read_at_s) ? short_number(term.read_at_s) : "-"});
@@ -57,8 +56,7 @@ report::Table discrete_table(const View& v) {
     const noise::DiscreteNoise d = noise::discrete_noise(terms, v.axis.rate_hz);
     report::Table t{.caption = fmt::format("The same terms, discrete: standard deviations of one sample at {:g} Hz.",
                                            v.axis.rate_hz),
-                    .header = {"quantity", "value"},
-                    .prose = true};
+                    .header = {"quantity", "value"}};
     const auto add = [&t](const char* what, double value, const char* unit) {
         if (value != 0.0) t.rows.push_back({what, fmt::format("{:.4g} {}", value, unit)});
     };
@@ -90,8 +88,7 @@ report::Table mode_table(const View& v) {
                     .rows = {{"non-magnetic drift", value_text(m.nonmagnetic_arcsec_s, "deg/h")},
                              {"magnetic drift at the start", value_text(m.magnetic_arcsec_s, "deg/h")},
                              {"its growth by warming", value_text(m.magnetic_thermal_arcsec_s, "deg/h")},
-                             {"time of the warming", value_text(m.thermal_time_s, "s")}},
-                    .prose = true};
+                             {"time of the warming", value_text(m.thermal_time_s, "s")}}};
     const auto& s = m.statistics;
     if (s.n > 0) {
         t.rows.push_back({"switches", fmt::format("{}", s.n)});
@@ -183,8 +180,7 @@ report::Section table_section(const config::Analysis& config, const TableResult&
                   {"asymmetry", value_text(r.asymmetry_ppm, "ppm")},
                   {"nonlinearity, rms", short_number(r.nonlinearity_ppm) + " ppm"},
                   {"largest residual", short_number(r.largest_residual_ppm) + " ppm"},
-                  {"largest difference at one input", short_number(r.hysteresis_arcsec_s) + " deg/h"}},
-         .prose = true});
+                  {"largest difference at one input", short_number(r.hysteresis_arcsec_s) + " deg/h"}}});
     report::Table stages{
         .caption = "Stages; residuals in ppm of the output at the largest input.",
         .header = {"input, " + shown_unit(config.unit), "output, units/s", "its sigma", "samples", "residual, ppm"}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <exception>
 #include <map>
 #include <optional>
@@ -84,6 +85,7 @@ public:
     void report(RunResult& result) const {
         for (const Variant& v : variants_) result.variants.push_back(v.result());
         result.switches = switch_lines();
+        result.health = health_times();
         result.tally = count_.tally();
         result.whole_count_ticks = whole_count_ticks_;
         result.fringe_lost_ticks = fringe_lost_ticks_;
@@ -157,7 +159,24 @@ private:
         if ((second.control.health & core::health_fringe_lost) != 0) ++fringe_lost_ticks_;
     }
 
+    // The control is asked in each half.
+    [[nodiscard]] std::vector<HealthTime> health_times() const {
+        const double half_s = 0.5 * task_.config.gyro.tick_s;
+        std::vector<HealthTime> out;
+        for (std::size_t bit = 0; bit < halves_of_bit_.size(); ++bit) {
+            if (const auto& [first, n] = halves_of_bit_[bit]; n > 0)
+                out.push_back({core::health_bit_names.at(bit), static_cast<double>(first) * half_s,
+                               static_cast<double>(n) * half_s});
+        }
+        std::ranges::stable_sort(out, {}, &HealthTime::first_s);
+        return out;
+    }
+
     void take_health(const rig::LoopHalf& half) {
+        for (std::uint32_t bits = half.control.health; bits != 0; bits &= bits - 1) {
+            auto& [first, n] = halves_of_bit_[static_cast<std::size_t>(std::countr_zero(bits))];
+            if (n++ == 0) first = half.record.half;
+        }
         if (!task_.on_health || (half.record.half > 0 && half.control.health == health_)) return;
         health_ = half.control.health;
         task_.on_health(half.record.half, health_);
@@ -171,6 +190,8 @@ private:
     Magnifier magnifier_;
     std::array<WaitingTick, core::history_ticks> waiting_{};  // by tick modulo the size: a final row comes sooner
     std::uint32_t health_ = 0;
+    std::array<std::pair<std::int64_t, std::int64_t>, core::health_bit_names.size()>
+        halves_of_bit_{};  // first, how many
     std::int64_t whole_count_ticks_ = 0, fringe_lost_ticks_ = 0;
     std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen
 };

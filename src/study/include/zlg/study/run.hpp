@@ -19,6 +19,13 @@
 
 namespace zlg::study {
 
+// A health bit that the control has set: when first, and for how long in all.
+struct HealthTime {
+    std::string name;
+    double first_s = 0.0;
+    double total_s = 0.0;
+};
+
 struct RunResult {
     double tick_s = 0.0;
     std::int64_t ticks = 0;
@@ -27,7 +34,8 @@ struct RunResult {
     std::vector<MagnifiedTick> magnified;
     // True false drift on ticks 1, 2, ... after the loop is closed, averaged over the switches with their sign, deg/h.
     std::vector<double> relock_false_drift_deg_h;
-    rig::SwitchTally tally;  // of what the control tried
+    std::vector<HealthTime> health;  // in the order of their first time
+    rig::SwitchTally tally;          // of what the control tried
     // By phase: measured ticks whose end was read as a whole count, and those of them with health_fringe_lost.
     std::int64_t whole_count_ticks = 0, fringe_lost_ticks = 0;
     std::vector<std::string> warnings;  // what a reader of the figures must know of the configuration
