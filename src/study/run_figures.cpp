@@ -17,6 +17,7 @@ namespace {
 using namespace report;
 
 constexpr int drawn_points = 600;  // about as many as a figure has pixels
+constexpr double visible_arcsec = 0.1;
 constexpr const char* angle_error = "final minus true angle, arcsec";
 
 Series thinned(const VariantResult& v, std::string name) { return thin(curve_of(v, std::move(name)), drawn_points); }
@@ -142,22 +143,26 @@ Figure error_deviation_figure(const RunResult& result) {
 }
 
 Figure magnified_figure(const RunResult& result) {
+    const bool is_repaired = result.variants.back().unrepaired < static_cast<std::int64_t>(result.switches.size());
     Figure f = blank_figure(
         "one-switch", "One switch, tick by tick",
-        "Each point is the angle of one tick. In the gap the counter reads nonsense, which is not drawn; the gyro "
-        "delivers an "
-        "extrapolation in real time and an interpolation as soon as the other side is known. One tick then "
-        "carries the difference, so that no angle is lost. After the gap the reading is still wrong while "
-        "the perimeter settles: the final value is corrected for it.",
+        fmt::format(
+            "Each point is the angle of one tick. In the gap the counter reads nonsense, which is not drawn; {} After "
+            "the "
+            "gap the reading is still wrong while the perimeter settles: the final value is corrected for it.",
+            is_repaired
+                ? "the gyro delivers an extrapolation in real time and an interpolation as soon as the other side is "
+                  "known. One tick then carries the difference, so that no angle is lost."
+                : "this gap is not repaired, and the output says so."),
         "time, ms", "angle of the tick, arcsec");
     const Clock clock{result};
-    Series read = blank_series("as read, where it is not the final", Mark::points);
+    Series read = blank_series("as read, where that differs", Mark::points);
     Series delivered = blank_series("delivered in real time", Mark::line, true);
     Series final_value = blank_series("final", Mark::points);
     Series truth = blank_series("true");
     for (const MagnifiedTick& t : result.magnified) {
         const double x = clock.ms(t.tick, 1.0);
-        if (t.measured && t.read_arcsec != t.final_arcsec) add_point(read, x, t.read_arcsec);
+        if (t.measured && std::abs(t.read_arcsec - t.final_arcsec) > visible_arcsec) add_point(read, x, t.read_arcsec);
         add_point(delivered, x, t.dtheta_arcsec);
         add_point(final_value, x, t.final_arcsec);
         add_point(truth, x, t.true_arcsec);

@@ -16,7 +16,8 @@ using report::short_number;
 
 std::string joined(const std::vector<const VariantResult*>& group, std::string VariantResult::*member) {
     std::string text;
-    for (const VariantResult* v : group) text += (text.empty() ? "" : "; ") + v->*member;
+    for (const VariantResult* v : group)
+        if (text.find(v->*member) == std::string::npos) text += (text.empty() ? "" : "; ") + v->*member;
     return text;
 }
 
@@ -39,8 +40,7 @@ report::Table variant_table(const config::Config& config, const RunResult& resul
         const bool is_all = group.size() > 3;
         table.rows.push_back(report::row(
             is_all ? group.front()->name + " to " + group.back()->name : joined(group, &VariantResult::name),
-            is_all ? fmt::format("{} compensations, all equal here", group.size())
-                   : joined(group, &VariantResult::meaning),
+            is_all ? fmt::format("{} variants, all equal here", group.size()) : joined(group, &VariantResult::meaning),
             error(&SwitchStatistics::rms_arcsec), error(&SwitchStatistics::mean_arcsec),
             error(&SwitchStatistics::max_arcsec), v.drift_arcsec_s,
             v.drift_arcsec_s - config.drift.nonmagnetic_arcsec_s, v.angle_error_arcsec));
@@ -51,6 +51,12 @@ report::Table variant_table(const config::Config& config, const RunResult& resul
 std::vector<std::string> result_text(const RunResult& result) {
     std::vector<std::string> text = result.warnings;
     if (result.tally.failed > 0) text.push_back(rig::sentence(result.tally));
+    if (const std::int64_t n = result.variants.back().unrepaired; n > 0)
+        text.push_back(
+            fmt::format("{} of {} switches have a gap that no bridge repairs, for it is too long or has no good ticks "
+                        "beside it: what was "
+                        "turned in it is missing from the angle, and their errors are not in the table.",
+                        n, result.switches.size()));
     text.emplace_back(
         "Every row compensates the records of one and the same run of the digital twin; only one_mode is a run of its "
         "own.");
