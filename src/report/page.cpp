@@ -16,6 +16,7 @@ namespace zlg::report {
 namespace {
 
 constexpr std::size_t longest_without_contents = 3;
+constexpr std::size_t longest_to_scroll_past = 24;
 
 // What the page has numbered and named so far.
 struct Counters {
@@ -55,6 +56,14 @@ std::vector<bool> columns_of_numbers(const Table& table, std::size_t n_columns) 
     return out;
 }
 
+// Text in another column than the first, too long to scroll past.
+bool has_long_text(const Table& table) {
+    return std::ranges::any_of(table.rows, [](const auto& row) {
+        return row.size() > 1 && std::any_of(row.begin() + 1, row.end(),
+                                             [](const auto& cell) { return cell.size() > longest_to_scroll_past; });
+    });
+}
+
 std::string header_row(const Table& table, const std::vector<bool>& numbers) {
     if (table.header.empty()) return "";
     std::string out = "<thead><tr>";
@@ -83,7 +92,7 @@ std::string table_of(const Table& table, Counters& counters) {
     for (const auto& row : table.rows) n_columns = std::max(n_columns, row.size());
     if (n_columns == 0) return "";
     const std::vector<bool> numbers = columns_of_numbers(table, n_columns);
-    const bool is_stack = n_columns > 2 && std::count(numbers.begin(), numbers.end(), false) > 1;
+    const bool is_stack = has_long_text(table);
     const std::string id = fmt::format("table-{}", ++counters.n_tables);
     const std::string number = counters.shown ? fmt::format("<b>Table {}.</b> ", counters.n_tables) : "";
     std::string out = fmt::format(

@@ -176,6 +176,7 @@ all(document, "figure[data-figure]").forEach(figure => {
   });
 
   all(svg, ".legend > g").forEach(entry => {
+    entry.append(entry.nextSibling);
     const s = series.find(s => s.name == entry.textContent.trim());
     if (!s || series.length < 2) return;
     set(entry, { role: "button", tabindex: 0, "aria-pressed": true });

@@ -79,7 +79,7 @@ void add_terms(const View& v, const Span& span, double floor, Figure& f) {
                                                [&all](double tau_s) { return noise::allan_variance(all, tau_s); })
                                          : sum_with_sines(v, all));
     for (const noise::FittedTerm& term : v.axis.fit->fitted) {
-        if (!term.found) continue;
+        if (!term.found || term.kind == noise::NoiseKind::sine) continue;
         const noise::NoiseTerms one = only(term);
         f.series.push_back(law(v, span, std::string{noise::name_of(term.kind)}, true, floor,
                                [&one](double tau_s) { return noise::allan_variance(one, tau_s); }));
@@ -98,6 +98,8 @@ Figure sigma_figure(const View& v) {
                     "their sum.",
                     name, 100.0 * curve.confidence),
         "averaging time, s", fmt::format("deviation, {}", v.unit()));
+    if (v.axis.fit && !v.axis.fit->terms.sines.empty() && v.axis.n_gaps > 0)
+        f.caption += " In a window with a gap an oscillation does not average out: such points lie above the sum.";
     f.log_x = f.log_y = true;
     Series measured = curve_series(v, curve, name);
     double least = min_of(measured);

@@ -27,7 +27,7 @@ std::string sines_of(const noise::NoiseFit& fit) {
     if (n == 0) return "";
     const auto first = std::ranges::find_if(
         fit.fitted, [](const noise::FittedTerm& t) { return t.kind == noise::NoiseKind::sine && t.found; });
-    return fmt::format(", beside {} at {} Hz", n == 1 ? "an oscillation" : fmt::format("{} oscillations, one", n),
+    return fmt::format(", beside {} at {} Hz,", n == 1 ? "an oscillation" : fmt::format("{} oscillations, one", n),
                        short_number(first->second));
 }
 

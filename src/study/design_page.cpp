@@ -207,11 +207,10 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
              {"corrected: run mean of the thermal term and the sawtooth of the cold gyro. worst_case: exact, "
               "at the worst switch. as_printed: the paper's formula with its mistake. closed_form: no "
               "thermal change. random_sign: switch errors independent of each other.",
-              fmt::format(
-                  "What is above takes design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
-                  "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
-                  short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),
-                  result.switch_error_source, best_list(result), magnetic_note(config))},
+              fmt::format("The tables take design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
+                          "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
+                          short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),
+                          result.switch_error_source, best_list(result), magnetic_note(config))},
          .tables = {interval_table(result), run_table(result)},
          .figures = {budget_figure(config)}});
     page.sections.push_back(

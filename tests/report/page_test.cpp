@@ -117,8 +117,12 @@ TEST(Html, the_verdict_is_read_first) {
 
 TEST(Html, columns_of_numbers_are_told_from_columns_of_text) {
     Page p = page(0);
-    p.sections = {
-        {"S", {}, {{"C.", {"a", "b", "c"}, {{"x", "-1.5e+03", "no 3"}, {"y", "-", "4"}, {"z", "2 +- 1", "5"}}}}, {}}};
+    p.sections = {{"S",
+                   {},
+                   {{"C.",
+                     {"a", "b", "c"},
+                     {{"x", "-1.5e+03", "words enough to fill a line"}, {"y", "-", "4"}, {"z", "2 +- 1", "5"}}}},
+                   {}}};
     const auto body = body_of(html(p));
     const auto cells = markup::all(body, "td");
     EXPECT_EQ(cells.at(0).attributes.at("class"), "n");
