@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "figure_values.hpp"
-#include "page_css.hpp"
-#include "page_js.hpp"
+#include "page_files.hpp"
 #include "text.hpp"
 
 namespace zlg::report {
