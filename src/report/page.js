@@ -116,6 +116,7 @@ all(document, "figure[data-figure]").forEach(figure => {
   const redraw = () => {
     const zoomed = X.now + "," + Y.now != [left, right, bottom, top], sx = (X.moved(right) - X.moved(left)) / (right - left);
     const sy = (Y.moved(bottom) - Y.moved(top)) / (bottom - top), matrix = (s, y) => `matrix(${sx},0,0,${s},${X.moved(0)},${y})`;
+    svg.classList.toggle("zoomed", zoomed);
     for (const band of all(svg, ".band")) set(band, { transform: matrix(1, 0) });
     for (const e of all(svg, ".series > *")) {
       const p = markerPlace(e);

@@ -89,6 +89,8 @@ class Pages(unittest.TestCase):
             self.assertNotEqual(zoomed, whole)
             ticks = [float(t) for t in self.browser.value(f"[...{FIGURE}.querySelectorAll('.x-ticks text')].map(e => e.textContent)")]
             self.assertLess(max(ticks) - min(ticks), 200.0, "a quarter of the 400 s or so")
+            stale = f"[...{FIGURE}.querySelectorAll(':scope > path')].filter(e => getComputedStyle(e).display != 'none').length"
+            self.assertEqual(self.browser.value(stale), 2, "of the lines, the grid and the ticks were drawn anew, the others wait")
             # What the axis says of a point is what its readout says.
             where = self.browser.value(f"""(() => {{ const t = [...{FIGURE}.querySelectorAll('.x-ticks text')].map(e => +e.getAttribute('x'));
                 return [t[0], t.at(-1)]; }})()""")
