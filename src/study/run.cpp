@@ -61,6 +61,7 @@ public:
         for (const rig::LoopHalf* half : {&first, &second}) {
             take_health(*half);
             count_.take(*half);
+            count_health(*half);
             if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
         }
         for (Variant& v : variants_) {
@@ -85,12 +86,12 @@ public:
     void report(RunResult& result) const {
         for (const Variant& v : variants_) result.variants.push_back(v.result());
         result.switches = switch_lines();
-        result.health = health_times();
         result.tally = count_.tally();
         result.whole_count_ticks = whole_count_ticks_;
         result.fringe_lost_ticks = fringe_lost_ticks_;
         result.magnified = magnifier_.ticks();
         result.relock_false_drift_deg_h = profile_.mean_deg_h(task_.config.gyro.tick_s);
+        result.health = health_times();
     }
 
 private:
@@ -151,15 +152,13 @@ private:
         return lines;
     }
 
-    // A tick lies between the borders at the ends of its halves.
-    void count_whole(const rig::LoopHalf& first, const rig::LoopHalf& second) {
-        const bool reads = task_.config.gyro.readout == config::Readout::phase;
-        if (!reads || !core::is_measured(first.record, second.record) || core::has_fringe(second.record)) return;
-        ++whole_count_ticks_;
-        if ((second.control.health & core::health_fringe_lost) != 0) ++fringe_lost_ticks_;
+    void count_health(const rig::LoopHalf& half) {
+        for (std::uint32_t bits = half.control.health; bits != 0; bits &= bits - 1) {
+            auto& [first, n] = halves_of_bit_[static_cast<std::size_t>(std::countr_zero(bits))];
+            if (n++ == 0) first = half.record.half;
+        }
     }
 
-    // The control is asked in each half.
     [[nodiscard]] std::vector<HealthTime> health_times() const {
         const double half_s = 0.5 * task_.config.gyro.tick_s;
         std::vector<HealthTime> out;
@@ -172,11 +171,15 @@ private:
         return out;
     }
 
+    // A tick lies between the borders at the ends of its halves.
+    void count_whole(const rig::LoopHalf& first, const rig::LoopHalf& second) {
+        const bool reads = task_.config.gyro.readout == config::Readout::phase;
+        if (!reads || !core::is_measured(first.record, second.record) || core::has_fringe(second.record)) return;
+        ++whole_count_ticks_;
+        if ((second.control.health & core::health_fringe_lost) != 0) ++fringe_lost_ticks_;
+    }
+
     void take_health(const rig::LoopHalf& half) {
-        for (std::uint32_t bits = half.control.health; bits != 0; bits &= bits - 1) {
-            auto& [first, n] = halves_of_bit_[static_cast<std::size_t>(std::countr_zero(bits))];
-            if (n++ == 0) first = half.record.half;
-        }
         if (!task_.on_health || (half.record.half > 0 && half.control.health == health_)) return;
         health_ = half.control.health;
         task_.on_health(half.record.half, health_);
@@ -190,10 +193,10 @@ private:
     Magnifier magnifier_;
     std::array<WaitingTick, core::history_ticks> waiting_{};  // by tick modulo the size: a final row comes sooner
     std::uint32_t health_ = 0;
-    std::array<std::pair<std::int64_t, std::int64_t>, core::health_bit_names.size()>
-        halves_of_bit_{};  // first, how many
     std::int64_t whole_count_ticks_ = 0, fringe_lost_ticks_ = 0;
     std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen
+    // By bit of health: the first half, and how many.
+    std::array<std::pair<std::int64_t, std::int64_t>, core::health_bit_names.size()> halves_of_bit_{};
 };
 
 // Where the interval is shorter than what the loop needs to lock anew.

@@ -122,9 +122,11 @@ std::string lead(const config::Config& config, const RunResult& result) {
                                    short_number(1e3 * result.tick_s));
     if (!result.switches.empty() && config.switching.schedule == config::Schedule::fixed)
         text += fmt::format(", a switch every {} s", short_number(config.switching.interval_s));
+    text += "; the true motion is known, so every error is. ";
+    if (!faults_of(config).empty()) return text + "What a fault left in the angle is part of every drift below.";
     return text + fmt::format(
-                      "; the true motion is known, so every error is. As configured the angle drifts by {} deg/h "
-                      "and ends {} arcsec from the truth; never switched it would have drifted by {} deg/h.",
+                      "As configured the angle drifts by {} deg/h and ends {} arcsec from the truth; never switched it "
+                      "would have drifted by {} deg/h.",
                       short_number(result.variants.back().drift_arcsec_s),
                       short_number(result.variants.back().angle_error_arcsec),
                       short_number(result.variants.front().drift_arcsec_s));

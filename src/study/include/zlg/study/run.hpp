@@ -34,11 +34,11 @@ struct RunResult {
     std::vector<MagnifiedTick> magnified;
     // True false drift on ticks 1, 2, ... after the loop is closed, averaged over the switches with their sign, deg/h.
     std::vector<double> relock_false_drift_deg_h;
-    std::vector<HealthTime> health;  // in the order of their first time
-    rig::SwitchTally tally;          // of what the control tried
+    rig::SwitchTally tally;  // of what the control tried
     // By phase: measured ticks whose end was read as a whole count, and those of them with health_fringe_lost.
     std::int64_t whole_count_ticks = 0, fringe_lost_ticks = 0;
     std::vector<std::string> warnings;  // what a reader of the figures must know of the configuration
+    std::vector<HealthTime> health;     // in the order of their first time
 
     // Null where there is none of this name.
     [[nodiscard]] const VariantResult* variant(std::string_view name) const {
