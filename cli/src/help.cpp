@@ -117,11 +117,11 @@ void add_help(CLI::App& program) {
     });
 }
 
+}  // namespace
+
 std::vector<const CLI::App*> all_verbs(const CLI::App& program) {
     return program.get_subcommands([](const CLI::App*) { return true; });
 }
-
-}  // namespace
 
 const CLI::App* find_verb(const CLI::App& program, const std::string& name) {
     const std::vector<const CLI::App*> all = all_verbs(program);

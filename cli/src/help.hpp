@@ -2,6 +2,7 @@
 // What the help says beyond the options themselves: groups of verbs, examples, what kind of value an option takes.
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -9,6 +10,8 @@ namespace zlg::cli {
 
 // Adds it to all verbs, and to each the option --quiet; then the verb `help`. To be called when all verbs are there.
 void complete_help(CLI::App& program);
+
+[[nodiscard]] std::vector<const CLI::App*> all_verbs(const CLI::App& program);
 
 // Null where there is none of this name.
 [[nodiscard]] const CLI::App* find_verb(const CLI::App& program, const std::string& name);

@@ -2,11 +2,12 @@
 
 #include <filesystem>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include <zlg/logs/table_file.hpp>
+
+#include "help.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -26,10 +27,6 @@ std::string roff(std::string_view text) {
         line_begins = c == '\n';
     }
     return made;
-}
-
-std::vector<const CLI::App*> all_verbs(const CLI::App& program) {
-    return program.get_subcommands([](const CLI::App*) { return true; });
 }
 
 std::string upper(std::string text) {

@@ -108,7 +108,7 @@ std::string substitution_text(const study::DesignResult& result) {
     return text;
 }
 
-std::string run_text(const study::DesignResult& result) {
+std::string run_length_text(const study::DesignResult& result) {
     std::string text = fmt::format(
         "\nthe corrected budget at its best interval, and other policies, arcsec/s\n{:>10}{:>10}{:>10}{:>10}"
         "{:>10}   half first segment     growing\n",
@@ -157,8 +157,8 @@ void design_gyro(const DesignOptions& options) {
         write_file(options.out, report::html(study::design_page(config, result)), options.force);
     }
     print(options.json ? pretty(result_json(result))
-                       : interval_text(result) + best_text(result) + run_text(result) + substitution_text(result) +
-                             loop_text(result.loop));
+                       : interval_text(result) + best_text(result) + run_length_text(result) +
+                             substitution_text(result) + loop_text(result.loop));
 }
 
 }  // namespace

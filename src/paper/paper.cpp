@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include <zlg/study/how_made.hpp>
 #include <zlg/study/run.hpp>
 
 #include "paper_parts.hpp"
@@ -29,13 +30,22 @@ SubstitutionFigures substitution_of(const PaperTask& task) {
     return paper_figures_8_to_11(rest);
 }
 
+auto number_of(const std::vector<Claim>& claims, Verdict v) { return std::ranges::count(claims, v, &Claim::verdict); }
+
+std::string verdict_of(const std::vector<Claim>& claims) {
+    return fmt::format(
+        "Of {} claims of the paper {} agree with what is computed here, {} have a misprint, {} are wrong and {} are "
+        "not supported.",
+        claims.size(), number_of(claims, Verdict::agrees), number_of(claims, Verdict::misprint),
+        number_of(claims, Verdict::wrong), number_of(claims, Verdict::not_supported));
+}
+
 report::Section claims_section(const std::vector<Claim>& claims) {
     report::Table table{.caption = "What the paper says, and what came of it.",
-                        .header = {"where", "claim", "verdict", "finding"},
-                        .prose = true};
+                        .header = {"where", "claim", "verdict", "finding"}};
     for (const Claim& c : claims) table.rows.push_back({c.where, c.claim, verdict_name(c.verdict), c.finding});
     return {
-        .heading = "All claims",
+        .heading = "Claims of the paper",
         .paragraphs = {fmt::format("{} claims, verdicts: {}. A misprint leaves the argument intact; what is wrong does "
                                    "not follow; what is not supported could be neither derived nor reproduced.",
                                    claims.size(), verdict_counts(claims))},
@@ -51,17 +61,16 @@ const char* verdict_name(Verdict verdict) {
 
 std::string verdict_counts(const std::vector<Claim>& claims) {
     std::string text;
-    for (const Verdict v : {Verdict::agrees, Verdict::misprint, Verdict::wrong, Verdict::not_supported}) {
-        const auto n = std::count_if(claims.begin(), claims.end(), [v](const Claim& c) { return c.verdict == v; });
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", verdict_name(v), n);
-    }
+    for (const Verdict v : {Verdict::agrees, Verdict::misprint, Verdict::wrong, Verdict::not_supported})
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", verdict_name(v), number_of(claims, v));
     return text;
 }
 
 Paper recompute_paper(const PaperTask& task) {
     const study::RunResult run = run_of(task);
     SubstitutionFigures substitution = substitution_of(task);
-    Paper paper{.items = {paper_figure_1(task), paper_figure_2(), paper_figure_3(task, run), paper_figure_4(task),
+    Paper paper{.config = task.config,
+                .items = {paper_figure_1(task), paper_figure_2(), paper_figure_3(task, run), paper_figure_4(task),
                           paper_figure_5(task), paper_table_1(task, run), paper_table_2(task, run), paper_figure_6(run),
                           paper_figure_7(task)},
                 .claims = paper_claims(task),
@@ -75,13 +84,16 @@ Paper recompute_paper(const PaperTask& task) {
 report::Page paper_page(const Paper& paper) {
     report::Page page{
         .title = "The paper recomputed: a Zeeman laser gyro with switching of longitudinal modes",
-        .lead = sentence("Every figure and table of the paper of 2014 in its order: our curves, the printed formula "
-                         "where it differs, and points measured on the digital twin. {} points against theory: "
-                         "chi-square per point {:.2f}. Verdicts on the claims: {}.",
-                         paper.degrees_of_freedom, paper.chi2_per_dof, verdict_counts(paper.claims)),
+        .verdict = verdict_of(paper.claims),
+        .lead = sentence(
+            "The paper of 2014: its claims and what came of them, then every figure and table in its order: our "
+            "curves, the printed formula where it differs, and points measured on the digital twin. {} points "
+            "against theory: chi-square per point {:.2f}.",
+            paper.degrees_of_freedom, paper.chi2_per_dof),
         .numbered = false};
-    for (const PaperItem& item : paper.items) page.sections.push_back(item.section);
     page.sections.push_back(claims_section(paper.claims));
+    for (const PaperItem& item : paper.items) page.sections.push_back(item.section);
+    page.sections.push_back(study::how_made("paper", paper.config));
     return page;
 }
 

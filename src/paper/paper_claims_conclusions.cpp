@@ -64,10 +64,11 @@ std::vector<Claim> claims_of_conclusions() {
              noise_gain(Fit::interpolation, 0), noise_gain(Fit::interpolation, 1), noise_gain(Fit::extrapolation, 0),
              noise_gain(Fit::extrapolation, 1))},
         {"conclusion 3", "For slow oscillation a constant is best, for fast a parabola, depending on noise.", agrees,
-         fmt::format("With {} arcsec of noise a tick and three lost ticks the parabola wins from {:.0f} \"/s at {:.0f} "
-                     "Hz, from {:.0f} \"/s at 5 Hz and from {:.0f} \"/s at 1 Hz, rms over random phase.",
-                     paper_noise_arcsec, crossing_arcsec_s(paper_oscillation.frequency_hz),
-                     paper_oscillation.frequency_hz, crossing_arcsec_s(5.0), crossing_arcsec_s(1.0))},
+         fmt::format(
+             "With {} arcsec of noise a tick and three lost ticks the parabola wins from {:.0f} deg/h at {:.0f} "
+             "Hz, from {:.0f} deg/h at 5 Hz and from {:.0f} deg/h at 1 Hz, rms over random phase.",
+             paper_noise_arcsec, crossing_arcsec_s(paper_oscillation.frequency_hz), paper_oscillation.frequency_hz,
+             crossing_arcsec_s(5.0), crossing_arcsec_s(1.0))},
         {"closing", "The regime lowers the drift of the gyro by about an order of magnitude.", agrees,
          fmt::format(
              "At the best interval by {:.1f} times in {:.0f} s, {:.1f} times in an hour, {:.0f} times in ten hours.",

@@ -99,7 +99,7 @@ std::vector<Claim> claims_of_frequency() {
         {"after eq (11)", "Half the difference of the two halves' frequencies is the bias, whatever the rotation.",
          agrees,
          fmt::format("Right at a constant rate. Of an angular acceleration a quarter of a tick's worth leaks in: "
-                     "{:.0f} \"/s at the worst phase of {:.0f} \"/s and {:.0f} Hz. The detuning signal is immune.",
+                     "{:.0f} deg/h at the worst phase of {:.0f} deg/h and {:.0f} Hz. The detuning signal is immune.",
                      0.25 * tick_s * acceleration, amplitude, paper_oscillation.frequency_hz)},
         {"table 1", "Corrected by frequency, the false angle falls from 43 to 27 arcsec, or from 22 to 7.", misprint,
          fmt::format("The sums are {:.1f}, {:.1f}, {:.1f} and {:.1f} arcsec; the mean of {} is printed as 1362. The "

@@ -38,7 +38,7 @@ std::vector<Claim> claims_before_the_fit() {
                      1e-3 * slew_v_s, 1e3 * half_wave_v / slew_v_s, half_wave_v, gyro.switching.gap_ticks,
                      1e3 * tick_s * static_cast<double>(gyro.switching.gap_ticks))},
         {"before eq (14)", "The sampling theorem asks for ten samples in a period.", not_supported,
-         fmt::format("It asks for two. Ten is a rule for polynomials: with three lost ticks, {:.0f} \"/s and {:.0f} "
+         fmt::format("It asks for two. Ten is a rule for polynomials: with three lost ticks, {:.0f} deg/h and {:.0f} "
                      "arcsec the quadratic goes to {:.1f} Hz, {:.0f} samples in a period, the constant to {:.1f} Hz.",
                      amplitude_arcsec_s, paper_switch_error_arcsec, highest_hz(2), 1.0 / (tick_s * highest_hz(2)),
                      highest_hz(0))},
@@ -107,19 +107,20 @@ std::vector<Claim> claims_of_series() {
     return {
         {"eq (20), t = 0", "Series of the oscillation about a zero crossing.", misprint,
          fmt::format("The cubic term has a coefficient of 4/3, not 1. {:.0f} ms from the crossing the rate is {:.0f} "
-                     "\"/s, {:.0f} by the series, {:.0f} as printed.",
+                     "deg/h, {:.0f} by the series, {:.0f} as printed.",
                      1e3 * x_s, amplitude_arcsec_s * std::sin(phase),
                      design::series_at_zero(paper_oscillation, x_s).sum(),
                      design::series_at_zero_as_printed(paper_oscillation, x_s).sum())},
         {"eq (20), extremum", "Series of the oscillation about its extremum.", agrees,
-         fmt::format("{:.0f} ms from it the rate is {:.1f} \"/s, {:.1f} by the series.", 1e3 * x_s,
+         fmt::format("{:.0f} ms from it the rate is {:.1f} deg/h, {:.1f} by the series.", 1e3 * x_s,
                      amplitude_arcsec_s * std::cos(phase), design::series_at_extremum(paper_oscillation, x_s).sum())},
         {"figures 7 to 10", "About t = 0 the angular velocity is constant, about the extremum it varies.", wrong,
-         fmt::format("The other way round. In a gap of three ticks about t = 0 the rate goes from {:.0f} to {:.0f} "
-                     "\"/s at nearly constant acceleration; about the extremum it falls by {:.0f} \"/s only, and it is "
-                     "the acceleration that varies.",
-                     -amplitude_arcsec_s * std::sin(half_gap), amplitude_arcsec_s * std::sin(half_gap),
-                     amplitude_arcsec_s * (1.0 - std::cos(half_gap)))},
+         fmt::format(
+             "The other way round. In a gap of three ticks about t = 0 the rate goes from {:.0f} to {:.0f} "
+             "deg/h at nearly constant acceleration; about the extremum it falls by {:.0f} deg/h only, and it is "
+             "the acceleration that varies.",
+             -amplitude_arcsec_s * std::sin(half_gap), amplitude_arcsec_s * std::sin(half_gap),
+             amplitude_arcsec_s * (1.0 - std::cos(half_gap)))},
     };
 }
 

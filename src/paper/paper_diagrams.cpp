@@ -60,8 +60,7 @@ report::Table parts_table() {
                      {"first input, opens the loop", "core, mode_switch"},
                      {"second input, voltage by DAC", "core, mode_switch, with the estimate of half_wave"},
                      {"when to switch", "core, switch_schedule"},
-                     {"voltage amplifier, piezo", "twin, slew rate and time constant"}},
-            .prose = true};
+                     {"voltage amplifier, piezo", "twin, slew rate and time constant"}}};
 }
 
 // --- figure 7 --------------------------------------------------------------------------------------------------------
@@ -90,12 +89,12 @@ Figure oscillation_figure(double tick_s) {
     }
     return {.id = "figure-7",
             .title = "Oscillation of the case, and the two places of a gap in it",
-            .caption =
-                sentence("Amplitude 12 000 \"/s, {} Hz, ticks of {} ms. A gap of three ticks, 1: where the rate passes "
-                         "zero, figures 8a and 9. 2: where it is at its extremum, figures 8b and 10.",
-                         frequency_hz, 1e3 * tick_s),
+            .caption = sentence(
+                "Amplitude 12 000 deg/h, {} Hz, ticks of {} ms. A gap of three ticks, 1: where the rate passes "
+                "zero, figures 8a and 9. 2: where it is at its extremum, figures 8b and 10.",
+                frequency_hz, 1e3 * tick_s),
             .x_label = "time, ms",
-            .y_label = "angular rate, arcsec/s",
+            .y_label = "angular rate, deg/h",
             .series = {std::move(rate), std::move(ticks)},
             .bands = {gap_at(0.0, tick_s, "1"), gap_at(0.75 * period_s, tick_s, "2")}};
 }

@@ -78,7 +78,7 @@ report::Table optimum_table(const config::Config& config, const std::vector<doub
         .caption =
             "Least drift, and the interval between switches at which it is reached. A is the "
             "change of the magnetic drift by a full warm-up.",
-        .header = {"A, \"/s", "run, s", "interval by (7), s", "drift, \"/s", "interval by (7c), s", "drift, \"/s"}};
+        .header = {"A, deg/h", "run, s", "interval by (7), s", "drift, deg/h", "interval by (7c), s", "drift, deg/h"}};
     for (const auto& reading : {study::drift_case, drift_case_per_degree})
         for (const double run_s : runs_s) {
             const DriftCase task = reading(config, run_s);
@@ -97,7 +97,7 @@ std::string figure_4_agreement(const config::Config& config, double shortest_s, 
     const auto last = design::optimum(IntervalMethod::corrected, study::drift_case(config, longest_s));
     return sentence(
         "Agrees: each curve has one minimum between too many switches and too long a sawtooth, and with the length of "
-        "the run it falls and moves to longer intervals, from {:.3f} \"/s at {:.1f} s to {:.3f} \"/s at {:.1f} s. "
+        "the run it falls and moves to longer intervals, from {:.3f} deg/h at {:.1f} s to {:.3f} deg/h at {:.1f} s. "
         "Runs much shorter than the thermal time hardly show which formula is right.",
         first.drift_arcsec_s, first.interval_s, last.drift_arcsec_s, last.interval_s);
 }
@@ -108,8 +108,9 @@ std::string figure_4_disagreement(const config::Config& config, double longest_s
     const auto printed = design::optimum(IntervalMethod::as_printed, task);
     return sentence(
         "Does not: (7) charges the whole run with the thermal change of its first two segments. In {} s its minimum "
-        "is {:.3f} \"/s at {:.1f} s, the right one {:.3f} \"/s at {:.1f} s; and however long the run, (7) stays about "
-        "{:.3f} \"/s above the non-magnetic drift to which the text and (7c) let it fall.",
+        "is {:.3f} deg/h at {:.1f} s, the right one {:.3f} deg/h at {:.1f} s; and however long the run, (7) stays "
+        "about "
+        "{:.3f} deg/h above the non-magnetic drift to which the text and (7c) let it fall.",
         longest_s, printed.drift_arcsec_s, printed.interval_s, right.drift_arcsec_s, right.interval_s,
         printed_floor_arcsec_s(task));
 }
@@ -119,8 +120,9 @@ std::string readings(const config::Config& config, double shortest_s, double lon
         return design::optimum(IntervalMethod::as_printed, drift_case_per_degree(config, run_s)).interval_s;
     };
     return sentence(
-        "Reading: the print lists the thermal part of the magnetic drift as {} \"/s and the warming as {} C, and "
-        "multiplies the two in (5). Here {} \"/s is taken for their product. Taken per degree, A is {} \"/s, and even "
+        "Reading: the print lists the thermal part of the magnetic drift as {} deg/h and the warming as {} C, and "
+        "multiplies the two in (5). Here {} deg/h is taken for their product. Taken per degree, A is {} deg/h, and "
+        "even "
         "(7) has its minima at {:.1f} s in {} s and {:.1f} s in {} s, which is not the figure 5 that rises with the "
         "run.",
         config.drift.magnetic_thermal_arcsec_s, config.gyro.temperature_rise_c, config.drift.magnetic_thermal_arcsec_s,
@@ -223,7 +225,7 @@ PaperItem paper_figure_4(const PaperTask& task) {
                                  "Full lines: corrected formula. Dashed: as printed, the same colour for the same "
                                  "length of run. Points: the least drift of each curve.",
                              .x_label = "interval between switches, s",
-                             .y_label = "drift, \"/s",
+                             .y_label = "drift, deg/h",
                              .series = drift_curves(config, runs_s),
                              .log_x = true}};
     return item;

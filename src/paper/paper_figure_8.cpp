@@ -65,7 +65,7 @@ Figure crossing_figure(const Axis& axis) {
     return {.id = "figure-8a",
             .title = "Corrected gap, zero crossing of the rate in its middle",
             .caption =
-                "Three ticks replaced, amplitude 12 000 \"/s, frequency varied; \u0394t is (n + 1)T/2. The series is "
+                "Three ticks replaced, amplitude 12 000 deg/h, frequency varied; \u0394t is (n + 1)T/2. The series is "
                 "what (20) has above the straight line or parabola, at the nearest measured tick, held over the gap. "
                 "Error bars: one standard error.",
             .x_label = axis.label,
@@ -163,7 +163,7 @@ Figure length_figure(const BridgePoints& points) {
     const Axis axis = length_axis(points);
     Figure figure{.id = "figure-8b-length",
                   .title = "Against the number of replaced ticks, extremum in the middle of the gap",
-                  .caption = sentence("Amplitude 12 000 \"/s at {} Hz, the upper end of the band, 0.1/T.",
+                  .caption = sentence("Amplitude 12 000 deg/h at {} Hz, the upper end of the band, 0.1/T.",
                                       paper_frequency_hz(points.tick_s)),
                   .x_label = axis.label,
                   .y_label = error_label};

@@ -33,7 +33,7 @@ struct Panel {
     [[nodiscard]] Axis axis() const {
         std::vector<double> amplitudes =
             each(results(), [](const SubstitutionPoint& p) { return p.amplitude_arcsec_s; });
-        return {.label = "amplitude of the rate, arcsec/s",
+        return {.label = "amplitude of the rate, deg/h",
                 .region = region,
                 .case_at = [panel = *this](double amplitude_arcsec_s) { return panel.at(amplitude_arcsec_s); },
                 .shown = {0.0, amplitudes.back()},
@@ -82,7 +82,7 @@ Figure delivered_figure(const Panel& panel) {
 
 report::Table table_of(const Panel& panel) {
     report::Table table{
-        .caption = sentence("Error of the gap in arcsec at 12 000 \"/s and {} Hz, {} replaced.",
+        .caption = sentence("Error of the gap in arcsec at 12 000 deg/h and {} Hz, {} replaced.",
                             paper_frequency_hz(panel.points.tick_s), panel.ticks()),
         .header = {"polynomial", "corrected, exact", "twin", "series as printed", "in real time, exact", "twin"}};
     const BridgeCase c = panel.at(paper_amplitude_arcsec_s);
@@ -114,7 +114,7 @@ std::vector<std::string> crossing_text(const Panel& panel) {
     text.push_back(sentence(
         "Agrees: errors are proportional to the amplitude, and constant and linear cannot be distinguished. Does not: "
         "nothing of the error drawn here stays in the angle. All orders give exactly 0, and so does the twin. Three "
-        "different curves exist only in real time: {:.0f} arcsec, {:.0f} arcsec and {:.0f} arcsec at 12 000 \"/s for "
+        "different curves exist only in real time: {:.0f} arcsec, {:.0f} arcsec and {:.0f} arcsec at 12 000 deg/h for "
         "constant, linear and quadratic{}.",
         live(0), live(1), live(2), panel.n == 1 ? ", where with one tick the first two happen to agree as well" : ""));
     return text;
@@ -131,7 +131,7 @@ std::vector<std::string> extremum_text(const Panel& panel) {
             "acceleration varies. This is the worst phase, and the one that print calls the most dangerous.");
     text.push_back(sentence(
         "Agrees: constant and linear are one, not nearly but sample by sample: with symmetric points the straight "
-        "line's slope drops out of the sum. They leave {:.1f} arcsec at 12 000 \"/s, the parabola {:.1f} arcsec, "
+        "line's slope drops out of the sum. They leave {:.1f} arcsec at 12 000 deg/h, the parabola {:.1f} arcsec, "
         "{:.1f} times less. Does not: the series understates both, {:.1f} arcsec and {:.1f} arcsec.",
         flat, bent, flat / bent, series_error_arcsec(c, 0), series_error_arcsec(c, 2)));
     if (panel.n == 3)

@@ -112,7 +112,7 @@ report::Table sawtooth_table(const Sawtooth& measured, const Sawtooth& computed,
     row("amplitude, first segment, arcsec", interval * measured.first_arcsec_s, interval * computed.first_arcsec_s, 1);
     row("amplitude, last segment, arcsec", interval * measured.last_arcsec_s, interval * computed.last_arcsec_s, 1);
     row("amplitude, mean of the run, arcsec", interval * measured.mean_arcsec_s, interval * computed.mean_arcsec_s, 1);
-    row("slope between switches, \"/s", measured.slope_arcsec_s, computed.slope_arcsec_s, 4);
+    row("slope between switches, deg/h", measured.slope_arcsec_s, computed.slope_arcsec_s, 4);
     return table;
 }
 
@@ -123,7 +123,7 @@ std::string agreement(const Sawtooth& measured, const Sawtooth& computed, double
     return sentence(
         "{}: the amplitude should be the interval times the magnetic drift; it is {:.1f} arcsec measured and {:.1f} "
         "computed. The slope between switches should be the non-magnetic drift with a trace of the quasi-non-magnetic "
-        "one; it is {:.4f} and {:.4f} \"/s.",
+        "one; it is {:.4f} and {:.4f} deg/h.",
         agree ? "Agrees" : "Does not agree", interval * measured.mean_arcsec_s, interval * computed.mean_arcsec_s,
         measured.slope_arcsec_s, computed.slope_arcsec_s);
 }
@@ -135,7 +135,8 @@ std::string disagreement(const PaperTask& task, const study::RunResult& run, con
     return sentence(
         "Does not: the amplitude is no constant, for the magnetic drift follows the warm-up of the gyro, here from "
         "{:.1f} to {:.1f} arcsec. And the steps at the switches do not add up with one sign as eq (3) has it: at the "
-        "end the error is {:.1f} arcsec or {:.3f} \"/s, where (3) with {} arcsec per switch allows {:.3f} \"/s. Eq (3) "
+        "end the error is {:.1f} arcsec or {:.3f} deg/h, where (3) with {} arcsec per switch allows {:.3f} deg/h. Eq "
+        "(3) "
         "is a bound, not an estimate.",
         interval * computed.first_arcsec_s, interval * computed.last_arcsec_s, switched.angle_error_arcsec,
         std::abs(switched.angle_error_arcsec) / run_s, task.config.design.switch_error_arcsec, bound);

@@ -56,13 +56,7 @@ std::string plain_label(Decimal decimal) {
 }
 
 // 10 to the power, with superscript digits.
-std::string power_label(int exponent) {
-    static constexpr const char* digits[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074",
-                                             "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
-    std::string out = exponent < 0 ? "10\u207B" : "10";
-    for (const char digit : std::to_string(std::abs(exponent))) out += digits[digit - '0'];
-    return out;
-}
+std::string power_label(int exponent) { return "10" + superscript(std::to_string(exponent)); }
 
 std::string with_power(Decimal decimal, int power) {
     if (decimal.n == 0) return "0";

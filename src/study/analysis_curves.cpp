@@ -64,32 +64,25 @@ double min_of(const Series& s) {
     return least;
 }
 
+// The deviation of a sinusoid swings faster than a line can show; it is compared where it was measured.
+Series sum_with_sines(const View& v, const noise::NoiseTerms& terms) {
+    Series s = blank_series("fitted terms together", Mark::points);
+    for (const auto& p : v.axis.curves.front().points)
+        add_point(s, p.tau_s, v.shown(std::sqrt(noise::allan_variance(terms, p.tau_s))));
+    return s;
+}
+
 void add_terms(const View& v, const Span& span, double floor, Figure& f) {
     if (!v.axis.fit) return;
     const noise::NoiseTerms all = v.axis.fit->terms;
-    f.series.push_back(law(v, span, "fitted terms together", false, floor,
-                           [&all](double tau_s) { return noise::allan_variance(all, tau_s); }));
+    f.series.push_back(all.sines.empty() ? law(v, span, "fitted terms together", false, floor,
+                                               [&all](double tau_s) { return noise::allan_variance(all, tau_s); })
+                                         : sum_with_sines(v, all));
     for (const noise::FittedTerm& term : v.axis.fit->fitted) {
-        if (!term.found) continue;
+        if (!term.found || term.kind == noise::NoiseKind::sine) continue;
         const noise::NoiseTerms one = only(term);
         f.series.push_back(law(v, span, std::string{noise::name_of(term.kind)}, true, floor,
                                [&one](double tau_s) { return noise::allan_variance(one, tau_s); }));
-    }
-}
-
-// Slopes of the classical terms through a point of the curve, as thin guides.
-void add_guides(const View& v, const Span& span, double floor, double ceiling, Figure& f) {
-    const auto& points = v.axis.curves.front().points;
-    const auto& middle = points[points.size() / 2];
-    constexpr std::array<double, 4> slopes{-1.0, -0.5, 0.5, 1.0};
-    constexpr std::array<const char*, 4> names{"slope -1", "slope -1/2", "slope +1/2", "slope +1"};
-    for (std::size_t k = 0; k < slopes.size(); ++k) {
-        Series s = blank_series(names[k], Mark::line, true);
-        for (const double tau_s : log_steps(span, 60)) {
-            const double y = v.shown(middle.deviation) * std::pow(tau_s / middle.tau_s, slopes[k]);
-            add_point(s, tau_s, y > floor && y < ceiling ? y : not_shown);
-        }
-        f.series.push_back(std::move(s));
     }
 }
 
@@ -101,9 +94,12 @@ Figure sigma_figure(const View& v) {
     Figure f = report::blank_figure(
         v.id("sigma"), fmt::format("{} of {}", name, v.axis.name),
         fmt::format("Points: {} with intervals of {:g} %. Dashed: each fitted term alone, as it stands in the Allan "
-                    "deviation; their sum is drawn full. Sinusoids and ramp are part of the sum.",
+                    "deviation; full, or points at the averaging times of the record where an oscillation was found: "
+                    "their sum.",
                     name, 100.0 * curve.confidence),
         "averaging time, s", fmt::format("deviation, {}", v.unit()));
+    if (v.axis.fit && !v.axis.fit->terms.sines.empty() && v.axis.n_gaps > 0)
+        f.caption += " In a window with a gap an oscillation does not average out: such points lie above the sum.";
     f.log_x = f.log_y = true;
     Series measured = curve_series(v, curve, name);
     double least = min_of(measured);
@@ -123,22 +119,6 @@ Figure sigma_figure(const View& v) {
     if (v.presumed)
         f.series.push_back(law(v, taus_of(curve), v.presumed->name, false, 0.0,
                                [&v](double tau_s) { return noise::allan_variance(v.presumed->terms, tau_s); }));
-    return f;
-}
-
-Figure guide_figure(const View& v) {
-    const auto& curve = v.axis.curves.front();
-    Figure f = report::blank_figure(
-        v.id("slopes"), fmt::format("Slopes of {}", v.axis.name),
-        "The same points with guides: -1 quantisation, -1/2 angle random walk, flat bias instability, "
-        "+1/2 rate random walk, +1 ramp.",
-        "averaging time, s", fmt::format("deviation, {}", v.unit()));
-    f.log_x = f.log_y = true;
-    Series measured = curve_series(v, curve, std::string{deviations::name_of(curve.kind)});
-    const double least = min_of(measured);
-    const double most = *std::ranges::max_element(measured.y);
-    f.series.push_back(std::move(measured));
-    add_guides(v, taus_of(curve), 0.5 * least, 2.0 * most, f);
     return f;
 }
 

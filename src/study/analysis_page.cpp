@@ -6,6 +6,7 @@
 #include <zlg/noise/noise_units.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/analyze.hpp>
+#include <zlg/study/how_made.hpp>
 #include <zlg/study/term_text.hpp>
 
 #include "analysis_view.hpp"
@@ -21,7 +22,7 @@ report::Table curve_table(const View& v) {
     const auto shown = [&](double deviation) { return is_angle ? deviation : v.shown(deviation); };
     report::Table t{.caption = fmt::format("{} in {}, n differences each; edf: equivalent degrees of freedom.",
                                            deviations::name_of(curve.kind), is_angle ? "arcsec" : v.unit()),
-                    .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"}};
+                    .header = {"tau, s", "n", "deviation", "low", "high", "edf", "spectrum of the rate"}};
     if (deviations::is_total(curve.kind)) {
         t.caption += fmt::format(" Bias of mirroring: {} (total_bias); as computed: with it.",
                                  deviations::name_of(curve.total_bias));
@@ -43,8 +44,7 @@ report::Table term_table(const View& v) {
                         "Fitted terms with one standard error; below: 95 %. Chi-square {:.3g} of {} degrees of "
                         "freedom, probability {:.2g}; each variance allowed an error of {:g} % beside chance.",
                         v.axis.fit->chi2, v.axis.fit->dof, v.axis.fit->probability, 100.0 * v.axis.fit->model_error),
-                    .header = {"term", "value, continuous", "read at tau, s"},
-                    .prose = true};
+                    .header = {"term", "value, continuous", "read at tau, s"}};
     for (const noise::FittedTerm& term : v.axis.fit->fitted)
         t.rows.push_back({std::string{noise::name_of(term.kind)}, value_text(term),
                           term.found && std::isfinite(term.read_at_s) ? short_number(term.read_at_s) : "-"});
@@ -57,8 +57,7 @@ report::Table discrete_table(const View& v) {
     const noise::DiscreteNoise d = noise::discrete_noise(terms, v.axis.rate_hz);
     report::Table t{.caption = fmt::format("The same terms, discrete: standard deviations of one sample at {:g} Hz.",
                                            v.axis.rate_hz),
-                    .header = {"quantity", "value"},
-                    .prose = true};
+                    .header = {"quantity", "value"}};
     const auto add = [&t](const char* what, double value, const char* unit) {
         if (value != 0.0) t.rows.push_back({what, fmt::format("{:.4g} {}", value, unit)});
     };
@@ -90,8 +89,7 @@ report::Table mode_table(const View& v) {
                     .rows = {{"non-magnetic drift", value_text(m.nonmagnetic_arcsec_s, "deg/h")},
                              {"magnetic drift at the start", value_text(m.magnetic_arcsec_s, "deg/h")},
                              {"its growth by warming", value_text(m.magnetic_thermal_arcsec_s, "deg/h")},
-                             {"time of the warming", value_text(m.thermal_time_s, "s")}},
-                    .prose = true};
+                             {"time of the warming", value_text(m.thermal_time_s, "s")}}};
     const auto& s = m.statistics;
     if (s.n > 0) {
         t.rows.push_back({"switches", fmt::format("{}", s.n)});
@@ -118,36 +116,41 @@ bool can_be_drawn(const deviations::DeviationCurve& curve) {
 
 bool was_moved(const AxisResult& axis) { return axis.fit && (!axis.fit->describes || !axis.fit->terms.sines.empty()); }
 
+// The terms, and the curves from which they come.
 report::Section section_of(const View& v) {
     report::Section s{.heading = v.axis.name, .paragraphs = {summary(v)}};
     if (v.axis.fit && !v.axis.fit->describes)
         s.paragraphs.push_back(
             "The fitted terms do not describe the record: it was moved, or has noise of another kind. Their errors are "
             "widened accordingly.");
-    if (v.axis.fit) {
+    if (v.axis.fit)
         s.tables.push_back(term_table(v));
-        s.tables.push_back(discrete_table(v));
-    } else {
+    else
         s.paragraphs.push_back("No terms are fitted: " + v.axis.no_fit + ".");
-    }
-    if (!v.axis.readouts.empty()) s.tables.push_back(readout_table(v));
-    if (can_be_drawn(v.axis.curves.front())) {
-        s.figures.push_back(sigma_figure(v));
-        s.figures.push_back(guide_figure(v));
-    }
+    if (can_be_drawn(v.axis.curves.front())) s.figures.push_back(sigma_figure(v));
     s.figures.push_back(course_figure(v));
     if (!v.axis.spectrum.density.empty()) {
         s.figures.push_back(spectrum_figure(v));
         s.figures.push_back(bands_figure(v));
     }
-    if (v.axis.modes && v.axis.modes->segments.size() > 1) {
-        if (was_moved(v.axis))
-            s.paragraphs.push_back("The gyro was moved: the errors per switch hold the motion in the gaps too.");
-        s.tables.push_back(mode_table(v));
-        s.figures.push_back(mode_figure(v));
-        if (!v.axis.modes->points.empty()) s.figures.push_back(split_figure(v));
-        if (!v.axis.modes->switches.empty()) s.figures.push_back(switch_figure(v));
-    }
+    return s;
+}
+
+report::Section mode_section(const View& v) {
+    report::Section s{.heading = "Modes of " + v.axis.name};
+    if (was_moved(v.axis))
+        s.paragraphs.push_back("The gyro was moved: the errors per switch hold the motion in the gaps too.");
+    s.tables = {mode_table(v)};
+    s.figures = {mode_figure(v)};
+    if (!v.axis.modes->points.empty()) s.figures.push_back(split_figure(v));
+    if (!v.axis.modes->switches.empty()) s.figures.push_back(switch_figure(v));
+    return s;
+}
+
+report::Section number_section(const View& v) {
+    report::Section s{.heading = "Numbers of " + v.axis.name};
+    if (v.axis.fit) s.tables.push_back(discrete_table(v));
+    if (!v.axis.readouts.empty()) s.tables.push_back(readout_table(v));
     s.tables.push_back(curve_table(v));
     return s;
 }
@@ -183,8 +186,7 @@ report::Section table_section(const config::Analysis& config, const TableResult&
                   {"asymmetry", value_text(r.asymmetry_ppm, "ppm")},
                   {"nonlinearity, rms", short_number(r.nonlinearity_ppm) + " ppm"},
                   {"largest residual", short_number(r.largest_residual_ppm) + " ppm"},
-                  {"largest difference at one input", short_number(r.hysteresis_arcsec_s) + " deg/h"}},
-         .prose = true});
+                  {"largest difference at one input", short_number(r.hysteresis_arcsec_s) + " deg/h"}}});
     report::Table stages{
         .caption = "Stages; residuals in ppm of the output at the largest input.",
         .header = {"input, " + shown_unit(config.unit), "output, units/s", "its sigma", "samples", "residual, ppm"}};
@@ -207,16 +209,26 @@ report::Section table_section(const config::Analysis& config, const TableResult&
 }  // namespace
 
 report::Page analysis_page(const config::Analysis& config, const AnalysisResult& result) {
-    report::Page page{.title = "Noise analysis",
-                      .lead =
-                          "Deviations, fitted noise terms, drift by mode and errors of switches of recorded gyros. 1 "
-                          "deg/h is 1 arcsec/s."};
-    if (!result.axes.empty()) page.sections.push_back(earth_section(config, result));
-    for (std::size_t k = 0; k < result.axes.size(); ++k)
-        page.sections.push_back(
-            section_of({.config = config, .axis = result.axes[k], .index = k, .presumed = result.presumed}));
-    for (std::size_t k = 0; k < result.tables.size(); ++k)
+    report::Page page{
+        .title = "Noise of recorded gyros",
+        .verdict = analysis_verdict(config, result),
+        .lead = "Deviations, fitted noise terms, drift by mode and errors of switches of what was recorded."};
+    std::string names;
+    for (std::size_t k = 0; k < result.axes.size(); ++k) {
+        const View v{.config = config, .axis = result.axes[k], .index = k, .presumed = result.presumed};
+        page.sections.push_back(section_of(v));
+        if (v.axis.modes && v.axis.modes->segments.size() > 1) page.sections.push_back(mode_section(v));
+        page.sections.push_back(number_section(v));
+        names += (names.empty() ? "" : "; ") + v.axis.name;
+    }
+    for (std::size_t k = 0; k < result.tables.size(); ++k) {
         page.sections.push_back(table_section(config, result.tables[k], k));
+        names += (names.empty() ? "" : "; ") + result.tables[k].name;
+    }
+    if (!result.axes.empty()) page.sections.push_back(earth_section(config, result));
+    config::Config asked;
+    asked.analysis = config;
+    page.sections.push_back(how_made("analyze FILE...", asked, names));
     return page;
 }
 

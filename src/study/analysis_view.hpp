@@ -36,13 +36,15 @@ struct View {
     return s;
 }
 
-// The deviation with its intervals and the fitted terms; with guides of the classical slopes.
+// The deviation with its intervals and the fitted terms.
 [[nodiscard]] report::Figure sigma_figure(const View& v);
-[[nodiscard]] report::Figure guide_figure(const View& v);
 
 [[nodiscard]] report::Figure course_figure(const View& v);
 [[nodiscard]] report::Figure spectrum_figure(const View& v);
 [[nodiscard]] report::Figure bands_figure(const View& v);
+
+// The result in one sentence an axis, of the first three.
+[[nodiscard]] std::string analysis_verdict(const config::Analysis& config, const AnalysisResult& result);
 
 // Of a switched gyro.
 [[nodiscard]] report::Figure mode_figure(const View& v);

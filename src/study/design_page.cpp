@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <zlg/design/substitution.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/design_study.hpp>
+#include <zlg/study/how_made.hpp>
 
 namespace zlg::study {
 namespace {
@@ -15,7 +17,7 @@ Figure budget_figure(const config::Config& config) {
     Figure f = report::blank_figure(
         "budget", "Drift against the interval between switches",
         "Long intervals let the magnetic drift pile up, short ones pay for many switches. Points: the optimum.",
-        "interval, s", "drift, arcsec/s");
+        "interval, s", "drift, deg/h");
     f.log_x = true;
     Series best = blank_series("optimum", Mark::points);
     for (double run_s : config.design.run_lengths_s) {
@@ -39,8 +41,8 @@ report::Table interval_table(const DesignResult& result) {
         .caption =
             "Each method minimises its own budget, so compare intervals, not drifts. The last columns say what "
             "missing the interval by 30 % costs.",
-        .header = {"run, s", "method", "interval, s", "drift, \"/s", "rise at 0.7 of it, \"/s",
-                   "rise at 1.3 of it, \"/s"}};
+        .header = {"run, s", "method", "interval, s", "drift, deg/h", "rise at 0.7 of it, deg/h",
+                   "rise at 1.3 of it, deg/h"}};
     for (const IntervalLine& l : result.intervals)
         t.rows.push_back(report::row(
             l.run_s, design::name(l.method), l.optimum.interval_s, l.optimum.drift_arcsec_s,
@@ -59,9 +61,9 @@ report::Table run_table(const DesignResult& result) {
         .caption =
             "The terms of the corrected budget at its best interval, and other policies: a first segment of half "
             "the length, an interval that grows with the time since start.",
-        .header = {"run, s", "non-magnetic, \"/s", "quasi-non-magnetic", "sawtooth", "switches", "root of (9c), s",
-                   "root of printed (9), s", "half first segment: interval, s", "drift, \"/s",
-                   "growing: interval at the end, s", "drift, \"/s"}};
+        .header = {"run, s", "non-magnetic, deg/h", "quasi-non-magnetic", "sawtooth", "switches", "root of (9c), s",
+                   "root of printed (9), s", "half first segment: interval, s", "drift, deg/h",
+                   "growing: interval at the end, s", "drift, deg/h"}};
     for (const RunLine& r : result.runs)
         t.rows.push_back(report::row(r.run_s, r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s,
                                      r.terms.sawtooth_arcsec_s, r.terms.switch_errors_arcsec_s,
@@ -77,8 +79,8 @@ report::Table substitution_table(const DesignResult& result) {
             "Final error of the gap's angle by the order of the polynomial: from the motion at the worst phase and "
             "over random phase, from rounding of the counter, from re-lock, and all together by eq (19) with the "
             "residual of re-lock that it omits.",
-        .header = {"frequency, Hz", "gap, ticks", "order", "worst, \"", "rms, \"", "white noise gain", "rounding, \"",
-                   "re-lock, \"", "together, \""}};
+        .header = {"frequency, Hz", "gap, ticks", "order", "worst, arcsec", "rms, arcsec", "white noise gain",
+                   "rounding, arcsec", "re-lock, arcsec", "together, arcsec"}};
     for (const SubstitutionLine& l : result.substitution)
         t.rows.push_back(report::row(std::isfinite(l.frequency_hz) ? short_number(l.frequency_hz) : "all", l.gap_ticks,
                                      l.order, l.worst_arcsec, l.rms_arcsec, l.noise_gain, l.counter_arcsec,
@@ -92,7 +94,7 @@ Figure order_figure(const DesignResult& result) {
         "order-map", "Which order is best where",
         "Each mark is a motion (frequency, amplitude of the angle in a tick over the noise of a tick) at which that "
         "order leaves the smallest error.",
-        "frequency, Hz", "amplitude x T / noise of a tick");
+        "frequency, Hz", "amplitude \u00D7 T / noise of a tick");
     f.log_y = true;
     for (int order = 0; order < design::n_orders; ++order) {
         Series s = blank_series(fmt::format("order {}", order), Mark::points);
@@ -108,19 +110,20 @@ Figure order_figure(const DesignResult& result) {
 report::Table loop_table(const LoopLine& l) {
     return {.caption = "The perimeter loop.",
             .header = {"quantity", "value"},
-            .rows = {{"phase margin", fmt::format("{} deg at {} rad/s", short_number(l.margins.phase_margin_deg),
-                                                  short_number(l.margins.crossover_rad_s))},
-                     {"gain margin", fmt::format("{} at {} rad/s", short_number(l.margins.gain_margin),
-                                                 short_number(l.margins.limit_rad_s))},
-                     {"T/tau, and its limit of stability for " + l.stability_note,
-                      fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
-                     {fmt::format("re-lock to 0.01 wavelength from {}", short_number(l.relock_from_lambda)),
-                      fmt::format("{} ms {}; without limiter and slew {} ms", short_number(1e3 * l.relock_s),
-                                  l.relock_note, short_number(1e3 * l.relock_linear_s))},
-                     {"false angle of that re-lock",
-                      fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", short_number(l.false_angle_arcsec),
-                                  short_number(l.false_angle_law_arcsec))},
-                     {"capture range of the detector", fmt::format("{} wavelength", short_number(l.capture_lambda))}}};
+            .rows = {
+                {"phase margin", fmt::format("{} deg at {} rad/s", short_number(l.margins.phase_margin_deg),
+                                             short_number(l.margins.crossover_rad_s))},
+                {"gain margin", fmt::format("{} dB at {} rad/s", short_number(20.0 * std::log10(l.margins.gain_margin)),
+                                            short_number(l.margins.limit_rad_s))},
+                {"T/tau, and its limit of stability for " + l.stability_note,
+                 fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
+                {fmt::format("re-lock to 0.01 wavelength from {}", short_number(l.relock_from_lambda)),
+                 fmt::format("{} ms {}; without limiter and slew {} ms", short_number(1e3 * l.relock_s), l.relock_note,
+                             short_number(1e3 * l.relock_linear_s))},
+                {"false angle of that re-lock",
+                 fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", short_number(l.false_angle_arcsec),
+                             short_number(l.false_angle_law_arcsec))},
+                {"capture range of the detector", fmt::format("{} wavelength", short_number(l.capture_lambda))}}};
 }
 
 report::Table miss_table(const LoopLine& l) {
@@ -163,10 +166,30 @@ std::string best_list(const DesignResult& result) {
     return text;
 }
 
-std::string whole_drift_note(const config::Config& config) {
+std::string magnetic_note(const config::Config& config) {
     if (config.compensation.magnetic != core::MagneticMethod::estimate) return "";
     return " The whole magnetic drift is in these budgets: how much of it compensation.magnetic = \"estimate\" takes "
            "out is not foreseen.";
+}
+
+// Of the run that the configuration asks for, where it is among them; else of the longest.
+std::string verdict(const config::Config& config, const DesignResult& result) {
+    if (result.runs.empty()) return "";
+    auto run = std::ranges::find(result.runs, config.run.duration_s.value_or(3600.0), &RunLine::run_s);
+    if (run == result.runs.end()) run = std::ranges::max_element(result.runs, {}, &RunLine::run_s);
+    const std::string presumed = short_number(config.design.switch_error_arcsec);
+    std::string text = fmt::format(
+        "Switch every {} s in a run of {} s: a switch of this gyro leaves {} arcsec rms, which makes a drift of {} "
+        "deg/h",
+        short_number(run->best.interval_s), short_number(run->run_s), short_number(result.switch_error_arcsec),
+        short_number(run->best.drift_arcsec_s));
+    const auto paper = std::ranges::find_if(result.intervals, [&](const IntervalLine& l) {
+        return l.run_s == run->run_s && l.method == design::IntervalMethod::corrected;
+    });
+    if (paper != result.intervals.end())
+        text += fmt::format("; the budget of the paper, with {} arcsec, asks for {} s", presumed,
+                            short_number(paper->optimum.interval_s));
+    return text + (result.loop.margins.stable ? "." : "; the perimeter loop is unstable.");
 }
 
 }  // namespace
@@ -176,18 +199,18 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
         .title = "Design of a Zeeman laser gyro with mode switching",
         .lead =
             "Interval between switches, substitution of the blind ticks and perimeter loop, from the configuration "
-            "of one gyro. 1 \"/s is 1 deg/h."};
+            "of one gyro."};
+    page.verdict = verdict(config, result);
     page.sections.push_back(
         {.heading = "Interval",
          .paragraphs =
              {"corrected: run mean of the thermal term and the sawtooth of the cold gyro. worst_case: exact, "
               "at the worst switch. as_printed: the paper's formula with its mistake. closed_form: no "
               "thermal change. random_sign: switch errors independent of each other.",
-              fmt::format(
-                  "What is above takes design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
-                  "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
-                  short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),
-                  result.switch_error_source, best_list(result), whole_drift_note(config))},
+              fmt::format("The tables take design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
+                          "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
+                          short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),
+                          result.switch_error_source, best_list(result), magnetic_note(config))},
          .tables = {interval_table(result), run_table(result)},
          .figures = {budget_figure(config)}});
     page.sections.push_back(
@@ -201,6 +224,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
                              .tables = {loop_table(result.loop), miss_table(result.loop)},
                              .figures = {false_drift_figure(result.loop, config.gyro.tick_s),
                                          step_figure(result.loop, config.gyro.tick_s)}});
+    page.sections.push_back(how_made("design", config));
     return page;
 }
 

@@ -85,7 +85,7 @@ TEST(PaperClaims, they_are_about_the_paper_whatever_gyro_the_page_is_for) {
 TEST(PaperClaims, drift_budget) {
     expect_numbers("eq (7)", {"0.084", "586.5", "0.121", "294.8", "0.276"});
     expect_numbers("after eq (7)", {"0.30"});
-    expect_numbers("parameters of figure 4", {"14 \"/s", "54.1", "66.7"});
+    expect_numbers("parameters of figure 4", {"14 deg/h", "54.1", "66.7"});
     expect_numbers("figure 4", {"88.7", "106.7", "195.2", "586.5"});
     expect_numbers("eq (8)", {"183.3"});
     expect_numbers("eq (9)", {"232.2", "183.3", "183.5", "14978", "2033"});
@@ -151,8 +151,8 @@ TEST(PaperClaims, series_about_the_zero_crossing) {
     const double cubic = 12000.0 * u * u * u / 8.0;  // with a coefficient of 1 of (pi nu x)^3
     const double printed = 12000.0 * (u + std::pow(u, 5) / 120.0) - cubic;
     expect_numbers("eq (20), t = 0",
-                   {fmt::format("{:.0f} \"/s", 12000.0 * std::sin(u)), fmt::format("{:.0f} as printed", printed)});
-    expect_numbers("eq (20), extremum", {fmt::format("{:.1f} \"/s", 12000.0 * std::cos(u))});
+                   {fmt::format("{:.0f} deg/h", 12000.0 * std::sin(u)), fmt::format("{:.0f} as printed", printed)});
+    expect_numbers("eq (20), extremum", {fmt::format("{:.1f} deg/h", 12000.0 * std::cos(u))});
 }
 
 // One mode: 0.05 + 0.7 + 0.7 (1 - (tau/t)(1 - e^(-t/tau))), over the least of (7c).

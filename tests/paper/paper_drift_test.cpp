@@ -191,7 +191,7 @@ TEST(PaperFigure4, the_other_reading_stands_beside_it) {
     ASSERT_EQ(rows.size(), 8u);
     EXPECT_EQ(rows[4], (std::vector<std::string>{"14", "600", "54.1", "0.422", "55.2", "0.412"}));
     EXPECT_EQ(rows[7][2], "66.7");
-    EXPECT_TRUE(holds(text_of(section), "A is 14 \"/s"));
+    EXPECT_TRUE(holds(text_of(section), "A is 14 deg/h"));
 }
 
 TEST(PaperFigure4, another_gyro_has_its_own_figure) {

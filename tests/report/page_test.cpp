@@ -41,7 +41,7 @@ Page page(std::size_t n_sections) {
     return out;
 }
 
-// The body is XML; the head has elements that HTML leaves open.
+// The body is XML; the head has elements that HTML leaves open. The script stands behind it.
 std::vector<markup::Element> body_of(const std::string& text) {
     const std::size_t from = text.find("<body>");
     return markup::read(text.substr(from, text.find("</body>") + 7 - from));
@@ -59,7 +59,8 @@ TEST(Html, needs_nothing_from_outside) {
     std::string text = html(page(5));
     std::transform(text.begin(), text.end(), text.begin(),
                    [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-    for (const char* part : {"http", "//", "<script", "<link", "src=", "@import", "onload", "javascript"}) {
+    for (const char* part :
+         {"http", "//", "<script ", "<link", "src=", "@import", "onload", "javascript", "fetch", "import("}) {
         EXPECT_EQ(text.find(part), std::string::npos) << part;
     }
     EXPECT_EQ(count(text, "url("), count(text, "url(#"));
@@ -71,14 +72,118 @@ TEST(Html, is_an_html5_page_with_language_charset_and_viewport) {
     EXPECT_NE(text.find("<meta charset=\"utf-8\">"), std::string::npos);
     EXPECT_NE(text.find("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"), std::string::npos);
     EXPECT_NE(text.find("<title>A run &lt;1&gt;</title>"), std::string::npos);
-    EXPECT_NE(text.find("figure, tr, nav { break-inside: avoid; }"), std::string::npos);
+    EXPECT_NE(text.find("figure, tr, nav, pre { break-inside: avoid; }"), std::string::npos);
+}
+
+TEST(Html, has_one_script_of_at_most_ten_kilobytes_after_all_that_is_read) {
+    const std::string text = html(page(2));
+    EXPECT_EQ(count(text, "<script>"), 1U);
+    const std::size_t from = text.find("<script>") + 8, to = text.find("</script>");
+    EXPECT_GT(from, text.find("</body>"));
+    EXPECT_GT(to - from, 1000U);
+    EXPECT_LE(to - from, 10'240U);
+}
+
+TEST(Html, every_colour_of_a_drawing_has_another_in_the_dark) {
+    Page p = page(1);
+    Figure& f = p.sections[0].figures[0];
+    for (int i = 0; i < 9; ++i) {
+        f.series.push_back(f.series[0]);
+        f.series.back().mark = i % 2 == 0 ? zlg::report::Mark::points : zlg::report::Mark::bars;
+        f.series.back().y = {-1.0, 1.0};
+    }
+    f.bands = {{0.2, 0.4, "gap"}};
+    zlg::report::Diagram diagram{.id = "d", .boxes = {{}, {.shaded = true}}, .arrows = {{{0, 0}, {0, 9}, "a"}}};
+    p.sections[0].diagrams = {diagram};
+    const std::string text = html(p);
+    const std::string dark =
+        text.substr(text.find("prefers-color-scheme"), text.find("</style>") - text.find("prefers-color-scheme"));
+    std::set<std::string> seen;
+    for (const auto& e : body_of(text))
+        for (const char* key : {"fill", "stroke"})
+            if (e.attributes.count(key) != 0 && e.attributes.at(key).front() == '#')
+                seen.insert(std::string{"["} + key + "=\"" + e.attributes.at(key) + "\"]");
+    EXPECT_GE(seen.size(), 16U);
+    for (const std::string& colour : seen) EXPECT_NE(dark.find(colour), std::string::npos) << colour;
+}
+
+TEST(Html, the_verdict_is_read_first) {
+    Page p = page(1);
+    p.verdict = "It drifts by -1.5e-3 deg/h.";
+    const auto paragraphs = markup::all(body_of(html(p)), "p");
+    EXPECT_EQ(paragraphs.at(0).attributes.at("class"), "verdict");
+    EXPECT_EQ(paragraphs.at(0).text, "It drifts by \u22121.5\u00D710\u207B\u00B3 deg/h.");
+}
+
+TEST(Html, columns_of_numbers_are_told_from_columns_of_text) {
+    Page p = page(0);
+    p.sections = {{"S",
+                   {},
+                   {{"C.",
+                     {"a", "b", "c"},
+                     {{"x", "-1.5e+03", "words enough to fill a line"}, {"y", "-", "4"}, {"z", "2 +- 1", "5"}}}},
+                   {}}};
+    const auto body = body_of(html(p));
+    const auto cells = markup::all(body, "td");
+    EXPECT_EQ(cells.at(0).attributes.at("class"), "n");
+    EXPECT_EQ(cells.at(0).text, "\u22121.5\u00D710\u00B3");
+    EXPECT_EQ(cells.at(1).attributes.count("class"), 0U);
+    EXPECT_EQ(cells.at(1).attributes.at("data-is"), "c") << "stacked on a narrow screen, a cell names its column";
+    EXPECT_EQ(cells.at(4).text, "2 \u00B1 1");
+}
+
+TEST(Html, the_values_of_a_figure_stand_beside_it_thinned_to_two_hundred_rows) {
+    Page p = page(1);
+    Figure& f = p.sections[0].figures[0];
+    f.series[0].y_error = {0.25, 0.5};
+    Series longer;
+    longer.name = "longer";
+    for (int i = 0; i < 5000; ++i) {
+        longer.x.push_back(i);
+        longer.y.push_back(i % 7);
+    }
+    f.series.push_back(longer);
+    const auto body = body_of(html(p));
+    std::size_t n_rows = 0;
+    for (const auto& e : body)
+        if (e.name == "tr")
+            for (const std::size_t i : e.above) n_rows += body[i].name == "details" ? 1U : 0U;
+    EXPECT_GT(n_rows, 90U);
+    EXPECT_LE(n_rows, 1U + 200U);
+    const auto cells = markup::all(body, "td", "scroll");
+    std::vector<std::string> first;
+    for (std::size_t i = cells.size() - 1; i-- > 0;)
+        if (cells[i].text == "line") first = {cells[i + 1].text, cells[i + 2].text, cells[i + 3].text};
+    EXPECT_EQ(first, (std::vector<std::string>{"0", "2", "0.25"}));
+}
+
+TEST(Html, the_script_is_told_the_axes_as_they_are_drawn) {
+    Page p = page(1);
+    Figure& f = p.sections[0].figures[0];
+    f.series[0] = Series{.name = "a \"b\"", .x = {1.0, 100.0}, .y = {0.0, 1.0}, .mark = zlg::report::Mark::bars};
+    f.series.push_back({.name = "none"});
+    f.log_y = false;
+    f.x_label = "x, m";
+    f.y_label = "y";
+    for (const auto& e : body_of(html(p)))
+        if (e.attributes.count("data-figure") != 0)
+            EXPECT_EQ(e.attributes.at("data-figure"),
+                      "{\"x\":[-56.42,157.42,0,\"x, m\"],\"y\":[0,1.04,0,\"y\"],\"series\":[{\"name\":\"a "
+                      "\\\"b\\\"\","
+                      "\"drawn\":true},{\"name\":\"none\",\"drawn\":false}]}");
+}
+
+TEST(Html, lines_to_copy_stay_lines) {
+    Page p = page(1);
+    p.sections[0].code = "a = -1e-3\nb = \"<\"\n";
+    EXPECT_NE(html(p).find("<pre>a = -1e-3\nb = &quot;&lt;&quot;\n</pre>"), std::string::npos);
 }
 
 TEST(Html, body_is_well_formed_and_text_is_escaped) {
     const auto body = body_of(html(page(2)));
     EXPECT_EQ(markup::all(body, "h1").at(0).text, "A run <1>");
     EXPECT_EQ(markup::all(body, "p").at(0).text, "Lead & more.");
-    EXPECT_EQ(markup::all(body, "p").at(1).text, "One < two.");
+    EXPECT_EQ(markup::all(body, "p").at(2).text, "One < two.") << "behind the lead and the hint of the figures";
     EXPECT_NO_THROW(body_of(html(Page{})));
 }
 
@@ -155,12 +260,4 @@ TEST(Html, leaves_the_numbers_to_titles_that_bring_their_own) {
     const auto body = body_of(html(p));
     EXPECT_EQ(markup::all(body, "b").at(0).text, "Drift.");
     EXPECT_EQ(markup::all(body, "figcaption").at(0).text, "Drift per mode.");
-}
-
-TEST(Html, only_a_table_of_prose_is_marked_as_such) {
-    Page p = page(2);
-    p.sections[1].tables[0].prose = true;
-    const auto tables = markup::all(body_of(html(p)), "table");
-    EXPECT_EQ(tables.at(0).attributes.count("class"), 0U);
-    EXPECT_EQ(tables.at(1).attributes.at("class"), "prose");
 }

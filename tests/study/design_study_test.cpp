@@ -188,7 +188,8 @@ TEST(DesignGyro, refuses_a_gyro_whose_switches_cost_nothing) {
 TEST(DesignPage, has_a_section_for_each_question) {
     const config::Config c;
     const auto page = study::design_page(c, study::design_gyro(c));
-    ASSERT_EQ(page.sections.size(), 3u);
+    ASSERT_EQ(page.sections.size(), 4u);
+    EXPECT_EQ(page.verdict.find("Switch every "), 0u) << page.verdict;
     EXPECT_EQ(page.sections[0].figures.at(0).series.size(), 5u) << "four runs and their optima";
 }
 

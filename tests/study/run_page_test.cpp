@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <zlg/study/run_page.hpp>
@@ -21,14 +23,15 @@ const report::Figure* figure(const report::Page& page, const std::string& id) {
 }
 
 TEST(RunPage, shows_the_sawtooth_one_switch_and_the_errors_of_all) {
-    const auto page = study::run_page({}, run_of(30.0));
-    for (const char* id :
-         {"angle-error", "compensations", "one-switch", "detuning", "piezo", "switch-errors", "errors-in-time"})
+    const auto page = study::run_page({}, run_of(32.0));
+    for (const char* id : {"angle-error", "sum-of-errors", "error-deviation", "one-switch", "detuning", "piezo",
+                           "switch-errors", "errors-in-time"})
         EXPECT_NE(figure(page, id), nullptr) << id;
     const auto& variants = page.sections.front().tables.front().rows;
-    ASSERT_EQ(variants.size(), 9u);
     EXPECT_EQ(variants.front()[1], "the same gyro, never switched");
     EXPECT_EQ(variants.back()[1], "as the configuration says");
+    EXPECT_EQ(page.verdict.find("6 switches; a switch costs "), 0u) << page.verdict;
+    EXPECT_NE(page.verdict.find(" without correction."), std::string::npos) << page.verdict;
 }
 
 TEST(RunPage, the_magnified_switch_holds_its_gap) {
@@ -36,13 +39,44 @@ TEST(RunPage, the_magnified_switch_holds_its_gap) {
     const auto* f = figure(page, "one-switch");
     ASSERT_NE(f, nullptr);
     ASSERT_EQ(f->bands.size(), 1u);
-    EXPECT_EQ(f->bands[0].x0, 1000.0);
-    EXPECT_EQ(f->bands[0].x1, 1003.0);
+    EXPECT_EQ(f->bands[0].x0, 40.0) << "eight ticks of 5 ms are shown before it";
+    EXPECT_EQ(f->bands[0].x1, 55.0);
 }
 
 TEST(RunPage, of_a_run_without_a_switch_says_no_more_than_there_is) {
     const auto page = study::run_page({}, run_of(2.0));
-    EXPECT_EQ(page.sections.size(), 1u);
+    ASSERT_EQ(page.sections.size(), 2u) << "the result, and how it was made";
+    EXPECT_EQ(page.verdict.find("No switch in this run of 2 s, for the interval is 90 s"), 0u) << page.verdict;
+    const auto& rows = page.sections.front().tables.front().rows;
+    ASSERT_EQ(rows.size(), 1u) << "with nothing to correct all are equal, the gyro that is never switched among them";
+    EXPECT_EQ(rows[0][1], "9 variants, all equal here");
+    EXPECT_EQ(figure(page, "angle-error")->caption.find("sawtooth"), std::string::npos);
+    EXPECT_EQ(figure(page, "sum-of-errors"), nullptr);
+}
+
+TEST(RunPage, of_a_run_with_a_fault_names_it_and_what_the_core_noticed) {
+    study::RunTask task;
+    task.config.run.duration_s = 4.0;
+    task.config.faults = {.kind = {twin::FaultKind::laser_off}, .at_s = {2.0}, .duration_s = {0.5}, .size = {0.0}};
+    const auto result = study::run(task);
+    const auto page = study::run_page(task.config, result);
+    EXPECT_EQ(page.verdict.find("With a fault (laser_off from 2 s to 2.5 s): "), 0u) << page.verdict;
+    ASSERT_EQ(page.sections.at(1).heading, "Faults");
+    const auto& noticed = page.sections[1].tables.at(1).rows;
+    const auto lost = std::ranges::find(noticed, "light_lost", [](const auto& row) { return row.front(); });
+    ASSERT_NE(lost, noticed.end());
+    EXPECT_EQ((*lost)[1], "2");
+    EXPECT_GE(std::stod((*lost)[2]), 0.4);
+    EXPECT_EQ(figure(page, "angle-error")->bands.at(0).name, "laser_off");
+}
+
+TEST(RunPage, says_how_it_was_made) {
+    study::RunTask task;
+    task.config.run.duration_s = 2.0;
+    task.config.run.seed = 7;
+    const auto page = study::run_page(task.config, study::run(task));
+    EXPECT_NE(page.sections.back().paragraphs.front().find("seed 7"), std::string::npos);
+    EXPECT_EQ(page.sections.back().code, "run.duration_s = 2\nrun.seed = 7\n");
 }
 
 }  // namespace

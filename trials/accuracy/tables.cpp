@@ -217,14 +217,12 @@ report::Section criteria_table(const Accuracy& accuracy) {
     };
     Rows rows;
     for (const Criterion& c : accuracy.criteria) rows.push_back({c.table, c.wanted, c.got, name_of(c.verdict)});
-    report::Section s = section(
+    return section(
         "Wanted and got",
         fmt::format("Of {} limits {} are met, {} are missed, and {} are exceeded by less than two standard "
                     "errors (\"within chance\").",
                     accuracy.criteria.size(), n_of(Verdict::met), n_of(Verdict::missed), n_of(Verdict::within_chance)),
         {"table", "wanted", "got", "met"}, std::move(rows));
-    s.tables[0].prose = true;
-    return s;
 }
 
 void add_filled(std::vector<report::Section>& sections, report::Section section) {

@@ -10,6 +10,7 @@
 namespace zlg::paper {
 
 struct Paper {
+    config::Config config;  // of the gyro
     std::vector<PaperItem> items;
     std::vector<Claim> claims;
     double chi2_per_dof = 0.0;  // of all points measured on the twin, against theory

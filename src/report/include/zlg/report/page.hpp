@@ -1,5 +1,8 @@
 #pragma once
-// One self-contained HTML page: no script, no style sheet, no picture from outside.
+// One self-contained HTML page: nothing comes from outside. It can be read and printed without its script, which adds values
+// under the pointer, zoom, series on and off, and values as CSV.
+//
+// Texts are plain: the page escapes them and sets numbers as in print, "-1.5e-3" as a minus, a factor and a power of ten.
 
 #include <string>
 #include <vector>
@@ -12,21 +15,22 @@ namespace zlg::report {
 struct Table {
     std::string caption;
     std::vector<std::string> header;
-    std::vector<std::vector<std::string>> rows{};  // text; the first column is left-aligned, the others right-aligned
-    bool prose = false;                            // every column is left-aligned text that wraps
+    std::vector<std::vector<std::string>> rows{};  // a column of nothing but numbers is right-aligned; others wrap
 };
 
 struct Section {
     std::string heading;
-    std::vector<std::string> paragraphs{};  // plain text, escaped by the page
+    std::vector<std::string> paragraphs{};
     std::vector<Table> tables{};
     std::vector<Figure> figures{};
     std::vector<Diagram> diagrams{};  // drawn before the figures, numbered with them
+    std::string code{};               // lines to copy, shown as they are, last
 };
 
 struct Page {
     std::string title;
-    std::string lead;  // one or two sentences under the title
+    std::string verdict;  // the result in one sentence, the first that is read
+    std::string lead;     // one or two sentences under it
     std::vector<Section> sections{};
     bool numbered = true;  // false where titles and captions bring numbers of their own
 };

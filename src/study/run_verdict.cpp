@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <zlg/report/number_text.hpp>
+
+#include "run_view.hpp"
+
+namespace zlg::study {
+namespace {
+
+using report::short_number;
+
+// "1 switch", "40 switches"
+std::string switches(std::size_t n) { return fmt::format("{} {}", n, n == 1 ? "switch" : "switches"); }
+
+const VariantResult& configured(const RunResult& result) { return result.variants.back(); }
+
+// Of an angle whose switches, if there were any, are said already.
+std::string end_of(const RunResult& result) {
+    return fmt::format("the angle is false by {} arcsec after {} s",
+                       short_number(configured(result).angle_error_arcsec), short_number(duration_s(result)));
+}
+
+std::string without_switch(const config::Config& config, const RunResult& result) {
+    if (result.tally.failed > 0)
+        return fmt::format("None of {} succeeded: {}", switches(static_cast<std::size_t>(result.tally.failed)),
+                           end_of(result));
+    const bool is_due = config.switching.interval_s < duration_s(result);
+    const std::string why = config.switching.schedule == config::Schedule::fixed && !is_due
+                                ? fmt::format(", for the interval is {} s", short_number(config.switching.interval_s))
+                                : "";
+    return fmt::format("No switch in this run of {} s{}: there is nothing to correct, and {}",
+                       short_number(duration_s(result)), why, end_of(result));
+}
+
+std::string with_switches(const RunResult& result) {
+    const VariantResult& best = configured(result);
+    const VariantResult* as_read = result.variant("switching");
+    std::string text = switches(result.switches.size());
+    if (best.unrepaired > 0) text += fmt::format(", {} with a gap that no bridge repairs", best.unrepaired);
+    if (result.tally.failed > 0) text += fmt::format(", {} more failed", result.tally.failed);
+    if (!best.switch_error) return text + "; none can be judged: " + end_of(result);
+    text += fmt::format("; a switch costs {} arcsec rms as configured", short_number(best.switch_error->rms_arcsec));
+    if (as_read != nullptr && as_read->switch_error)
+        text += fmt::format(", {} without correction", short_number(as_read->switch_error->rms_arcsec));
+    return text;
+}
+
+}  // namespace
+
+double duration_s(const RunResult& result) { return static_cast<double>(result.ticks) * result.tick_s; }
+
+std::vector<std::string> faults_of(const config::Config& config) {
+    const config::Faults& f = config.faults;
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < std::min(f.kind.size(), f.at_s.size()); ++i)
+        out.push_back(fmt::format("{} from {} s to {} s", twin::facts(f.kind[i]).name, short_number(f.at_s[i]),
+                                  short_number(f.at_s[i] + (i < f.duration_s.size() ? f.duration_s[i] : 0.0))));
+    if (f.random_per_hour > 0.0)
+        out.push_back(fmt::format("faults at random, {} an hour", short_number(f.random_per_hour)));
+    return out;
+}
+
+std::string run_verdict(const config::Config& config, const RunResult& result) {
+    const std::vector<std::string> faults = faults_of(config);
+    std::string text = result.switches.empty() ? without_switch(config, result) : with_switches(result);
+    if (!faults.empty()) {
+        const bool says_end = text.ends_with(end_of(result));
+        text = fmt::format("With a fault ({}): {}{}", fmt::join(faults, ", "), text,
+                           says_end ? "" : "; " + end_of(result));
+    }
+    return text + ".";
+}
+
+std::vector<std::vector<const VariantResult*>> equal_variants(const RunResult& result) {
+    const auto same = [](const VariantResult& a, const VariantResult& b) {
+        return a.drift_arcsec_s == b.drift_arcsec_s && a.angle_error_arcsec == b.angle_error_arcsec &&
+               std::ranges::equal(a.switches, b.switches, {}, &SwitchError::error_arcsec, &SwitchError::error_arcsec);
+    };
+    std::vector<std::vector<const VariantResult*>> groups;
+    for (const VariantResult& v : result.variants) {
+        const auto group = std::ranges::find_if(groups, [&](const auto& g) { return same(*g.front(), v); });
+        if (group == groups.end())
+            groups.push_back({&v});
+        else
+            group->push_back(&v);
+    }
+    return groups;
+}
+
+}  // namespace zlg::study

@@ -1,0 +1,39 @@
+#pragma once
+// Parts of the page of a run: its figures and its sentences.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <zlg/config/config.hpp>
+#include <zlg/report/page.hpp>
+#include <zlg/study/run.hpp>
+
+namespace zlg::study {
+
+// Of the whole run.
+[[nodiscard]] report::Figure sawtooth_figure(const config::Config& config, const RunResult& result);
+[[nodiscard]] report::Figure sum_figure(const RunResult& result);
+[[nodiscard]] report::Figure error_deviation_figure(const RunResult& result);
+
+// Of one switch.
+[[nodiscard]] report::Figure magnified_figure(const RunResult& result);
+[[nodiscard]] report::Figure detuning_figure(const RunResult& result);
+[[nodiscard]] report::Figure piezo_figure(const RunResult& result);
+
+// Of all switches.
+[[nodiscard]] report::Figure error_size_figure(const RunResult& result);
+[[nodiscard]] report::Figure switch_error_figure(const RunResult& result);
+
+[[nodiscard]] double duration_s(const RunResult& result);
+
+// The result in one sentence.
+[[nodiscard]] std::string run_verdict(const config::Config& config, const RunResult& result);
+
+// "laser_off from 20 s to 25 s" and so on; empty where the configuration has no fault.
+[[nodiscard]] std::vector<std::string> faults_of(const config::Config& config);
+
+// Variants of the same drift, error and switches, in the order of the run. They are equal where there was nothing in which they differ.
+[[nodiscard]] std::vector<std::vector<const VariantResult*>> equal_variants(const RunResult& result);
+
+}  // namespace zlg::study

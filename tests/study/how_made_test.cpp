@@ -1,0 +1,33 @@
+#include <gtest/gtest.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/study/how_made.hpp>
+
+namespace {
+
+using namespace zlg;
+
+TEST(HowMade, defaults_need_no_lines) {
+    EXPECT_EQ(study::own_settings({}), "");
+    const auto section = study::how_made("run", {});
+    EXPECT_EQ(section.code, "");
+    EXPECT_NE(section.paragraphs.at(0).find("defaults"), std::string::npos);
+}
+
+TEST(HowMade, its_lines_read_back_to_the_same_configuration) {
+    config::Config asked;
+    for (const char* setting : {"run.seed=9", "motion.kind=sine", "faults.kind=[\"laser_off\"]", "faults.at_s=[1.5]",
+                                "faults.duration_s=[0.25]", "faults.size=[0]", "compensation.bridge=linear"})
+        config::apply_set(asked, setting);
+    config::Config again;
+    config::apply_toml(again, study::how_made("run", asked).code, "made.toml");
+    EXPECT_EQ(config::to_toml(again), config::to_toml(asked));
+}
+
+TEST(HowMade, names_what_was_read) {
+    const auto text = study::how_made("analyze FILE", {}, "gyro.csv").paragraphs.at(0);
+    EXPECT_NE(text.find("of gyro.csv"), std::string::npos);
+    EXPECT_EQ(text.find("seed"), std::string::npos) << "nothing was simulated";
+}
+
+}  // namespace
