@@ -156,7 +156,7 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
         axis.fit = noise::fit_noise_in_place(
             rates, record.rate_hz, {.least_known_ratio = task.config.least_known_ratio, .threads = task.threads});
         if (!axis.fit->terms.sines.empty()) axis.mean_arcsec_s += mean_of(rates) - mean;
-        if (axis.modes || !axis.fit->terms.sines.empty())
+        if (task.with_page && (axis.modes || !axis.fit->terms.sines.empty()))
             axis.spectrum_left = noise::welch_spectrum(rates, record.rate_hz, piece_of(rates.size()));
     } catch (const deviations::SeriesError& error) {
         if (axis.fit) return;
@@ -185,10 +185,10 @@ AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     axis.is_error = record.is_error;
     axis.n_samples = std::ssize(record.rates_arcsec_s);
     count_known(record, axis);
-    axis.time_bins = time_bins_of(record);
+    if (task.with_page) axis.time_bins = time_bins_of(record);
     take_curves(task, record, axis);
     take_modes(task, record, axis);
-    take_spectra(record, axis);
+    if (task.with_page) take_spectra(record, axis);
     take_fit(task, record, axis);
     axis.mean_sigma_arcsec_s = sigma_of_mean(axis);
     axis.readouts = readouts_of(axis);

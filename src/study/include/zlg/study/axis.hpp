@@ -65,7 +65,7 @@ struct AxisResult {
     std::vector<Readout> readouts;
     std::optional<noise::ModeSplit> modes;
     std::vector<deviations::DeviationCurve> mode_curves;  // mode +1, mode -1, with the magnetic part taken out
-    std::vector<TimeBin> time_bins;
+    std::vector<TimeBin> time_bins;  // empty without a page, as the spectra are
     std::vector<Gap> gaps;  // the first `max_gaps`
     noise::Spectrum spectrum;
     noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
@@ -77,6 +77,7 @@ struct AnalysisTask {
     config::Analysis config;
     std::int64_t settling_samples = 20;  // after a switch
     int threads = 1;
+    bool with_page = true;  // time bins and spectra too, which only the page shows
 };
 
 }  // namespace zlg::study
