@@ -49,8 +49,12 @@ nlohmann::json json_of(const logs::ForeignLook& look) {
         columns.push_back(
             {{"number", column.number}, {"name", column.name}, {"first", column.first}, {"may_be", look.may_be[c]}});
     }
-    return {{"file", look.table.path}, {"is", look.table.nature}, {"columns", columns},
-            {"notes", look.table.notes}, {"said", look.said}, {"missing", look.missing},
+    return {{"file", look.table.path},
+            {"is", look.table.nature},
+            {"columns", columns},
+            {"notes", look.table.notes},
+            {"said", look.said},
+            {"missing", look.missing},
             {"makes", look.makes == logs::Makes::raw ? "raw" : "angles"}};
 }
 
@@ -77,8 +81,9 @@ std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& loo
 std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& look) {
     const logs::ImportedAxes made = logs::imported_axes(look);
     if (made.axes.size() != 1)
-        throw UsageError{fmt::format("{}: {} axes; an angle log holds one: --map axis=COLUMN (zlg analyze takes several)",
-                                     options.file, made.axes.size())};
+        throw UsageError{
+            fmt::format("{}: {} axes; an angle log holds one: --map axis=COLUMN (zlg analyze takes several)",
+                        options.file, made.axes.size())};
     note_all(options, made.notes);
     const logs::ImportedAxis& axis = made.axes.front();
     complain(fmt::format("note: {}: {}, {}", name_of_file(options.file), axis.name, axis.holds));
@@ -136,7 +141,8 @@ void print_mapping_keys() {
 void add_import(CLI::App& program) {
     const auto options = std::make_shared<ImportOptions>();
     CLI::App* verb = program.add_subcommand(
-        "import", "a file of another program as a log; without --out it only says what it understood, and what is missing");
+        "import",
+        "a file of another program as a log; without --out it only says what it understood, and what is missing");
     verb->add_option("FILE", options->file, "text, HDF5, MATLAB, NumPy, or rows of doubles")->required();
     add_mapping_options(*verb, *options);
     verb->add_option("--write-mapping", options->write_mapping,

@@ -17,10 +17,9 @@ namespace zlg::logs {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> raw_names{"half",    "bias_sign",           "mode",    "counts",
-                                                     "loop_closed", "valid",         "detuning_lambda", "detuning_sq_lambda2",
-                                                     "piezo_v", "temperature_c",       "fringe",  "span",
-                                                     "lit"};
+constexpr std::array<std::string_view, 13> raw_names{
+    "half",    "bias_sign",     "mode",   "counts", "loop_closed", "valid", "detuning_lambda", "detuning_sq_lambda2",
+    "piezo_v", "temperature_c", "fringe", "span",   "lit"};
 
 bool all_of_known(const ForeignColumn& column, bool (*holds)(double)) {
     return std::ranges::all_of(column.values, [holds](double v) { return std::isnan(v) || holds(v); });
@@ -62,7 +61,8 @@ void take_raw_names(ForeignLook& look) {
 
 void check_raw(ForeignLook& look) {
     const Mapping& m = look.mapping;
-    if (!m.has("bias_sign")) look.missing.push_back("bias_sign=COLUMN or alternating:1 or alternating:-1 (the first row's)");
+    if (!m.has("bias_sign"))
+        look.missing.push_back("bias_sign=COLUMN or alternating:1 or alternating:-1 (the first row's)");
     if (!m.has("mode")) look.missing.push_back("mode=COLUMN or always:1 or always:-1");
     if (!m.has("loop_closed") && !m.has("loop_open"))
         look.missing.push_back("loop_closed=COLUMN (or loop_open=COLUMN), or always:1 where the loop was never opened");
@@ -105,8 +105,8 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     for (const std::string& axis : m.axes()) {
         const ForeignColumn& column = column_named(look.table, axis);
         if (!column.is_number)
-            throw MappingError(fmt::format("{}: axis = '{}': {} holds words; allowed are numbers", look.table.path, axis,
-                                           described(column)));
+            throw MappingError(fmt::format("{}: axis = '{}': {} holds words; allowed are numbers", look.table.path,
+                                           axis, described(column)));
         if (!unit) unit = unit_in_name(column.name);
     }
     if (!m.has("unit") && unit && !m.axes().empty()) {
@@ -120,7 +120,8 @@ void check_axes(ForeignLook& look, std::int64_t times) {
         else
             look.missing.push_back("holds=rate, increment or angle");
     }
-    if (unit && unit->of_counts && !m.has("scale_arcsec")) look.missing.push_back("scale_arcsec=... (what a count is worth)");
+    if (unit && unit->of_counts && !m.has("scale_arcsec"))
+        look.missing.push_back("scale_arcsec=... (what a count is worth)");
     if (const std::string clock = missing_of_clock(look.table, m); !clock.empty()) look.missing.push_back(clock);
 }
 

@@ -17,10 +17,10 @@ namespace zlg::logs {
 // Arrays of a file that holds some, as they lie in memory.
 struct ForeignArray {
     std::string name;
-    std::string unit;            // empty: not said
-    std::size_t rows = 0;        // of a matrix the longer side
+    std::string unit;      // empty: not said
+    std::size_t rows = 0;  // of a matrix the longer side
     std::size_t columns = 1;
-    bool rows_follow = true;     // the values of a row lie side by side; else those of a column do
+    bool rows_follow = true;  // the values of a row lie side by side; else those of a column do
     std::vector<double> values;
 };
 

@@ -49,8 +49,8 @@ ForeignTable foreign_table(const std::string& path, const Mapping& mapping) {
     if (nature.starts_with("a NumPy array")) return numpy_table_of(path);
     if (nature.starts_with("binary numbers of 8 bytes")) return doubles_table_of(path);
     if (!nature.empty())
-        throw FormatError(fmt::format("{}: is {}; allowed are text, HDF5, MATLAB, a NumPy array (.npy), or rows of doubles",
-                                      path, nature));
+        throw FormatError(fmt::format(
+            "{}: is {}; allowed are text, HDF5, MATLAB, a NumPy array (.npy), or rows of doubles", path, nature));
     return text_table_of(path, mapping);
 }
 
@@ -93,23 +93,29 @@ ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
         if (n == most->second && rows != most->first)
             throw MappingError(fmt::format("{}: holds arrays of {} rows and of {} rows; say which by --map table=NAME",
                                            path, std::min(rows, most->first), std::max(rows, most->first)));
-    ForeignTable table{.path = path, .nature = nature, .columns = {}, .notes = {}, .n_rows = static_cast<std::int64_t>(most->first), .read = {}};
+    ForeignTable table{.path = path,
+                       .nature = nature,
+                       .columns = {},
+                       .notes = {},
+                       .n_rows = static_cast<std::int64_t>(most->first),
+                       .read = {}};
     for (ForeignArray& array : arrays) {
         if (array.rows != most->first) {
             if (table.notes.size() < 10)
-                table.notes.push_back(fmt::format("'{}' is left out: it has {}, not {}", text::excerpt(array.name, 60, ' '),
-                                                  count_of(array.rows, "row"), most->first));
+                table.notes.push_back(fmt::format("'{}' is left out: it has {}, not {}",
+                                                  text::excerpt(array.name, 60, ' '), count_of(array.rows, "row"),
+                                                  most->first));
             continue;
         }
         for (std::size_t c = 0; c < array.columns; ++c) {
-            ForeignColumn column{.number = std::ssize(table.columns) + 1, .name = array.name, .first = {}, .values = {}};
+            ForeignColumn column{
+                .number = std::ssize(table.columns) + 1, .name = array.name, .first = {}, .values = {}};
             if (array.columns > 1) column.name += fmt::format("{}{}", array.name.empty() ? "" : "_", c + 1);
             if (array.columns > 1 && array.name.empty()) column.name.clear();
             if (!array.unit.empty()) column.name += fmt::format(" [{}]", array.unit);
             column.values.resize(array.rows);
             for (std::size_t r = 0; r < array.rows; ++r)
-                column.values[r] =
-                    array.values[array.rows_follow ? r * array.columns + c : c * array.rows + r];
+                column.values[r] = array.values[array.rows_follow ? r * array.columns + c : c * array.rows + r];
             column.first = fmt::format("{}", column.values.front());
             table.columns.push_back(std::move(column));
         }

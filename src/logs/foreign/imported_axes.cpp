@@ -31,16 +31,17 @@ void check_kind(const ForeignLook& look) {
     const AngleUnit unit = unit_named(look.mapping.text("unit")).value();
     const bool is_rate = look.mapping.text("holds") == "rate";
     if (is_rate == (unit.kind == UnitKind::rate)) return;
-    throw MappingError(fmt::format("{}: holds = {} and unit = {}; allowed is {}", look.table.path, look.mapping.text("holds"),
-                                   unit.name, is_rate ? "the unit of a rate" : "the unit of an angle, or holds=rate"));
+    throw MappingError(fmt::format("{}: holds = {} and unit = {}; allowed is {}", look.table.path,
+                                   look.mapping.text("holds"), unit.name,
+                                   is_rate ? "the unit of a rate" : "the unit of an angle, or holds=rate"));
 }
 
 ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock& clock) {
     const std::string holds = look.mapping.text("holds");
     const double arcsec = arcsec_of(look.mapping);
     if (holds != "angle" && rises_as_time(column.values))
-        throw MappingError(fmt::format("{}, {} rises steadily and is no {}; allowed is another axis, or holds=angle", look.table.path,
-                                       described(column), holds));
+        throw MappingError(fmt::format("{}, {} rises steadily and is no {}; allowed is another axis, or holds=angle",
+                                       look.table.path, described(column), holds));
     for (std::size_t k = 0; k < column.values.size(); ++k) {
         column.values[k] *= arcsec;
         if (!std::isnan(column.values[k]) && !(std::fabs(column.values[k]) <= largest))
@@ -48,11 +49,16 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
                                           described(column), k + 1, column.values[k]));
     }
     if (clock.times) fill_holes(column.values, *clock.times);
-    ImportedAxis axis{.name = described(column), .holds = words_of(look.mapping), .rate_hz = 1.0 / clock.step_s, .rates_arcsec_s = {}, .phase_arcsec = {}};
+    ImportedAxis axis{.name = described(column),
+                      .holds = words_of(look.mapping),
+                      .rate_hz = 1.0 / clock.step_s,
+                      .rates_arcsec_s = {},
+                      .phase_arcsec = {}};
     if (holds == "angle") {
         axis.phase_arcsec = std::move(column.values);
         const std::vector<double>& angle = axis.phase_arcsec;
-        for (std::size_t k = 1; k < angle.size(); ++k) axis.rates_arcsec_s.push_back((angle[k] - angle[k - 1]) * axis.rate_hz);
+        for (std::size_t k = 1; k < angle.size(); ++k)
+            axis.rates_arcsec_s.push_back((angle[k] - angle[k - 1]) * axis.rate_hz);
     } else {
         axis.rates_arcsec_s = std::move(column.values);
         if (holds == "increment")
@@ -72,8 +78,9 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     for (const std::string& axis : look.mapping.axes()) wanted.push_back(column_named(look.table, axis).number);
     const std::int64_t times = time_column(look.table, look.mapping);
     if (std::ranges::find(wanted, times) != wanted.end())
-        throw MappingError(fmt::format("{}: axis = {}: this column holds the times of the rows; allowed is another, or time=none",
-                                       look.table.path, times));
+        throw MappingError(
+            fmt::format("{}: axis = {}: this column holds the times of the rows; allowed is another, or time=none",
+                        look.table.path, times));
     TextTable read = look.table.read(wanted, times);
     RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
     if (clock.times && clock.times->n_missing > max_missing)
@@ -91,7 +98,10 @@ std::vector<core::AngleRow> angle_rows(const ImportedAxis& axis) {
         const double rate = axis.rates_arcsec_s[k];
         const bool known = !std::isnan(rate);
         const double turn = known ? rate / axis.rate_hz : 0.0;
-        rows[k] = {.tick = static_cast<std::int64_t>(k), .dtheta_arcsec = turn, .dtheta_final_arcsec = turn, .sigma_arcsec = unknown};
+        rows[k] = {.tick = static_cast<std::int64_t>(k),
+                   .dtheta_arcsec = turn,
+                   .dtheta_final_arcsec = turn,
+                   .sigma_arcsec = unknown};
         if (!known) rows[k].flags = core::flag_invalid | core::flag_unrepaired;
     }
     // Between two angles that are known the turn is known, and not where it happened.

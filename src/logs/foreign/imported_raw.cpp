@@ -36,9 +36,9 @@ class Sources {
 public:
     explicit Sources(const ForeignLook& look) : look_{look}, path_{look.table.path} {
         std::vector<std::int64_t> wanted;
-        for (const char* key : {"half", "bias_sign", "mode", "counts", "loop_closed", "loop_open", "valid", "detuning_lambda",
-                                "detuning_sq_lambda2", "piezo_v", "temperature_c", "fringe", "span", "lit", "coil_ua",
-                                "edge_offset_ticks"}) {
+        for (const char* key : {"half", "bias_sign", "mode", "counts", "loop_closed", "loop_open", "valid",
+                                "detuning_lambda", "detuning_sq_lambda2", "piezo_v", "temperature_c", "fringe", "span",
+                                "lit", "coil_ua", "edge_offset_ticks"}) {
             if (!look.mapping.has(key)) continue;
             const std::string said = look.mapping.text(key);
             Source source{.key = key, .values = {}, .from = said};
@@ -52,7 +52,9 @@ public:
             all_.push_back(std::move(source));
         }
         const std::int64_t times = time_column(look.table, look.mapping);
-        if (wanted.empty()) throw MappingError(fmt::format("{}: counts = '{}'; allowed is a column", path_, look.mapping.text("counts")));
+        if (wanted.empty())
+            throw MappingError(
+                fmt::format("{}: counts = '{}'; allowed is a column", path_, look.mapping.text("counts")));
         read_ = look.table.read(wanted, times);
         n_ = read_.columns.front().values.size();
         std::size_t next = 0;
@@ -103,9 +105,10 @@ private:
         if (!plus) {
             for (std::size_t k = 0; k < values.size(); ++k)
                 if (!std::isnan(values[k]) && std::fabs(values[k]) != 1.0)
-                    throw MappingError(fmt::format("{}, {}, row {}: {}; allowed are +1 and -1, or --map {}=... the value that stands "
-                                                   "for +1",
-                                                   path_, source.from, k + 1, values[k], plus_key));
+                    throw MappingError(
+                        fmt::format("{}, {}, row {}: {}; allowed are +1 and -1, or --map {}=... the value that stands "
+                                    "for +1",
+                                    path_, source.from, k + 1, values[k], plus_key));
             return;
         }
         double other = missing;
@@ -131,10 +134,11 @@ struct Halves {
 };
 
 [[noreturn]] void refuse_whole_ticks(const std::string& path) {
-    throw FormatError(fmt::format("{}: its rows are not halves of a bias period, and counts of a whole one cannot be parted into "
-                                  "halves; as an angle: --map axis=COLUMN --map holds=increment --map unit=counts, without "
-                                  "counts",
-                                  path));
+    throw FormatError(
+        fmt::format("{}: its rows are not halves of a bias period, and counts of a whole one cannot be parted into "
+                    "halves; as an angle: --map axis=COLUMN --map holds=increment --map unit=counts, without "
+                    "counts",
+                    path));
 }
 
 // By the signs of the bias: a half ends where they turn. Rows that are missing have none.
@@ -155,17 +159,19 @@ Halves halves_by_signs(const std::vector<double>& sign, const std::string& path)
         const std::size_t half = (k + halves.rows - halves.begin) / halves.rows + 1;
         const double due = (half + parity) % 2 == 0 ? first : -first;
         if (std::isnan(sign[k]) || sign[k] == due) continue;
-        throw FormatError(fmt::format(
-            "{}, row {}: bias_sign = {:+}; expected {:+}: the signs turn every {} row{} elsewhere, so that a row is missing or "
-            "stands twice before this one, and no column of times or numbers of halves says which",
-            path, k + 1, sign[k], due, halves.rows, halves.rows == 1 ? "" : "s"));
+        throw FormatError(
+            fmt::format("{}, row {}: bias_sign = {:+}; expected {:+}: the signs turn every {} row{} elsewhere, so that "
+                        "a row is missing or "
+                        "stands twice before this one, and no column of times or numbers of halves says which",
+                        path, k + 1, sign[k], due, halves.rows, halves.rows == 1 ? "" : "s"));
     }
     return halves;
 }
 
 class Builder {
 public:
-    Builder(const ForeignLook& look, ImportedRaw& made) : look_{look}, path_{look.table.path}, from_{look}, made_{made} {}
+    Builder(const ForeignLook& look, ImportedRaw& made)
+        : look_{look}, path_{look.table.path}, from_{look}, made_{made} {}
 
     void build() {
         check_columns();
@@ -176,8 +182,8 @@ public:
         find_halves();
         settle_tick();
         if (halves_.begin > 0)
-            made_.notes.push_back(fmt::format("the first {} row{} a half that began before the file, and left out", halves_.begin,
-                                              halves_.begin == 1 ? " is" : "s are"));
+            made_.notes.push_back(fmt::format("the first {} row{} a half that began before the file, and left out",
+                                              halves_.begin, halves_.begin == 1 ? " is" : "s are"));
         const std::size_t n = (from_.n() - halves_.begin) / halves_.rows;
         const std::size_t rest = (from_.n() - halves_.begin) % halves_.rows;
         if (rest > 0) made_.notes.push_back(fmt::format("the last {} rows are no whole half, and left out", rest));
@@ -189,7 +195,8 @@ public:
 private:
     void check_columns() const {
         if (!from_.is_column("counts"))
-            throw MappingError(fmt::format("{}: counts = '{}'; allowed is a column", path_, look_.mapping.text("counts")));
+            throw MappingError(
+                fmt::format("{}: counts = '{}'; allowed is a column", path_, look_.mapping.text("counts")));
     }
 
     void fill_by_numbers() {
@@ -197,7 +204,8 @@ private:
         RowTimes times{.step = 1.0, .tolerance = 0.0, .holes = {}, .n_missing = 0};
         for (std::size_t k = 0; k < number.size(); ++k) {
             const bool whole = number[k] == std::floor(number[k]) && std::fabs(number[k]) < 1e15;
-            if (!whole || (k > 0 && !(number[k] > number[k - 1]))) from_.refuse("half", k, "a whole number above that of the row before");
+            if (!whole || (k > 0 && !(number[k] > number[k - 1])))
+                from_.refuse("half", k, "a whole number above that of the row before");
             if (k == 0 || number[k] - number[k - 1] == 1.0) continue;
             times.holes.push_back({k - 1, static_cast<std::int64_t>(number[k] - number[k - 1]) - 1});
             times.n_missing += times.holes.back().n_missing;
@@ -240,9 +248,11 @@ private:
 
     void fill(const RowTimes& times, const char* by) {
         if (times.n_missing > max_missing)
-            throw FormatError(fmt::format("{}: {} rows are missing by {}; allowed is {}", path_, times.n_missing, by, max_missing));
+            throw FormatError(
+                fmt::format("{}: {} rows are missing by {}; allowed is {}", path_, times.n_missing, by, max_missing));
         if (times.n_missing > 0)
-            made_.notes.push_back(fmt::format("{} rows are missing by {}; they become halves with valid 0", times.n_missing, by));
+            made_.notes.push_back(
+                fmt::format("{} rows are missing by {}; they become halves with valid 0", times.n_missing, by));
         from_.fill(times);
     }
 
@@ -261,9 +271,10 @@ private:
         const double rows = *tick / 2.0 / clock_.step_s;
         if (rows < 0.75) refuse_whole_ticks(path_);
         if (std::fabs(rows - 1.0) > 1e-3)
-            throw FormatError(fmt::format("{}: a half of {} s has {:.6g} rows of {:.6g} s, and nothing says where halves begin; allowed "
-                                          "is a column bias_sign",
-                                          path_, *tick / 2.0, rows, clock_.step_s));
+            throw FormatError(fmt::format(
+                "{}: a half of {} s has {:.6g} rows of {:.6g} s, and nothing says where halves begin; allowed "
+                "is a column bias_sign",
+                path_, *tick / 2.0, rows, clock_.step_s));
     }
 
     // What is said and what the times say must agree.
@@ -271,14 +282,16 @@ private:
         const auto said = look_.mapping.real("tick_s");
         const double by_times_s = 2.0 * static_cast<double>(halves_.rows) * clock_.step_s;
         if (!said && !knows_step_)
-            throw MappingError(fmt::format("{}: is missing: --map tick_s=... (the whole bias period, two halves)", path_));
+            throw MappingError(
+                fmt::format("{}: is missing: --map tick_s=... (the whole bias period, two halves)", path_));
         tick_s_ = said.value_or(by_times_s);
         if (said && knows_step_ && std::fabs(by_times_s / *said - 1.0) > 1e-3)
-            throw FormatError(fmt::format("{}: tick_s = {}, and two halves of {} row{} of {:.6g} s make {:.6g} s; allowed is one value{}", path_,
-                                          *said, halves_.rows, halves_.rows == 1 ? "" : "s", clock_.step_s, by_times_s,
-                                          halves_.rows == 1 && std::fabs(by_times_s / *said - 2.0) < 1e-2
-                                              ? "; counts of whole ticks cannot be parted into halves"
-                                              : ""));
+            throw FormatError(fmt::format(
+                "{}: tick_s = {}, and two halves of {} row{} of {:.6g} s make {:.6g} s; allowed is one value{}", path_,
+                *said, halves_.rows, halves_.rows == 1 ? "" : "s", clock_.step_s, by_times_s,
+                halves_.rows == 1 && std::fabs(by_times_s / *said - 2.0) < 1e-2
+                    ? "; counts of whole ticks cannot be parted into halves"
+                    : ""));
         if (!said) made_.notes.push_back(fmt::format("tick_s = {} by the times of the rows", tick_s_));
         made_.header.settings = {{"gyro.tick_s", fmt::format("{}", tick_s_)},
                                  {"gyro.scale_arcsec", look_.mapping.text("scale_arcsec")}};
@@ -286,8 +299,9 @@ private:
             made_.notes.push_back(fmt::format("{} rows make a half; their counts are added up", halves_.rows));
         for (const char* key : {"fringe", "span", "coil_ua", "edge_offset_ticks"})
             if (halves_.rows > 1 && from_.find(key) != nullptr)
-                throw FormatError(fmt::format("{}: {} rows make a half, and {} of a part of one is none of the half; leave it out", path_,
-                                              halves_.rows, key));
+                throw FormatError(
+                    fmt::format("{}: {} rows make a half, and {} of a part of one is none of the half; leave it out",
+                                path_, halves_.rows, key));
     }
 
     [[nodiscard]] double whole(const char* key, std::size_t k, double min, double max) const {
@@ -297,9 +311,7 @@ private:
         return value;
     }
 
-    [[nodiscard]] bool flag(const char* key, std::size_t k) const {
-        return whole(key, k, 0.0, 1.0) != 0.0;
-    }
+    [[nodiscard]] bool flag(const char* key, std::size_t k) const { return whole(key, k, 0.0, 1.0) != 0.0; }
 
     core::HalfRecord half_of(std::size_t h) {
         const auto half = static_cast<std::int64_t>(h);

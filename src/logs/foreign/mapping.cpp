@@ -114,8 +114,8 @@ bool takes(const Key& key, const std::string& value) {
 }
 
 [[noreturn]] void refuse_value(const std::string& where, const Key& key, const std::string& value) {
-    throw MappingError(fmt::format("{}: {} = '{}'; allowed is {}", where, key.name, text::excerpt(value, 60, ' '),
-                                   allowed_of(key)));
+    throw MappingError(
+        fmt::format("{}: {} = '{}'; allowed is {}", where, key.name, text::excerpt(value, 60, ' '), allowed_of(key)));
 }
 
 std::string text_of(const toml::node& value) {
@@ -170,7 +170,8 @@ std::string Mapping::toml() const {
                 value += fmt::format("{}{}", value.empty() ? "" : ", ", text::toml_string(axis));
             value = fmt::format("[{}]", value);
         } else {
-            const bool is_number = key.takes == Takes::positive || key.takes == Takes::whole || key.takes == Takes::real;
+            const bool is_number =
+                key.takes == Takes::positive || key.takes == Takes::whole || key.takes == Takes::real;
             value = is_number ? text(key.name) : text::toml_string(text(key.name));
         }
         lines += fmt::format("{} = {}  # {}\n", key.name, value, key.meaning);

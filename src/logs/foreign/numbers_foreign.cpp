@@ -29,7 +29,8 @@ std::string bytes_of(const std::string& path) {
         throw FormatError(fmt::format("{}: {} bytes; allowed is {}", path, size, max_foreign_values * sizeof(double)));
     std::string bytes(size, '\0');
     file.seekg(0);
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) throw IoError(fmt::format("cannot read {}", path));
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
+        throw IoError(fmt::format("cannot read {}", path));
     return bytes;
 }
 
@@ -65,9 +66,10 @@ std::size_t width_of(const std::vector<double>& values) {
 ForeignTable numpy_table_of(const std::string& path) {
     const std::string bytes = bytes_of(path);
     const auto fail = [&](const std::string& what) {
-        throw FormatError(fmt::format("{}: a NumPy array {}; allowed are plain numbers, little-endian, of one or two "
-                                      "dimensions",
-                                      path, what));
+        throw FormatError(
+            fmt::format("{}: a NumPy array {}; allowed are plain numbers, little-endian, of one or two "
+                        "dimensions",
+                        path, what));
     };
     if (bytes.size() < 12) fail("that is cut off");
     const bool is_long = bytes[6] >= 2;
@@ -119,7 +121,8 @@ ForeignTable doubles_table_of(const std::string& path) {
             path, max_width));
     ForeignArray array{.name = {}, .unit = {}, .rows = values.size() / width, .columns = width, .values = {}};
     array.values = std::move(values);
-    ForeignTable table = table_of_arrays(path, fmt::format("doubles without a header, {} to a row", width), {std::move(array)});
+    ForeignTable table =
+        table_of_arrays(path, fmt::format("doubles without a header, {} to a row", width), {std::move(array)});
     if (width == 7 && path.ends_with(".imu"))
         table.notes.push_back(
             "as PSINS writes it, columns 1..3 are increments of angle in rad, 4..6 of velocity, 7 the times in s");

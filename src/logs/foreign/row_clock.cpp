@@ -15,7 +15,7 @@ namespace zlg::logs {
 
 namespace {
 
-const std::map<std::string, double> to_a_second{{"s", 1.0},   {"ms", 1e3},        {"us", 1e6},
+const std::map<std::string, double> to_a_second{{"s", 1.0},  {"ms", 1e3},         {"us", 1e6},
                                                 {"ns", 1e9}, {"min", 1.0 / 60.0}, {"h", 1.0 / 3600.0}};
 
 bool is_numbered(std::span<const double> values) {
@@ -52,10 +52,11 @@ void check_holes(const TextColumn& times, const RowTimes& found, const std::stri
         const double rows = static_cast<double>(to - from) + static_cast<double>(found.holes[h].n_missing);
         const double steps = (t[to] - t[from]) / found.step;
         if (std::fabs(steps - rows) <= 0.6) continue;
-        throw FormatError(fmt::format(
-            "{}, {}: after row {} the times jump from {} to {} and then do not go on evenly, so that they do not say how many rows "
-            "are missing; --map time=none and --map rate_hz=... if none are",
-            path, described(times), row + 1, t[row], t[row + 1]));
+        throw FormatError(
+            fmt::format("{}, {}: after row {} the times jump from {} to {} and then do not go on evenly, so that they "
+                        "do not say how many rows "
+                        "are missing; --map time=none and --map rate_hz=... if none are",
+                        path, described(times), row + 1, t[row], t[row + 1]));
     }
 }
 
@@ -70,9 +71,10 @@ void check_repetitions(const TextColumn& times, const std::string& path) {
         if (t[k] != t[k - 1]) continue;
         const std::size_t from = k > 1 ? k - 2 : 0, to = std::min(k + 1, t.size() - 1);
         if (t[to] - t[from] > (static_cast<double>(to - from) - 0.4) * mean) continue;
-        throw FormatError(fmt::format("{}, {}: row {} has the time {} of the row before it; allowed are times that rise, or --map "
-                                      "time=none with rate_hz if no row stands twice",
-                                      path, described(times), k + 1, t[k]));
+        throw FormatError(
+            fmt::format("{}, {}: row {} has the time {} of the row before it; allowed are times that rise, or --map "
+                        "time=none with rate_hz if no row stands twice",
+                        path, described(times), k + 1, t[k]));
     }
 }
 
@@ -100,7 +102,8 @@ std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) 
     const ForeignColumn& column = table.columns[static_cast<std::size_t>(number - 1)];
     if (known_unit(column.name, column.holds_dates, mapping)) return {};
     if (is_numbered(column.values))
-        return fmt::format("rate_hz=... (rows a second; {} merely numbers them), or time_unit=s, ms, us, ns", described(column));
+        return fmt::format("rate_hz=... (rows a second; {} merely numbers them), or time_unit=s, ms, us, ns",
+                           described(column));
     TextColumn times{.number = column.number, .name = column.name, .values = column.values};
     const auto found = row_times(times, table.path, false);
     if (!found) return fmt::format("time_unit=s, ms, us or ns (of {})", described(column));
@@ -122,7 +125,8 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     clock.times = row_times(times, path, true);
     if (!clock.times) {
         if (!presumed_step_s)
-            throw FormatError(fmt::format("{}, {}: too few rows for a rate; allowed are 3 or more", path, described(times)));
+            throw FormatError(
+                fmt::format("{}, {}: too few rows for a rate; allowed are 3 or more", path, described(times)));
         clock.step_s = *presumed_step_s;
         return clock;
     }
@@ -133,25 +137,28 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     if (unit) {
         const double by_times_s = step / *unit;
         if (presumed_step_s && std::fabs(by_times_s / *presumed_step_s - 1.0) > clock.times->tolerance)
-            throw MappingError(fmt::format("{}, {}: a row is {:.6g} s by its times, {:.6g} s by what is said; allowed is one "
-                                           "value (time_unit=s, ms, us, ns, or time=none)",
-                                           path, described(times), by_times_s, *presumed_step_s));
+            throw MappingError(
+                fmt::format("{}, {}: a row is {:.6g} s by its times, {:.6g} s by what is said; allowed is one "
+                            "value (time_unit=s, ms, us, ns, or time=none)",
+                            path, described(times), by_times_s, *presumed_step_s));
         clock.step_s = presumed_step_s.value_or(simplest(by_times_s, clock.times->tolerance - 1e-3 + 1e-9));
     } else if (presumed_step_s) {
         const std::string why = contradiction(times, *clock.times, 1.0 / *presumed_step_s);
         if (!why.empty())
-            throw MappingError(fmt::format("{}, {}, and a row is {:.6g} s by what is said; allowed is one value (time_unit=s, "
-                                           "ms, us, ns, or time=none)",
-                                           path, why, *presumed_step_s));
+            throw MappingError(
+                fmt::format("{}, {}, and a row is {:.6g} s by what is said; allowed is one value (time_unit=s, "
+                            "ms, us, ns, or time=none)",
+                            path, why, *presumed_step_s));
         if (const std::string name = presumed_unit(times, *clock.times, 1.0 / *presumed_step_s); !name.empty())
             clock.notes.push_back(fmt::format("{} is read as {}, which its name does not say", described(times), name));
         clock.step_s = *presumed_step_s;
     } else {
-        throw MappingError(fmt::format("{}: --map time_unit=s, ms, us or ns is missing, of {}", path, described(times)));
+        throw MappingError(
+            fmt::format("{}: --map time_unit=s, ms, us or ns is missing, of {}", path, described(times)));
     }
     if (std::ranges::adjacent_find(times.values) != times.values.end())
-        clock.notes.push_back(fmt::format("{}: its times repeat, so that a single row that is missing is not seen",
-                                          described(times)));
+        clock.notes.push_back(
+            fmt::format("{}: its times repeat, so that a single row that is missing is not seen", described(times)));
     clock.notes.push_back(fmt::format("{}: a row is {:.9g} s", described(times), clock.step_s));
     if (clock.times->n_missing > 0)
         clock.notes.push_back(missing_in_words(read, path, *clock.times).substr(path.size() + 2));

@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/escape.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "foreign_readers.hpp"
 #include "text_table/dates.hpp"
 #include "text_table/text_reading.hpp"
 #include "text_table/text_recognition.hpp"
+#include "units.hpp"
 
 namespace zlg::logs {
 
@@ -28,18 +31,14 @@ const std::map<std::string, TextSeparator> separators{{"tab", TextSeparator::tab
                                                       {"comma", TextSeparator::comma},
                                                       {"space", TextSeparator::blanks}};
 
-const std::map<char, std::string> separator_words{{'\t', "tabs"},
-                                                  {';', "semicolons"},
-                                                  {'|', "bars"},
-                                                  {',', "commas"},
-                                                  {blanks_separator, "blanks"}};
+const std::map<char, std::string> separator_words{
+    {'\t', "tabs"}, {';', "semicolons"}, {'|', "bars"}, {',', "commas"}, {blanks_separator, "blanks"}};
 
 TextLayout layout_of(const Mapping& mapping) {
     TextLayout layout;
     layout.section = "--map ";
     if (mapping.has("separator")) layout.separator = separators.at(mapping.text("separator"));
-    if (mapping.has("decimal"))
-        layout.mark = mapping.text("decimal") == "comma" ? TextMark::comma : TextMark::point;
+    if (mapping.has("decimal")) layout.mark = mapping.text("decimal") == "comma" ? TextMark::comma : TextMark::point;
     if (mapping.has("comment")) layout.comment = mapping.text("comment");
     if (const auto n = mapping.real("skip_lines")) layout.skip_lines = static_cast<std::int64_t>(*n);
     return layout;
@@ -65,8 +64,17 @@ bool is_numeric(const FirstLines& sample, const Dialect& dialect, std::size_t fi
     return has_number;
 }
 
+// Commas between names of our own, of which one is also a unit.
+bool names_our_columns(const FirstLines& sample) {
+    std::vector<Field> fields;
+    split_fields(sample.lines.front().text, ',', fields);
+    return std::ranges::count_if(fields, [](const Field& field) { return is_raw_key(field.text); }) > 1;
+}
+
 // Recognised by each column of numbers that some way of reading shows: two ways that differ in any of them are refused.
 Dialect dialect_of(const FirstLines& sample, const std::string& path, TextLayout layout) {
+    if (layout.separator == TextSeparator::automatic && names_our_columns(sample))
+        layout.separator = TextSeparator::comma;
     TextLayout any = layout;
     any.columns.clear();
     std::vector<std::size_t> numeric;
@@ -88,10 +96,10 @@ Dialect dialect_of(const FirstLines& sample, const std::string& path, TextLayout
         try {
             const Dialect dialect = recognise_dialect(sample, path, layout);
             if (found && found->separator != dialect.separator)
-                throw MappingError(fmt::format("{}: its columns can be parted by {} or by {}; say which by --map "
-                                               "separator=tab|semicolon|bar|comma|space",
-                                               path, separator_words.at(found->separator),
-                                               separator_words.at(dialect.separator)));
+                throw MappingError(
+                    fmt::format("{}: its columns can be parted by {} or by {}; say which by --map "
+                                "separator=tab|semicolon|bar|comma|space",
+                                path, separator_words.at(found->separator), separator_words.at(dialect.separator)));
             if (!found) found = dialect;
             if (dialect.mark != Mark::none) found->mark = dialect.mark;
         } catch (const FormatError& error) {
@@ -145,6 +153,7 @@ Look look_at(const std::string& path, const Mapping& mapping) {
         if (look.sample.lines.empty()) break;
         try {
             look.dialect = dialect_of(look.sample, path, look.layout);
+            if (names_our_columns(look.sample)) look.layout.separator = TextSeparator::comma;
             bool shows_numbers = false;
             for (std::size_t f = 0; f < look.dialect.n_fields && !shows_numbers; ++f)
                 shows_numbers = is_numeric(look.sample, look.dialect, f);
@@ -159,30 +168,53 @@ Look look_at(const std::string& path, const Mapping& mapping) {
     throw FormatError(reason.empty() ? fmt::format("{}: holds no rows of numbers", path) : reason);
 }
 
+std::string without_brackets(std::string unit) {
+    while (!unit.empty() && std::string_view{"[(<"}.find(unit.front()) != std::string_view::npos) unit.erase(0, 1);
+    while (!unit.empty() && std::string_view{"])>"}.find(unit.back()) != std::string_view::npos) unit.pop_back();
+    return unit;
+}
+
+// Most of the words are units: of angles, of times, or in brackets.
+bool are_units(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 18> others{"s", "ms", "us", "ns", "min", "h",    "hz",    "c", "degc",
+                                                      "k", "v",  "mv", "a",  "ma",  "m/s2", "m/s^2", "g", "m/s"};
+    std::size_t n_units = 0, n_words = 0;
+    for (const std::string& word : words) {
+        if (word.empty() || word == "-") continue;
+        ++n_words;
+        const std::string unit = without_brackets(word);
+        n_units += std::string_view{"[(<"}.find(word.front()) != std::string_view::npos || unit_named(unit) ||
+                           unit.starts_with("\xC2\xB0") ||
+                           std::ranges::find(others, text::lower_case(unit)) != others.end()
+                       ? 1u
+                       : 0u;
+    }
+    return 2 * n_units > n_words;
+}
+
 // Names in one line and units in the next: the reader took the units for the names, or nothing.
 void take_names_above(Look& look) {
     if (look.preamble.empty()) return;
     const std::vector<std::string> above = words_of(look.preamble.back(), look.dialect);
-    if (above.empty() || !std::ranges::all_of(above, [](const std::string& w) { return w.empty() || may_be_name(w); }))
-        return;
-    if (!look.dialect.names.empty() && look.dialect.has_header) look.units = look.dialect.names;
-    if (look.dialect.names.empty() && look.preamble.size() > 1) {
+    if (above.empty()) return;
+    if (look.dialect.has_header && !look.dialect.names.empty()) {
+        if (!are_units(look.dialect.names)) return;
+        look.units = look.dialect.names;
+    } else if (are_units(above) && look.preamble.size() > 1) {
         // Units such as [°/s] are no names for the reader.
         const std::vector<std::string> names = words_of(look.preamble[look.preamble.size() - 2], look.dialect);
-        const bool are_names = !names.empty() && std::ranges::all_of(names, [](const std::string& w) { return may_be_name(w); });
+        const bool are_names =
+            !names.empty() && std::ranges::all_of(names, [](const std::string& w) { return may_be_name(w); });
         if (are_names) {
             look.units = above;
             look.dialect.names = names;
             return;
         }
     }
-    look.dialect.names = above;
-}
-
-std::string without_brackets(std::string unit) {
-    while (!unit.empty() && std::string_view{"[(<"}.find(unit.front()) != std::string_view::npos) unit.erase(0, 1);
-    while (!unit.empty() && std::string_view{"])>"}.find(unit.back()) != std::string_view::npos) unit.pop_back();
-    return unit;
+    if (std::ranges::all_of(above, [](const std::string& w) { return w.empty() || may_be_name(w); }))
+        look.dialect.names = above;
+    else
+        look.units.clear();
 }
 
 ForeignColumn column_of(const Look& look, std::size_t f) {
@@ -202,12 +234,12 @@ ForeignColumn column_of(const Look& look, std::size_t f) {
         if (!column.is_number)
             if (const auto date = date_time(fields[f].text)) {
                 if (!first_date) first_date = date;
-                value = static_cast<double>(date->seconds - first_date->seconds) + date->fraction - first_date->fraction;
+                value =
+                    static_cast<double>(date->seconds - first_date->seconds) + date->fraction - first_date->fraction;
             }
         column.values.push_back(value);
     }
-    column.holds_dates =
-        first_date && std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
+    column.holds_dates = first_date && std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
     return column;
 }
 

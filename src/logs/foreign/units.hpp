@@ -12,7 +12,7 @@ enum class UnitKind { rate, angle };
 struct AngleUnit {
     std::string_view name;
     UnitKind kind = UnitKind::angle;
-    double arcsec = 0.0;    // of one, or arcsec/s
+    double arcsec = 0.0;     // of one, or arcsec/s
     bool of_counts = false;  // times what a count is worth
 };
 

@@ -35,7 +35,8 @@ std::optional<std::int64_t> date(std::string_view& text) {
     std::optional<int> year, month, day;
     if (text.size() > 4 && text[4] == '-') {
         year = digits(text, 4, 4);
-        if (!year || !take(text, '-') || !(month = digits(text, 1, 2)) || !take(text, '-') || !(day = digits(text, 1, 2)))
+        if (!year || !take(text, '-') || !(month = digits(text, 1, 2)) || !take(text, '-') ||
+            !(day = digits(text, 1, 2)))
             return std::nullopt;
     } else {
         if (!(day = digits(text, 1, 2)) || !take(text, '.') || !(month = digits(text, 1, 2)) || !take(text, '.') ||
@@ -62,7 +63,8 @@ std::optional<DateTime> time_of_day(std::string_view& text) {
     if (!take(text, '.') && !take(text, ',')) return time;
     double unit = 0.1;
     std::size_t n = 0;
-    for (; n < text.size() && text[n] >= '0' && text[n] <= '9'; ++n, unit *= 0.1) time.fraction += unit * (text[n] - '0');
+    for (; n < text.size() && text[n] >= '0' && text[n] <= '9'; ++n, unit *= 0.1)
+        time.fraction += unit * (text[n] - '0');
     if (n == 0) return std::nullopt;
     text.remove_prefix(n);
     return time;

@@ -24,9 +24,9 @@ struct ForeignColumn {
 
 struct ForeignTable {
     std::string path;
-    std::string nature;              // what the file is and how it was read
+    std::string nature;  // what the file is and how it was read
     std::vector<ForeignColumn> columns;
-    std::vector<std::string> notes;  // of what was left out
+    std::vector<std::string> notes;      // of what was left out
     std::optional<std::int64_t> n_rows;  // text: not known before it is read
     // Whole columns, and the times of the rows where a column is said to hold them.
     std::function<TextTable(const std::vector<std::int64_t>& wanted, std::int64_t times)> read;

@@ -19,11 +19,11 @@ enum class Makes { raw, axes };
 
 struct ForeignLook {
     ForeignTable table;
-    Mapping mapping;                    // what was said, and what the file says of itself
-    Makes makes = Makes::axes;          // raw: there is a column of counts; else angles or rates of axes
-    std::vector<std::string> said;      // what was understood, a line each
-    std::vector<std::string> missing;   // "unit=deg/s, ..., of 'wz'": what must be given before rows are made
-    std::vector<std::string> may_be;    // of each column
+    Mapping mapping;                   // what was said, and what the file says of itself
+    Makes makes = Makes::axes;         // raw: there is a column of counts; else angles or rates of axes
+    std::vector<std::string> said;     // what was understood, a line each
+    std::vector<std::string> missing;  // "unit=deg/s, ..., of 'wz'": what must be given before rows are made
+    std::vector<std::string> may_be;   // of each column
 };
 
 // errors  as foreign_table(); MappingError: a column that is said is not there.

@@ -65,8 +65,8 @@ struct AxisResult {
     std::vector<Readout> readouts;
     std::optional<noise::ModeSplit> modes;
     std::vector<deviations::DeviationCurve> mode_curves;  // mode +1, mode -1, with the magnetic part taken out
-    std::vector<TimeBin> time_bins;  // empty without a page, as the spectra are
-    std::vector<Gap> gaps;  // the first `max_gaps`
+    std::vector<TimeBin> time_bins;                       // empty without a page, as the spectra are
+    std::vector<Gap> gaps;                                // the first `max_gaps`
     noise::Spectrum spectrum;
     noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
     noise::Spectrogram spectrogram;
