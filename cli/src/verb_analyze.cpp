@@ -91,7 +91,8 @@ void analyze(const AnalyzeOptions& options) {
     const study::AnalysisTask task{.config = input.config.analysis,
                                    .settling_samples = input.config.compensation.relock_ticks,
                                    .threads = options.threads,
-                                   .with_page = !options.out.empty()};
+                                   .with_page = !options.out.empty(),
+                                   .with_mode_curves = options.json || !options.out.empty()};
     study::AnalysisResult result{
         .axes = {}, .earth = {}, .presumed = presumed(options), .tables = std::move(input.tables)};
     Progress progress;

@@ -259,6 +259,10 @@ class Raw(Foreign):
         self.assertEqual(self.imported(self.write("t.csv", by_time), *SCALE, "--map", "tick_s=0.005"), expected)
         by_number = csv_text(kept, facts=False)
         self.assertEqual(self.imported(self.write("n.csv", by_number), "--map", "half=half", *SCALE, "--map", "tick_s=0.005"), expected)
+        broken = by_time.splitlines()
+        cells = broken[100].split(";")
+        broken[100] = ";".join([cells[0], "0.5", *cells[2:]])
+        self.refuse(3, "import", self.write("h.csv", "\n".join(broken) + "\n"), "--out", self.folder / "o.h5", *SCALE, says=("row 100", "counts = 0.5"))
         blind = "".join(f"{r['counts']};{r['bias_sign']}\n" for r in kept)
         self.refuse(3, "import", self.write("b.csv", "counts;bias_sign\n" + blind), "--out", self.folder / "o.h5", *FIXED, *SCALE, "--map",
                     "tick_s=0.005", says=("row 71", "bias_sign"))

@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/imported.hpp>
 
+#include "raw_sources.hpp"
 #include "row_clock.hpp"
 
 namespace zlg::logs {
@@ -16,116 +15,6 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t max_missing = std::int64_t{1} << 26;
-
-struct Source {
-    std::string key;
-    std::vector<double> values;  // of a column; empty: `fixed`
-    double fixed = 0.0;
-    bool alternates = false;
-    std::string from;  // for messages
-};
-
-double value_behind(const std::string& text, std::size_t colon) {
-    double value = 0.0;
-    std::from_chars(text.data() + colon + 1, text.data() + text.size(), value);
-    return value;
-}
-
-// The columns that are mapped, by key, and whole; holes filled.
-class Sources {
-public:
-    explicit Sources(const ForeignLook& look) : look_{look}, path_{look.table.path} {
-        std::vector<std::int64_t> wanted;
-        for (const char* key : {"half", "bias_sign", "mode", "counts", "loop_closed", "loop_open", "valid",
-                                "detuning_lambda", "detuning_sq_lambda2", "piezo_v", "temperature_c", "fringe", "span",
-                                "lit", "coil_ua", "edge_offset_ticks"}) {
-            if (!look.mapping.has(key)) continue;
-            const std::string said = look.mapping.text(key);
-            Source source{.key = key, .values = {}, .from = said};
-            const std::size_t colon = said.find(':');
-            if (said.starts_with("always:") || said.starts_with("alternating:")) {
-                source.fixed = value_behind(said, colon);
-                source.alternates = said.starts_with("alternating:");
-            } else {
-                wanted.push_back(column_named(look.table, said).number);
-            }
-            all_.push_back(std::move(source));
-        }
-        const std::int64_t times = time_column(look.table, look.mapping);
-        if (wanted.empty())
-            throw MappingError(
-                fmt::format("{}: counts = '{}'; allowed is a column", path_, look.mapping.text("counts")));
-        read_ = look.table.read(wanted, times);
-        n_ = read_.columns.front().values.size();
-        std::size_t next = 0;
-        for (Source& source : all_) {
-            if (source.from.starts_with("always:") || source.from.starts_with("alternating:")) continue;
-            source.from = described(read_.columns[next]);
-            source.values = std::move(read_.columns[next++].values);
-        }
-        if (const Source* s = find("mode")) scale_sign(*s, "mode_plus");
-        if (const Source* s = find("bias_sign")) scale_sign(*s, "bias_sign_plus");
-    }
-
-    [[nodiscard]] const Source* find(std::string_view key) const {
-        const auto found = std::ranges::find(all_, key, &Source::key);
-        return found == all_.end() ? nullptr : &*found;
-    }
-    [[nodiscard]] const TextTable& read() const { return read_; }
-    [[nodiscard]] std::size_t n() const { return n_; }
-    [[nodiscard]] bool is_column(std::string_view key) const {
-        const Source* s = find(key);
-        return s != nullptr && !s->values.empty();
-    }
-
-    // In row k, which decides of what alternates. NaN in a row that is missing.
-    [[nodiscard]] double at(std::string_view key, std::size_t k) const {
-        const Source* s = find(key);
-        if (s == nullptr) return missing;
-        if (!s->values.empty()) return s->values[k];
-        return s->alternates && k % 2 != 0 ? -s->fixed : s->fixed;
-    }
-
-    void fill(const RowTimes& times) {
-        for (Source& s : all_) fill_holes(s.values, times);
-        n_ += static_cast<std::size_t>(times.n_missing);
-    }
-
-    [[noreturn]] void refuse(std::string_view key, std::size_t k, const std::string& allowed) const {
-        const Source* s = find(key);
-        throw FormatError(fmt::format("{}, {}, row {}: {} = {}; allowed is {}", path_, s->from, k + 1, key,
-                                      s->values.empty() ? s->fixed : s->values[k], allowed));
-    }
-
-private:
-    // A column of two values, of which the mapping says which one is +1.
-    void scale_sign(const Source& source, const char* plus_key) {
-        const auto plus = look_.mapping.real(plus_key);
-        auto& values = const_cast<Source&>(source).values;
-        if (!plus) {
-            for (std::size_t k = 0; k < values.size(); ++k)
-                if (!std::isnan(values[k]) && std::fabs(values[k]) != 1.0)
-                    throw MappingError(
-                        fmt::format("{}, {}, row {}: {}; allowed are +1 and -1, or --map {}=... the value that stands "
-                                    "for +1",
-                                    path_, source.from, k + 1, values[k], plus_key));
-            return;
-        }
-        double other = missing;
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            if (std::isnan(values[k])) continue;
-            if (values[k] != *plus && std::isnan(other)) other = values[k];
-            if (values[k] != *plus && values[k] != other) refuse(source.key, k, fmt::format("{} or {}", *plus, other));
-            values[k] = values[k] == *plus ? 1.0 : -1.0;
-        }
-    }
-
-    const ForeignLook& look_;
-    const std::string& path_;
-    std::vector<Source> all_;
-    TextTable read_;
-    std::size_t n_ = 0;
-};
 
 // How many rows make a half, and the row at which the first whole half begins.
 struct Halves {
@@ -142,7 +31,8 @@ struct Halves {
 }
 
 // By the signs of the bias: a half ends where they turn. Rows that are missing have none.
-Halves halves_by_signs(const std::vector<double>& sign, const std::string& path) {
+Halves halves_by_signs(const RawSources& from, const std::string& path) {
+    const std::vector<double>& sign = from.find("bias_sign")->values;
     std::vector<std::size_t> turns;
     for (std::size_t k = 1; k < sign.size(); ++k)
         if (!std::isnan(sign[k]) && !std::isnan(sign[k - 1]) && sign[k] != sign[k - 1]) turns.push_back(k);
@@ -163,7 +53,7 @@ Halves halves_by_signs(const std::vector<double>& sign, const std::string& path)
             fmt::format("{}, row {}: bias_sign = {:+}; expected {:+}: the signs turn every {} row{} elsewhere, so that "
                         "a row is missing or "
                         "stands twice before this one, and no column of times or numbers of halves says which",
-                        path, k + 1, sign[k], due, halves.rows, halves.rows == 1 ? "" : "s"));
+                        path, from.row_of_file(k), sign[k], due, halves.rows, halves.rows == 1 ? "" : "s"));
     }
     return halves;
 }
@@ -174,13 +64,14 @@ public:
         : look_{look}, path_{look.table.path}, from_{look}, made_{made} {}
 
     void build() {
-        check_columns();
         if (from_.is_column("half"))
             fill_by_numbers();
         else
             fill_by_times();
         find_halves();
         settle_tick();
+        if (!from_.is_column("half") && !from_.read().times)
+            made_.notes.push_back("nothing in it says whether rows are missing: neither times nor numbers of halves");
         if (halves_.begin > 0)
             made_.notes.push_back(fmt::format("the first {} row{} a half that began before the file, and left out",
                                               halves_.begin, halves_.begin == 1 ? " is" : "s are"));
@@ -193,12 +84,6 @@ public:
     }
 
 private:
-    void check_columns() const {
-        if (!from_.is_column("counts"))
-            throw MappingError(
-                fmt::format("{}: counts = '{}'; allowed is a column", path_, look_.mapping.text("counts")));
-    }
-
     void fill_by_numbers() {
         const std::vector<double>& number = from_.find("half")->values;
         RowTimes times{.step = 1.0, .tolerance = 0.0, .holes = {}, .n_missing = 0};
@@ -262,7 +147,7 @@ private:
             return;
         }
         if (from_.is_column("bias_sign")) {
-            halves_ = halves_by_signs(from_.find("bias_sign")->values, path_);
+            halves_ = halves_by_signs(from_, path_);
             return;
         }
         // Signs that merely alternate say nothing of how long a row is.
@@ -415,7 +300,7 @@ private:
 
     const ForeignLook& look_;
     const std::string& path_;
-    Sources from_;
+    RawSources from_;
     ImportedRaw& made_;
     RowClock clock_;
     Halves halves_;
