@@ -78,6 +78,11 @@ void check_repetitions(const TextColumn& times, const std::string& path) {
     }
 }
 
+// As a column that is called time does, with holes or not.
+bool goes_on(std::span<const double> values) {
+    return values.size() > 1 && values.front() < values.back() && std::ranges::is_sorted(values);
+}
+
 }  // namespace
 
 std::int64_t time_column(const ForeignTable& table, const Mapping& mapping) {
@@ -87,7 +92,7 @@ std::int64_t time_column(const ForeignTable& table, const Mapping& mapping) {
     }
     const auto rises = [](const ForeignColumn& c) { return c.holds_dates || rises_as_time(c.values); };
     for (const ForeignColumn& column : table.columns)
-        if (names_time(column.name) && rises(column)) return column.number;
+        if (names_time(column.name) && (column.holds_dates || goes_on(column.values))) return column.number;
     for (const ForeignColumn& column : table.columns)
         if (column.holds_dates) return column.number;
     for (const ForeignColumn& column : table.columns)
