@@ -13,6 +13,7 @@
 #include <zlg/rig/replay.hpp>
 
 #include "failure.hpp"
+#include "mapping_input.hpp"
 #include "output.hpp"
 #include "text_input.hpp"
 
@@ -105,7 +106,7 @@ config::Config read_angles(const Options& options, const std::string& path, std:
 }
 
 config::Config read_raw(const Options& options, const std::string& path, std::vector<study::AxisRecord>& axes) {
-    logs::RawReader raw{path};
+    logs::RawReader raw = open_raw(options, path);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
     const rig::LogCompensation asked = log_compensation(options, raw.header(), path);
     TickRates ticks(path, asked.config.gyro.tick_s, asked.config.analysis.angles);
@@ -125,7 +126,31 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     return asked.config;
 }
 
+// Axes of another program's file.
+config::Config read_mapped(const Options& options, const std::string& path, const logs::ForeignLook& look,
+                           AnalysisInput& input) {
+    logs::ImportedAxes imported = logs::imported_axes(look);
+    for (const std::string& note : look.said) complain(fmt::format("note: {}: {}", name_of_file(path), note));
+    for (const std::string& note : imported.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
+    for (logs::ImportedAxis& from : imported.axes) {
+        study::AxisRecord axis;
+        axis.name = fmt::format("{}, {}", name_of_file(path), from.name);
+        axis.group = path;
+        axis.holds = from.holds;
+        axis.rate_hz = from.rate_hz;
+        axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
+        axis.phase_arcsec = std::move(from.phase_arcsec);
+        input.axes.push_back(std::move(axis));
+    }
+    return load_config(options);
+}
+
 config::Config read_one(const Options& options, const std::string& path, AnalysisInput& input) {
+    if (is_mapped(options)) {
+        const logs::ForeignLook look = look_at(options, path);
+        if (look.makes == logs::Makes::axes) return read_mapped(options, path, look, input);
+        return read_raw(options, path, input.axes);
+    }
     const logs::LogKind kind = logs::recognise(path);
     if (is_raw(kind)) return read_raw(options, path, input.axes);
     if (is_angles(kind)) return read_angles(options, path, input.axes);

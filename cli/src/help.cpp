@@ -35,6 +35,9 @@ constexpr std::array verb_table{
              "  zlg run my_gyro.toml --seed 7 --format csv"},
     VerbHelp{"simulate", simulating, "  zlg simulate --duration 600 --set switching.interval_s=60 --out raw.h5"},
     VerbHelp{"paper", simulating, "  zlg paper --out paper                         some half a minute"},
+    VerbHelp{"import", processing,
+             "  zlg import logger.csv                         says what it understood and what is missing\n"
+             "  zlg import logger.csv --map axis=gyro_z --map holds=rate --map unit=deg/s --out angles.h5"},
     VerbHelp{"process", processing,
              "  zlg process raw.h5 --out angles.h5\n"
              "  zlg process raw.csv --set compensation.relock=none --switches switches.csv --out angles.csv"},
@@ -83,6 +86,9 @@ constexpr std::array kinds{
     Kind{"--give-up", "SECONDS"},
     Kind{"--run-lengths", "SECONDS,..."},
     Kind{"--baud", "NUMBER"},
+    Kind{"--mapping", "FILE.toml"},
+    Kind{"--map", "KEY=VALUE"},
+    Kind{"--write-mapping", "FILE.toml"},
     Kind{"--rate-arcsec-s", "NUMBER,..."},
     Kind{"--imu-yaml", "FILE.yaml"},
     Kind{"--compare", "FILE.yaml"},

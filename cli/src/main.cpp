@@ -8,6 +8,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
+#include <zlg/logs/mapping.hpp>
 #include <zlg/text/inputs.hpp>
 
 #include "failure.hpp"
@@ -61,7 +62,8 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
 // What was asked for is not allowed, by the command line or by the configuration.
 bool is_wrong_usage(const std::exception& error) {
     return dynamic_cast<const cli::UsageError*>(&error) || dynamic_cast<const design::DesignError*>(&error) ||
-           dynamic_cast<const config::ConfigError*>(&error) || dynamic_cast<const text::OutputIsInput*>(&error);
+           dynamic_cast<const config::ConfigError*>(&error) || dynamic_cast<const text::OutputIsInput*>(&error) ||
+           dynamic_cast<const logs::MappingError*>(&error);
 }
 
 int guarded(CLI::App& program, int argc, char** argv) {
@@ -93,6 +95,7 @@ int main(int argc, char** argv) {
     cli::add_design(program);
     cli::add_paper(program);
     cli::add_convert(program);
+    cli::add_import(program);
     cli::add_calibrate(program);
     cli::add_follow(program);
     cli::add_inspect(program);

@@ -29,6 +29,8 @@ struct Options {
     bool light = false;  // the raw log holds every light sample
     bool force = false;
     bool json = false;
+    std::string mapping_path;       // of files of other programs
+    std::vector<std::string> maps;  // over it
 };
 
 void add_config_options(CLI::App& verb, Options& options);

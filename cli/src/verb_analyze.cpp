@@ -18,6 +18,7 @@
 #include "analysis_text.hpp"
 #include "as_json.hpp"
 #include "failure.hpp"
+#include "mapping_input.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -89,7 +90,9 @@ void analyze(const AnalyzeOptions& options) {
     AnalysisInput input = read_analysis_input(options, options.files);
     const study::AnalysisTask task{.config = input.config.analysis,
                                    .settling_samples = input.config.compensation.relock_ticks,
-                                   .threads = options.threads};
+                                   .threads = options.threads,
+                                   .with_page = !options.out.empty(),
+                                   .with_mode_curves = options.json || !options.out.empty()};
     study::AnalysisResult result{
         .axes = {}, .earth = {}, .presumed = presumed(options), .tables = std::move(input.tables)};
     Progress progress;
@@ -119,6 +122,7 @@ void add_analyze(CLI::App& program) {
     verb->add_option("--imu-yaml", options->imu_yaml, "write the noise as Kalibr's imu.yaml");
     verb->add_option("--compare", options->compare,
                      "an imu.yaml whose noise is printed, and drawn by --out, beside the measured one");
+    add_mapping_options(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { analyze(*options); });

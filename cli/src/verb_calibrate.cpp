@@ -16,6 +16,7 @@
 #include "as_json.hpp"
 #include "calibration_text.hpp"
 #include "failure.hpp"
+#include "mapping_input.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -56,7 +57,7 @@ calibration::LabLog read(logs::RawReader& raw, const std::string& path, double t
 Lab read_all(const CalibrateOptions& options) {
     Lab lab;
     for (const std::string& path : options.raws) {
-        logs::RawReader raw{path};
+        logs::RawReader raw = open_raw(options, path);
         for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
         if (raw.header().has_edge_offset)
             complain(fmt::format("warning: {}: the shifts of the bias edges are left in its counts, as noise", path));
@@ -217,6 +218,7 @@ void add_calibrate(CLI::App& program) {
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_mapping_options(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { calibrate(*options); });

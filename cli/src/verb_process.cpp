@@ -22,6 +22,7 @@
 #include "as_json.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "mapping_input.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "switch_csv.hpp"
@@ -176,10 +177,12 @@ void process(const ProcessOptions& options) {
         if (fs::weakly_canonical(options.switches) == fs::weakly_canonical(options.out))
             throw UsageError{fmt::format("--switches {}: is the file of the angles; name another", options.switches)};
     }
+    if (options.follow && is_mapped(options))
+        throw UsageError{"--follow: a mapping reads whole files; allowed is a log of zlg"};
     if (options.follow && logs::recognise(options.raw) == logs::LogKind::raw_csv)
         throw UsageError{
             fmt::format("--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.raw)};
-    logs::RawReader raw{options.raw};
+    logs::RawReader raw = open_raw(options, options.raw);
     const rig::LogCompensation asked = log_compensation(options, raw.header(), options.raw);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
@@ -216,6 +219,7 @@ void add_process(CLI::App& program) {
             const bool read = CLI::detail::lexical_cast(text, seconds);
             return read && seconds >= 0.0 && seconds <= 1e6 ? "" : fmt::format("{}: allowed is 0..1e6 s", text);
         });
+    add_mapping_options(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { process(*options); });

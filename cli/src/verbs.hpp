@@ -12,6 +12,7 @@ void add_design(CLI::App& program);
 void add_paper(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_calibrate(CLI::App& program);
+void add_import(CLI::App& program);
 void add_follow(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_analyze(CLI::App& program);

@@ -162,7 +162,10 @@ void refuse_foreign(const std::string& path) {
     if (nature.empty() || nature == unknown_nature) return;
     const char* allowed =
         nature.starts_with("HDF5") ? "a log, with /raw or /angles in it, or a text file" : "a text file";
-    throw FormatError(fmt::format("{}: is {}; allowed is {}", path, nature, allowed));
+    const bool imports = nature.starts_with("HDF5") || nature.starts_with("a MATLAB 5") ||
+                         nature.starts_with("a NumPy") || nature.starts_with("binary numbers of 8");
+    throw FormatError(
+        fmt::format("{}: is {}; allowed is {}{}", path, nature, allowed, imports ? "; zlg import reads this one" : ""));
 }
 
 }  // namespace zlg::logs

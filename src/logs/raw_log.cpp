@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 
@@ -31,8 +34,35 @@ std::unique_ptr<LogSink<RawTable>> create(const std::string& path, const Setting
     return create_csv<RawTable>(path, force, lines, columns, false);
 }
 
+// Rows that are in memory, made of another program's file.
+class RowsInMemory final : public LogSource<RawTable> {
+public:
+    RowsInMemory(std::string path, RawHeader header, std::vector<core::HalfRecord> rows)
+        : path_{std::move(path)}, rows_{std::move(rows)} {
+        header_ = std::move(header);
+    }
+    bool next(core::HalfRecord& row) override {
+        if (next_ == rows_.size()) return false;
+        row = rows_[next_++];
+        return true;
+    }
+    [[noreturn]] void refuse_last(std::string_view column, std::int64_t value, const std::string& what) override {
+        throw FormatError(fmt::format("{}, half {} as imported: {} = {} {}", path_, next_ - 1, column, value, what));
+    }
+    [[nodiscard]] double fraction_read() const override {
+        return static_cast<double>(next_) / static_cast<double>(rows_.size());
+    }
+
+private:
+    std::string path_;
+    std::vector<core::HalfRecord> rows_;
+    std::size_t next_ = 0;
+};
+
 }  // namespace
 
+RawReader::RawReader(const std::string& path, RawHeader header, std::vector<core::HalfRecord> rows)
+    : source_{std::make_unique<RowsInMemory>(path, std::move(header), std::move(rows))} {}
 RawReader::RawReader(const std::string& path) : source_{open_log<RawTable>(path, &open_raw_hdf5)} {}
 RawReader::~RawReader() = default;
 RawReader::RawReader(RawReader&&) noexcept = default;

@@ -203,7 +203,7 @@ NoiseFit fit_noise_in_place(std::span<double> rates, double rate_hz, const Noise
         deviations::Series{.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
     check_known(rates);
     NoiseFit fit;
-    const auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines);
+    const auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines, options.threads);
     const HadamardPoints points = hadamard_points(rates, rate_hz, options);
     const SmoothFit smooth = select(points, options.markov, fit);
     fit.terms = terms_of(smooth.square, smooth.markov_time_s);

@@ -12,6 +12,7 @@
 
 #include <unsupported/Eigen/FFT>
 #include <zlg/deviations/series.hpp>
+#include <zlg/numeric/parallel.hpp>
 
 namespace zlg::noise {
 namespace {
@@ -26,14 +27,19 @@ std::size_t quick_length(std::size_t n) {
     }
 }
 
-// Sums of x_k exp(-2 pi i j k/n), j = 0..n/2.
-std::vector<std::complex<double>> half_spectrum(const std::vector<double>& values) {
-    Eigen::FFT<double> transform;
-    transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-    std::vector<std::complex<double>> spectrum;
-    transform.fwd(spectrum, values);
-    return spectrum;
-}
+// Sums of x_k exp(-2 pi i j k/n), j = 0..n/2. What it computes once for a length, the next piece finds in it.
+class HalfTransform {
+public:
+    HalfTransform() { transform_.SetFlag(Eigen::FFT<double>::HalfSpectrum); }
+    const std::vector<std::complex<double>>& of(const std::vector<double>& values) {
+        transform_.fwd(spectrum_, values);
+        return spectrum_;
+    }
+
+private:
+    Eigen::FFT<double> transform_;
+    std::vector<std::complex<double>> spectrum_;
+};
 
 class Pieces {
 public:
@@ -64,7 +70,7 @@ public:
     }
 
     // Empty where too little is known.
-    [[nodiscard]] std::vector<double> density(std::size_t p) const {
+    [[nodiscard]] std::vector<double> density(std::size_t p, HalfTransform& transform) const {
         const auto values = rates_.subspan(p * step(), length_);
         double weight = 0.0, weighted = 0.0, squares = 0.0;
         std::size_t n = 0;
@@ -80,7 +86,7 @@ public:
         for (std::size_t k = 0; k < length_; ++k)
             if (std::isfinite(values[k])) windowed[k] = window_[k] * (values[k] - weighted / weight);
         std::vector<double> out;
-        const auto transformed = half_spectrum(windowed);
+        const auto& transformed = transform.of(windowed);
         for (std::size_t k = 1; k <= padded_ / 2; ++k) {
             // Both signs of the frequency are one line, except at half the rate.
             const double sides = 2 * k == padded_ ? 1.0 : 2.0;
@@ -100,15 +106,23 @@ private:
 
 }  // namespace
 
-Spectrum welch_spectrum(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio) {
+Spectrum welch_spectrum(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio,
+                        int threads) {
     const Pieces pieces(rates, rate_hz, piece, least_known_ratio);
     Spectrum mean{.frequency_hz = pieces.frequencies(), .density = {}};
     mean.density.assign(mean.frequency_hz.size(), 0.0);
-    for (std::size_t p = 0; p < pieces.count(); ++p) {
-        const auto one = pieces.density(p);
-        if (one.empty()) continue;
-        ++mean.pieces;
-        for (std::size_t k = 0; k < one.size(); ++k) mean.density[k] += one[k];
+    // So many pieces at a time, added up in their order: the sum is the same on any number of threads.
+    const std::size_t together = static_cast<std::size_t>(std::max(threads, 1));
+    std::vector<HalfTransform> transforms(together);
+    std::vector<std::vector<double>> each(together);
+    for (std::size_t from = 0; from < pieces.count(); from += together) {
+        const std::size_t n = std::min(together, pieces.count() - from);
+        numeric::in_parallel(n, threads, [&](std::size_t t) { each[t] = pieces.density(from + t, transforms[t]); });
+        for (std::size_t t = 0; t < n; ++t) {
+            if (each[t].empty()) continue;
+            ++mean.pieces;
+            for (std::size_t k = 0; k < each[t].size(); ++k) mean.density[k] += each[t][k];
+        }
     }
     if (mean.pieces == 0)
         throw deviations::SeriesError(
@@ -119,9 +133,10 @@ Spectrum welch_spectrum(std::span<const double> rates, double rate_hz, std::size
 
 Spectrogram spectrogram(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio) {
     const Pieces pieces(rates, rate_hz, piece, least_known_ratio);
+    HalfTransform transform;
     Spectrogram all{.time_s = {}, .frequency_hz = pieces.frequencies(), .density = {}};
     for (std::size_t p = 0; p < pieces.count(); ++p) {
-        auto one = pieces.density(p);
+        auto one = pieces.density(p, transform);
         if (one.empty()) one.assign(all.frequency_hz.size(), std::numeric_limits<double>::quiet_NaN());
         all.time_s.push_back(pieces.middle_s(p));
         all.density.insert(all.density.end(), one.begin(), one.end());

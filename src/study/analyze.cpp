@@ -99,6 +99,7 @@ void take_modes(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) 
                                      .mode = record.mode},
                                     task.settling_samples);
     std::vector<double>{}.swap(record.bridged_arcsec_s);
+    if (!task.with_mode_curves) return;
     for (const int mode : {1, -1}) {
         std::vector<double> one = record.rates_arcsec_s;
         for (std::size_t k = 0; k < one.size(); ++k)
@@ -135,7 +136,7 @@ void take_spectra(const AxisRecord& record, AxisResult& axis) {
 // Of a switched gyro the curve without the sawtooth of its magnetic drift.
 void take_curve_left(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     noise::take_out_magnetic(*axis.modes, record.mode, record.rate_hz, record.rates_arcsec_s);
-    if (axis.modes->segments.size() < 2) return;
+    if (axis.modes->segments.size() < 2 || !task.with_mode_curves) return;
     axis.mode_curves.push_back(octave_oadev(task, record_of(record.rates_arcsec_s, record.rate_hz)));
 }
 
@@ -156,7 +157,7 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
         axis.fit = noise::fit_noise_in_place(
             rates, record.rate_hz, {.least_known_ratio = task.config.least_known_ratio, .threads = task.threads});
         if (!axis.fit->terms.sines.empty()) axis.mean_arcsec_s += mean_of(rates) - mean;
-        if (axis.modes || !axis.fit->terms.sines.empty())
+        if (task.with_page && (axis.modes || !axis.fit->terms.sines.empty()))
             axis.spectrum_left = noise::welch_spectrum(rates, record.rate_hz, piece_of(rates.size()));
     } catch (const deviations::SeriesError& error) {
         if (axis.fit) return;
@@ -185,10 +186,11 @@ AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     axis.is_error = record.is_error;
     axis.n_samples = std::ssize(record.rates_arcsec_s);
     count_known(record, axis);
-    axis.time_bins = time_bins_of(record);
-    take_curves(task, record, axis);
+    if (task.with_page) axis.time_bins = time_bins_of(record);
+    // The modes first: they are what the bridged rates are needed for.
     take_modes(task, record, axis);
-    take_spectra(record, axis);
+    take_curves(task, record, axis);
+    if (task.with_page) take_spectra(record, axis);
     take_fit(task, record, axis);
     axis.mean_sigma_arcsec_s = sigma_of_mean(axis);
     axis.readouts = readouts_of(axis);

@@ -80,7 +80,7 @@ TEST_F(FileNature, what_is_no_text_is_refused_as_what_it_is) {
         refuse_foreign(path);
         FAIL();
     } catch (const FormatError& error) {
-        EXPECT_EQ(error.what(), path + ": is a NumPy array (.npy); allowed is a text file");
+        EXPECT_EQ(error.what(), path + ": is a NumPy array (.npy); allowed is a text file; zlg import reads this one");
     }
     EXPECT_THROW(refuse_foreign("/no/such/file"), IoError);
 }

@@ -10,6 +10,7 @@
 
 #include "csv/line_reader.hpp"
 #include "csv/text_fields.hpp"
+#include "dates.hpp"
 #include "text_reading.hpp"
 #include "text_recognition.hpp"
 #include "time_names.hpp"
@@ -150,13 +151,25 @@ private:
             table_.columns[c].values.push_back(number(dialect_.wanted[c], &use_[c]));
         if (!table_.times) return;
         const auto field = static_cast<std::size_t>(table_.times->number - 1);
-        if (!times_may_fail_) {
+        if (const auto time = time_of(fields_[field].text))
+            table_.times->values.push_back(*time);
+        else if (!times_may_fail_)
             table_.times->values.push_back(number(field, nullptr));
-        } else if (const auto time = number_of(fields_[field].text, dialect_.mark)) {
-            table_.times->values.push_back(time->value);
-        } else {
+        else
             table_.times.reset();  // it was no column of times
-        }
+    }
+
+    // A date counts from the first one, for a double holds no microseconds since 1970.
+    std::optional<double> time_of(std::string_view text) {
+        TextColumn& times = *table_.times;
+        if (!times.holds_dates)
+            if (const auto number = number_of(text, dialect_.mark)) return number->value;
+        if (!times.holds_dates && !times.values.empty()) return std::nullopt;
+        const auto date = date_time(text);
+        if (!date) return std::nullopt;
+        if (!times.holds_dates) first_date_ = *date;
+        times.holds_dates = true;
+        return static_cast<double>(date->seconds - first_date_.seconds) + (date->fraction - first_date_.fraction);
     }
 
     double number(std::size_t field, MarkUse* use) {
@@ -191,6 +204,7 @@ private:
     std::vector<MarkUse> use_;
     std::vector<Field> fields_;
     bool times_may_fail_ = false;
+    DateTime first_date_;
 };
 
 void Rows::choose_times() {
@@ -223,6 +237,10 @@ void check(const std::string& path, const TextLayout& layout) {
 std::string described(const TextColumn& column) {
     return column.name.empty() ? fmt::format("column {}", column.number)
                                : fmt::format("column {}, '{}'", column.number, column.name);
+}
+
+FirstLines first_lines_of(const std::string& path, const TextLayout& layout) {
+    return DataLines{path, layout}.sample();
 }
 
 TextTable read_text_table(const std::string& path, const TextLayout& layout) {

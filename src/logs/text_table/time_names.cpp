@@ -56,8 +56,8 @@ std::optional<double> unit_of(std::string_view name) {
 }
 
 bool names_time(std::string_view column_name) {
-    constexpr std::array<std::string_view, 9> words{"time", "zeit",    "timestamp", "stamp",   "tow",
-                                                    "utc",  "gpstime", "epoch",     "datetime"};
+    constexpr std::array<std::string_view, 11> words{"time",    "zeit",  "timestamp", "stamp",   "tow",        "utc",
+                                                     "gpstime", "epoch", "datetime",  "uhrzeit", "zeitstempel"};
     std::string_view rest = column_name;
     const std::string word = next_word(rest);
     // T is a temperature, and so is t [C].

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <zlg/core/records.hpp>
 #include <zlg/logs/raw_layout.hpp>
@@ -23,6 +24,8 @@ public:
     // errors  IoError, FormatError (an empty file, no header, a missing or misspelt column, one of a wrong kind, edge
     // offsets without timer_hz).
     explicit RawReader(const std::string& path);
+    // Rows that were made of another program's file, which `path` names in messages.
+    RawReader(const std::string& path, RawHeader header, std::vector<core::HalfRecord> rows);
     ~RawReader();
     RawReader(RawReader&&) noexcept;
 

@@ -30,6 +30,7 @@ struct TextColumn {
     std::int64_t number = 0;     // first is 1
     std::string name;            // empty: it has none
     std::vector<double> values;  // NaN where a field is empty, `nan`, `NA` or `null`
+    bool holds_dates = false;    // of times: dates, or times of the day; the values are seconds from the first one on
 };
 
 struct TextTable {

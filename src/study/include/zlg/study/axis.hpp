@@ -64,9 +64,10 @@ struct AxisResult {
     std::string no_fit;  // why there is none
     std::vector<Readout> readouts;
     std::optional<noise::ModeSplit> modes;
-    std::vector<deviations::DeviationCurve> mode_curves;  // mode +1, mode -1, with the magnetic part taken out
-    std::vector<TimeBin> time_bins;
-    std::vector<Gap> gaps;  // the first `max_gaps`
+    std::vector<deviations::DeviationCurve>
+        mode_curves;                 // where asked for: mode +1, mode -1, with the magnetic part taken out
+    std::vector<TimeBin> time_bins;  // empty without a page, as the spectra are
+    std::vector<Gap> gaps;           // the first `max_gaps`
     noise::Spectrum spectrum;
     noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
     noise::Spectrogram spectrogram;
@@ -77,6 +78,8 @@ struct AnalysisTask {
     config::Analysis config;
     std::int64_t settling_samples = 20;  // after a switch
     int threads = 1;
+    bool with_page = true;         // time bins and spectra too, which only the page shows
+    bool with_mode_curves = true;  // which page and JSON show
 };
 
 }  // namespace zlg::study

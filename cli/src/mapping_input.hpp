@@ -1,0 +1,33 @@
+#pragma once
+// Files of other programs in place of our own logs: --mapping and --map.
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <zlg/logs/imported.hpp>
+#include <zlg/logs/raw_log.hpp>
+
+#include "options.hpp"
+
+namespace zlg::cli {
+
+void add_mapping_options(CLI::App& verb, Options& options);
+
+// One of both options is given.
+[[nodiscard]] bool is_mapped(const Options& options);
+
+// errors  logs::MappingError, logs::IoError.
+[[nodiscard]] logs::Mapping mapping_of(const Options& options);
+
+// A raw log, or the halves of a foreign file where a mapping is given, with a line on standard error for each thing that was
+// understood.
+//
+// errors  those of logs::RawReader, logs::look_at_foreign and logs::imported_raw; UsageError: the file is a log and needs no mapping.
+[[nodiscard]] logs::RawReader open_raw(const Options& options, const std::string& path);
+
+// What a foreign file says of itself. errors  UsageError: it is one of our logs.
+[[nodiscard]] logs::ForeignLook look_at(const Options& options, const std::string& path);
+
+}  // namespace zlg::cli

@@ -1,0 +1,155 @@
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/imported.hpp>
+#include <zlg/logs/raw_log.hpp>
+#include <zlg/logs/table_file.hpp>
+#include <zlg/logs/unfinished.hpp>
+
+#include "as_json.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "mapping_input.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+struct ImportOptions : Options {
+    std::string file;
+    std::string write_mapping;
+};
+
+std::string text_of(const logs::ForeignLook& look) {
+    std::string text = fmt::format("{}: {}\n", printable(look.table.path), printable(look.table.nature));
+    if (look.table.n_rows) text += fmt::format("{} rows\n", *look.table.n_rows);
+    for (std::size_t c = 0; c < look.table.columns.size(); ++c) {
+        const logs::ForeignColumn& column = look.table.columns[c];
+        text += fmt::format("  {:<34} first {:<22} {}\n", printable(logs::described(column)), printable(column.first),
+                            look.may_be[c]);
+    }
+    for (const std::string& note : look.table.notes) text += fmt::format("note: {}\n", printable(note));
+    for (const std::string& line : look.said) text += fmt::format("{}\n", printable(line));
+    for (const std::string& line : look.missing) text += fmt::format("missing: --map {}\n", printable(line));
+    if (look.missing.empty())
+        text += fmt::format("nothing is missing: --out makes {} of it\n",
+                            look.makes == logs::Makes::raw ? "a raw log" : "an angle log");
+    return text;
+}
+
+nlohmann::json json_of(const logs::ForeignLook& look) {
+    nlohmann::json columns = nlohmann::json::array();
+    for (std::size_t c = 0; c < look.table.columns.size(); ++c) {
+        const logs::ForeignColumn& column = look.table.columns[c];
+        columns.push_back(
+            {{"number", column.number}, {"name", column.name}, {"first", column.first}, {"may_be", look.may_be[c]}});
+    }
+    return {{"file", look.table.path},
+            {"is", look.table.nature},
+            {"columns", columns},
+            {"notes", look.table.notes},
+            {"said", look.said},
+            {"missing", look.missing},
+            {"makes", look.makes == logs::Makes::raw ? "raw" : "angles"}};
+}
+
+void note_all(const ImportOptions& options, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) complain(fmt::format("note: {}: {}", name_of_file(options.file), note));
+}
+
+std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& look) {
+    const logs::ImportedRaw made = logs::imported_raw(look);
+    note_all(options, made.notes);
+    const Interruptible interruptible;
+    // Read once through the rules of a raw log, which name what is wrong.
+    logs::RawReader rows{options.file, made.header, made.rows};
+    logs::RawWriter log{options.out, made.header.settings, options.force, made.header, {}};
+    core::HalfRecord row;
+    while (rows.next(row)) {
+        if (row.half % 100'000 == 0) interruptible.check();
+        log.write(row);
+    }
+    log.close();
+    return made.rows.size();
+}
+
+std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& look) {
+    const logs::ImportedAxes made = logs::imported_axes(look);
+    if (made.axes.size() != 1)
+        throw UsageError{
+            fmt::format("{}: {} axes; an angle log holds one: --map axis=COLUMN (zlg analyze takes several)",
+                        options.file, made.axes.size())};
+    note_all(options, made.notes);
+    const logs::ImportedAxis& axis = made.axes.front();
+    complain(fmt::format("note: {}: {}, {}", name_of_file(options.file), axis.name, axis.holds));
+    const double tick_s = 1.0 / axis.rate_hz;
+    const Interruptible interruptible;
+    logs::AngleWriter log{options.out, tick_s, {{"gyro.tick_s", fmt::format("{}", tick_s)}}, options.force, {}};
+    const std::vector<core::AngleRow> rows = logs::angle_rows(axis);
+    for (const core::AngleRow& row : rows) {
+        if (row.tick % 100'000 == 0) interruptible.check();
+        log.write(row);
+    }
+    log.close();
+    return rows.size();
+}
+
+void import(const ImportOptions& options) {
+    if (!options.out.empty()) {
+        (void)log_format(options.out);
+        refuse_own_input(options.file, options.out);
+    }
+    if (!options.write_mapping.empty()) {
+        require_suffix(options.write_mapping, ".toml");
+        refuse_own_input(options.file, options.write_mapping, "--write-mapping");
+    }
+    const logs::ForeignLook look = look_at(options, options.file);
+    std::size_t rows = 0;
+    if (!options.out.empty()) {
+        logs::require_whole(look);
+        for (const std::string& note : look.table.notes) complain(fmt::format("note: {}", note));
+        note_all(options, look.said);
+        rows = look.makes == logs::Makes::raw ? write_raw(options, look) : write_angles(options, look);
+    }
+    if (!options.write_mapping.empty()) {
+        std::string toml = look.mapping.toml();
+        for (const std::string& missing : look.missing) toml += fmt::format("# missing: {}\n", printable(missing));
+        write_file(options.write_mapping, toml, options.force);
+    }
+    if (options.json) {
+        nlohmann::json json = json_of(look);
+        json["out"] = options.out.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.out);
+        json["rows"] = rows;
+        print(pretty(json));
+    } else {
+        print(options.out.empty() ? text_of(look) : fmt::format("{}: {} rows\n", printable(options.out), rows));
+    }
+}
+
+void print_mapping_keys() {
+    print(logs::mapping_keys_text());
+    throw CLI::Success{};
+}
+
+}  // namespace
+
+void add_import(CLI::App& program) {
+    const auto options = std::make_shared<ImportOptions>();
+    CLI::App* verb = program.add_subcommand(
+        "import",
+        "a file of another program as a log; without --out it only says what it understood, and what is missing");
+    verb->add_option("FILE", options->file, "text, HDF5, MATLAB, NumPy, or rows of doubles")->required();
+    add_mapping_options(*verb, *options);
+    verb->add_option("--write-mapping", options->write_mapping,
+                     "write what was said and understood as TOML, for --mapping of process, analyze and calibrate");
+    verb->add_flag_callback("--keys", print_mapping_keys, "every key of a mapping")->trigger_on_parse();
+    add_output_options(*verb, *options);
+    verb->callback([options] { import(*options); });
+}
+
+}  // namespace zlg::cli

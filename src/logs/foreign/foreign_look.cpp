@@ -1,0 +1,154 @@
+// What a foreign file says of itself, and what must be asked.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <zlg/logs/imported.hpp>
+#include <zlg/logs/row_times.hpp>
+#include <zlg/text/escape.hpp>
+#include <zlg/text/spelling.hpp>
+
+#include "row_clock.hpp"
+#include "units.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr std::array<std::string_view, 13> raw_names{
+    "half",    "bias_sign",     "mode",   "counts", "loop_closed", "valid", "detuning_lambda", "detuning_sq_lambda2",
+    "piezo_v", "temperature_c", "fringe", "span",   "lit"};
+
+bool all_of_known(const ForeignColumn& column, bool (*holds)(double)) {
+    return std::ranges::all_of(column.values, [holds](double v) { return std::isnan(v) || holds(v); });
+}
+
+bool is_constant(const ForeignColumn& column) {
+    return std::ranges::adjacent_find(column.values, std::ranges::not_equal_to{}) == column.values.end();
+}
+
+std::string may_be(const ForeignLook& look, const ForeignColumn& column, std::int64_t times) {
+    if (column.number == times) return column.holds_dates ? "the times of the rows, as dates" : "the times of the rows";
+    if (column.holds_dates) return "dates";
+    if (!column.is_number) return "words, not read";
+    if (const auto unit = unit_in_name(column.name))
+        return fmt::format("{}, {}", unit->kind == UnitKind::rate ? "a rate" : "an angle or increments", unit->name);
+    const auto whole = [](double v) { return v == std::floor(v); };
+    if (all_of_known(column, [](double v) { return v == 1.0 || v == -1.0; }) && !is_constant(column))
+        return "bias_sign or mode";
+    if (all_of_known(column, [](double v) { return v == 0.0 || v == 1.0; })) return "loop_closed, valid or lit";
+    if (is_constant(column)) return "a constant";
+    if (rises_as_time(column.values)) return "rises steadily: an angle, a number of rows or times; no rate";
+    (void)look;
+    return all_of_known(column, whole) ? "whole numbers, as counts are" : "numbers";
+}
+
+// Columns of a raw log that have our names.
+void take_raw_names(ForeignLook& look) {
+    for (const std::string_view name : raw_names) {
+        const std::string key{name};
+        if (look.mapping.has(key) || (key == "loop_closed" && look.mapping.has("loop_open"))) continue;
+        const auto is_it = [&](const ForeignColumn& c) { return text::lower_case(c.name) == key; };
+        if (std::ranges::count_if(look.table.columns, is_it) != 1) continue;
+        const auto& found = *std::ranges::find_if(look.table.columns, is_it);
+        if (!found.is_number) continue;
+        look.mapping.set(key, fmt::format("{}", found.number), "names");
+        look.said.push_back(fmt::format("{} is {}, by its name", key, described(found)));
+    }
+}
+
+void check_raw(ForeignLook& look) {
+    const Mapping& m = look.mapping;
+    if (!m.has("bias_sign"))
+        look.missing.push_back("bias_sign=COLUMN or alternating:1 or alternating:-1 (the first row's)");
+    if (!m.has("mode")) look.missing.push_back("mode=COLUMN or always:1 or always:-1");
+    if (!m.has("loop_closed") && !m.has("loop_open"))
+        look.missing.push_back("loop_closed=COLUMN (or loop_open=COLUMN), or always:1 where the loop was never opened");
+    if (!m.has("scale_arcsec")) look.missing.push_back("scale_arcsec=... (what a count is worth)");
+    if (!m.has("tick_s") && !missing_of_clock(look.table, m).empty())
+        look.missing.push_back("tick_s=... (the whole bias period, two halves)");
+    if (m.has("edge_offset_ticks") && !m.has("timer_hz")) look.missing.push_back("timer_hz=... (of edge_offset_ticks)");
+}
+
+// The axis, where the file leaves no choice: the only column of a rate by its unit, or the only column of numbers.
+void take_axis(ForeignLook& look, std::int64_t times) {
+    std::vector<const ForeignColumn*> numbers, rates;
+    for (const ForeignColumn& column : look.table.columns) {
+        if (!column.is_number || column.number == times || is_constant(column)) continue;
+        const auto unit = unit_in_name(column.name);
+        if (rises_as_time(column.values) && look.mapping.text("holds") != "angle") continue;
+        numbers.push_back(&column);
+        if (unit && unit->kind == UnitKind::rate) rates.push_back(&column);
+    }
+    const ForeignColumn* only = rates.size() == 1 ? rates.front() : numbers.size() == 1 ? numbers.front() : nullptr;
+    if (only != nullptr) {
+        look.mapping.set_axes({fmt::format("{}", only->number)});
+        look.said.push_back(fmt::format("the axis is {}", described(*only)));
+        return;
+    }
+    std::string choice;
+    for (const ForeignColumn* column : rates.empty() ? numbers : rates)
+        if (choice.size() < 200)
+            choice += fmt::format("{}{}", choice.empty() ? "" : ", ",
+                                  column->name.empty() ? fmt::format("{}", column->number)
+                                                       : fmt::format("'{}'", text::excerpt(column->name, 40, ' ')));
+    look.missing.push_back(fmt::format("axis=COLUMN{}", choice.empty() ? "" : ", of " + choice));
+}
+
+void check_axes(ForeignLook& look, std::int64_t times) {
+    if (!look.mapping.has("axis")) take_axis(look, times);
+    const Mapping& m = look.mapping;
+    std::optional<AngleUnit> unit;
+    if (m.has("unit")) unit = unit_named(m.text("unit"));
+    for (const std::string& axis : m.axes()) {
+        const ForeignColumn& column = column_named(look.table, axis);
+        if (!column.is_number)
+            throw MappingError(fmt::format("{}: axis = '{}': {} holds words; allowed are numbers", look.table.path,
+                                           axis, described(column)));
+        if (!unit) unit = unit_in_name(column.name);
+    }
+    if (!m.has("unit") && unit && !m.axes().empty()) {
+        look.mapping.set("unit", std::string{unit->name}, "names");
+        look.said.push_back(fmt::format("its unit is {}, by its name", unit->name));
+    }
+    if (!unit) look.missing.push_back("unit=... (" + allowed_units() + ")");
+    if (!m.has("holds")) {
+        if (unit && unit->kind == UnitKind::rate)
+            look.mapping.set("holds", "rate", "names");
+        else
+            look.missing.push_back("holds=rate, increment or angle");
+    }
+    if (unit && unit->of_counts && !m.has("scale_arcsec"))
+        look.missing.push_back("scale_arcsec=... (what a count is worth)");
+    if (const std::string clock = missing_of_clock(look.table, m); !clock.empty()) look.missing.push_back(clock);
+}
+
+}  // namespace
+
+ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
+    ForeignLook look{.table = foreign_table(path, said), .mapping = said, .said = {}, .missing = {}, .may_be = {}};
+    for (const ForeignColumn& column : look.table.columns)
+        if (is_raw_key(text::lower_case(column.name)) && text::lower_case(column.name) == "counts" && !said.has("axis"))
+            look.makes = Makes::raw;
+    if (said.has("counts")) look.makes = Makes::raw;
+    const std::int64_t times = time_column(look.table, said);
+    for (const ForeignColumn& column : look.table.columns) look.may_be.push_back(may_be(look, column, times));
+    if (look.makes == Makes::raw) {
+        take_raw_names(look);
+        check_raw(look);
+    } else {
+        check_axes(look, times);
+    }
+    return look;
+}
+
+void require_whole(const ForeignLook& look) {
+    if (look.missing.empty()) return;
+    std::string all;
+    for (const std::string& one : look.missing) all += fmt::format("{}--map {}", all.empty() ? "" : "; ", one);
+    throw MappingError(fmt::format("{}: is missing: {}", look.table.path, all));
+}
+
+}  // namespace zlg::logs

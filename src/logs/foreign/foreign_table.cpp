@@ -1,0 +1,137 @@
+#include <zlg/logs/foreign_table.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/file_nature.hpp>
+#include <zlg/text/escape.hpp>
+#include <zlg/text/spelling.hpp>
+
+#include "foreign_readers.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+// A name without the unit behind it.
+std::string_view bare(std::string_view name) {
+    const std::size_t open = name.find_first_of("[(");
+    if (open == std::string_view::npos || open == 0) return name;
+    return name.substr(0, name.find_last_not_of(" \t", open - 1) + 1);
+}
+
+std::string all_columns(const ForeignTable& table) {
+    std::string all;
+    for (const ForeignColumn& column : table.columns) {
+        if (all.size() > 300) return all + ", ...";
+        all += fmt::format("{}{}", all.empty() ? "" : ", ",
+                           column.name.empty() ? fmt::format("{}", column.number)
+                                               : fmt::format("'{}'", text::excerpt(column.name, 40, ' ')));
+    }
+    return all;
+}
+
+TextColumn as_read(const ForeignColumn& column) {
+    return {.number = column.number, .name = column.name, .values = column.values, .holds_dates = column.holds_dates};
+}
+
+std::string count_of(std::size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
+
+}  // namespace
+
+ForeignTable foreign_table(const std::string& path, const Mapping& mapping) {
+    const std::string nature = foreign_nature(path);
+    if (nature.starts_with("HDF5")) return hdf5_table_of(path, mapping);
+    if (nature.starts_with("a MATLAB 5")) return matlab5_table_of(path, mapping);
+    if (nature.starts_with("a NumPy array")) return numpy_table_of(path);
+    if (nature.starts_with("binary numbers of 8 bytes")) return doubles_table_of(path);
+    if (!nature.empty())
+        throw FormatError(fmt::format(
+            "{}: is {}; allowed are text, HDF5, MATLAB, a NumPy array (.npy), or rows of doubles", path, nature));
+    return text_table_of(path, mapping);
+}
+
+std::string described(const ForeignColumn& column) {
+    return column.name.empty() ? fmt::format("column {}", column.number)
+                               : fmt::format("column {}, '{}'", column.number, text::excerpt(column.name, 60, ' '));
+}
+
+const ForeignColumn& column_named(const ForeignTable& table, const std::string& name) {
+    if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos && name.size() < 8) {
+        const std::size_t number = std::stoul(name);
+        if (number >= 1 && number <= table.columns.size()) return table.columns[number - 1];
+        throw MappingError(fmt::format("{}: column {}; allowed is 1..{}", table.path, name, table.columns.size()));
+    }
+    // As it stands, else without its unit, else in other letters.
+    const auto as_it_is = [](std::string_view text) { return std::string{text}; };
+    const auto without_unit = [](std::string_view text) { return std::string{bare(text)}; };
+    const auto in_small = [](std::string_view text) { return text::lower_case(bare(text)); };
+    for (const std::function<std::string(std::string_view)>& form :
+         {std::function<std::string(std::string_view)>{as_it_is}, {without_unit}, {in_small}}) {
+        const auto is_it = [&](const ForeignColumn& c) { return !c.name.empty() && form(c.name) == form(name); };
+        const auto n = std::ranges::count_if(table.columns, is_it);
+        if (n > 1)
+            throw MappingError(fmt::format("{}: two columns are named '{}'; give the number, 1..{}", table.path,
+                                           text::excerpt(name, 60, ' '), table.columns.size()));
+        if (n == 1) return *std::ranges::find_if(table.columns, is_it);
+    }
+    throw MappingError(fmt::format("{}: no column '{}'; its columns are {}", table.path, text::excerpt(name, 60, ' '),
+                                   all_columns(table)));
+}
+
+ForeignTable table_of_arrays(const std::string& path, const std::string& nature, std::vector<ForeignArray> arrays) {
+    std::map<std::size_t, std::size_t> columns_of_length;
+    for (const ForeignArray& array : arrays)
+        if (array.rows > 1) columns_of_length[array.rows] += array.columns;
+    if (columns_of_length.empty())
+        throw FormatError(fmt::format("{}: holds no array of numbers of more than one row", path));
+    const auto most = std::ranges::max_element(columns_of_length, {}, [](const auto& n) { return n.second; });
+    for (const auto& [rows, n] : columns_of_length)
+        if (n == most->second && rows != most->first)
+            throw MappingError(fmt::format("{}: holds arrays of {} rows and of {} rows; say which by --map table=NAME",
+                                           path, std::min(rows, most->first), std::max(rows, most->first)));
+    ForeignTable table{.path = path,
+                       .nature = nature,
+                       .columns = {},
+                       .notes = {},
+                       .n_rows = static_cast<std::int64_t>(most->first),
+                       .read = {}};
+    for (ForeignArray& array : arrays) {
+        if (array.rows != most->first) {
+            if (table.notes.size() < 10)
+                table.notes.push_back(fmt::format("'{}' is left out: it has {}, not {}",
+                                                  text::excerpt(array.name, 60, ' '), count_of(array.rows, "row"),
+                                                  most->first));
+            continue;
+        }
+        for (std::size_t c = 0; c < array.columns; ++c) {
+            ForeignColumn column{
+                .number = std::ssize(table.columns) + 1, .name = array.name, .first = {}, .values = {}};
+            if (array.columns > 1) column.name += fmt::format("{}{}", array.name.empty() ? "" : "_", c + 1);
+            if (array.columns > 1 && array.name.empty()) column.name.clear();
+            if (!array.unit.empty()) column.name += fmt::format(" [{}]", array.unit);
+            column.values.resize(array.rows);
+            for (std::size_t r = 0; r < array.rows; ++r)
+                column.values[r] = array.values[array.rows_follow ? r * array.columns + c : c * array.rows + r];
+            column.first = fmt::format("{}", column.values.front());
+            table.columns.push_back(std::move(column));
+        }
+        std::vector<double>{}.swap(array.values);
+    }
+    // Of a copy: the table outlives what it was made of.
+    table.read = [columns = std::make_shared<std::vector<ForeignColumn>>(table.columns)](
+                     const std::vector<std::int64_t>& wanted, std::int64_t times) {
+        TextTable read{.columns = {}, .times = {}, .names = {}, .n_columns = std::ssize(*columns)};
+        for (const ForeignColumn& column : *columns) read.names.push_back(column.name);
+        for (const std::int64_t number : wanted)
+            read.columns.push_back(as_read((*columns)[static_cast<std::size_t>(number - 1)]));
+        if (times > 0) read.times = as_read((*columns)[static_cast<std::size_t>(times - 1)]);
+        return read;
+    };
+    return table;
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/imported.hpp>
+
+#include "row_clock.hpp"
+#include "units.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t max_missing = std::int64_t{1} << 28;
+constexpr double largest = 1e90;  // whose square, and the sum of many, is a number
+
+std::string words_of(const Mapping& mapping) {
+    const std::string holds = mapping.text("holds");
+    return fmt::format("{}s, {}", holds, mapping.text("unit"));
+}
+
+double arcsec_of(const Mapping& mapping) {
+    const AngleUnit unit = unit_named(mapping.text("unit")).value();
+    return unit.of_counts ? unit.arcsec * mapping.real("scale_arcsec").value() : unit.arcsec;
+}
+
+void check_kind(const ForeignLook& look) {
+    const AngleUnit unit = unit_named(look.mapping.text("unit")).value();
+    const bool is_rate = look.mapping.text("holds") == "rate";
+    if (is_rate == (unit.kind == UnitKind::rate)) return;
+    throw MappingError(fmt::format("{}: holds = {} and unit = {}; allowed is {}", look.table.path,
+                                   look.mapping.text("holds"), unit.name,
+                                   is_rate ? "the unit of a rate" : "the unit of an angle, or holds=rate"));
+}
+
+ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock& clock) {
+    const std::string holds = look.mapping.text("holds");
+    const double arcsec = arcsec_of(look.mapping);
+    if (holds != "angle" && rises_as_time(column.values))
+        throw MappingError(fmt::format("{}, {} rises steadily and is no {}; allowed is another axis, or holds=angle",
+                                       look.table.path, described(column), holds));
+    for (std::size_t k = 0; k < column.values.size(); ++k) {
+        column.values[k] *= arcsec;
+        if (!std::isnan(column.values[k]) && !(std::fabs(column.values[k]) <= largest))
+            throw FormatError(fmt::format("{}, {}, row {}: {:g} arcsec; allowed is -1e90..1e90", look.table.path,
+                                          described(column), k + 1, column.values[k]));
+    }
+    if (clock.times) fill_holes(column.values, *clock.times);
+    ImportedAxis axis{.name = described(column),
+                      .holds = words_of(look.mapping),
+                      .rate_hz = 1.0 / clock.step_s,
+                      .rates_arcsec_s = {},
+                      .phase_arcsec = {}};
+    if (holds == "angle") {
+        axis.phase_arcsec = std::move(column.values);
+        const std::vector<double>& angle = axis.phase_arcsec;
+        for (std::size_t k = 1; k < angle.size(); ++k)
+            axis.rates_arcsec_s.push_back((angle[k] - angle[k - 1]) * axis.rate_hz);
+    } else {
+        axis.rates_arcsec_s = std::move(column.values);
+        if (holds == "increment")
+            for (double& rate : axis.rates_arcsec_s) rate *= axis.rate_hz;
+    }
+    if (std::ranges::all_of(axis.rates_arcsec_s, [](double r) { return std::isnan(r); }))
+        throw FormatError(fmt::format("{}, {}: no value is known", look.table.path, axis.name));
+    return axis;
+}
+
+}  // namespace
+
+ImportedAxes imported_axes(const ForeignLook& look) {
+    require_whole(look);
+    check_kind(look);
+    std::vector<std::int64_t> wanted;
+    for (const std::string& axis : look.mapping.axes()) wanted.push_back(column_named(look.table, axis).number);
+    const std::int64_t times = time_column(look.table, look.mapping);
+    if (std::ranges::find(wanted, times) != wanted.end())
+        throw MappingError(
+            fmt::format("{}: axis = {}: this column holds the times of the rows; allowed is another, or time=none",
+                        look.table.path, times));
+    TextTable read = look.table.read(wanted, times);
+    RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
+    if (clock.times && clock.times->n_missing > max_missing)
+        throw FormatError(fmt::format("{}: {} rows are missing by their times; allowed is {}", look.table.path,
+                                      clock.times->n_missing, max_missing));
+    ImportedAxes imported{.axes = {}, .notes = std::move(clock.notes)};
+    for (TextColumn& column : read.columns) imported.axes.push_back(axis_of(look, column, clock));
+    return imported;
+}
+
+std::vector<core::AngleRow> angle_rows(const ImportedAxis& axis) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    std::vector<core::AngleRow> rows(axis.rates_arcsec_s.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const double rate = axis.rates_arcsec_s[k];
+        const bool known = !std::isnan(rate);
+        const double turn = known ? rate / axis.rate_hz : 0.0;
+        rows[k] = {.tick = static_cast<std::int64_t>(k),
+                   .dtheta_arcsec = turn,
+                   .dtheta_final_arcsec = turn,
+                   .sigma_arcsec = unknown};
+        if (!known) rows[k].flags = core::flag_invalid | core::flag_unrepaired;
+    }
+    // Between two angles that are known the turn is known, and not where it happened.
+    const std::vector<double>& angle = axis.phase_arcsec;
+    for (std::size_t from = 0; from + 1 < angle.size();) {
+        std::size_t to = from + 1;
+        while (to < angle.size() && std::isnan(angle[to])) ++to;
+        if (to < angle.size() && to > from + 1 && !std::isnan(angle[from]))
+            for (std::size_t k = from; k < to; ++k) {
+                const double turn = (angle[to] - angle[from]) / static_cast<double>(to - from);
+                rows[k].dtheta_arcsec = rows[k].dtheta_final_arcsec = turn;
+                rows[k].flags = core::flag_invalid | core::flag_interpolated;
+            }
+        from = to;
+    }
+    return rows;
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,118 @@
+#include "raw_sources.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <zlg/logs/error.hpp>
+
+#include "row_clock.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+// "always:1" and "alternating:-1" stand for a column.
+bool is_fixed(const std::string& said) { return said.starts_with("always:") || said.starts_with("alternating:"); }
+
+double value_behind_colon(const std::string& said) {
+    double value = 0.0;
+    std::from_chars(said.data() + said.find(':') + 1, said.data() + said.size(), value);
+    return value;
+}
+
+}  // namespace
+
+RawSources::RawSources(const ForeignLook& look) : look_{look} {
+    std::vector<std::int64_t> wanted;
+    for (const char* key :
+         {"half", "bias_sign", "mode", "counts", "loop_closed", "loop_open", "valid", "detuning_lambda",
+          "detuning_sq_lambda2", "piezo_v", "temperature_c", "fringe", "span", "lit", "coil_ua", "edge_offset_ticks"}) {
+        if (!look.mapping.has(key)) continue;
+        const std::string said = look.mapping.text(key);
+        RawSource source{.key = key, .values = {}, .from = said};
+        if (is_fixed(said)) {
+            source.fixed = value_behind_colon(said);
+            source.alternates = said.starts_with("alternating:");
+        } else {
+            wanted.push_back(column_named(look.table, said).number);
+        }
+        all_.push_back(std::move(source));
+    }
+    if (wanted.empty() || is_fixed(look.mapping.text("counts")))
+        throw MappingError(
+            fmt::format("{}: counts = '{}'; allowed is a column", look.table.path, look.mapping.text("counts")));
+    read_ = look.table.read(wanted, time_column(look.table, look.mapping));
+    n_ = read_.columns.front().values.size();
+    std::size_t next = 0;
+    for (RawSource& source : all_) {
+        if (!is_fixed(source.from)) {
+            source.from = described(read_.columns[next]);
+            source.values = std::move(read_.columns[next++].values);
+        }
+        if (source.key == "mode") scale_sign(source, "mode_plus");
+        if (source.key == "bias_sign") scale_sign(source, "bias_sign_plus");
+    }
+}
+
+const RawSource* RawSources::find(std::string_view key) const {
+    const auto found = std::ranges::find(all_, key, &RawSource::key);
+    return found == all_.end() ? nullptr : &*found;
+}
+
+double RawSources::at(std::string_view key, std::size_t k) const {
+    const RawSource* source = find(key);
+    if (source == nullptr) return missing;
+    if (!source->values.empty()) return source->values[k];
+    return source->alternates && k % 2 != 0 ? -source->fixed : source->fixed;
+}
+
+void RawSources::fill(const RowTimes& times) {
+    for (RawSource& source : all_) fill_holes(source.values, times);
+    n_ += static_cast<std::size_t>(times.n_missing);
+    holes_ = times.holes;
+}
+
+std::size_t RawSources::row_of_file(std::size_t k) const {
+    std::size_t filled = 0;
+    for (const Hole& hole : holes_) {
+        if (k <= hole.row + filled) break;
+        filled += std::min(static_cast<std::size_t>(hole.n_missing), k - hole.row - filled);
+    }
+    return k - filled + 1;
+}
+
+void RawSources::refuse(std::string_view key, std::size_t k, const std::string& allowed) const {
+    const RawSource* source = find(key);
+    throw FormatError(fmt::format("{}, {}, row {}: {} = {}; allowed is {}", look_.table.path, source->from,
+                                  row_of_file(k), key, at(key, k), allowed));
+}
+
+// A column of two values, of which the mapping says which one is +1.
+void RawSources::scale_sign(RawSource& source, const char* plus_key) const {
+    if (source.values.empty() && std::fabs(source.fixed) != 1.0)
+        throw MappingError(
+            fmt::format("{}: {} = '{}'; allowed are 1 and -1", look_.table.path, source.key, source.from));
+    const auto plus = look_.mapping.real(plus_key);
+    double other = missing;
+    for (std::size_t k = 0; k < source.values.size(); ++k) {
+        double& value = source.values[k];
+        if (std::isnan(value)) continue;
+        if (!plus) {
+            if (std::fabs(value) == 1.0) continue;
+            throw MappingError(
+                fmt::format("{}, {}, row {}: {}; allowed are +1 and -1, or --map {}=... the value that stands "
+                            "for +1",
+                            look_.table.path, source.from, k + 1, value, plus_key));
+        }
+        if (value != *plus && std::isnan(other)) other = value;
+        if (value != *plus && value != other) refuse(source.key, k, fmt::format("{} or {}", *plus, other));
+        value = value == *plus ? 1.0 : -1.0;
+    }
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,56 @@
+#pragma once
+// What a mapping says of the columns of a raw log: columns of the foreign file, or a value in their place.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <zlg/logs/imported.hpp>
+
+namespace zlg::logs {
+
+struct RawSource {
+    std::string key;
+    std::vector<double> values;  // of a column; empty: `fixed`
+    double fixed = 0.0;
+    bool alternates = false;
+    std::string from;  // for messages
+};
+
+class RawSources {
+public:
+    // Reads the columns. errors  as imported_raw().
+    explicit RawSources(const ForeignLook& look);
+
+    // Null where the mapping has nothing of that key.
+    [[nodiscard]] const RawSource* find(std::string_view key) const;
+    [[nodiscard]] const TextTable& read() const { return read_; }
+    [[nodiscard]] std::size_t n() const { return n_; }
+    [[nodiscard]] bool is_column(std::string_view key) const {
+        const RawSource* source = find(key);
+        return source != nullptr && !source->values.empty();
+    }
+
+    // In row k, which decides of what alternates. NaN in a row that is missing, and where there is nothing of that key.
+    [[nodiscard]] double at(std::string_view key, std::size_t k) const;
+
+    // Puts rows where some are missing.
+    void fill(const RowTimes& times);
+
+    // Of row k as filled the number in the file, from 1.
+    [[nodiscard]] std::size_t row_of_file(std::size_t k) const;
+
+    // errors  FormatError, always: path, column, row, value, what is allowed.
+    [[noreturn]] void refuse(std::string_view key, std::size_t k, const std::string& allowed) const;
+
+private:
+    void scale_sign(RawSource& source, const char* plus_key) const;
+
+    const ForeignLook& look_;
+    std::vector<RawSource> all_;
+    TextTable read_;
+    std::vector<Hole> holes_;
+    std::size_t n_ = 0;
+};
+
+}  // namespace zlg::logs

@@ -1,0 +1,285 @@
+// Text: the way to read it is the one that `analyze` recognises, below the lines that are neither names nor numbers.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <zlg/logs/error.hpp>
+#include <zlg/text/escape.hpp>
+#include <zlg/text/spelling.hpp>
+
+#include "foreign_readers.hpp"
+#include "text_table/dates.hpp"
+#include "text_table/text_reading.hpp"
+#include "text_table/text_recognition.hpp"
+#include "units.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr std::int64_t max_preamble = 40;
+constexpr std::size_t max_columns_looked_at = 64;
+
+const std::map<std::string, TextSeparator> separators{{"tab", TextSeparator::tab},
+                                                      {"semicolon", TextSeparator::semicolon},
+                                                      {"bar", TextSeparator::bar},
+                                                      {"comma", TextSeparator::comma},
+                                                      {"space", TextSeparator::blanks}};
+
+const std::map<char, std::string> separator_words{
+    {'\t', "tabs"}, {';', "semicolons"}, {'|', "bars"}, {',', "commas"}, {blanks_separator, "blanks"}};
+
+TextLayout layout_of(const Mapping& mapping) {
+    TextLayout layout;
+    layout.section = "--map ";
+    if (mapping.has("separator")) layout.separator = separators.at(mapping.text("separator"));
+    if (mapping.has("decimal")) layout.mark = mapping.text("decimal") == "comma" ? TextMark::comma : TextMark::point;
+    if (mapping.has("comment")) layout.comment = mapping.text("comment");
+    if (const auto n = mapping.real("skip_lines")) layout.skip_lines = static_cast<std::int64_t>(*n);
+    return layout;
+}
+
+// The messages of the readers name keys as --set does.
+std::string in_words_of_mapping(std::string message) {
+    for (std::size_t at = message.find("--map ."); at != std::string::npos; at = message.find("--map ."))
+        message.replace(at, 7, "--map ");
+    return message;
+}
+
+bool is_numeric(const FirstLines& sample, const Dialect& dialect, std::size_t field) {
+    std::vector<Field> fields;
+    bool has_number = false;
+    for (std::size_t k = dialect.has_header ? 1 : 0; k < sample.lines.size(); ++k) {
+        split_fields(sample.lines[k].text, dialect.separator, fields);
+        if (field >= fields.size()) continue;
+        const FieldKind kind = kind_of(fields[field], dialect.mark);
+        if (kind != FieldKind::number && kind != FieldKind::missing) return false;
+        has_number = has_number || kind == FieldKind::number;
+    }
+    return has_number;
+}
+
+// Commas between names of our own, of which one is also a unit.
+bool names_our_columns(const FirstLines& sample) {
+    std::vector<Field> fields;
+    split_fields(sample.lines.front().text, ',', fields);
+    return std::ranges::count_if(fields, [](const Field& field) { return is_raw_key(field.text); }) > 1;
+}
+
+// Recognised by each column of numbers that some way of reading shows: two ways that differ in any of them are refused.
+Dialect dialect_of(const FirstLines& sample, const std::string& path, TextLayout layout) {
+    if (layout.separator == TextSeparator::automatic && names_our_columns(sample))
+        layout.separator = TextSeparator::comma;
+    TextLayout any = layout;
+    any.columns.clear();
+    std::vector<std::size_t> numeric;
+    for (const char separator : {'\t', ';', '|', ',', blanks_separator}) {
+        for (const Mark mark : {Mark::comma, Mark::point}) {
+            const Reading reading = read_as(separator, mark, sample, path, any);
+            if (reading.verdict != Verdict::good) continue;
+            for (std::size_t f = 0; f < std::min(reading.dialect.n_fields, max_columns_looked_at); ++f)
+                if (is_numeric(sample, reading.dialect, f)) numeric.push_back(f);
+        }
+    }
+    std::ranges::sort(numeric);
+    numeric.erase(std::unique(numeric.begin(), numeric.end()), numeric.end());
+    if (numeric.empty()) numeric = {0};
+    std::optional<Dialect> found;
+    std::string reason;
+    for (const std::size_t f : numeric) {
+        layout.columns = {fmt::format("{}", f + 1)};
+        try {
+            const Dialect dialect = recognise_dialect(sample, path, layout);
+            if (found && found->separator != dialect.separator)
+                throw MappingError(
+                    fmt::format("{}: its columns can be parted by {} or by {}; say which by --map "
+                                "separator=tab|semicolon|bar|comma|space",
+                                path, separator_words.at(found->separator), separator_words.at(dialect.separator)));
+            if (!found) found = dialect;
+            if (dialect.mark != Mark::none) found->mark = dialect.mark;
+        } catch (const FormatError& error) {
+            const std::string message = in_words_of_mapping(error.what());
+            if (message.find("say which") != std::string::npos) throw MappingError(message);
+            if (reason.empty()) reason = message;
+        }
+    }
+    if (!found) throw FormatError(reason);
+    return *found;
+}
+
+// No row of numbers: a line that may stand above a table.
+bool may_be_preamble(const std::string& line) {
+    for (const char separator : {'\t', ';', '|', ',', blanks_separator}) {
+        std::vector<Field> fields;
+        split_fields(line, separator, fields);
+        if (!fields.empty() && std::ranges::all_of(fields, [](const Field& field) {
+                return number_of(field.text, Mark::none).has_value() || says_missing(field.text) ||
+                       date_time(field.text).has_value();
+            }))
+            return false;
+    }
+    return std::ranges::any_of(line, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
+}
+
+struct Look {
+    TextLayout layout;
+    FirstLines sample;
+    Dialect dialect;
+    std::vector<std::string> units;
+    std::vector<std::string> preamble;
+};
+
+std::vector<std::string> words_of(const std::string& line, const Dialect& dialect) {
+    std::vector<Field> fields;
+    split_fields(line, dialect.separator, fields);
+    if (fields.size() == dialect.n_fields + 1 && fields.back().text.empty()) fields.pop_back();
+    if (fields.size() != dialect.n_fields) return {};
+    std::vector<std::string> words;
+    for (const Field& field : fields) words.emplace_back(field.text);
+    return words;
+}
+
+// Lines of words above the numbers: the last two may be names and units.
+Look look_at(const std::string& path, const Mapping& mapping) {
+    Look look{.layout = layout_of(mapping), .sample = {}, .dialect = {}, .units = {}, .preamble = {}};
+    std::string reason;
+    for (std::int64_t skipped = 0; skipped <= max_preamble; ++skipped) {
+        look.sample = first_lines_of(path, look.layout);
+        if (look.sample.lines.empty()) break;
+        try {
+            look.dialect = dialect_of(look.sample, path, look.layout);
+            if (names_our_columns(look.sample)) look.layout.separator = TextSeparator::comma;
+            bool shows_numbers = false;
+            for (std::size_t f = 0; f < look.dialect.n_fields && !shows_numbers; ++f)
+                shows_numbers = is_numeric(look.sample, look.dialect, f);
+            if (shows_numbers) return look;
+        } catch (const FormatError& error) {
+            if (reason.empty()) reason = error.what();
+        }
+        if (mapping.has("skip_lines") || !may_be_preamble(look.sample.lines.front().text)) break;
+        look.preamble.push_back(look.sample.lines.front().text);
+        ++look.layout.skip_lines;
+    }
+    throw FormatError(reason.empty() ? fmt::format("{}: holds no rows of numbers", path) : reason);
+}
+
+std::string without_brackets(std::string unit) {
+    while (!unit.empty() && std::string_view{"[(<"}.find(unit.front()) != std::string_view::npos) unit.erase(0, 1);
+    while (!unit.empty() && std::string_view{"])>"}.find(unit.back()) != std::string_view::npos) unit.pop_back();
+    return unit;
+}
+
+// Most of the words are units: of angles, of times, or in brackets.
+bool are_units(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 18> others{"s", "ms", "us", "ns", "min", "h",    "hz",    "c", "degc",
+                                                      "k", "v",  "mv", "a",  "ma",  "m/s2", "m/s^2", "g", "m/s"};
+    std::size_t n_units = 0, n_words = 0;
+    for (const std::string& word : words) {
+        if (word.empty() || word == "-") continue;
+        ++n_words;
+        const std::string unit = without_brackets(word);
+        n_units += std::string_view{"[(<"}.find(word.front()) != std::string_view::npos || unit_named(unit) ||
+                           unit.starts_with("\xC2\xB0") ||
+                           std::ranges::find(others, text::lower_case(unit)) != others.end()
+                       ? 1u
+                       : 0u;
+    }
+    return 2 * n_units > n_words;
+}
+
+// Names in one line and units in the next: the reader took the units for the names, or nothing.
+void take_names_above(Look& look) {
+    if (look.preamble.empty()) return;
+    const std::vector<std::string> above = words_of(look.preamble.back(), look.dialect);
+    if (above.empty()) return;
+    if (look.dialect.has_header && !look.dialect.names.empty()) {
+        if (!are_units(look.dialect.names)) return;
+        look.units = look.dialect.names;
+    } else if (are_units(above) && look.preamble.size() > 1) {
+        // Units such as [°/s] are no names for the reader.
+        const std::vector<std::string> names = words_of(look.preamble[look.preamble.size() - 2], look.dialect);
+        const bool are_names =
+            !names.empty() && std::ranges::all_of(names, [](const std::string& w) { return may_be_name(w); });
+        if (are_names) {
+            look.units = above;
+            look.dialect.names = names;
+            return;
+        }
+    }
+    if (std::ranges::all_of(above, [](const std::string& w) { return w.empty() || may_be_name(w); }))
+        look.dialect.names = above;
+    else
+        look.units.clear();
+}
+
+ForeignColumn column_of(const Look& look, std::size_t f) {
+    ForeignColumn column{.number = static_cast<std::int64_t>(f) + 1, .name = {}, .first = {}, .values = {}};
+    if (f < look.dialect.names.size()) column.name = look.dialect.names[f];
+    if (f < look.units.size() && !look.units[f].empty())
+        column.name += fmt::format(" [{}]", without_brackets(look.units[f]));
+    column.is_number = is_numeric(look.sample, look.dialect, f);
+    std::optional<DateTime> first_date;
+    std::vector<Field> fields;
+    for (std::size_t k = look.dialect.has_header ? 1 : 0; k < look.sample.lines.size(); ++k) {
+        split_fields(look.sample.lines[k].text, look.dialect.separator, fields);
+        if (f >= fields.size()) break;
+        if (column.values.empty()) column.first = text::excerpt(fields[f].text, 30, ' ');
+        const auto number = number_of(fields[f].text, look.dialect.mark);
+        double value = number ? number->value : std::numeric_limits<double>::quiet_NaN();
+        if (!column.is_number)
+            if (const auto date = date_time(fields[f].text)) {
+                if (!first_date) first_date = date;
+                value =
+                    static_cast<double>(date->seconds - first_date->seconds) + date->fraction - first_date->fraction;
+            }
+        column.values.push_back(value);
+    }
+    column.holds_dates = first_date && std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
+    return column;
+}
+
+std::string nature_of(const Look& look) {
+    std::string nature = "text";
+    if (look.dialect.n_fields > 1) nature += ", columns parted by " + separator_words.at(look.dialect.separator);
+    if (look.dialect.mark != Mark::none)
+        nature += look.dialect.mark == Mark::comma ? ", decimal comma" : ", decimal point";
+    const std::int64_t first_row = look.sample.lines[look.dialect.has_header ? 1 : 0].number;
+    nature += look.dialect.names.empty() ? ", no names of columns" : ", named columns";
+    if (!look.units.empty()) nature += " with a line of units";
+    return nature + fmt::format(", numbers from line {} on", first_row);
+}
+
+}  // namespace
+
+ForeignTable text_table_of(const std::string& path, const Mapping& mapping) {
+    Look look = look_at(path, mapping);
+    take_names_above(look);
+    ForeignTable table{.path = path, .nature = nature_of(look), .columns = {}, .notes = {}, .n_rows = {}, .read = {}};
+    for (std::size_t f = 0; f < look.dialect.n_fields; ++f) table.columns.push_back(column_of(look, f));
+    std::vector<std::string> names;
+    for (const ForeignColumn& column : table.columns) names.push_back(column.name);
+    table.read = [path, layout = look.layout, names](const std::vector<std::int64_t>& wanted, std::int64_t times) {
+        TextLayout asked = layout;
+        for (const std::int64_t number : wanted) asked.columns.push_back(fmt::format("{}", number));
+        asked.time_column = fmt::format("{}", times);
+        try {
+            TextTable read = read_text_table(path, asked);
+            for (TextColumn& column : read.columns) column.name = names[static_cast<std::size_t>(column.number - 1)];
+            if (read.times) read.times->name = names[static_cast<std::size_t>(read.times->number - 1)];
+            return read;
+        } catch (const FormatError& error) {
+            const std::string message = in_words_of_mapping(error.what());
+            const bool is_open = message.find("; say ") != std::string::npos;
+            if (is_open) throw MappingError(message);
+            throw FormatError(message);
+        }
+    };
+    return table;
+}
+
+}  // namespace zlg::logs

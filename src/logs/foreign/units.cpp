@@ -1,0 +1,100 @@
+#include "units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <utility>
+#include <vector>
+#include <zlg/text/spelling.hpp>
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr double deg = 3600.0;
+constexpr double rad = deg * 180.0 / std::numbers::pi;
+
+constexpr std::array<AngleUnit, 19> units{{{"deg/s", UnitKind::rate, deg},
+                                           {"deg/min", UnitKind::rate, deg / 60.0},
+                                           {"deg/h", UnitKind::rate, 1.0},
+                                           {"mdeg/s", UnitKind::rate, deg / 1e3},
+                                           {"rad/s", UnitKind::rate, rad},
+                                           {"mrad/s", UnitKind::rate, rad / 1e3},
+                                           {"urad/s", UnitKind::rate, rad / 1e6},
+                                           {"arcsec/s", UnitKind::rate, 1.0},
+                                           {"counts/s", UnitKind::rate, 1.0, true},
+                                           {"deg", UnitKind::angle, deg},
+                                           {"mdeg", UnitKind::angle, deg / 1e3},
+                                           {"rad", UnitKind::angle, rad},
+                                           {"mrad", UnitKind::angle, rad / 1e3},
+                                           {"urad", UnitKind::angle, rad / 1e6},
+                                           {"arcmin", UnitKind::angle, 60.0},
+                                           {"arcsec", UnitKind::angle, 1.0},
+                                           {"marcsec", UnitKind::angle, 1e-3},
+                                           {"turns", UnitKind::angle, 360.0 * deg},
+                                           {"counts", UnitKind::angle, 1.0, true}}};
+
+void replace(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
+// One spelling of each word.
+std::string usual_spelling(std::string_view word) {
+    std::string text = text::lower_case(word);
+    std::erase(text, ' ');
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spellings{{{"\xC2\xB0", "deg"},
+                                                                                       {"\xC2\xB5", "u"},
+                                                                                       {"\xCE\xBC", "u"},
+                                                                                       {"degrees", "deg"},
+                                                                                       {"_", "/"},
+                                                                                       {"/sec", "/s"},
+                                                                                       {"/hour", "/h"},
+                                                                                       {"/hr", "/h"},
+                                                                                       {"/std", "/h"},
+                                                                                       {"arc-sec", "arcsec"},
+                                                                                       {"pulses", "counts"},
+                                                                                       {"\xE2\x80\xB3", "arcsec"}}};
+    for (const auto& [from, to] : spellings) replace(text, from, to);
+    if (text == "dps") return "deg/s";
+    if (text == "dph") return "deg/h";
+    if (text == "mdps") return "mdeg/s";
+    if (text == "asec") return "arcsec";
+    if (text == "count") return "counts";
+    return text;
+}
+
+}  // namespace
+
+std::optional<AngleUnit> unit_named(std::string_view word) {
+    const std::string usual = usual_spelling(word);
+    const auto found = std::ranges::find(units, std::string_view{usual}, &AngleUnit::name);
+    if (found == units.end()) return std::nullopt;
+    return *found;
+}
+
+std::optional<AngleUnit> unit_in_name(std::string_view name) {
+    const std::size_t open = name.find_first_of("[(");
+    if (open != std::string_view::npos) {
+        const std::size_t close = name.find_first_of("])", open);
+        if (close == std::string_view::npos) return std::nullopt;
+        return unit_named(name.substr(open + 1, close - open - 1));
+    }
+    // rate_deg_s before rate_s; a name that is nothing but a unit says nothing of a quantity.
+    std::vector<std::size_t> parts;
+    for (std::size_t at = name.find_first_of("_ "); at != std::string_view::npos; at = name.find_first_of("_ ", at + 1))
+        parts.push_back(at + 1);
+    for (std::size_t k = parts.size() > 2 ? parts.size() - 2 : 0; k < parts.size(); ++k)
+        if (const auto unit = unit_named(name.substr(parts[k]))) return unit;
+    return std::nullopt;
+}
+
+std::string allowed_units() {
+    std::string all;
+    for (const AngleUnit& unit : units) all += fmt::format("{}{}", all.empty() ? "" : ", ", unit.name);
+    return all;
+}
+
+}  // namespace zlg::logs

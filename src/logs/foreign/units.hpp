@@ -1,0 +1,27 @@
+#pragma once
+// Units of angles and rates, as people write them.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace zlg::logs {
+
+enum class UnitKind { rate, angle };
+
+struct AngleUnit {
+    std::string_view name;
+    UnitKind kind = UnitKind::angle;
+    double arcsec = 0.0;     // of one, or arcsec/s
+    bool of_counts = false;  // times what a count is worth
+};
+
+// deg/s, dps, rad_s, arcsec and the like, in any case; empty where it is none.
+[[nodiscard]] std::optional<AngleUnit> unit_named(std::string_view word);
+
+// The unit in the name of a column: in brackets, or behind the last underscores.
+[[nodiscard]] std::optional<AngleUnit> unit_in_name(std::string_view column_name);
+
+[[nodiscard]] std::string allowed_units();
+
+}  // namespace zlg::logs

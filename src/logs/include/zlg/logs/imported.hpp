@@ -1,0 +1,69 @@
+#pragma once
+// Rows of our own logs from a file of another program.
+//
+// What the file itself says is taken and said; what it leaves open is asked for. Nothing that a number depends on is guessed.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <zlg/core/records.hpp>
+#include <zlg/logs/foreign_table.hpp>
+#include <zlg/logs/mapping.hpp>
+#include <zlg/logs/raw_layout.hpp>
+#include <zlg/logs/row_times.hpp>
+
+namespace zlg::logs {
+
+enum class Makes { raw, axes };
+
+struct ForeignLook {
+    ForeignTable table;
+    Mapping mapping;                   // what was said, and what the file says of itself
+    Makes makes = Makes::axes;         // raw: there is a column of counts; else angles or rates of axes
+    std::vector<std::string> said;     // what was understood, a line each
+    std::vector<std::string> missing;  // "unit=deg/s, ..., of 'wz'": what must be given before rows are made
+    std::vector<std::string> may_be;   // of each column
+};
+
+// errors  as foreign_table(); MappingError: a column that is said is not there.
+[[nodiscard]] ForeignLook look_at_foreign(const std::string& path, const Mapping& said);
+
+// errors  MappingError: one line with all that is missing.
+void require_whole(const ForeignLook& look);
+
+struct ImportedRaw {
+    RawHeader header;  // with tick_s and scale_arcsec among its settings
+    std::vector<core::HalfRecord> rows;
+    std::vector<std::string> notes;
+};
+
+// Half-periods: rows that are missing by the times or the numbers of the halves become halves with `valid` 0; rows of a part of a
+// half are added up where whole numbers of them make a half.
+//
+// errors  MappingError: something is missing or contradicts the file; FormatError: a value that a raw log cannot hold, times
+// that do not say where rows are missing, rows that do not make halves exactly; the reason is in the line.
+[[nodiscard]] ImportedRaw imported_raw(const ForeignLook& look);
+
+struct ImportedAxis {
+    std::string name;
+    std::string holds;  // "rates, deg/s"
+    double rate_hz = 0.0;
+    std::vector<double> rates_arcsec_s;  // NaN where nothing was measured
+    std::vector<double> phase_arcsec;    // where angles are recorded: those, one more
+};
+
+struct ImportedAxes {
+    std::vector<ImportedAxis> axes;
+    std::vector<std::string> notes;
+};
+
+// errors  as imported_raw().
+[[nodiscard]] ImportedAxes imported_axes(const ForeignLook& look);
+
+// The angle log of one axis: a row a sample, sigma_arcsec unknown (inf). A missing sample is flagged `invalid` and `unrepaired` and turns by
+// nothing; where angles were recorded the turn over missing ones is spread evenly and flagged `interpolated` in place of
+// `unrepaired`.
+[[nodiscard]] std::vector<core::AngleRow> angle_rows(const ImportedAxis& axis);
+
+}  // namespace zlg::logs
