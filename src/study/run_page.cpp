@@ -21,17 +21,16 @@ std::string joined(const std::vector<const VariantResult*>& group, std::string V
     return text;
 }
 
-report::Table variant_table(const config::Config& config, const RunResult& result) {
+report::Table variant_table(const RunResult& result) {
     report::Table table{
         .caption =
             "The error of a switch is final minus true angle from the first blind tick to the end of the re-lock; its "
-            "mean "
-            "is taken with the sign of the false drift, which alternates from switch to switch. Drift is the "
-            "least-squares "
-            "slope of the angle error; the non-magnetic drift of the gyro, which no switching takes out and a bias "
-            "calibration does, is part of it.",
+            "mean is taken with the sign of the false drift, which alternates from switch to switch. Drift is the "
+            "least-squares slope of the angle error. The constant is the non-magnetic drift, which no switching takes "
+            "out and a bias calibration does.",
         .header = {"variant", "what it is", "error per switch, rms, arcsec", "mean, arcsec", "largest, arcsec",
-                   "drift, deg/h", "without the non-magnetic, deg/h", "angle error at the end, arcsec"}};
+                   "drift without the constant, deg/h", "angle error at the end without it, arcsec",
+                   "drift with it, deg/h"}};
     for (const auto& group : equal_variants(result)) {
         const VariantResult& v = *group.front();
         const auto error = [&v](double SwitchStatistics::*member) {
@@ -42,8 +41,8 @@ report::Table variant_table(const config::Config& config, const RunResult& resul
             is_all ? group.front()->name + " to " + group.back()->name : joined(group, &VariantResult::name),
             is_all ? fmt::format("{} variants, all equal here", group.size()) : joined(group, &VariantResult::meaning),
             error(&SwitchStatistics::rms_arcsec), error(&SwitchStatistics::mean_arcsec),
-            error(&SwitchStatistics::max_arcsec), v.drift_arcsec_s,
-            v.drift_arcsec_s - config.drift.nonmagnetic_arcsec_s, v.angle_error_arcsec));
+            error(&SwitchStatistics::max_arcsec), v.drift_without_nonmagnetic_arcsec_s,
+            v.angle_error_without_nonmagnetic_arcsec, v.drift_arcsec_s));
     }
     return table;
 }
@@ -60,7 +59,7 @@ std::vector<std::string> result_text(const RunResult& result) {
     text.emplace_back(
         "Every row compensates the records of one and the same run of the digital twin; only one_mode is a run of its "
         "own.");
-    if (equal_variants(result).size() < result.variants.size())
+    if (equal_variants(result).size() < result.variants.size() + 1)
         text.back() += " Variants that give the same to the last bit share a row.";
     return text;
 }
@@ -140,7 +139,7 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
                       .lead = lead(config, result)};
     page.sections.push_back({.heading = "Result",
                              .paragraphs = result_text(result),
-                             .tables = {variant_table(config, result)},
+                             .tables = {variant_table(result)},
                              .figures = {sawtooth_figure(config, result)}});
     auto& figures = page.sections.back().figures;
     if (!result.switches.empty()) figures.push_back(sum_figure(result));

@@ -81,13 +81,15 @@ std::vector<std::vector<const VariantResult*>> equal_variants(const RunResult& r
                std::ranges::equal(a.switches, b.switches, {}, &SwitchError::error_arcsec, &SwitchError::error_arcsec);
     };
     std::vector<std::vector<const VariantResult*>> groups;
-    for (const VariantResult& v : result.variants) {
+    const auto add = [&](const VariantResult& v) {
         const auto group = std::ranges::find_if(groups, [&](const auto& g) { return same(*g.front(), v); });
         if (group == groups.end())
             groups.push_back({&v});
         else
             group->push_back(&v);
-    }
+    };
+    for (const VariantResult& v : result.variants) add(v);
+    add(result.magnetic_estimate);
     return groups;
 }
 

@@ -2,17 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "foreign/units.hpp"
+#include "temporary_folder.hpp"
 #include "text_table/dates.hpp"
 
 namespace zlg::logs {
 namespace {
 
 ForeignTable table_of(const std::string& text) {
-    const std::string path = testing::TempDir() + "foreign_table_test.csv";
-    std::ofstream{path} << text;
+    static const test::TemporaryFolder folder;  // the table reads the file again
+    const std::string path = folder.write("foreign.csv", text);
     return foreign_table(path, {});
 }
 

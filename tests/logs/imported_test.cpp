@@ -3,14 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
+
+#include "temporary_folder.hpp"
 
 namespace zlg::logs {
 namespace {
 
 ForeignLook look_of(const std::string& text, std::initializer_list<const char*> said) {
-    const std::string path = testing::TempDir() + "imported_test.csv";
-    std::ofstream{path} << text;
+    static const test::TemporaryFolder folder;  // the table reads the file again
+    const std::string path = folder.write("foreign.csv", text);
     Mapping mapping;
     for (const char* pair : said) apply_mapping_pair(mapping, pair);
     return look_at_foreign(path, mapping);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include "temporary_folder.hpp"
 
 namespace zlg::logs {
 namespace {
@@ -35,10 +35,9 @@ TEST(Mapping, what_is_written_as_toml_reads_back) {
     for (const char* pair :
          {"tick_s=0.005", "unit=deg/h", "time=Zeit [s]", "comment=\"", "axis=[\"w, x\", 3]", "mode_plus=-1"})
         apply_mapping_pair(mapping, pair);
-    const std::string path = testing::TempDir() + "mapping_test.toml";
-    std::ofstream{path} << mapping.toml();
+    const test::TemporaryFolder folder;
     Mapping back;
-    apply_mapping_file(back, path);
+    apply_mapping_file(back, folder.write("mapping.toml", mapping.toml()));
     EXPECT_EQ(back.toml(), mapping.toml());
     EXPECT_EQ(back.axes(), (std::vector<std::string>{"w, x", "3"}));
     EXPECT_EQ(back.real("tick_s"), 0.005);
