@@ -447,7 +447,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         tick.settled_tick = state.settled_tick;
         if ((tick.flags & flag_loop_unlocked) != 0)
             state.settled_tick = state.bridge.next_tick + 1 + config.relock.ticks;
-        tick.relock_ticks = config.relock.ticks;
+        state.bridge.relock_ticks = config.relock.ticks;
         tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);

@@ -357,7 +357,6 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         add_measured_tick(config, state, input, tick);
     } else {
         state.walk_of_switch_arcsec2 = input.walk_of_switch_arcsec2;
-        state.relock_ticks = input.relock_ticks;
         add_gap_tick(gyro, config, state, input, tick);
     }
 

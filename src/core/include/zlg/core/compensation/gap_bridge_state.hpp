@@ -84,7 +84,7 @@ struct EstimatedGap {
     bool learnt = true;            // the motion was known when the problem began
     double magnetic_arcsec = 0.0;  // as in GapBridgeState when it began
     double magnetic_variance_arcsec2 = 0.0;
-    int n_after = 0;               // ticks after the gap that may be points; before it: problem.n_side
+    int n_after = 0;  // ticks after the gap that may be points; before it: problem.n_side
     bool solving = false;
     GapProblem problem{};
     LitHalvesState lit{};                           // of the gap; points of half-ticks, too
@@ -109,7 +109,7 @@ struct GapBridgeState {
     double relock_to_come_arcsec2 = 0.0;  // variance of the re-lock corrections still to come
     double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
     double common_arcsec2 = 0.0;          // of the last measured tick, as in TickInput
-    std::int64_t relock_ticks = 0;        // as in TickInput
+    std::int64_t relock_ticks = 0;        // after a gap, that belong to its switch
     double bias_arcsec = 0.0;             // what a positive bias adds to a half; of half-ticks alone
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
     TickOutlierState outlier{};

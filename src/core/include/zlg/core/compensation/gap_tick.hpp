@@ -18,14 +18,14 @@ struct TickInput {
     double bias_arcsec = 0.0;              // what a positive bias adds to a half, as far as half-ticks are used
     double relock_to_come_arcsec2 = 0.0;   // variance of the corrections after this one, as far as this one tells
     double walk_of_switch_arcsec2 =
-        0.0;                        // of a tick of a gap: variance of the random walk in the re-lock ticks after it
-    double common_arcsec2 = 0.0;    // part of the variance that all ticks at an even rate have in common
-    std::int64_t relock_ticks = 0;  // of a tick of a gap: the ticks after it that belong to the switch
+        0.0;                      // of a tick of a gap: variance of the random walk in the re-lock ticks after it
+    double common_arcsec2 = 0.0;  // part of the variance that all ticks at an even rate have in common
     std::int64_t settled_tick =
         0;                // of a tick of a gap: the first one whose re-lock was over before this gap; its halves and
                           // those of later ones hold the same bias
     bool settled = true;  // re-lock is over: the tick shows the motion alone
-    bool with_phase = false;  // the place within the count is known at both ends and in the middle
+    bool with_phase = false;      // the place within the count is known at both ends and in the middle
+    bool known_is_rough = false;  // the known sum; the motion around the gap may tell more (gap_known.hpp)
     std::int8_t mode = 1;
     std::int8_t sign = 1;  // bias_sign * mode in its first half
     std::uint32_t flags = 0;
@@ -37,7 +37,6 @@ struct TickInput {
     double known_arcsec = 0.0;     // that sum
     double known_variance_arcsec2 = 0.0;
     double known_drift_arcsec2 = 0.0;  // the part of it that the detuning makes
-    bool known_is_rough = false;       // the motion around the gap may tell more (gap_known.hpp)
 };
 
 struct HistoryTick {
@@ -48,10 +47,10 @@ struct HistoryTick {
     std::int8_t sign = 1;                  // of the bias in its first half
     bool measured = false;
     bool with_phase = false;       // as in TickInput
+    bool known_is_rough = false;   // as in TickInput
     std::int64_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
     double known_arcsec = 0.0;
     double known_variance_arcsec2 = 0.0;
-    bool known_is_rough = false;  // as in TickInput
 
     friend bool operator==(const HistoryTick&, const HistoryTick&) = default;
 };
