@@ -53,7 +53,7 @@ class Pages(unittest.TestCase):
     def test_without_a_switch_no_sawtooth_is_explained(self):
         for name in ("short", "calm"):
             self.assertNotIn("sawtooth", self.made[name])
-            self.assertIn("9 variants, all equal here", self.made[name])
+            self.assertIn("10 variants, all equal here", self.made[name])
         self.assertIn("sawtooth", self.made["switched"])
 
     def test_a_fault_is_named_with_what_the_core_made_of_it(self):

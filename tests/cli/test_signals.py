@@ -213,6 +213,9 @@ class Signals(CliTest):
 
     def test_without_a_thread_the_signals_end_it_in_their_own_way(self):
         def no_thread():
+            # A shell that ran the tests in the background has SIGINT ignored.
+            for number in ENDING:
+                signal.signal(number, signal.SIG_DFL)
             # A stack for it that does not fit.
             resource.setrlimit(resource.RLIMIT_STACK, (1 << 40, resource.getrlimit(resource.RLIMIT_STACK)[1]))
             resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
