@@ -179,6 +179,25 @@ TEST(GapBridgeNoise, TheSizeOfACountChangesNoChoice) {
         EXPECT_NEAR(small[k].sigma_arcsec / smaller, large[k].sigma_arcsec, 1e-6 * large[k].sigma_arcsec) << k;
 }
 
+// A polynomial that stands in for an estimate is judged by the motion around the gap: of one tick that is the whole gap.
+TEST(GapBridgeNoise, SigmaOfAFirstGapOfOneTickIsThatOfItsTick) {
+    int n_more = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        Random random{seed};
+        Log log;
+        for (int k = 0; k < 60; ++k)
+            log.push_back(k == 30 ? gap_tick() : measured_tick(count_arcsec * std::floor(random.uniform(0.0, 3.0))));
+        const auto sigmas = [&](BridgeMethod method) {
+            const Delivered got = run({.method = method}, log, {.scale = Arcsec{count_arcsec}});
+            return std::pair{got.rows[30].sigma_arcsec, got.gaps.at(0).sigma_sum_arcsec};
+        };
+        const auto [of_tick, of_gap] = sigmas(BridgeMethod::automatic);
+        EXPECT_NEAR(of_tick, of_gap, 1e-9 * of_gap) << seed;
+        n_more += of_gap > 1.01 * sigmas(BridgeMethod::quadratic).second ? 1 : 0;
+    }
+    EXPECT_GT(n_more, 0);
+}
+
 TEST(GapBridgeNoise, AnUnknownSigmaOfAPointMakesThatOfTheGapUnknown) {
     Log log(30, measured_tick(1.0));
     log[13].variance_arcsec2 = infinite;

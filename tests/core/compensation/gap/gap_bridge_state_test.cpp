@@ -260,6 +260,32 @@ TEST(LearningBridge, ASwitchTeachesTheScaleOfTheBiasAsMuchWhateverIsLearntOfIt) 
         EXPECT_NEAR(learnt_scale(before + 0.01, before) - before, first, 1e-9) << before;
 }
 
+// In a re-lock the halves before a gap hold a bias that still grows: the gap is bridged by whole ticks.
+TEST(LearningBridge, HalvesOfTicksInARelockAreNoPoints) {
+    constexpr std::int64_t n_before = 20, n_gap = 2;
+    const auto angle = [](double excess_arcsec, std::int64_t settled_tick) {
+        GapBridgeConfig config = learning(BridgeMethod::optimal);
+        config.optimal = {.learns = false, .halves = true};
+        for (std::size_t k = 0; k < config.optimal.prior_arcsec2.size(); ++k)
+            config.optimal.prior_arcsec2[k] = std::exp(-0.3 * static_cast<double>(k));
+        GapBridgeState state;
+        state.joint = {.first_tick = n_before + n_gap, .known = true};
+        Delivered result;
+        for (std::int64_t t = 0; t < n_before + n_gap + 20; ++t) {
+            TickInput tick = t >= n_before && t < n_before + n_gap ? gap_tick() : measured_tick(10.0);
+            tick.settled_tick = settled_tick;
+            if (t < n_before)
+                tick.half_excess_arcsec = excess_arcsec * std::exp(0.5 * static_cast<double>(t - n_before));
+            for (int half = 0; half < 2; ++half) advance_estimate(fine, config, state);
+            step_into(config, state, tick, result, fine);
+        }
+        drain_into(config, state, result, fine);
+        return result.rows[n_before].dtheta_final_arcsec + result.rows[n_before + 1].dtheta_final_arcsec;
+    };
+    EXPECT_GT(std::abs(angle(5.0, 0) - angle(0.0, 0)), 0.1);
+    EXPECT_EQ(angle(5.0, n_before), angle(0.0, n_before));
+}
+
 // To weigh the judgement of a motion takes as much as to estimate a gap: it waits while a gap lasts or is not yet resolved.
 TEST(LearningBridge, WeightsOfAMotionWaitUntilNoGapDoes) {
     const GapBridgeConfig config = learning(BridgeMethod::automatic);
