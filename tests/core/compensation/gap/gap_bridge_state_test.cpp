@@ -286,6 +286,26 @@ TEST(LearningBridge, HalvesOfTicksInARelockAreNoPoints) {
     EXPECT_EQ(angle(5.0, n_before), angle(0.0, n_before));
 }
 
+// One profile is held: that of the gap that waits, not one of a gap that is resolved.
+TEST(GapBridgeStateTest, NeedsAProfileWhileItsGapWaits) {
+    GapBridgeState state;
+    state.joint.first_tick = 7;
+    EXPECT_FALSE(needs_profile(state));
+    state.n_pending = 2;
+    state.pending[0].gap.first_tick = 5;
+    state.pending[0].gap.n = 2;
+    state.pending[1].gap.first_tick = 20;
+    state.pending[1].gap.n = 3;
+    EXPECT_TRUE(needs_profile(state));
+    state.joint.first_tick = 23;
+    EXPECT_TRUE(needs_profile(state));
+    state.joint.first_tick = 8;
+    EXPECT_FALSE(needs_profile(state));
+    state.joint.first_tick = 7;
+    state.pending[0].resolved = true;
+    EXPECT_FALSE(needs_profile(state));
+}
+
 // To weigh the judgement of a motion takes as much as to estimate a gap: it waits while a gap lasts or is not yet resolved.
 TEST(LearningBridge, WeightsOfAMotionWaitUntilNoGapDoes) {
     const GapBridgeConfig config = learning(BridgeMethod::automatic);
