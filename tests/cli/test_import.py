@@ -4,6 +4,7 @@ import datetime
 import io
 import json
 import struct
+import zlib
 
 import h5py
 import numpy
@@ -202,6 +203,27 @@ class Angles(Foreign):
                 self.refuse(codes, "import", self.write(name, data), "--out", out, "--map", "axis=2", "--map", "unit=deg/h", "--map", "rate_hz=10",
                             says=(name,))
                 self.assertFalse(out.exists())
+
+
+class Cut(Foreign):
+    """MATLAB 5 files that do not hold what they say; libmatio would give memory that nobody wrote."""
+
+    def test_matlab_5_that_is_cut_or_claims_more_than_it_holds(self):
+        said = ["--map", "rate_hz=100", "--map", "axis=w", "--map", "unit=deg/h"]
+        whole = matlab5({"w": self.rates(200)})
+        out = self.folder / "o.csv"
+        body = whole[128:]
+        packed = zlib.compress(body)
+        as_packed = whole[:128] + struct.pack("<II", 15, len(packed)) + packed
+        self.angles(self.write("packed.mat", as_packed), *said, rows=200)
+        half = zlib.compress(body[:800])
+        claims = whole.replace(struct.pack("<ii", 1, 200), struct.pack("<ii", 1, 20000))
+        self.assertNotEqual(claims, whole)
+        for name, data in (("cut.mat", whole[:900]), ("cut_at_the_tag.mat", whole + b"\x0e\0\0"), ("claims.mat", claims),
+                           ("packed_cut.mat", as_packed[:-40]), ("half.mat", whole[:128] + struct.pack("<II", 15, len(half)) + half),
+                           ("huge.mat", whole.replace(struct.pack("<ii", 1, 200), struct.pack("<ii", 200, 0x7FFFFFFF)))):
+            with self.subTest(name):
+                self.refuse(3, "import", self.write(name, data), "--out", out, *said, says=(name, "byte 128" if "tag" not in name else "byte"))
 
 
 class Raw(Foreign):

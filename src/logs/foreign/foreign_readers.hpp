@@ -14,6 +14,9 @@ namespace zlg::logs {
 [[nodiscard]] ForeignTable numpy_table_of(const std::string& path);
 [[nodiscard]] ForeignTable doubles_table_of(const std::string& path);
 
+// The whole file. errors  IoError; FormatError: more bytes than can be read.
+[[nodiscard]] std::string bytes_of(const std::string& path);
+
 // Arrays of a file that holds some, as they lie in memory.
 struct ForeignArray {
     std::string name;

@@ -20,20 +20,6 @@ namespace {
 
 constexpr std::size_t max_width = 40;
 
-std::string bytes_of(const std::string& path) {
-    zlg::text::note_input(path);
-    std::ifstream file{path, std::ios::binary};
-    file.seekg(0, std::ios::end);
-    const auto size = static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0));
-    if (size > max_foreign_values * sizeof(double))
-        throw FormatError(fmt::format("{}: {} bytes; allowed is {}", path, size, max_foreign_values * sizeof(double)));
-    std::string bytes(size, '\0');
-    file.seekg(0);
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
-        throw IoError(fmt::format("cannot read {}", path));
-    return bytes;
-}
-
 template <class Number>
 std::vector<double> numbers(std::string_view bytes, std::size_t n) {
     std::vector<double> values(n);
@@ -62,6 +48,20 @@ std::size_t width_of(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::string bytes_of(const std::string& path) {
+    zlg::text::note_input(path);
+    std::ifstream file{path, std::ios::binary};
+    file.seekg(0, std::ios::end);
+    const auto size = static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0));
+    if (size > max_foreign_values * sizeof(double))
+        throw FormatError(fmt::format("{}: {} bytes; allowed is {}", path, size, max_foreign_values * sizeof(double)));
+    std::string bytes(size, '\0');
+    file.seekg(0);
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
+        throw IoError(fmt::format("cannot read {}", path));
+    return bytes;
+}
 
 ForeignTable numpy_table_of(const std::string& path) {
     const std::string bytes = bytes_of(path);
