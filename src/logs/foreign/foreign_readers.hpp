@@ -25,6 +25,7 @@ struct ForeignArray {
     std::size_t columns = 1;
     bool rows_follow = true;  // the values of a row lie side by side; else those of a column do
     std::vector<double> values;
+    std::string not_plain;  // as in ForeignColumn
 };
 
 // The arrays of the commonest length as columns; the others are left out with a note.

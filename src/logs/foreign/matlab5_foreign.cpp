@@ -65,7 +65,7 @@ public:
         if (rows * columns < 2) return;
         if (std::min(rows, columns) > 1000 || rows > max_foreign_values || columns > max_foreign_values)
             return leave_out(name);
-        ForeignArray array{.name = name, .unit = {}, .values = std::vector<double>(rows * columns)};
+        ForeignArray array{.name = name, .unit = {}, .values = std::vector<double>(rows * columns), .not_plain = {}};
         if (v.nbytes < array.values.size() * static_cast<std::size_t>(v.data_size) || !copy_numbers(v, array.values))
             return leave_out(name);
         const bool whole = v.class_type == MAT_C_INT64 || v.class_type == MAT_C_UINT64;

@@ -89,7 +89,7 @@ ForeignTable numpy_table_of(const std::string& path) {
         bytes.size() - begin < n * m * size)
         fail("that is cut off");
     const std::string_view data = std::string_view{bytes}.substr(begin);
-    ForeignArray array{.name = {}, .unit = {}, .values = {}};
+    ForeignArray array{.name = {}, .unit = {}, .values = {}, .not_plain = {}};
     if (kind == "f8") array.values = numbers<double>(data, n * m);
     if (kind == "f4") array.values = numbers<float>(data, n * m);
     if (kind == "i8") array.values = numbers<std::int64_t>(data, n * m);
@@ -119,7 +119,8 @@ ForeignTable doubles_table_of(const std::string& path) {
             "{}: doubles without a header, and no column of times shows how many make a row; allowed are rows of 2..{} "
             "numbers, the first or the last of which rises evenly",
             path, max_width));
-    ForeignArray array{.name = {}, .unit = {}, .rows = values.size() / width, .columns = width, .values = {}};
+    ForeignArray array{
+        .name = {}, .unit = {}, .rows = values.size() / width, .columns = width, .values = {}, .not_plain = {}};
     array.values = std::move(values);
     ForeignTable table =
         table_of_arrays(path, fmt::format("doubles without a header, {} to a row", width), {std::move(array)});

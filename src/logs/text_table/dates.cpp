@@ -98,8 +98,11 @@ std::optional<DateTime> date_time(std::string_view text) {
             }
         }
     }
+    const std::string_view clock = text;
     auto time = time_of_day(text);
     if (!time) return std::nullopt;
+    // 08:30 alone may be minutes and seconds.
+    if (!has_date && clock.find(':') == clock.rfind(':')) return std::nullopt;
     const auto east_s = zone(text);
     if (!east_s) return std::nullopt;
     time->seconds += 86400 * days - *east_s;
