@@ -287,6 +287,19 @@ class SilentlyWrong(Foreign):
         text = "Uhrzeit;w_dph\n" + "\n".join(f"08:{k:02d};{r:.4f}" for k, r in enumerate(self.rates(50))) + "\n"
         self.refused("clock.csv", text, "--map", "axis=w_dph", code=2, says=("rate_hz",))
 
+    def test_stamps_that_do_not_decide(self):
+        def text(times, form):
+            return "t_ms,w_dph\n" + "\n".join(f"{t:{form}},{r:.6f}" for t, r in zip(times, self.rates(len(times)))) + "\n"
+        changes = numpy.cumsum([10.0] * 200 + [5.0] * 200)
+        self.refused("faster.csv", text(changes, ".0f"), "--map", "axis=w_dph", says=("rate",))
+        self.refused("slower.csv", text(numpy.cumsum([5.0] * 300 + [10.0] * 100), ".0f"), "--map", "axis=w_dph", says=("row 300", "10"))
+        for step in (1.25, 2.5):
+            whole = step * numpy.arange(400)
+            log = self.angles(self.write("coarse.csv", text(numpy.floor(whole), ".0f")), rows=400)
+            self.assertEqual([k for k in range(400) if log.has(k, "invalid")], [])
+            self.assertIn(f"tick_s = {step / 1e3:g}", "\n".join((self.folder / "angles.csv").read_text().splitlines()[:9]))
+            self.refused("lost.csv", text(numpy.floor(numpy.delete(whole, 211)), ".0f"), "--map", "axis=w_dph", says=("rounded", "rate_hz"))
+
 
 class Raw(Foreign):
     """Counts of halves."""
