@@ -287,6 +287,10 @@ class SilentlyWrong(Foreign):
         text = "Uhrzeit;w_dph\n" + "\n".join(f"08:{k:02d};{r:.4f}" for k, r in enumerate(self.rates(50))) + "\n"
         self.refused("clock.csv", text, "--map", "axis=w_dph", code=2, says=("rate_hz",))
 
+    def test_a_tick_is_none_of_an_angle_file(self):
+        text = "t_s,w_dph\n" + "\n".join(f"{k/100:.2f},{r:.4f}" for k, r in enumerate(self.rates(50))) + "\n"
+        self.refused("tick.csv", text, "--map", "tick_s=0.5", code=2, says=("tick_s = 0.5", "rate_hz"))
+
     def test_stamps_that_do_not_decide(self):
         def text(times, form):
             return "t_ms,w_dph\n" + "\n".join(f"{t:{form}},{r:.6f}" for t, r in zip(times, self.rates(len(times)))) + "\n"

@@ -124,7 +124,7 @@ ForeignTable doubles_table_of(const std::string& path) {
     array.values = std::move(values);
     ForeignTable table =
         table_of_arrays(path, fmt::format("doubles without a header, {} to a row", width), {std::move(array)});
-    if (width == 7 && path.ends_with(".imu"))
+    if (width == 7 && path.ends_with(".imu") && rises_as_time(table.columns.back().values))
         table.notes.push_back(
             "as PSINS writes it, columns 1..3 are increments of angle in rad, 4..6 of velocity, 7 the times in s");
     return table;
