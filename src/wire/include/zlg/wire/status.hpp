@@ -33,7 +33,7 @@ struct Status {
     std::uint32_t settings_crc = 0;      // of all parameters, as `settings_crc` gives it
     std::uint32_t n_received = 0;        // frames from the host: good,
     std::uint32_t n_damaged = 0;         // and damaged
-    std::uint32_t n_overruns = 0;        // halves whose work was not done when the next one began
+    std::uint32_t n_overruns = 0;        // halves whose work was not done when the next one ended
     std::uint32_t stack_used_bytes = 0;  // the most so far; 0: not measured
     std::uint32_t last_fault = 0;        // why the start before this one ended, a code of the board; 0: power
 
