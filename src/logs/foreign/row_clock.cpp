@@ -27,6 +27,8 @@ bool is_numbered(std::span<const double> values) {
 std::optional<double> known_unit(const std::string& name, bool holds_dates, const Mapping& mapping) {
     if (holds_dates) return 1.0;
     if (mapping.has("time_unit")) return to_a_second.at(mapping.text("time_unit"));
+    if (names_two_units(name))
+        throw MappingError(fmt::format("'{}' names two units of times; --map time_unit=... says which", name));
     return unit_of(name);
 }
 
@@ -205,7 +207,7 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
         return clock;
     }
     const TextColumn& times = *read.times;
-    clock.times = row_times(times, path, true);
+    clock.times = row_times(times, path, true, "--map time=none");
     if (!clock.times) {
         if (!presumed_step_s)
             throw FormatError(
