@@ -230,7 +230,9 @@ ForeignColumn column_of(const Look& look, std::size_t f) {
     for (std::size_t k = look.dialect.has_header ? 1 : 0; k < look.sample.lines.size(); ++k) {
         split_fields(look.sample.lines[k].text, look.dialect.separator, fields);
         if (f >= fields.size()) break;
-        if (column.values.empty()) column.first = text::excerpt(fields[f].text, 30, ' ');
+        const std::string excerpt = text::excerpt(fields[f].text, 30, ' ');
+        if (column.values.empty()) column.first = excerpt;
+        if (!column.is_number && column.other.empty() && excerpt != column.first) column.other = excerpt;
         const auto number = number_of(fields[f].text, look.dialect.mark);
         double value = number ? number->value : std::numeric_limits<double>::quiet_NaN();
         if (!column.is_number)

@@ -169,6 +169,7 @@ private:
         if (!date) return std::nullopt;
         if (!times.holds_dates) first_date_ = *date;
         times.holds_dates = true;
+        times.is_local = times.is_local || !date->has_zone;
         return static_cast<double>(date->seconds - first_date_.seconds) + (date->fraction - first_date_.fraction);
     }
 
