@@ -191,7 +191,7 @@ private:
         if (layout_.mark != TextMark::automatic || dialect_.mark_is_sure || !use_[c].has_grouped) return;
         if (std::ranges::any_of(use_, &MarkUse::has_other)) return;
         // Where a comma may be the decimal mark, between semicolons or tabs, a point in every number is open as well.
-        const bool may_be_german = dialect_.separator == ';' || dialect_.separator == '\t';
+        const bool may_be_german = dialect_.n_fields > 1 && (dialect_.separator == ';' || dialect_.separator == '\t');
         if (dialect_.mark != Mark::comma && !use_[c].has_whole && !may_be_german) return;
         throw FormatError(
             fmt::format("{}, {}: its numbers such as 1{}234 can be read with three decimals, or with parted thousands, "
