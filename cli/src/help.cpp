@@ -47,7 +47,9 @@ constexpr std::array verb_table{
     VerbHelp{"follow", processing,
              "  zlg follow /dev/ttyUSB0 --baud 921600 --out angles.h5\n"
              "  zlg follow tcp:192.168.0.7:5000 --duration 3600 --out angles.csv"},
-    VerbHelp{"convert", processing, "  zlg convert raw.h5 --out raw.csv"},
+    VerbHelp{"convert", processing,
+             "  zlg convert raw.h5 --out raw.csv\n"
+             "  zlg convert angles.h5 --out angles.mat"},
     VerbHelp{"inspect", processing,
              "  zlg inspect raw.h5\n"
              "  zlg inspect raw.h5.part --repair --out raw.h5"},

@@ -8,6 +8,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
+#include <zlg/logs/byte_source.hpp>
 #include <zlg/logs/mapping.hpp>
 #include <zlg/text/inputs.hpp>
 
@@ -63,7 +64,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
 bool is_wrong_usage(const std::exception& error) {
     return dynamic_cast<const cli::UsageError*>(&error) || dynamic_cast<const design::DesignError*>(&error) ||
            dynamic_cast<const config::ConfigError*>(&error) || dynamic_cast<const text::OutputIsInput*>(&error) ||
-           dynamic_cast<const logs::MappingError*>(&error);
+           dynamic_cast<const logs::MappingError*>(&error) || dynamic_cast<const logs::SourceError*>(&error);
 }
 
 int guarded(CLI::App& program, int argc, char** argv) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
 #include <zlg/logs/log_kind.hpp>
+#include <zlg/logs/matlab_copy.hpp>
 #include <zlg/logs/raw_log.hpp>
 
 #include "as_json.hpp"
@@ -47,14 +49,10 @@ void warn_of_absent(const ConvertOptions& options, const config::Settings& setti
             complain(fmt::format("warning: {}: does not say {}, nor does the copy", options.file, fact));
 }
 
-std::int64_t convert_raw(const ConvertOptions& options, logs::LogFormat format) {
+// The rest of a raw log, row by row, into any copy of it.
+template <class Copy>
+std::int64_t copy_raw(const ConvertOptions& options, logs::RawReader& raw, Copy& copy) {
     const Interruptible interruptible;
-    logs::RawReader raw{options.file};
-    const logs::RawHeader& header = raw.header();
-    warn(options, header.warnings, header.complete);
-    warn_of_absent(options, header.settings, {"tick_s", "scale_arcsec"});
-    const logs::RawWriterOptions copied = copied_light(header, options.file, format);
-    logs::RawWriter copy{options.out, header.settings, options.force, header, copied};
     Progress progress{copy.part_path()};
     core::HalfRecord record;
     std::int64_t rows = 0;
@@ -71,37 +69,66 @@ std::int64_t convert_raw(const ConvertOptions& options, logs::LogFormat format) 
     return rows;
 }
 
+std::int64_t convert_raw(const ConvertOptions& options, std::optional<logs::LogFormat> format) {
+    logs::RawReader raw{options.file};
+    const logs::RawHeader& header = raw.header();
+    warn(options, header.warnings, header.complete);
+    warn_of_absent(options, header.settings, {"tick_s", "scale_arcsec"});
+    if (!format) {
+        logs::MatlabCopy<logs::RawTable> copy{options.out, header, options.force};
+        return copy_raw(options, raw, copy);
+    }
+    const logs::RawWriterOptions copied = copied_light(header, options.file, *format);
+    logs::RawWriter copy{options.out, header.settings, options.force, header, copied};
+    return copy_raw(options, raw, copy);
+}
+
 double logged_tick_s(const logs::AngleHeader& header, const ConvertOptions& options) {
     if (!says(header.settings, "tick_s")) return std::numeric_limits<double>::quiet_NaN();
     return load_log_config(options, header.settings, options.file, LogFacts::none).gyro.tick_s;
 }
 
-std::int64_t convert_angles(const ConvertOptions& options, logs::LogFormat format) {
+// The same of an angle log.
+template <class Write>
+std::int64_t copy_angles(logs::AngleReader& angles, const std::string& part_path, Write write) {
     const Interruptible interruptible;
-    logs::AngleReader angles{options.file};
-    const logs::AngleHeader& header = angles.header();
-    warn(options, header.warnings, header.complete);
-    warn_of_absent(options, header.settings, {"tick_s"});
-    const bool with_truth = header.has_truth && format == logs::LogFormat::hdf5;
-    if (header.has_truth && !with_truth)
-        complain(fmt::format("warning: {}: /truth stays behind, a CSV log holds none", options.file));
-    logs::AngleWriter copy{
-        options.out, logged_tick_s(header, options), header.settings, options.force, {.has_truth = with_truth}};
-    Progress progress{copy.part_path()};
+    Progress progress{part_path};
     logs::TimedAngle angle;
     std::int64_t rows = 0;
     while (angles.next(angle)) {
-        copy.write_timed(angle);
+        write(angle);
         if (++rows % 100'000 == 0) {
             interruptible.check();
             progress.show(angles.fraction_read());
         }
     }
+    return rows;
+}
+
+std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::LogFormat> format) {
+    logs::AngleReader angles{options.file};
+    const logs::AngleHeader& header = angles.header();
+    warn(options, header.warnings, header.complete);
+    warn_of_absent(options, header.settings, {"tick_s"});
+    if (!format) {
+        logs::MatlabCopy<logs::AngleTable> copy{options.out, header, options.force};
+        const std::int64_t rows =
+            copy_angles(angles, copy.part_path(), [&copy](const logs::TimedAngle& angle) { copy.write(angle); });
+        copy.close();
+        return rows;
+    }
+    const bool with_truth = header.has_truth && *format == logs::LogFormat::hdf5;
+    if (header.has_truth && !with_truth)
+        complain(fmt::format("warning: {}: /truth stays behind, a CSV log holds none", options.file));
+    logs::AngleWriter copy{
+        options.out, logged_tick_s(header, options), header.settings, options.force, {.has_truth = with_truth}};
+    const std::int64_t rows =
+        copy_angles(angles, copy.part_path(), [&copy](const logs::TimedAngle& angle) { copy.write_timed(angle); });
     copy.close();
     return rows;
 }
 
-std::int64_t convert_rows(const ConvertOptions& options, logs::LogFormat format) {
+std::int64_t convert_rows(const ConvertOptions& options, std::optional<logs::LogFormat> format) {
     const logs::LogKind kind = logs::recognise(options.file);
     if (is_raw(kind)) return convert_raw(options, format);
     if (is_angles(kind)) return convert_angles(options, format);
@@ -110,8 +137,16 @@ std::int64_t convert_rows(const ConvertOptions& options, logs::LogFormat format)
                                         nature.empty() ? "" : "; it is " + nature)};
 }
 
+// Of the copy; nothing for MATLAB's.
+std::optional<logs::LogFormat> format_of_copy(const std::string& out) {
+    if (out.empty())
+        throw UsageError{"--out is missing: name the file to write, with the suffix .csv, .h5, .hdf5 or .mat"};
+    if (out.ends_with(".mat")) return std::nullopt;
+    return log_format(out);
+}
+
 void convert(const ConvertOptions& options) {
-    const logs::LogFormat format = log_format(options.out);
+    const std::optional<logs::LogFormat> format = format_of_copy(options.out);
     refuse_own_input(options.file, options.out);
     const std::int64_t rows = convert_rows(options, format);
     if (options.json)
@@ -124,7 +159,8 @@ void convert(const ConvertOptions& options) {
 
 void add_convert(CLI::App& program) {
     const auto options = std::make_shared<ConvertOptions>();
-    CLI::App* verb = program.add_subcommand("convert", "a raw or angle log in the other format, every value the same");
+    CLI::App* verb = program.add_subcommand(
+        "convert", "a raw or angle log in the other format, or for MATLAB, every value the same");
     verb->add_option("FILE", options->file, "raw or angle log, CSV or HDF5")->required();
     add_output_options(*verb, *options);
     verb->callback([options] { convert(*options); });

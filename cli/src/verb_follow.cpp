@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -11,10 +9,9 @@
 
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
-#include <zlg/logs/wire_rows.hpp>
+#include <zlg/logs/follower.hpp>
 
 #include "as_json.hpp"
-#include "byte_source.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -26,7 +23,7 @@ namespace {
 struct FollowOptions {
     std::string source;
     std::string out;
-    int baud = 921600;
+    int baud = logs::default_baud;
     std::optional<double> duration_s;
     bool force = false;
     bool json = false;
@@ -41,19 +38,11 @@ public:
             throw logs::IoError{fmt::format("{} exists; use --force to overwrite", options.out)};
     }
 
-    // Write what has arrived; true where the log is as long as was asked for. One message can bring many rows: `stop` is
-    // asked now and then.
-    bool take(logs::WireRows& rows, const std::function<bool()>& stop) {
-        constexpr std::int64_t stride_rows = 1024;
-        core::AngleRow row;
-        while (!is_full(rows) && rows.next(row)) {
-            if (n_rows_ % stride_rows == stride_rows - 1 && stop()) break;
-            if (!angles_) begin(*rows.tick_s());
-            angles_->write(row);
-            ++n_rows_;
-            angle_arcsec_ += row.dtheta_arcsec;
-        }
-        return is_full(rows);
+    void write(const core::AngleRow& row, double tick_s) {
+        if (!angles_)
+            angles_.emplace(options_.out, tick_s, logs::line_settings(), options_.force,
+                            logs::AngleWriterOptions{.keep_part = true, .keep_csv_part = true});
+        angles_->write(row);
     }
 
     void flush() {
@@ -67,76 +56,41 @@ public:
         angles_->close();
     }
 
-    [[nodiscard]] std::int64_t n_rows() const { return n_rows_; }
-    [[nodiscard]] double angle_arcsec() const { return angle_arcsec_; }
     [[nodiscard]] std::string part_path() const { return angles_ ? angles_->part_path() : std::string{}; }
 
 private:
-    [[nodiscard]] bool is_full(const logs::WireRows& rows) const {
-        return options_.duration_s && rows.tick_s() &&
-               static_cast<double>(n_rows_) * *rows.tick_s() >= *options_.duration_s * (1.0 - 1e-12);
-    }
-
-    void begin(double tick_s) {
-        std::string legend;
-        for (std::size_t bit = 0; bit < core::angle_flag_names.size(); ++bit)
-            legend += fmt::format("{}:{} ", core::angle_flag_names[bit], 1u << bit);
-        for (const auto& [name, bit] : flag_names) legend += fmt::format("{}:{} ", name, static_cast<unsigned>(bit));
-        legend.pop_back();
-        angles_.emplace(options_.out, tick_s, config::Settings{{"flags", legend}}, options_.force,
-                        logs::AngleWriterOptions{.keep_part = true, .keep_csv_part = true});
-    }
-
-    static constexpr std::array<std::pair<const char*, logs::WireFlag>, 4> flag_names{
-        {{"lost", logs::flag_lost},
-         {"final_lost", logs::flag_final_lost},
-         {"restarted", logs::flag_restarted},
-         {"outage", logs::flag_outage}}};
-
     const FollowOptions& options_;
     std::optional<logs::AngleWriter> angles_;
-    std::int64_t n_rows_ = 0;
-    double angle_arcsec_ = 0.0;
 };
 
 // Until the source ends, a signal comes, or the log or the time is as long as was asked for.
-void receive(ByteSource& source, logs::WireRows& rows, Recording& recording, const FollowOptions& options,
+void receive(logs::Follower& follower, Recording& recording, const std::optional<double>& duration_s,
              const Interruptible& interruptible) {
     using Clock = std::chrono::steady_clock;
-    constexpr int patience_ms = 50;
     constexpr std::chrono::milliseconds flush_every{500};
+    constexpr std::int64_t stride_rows = 1024;  // between two looks at the clock
     const auto started = Clock::now();
     auto flushed = started;
-    const std::function<bool()> is_over = [&] {
-        const double past_s = std::chrono::duration<double>{Clock::now() - started}.count();
-        return interruptible.is_noted() || (options.duration_s && past_s >= *options.duration_s);
-    };
-    std::array<std::uint8_t, 65536> buffer{};
-    while (!is_over()) {
-        std::size_t n = 0;
-        const ByteSource::Read read = source.read(buffer, n, patience_ms);
-        if (read == ByteSource::Read::end) break;
-        // In pieces of a few messages, for what waits to be written has no other limit.
-        for (std::span<const std::uint8_t> left = std::span{buffer}.first(n); !left.empty() && !is_over();) {
-            const std::size_t piece = std::min<std::size_t>(left.size(), wire::max_frame_bytes);
-            rows.take(left.first(piece));
-            left = left.subspan(piece);
-            if (recording.take(rows, is_over)) return;
-        }
-        if (Clock::now() - flushed < flush_every) continue;
+    core::AngleRow row;
+    while (true) {
+        if (interruptible.is_noted()) follower.stop();
+        const logs::Follower::Next next = follower.next(row);
+        if (next == logs::Follower::Next::end) return;
+        if (next == logs::Follower::Next::row) recording.write(row, *follower.rows().tick_s());
+        if (next == logs::Follower::Next::row && follower.n_rows() % stride_rows != 0) continue;
+        const auto now = Clock::now();
+        if (duration_s && std::chrono::duration<double>{now - started}.count() >= *duration_s) follower.stop();
+        if (now - flushed < flush_every) continue;
         recording.flush();
-        flushed = Clock::now();
+        flushed = now;
     }
-    // What waits is of the last few messages.
-    rows.end();
-    (void)recording.take(rows, [] { return false; });
 }
 
-std::string text(const logs::WireRows& rows, const Recording& recording, const FollowOptions& options) {
-    const logs::WireSummary& s = rows.summary();
-    const std::optional<double> tick_s = rows.tick_s();
+std::string text(const logs::Follower& follower, const FollowOptions& options) {
+    const logs::WireSummary& s = follower.rows().summary();
+    const std::optional<double> tick_s = follower.rows().tick_s();
     std::string text = fmt::format("{}: {} ticks, accumulated angle {} arcsec\n", printable(options.out),
-                                   recording.n_rows(), recording.angle_arcsec());
+                                   follower.n_rows(), follower.angle_arcsec());
     text += fmt::format("{} bytes, {} messages\n", s.n_bytes, s.n_telemetry + s.n_status + s.n_replies);
     const auto add = [&text](std::uint64_t n, const char* what) {
         if (n > 0) text += fmt::format("{:>10} {}\n", n, what);
@@ -161,11 +115,12 @@ std::string text(const logs::WireRows& rows, const Recording& recording, const F
     return text;
 }
 
-nlohmann::json follow_json(const logs::WireSummary& s, const Recording& recording, const FollowOptions& options) {
+nlohmann::json follow_json(const logs::Follower& follower, const FollowOptions& options) {
+    const logs::WireSummary& s = follower.rows().summary();
     return {{"source", options.source},
             {"angles", options.out},
-            {"ticks", recording.n_rows()},
-            {"angle_arcsec", recording.angle_arcsec()},
+            {"ticks", follower.n_rows()},
+            {"angle_arcsec", follower.angle_arcsec()},
             {"bytes", s.n_bytes},
             {"telemetry_messages", s.n_telemetry},
             {"status_messages", s.n_status},
@@ -189,17 +144,16 @@ nlohmann::json follow_json(const logs::WireSummary& s, const Recording& recordin
 void follow(const FollowOptions& options) {
     Recording recording{options};
     refuse_own_input(options.source, options.out);
-    ByteSource source{options.source, options.baud};
+    logs::Follower follower{options.source, options.baud, options.duration_s};
     const Interruptible interruptible;
-    logs::WireRows rows;
     interruptible.will_finish();
     try {
-        receive(source, rows, recording, options, interruptible);
+        receive(follower, recording, options.duration_s, interruptible);
         recording.close();
     } catch (...) {
         rethrow_with({recording.part_path()});
     }
-    print(options.json ? pretty(follow_json(rows.summary(), recording, options)) : text(rows, recording, options));
+    print(options.json ? pretty(follow_json(follower, options)) : text(follower, options));
 }
 
 }  // namespace

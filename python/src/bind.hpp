@@ -16,6 +16,8 @@ void bind_rig(pybind11::module_& m);
 void bind_design(pybind11::module_& m);
 void bind_deviations(pybind11::module_& m);
 void bind_noise(pybind11::module_& m);
+void bind_calibration(pybind11::module_& m);
+void bind_line(pybind11::module_& m);
 void bind_study(pybind11::module_& m);
 
 }  // namespace zlg::python

@@ -7,34 +7,20 @@
 
 #include "bind.hpp"
 #include "log_columns.hpp"
+#include "use.hpp"
 
 namespace zlg::python {
 namespace {
 
 struct Loop {
     rig::ClosedLoop loop;
-    bool is_busy = false;  // read and written with the interpreter held
-};
-
-// A loop advances where the interpreter is released, so that another thread could ask for it meanwhile.
-class Use {
-public:
-    explicit Use(Loop& loop) : loop_{loop} {
-        if (loop.is_busy) throw std::runtime_error{"this loop is in use by another thread"};
-        loop.is_busy = true;
-    }
-    ~Use() { loop_.is_busy = false; }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
-
-private:
-    Loop& loop_;
+    bool is_busy = false;
 };
 
 // Some halves of a loop as columns: those of a raw log, and beside them health and truth.
 py::dict advance(Loop& shared, std::int64_t halves, bool light, const py::object& progress) {
     if (!(halves >= 0)) throw std::invalid_argument{"halves = " + std::to_string(halves) + ": allowed is 0 or more"};
-    const Use use{shared};
+    const Use use{shared.is_busy, "loop"};
     rig::ClosedLoop& loop = shared.loop;
     const auto n = static_cast<std::size_t>(halves);
     RawCollector rows;

@@ -12,5 +12,7 @@ PYBIND11_MODULE(_zlg, m) {
     zlg::python::bind_design(m);
     zlg::python::bind_deviations(m);
     zlg::python::bind_noise(m);
+    zlg::python::bind_calibration(m);
+    zlg::python::bind_line(m);
     zlg::python::bind_study(m);
 }

@@ -3,15 +3,17 @@
     import zlg
     result = zlg.run(zlg.Config.of("run.duration_s=600"))
 
-Modules: `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `study`. Arrays are NumPy's; what C++ computed is handed over
+Modules: `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `calibration`, `line`, `study`. Arrays are NumPy's; what C++ computed is handed over
 without a copy, and contiguous arrays of the right type are read where they are. Names carry their unit; 1 arcsec/s is 1 deg/h.
-Long calls release the interpreter. `run`, `simulate`, `compensate`, `paper`, `analyze` and the readers and writers of logs take
-`progress`, a function of the fraction done, and end on Ctrl-C; a deviation, a fit and `design_gyro` go on to their end.
+Long calls release the interpreter. `run`, `simulate`, `compensate`, `calibrate`, `paper`, `analyze` and the readers and writers of logs
+take `progress`, a function of the fraction done, and end on Ctrl-C, as `follow` does; a deviation, a fit and `design_gyro` go on to their end.
 """
 
-from . import _zlg, analysis, config, core, design, logs, rig, study, twin
+from . import _zlg, analysis, calibration, config, core, design, line, logs, rig, study, twin
 from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, SeriesError
+from .calibration import Calibration, calibrate
 from .config import Config
+from .line import follow
 from .logs import convert
 from .rig import simulate
 from .core import compensate
@@ -20,6 +22,7 @@ from .study import RunResult, run
 __version__: str = _zlg.version
 
 __all__ = [
+    "Calibration",
     "Config",
     "ConfigError",
     "DesignError",
@@ -30,11 +33,15 @@ __all__ = [
     "SeriesError",
     "__version__",
     "analysis",
+    "calibrate",
+    "calibration",
     "compensate",
     "config",
     "convert",
     "core",
     "design",
+    "follow",
+    "line",
     "logs",
     "rig",
     "run",

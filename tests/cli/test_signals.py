@@ -172,6 +172,7 @@ class Signals(CliTest):
     def test_convert(self):
         self.check(["convert", self.raw_csv, "--out", "c.h5"], 0.08)
         self.check(["convert", self.raw, "--out", "c.csv"], 0.08)
+        self.check(["convert", self.raw, "--out", "c.mat"], 0.08)
 
     def test_inspect(self):
         self.check(["inspect", self.raw_csv], 0.05)

@@ -23,27 +23,27 @@ std::string next_word(std::string_view& name) {
     return word;
 }
 
-struct Unit {
+struct NamedUnit {
     std::string_view name;
     double to_a_second;
 };
 
-constexpr std::array<Unit, 16> units{{{"s", 1.0},
-                                      {"sec", 1.0},
-                                      {"secs", 1.0},
-                                      {"second", 1.0},
-                                      {"seconds", 1.0},
-                                      {"sekunden", 1.0},
-                                      {"ms", 1e3},
-                                      {"msec", 1e3},
-                                      {"us", 1e6},
-                                      {"usec", 1e6},
-                                      {"\xC2\xB5s", 1e6},
-                                      {"\xCE\xBCs", 1e6},
-                                      {"ns", 1e9},
-                                      {"min", 1.0 / 60.0},
-                                      {"h", 1.0 / 3600.0},
-                                      {"hours", 1.0 / 3600.0}}};
+constexpr std::array<NamedUnit, 16> units{{{"s", 1.0},
+                                           {"sec", 1.0},
+                                           {"secs", 1.0},
+                                           {"second", 1.0},
+                                           {"seconds", 1.0},
+                                           {"sekunden", 1.0},
+                                           {"ms", 1e3},
+                                           {"msec", 1e3},
+                                           {"us", 1e6},
+                                           {"usec", 1e6},
+                                           {"\xC2\xB5s", 1e6},
+                                           {"\xCE\xBCs", 1e6},
+                                           {"ns", 1e9},
+                                           {"min", 1.0 / 60.0},
+                                           {"h", 1.0 / 3600.0},
+                                           {"hours", 1.0 / 3600.0}}};
 
 // Of the words behind the first one, how many make a second.
 std::vector<double> units_in(std::string_view name) {
@@ -51,7 +51,7 @@ std::vector<double> units_in(std::string_view name) {
     (void)next_word(name);
     while (!name.empty()) {
         const std::string word = next_word(name);
-        const auto found = std::ranges::find(units, std::string_view{word}, &Unit::name);
+        const auto found = std::ranges::find(units, std::string_view{word}, &NamedUnit::name);
         if (found != units.end()) all.push_back(found->to_a_second);
     }
     return all;

@@ -18,6 +18,7 @@
 #include <zlg/noise/noise_fit.hpp>
 #include <zlg/noise/noise_units.hpp>
 #include <zlg/study/analyze.hpp>
+#include <zlg/study/calibrate.hpp>
 #include <zlg/study/design_study.hpp>
 #include <zlg/study/run.hpp>
 
@@ -55,6 +56,8 @@ BOOST_HANA_ADAPT_STRUCT(zlg::noise::SwitchStatistics, n, mean_arcsec, mean_sigma
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::ModeSplit, nonmagnetic_arcsec_s, magnetic_arcsec_s, magnetic_thermal_arcsec_s,
                         thermal_time_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::ModePoint, time_s, magnetic_arcsec_s, nonmagnetic_arcsec_s);
+BOOST_HANA_ADAPT_STRUCT(zlg::calibration::Goodness, name, value, meaning);
+BOOST_HANA_ADAPT_STRUCT(zlg::study::CalibratedLog, path, duration_s, segments, relocks);
 BOOST_HANA_ADAPT_STRUCT(zlg::calibration::TableStage, input_arcsec_s, output, output_sigma, n_samples, residual_ppm);
 BOOST_HANA_ADAPT_STRUCT(zlg::calibration::RateTable, scale_factor, arcsec_per_unit, bias_arcsec_s, asymmetry_ppm,
                         nonlinearity_ppm, largest_residual_ppm, hysteresis_arcsec_s);

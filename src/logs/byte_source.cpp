@@ -1,5 +1,3 @@
-#include "byte_source.hpp"
-
 #include <fcntl.h>
 #include <netdb.h>
 #include <poll.h>
@@ -17,15 +15,14 @@
 
 #include <fmt/format.h>
 
+#include <zlg/logs/byte_source.hpp>
 #include <zlg/logs/error.hpp>
 
-#include "failure.hpp"
-
-namespace zlg::cli {
+namespace zlg::logs {
 namespace {
 
 [[noreturn]] void fail(const char* what, const std::string& name, int error) {
-    throw logs::IoError{fmt::format("cannot {} {}: {}", what, name, std::strerror(error))};
+    throw IoError{fmt::format("cannot {} {}: {}", what, name, std::strerror(error))};
 }
 
 speed_t speed_of(int baud) {
@@ -48,7 +45,7 @@ speed_t speed_of(int baud) {
         if (number == baud) return speed;
         allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", number);
     }
-    throw UsageError{fmt::format("--baud {}: allowed are {}", baud, allowed)};
+    throw SourceError{fmt::format("baud {}: allowed are {}", baud, allowed)};
 }
 
 // Bytes as they come: no line editing, no flow control, no signals.
@@ -85,13 +82,13 @@ int connect_tcp(const std::string& name) {
     const std::string address = name.substr(4);
     const std::size_t colon = address.rfind(':');
     if (colon == std::string::npos || colon == 0 || colon + 1 == address.size())
-        throw UsageError{fmt::format("{}: allowed is tcp:HOST:PORT", name)};
+        throw SourceError{fmt::format("{}: allowed is tcp:HOST:PORT", name)};
     addrinfo wanted{};
     wanted.ai_socktype = SOCK_STREAM;
     addrinfo* found = nullptr;
     const int unresolved =
         ::getaddrinfo(address.substr(0, colon).c_str(), address.substr(colon + 1).c_str(), &wanted, &found);
-    if (unresolved != 0) throw logs::IoError{fmt::format("cannot connect to {}: {}", name, ::gai_strerror(unresolved))};
+    if (unresolved != 0) throw IoError{fmt::format("cannot connect to {}: {}", name, ::gai_strerror(unresolved))};
     const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses{found, ::freeaddrinfo};
     int error = 0;
     for (const addrinfo* a = found; a != nullptr; a = a->ai_next) {
@@ -108,7 +105,7 @@ int connect_unix(const std::string& name) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path.empty() || path.size() >= sizeof address.sun_path)
-        throw UsageError{
+        throw SourceError{
             fmt::format("{}: allowed is unix:PATH, a path of up to {} bytes", name, sizeof address.sun_path - 1)};
     std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
     const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -154,4 +151,4 @@ ByteSource::Read ByteSource::read(std::span<std::uint8_t> buffer, std::size_t& n
     fail("read", name_, errno);
 }
 
-}  // namespace zlg::cli
+}  // namespace zlg::logs

@@ -3,16 +3,22 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <string>
 
-namespace zlg::cli {
+namespace zlg::logs {
+
+// A source that cannot be meant: an address or a speed that is none.
+struct SourceError : std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
 
 class ByteSource {
 public:
     // source  a path, `-` for standard input, `tcp:HOST:PORT` or `unix:PATH`.
     // baud    of a serial device, which is set to eight bits without parity and to nothing else that would change a byte.
     //
-    // errors  UsageError: a speed that no serial device has, a malformed address; logs::IoError: it cannot be opened.
+    // errors  SourceError: a speed that no serial device has, a malformed address; IoError: it cannot be opened.
     ByteSource(const std::string& source, int baud);
     ~ByteSource();
     ByteSource(const ByteSource&) = delete;
@@ -22,7 +28,7 @@ public:
 
     // Wait up to `patience_ms` for bytes; `n` of them are in `buffer`.
     //
-    // errors  logs::IoError.
+    // errors  IoError.
     [[nodiscard]] Read read(std::span<std::uint8_t> buffer, std::size_t& n, int patience_ms);
 
 private:
@@ -31,4 +37,4 @@ private:
     bool owned_ = true;
 };
 
-}  // namespace zlg::cli
+}  // namespace zlg::logs

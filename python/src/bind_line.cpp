@@ -1,0 +1,103 @@
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <zlg/logs/follower.hpp>
+
+#include "bind.hpp"
+#include "log_columns.hpp"
+#include "use.hpp"
+
+namespace zlg::python {
+namespace {
+
+// A gyro's line in batches of rows.
+class Line {
+public:
+    Line(const std::string& source, int baud, std::optional<double> duration_s)
+        : follower_{without_interpreter([&] { return std::make_unique<logs::Follower>(source, baud, duration_s); })},
+          duration_s_{duration_s} {}
+
+    // Up to `most_rows`, or those of `patience_s` and one at least; none: the line has ended. What has come before an exception, as
+    // of Ctrl-C, is in the next batch.
+    py::object batch(std::int64_t most_rows, double patience_s) {
+        const Use use{is_busy_, "line"};
+        without_interpreter([&] { collect(most_rows, patience_s); });
+        const auto rows = static_cast<std::int64_t>(batch_.size());
+        if (rows == 0) return py::none();
+        py::dict columns = std::exchange(batch_, {}).take_out();
+        columns["first_tick"] = given_;
+        columns["tick_s"] = *follower_->rows().tick_s();
+        given_ += rows;
+        return columns;
+    }
+
+    void stop() {
+        const Use use{is_busy_, "line"};
+        follower_->stop();
+    }
+
+    [[nodiscard]] py::dict summary() {
+        const Use use{is_busy_, "line"};
+        const logs::WireSummary& s = follower_->rows().summary();
+        return py::dict("ticks"_a = follower_->n_rows(), "angle_arcsec"_a = follower_->angle_arcsec(),
+                        "bytes"_a = s.n_bytes, "telemetry_messages"_a = s.n_telemetry, "status_messages"_a = s.n_status,
+                        "replies"_a = s.n_replies, "lost_messages"_a = s.n_lost_messages,
+                        "lost_ticks"_a = s.n_lost_rows, "final_lost_ticks"_a = s.n_final_lost_rows,
+                        "restarts"_a = s.n_restarts, "outages"_a = s.n_outages, "outage_ticks"_a = s.n_outage_ticks,
+                        "outage_arcsec"_a = s.outage_arcsec, "other_tick_messages"_a = s.n_other_tick,
+                        "unfitting_messages"_a = s.n_unfitting, "damaged_frames"_a = s.n_damaged,
+                        "damaged_bytes"_a = s.n_damaged_bytes, "foreign_frames"_a = s.n_foreign,
+                        "refused_messages"_a = s.n_refused, "repeated_messages"_a = s.n_repeated);
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void collect(std::int64_t most_rows, double patience_s) {
+        constexpr std::chrono::milliseconds look_every{50};
+        const auto started = Clock::now();
+        auto looked = started;
+        core::AngleRow row;
+        for (std::int64_t k = 0; static_cast<std::int64_t>(batch_.size()) < most_rows; ++k) {
+            const logs::Follower::Next next = follower_->next(row);
+            if (next == logs::Follower::Next::end) return;
+            if (next == logs::Follower::Next::row) batch_.add(row);
+            if (next == logs::Follower::Next::row && k % 1024 != 0) continue;
+            const auto now = Clock::now();
+            if (duration_s_ && std::chrono::duration<double>{now - begun_}.count() >= *duration_s_) follower_->stop();
+            if (now - looked >= look_every) {
+                look_for_signals();
+                looked = now;
+            }
+            if (batch_.size() > 0 && std::chrono::duration<double>{now - started}.count() >= patience_s) return;
+        }
+    }
+
+    std::unique_ptr<logs::Follower> follower_;
+    std::optional<double> duration_s_;
+    Clock::time_point begun_ = Clock::now();
+    AngleCollector batch_;
+    std::int64_t given_ = 0;
+    bool is_busy_ = false;
+};
+
+}  // namespace
+
+void bind_line(py::module_& m) {
+    py::class_<Line>(m, "Line")
+        .def(py::init<const std::string&, int, std::optional<double>>(), "source"_a, "baud"_a, "duration_s"_a)
+        .def("batch", &Line::batch, "most_rows"_a, "patience_s"_a)
+        .def("stop", &Line::stop)
+        .def("summary", &Line::summary);
+    m.attr("default_baud") = logs::default_baud;
+    m.attr("line_flags") = py::dict("lost"_a = static_cast<std::uint32_t>(logs::flag_lost),
+                                    "final_lost"_a = static_cast<std::uint32_t>(logs::flag_final_lost),
+                                    "restarted"_a = static_cast<std::uint32_t>(logs::flag_restarted),
+                                    "outage"_a = static_cast<std::uint32_t>(logs::flag_outage));
+    m.def("line_settings", &logs::line_settings);
+}
+
+}  // namespace zlg::python

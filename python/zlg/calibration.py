@@ -1,0 +1,153 @@
+"""The constants of a gyro from logs of its laboratory."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _zlg
+from ._columns import Progress, columns_of, made_of, warn_each
+from ._shown import Shown, table_html
+from .config import Config, checked
+from .logs import Path, RawLog
+
+__all__ = ["CalibratedLog", "Calibration", "Constant", "Discriminator", "Goodness", "calibrate"]
+
+
+@dataclass(repr=False)
+class Constant(Shown):
+    """A constant that the logs determine."""
+
+    #: "section.key" of the configuration; "detuning_scale": logged wavelengths per true one
+    key: str
+    value: float
+    #: one standard deviation
+    sigma: float
+    #: of both; empty for a pure number
+    unit: str
+
+
+@dataclass(repr=False)
+class Discriminator(Shown):
+    """The inverse discriminator, arrays of shape (points,)."""
+
+    #: wavelengths
+    detuning_lambda: NDArray[np.float64]
+    #: of the discriminator at these detunings
+    signal: NDArray[np.float64]
+    #: one standard deviation of detuning_lambda
+    sigma_lambda: NDArray[np.float64]
+
+
+@dataclass(repr=False)
+class Goodness(Shown):
+    """How well a law fits."""
+
+    name: str
+    value: float
+    #: what it is, and what it should be
+    meaning: str
+
+
+@dataclass(repr=False)
+class CalibratedLog(Shown):
+    """What one log brought."""
+
+    path: str
+    duration_s: float
+    segments: int
+    relocks: int
+    #: lowest and highest, degrees Celsius; None: not recorded
+    temperature_c: Optional[tuple[float, float]]
+
+
+@dataclass(repr=False)
+class Calibration(Shown):
+    """What `calibrate` gives."""
+
+    constants: list[Constant]
+    #: why a constant is not among them, by its key
+    not_determined: dict[str, str]
+    #: None: not determined
+    discriminator: Optional[Discriminator]
+    goodness: list[Goodness]
+    logs: list[CalibratedLog]
+    #: of the logs
+    tick_s: float
+    scale_arcsec: float
+    #: to which the constants refer, degrees Celsius
+    reference_temperature_c: float
+    #: the configuration that `to_toml` gives
+    toml: str
+
+    def __getitem__(self, key: str) -> Constant:
+        """The constant of a key, "gyro.bias_hz". Raises KeyError; where it was not determined, it says why."""
+        for constant in self.constants:
+            if constant.key == key:
+                return constant
+        raise KeyError(f"{key}: {self.not_determined.get(key, 'is no constant that logs determine')}")
+
+    @property
+    def config(self) -> Config:
+        """The constants, with tick, scale and reference temperature, over the defaults.
+
+        raw.config.with_(*calibration.settings()) has them over what a log says.
+        """
+        return Config.from_toml(self.toml, "the calibration")
+
+    def settings(self) -> list[str]:
+        """The same as "section.key=value", for `Config.with_`."""
+        return [f"{key}={value}" for key, value in self.config.settings()]
+
+    def to_toml(self) -> str:
+        """The configuration that `zlg calibrate --out` writes: what was not determined stands there as a comment."""
+        return self.toml
+
+    def write(self, path: Path, force: bool = False) -> None:
+        """Write it as a file. Raises IoError; a file is not overwritten without `force`."""
+        _zlg.write_text(os.fspath(path), self.toml, force)
+
+    def _repr_html_(self) -> str:
+        rows = [[c.key, f"{c.value:.8g}", f"{c.sigma:.3g}", c.unit] for c in self.constants]
+        return table_html(f"{len(self.logs)} logs", ["constant", "value", "+-", "unit"], rows)
+
+
+Log = Union[Path, RawLog]
+
+
+def calibrate(
+    logs: Union[Log, Sequence[Log]],
+    config: Optional[Config] = None,
+    rate_arcsec_s: Union[float, Sequence[float]] = 0.0,
+    progress: Progress = None,
+) -> Calibration:
+    """What `zlg calibrate` finds: the constants that compensation presumes, each with its sigma, from raw logs of one gyro.
+
+    logs           files, which are read row by row, or logs in memory
+    config         what it was given goes over what the logs say; of the constants to be found, only these are presumed
+    rate_arcsec_s  known rate at which the gyro was turned: of all logs, or of each
+    Warns of what the program warns of. Raises IoError; FormatError, also for logs of different ticks or scales; ConfigError, also
+    for logs that do not go together and for rates that do not go with them; ValueError where there is no log.
+    """
+    each: Sequence[Log] = [logs] if isinstance(logs, (str, os.PathLike, RawLog)) else logs
+    if not each:
+        raise ValueError("logs: is empty; allowed is one log or more")
+    names: list[str] = []
+    held: dict[str, dict[str, Any]] = {}
+    for place, log in enumerate(each):
+        if isinstance(log, RawLog):
+            if any(log is other for other in each[:place]):
+                raise ValueError(f"logs: log {place} is named twice; each log counts once")
+            names.append(f"log {place}")
+            held[names[-1]] = columns_of(log)
+        else:
+            names.append(os.fspath(log))
+    rates = [float(rate) for rate in np.atleast_1d(np.asarray(rate_arcsec_s, dtype=np.float64))]
+    found = _zlg.calibrate(names, held, rates, checked(config), progress)
+    warn_each(found["warnings"])
+    return made_of(Calibration, found)

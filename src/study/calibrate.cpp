@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <zlg/calibration/lab_reader.hpp>
+#include <zlg/config/log_settings.hpp>
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/rig/asked_compensation.hpp>
+#include <zlg/study/calibrate.hpp>
+
+namespace zlg::study {
+namespace {
+
+constexpr std::string_view bias_coefficient = "gyro.bias_temperature_coefficient_per_c";
+constexpr double max_rate_arcsec_s = 1e9;
+
+struct Lab {
+    std::vector<calibration::LabLog> logs;
+    std::vector<config::Config> configs;   // of each log, with what the user says over it
+    std::vector<config::Config> recorded;  // how its detunings were read
+    std::vector<std::string> warnings;
+};
+
+void check(const CalibrationTask& task) {
+    for (const double rate_arcsec_s : task.rate_arcsec_s)
+        if (!(std::abs(rate_arcsec_s) <= max_rate_arcsec_s))
+            throw config::ConfigError{
+                fmt::format("{} {}: allowed is -1e9..1e9, more than any gyro turns", task.rate_name, rate_arcsec_s)};
+    if (task.rate_arcsec_s.size() > 1 && task.rate_arcsec_s.size() != task.logs.size())
+        throw config::ConfigError{fmt::format("{}: {} rates of {} logs; allowed is one for all or one for each",
+                                              task.rate_name, task.rate_arcsec_s.size(), task.logs.size())};
+    std::error_code ignored;
+    for (std::size_t k = 1; k < task.logs.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+            if (std::filesystem::equivalent(task.logs[j], task.logs[k], ignored))
+                throw config::ConfigError{fmt::format("{}: is named twice; each log counts once", task.logs[k])};
+}
+
+config::Config config_of(const config::Config& said, const config::Settings& of_log, const std::string& path) {
+    config::Settings settings;
+    config::Config config;
+    try {
+        settings = config::checked_log_settings(of_log, path);
+        config::apply_log(config, settings, path);
+    } catch (const config::ConfigError& error) {
+        throw logs::FormatError{error.what()};
+    }
+    for (const auto& [key, value] : config::to_settings(said))
+        if (said.given.contains(key)) config::apply_pair(config, key, value, "the configuration");
+    config::require_log_facts(config, path);
+    config::check_compensation(config);
+    config::check_against_log(config, settings, path);
+    return config;
+}
+
+calibration::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s,
+                         const std::function<void(double)>& on_progress) {
+    calibration::LabReader reader{path, tick_s};
+    core::HalfRecord record;
+    std::int64_t halves = 0;
+    while (raw.next(record)) {
+        reader.take(record);
+        if (++halves % 100'000 == 0 && on_progress) on_progress(raw.fraction_read());
+    }
+    if (halves < 2) throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", path)};
+    return reader.finish();
+}
+
+Lab read_all(const CalibrationTask& task) {
+    Lab lab;
+    const auto n_logs = static_cast<double>(task.logs.size());
+    for (std::size_t k = 0; k < task.logs.size(); ++k) {
+        const std::string& path = task.logs[k];
+        logs::RawReader raw = task.open(path);
+        const logs::RawHeader& header = raw.header();
+        lab.warnings.insert(lab.warnings.end(), header.warnings.begin(), header.warnings.end());
+        if (header.has_edge_offset)
+            lab.warnings.push_back(
+                fmt::format("{}: the shifts of the bias edges are left in its counts, as noise", path));
+        lab.configs.push_back(config_of(task.said, header.settings, path));
+        lab.recorded.push_back(rig::as_recorded(lab.configs.back(), header.settings, path));
+        const auto tell = [&](double of_log) {
+            if (task.on_progress) task.on_progress((static_cast<double>(k) + of_log) / n_logs);
+        };
+        lab.logs.push_back(read(raw, path, lab.configs.back().gyro.tick_s, tell));
+        if (!raw.line_is_ended())
+            lab.warnings.push_back(fmt::format("{}: the last line has no end; the file may have been cut off", path));
+    }
+    return lab;
+}
+
+// Logs of one gyro, counted alike.
+void check_agreement(const CalibrationTask& task, const Lab& lab) {
+    const config::Gyro& first = lab.configs.front().gyro;
+    for (std::size_t k = 1; k < lab.configs.size(); ++k) {
+        const config::Gyro& gyro = lab.configs[k].gyro;
+        const auto differ = [&](const char* key, double a, double b) {
+            return fmt::format("{} = {} in {}, {} in {}", key, a, task.logs.front(), b, task.logs[k]);
+        };
+        if (gyro.tick_s != first.tick_s)
+            throw logs::FormatError{differ("gyro.tick_s", first.tick_s, gyro.tick_s) + "; allowed is one value"};
+        if (gyro.scale_arcsec != first.scale_arcsec)
+            throw logs::FormatError{differ("gyro.scale_arcsec", first.scale_arcsec, gyro.scale_arcsec) +
+                                    "; allowed is one value"};
+        if (gyro.reference_temperature_c != first.reference_temperature_c)
+            throw config::ConfigError{
+                differ("gyro.reference_temperature_c", first.reference_temperature_c, gyro.reference_temperature_c) +
+                "; say in the configuration (--set) to which temperature the constants are to refer"};
+        if (lab.configs[k].perimeter.loop != lab.configs.front().perimeter.loop)
+            throw config::ConfigError{fmt::format("perimeter.loop differs between {} and {}; calibrate them apart",
+                                                  task.logs.front(), task.logs[k])};
+    }
+}
+
+bool read_by_one_slope(const Lab& lab) {
+    return std::ranges::all_of(lab.recorded, [&lab](const config::Config& c) {
+        return c.perimeter.discriminator_signal.empty() &&
+               c.gyro.discriminator_per_lambda == lab.recorded.front().gyro.discriminator_per_lambda;
+    });
+}
+
+// Of what is to be found, only what the user says is presumed, never what a log says of itself.
+calibration::Presumed presumed(const CalibrationTask& task, const Lab& lab) {
+    const config::Config& of_logs = lab.configs.front();
+    return {.scale_arcsec = of_logs.gyro.scale_arcsec,
+            .reference_temperature_c = of_logs.gyro.reference_temperature_c,
+            .rate_arcsec_s = task.rate_arcsec_s,
+            .bias_edge_s = of_logs.gyro.bias_edge_s,
+            .counts_per_turn = static_cast<double>(counts_per_turn(of_logs.laser.quadrature)),
+            .stepped_voltage = of_logs.perimeter.loop == config::Loop::digital,
+            .read_by_slope = read_by_one_slope(lab),
+            .bias_temperature_coefficient_per_c = task.said.gyro.bias_temperature_coefficient_per_c,
+            .half_wave_temperature_coefficient_per_c = task.said.piezo.half_wave_temperature_coefficient_per_c};
+}
+
+std::vector<CalibratedLog> summaries(const std::vector<calibration::LabLog>& logs) {
+    std::vector<CalibratedLog> all;
+    for (const calibration::LabLog& log : logs)
+        all.push_back({.path = log.name,
+                       .duration_s = static_cast<double>(log.n_ticks) * log.tick_s,
+                       .segments = std::ssize(log.segments),
+                       .relocks = std::ssize(log.relocks),
+                       .has_temperature = log.has_temperature(),
+                       .temperature_min_c = log.temperature_min_c,
+                       .temperature_max_c = log.temperature_max_c});
+    return all;
+}
+
+// A bias frequency that was carried to the reference temperature from afar by a coefficient that nobody knows; empty
+// where it was not.
+std::string far_reference(const CalibrationTask& task, const Lab& lab, const calibration::Calibration& calibration) {
+    constexpr double far_c = 5.0;
+    for (const calibration::Constant& c : calibration.constants) {
+        if (c.key == "gyro.bias_hz" && !c.estimate.determined) return {};
+        if (c.key == bias_coefficient && c.estimate.determined) return {};
+    }
+    if (config::is_given(task.said, bias_coefficient)) return {};
+    const double reference_c = lab.configs.front().gyro.reference_temperature_c;
+    double nearest_c = std::numeric_limits<double>::infinity();
+    for (const calibration::LabLog& log : lab.logs)
+        if (log.has_temperature())
+            nearest_c =
+                std::min(nearest_c, std::max(log.temperature_min_c - reference_c, reference_c - log.temperature_max_c));
+    if (!(nearest_c > far_c) || !std::isfinite(nearest_c)) return {};
+    return fmt::format(
+        "gyro.bias_hz is that of the logs, {:.3g} C or more from gyro.reference_temperature_c = {:g} C; "
+        "{} is neither determined nor given",
+        nearest_c, reference_c, bias_coefficient);
+}
+
+}  // namespace
+
+bool CalibrationResult::any_determined() const {
+    return std::ranges::any_of(calibration.constants,
+                               [](const calibration::Constant& c) { return c.estimate.determined; });
+}
+
+CalibrationResult calibrate(const CalibrationTask& task) {
+    check(task);
+    Lab lab = read_all(task);
+    check_agreement(task, lab);
+    CalibrationResult result{.calibration = calibration::calibrate(lab.logs, presumed(task, lab)),
+                             .logs = summaries(lab.logs),
+                             .config = lab.configs.front(),
+                             .slope_per_lambda = std::abs(lab.recorded.front().gyro.discriminator_per_lambda),
+                             .warnings = std::move(lab.warnings)};
+    result.reference_warning = far_reference(task, lab, result.calibration);
+    if (!result.reference_warning.empty()) result.warnings.push_back(result.reference_warning);
+    return result;
+}
+
+}  // namespace zlg::study
