@@ -130,6 +130,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
 config::Config read_mapped(const Options& options, const std::string& path, const logs::ForeignLook& look,
                            AnalysisInput& input) {
     logs::ImportedAxes imported = logs::imported_axes(look);
+    for (const std::string& note : look.table.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
     for (const std::string& note : look.said) complain(fmt::format("note: {}: {}", name_of_file(path), note));
     for (const std::string& note : imported.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
     for (logs::ImportedAxis& from : imported.axes) {

@@ -40,6 +40,7 @@ logs::RawReader open_raw(const Options& options, const std::string& path) {
     if (look.makes != logs::Makes::raw)
         throw UsageError{fmt::format("{}: --map counts=COLUMN is missing: a raw log has counts", path)};
     logs::ImportedRaw made = logs::imported_raw(look);
+    for (const std::string& note : look.table.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
     for (const std::string& note : look.said) complain(fmt::format("note: {}: {}", name_of_file(path), note));
     for (const std::string& note : made.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
     return {path, std::move(made.header), std::move(made.rows)};

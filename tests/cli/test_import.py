@@ -305,6 +305,90 @@ class SilentlyWrong(Foreign):
             self.refused("lost.csv", text(numpy.floor(numpy.delete(whole, 211)), ".0f"), "--map", "axis=w_dph", says=("rounded", "rate_hz"))
 
 
+class OfALaboratory(Foreign):
+    """Logs as they come from a bench, of which a number would be wrong without a word."""
+
+    DPH = ["--map", "axis=w_dph"]
+
+    def table(self, name, head, *columns, separator=",", end="\n"):
+        rows = [separator.join(str(cell) for cell in row) for row in zip(*columns)]
+        return self.write(name, "\n".join([head, *rows]) + end)
+
+    def setUp(self):
+        super().setUp()
+        self.w = [f"{rate:.6f}" for rate in self.rates(400)]
+        self.t = [f"{k/100:.2f}" for k in range(400)]
+
+    def refused(self, path, *said, code=3, says=()):
+        self.refuse(code, "analyze", path, *said, says=says)
+
+    def noted(self, path, *said, says=()):
+        result = run("analyze", path, *said)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(says, result.stderr)
+
+    def test_two_units_in_the_name_of_the_times(self):
+        path = self.table("units.csv", "t_ms [s],w_dph", self.t, self.w)
+        self.refused(path, *self.DPH, code=2, says=("t_ms [s]", "time_unit"))
+        _, axis = self.mean(path, *self.DPH, "--map", "time_unit=s")
+        self.assertAlmostEqual(axis["rate_hz"], 100, delta=1e-9)
+
+    def test_points_between_semicolons_may_part_thousands(self):
+        values = [3000 + k * 211 % 500 for k in range(400)]
+        for separator in ";\t":
+            path = self.table("german.csv", separator.join(["t_s", "w_dph"]), range(400), [f"{v/1000:.3f}" for v in values], separator=separator)
+            self.refused(path, *self.DPH, code=2, says=("1.234", "decimal"))
+            mean, _ = self.mean(path, *self.DPH, "--map", "decimal=point")
+            self.assertAlmostEqual(mean, sum(values) / 4e5, delta=1e-3)
+
+    def test_a_register_of_rates_overflows(self):
+        true = numpy.round(32500 + 300 * self.rng.standard_normal(400)).astype(int)
+        path = self.table("lsb.csv", "t_s,w", self.t, (true + 32768) % 65536 - 32768)
+        row = next(k for k in range(400) if true[k] > 32767) + 1
+        for said in (["--map", "holds=rate", "--map", "unit=deg/h"], ["--map", "holds=increment", "--map", "unit=counts", *SCALE]):
+            self.refused(path, "--map", "axis=w", *said, says=(f"row {row}:", "65536"))
+
+    def test_a_number_that_marks_a_missing_value(self):
+        self.w[50] = self.w[200] = "-9999"
+        self.refused(self.table("mark.csv", "t_s,w_dph", self.t, self.w), *self.DPH, says=("row 51", "-9999"))
+
+    def test_rows_of_two_sensors(self):
+        for one, two in (("1", "2"), ("A", "B")):
+            path = self.table("two.csv", "t_s,sensor,w_dph", self.t, [one, two] * 200, self.w)
+            self.refused(path, *self.DPH, code=2, says=("'sensor'", one, two))
+        self.mean(self.table("one.csv", "t_s,sensor,w_dph", self.t, ["1"] * 400, self.w), *self.DPH)
+
+    def test_times_that_do_not_rise_are_not_passed_over(self):
+        wrapped = [(2**32 - 2_000_000 + 10_000 * k) % 2**32 for k in range(400)]
+        said = [*self.DPH, "--map", "rate_hz=100"]
+        for name, times in (("t_us", wrapped), ("t_s", self.t[::-1])):
+            path = self.table("back.csv", f"{name},w_dph", times, self.w)
+            self.refused(path, *said, code=2, says=(name, "time=none"))
+            self.mean(path, *said, "--map", "time=none")
+            self.refused(path, *said, "--map", "time=1", says=("do not go back", "--map time=none"))
+
+    def test_numbers_of_rows_show_what_is_missing(self):
+        keep = [k for k in range(400) if not 100 <= k < 150]
+        path = self.table("skips.csv", "sample,w_dph", keep, [self.w[k] for k in keep])
+        _, axis = self.mean(path, *self.DPH, "--map", "rate_hz=100")
+        self.assertEqual((axis["samples"], axis["known"]), (400, 350))
+
+    def test_daylight_saving_time_is_no_hole(self):
+        start = datetime.datetime(2026, 3, 29, 1, 59, 58)
+        moved = [start + datetime.timedelta(milliseconds=10 * k, hours=1 if k >= 200 else 0) for k in range(400)]
+        for zone in ("", "Z"):
+            path = self.table("dst.csv", "time,w_dph", [stamp.isoformat(timespec="milliseconds") + zone for stamp in moved], self.w)
+            if zone:
+                self.assertEqual(self.mean(path, *self.DPH)[1]["samples"], 360400)
+            else:
+                self.refused(path, *self.DPH, says=("row 200", "hour", "time=none"))
+
+    def test_what_may_be_wrong_is_noted(self):
+        self.noted(self.table("cut.csv", "t_s,w_dph", self.t, self.w, end=""), *self.DPH, says="its last line has no end")
+        stopped = self.w[:300] + ["0"] * 100
+        self.noted(self.table("stopped.csv", "t_s,w_dph", self.t, stopped), *self.DPH, says="last 100 rows are all 0")
+
+
 class Raw(Foreign):
     """Counts of halves."""
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <zlg/logs/imported.hpp>
 #include <zlg/logs/row_times.hpp>
 #include <zlg/text/escape.hpp>
@@ -147,6 +148,30 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     if (const std::string clock = missing_of_clock(look.table, m); !clock.empty()) look.missing.push_back(clock);
 }
 
+// Rows of several sensors by turns are no samples of one.
+void refuse_mixed_rows(const ForeignLook& look) {
+    constexpr std::array<std::string_view, 12> names{"id",     "sensor",    "sensor_id", "sensorid",
+                                                     "device", "device_id", "channel",   "kanal",
+                                                     "node",   "can_id",    "axis",      "achse"};
+    constexpr std::size_t most_sensors = 16;
+    for (const ForeignColumn& column : look.table.columns) {
+        if (std::ranges::find(names, text::lower_case(column.name)) == names.end()) continue;
+        std::string other = column.other;
+        if (column.is_number) {
+            std::vector<double> known;
+            std::ranges::copy_if(column.values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
+            std::ranges::sort(known);
+            known.erase(std::unique(known.begin(), known.end()), known.end());
+            if (known.size() < 2 || known.size() > most_sensors) continue;
+            other = fmt::format("{}", column.values.front() == known.front() ? known.back() : known.front());
+        }
+        if (other.empty() || column.holds_dates) continue;
+        throw MappingError(fmt::format(
+            "{}, {}: is {} in some rows and {} in others; allowed are the rows of one sensor, parted before",
+            look.table.path, described(column), column.first, other));
+    }
+}
+
 }  // namespace
 
 ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
@@ -161,8 +186,10 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
         take_raw_names(look);
         check_raw(look);
     } else {
+        refuse_mixed_rows(look);
         check_axes(look, times);
     }
+    if (look.missing.empty()) refuse_unused_times(look.table, said);
     return look;
 }
 

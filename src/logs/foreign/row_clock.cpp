@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <span>
+#include <string_view>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/time_check.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "text_table/time_names.hpp"
 
@@ -24,9 +27,13 @@ bool is_numbered(std::span<const double> values) {
 }
 
 // How many of the column's unit make a second; empty: nobody says it.
-std::optional<double> known_unit(const std::string& name, bool holds_dates, const Mapping& mapping) {
+std::optional<double> known_unit(const std::string& path, const std::string& name, bool holds_dates,
+                                 const Mapping& mapping) {
     if (holds_dates) return 1.0;
     if (mapping.has("time_unit")) return to_a_second.at(mapping.text("time_unit"));
+    if (names_two_units(name))
+        throw MappingError(
+            fmt::format("{}: '{}' names two units of times; --map time_unit=... says which", path, name));
     return unit_of(name);
 }
 
@@ -57,6 +64,20 @@ void check_holes(const TextColumn& times, const RowTimes& found, const std::stri
                         "do not say how many rows "
                         "are missing; --map time=none and --map rate_hz=... if none are",
                         path, described(times), row + 1, t[row], t[row + 1]));
+    }
+}
+
+// Where daylight saving time begins no rows are missing.
+void check_local_time(const TextColumn& times, const RowTimes& found, const std::string& path) {
+    if (!times.is_local) return;
+    for (const Hole& hole : found.holes) {
+        const double jump = times.values[hole.row + 1] - times.values[hole.row];
+        if (std::fabs(jump - 3600.0 - found.step) > 0.6 * found.step) continue;
+        throw FormatError(
+            fmt::format("{}, {}: after row {} the local time jumps by an hour, as it does where daylight saving time "
+                        "begins; allowed are dates with a time zone, or --map time=none with rate_hz if no rows are "
+                        "missing there",
+                        path, described(times), hole.row + 1));
     }
 }
 
@@ -156,6 +177,12 @@ void check_coarse(const TextColumn& times, RowTimes& found, const std::string& p
         path, described(times), place, found.step));
 }
 
+bool names_row_numbers(const std::string& name) {
+    constexpr std::array<std::string_view, 12> words{"n",   "nr",  "no",    "sample",    "sample_no", "index",
+                                                     "idx", "seq", "frame", "sample_nr", "counter",   "packet"};
+    return std::ranges::find(words, text::lower_case(name)) != words.end();
+}
+
 // As a column that is called time does, with holes or not.
 bool goes_on(std::span<const double> values) {
     return values.size() > 1 && values.front() < values.back() && std::ranges::is_sorted(values);
@@ -175,7 +202,21 @@ std::int64_t time_column(const ForeignTable& table, const Mapping& mapping) {
         if (column.holds_dates) return column.number;
     for (const ForeignColumn& column : table.columns)
         if (column.name.empty() && column.is_number && rises(column)) return column.number;
+    // Numbers of rows show those that are missing, and no rate.
+    if (mapping.has("rate_hz"))
+        for (const ForeignColumn& column : table.columns)
+            if (names_row_numbers(column.name) && is_numbered(column.values) && goes_on(column.values))
+                return column.number;
     return 0;
+}
+
+void refuse_unused_times(const ForeignTable& table, const Mapping& mapping) {
+    if (mapping.has("time") || mapping.has("half") || time_column(table, mapping) != 0) return;
+    for (const ForeignColumn& column : table.columns)
+        if (names_time(column.name) && column.is_number && column.values.size() > 1)
+            throw MappingError(
+                fmt::format("{}, {}: is named as times are, and does not rise; --map time=none leaves it out",
+                            table.path, described(column)));
 }
 
 std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) {
@@ -183,7 +224,7 @@ std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) 
     const std::int64_t number = time_column(table, mapping);
     if (number == 0) return "rate_hz=... (rows a second; no column of times was recognised, or time=COLUMN)";
     const ForeignColumn& column = table.columns[static_cast<std::size_t>(number - 1)];
-    if (known_unit(column.name, column.holds_dates, mapping)) return {};
+    if (known_unit(table.path, column.name, column.holds_dates, mapping)) return {};
     if (is_numbered(column.values))
         return fmt::format("rate_hz=... (rows a second; {} merely numbers them), or time_unit=s, ms, us, ns",
                            described(column));
@@ -205,7 +246,7 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
         return clock;
     }
     const TextColumn& times = *read.times;
-    clock.times = row_times(times, path, true);
+    clock.times = row_times(times, path, true, "--map time=none");
     if (!clock.times) {
         if (!presumed_step_s)
             throw FormatError(
@@ -216,9 +257,10 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     check_repetitions(times, path);
     check_coarse(times, *clock.times, path);
     check_holes(times, *clock.times, path);
+    check_local_time(times, *clock.times, path);
     check_one_rate(times, *clock.times, path);
     const double step = clock.times->step;
-    const auto unit = known_unit(times.name, times.holds_dates, mapping);
+    const auto unit = known_unit(path, times.name, times.holds_dates, mapping);
     if (unit) {
         const double by_times_s = step / *unit;
         if (presumed_step_s && std::fabs(by_times_s / *presumed_step_s - 1.0) > clock.times->tolerance)

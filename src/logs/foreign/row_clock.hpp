@@ -19,6 +19,9 @@ struct RowClock {
 // The column that holds the times of the rows, 0: none. By the mapping, by its name, or, without a name, as it rises.
 [[nodiscard]] std::int64_t time_column(const ForeignTable& table, const Mapping& mapping);
 
+// errors  MappingError: a column is named as times are, is not taken for them, and nothing is said of it.
+void refuse_unused_times(const ForeignTable& table, const Mapping& mapping);
+
 // What must be given before the step is known, for the user; empty: nothing.
 [[nodiscard]] std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <zlg/logs/error.hpp>
@@ -229,7 +230,9 @@ ForeignColumn column_of(const Look& look, std::size_t f) {
     for (std::size_t k = look.dialect.has_header ? 1 : 0; k < look.sample.lines.size(); ++k) {
         split_fields(look.sample.lines[k].text, look.dialect.separator, fields);
         if (f >= fields.size()) break;
-        if (column.values.empty()) column.first = text::excerpt(fields[f].text, 30, ' ');
+        const std::string excerpt = text::excerpt(fields[f].text, 30, ' ');
+        if (column.values.empty()) column.first = excerpt;
+        if (!column.is_number && column.other.empty() && excerpt != column.first) column.other = excerpt;
         const auto number = number_of(fields[f].text, look.dialect.mark);
         double value = number ? number->value : std::numeric_limits<double>::quiet_NaN();
         if (!column.is_number)
@@ -255,6 +258,11 @@ std::string nature_of(const Look& look) {
     return nature + fmt::format(", numbers from line {} on", first_row);
 }
 
+bool ends_with_a_line(const std::string& path) {
+    std::ifstream file{path, std::ios::binary};
+    return !file.seekg(-1, std::ios::end) || file.get() == '\n';
+}
+
 }  // namespace
 
 ForeignTable text_table_of(const std::string& path, const Mapping& mapping) {
@@ -262,6 +270,8 @@ ForeignTable text_table_of(const std::string& path, const Mapping& mapping) {
     take_names_above(look);
     ForeignTable table{.path = path, .nature = nature_of(look), .columns = {}, .notes = {}, .n_rows = {}, .read = {}};
     for (std::size_t f = 0; f < look.dialect.n_fields; ++f) table.columns.push_back(column_of(look, f));
+    if (!ends_with_a_line(path))
+        table.notes.emplace_back("its last line has no end: if the file was cut off, its last number may be too short");
     std::vector<std::string> names;
     for (const ForeignColumn& column : table.columns) names.push_back(column.name);
     table.read = [path, layout = look.layout, names](const std::vector<std::int64_t>& wanted, std::int64_t times) {

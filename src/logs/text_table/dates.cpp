@@ -103,6 +103,7 @@ std::optional<DateTime> date_time(std::string_view text) {
     if (!time) return std::nullopt;
     const auto east_s = zone(text);
     if (!east_s) return std::nullopt;
+    time->has_zone = !text.empty();
     time->seconds += 86400 * days - *east_s;
     return time;
 }

@@ -11,6 +11,7 @@ namespace zlg::logs {
 struct DateTime {
     std::int64_t seconds = 0;
     double fraction = 0.0;
+    bool has_zone = false;
 };
 
 // 2026-11-24T08:30:00.005Z, 2026-11-24 08:30:00,005+01:00, 24.11.2026 08:30:00, 08:30:00.005. A date with strokes is none: which

@@ -86,7 +86,8 @@ bool rises_as_time(std::span<const double> values) {
            std::ranges::adjacent_find(values, [](double a, double b) { return !(b > a); }) == values.end();
 }
 
-std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said) {
+std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said,
+                                  const std::string& none) {
     const bool by_name = is_said || names_time(column.name);
     const std::vector<double>& values = column.values;
     if (values.size() < 3) return std::nullopt;
@@ -96,9 +97,8 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
         if (steps[k] >= 0.0) continue;
         if (!is_said) return std::nullopt;  // t_min may be a temperature
         throw FormatError(
-            fmt::format("{}, {}: after {} comes {} in row {}, and times do not go back; time_column = 0 if "
-                        "it holds none",
-                        path, described(column), values[k], values[k + 1], k + 2));
+            fmt::format("{}, {}: after {} comes {} in row {}, and times do not go back; {} if it holds none", path,
+                        described(column), values[k], values[k + 1], k + 2, none));
     }
     if (!std::ranges::all_of(steps, [](double step) { return std::isfinite(step); })) {
         if (!is_said) return std::nullopt;

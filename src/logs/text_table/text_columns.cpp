@@ -169,6 +169,7 @@ private:
         if (!date) return std::nullopt;
         if (!times.holds_dates) first_date_ = *date;
         times.holds_dates = true;
+        times.is_local = times.is_local || !date->has_zone;
         return static_cast<double>(date->seconds - first_date_.seconds) + (date->fraction - first_date_.fraction);
     }
 
@@ -185,11 +186,13 @@ private:
         return number->value;
     }
 
-    // A decimal comma of which no number shows that it parts no thousands, and a column in which 999 and 1.234 meet.
+    // A mark of which no number shows that it parts no thousands, and a column in which 999 and 1.234 meet.
     void refuse_parted_thousands(std::size_t c) const {
         if (layout_.mark != TextMark::automatic || dialect_.mark_is_sure || !use_[c].has_grouped) return;
         if (std::ranges::any_of(use_, &MarkUse::has_other)) return;
-        if (dialect_.mark != Mark::comma && !use_[c].has_whole) return;
+        // Where a comma may be the decimal mark, between semicolons or tabs, a point in every number is open as well.
+        const bool may_be_german = dialect_.n_fields > 1 && (dialect_.separator == ';' || dialect_.separator == '\t');
+        if (dialect_.mark != Mark::comma && !use_[c].has_whole && !may_be_german) return;
         throw FormatError(
             fmt::format("{}, {}: its numbers such as 1{}234 can be read with three decimals, or with parted thousands, "
                         "which are not read; say {}.decimal = \"{}\" for the first",

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace zlg::logs {
 
@@ -43,16 +45,28 @@ constexpr std::array<NamedUnit, 16> units{{{"s", 1.0},
                                            {"h", 1.0 / 3600.0},
                                            {"hours", 1.0 / 3600.0}}};
 
-}  // namespace
-
-std::optional<double> unit_of(std::string_view name) {
+// Of the words behind the first one, how many make a second.
+std::vector<double> units_in(std::string_view name) {
+    std::vector<double> all;
     (void)next_word(name);
     while (!name.empty()) {
         const std::string word = next_word(name);
         const auto found = std::ranges::find(units, std::string_view{word}, &NamedUnit::name);
-        if (found != units.end()) return found->to_a_second;
+        if (found != units.end()) all.push_back(found->to_a_second);
     }
-    return std::nullopt;
+    return all;
+}
+
+}  // namespace
+
+std::optional<double> unit_of(std::string_view name) {
+    const std::vector<double> all = units_in(name);
+    return all.empty() ? std::nullopt : std::optional{all.front()};
+}
+
+bool names_two_units(std::string_view name) {
+    const std::vector<double> all = units_in(name);
+    return std::ranges::adjacent_find(all, std::ranges::not_equal_to{}) != all.end();
 }
 
 bool names_time(std::string_view column_name) {

@@ -12,4 +12,7 @@ namespace zlg::logs {
 // How many of the unit in the name make a second; empty where it names none.
 [[nodiscard]] std::optional<double> unit_of(std::string_view column_name);
 
+// The name has two units that differ, as `t_ms [s]` does.
+[[nodiscard]] bool names_two_units(std::string_view column_name);
+
 }  // namespace zlg::logs

@@ -28,8 +28,10 @@ struct RowTimes {
 
 // Empty where the column, recognised by its place or its name, does not rise as times do.
 //
-// errors  FormatError: a time that is missing or earlier than the one before, in a column that is said to be one.
-[[nodiscard]] std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said);
+// errors  FormatError: a time that is missing or earlier than the one before, in a column that is said to be one; the line
+//         names the setting that says there is none.
+[[nodiscard]] std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said,
+                                                const std::string& none = "time_column = 0");
 
 // Why these times are not those of so many rows a second; empty where they may be: in the unit that the column's name has,
 // or else in seconds or in thousandths, millionths or milliardths of one. Rows that are merely numbered say nothing.

@@ -31,6 +31,7 @@ struct TextColumn {
     std::string name;            // empty: it has none
     std::vector<double> values;  // NaN where a field is empty, `nan`, `NA` or `null`
     bool holds_dates = false;    // of times: dates, or times of the day; the values are seconds from the first one on
+    bool is_local = false;       // dates of no said time zone
 };
 
 struct TextTable {

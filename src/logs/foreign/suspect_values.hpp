@@ -1,0 +1,22 @@
+#pragma once
+// Values that are numbers and measure nothing.
+
+#include <string>
+
+#include <zlg/logs/imported.hpp>
+#include <zlg/logs/text_columns.hpp>
+
+#include "units.hpp"
+
+namespace zlg::logs {
+
+// errors  FormatError: an angle that begins anew after a circle, or a register that overflows.
+void refuse_wraps(const ForeignLook& look, const TextColumn& column, const AngleUnit& unit);
+
+// errors  FormatError: a value such as -9999, far from all others.
+void refuse_missing_marks(const std::string& path, const TextColumn& column);
+
+// That the last rows repeat one value, where no other rows do; empty: they do not.
+[[nodiscard]] std::string stopped(const TextColumn& column);
+
+}  // namespace zlg::logs
