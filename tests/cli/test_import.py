@@ -4,6 +4,7 @@ import datetime
 import io
 import json
 import struct
+import zlib
 
 import h5py
 import numpy
@@ -202,6 +203,106 @@ class Angles(Foreign):
                 self.refuse(codes, "import", self.write(name, data), "--out", out, "--map", "axis=2", "--map", "unit=deg/h", "--map", "rate_hz=10",
                             says=(name,))
                 self.assertFalse(out.exists())
+
+
+class Cut(Foreign):
+    """MATLAB 5 files that do not hold what they say; libmatio would give memory that nobody wrote."""
+
+    def test_matlab_5_that_is_cut_or_claims_more_than_it_holds(self):
+        said = ["--map", "rate_hz=100", "--map", "axis=w", "--map", "unit=deg/h"]
+        whole = matlab5({"w": self.rates(200)})
+        out = self.folder / "o.csv"
+        body = whole[128:]
+        packed = zlib.compress(body)
+        as_packed = whole[:128] + struct.pack("<II", 15, len(packed)) + packed
+        self.angles(self.write("packed.mat", as_packed), *said, rows=200)
+        half = zlib.compress(body[:800])
+        claims = whole.replace(struct.pack("<ii", 1, 200), struct.pack("<ii", 1, 20000))
+        self.assertNotEqual(claims, whole)
+        for name, data in (("cut.mat", whole[:900]), ("cut_at_the_tag.mat", whole + b"\x0e\0\0"), ("claims.mat", claims),
+                           ("packed_cut.mat", as_packed[:-40]), ("half.mat", whole[:128] + struct.pack("<II", 15, len(half)) + half),
+                           ("huge.mat", whole.replace(struct.pack("<ii", 1, 200), struct.pack("<ii", 200, 0x7FFFFFFF)))):
+            with self.subTest(name):
+                self.refuse(3, "import", self.write(name, data), "--out", out, *said, says=(name, "byte 128" if "tag" not in name else "byte"))
+
+
+class SilentlyWrong(Foreign):
+    """Files that would give wrong numbers without a word."""
+
+    def refused(self, name, data, *said, code=3, says=()):
+        self.refuse(code, "import", self.write(name, data), "--out", self.folder / "o.csv", *said, says=(name, *says))
+
+    def test_attributes_of_hdf5_that_scale(self):
+        path = self.folder / "scaled.h5"
+        said = ["--map", "rate_hz=100", "--map", "axis=w", "--map", "unit=deg/h"]
+        for name, harmless, harmful in (("scale_factor", 1, 0.01), ("Gain", 1.0, 2), ("LSB", 1, 1e-3), ("add_offset", 0.0, 5), ("_FillValue", 1e20, 3.0)):
+            with self.subTest(name):
+                for value in (harmless, harmful):
+                    with h5py.File(path, "w") as file:
+                        file["w"] = [*self.rates(50), 3.0]
+                        file["w"].attrs[name] = value
+                    if value == harmless:
+                        self.angles(path, *said, rows=51)
+                    else:
+                        self.refuse(3, "import", path, "--out", self.folder / "o.csv", *said, says=("'w'", name, f"{value:g}"))
+
+    def test_axes_of_two_units_and_names_that_contradict(self):
+        body = "\n".join(f"{k/100:.2f},{a:.6f},{b:.6f}" for k, (a, b) in enumerate(zip(self.rates(50), self.rates(50)))) + "\n"
+        two = self.write("two.csv", "time_s,x [deg/s],y [deg/h]\n" + body)
+        self.refuse(2, "analyze", two, "--map", 'axis=["x", "y"]', says=("'y [deg/h]'", "deg/s"))
+        open_one = self.write("open.csv", "time_s,x [deg/s],y\n" + body)
+        self.refuse(2, "analyze", open_one, "--map", 'axis=["x", "y"]', says=("'y'", "deg/s"))
+        self.refused("lines.csv", "time_s,x_dps,T\ns,deg/h,C\n" + body, "--map", "axis=x_dps", code=2, says=("deg/s", "deg/h"))
+        out = self.folder / "angles.csv"
+        result = run("import", two, "--out", out, "--map", "axis=x", "--map", "unit=deg/h", "--map", "holds=rate")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("against its name", result.stderr)
+
+    def test_angles_that_wrap(self):
+        turn = 3.7 * numpy.arange(300) + 0.2 * self.rates(300)
+        for name, unit, per_deg, size in (("circle.csv", "deg", 1, 360), ("half.csv", "deg", 1, 180), ("rad.csv", "rad", numpy.pi / 180, 2 * numpy.pi),
+                                          ("counts.csv", "counts", 100, 65536)):
+            with self.subTest(name):
+                angle = (turn * per_deg + size / 2) % size - size / 2
+                row = next(k for k in range(1, 300) if abs(angle[k] - angle[k - 1]) > size / 2) + 1
+                text = "t_s,a\n" + "\n".join(f"{k/100:.2f},{a:.7f}" for k, a in enumerate(angle)) + "\n"
+                self.refused(name, text, "--map", "axis=a", "--map", "holds=angle", "--map", f"unit={unit}", *SCALE, says=(f"row {row}:", "anew"))
+
+    def test_counts_that_add_up_or_have_lost_their_direction(self):
+        said = [*FIXED, *SCALE, "--map", "tick_s=0.005"]
+        counts = [150 + int(n) for n in self.rng.integers(-5, 6, 60)]
+        for name, values, word in (("total.csv", numpy.cumsum(counts), "running total"), ("magnitude.csv", counts, "one sign")):
+            self.refused(name, "counts,bias_sign\n" + "".join(f"{n},{1 - k % 2 * 2}\n" for k, n in enumerate(values)), *said, says=(word,))
+
+    def test_an_empty_state_is_not_the_one_before(self):
+        for key in ("mode", "loop_closed", "bias_sign"):
+            rows = [dict(row) for row in quiet_log(20)]
+            text = csv_text(rows, facts=False).splitlines()
+            cells = text[10].split(",")
+            cells[text[0].split(",").index(key)] = ""
+            text[10] = ",".join(cells)
+            self.refused(f"{key}.csv", "\n".join(text) + "\n", *SCALE, "--map", "tick_s=0.005", says=("row 10", key))
+
+    def test_minutes_and_seconds_are_no_hours_and_minutes(self):
+        text = "Uhrzeit;w_dph\n" + "\n".join(f"08:{k:02d};{r:.4f}" for k, r in enumerate(self.rates(50))) + "\n"
+        self.refused("clock.csv", text, "--map", "axis=w_dph", code=2, says=("rate_hz",))
+
+    def test_a_tick_is_none_of_an_angle_file(self):
+        text = "t_s,w_dph\n" + "\n".join(f"{k/100:.2f},{r:.4f}" for k, r in enumerate(self.rates(50))) + "\n"
+        self.refused("tick.csv", text, "--map", "tick_s=0.5", code=2, says=("tick_s = 0.5", "rate_hz"))
+
+    def test_stamps_that_do_not_decide(self):
+        def text(times, form):
+            return "t_ms,w_dph\n" + "\n".join(f"{t:{form}},{r:.6f}" for t, r in zip(times, self.rates(len(times)))) + "\n"
+        changes = numpy.cumsum([10.0] * 200 + [5.0] * 200)
+        self.refused("faster.csv", text(changes, ".0f"), "--map", "axis=w_dph", says=("rate",))
+        self.refused("slower.csv", text(numpy.cumsum([5.0] * 300 + [10.0] * 100), ".0f"), "--map", "axis=w_dph", says=("row 300", "10"))
+        for step in (1.25, 2.5):
+            whole = step * numpy.arange(400)
+            log = self.angles(self.write("coarse.csv", text(numpy.floor(whole), ".0f")), rows=400)
+            self.assertEqual([k for k in range(400) if log.has(k, "invalid")], [])
+            self.assertIn(f"tick_s = {step / 1e3:g}", "\n".join((self.folder / "angles.csv").read_text().splitlines()[:9]))
+            self.refused("lost.csv", text(numpy.floor(numpy.delete(whole, 211)), ".0f"), "--map", "axis=w_dph", says=("rounded", "rate_hz"))
 
 
 class Raw(Foreign):

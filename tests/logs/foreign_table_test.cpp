@@ -43,7 +43,7 @@ TEST(Dates, count_seconds_since_1970) {
     EXPECT_EQ(date_time("24.11.2026 00:31:15")->seconds, 1795480275);
     EXPECT_DOUBLE_EQ(date_time("12:00:00,125")->fraction, 0.125);
     for (const char* none : {"2026-02-29 00:00:00", "2026-13-01 00:00:00", "11/12/2026 00:00:00", "2026-11-24",
-                             "24:00:00", "1.5", "", "0.5:3"})
+                             "24:00:00", "08:30", "08:30+01:00", "1.5", "", "0.5:3"})
         EXPECT_FALSE(date_time(none)) << none;
 }
 

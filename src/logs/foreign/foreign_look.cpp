@@ -97,6 +97,28 @@ void take_axis(ForeignLook& look, std::int64_t times) {
     look.missing.push_back(fmt::format("axis=COLUMN{}", choice.empty() ? "" : ", of " + choice));
 }
 
+// What was said goes before the name; of what the file says all must agree.
+void check_unit(ForeignLook& look, const ForeignColumn& column, std::optional<AngleUnit>& unit, bool is_later) {
+    const auto refuse = [&](const std::string& why) {
+        throw MappingError(
+            fmt::format("{}, {}: {}; --map unit=... says which", look.table.path, described(column), why));
+    };
+    const auto named = unit_in_name(column.name);
+    if (look.mapping.has("unit")) {
+        if (named && named->name != unit->name)
+            look.said.push_back(
+                fmt::format("{} is read in {} as said, against its name", described(column), unit->name));
+        return;
+    }
+    const auto before = unit_in_name(std::string_view{column.name}.substr(0, column.name.find_first_of("[(")));
+    if (named && before && named->name != before->name)
+        refuse(fmt::format("its name has {}, its line of units or brackets {}", before->name, named->name));
+    if (is_later && (unit ? unit->name : "") != (named ? named->name : ""))
+        refuse(fmt::format("its unit is {}, that of the axes before {}; allowed is one", named ? named->name : "open",
+                           unit ? unit->name : "open"));
+    if (!is_later) unit = named;
+}
+
 void check_axes(ForeignLook& look, std::int64_t times) {
     if (!look.mapping.has("axis")) take_axis(look, times);
     const Mapping& m = look.mapping;
@@ -107,7 +129,7 @@ void check_axes(ForeignLook& look, std::int64_t times) {
         if (!column.is_number)
             throw MappingError(fmt::format("{}: axis = '{}': {} holds words; allowed are numbers", look.table.path,
                                            axis, described(column)));
-        if (!unit) unit = unit_in_name(column.name);
+        check_unit(look, column, unit, axis != m.axes().front());
     }
     if (!m.has("unit") && unit && !m.axes().empty()) {
         look.mapping.set("unit", std::string{unit->name}, "names");

@@ -14,6 +14,9 @@ namespace zlg::logs {
 [[nodiscard]] ForeignTable numpy_table_of(const std::string& path);
 [[nodiscard]] ForeignTable doubles_table_of(const std::string& path);
 
+// The whole file. errors  IoError; FormatError: more bytes than can be read.
+[[nodiscard]] std::string bytes_of(const std::string& path);
+
 // Arrays of a file that holds some, as they lie in memory.
 struct ForeignArray {
     std::string name;
@@ -22,6 +25,7 @@ struct ForeignArray {
     std::size_t columns = 1;
     bool rows_follow = true;  // the values of a row lie side by side; else those of a column do
     std::vector<double> values;
+    std::string not_plain;  // as in ForeignColumn
 };
 
 // The arrays of the commonest length as columns; the others are left out with a note.

@@ -108,10 +108,14 @@ ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
             continue;
         }
         for (std::size_t c = 0; c < array.columns; ++c) {
-            ForeignColumn column{
-                .number = std::ssize(table.columns) + 1, .name = array.name, .first = {}, .values = {}};
+            ForeignColumn column{.number = std::ssize(table.columns) + 1,
+                                 .name = array.name,
+                                 .first = {},
+                                 .values = {},
+                                 .not_plain = {}};
             if (array.columns > 1) column.name += fmt::format("{}{}", array.name.empty() ? "" : "_", c + 1);
             if (array.columns > 1 && array.name.empty()) column.name.clear();
+            column.not_plain = array.not_plain;
             if (!array.unit.empty()) column.name += fmt::format(" [{}]", array.unit);
             column.values.resize(array.rows);
             for (std::size_t r = 0; r < array.rows; ++r)
@@ -122,8 +126,15 @@ ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
         std::vector<double>{}.swap(array.values);
     }
     // Of a copy: the table outlives what it was made of.
-    table.read = [columns = std::make_shared<std::vector<ForeignColumn>>(table.columns)](
+    table.read = [path, columns = std::make_shared<std::vector<ForeignColumn>>(table.columns)](
                      const std::vector<std::int64_t>& wanted, std::int64_t times) {
+        std::vector<std::int64_t> used = wanted;
+        if (times > 0) used.push_back(times);
+        for (const std::int64_t number : used) {
+            const ForeignColumn& column = (*columns)[static_cast<std::size_t>(number - 1)];
+            if (!column.not_plain.empty())
+                throw FormatError(fmt::format("{}, {}: {}", path, described(column), column.not_plain));
+        }
         TextTable read{.columns = {}, .times = {}, .names = {}, .n_columns = std::ssize(*columns)};
         for (const ForeignColumn& column : *columns) read.names.push_back(column.name);
         for (const std::int64_t number : wanted)

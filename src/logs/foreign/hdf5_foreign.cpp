@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "foreign_readers.hpp"
 #include "hdf5/hdf5_source.hpp"
@@ -37,6 +39,49 @@ std::string unit_of(const Source& file, const std::string& path) {
         }
     }
     return {};
+}
+
+// What its attributes make of the numbers of a data set, where that is not the numbers themselves.
+struct Attributes {
+    const std::vector<double>& values;
+    std::string not_plain;
+};
+
+herr_t take_attribute(hid_t set, const char* name, const H5A_info_t*, void* client) noexcept try {
+    constexpr std::array<std::string_view, 8> factors{"scale_factor", "scale",  "scaling", "gain",
+                                                      "lsb",          "factor", "slope",   "multiplier"};
+    constexpr std::array<std::string_view, 3> offsets{"add_offset", "offset", "intercept"};
+    constexpr std::array<std::string_view, 2> fills{"_fillvalue", "missing_value"};
+    Attributes& found = *static_cast<Attributes*>(client);
+    const std::string small = zlg::text::lower_case(name);
+    const bool is_factor = std::ranges::find(factors, small) != factors.end();
+    const bool is_fill = std::ranges::find(fills, small) != fills.end();
+    if (!is_factor && !is_fill && std::ranges::find(offsets, small) == offsets.end()) return 0;
+    const Handle attribute{H5Aopen(set, name, H5P_DEFAULT), &H5Aclose};
+    const Handle type{H5Aget_type(attribute.get()), &H5Tclose};
+    const Handle space{H5Aget_space(attribute.get()), &H5Sclose};
+    const H5T_class_t kind = H5Tget_class(type.get());
+    std::string shown = "no single number";
+    if ((kind == H5T_FLOAT || kind == H5T_INTEGER) && H5Sget_simple_extent_npoints(space.get()) == 1) {
+        double value = NAN;
+        if (H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) return -1;
+        if (is_fill ? std::ranges::find(found.values, value) == found.values.end() : value == (is_factor ? 1.0 : 0.0))
+            return 0;
+        shown = fmt::format("{}", value);
+    }
+    found.not_plain = fmt::format(
+        "its attribute {} is {}, which is not applied; allowed are numbers that stand for "
+        "themselves, with the attribute removed",
+        name, shown);
+    return 1;
+} catch (...) {
+    return -1;
+}
+
+std::string not_plain(const Source& file, const std::string& path, hid_t set, const std::vector<double>& values) {
+    Attributes found{.values = values, .not_plain = {}};
+    if (H5Aiterate2(set, H5_INDEX_NAME, H5_ITER_INC, nullptr, &take_attribute, &found) < 0) file.fail_to_read(path);
+    return found.not_plain;
 }
 
 class Reader {
@@ -90,7 +135,7 @@ private:
         if (n < 2) return;
         if (size[0] > max_foreign_values || size[1] > max_foreign_values || n > max_foreign_values)
             file_.fail(path, fmt::format("{} values; allowed is {}", n, max_foreign_values));
-        ForeignArray array{.name = name, .unit = unit_of(file_, path), .values = {}};
+        ForeignArray array{.name = name, .unit = unit_of(file_, path), .values = {}, .not_plain = {}};
         // Of a matrix the longer side are the rows, whichever way round its writer stores it.
         array.rows = std::max(size[0], size[1]);
         array.columns = std::min(size[0], size[1]);
@@ -100,6 +145,7 @@ private:
         if (H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0)
             file_.fail_to_read(path);
         check_exact(file_, path, type.get(), array.values);
+        array.not_plain = not_plain(file_, path, set.get(), array.values);
         arrays_.push_back(std::move(array));
     }
 

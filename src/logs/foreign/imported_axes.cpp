@@ -36,12 +36,43 @@ void check_kind(const ForeignLook& look) {
                                    is_rate ? "the unit of a rate" : "the unit of an angle, or holds=rate"));
 }
 
+// A jump of a whole range, where the steps beside it are small, is a register or a circle that began anew.
+void refuse_wraps(const ForeignLook& look, const TextColumn& column, const AngleUnit& unit) {
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < column.values.size(); ++k) {
+        const double step = std::fabs(column.values[k] - column.values[k - 1]);
+        if (!std::isnan(step)) steps.push_back(step);
+    }
+    if (steps.size() < 3) return;
+    const auto middle = steps.begin() + std::ssize(steps) / 2;
+    std::nth_element(steps.begin(), middle, steps.end());
+    constexpr double circle = 360.0 * 3600.0;
+    const std::vector<double> ranges = unit.of_counts
+                                           ? std::vector<double>{65536.0, 16777216.0, 4294967296.0}
+                                           : std::vector<double>{circle / unit.arcsec, circle / 2.0 / unit.arcsec};
+    std::size_t last = 0;
+    for (std::size_t k = 1; k < column.values.size(); ++k) {
+        if (std::isnan(column.values[k])) continue;
+        const double jump = std::fabs(column.values[k] - column.values[last]);
+        const double slack = 5.0 * *middle * static_cast<double>(k - last);
+        for (const double range : ranges)
+            if (slack < range / 8.0 && std::fabs(jump - range) <= slack + 1e-3 * range)
+                throw FormatError(fmt::format(
+                    "{}, {}, row {}: the angle jumps from {} to {} {}, as one that begins anew after {:.9g} does; "
+                    "allowed are angles that go on",
+                    look.table.path, described(column), k + 1, column.values[last], column.values[k], unit.name,
+                    range));
+        last = k;
+    }
+}
+
 ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock& clock) {
     const std::string holds = look.mapping.text("holds");
     const double arcsec = arcsec_of(look.mapping);
     if (holds != "angle" && rises_as_time(column.values))
         throw MappingError(fmt::format("{}, {} rises steadily and is no {}; allowed is another axis, or holds=angle",
                                        look.table.path, described(column), holds));
+    if (holds == "angle") refuse_wraps(look, column, unit_named(look.mapping.text("unit")).value());
     for (std::size_t k = 0; k < column.values.size(); ++k) {
         column.values[k] *= arcsec;
         if (!std::isnan(column.values[k]) && !(std::fabs(column.values[k]) <= largest))
@@ -73,6 +104,9 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
 
 ImportedAxes imported_axes(const ForeignLook& look) {
     require_whole(look);
+    if (look.mapping.has("tick_s"))
+        throw MappingError(fmt::format("{}: tick_s = {} is of raw logs, and this one has no counts; allowed is rate_hz",
+                                       look.table.path, look.mapping.text("tick_s")));
     check_kind(look);
     std::vector<std::int64_t> wanted;
     for (const std::string& axis : look.mapping.axes()) wanted.push_back(column_named(look.table, axis).number);

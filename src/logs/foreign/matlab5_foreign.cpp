@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <memory>
 #include <zlg/logs/error.hpp>
-#include <zlg/text/inputs.hpp>
 
 #include "foreign_readers.hpp"
+#include "matlab5_extent.hpp"
 
 namespace zlg::logs {
 
@@ -65,7 +65,7 @@ public:
         if (rows * columns < 2) return;
         if (std::min(rows, columns) > 1000 || rows > max_foreign_values || columns > max_foreign_values)
             return leave_out(name);
-        ForeignArray array{.name = name, .unit = {}, .values = std::vector<double>(rows * columns)};
+        ForeignArray array{.name = name, .unit = {}, .values = std::vector<double>(rows * columns), .not_plain = {}};
         if (v.nbytes < array.values.size() * static_cast<std::size_t>(v.data_size) || !copy_numbers(v, array.values))
             return leave_out(name);
         const bool whole = v.class_type == MAT_C_INT64 || v.class_type == MAT_C_UINT64;
@@ -100,7 +100,7 @@ private:
 }  // namespace
 
 ForeignTable matlab5_table_of(const std::string& path, const Mapping& mapping) {
-    zlg::text::note_input(path);
+    check_matlab5_extent(path);
     const std::unique_ptr<mat_t, decltype(&Mat_Close)> file{Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close};
     if (!file) throw FormatError(fmt::format("{}: cannot be read as a MATLAB 5 file", path));
     Reader reader{path};

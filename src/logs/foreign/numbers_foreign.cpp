@@ -20,20 +20,6 @@ namespace {
 
 constexpr std::size_t max_width = 40;
 
-std::string bytes_of(const std::string& path) {
-    zlg::text::note_input(path);
-    std::ifstream file{path, std::ios::binary};
-    file.seekg(0, std::ios::end);
-    const auto size = static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0));
-    if (size > max_foreign_values * sizeof(double))
-        throw FormatError(fmt::format("{}: {} bytes; allowed is {}", path, size, max_foreign_values * sizeof(double)));
-    std::string bytes(size, '\0');
-    file.seekg(0);
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
-        throw IoError(fmt::format("cannot read {}", path));
-    return bytes;
-}
-
 template <class Number>
 std::vector<double> numbers(std::string_view bytes, std::size_t n) {
     std::vector<double> values(n);
@@ -63,6 +49,20 @@ std::size_t width_of(const std::vector<double>& values) {
 
 }  // namespace
 
+std::string bytes_of(const std::string& path) {
+    zlg::text::note_input(path);
+    std::ifstream file{path, std::ios::binary};
+    file.seekg(0, std::ios::end);
+    const auto size = static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0));
+    if (size > max_foreign_values * sizeof(double))
+        throw FormatError(fmt::format("{}: {} bytes; allowed is {}", path, size, max_foreign_values * sizeof(double)));
+    std::string bytes(size, '\0');
+    file.seekg(0);
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
+        throw IoError(fmt::format("cannot read {}", path));
+    return bytes;
+}
+
 ForeignTable numpy_table_of(const std::string& path) {
     const std::string bytes = bytes_of(path);
     const auto fail = [&](const std::string& what) {
@@ -89,7 +89,7 @@ ForeignTable numpy_table_of(const std::string& path) {
         bytes.size() - begin < n * m * size)
         fail("that is cut off");
     const std::string_view data = std::string_view{bytes}.substr(begin);
-    ForeignArray array{.name = {}, .unit = {}, .values = {}};
+    ForeignArray array{.name = {}, .unit = {}, .values = {}, .not_plain = {}};
     if (kind == "f8") array.values = numbers<double>(data, n * m);
     if (kind == "f4") array.values = numbers<float>(data, n * m);
     if (kind == "i8") array.values = numbers<std::int64_t>(data, n * m);
@@ -119,11 +119,12 @@ ForeignTable doubles_table_of(const std::string& path) {
             "{}: doubles without a header, and no column of times shows how many make a row; allowed are rows of 2..{} "
             "numbers, the first or the last of which rises evenly",
             path, max_width));
-    ForeignArray array{.name = {}, .unit = {}, .rows = values.size() / width, .columns = width, .values = {}};
+    ForeignArray array{
+        .name = {}, .unit = {}, .rows = values.size() / width, .columns = width, .values = {}, .not_plain = {}};
     array.values = std::move(values);
     ForeignTable table =
         table_of_arrays(path, fmt::format("doubles without a header, {} to a row", width), {std::move(array)});
-    if (width == 7 && path.ends_with(".imu"))
+    if (width == 7 && path.ends_with(".imu") && rises_as_time(table.columns.back().values))
         table.notes.push_back(
             "as PSINS writes it, columns 1..3 are increments of angle in rad, 4..6 of velocity, 7 the times in s");
     return table;

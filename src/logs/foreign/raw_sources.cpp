@@ -57,6 +57,42 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
         if (source.key == "mode") scale_sign(source, "mode_plus");
         if (source.key == "bias_sign") scale_sign(source, "bias_sign_plus");
     }
+    refuse_empty_states();
+    refuse_other_counts();
+}
+
+// A state that a row with counts does not say is not that of the row before.
+void RawSources::refuse_empty_states() const {
+    for (const char* key : {"bias_sign", "mode", "loop_closed", "loop_open", "valid"}) {
+        if (!is_column(key)) continue;
+        for (std::size_t k = 0; k < n_; ++k)
+            if (std::isnan(at(key, k)) && !std::isnan(at("counts", k))) refuse(key, k, "a number beside counts");
+    }
+}
+
+// Halves of both signs count both ways about the bias, unless the counter keeps adding or has lost the direction.
+void RawSources::refuse_other_counts() const {
+    const std::vector<double>& counts = find("counts")->values;
+    constexpr std::size_t enough = 16;
+    double sign = 0.0;
+    std::size_t n = 0;
+    bool has_plus = false, has_minus = false, rises = true;
+    double last = missing;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        if (std::isnan(counts[k])) continue;
+        if (at("bias_sign", k) > 0.0) has_plus = true;
+        if (at("bias_sign", k) < 0.0) has_minus = true;
+        rises = rises && !(counts[k] < last);
+        last = counts[k];
+        if (counts[k] == 0.0) continue;
+        if (sign * counts[k] < 0.0) return;
+        sign = counts[k];
+        ++n;
+    }
+    if (n < enough || !has_plus || !has_minus) return;
+    throw FormatError(fmt::format(
+        "{}, {}: the counts {}, while the bias alternates; allowed are counts of the row alone, with their direction",
+        look_.table.path, find("counts")->from, rises ? "only rise, as a running total does" : "all have one sign"));
 }
 
 const RawSource* RawSources::find(std::string_view key) const {

@@ -44,6 +44,8 @@ public:
     [[noreturn]] void refuse(std::string_view key, std::size_t k, const std::string& allowed) const;
 
 private:
+    void refuse_empty_states() const;
+    void refuse_other_counts() const;
     void scale_sign(RawSource& source, const char* plus_key) const;
 
     const ForeignLook& look_;

@@ -78,6 +78,84 @@ void check_repetitions(const TextColumn& times, const std::string& path) {
     }
 }
 
+// The rows of a window that has no hole must be as far apart as those of the whole file; and a hole at every row is none.
+void check_one_rate(const TextColumn& times, const RowTimes& found, const std::string& path) {
+    constexpr std::size_t window = 32, most_holes = 8;
+    const std::vector<double>& t = times.values;
+    const auto refuse = [&](std::size_t row, double step) {
+        throw FormatError(
+            fmt::format("{}, {}: its rows are {:.6g} apart from row {} on and {:.6g} elsewhere; allowed is one rate "
+                        "throughout, or --map "
+                        "time=none with rate_hz",
+                        path, described(times), step, row + 1, found.step));
+    };
+    std::size_t from = 0, n_running = 0, next = 0;
+    for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+        const bool is_hole = next < found.holes.size() && found.holes[next].row == k;
+        n_running = is_hole ? n_running + 1 : 0;
+        if (n_running == most_holes) refuse(k + 1 - most_holes, t[k + 1] - t[k]);
+        if (is_hole) {
+            ++next;
+            from = k + 1;
+        }
+        if (k + 1 - from < window) continue;
+        const double step = (t[k + 1] - t[from]) / static_cast<double>(window);
+        if (std::fabs(step - found.step) > 0.2 * found.step) refuse(from, step);
+        ++from;
+    }
+}
+
+// The decimal place to which stamps are rounded, where that is no small part of a row; 0: it is.
+double coarse_place(std::span<const double> t, double step) {
+    for (double place = std::pow(10.0, std::floor(std::log10(step) + 1e-9)); place > 0.2 * step; place /= 10.0)
+        if (std::ranges::all_of(t, [place](double v) { return std::fabs(v / place - std::round(v / place)) < 1e-4; }))
+            return place;
+    return 0.0;
+}
+
+// Of the strip about an even course that holds all times; convex in the step.
+double width_about(std::span<const double> t, double step) {
+    double low = 0.0, high = 0.0;
+    for (std::size_t k = 0; k < t.size(); ++k) {
+        const double late = t[k] - t.front() - step * static_cast<double>(k);
+        low = std::min(low, late);
+        high = std::max(high, late);
+    }
+    return high - low;
+}
+
+// Rounded stamps of rows that are no whole number of places apart show rows that are missing only where the stamps are all
+// within a place of an even course.
+void check_coarse(const TextColumn& times, RowTimes& found, const std::string& path) {
+    const std::vector<double>& t = times.values;
+    const double mean = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+    const double place = coarse_place(t, std::min(mean, found.step));
+    if (place == 0.0) return;
+    std::size_t n_odd = 0;
+    for (std::size_t k = 1; k < t.size(); ++k)
+        n_odd += std::fabs((t[k] - t[k - 1]) - found.step) > 0.1 * place ? 1u : 0u;
+    // Of whole numbers of places only holes are odd.
+    if (n_odd < 3 || 10 * n_odd < t.size()) return;
+    const double n_steps = static_cast<double>(t.size() - 1);
+    double least = mean - place / n_steps, most = mean + place / n_steps;
+    for (int pass = 0; pass < 40; ++pass) {
+        const double lower = least + (most - least) / 3.0, upper = most - (most - least) / 3.0;
+        if (width_about(t, lower) < width_about(t, upper))
+            most = upper;
+        else
+            least = lower;
+    }
+    const double step = (least + most) / 2.0;
+    if (width_about(t, step) <= 1.01 * place) {
+        found = {.step = step, .tolerance = 1e-3 + 2.0 * place / (t.back() - t.front()), .holes = {}, .n_missing = 0};
+        return;
+    }
+    throw FormatError(fmt::format(
+        "{}, {}: its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
+        "say which rows are missing; --map time=none and --map rate_hz=... if none are",
+        path, described(times), place, found.step));
+}
+
 // As a column that is called time does, with holes or not.
 bool goes_on(std::span<const double> values) {
     return values.size() > 1 && values.front() < values.back() && std::ranges::is_sorted(values);
@@ -136,7 +214,9 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
         return clock;
     }
     check_repetitions(times, path);
+    check_coarse(times, *clock.times, path);
     check_holes(times, *clock.times, path);
+    check_one_rate(times, *clock.times, path);
     const double step = clock.times->step;
     const auto unit = known_unit(times.name, times.holds_dates, mapping);
     if (unit) {

@@ -218,7 +218,8 @@ void take_names_above(Look& look) {
 }
 
 ForeignColumn column_of(const Look& look, std::size_t f) {
-    ForeignColumn column{.number = static_cast<std::int64_t>(f) + 1, .name = {}, .first = {}, .values = {}};
+    ForeignColumn column{
+        .number = static_cast<std::int64_t>(f) + 1, .name = {}, .first = {}, .values = {}, .not_plain = {}};
     if (f < look.dialect.names.size()) column.name = look.dialect.names[f];
     if (f < look.units.size() && !look.units[f].empty())
         column.name += fmt::format(" [{}]", without_brackets(look.units[f]));

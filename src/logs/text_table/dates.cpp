@@ -50,13 +50,14 @@ std::optional<std::int64_t> date(std::string_view& text) {
     return days + 365 * before + before / 4 - before / 100 + before / 400 - 719162;
 }
 
-std::optional<DateTime> time_of_day(std::string_view& text) {
+std::optional<DateTime> time_of_day(std::string_view& text, bool has_date) {
     const auto hour = digits(text, 1, 2);
     if (!hour || *hour > 23 || !take(text, ':')) return std::nullopt;
     const auto minute = digits(text, 2, 2);
     if (!minute || *minute > 59) return std::nullopt;
     DateTime time{.seconds = 3600 * *hour + 60 * *minute};
-    if (!take(text, ':')) return time;
+    // 08:30 without a date may be minutes and seconds.
+    if (!take(text, ':')) return has_date ? std::optional{time} : std::nullopt;
     const auto second = digits(text, 2, 2);
     if (!second || *second > 59) return std::nullopt;
     time.seconds += *second;
@@ -98,7 +99,7 @@ std::optional<DateTime> date_time(std::string_view text) {
             }
         }
     }
-    auto time = time_of_day(text);
+    auto time = time_of_day(text, has_date);
     if (!time) return std::nullopt;
     const auto east_s = zone(text);
     if (!east_s) return std::nullopt;

@@ -20,6 +20,7 @@ struct ForeignColumn {
     std::string first;         // value, as it stands in the file
     // Of the first rows of a text file, of all rows of another one. NaN where a value is missing.
     std::vector<double> values;
+    std::string not_plain;  // why its numbers are not what they stand for; empty: they are
 };
 
 struct ForeignTable {
