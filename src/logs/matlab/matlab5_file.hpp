@@ -28,7 +28,7 @@ public:
     void add(std::string_view name, std::span<const Number> values, std::size_t rows);
     void add(std::string_view name, double value) { add(name, std::span<const double>{&value, 1}, 1); }
 
-    // A row of characters. errors  IoError; FormatError: no UTF-8.
+    // A row of characters; what is no UTF-8 becomes some other letters. errors  IoError.
     void add_text(std::string_view name, std::string_view utf8);
 
     // errors  IoError.
