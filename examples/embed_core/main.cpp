@@ -33,7 +33,7 @@ int main() {
     if (check(config) != GyroCompensationFault::none) return 2;
 
     GyroCompensationState state;
-    long long half = 0, counts = 0;
+    long long half = 0, counts = 0, n_rows = 0;
     int bias_sign = 1, mode = 1, closed = 1;
     while (std::scanf("%lld %d %d %lld %d", &half, &bias_sign, &mode, &counts, &closed) == 5) {
         const HalfRecord record{.half = half,
@@ -47,6 +47,11 @@ int main() {
                                 .loop_closed = closed != 0};
         const CompensationOutput out = step(config, state, record);
         if (out.has_sample && out.sample.has_final) print(out.sample.final_row);
+        ++n_rows;
+    }
+    if (std::feof(stdin) == 0) {
+        std::fprintf(stderr, "embed_core: row %lld: allowed are five whole numbers\n", n_rows + 1);
+        return 1;
     }
     for (DrainOutput out = drain(config, state); out.has_row || out.has_gap; out = drain(config, state))
         if (out.has_row) print(out.row);

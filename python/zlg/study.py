@@ -54,7 +54,7 @@ class Variant(Shown):
     #: of each switch, shape (switches,)
     switch_tick: NDArray[np.int64]
     switch_error_arcsec: NDArray[np.float64]
-    #: final less true angle over time, shape (points,)
+    #: final less true angle over time for a plot, thinned, shape (points,); each tick's is in RunResult.angles.error_arcsec
     t_s: NDArray[np.float64]
     error_arcsec: NDArray[np.float64]
 

@@ -53,6 +53,27 @@ std::string escaped(std::string_view text, Lines lines) {
     return result;
 }
 
+std::string as_utf8(std::string_view text) {
+    bool is_utf8 = true;
+    for (std::string_view rest = text; is_utf8 && !rest.empty();) {
+        const std::size_t n = first_letter(rest).n_bytes;
+        is_utf8 = n > 0;
+        rest.remove_prefix(n);
+    }
+    if (is_utf8) return std::string{text};
+    std::string result;
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 0x80) {
+            result += c;
+        } else {  // two bytes hold all of Latin-1
+            result += static_cast<char>(0xC0u | (code >> 6u));
+            result += static_cast<char>(0x80u | (code & 0x3Fu));
+        }
+    }
+    return result;
+}
+
 std::string shortened(std::string text, std::size_t max_bytes) {
     if (text.size() <= max_bytes) return text;
     constexpr std::string_view mark = " ... ";

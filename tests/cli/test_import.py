@@ -56,6 +56,20 @@ class Foreign(CliTest):
 
 
 class Angles(Foreign):
+    def test_names_and_units_of_german_excel_in_latin_1(self):
+        file = self.folder / "excel.csv"
+        rates = numpy.array([self.rates(300, mean) for mean in (10.0, -7.0, 13.0)])
+        rows = [f"{5 * k};" + ";".join(f"{r:.4f}".replace(".", ",") for r in rates[:, k]) for k in range(300)]
+        for unit in ("[°/h]", "(°/h)"):
+            file.write_bytes("\r\n".join([f"Zeit_ms;wx {unit};wy {unit};wz {unit}", *rows, ""]).encode("latin-1"))
+            asked = run("import", file, "--out", self.folder / "angles.csv")
+            self.assertEqual(asked.returncode, 2)
+            self.assertIn("axis=COLUMN, of 'wx", asked.stderr)
+            self.assertNotIn("unit=", asked.stderr)
+            mean, axis = self.mean(file, "--map", "axis=wy")
+            self.assertAlmostEqual(mean, numpy.round(rates[1], 4).mean(), places=9)
+            self.assertAlmostEqual(axis["rate_hz"], 200.0, places=9)
+
     def test_german_csv_of_excel(self):
         rates = self.rates() / 3600  # deg/s
         lines = [f"{k/100:.4f};{r:.9f};{24.5 + k % 7/10:.1f}".replace(".", ",") for k, r in enumerate(rates)]

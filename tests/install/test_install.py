@@ -57,6 +57,8 @@ class Installed(unittest.TestCase):
             self.assertEqual((tick, float(dtheta), float(sigma), flags),
                              (row["tick"], float(row["dtheta_final_arcsec"]), float(row["sigma_arcsec"]), row["flags"]))
         self.assertEqual(sum(int(row["flags"]) & 4 for row in expected), 4 * 5 * 3)  # 5 gaps of 3 ticks, interpolated
+        wrong = subprocess.run([program], input="0 1 1 150 1\n1 -1 1 abc 1\n", capture_output=True, text=True, check=False)
+        self.assertEqual((wrong.returncode, wrong.stderr), (1, "embed_core: row 2: allowed are five whole numbers\n"))
 
     def test_a_gyro_of_ones_own_is_switched_and_compensated(self):
         raw, angles = self.folder / "own.csv", self.folder / "own_angles.csv"

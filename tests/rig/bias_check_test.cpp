@@ -115,4 +115,19 @@ TEST(BiasCheck, takes_any_count) {
         "");
 }
 
+TEST(BiasCheck, counts_without_their_direction_are_found_with_the_first_pair) {
+    const Gyro gyro{.rotation = [](int) { return 0.0; },
+                    .column = [](int, core::HalfRecord& h) { h.counts = std::abs(h.counts); }};
+    const std::string said = complaint(gyro);
+    EXPECT_NE(said.find("the bias of 150 counts in a half-period does not show: in 3978 of 3978 pairs"),
+              std::string::npos)
+        << said;
+    EXPECT_NE(said.find("150 and then 150 in half-periods 0 and 1"), std::string::npos) << said;
+}
+
+// A fast rotation counts one way too, and shows the bias.
+TEST(BiasCheck, a_gyro_that_turns_faster_than_its_bias_is_right) {
+    EXPECT_EQ(complaint({.rotation = [](int) { return 400.0; }}), "");
+}
+
 }  // namespace

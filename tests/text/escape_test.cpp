@@ -25,6 +25,13 @@ TEST(Escape, BytesThatAreNoTextAreShown) {
     EXPECT_EQ(escaped("\xed\xa0\x80"), "\\u00ED\\u00A0\\u0080");
 }
 
+TEST(Escape, TextThatIsNoUtf8IsTakenForLatin1) {
+    EXPECT_EQ(as_utf8("wx [\xB0/h]"), "wx [\xC2\xB0/h]");
+    EXPECT_EQ(as_utf8("\xFC\xB5"), "\xC3\xBC\xC2\xB5");
+    EXPECT_EQ(as_utf8("wx [\xC2\xB0/h]"), "wx [\xC2\xB0/h]");
+    EXPECT_EQ(as_utf8(""), "");
+}
+
 RC_GTEST_PROP(Escape, WhateverComesInIsOneLineWithoutControlCharacters, (const std::string& text)) {
     for (const char c : escaped(text)) RC_ASSERT(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f);
     RC_ASSERT(escaped(escaped(text)) == escaped(text));

@@ -30,7 +30,7 @@ bool is_constant(const ForeignColumn& column) {
     return std::ranges::adjacent_find(column.values, std::ranges::not_equal_to{}) == column.values.end();
 }
 
-std::string may_be(const ForeignLook& look, const ForeignColumn& column, std::int64_t times) {
+std::string may_be(const ForeignColumn& column, std::int64_t times) {
     if (column.number == times) return column.holds_dates ? "the times of the rows, as dates" : "the times of the rows";
     if (column.holds_dates) return "dates";
     if (!column.is_number) return "words, not read";
@@ -42,7 +42,6 @@ std::string may_be(const ForeignLook& look, const ForeignColumn& column, std::in
     if (all_of_known(column, [](double v) { return v == 0.0 || v == 1.0; })) return "loop_closed, valid or lit";
     if (is_constant(column)) return "a constant";
     if (rises_as_time(column.values)) return "rises steadily: an angle, a number of rows or times; no rate";
-    (void)look;
     return all_of_known(column, whole) ? "whole numbers, as counts are" : "numbers";
 }
 
@@ -73,8 +72,9 @@ void check_raw(ForeignLook& look) {
     if (m.has("edge_offset_ticks") && !m.has("timer_hz")) look.missing.push_back("timer_hz=... (of edge_offset_ticks)");
 }
 
-// The axis, where the file leaves no choice: the only column of a rate by its unit, or the only column of numbers.
-void take_axis(ForeignLook& look, std::int64_t times) {
+// The axis, where the file leaves no choice: the only column of a rate by its unit, or the only column of numbers. Returns whether
+// its name says its unit, or that of each that it may be.
+bool take_axis(ForeignLook& look, std::int64_t times) {
     std::vector<const ForeignColumn*> numbers, rates;
     for (const ForeignColumn& column : look.table.columns) {
         if (!column.is_number || column.number == times || is_constant(column)) continue;
@@ -87,7 +87,7 @@ void take_axis(ForeignLook& look, std::int64_t times) {
     if (only != nullptr) {
         look.mapping.set_axes({fmt::format("{}", only->number)});
         look.said.push_back(fmt::format("the axis is {}", described(*only)));
-        return;
+        return true;
     }
     std::string choice;
     for (const ForeignColumn* column : rates.empty() ? numbers : rates)
@@ -95,7 +95,9 @@ void take_axis(ForeignLook& look, std::int64_t times) {
             choice += fmt::format("{}{}", choice.empty() ? "" : ", ",
                                   column->name.empty() ? fmt::format("{}", column->number)
                                                        : fmt::format("'{}'", text::excerpt(column->name, 40, ' ')));
-    look.missing.push_back(fmt::format("axis=COLUMN{}", choice.empty() ? "" : ", of " + choice));
+    look.missing.push_back(fmt::format("axis=COLUMN{}{}", choice.empty() ? "" : ", of " + choice,
+                                       rates.empty() ? " (or counts=COLUMN of a raw log)" : ""));
+    return !rates.empty();
 }
 
 // What was said goes before the name; of what the file says all must agree.
@@ -121,7 +123,7 @@ void check_unit(ForeignLook& look, const ForeignColumn& column, std::optional<An
 }
 
 void check_axes(ForeignLook& look, std::int64_t times) {
-    if (!look.mapping.has("axis")) take_axis(look, times);
+    const bool names_say = look.mapping.has("axis") || take_axis(look, times);
     const Mapping& m = look.mapping;
     std::optional<AngleUnit> unit;
     if (m.has("unit")) unit = unit_named(m.text("unit"));
@@ -136,8 +138,10 @@ void check_axes(ForeignLook& look, std::int64_t times) {
         look.mapping.set("unit", std::string{unit->name}, "names");
         look.said.push_back(fmt::format("its unit is {}, by its name", unit->name));
     }
-    if (!unit) look.missing.push_back("unit=... (" + allowed_units() + ")");
-    if (!m.has("holds")) {
+    // Of an axis that is still to be chosen its name will say it.
+    const bool is_open = m.axes().empty() && names_say;
+    if (!unit && !is_open) look.missing.push_back("unit=... (" + allowed_units() + ")");
+    if (!m.has("holds") && !is_open) {
         if (unit && unit->kind == UnitKind::rate)
             look.mapping.set("holds", "rate", "names");
         else
@@ -181,7 +185,7 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
             look.makes = Makes::raw;
     if (said.has("counts")) look.makes = Makes::raw;
     const std::int64_t times = time_column(look.table, said);
-    for (const ForeignColumn& column : look.table.columns) look.may_be.push_back(may_be(look, column, times));
+    for (const ForeignColumn& column : look.table.columns) look.may_be.push_back(may_be(column, times));
     if (look.makes == Makes::raw) {
         take_raw_names(look);
         check_raw(look);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
+#include <zlg/text/escape.hpp>
 
 #include "csv/line_reader.hpp"
 #include "csv/text_fields.hpp"
@@ -40,7 +41,7 @@ public:
         while (sample_.lines.size() < 2 || (sample_.lines.size() < sample_lines && n_bytes < sample_bytes)) {
             sample_.is_whole = !next_of_file(line);
             if (sample_.is_whole) break;
-            sample_.lines.push_back({lines_.line_number(), std::string{line}});
+            sample_.lines.push_back({lines_.line_number(), text::as_utf8(line)});
             n_bytes += line.size();
         }
         sample_.is_terminated = lines_.terminated();

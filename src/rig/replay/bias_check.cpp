@@ -1,6 +1,7 @@
 #include <zlg/rig/bias_check.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -18,7 +19,8 @@ int beat_sign(const core::HalfRecord& half) { return half.bias_sign * half.mode;
 }  // namespace
 
 BiasCheck::BiasCheck(const core::CompensationConstants& gyro)
-    : least_counts_{std::max(min_bias_counts, 0.25 * gyro.bias.value() * 0.5 * gyro.tick.value())} {}
+    : presumed_counts_{gyro.bias.value() * 0.5 * gyro.tick.value()},
+      least_counts_{std::max(min_bias_counts, 0.25 * presumed_counts_)} {}
 
 void BiasCheck::take(const core::HalfRecord& half) {
     const bool measured = core::is_measured(half);
@@ -27,7 +29,17 @@ void BiasCheck::take(const core::HalfRecord& half) {
     has_last_ = measured;
 }
 
+// As many counts as the bias makes, in one direction, in halves of both signs.
+bool BiasCheck::counts_one_way(const Pair& pair) const {
+    const auto before = static_cast<double>(pair.before.counts), after = static_cast<double>(pair.half.counts);
+    const double least = std::max(min_bias_counts, 0.5 * presumed_counts_);
+    return before * after > 0.0 && std::fabs(before) >= least && std::fabs(after) >= least &&
+           std::fabs(after - before) < 2.0 * least_counts_;
+}
+
 void BiasCheck::judge(const Pair& pair) {
+    ++n_pairs_;
+    if (counts_one_way(pair) && ++n_one_way_ == 1) first_one_way_ = pair;
     const double change = static_cast<double>(pair.half.counts) - static_cast<double>(pair.before.counts);
     const double bias_counts = 0.5 * beat_sign(pair.half) * change;
     if (bias_counts > -least_counts_ && bias_counts < least_counts_) return;
@@ -45,6 +57,14 @@ void BiasCheck::judge(const Pair& pair) {
 }
 
 std::string BiasCheck::complaint(const std::string& log_name) const {
+    if (!lasts_ && n_pairs_ >= lasting_halves && 20 * n_one_way_ >= 19 * n_pairs_)
+        return fmt::format(
+            "{}: the bias of {:.6g} counts in a half-period does not show: in {} of {} pairs of half-periods of "
+            "opposite "
+            "bias_sign the counts have one direction, {} and then {} in half-periods {} and {}; the direction of the "
+            "counter may be missing, and the angle is wrong then",
+            log_name, presumed_counts_, n_one_way_, n_pairs_, first_one_way_.before.counts, first_one_way_.half.counts,
+            first_one_way_.before.half, first_one_way_.half.half);
     if (!lasts_) return {};
     const auto& [before, half] = first_wrong_;
     return fmt::format(

@@ -18,7 +18,7 @@ std::string Replay::odd_half(const std::string& log_name) const {
 }
 
 std::string Replay::uncorrected(const std::string& log_name) const {
-    if (!is_opened_ || config_.relock.method != core::RelockMethod::none) return {};
+    if (n_open_ == 0 || config_.relock.method != core::RelockMethod::none) return {};
     return fmt::format(
         "{}: has no column detuning_sq_lambda2, and compensation.relock is not set: the false drift after the loop is "
         "closed is not "
@@ -29,6 +29,12 @@ std::string Replay::uncorrected(const std::string& log_name) const {
 
 std::vector<std::string> Replay::contradictions(const std::string& log_name) const {
     std::vector<std::string> found{bias_.complaint(log_name), places_.complaint(log_name)};
+    if (2 * n_open_ > halves_)
+        found.push_back(
+            fmt::format("{}: the loop is open in {} of {} half-periods, and nothing of them is in the angle; right is "
+                        "loop_closed 1 "
+                        "wherever the perimeter is controlled",
+                        log_name, n_open_, halves_));
     std::erase(found, std::string{});
     return found;
 }

@@ -7,6 +7,9 @@
 //
 // is the bias in a half and half the change of the rotation from one to the other. Where the columns are wrong it is as large, and
 // negative. A single half proves nothing: a fault or a jerk may do that. Halves in a row do.
+//
+// A counter that drops the direction counts the bias the same way in both signs: b is then near 0 in the whole log, and the counts
+// are not.
 
 #include <cstdint>
 #include <string>
@@ -23,7 +26,8 @@ public:
 
     void take(const core::HalfRecord& half);
 
-    // One line where 32 halves in a row contradict the columns, whatever lies between them that shows no bias; else empty.
+    // One line where 32 halves in a row contradict the columns, whatever lies between them that shows no bias, or where nearly
+    // all halves count the bias one way; else empty.
     [[nodiscard]] std::string complaint(const std::string& log_name) const;
 
 private:
@@ -33,10 +37,15 @@ private:
     };
 
     void judge(const Pair& pair);
+    [[nodiscard]] bool counts_one_way(const Pair& pair) const;
 
-    double least_counts_;  // of the bias in a half that is judged
+    double presumed_counts_;  // of the bias in a half
+    double least_counts_;     // of one that is judged
     core::HalfRecord last_{};
     bool has_last_ = false;
+    std::int64_t n_pairs_ = 0;
+    std::int64_t n_one_way_ = 0;
+    Pair first_one_way_{};
     std::int64_t n_judged_ = 0;
     std::int64_t n_wrong_ = 0;
     int n_in_a_row_ = 0;

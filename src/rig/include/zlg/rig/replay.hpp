@@ -50,7 +50,7 @@ public:
         const core::CompensationOutput out = core::step(config_, state_, half, light);
         places_.take(half);
         bias_.take(half);
-        is_opened_ = is_opened_ || !half.loop_closed;
+        if (!half.loop_closed) ++n_open_;
         ++halves_;
         if (!out.has_sample) return out;
         angle_arcsec_ = out.angle_arcsec;
@@ -73,7 +73,7 @@ public:
     // One line where the loop was opened and no false drift after it is subtracted; empty otherwise.
     [[nodiscard]] std::string uncorrected(const std::string& log_name) const;
 
-    // One line for each kind of columns that contradict the counts: mode and bias_sign, fringe.
+    // One line for each kind of columns that contradict the counts, or each other: mode and bias_sign, fringe, loop_closed.
     [[nodiscard]] std::vector<std::string> contradictions(const std::string& log_name) const;
 
     [[nodiscard]] double angle_arcsec() const { return angle_arcsec_; }  // accumulated, up to the last whole tick
@@ -88,7 +88,7 @@ private:
     BiasCheck bias_;
     double angle_arcsec_ = 0.0;
     std::int64_t halves_ = 0;
-    bool is_opened_ = false;
+    std::int64_t n_open_ = 0;  // halves
 };
 
 }  // namespace zlg::rig

@@ -13,6 +13,9 @@ enum class Lines { one, many };  // whether a line feed is an end of line or one
 // and TOML write them.
 [[nodiscard]] std::string escaped(std::string_view text, Lines lines = Lines::one);
 
+// Text that is no UTF-8 is taken for Latin-1, in which every byte is a letter: so German Excel writes its degree sign.
+[[nodiscard]] std::string as_utf8(std::string_view text);
+
 // A message that is far too long loses its middle.
 [[nodiscard]] std::string shortened(std::string text, std::size_t max_bytes = 2000);
 
