@@ -33,7 +33,8 @@ TEST(ImportedRaw, a_missing_row_becomes_a_half_without_counts) {
 TEST(ImportedRaw, rows_of_a_part_of_a_half_are_added_up) {
     std::string text = "t_ms;counts;bias_sign\n";
     for (int k = 0; k < 24; ++k)
-        text += std::to_string(k) + ";" + std::to_string(k % 2 == 0 ? k : -k) + ";" + (k / 3 % 2 == 0 ? "1" : "-1") + "\n";
+        text +=
+            std::to_string(k) + ";" + std::to_string(k % 2 == 0 ? k : -k) + ";" + (k / 3 % 2 == 0 ? "1" : "-1") + "\n";
     const ImportedRaw made = imported_raw(look_of(text, {"mode=always:1", "loop_closed=always:1", "scale_arcsec=2"}));
     ASSERT_EQ(made.rows.size(), 8u);
     EXPECT_EQ(made.rows[0].counts, 0 - 1 + 2);
