@@ -43,6 +43,17 @@ class Contradictions(CliTest):
         for relock in ("none", "frequency"):
             self.assertEqual(lines("opened", "--set", f"compensation.relock={relock}"), [])
 
+    def test_a_reversed_flag_of_the_loop_and_a_lost_direction_are_answered(self):
+        for column, value, says in (("loop_closed", lambda row: 1 - row["loop_closed"], "the loop is open in 160 of 160 half-periods"),
+                                    ("counts", lambda row: abs(row["counts"]), "the direction of the counter may be missing")):
+            rows = quiet_log(QUIET, counts=0)
+            raw = self.write(f"{column}.csv", csv_text(rows))
+            self.assertNotIn(says, self.succeed("process", raw, "--out", self.folder / "angles.csv", "--force").stderr)
+            for row in rows:
+                row[column] = value(row)
+            raw.write_text(csv_text(rows))
+            self.assertIn(says, self.succeed("process", raw, "--out", self.folder / "angles.csv", "--force").stderr)
+
     def test_a_log_that_was_cut_out_is_refused_with_what_to_do(self):
         raw = self.write("cut.csv", csv_text(quiet_log(QUIET)[20:]))
         self.refuse((2, 3), "process", raw, "--out", self.folder / "angles.csv",

@@ -364,7 +364,11 @@ class OfALaboratory(Foreign):
 
     def test_a_number_that_marks_a_missing_value(self):
         self.w[50] = self.w[200] = "-9999"
-        self.refused(self.table("mark.csv", "t_s,w_dph", self.t, self.w), *self.DPH, says=("row 51", "-9999"))
+        self.refused(self.table("mark.csv", "t_s,w_dph", self.t, self.w), *self.DPH, says=("row 51", "missing=-9999"))
+        known = [float(w) for w in self.w if w != "-9999"]
+        mean, axis = self.mean(self.folder / "mark.csv", *self.DPH, "--map", "missing=-9999")
+        self.assertAlmostEqual(mean, sum(known) / len(known), places=9)
+        self.assertEqual((axis["samples"], axis["known"]), (400, 398))
 
     def test_rows_of_two_sensors(self):
         for one, two in (("1", "2"), ("A", "B")):

@@ -90,6 +90,7 @@ ImportedAxes imported_axes(const ForeignLook& look) {
             fmt::format("{}: axis = {}: this column holds the times of the rows; allowed is another, or time=none",
                         look.table.path, times));
     TextTable read = look.table.read(wanted, times);
+    take_out_missing(look.mapping, read);
     RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
     if (clock.times && clock.times->n_missing > max_missing)
         throw FormatError(fmt::format("{}: {} rows are missing by their times; allowed is {}", look.table.path,

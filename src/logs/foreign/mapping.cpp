@@ -28,7 +28,7 @@ struct Key {
     std::string_view meaning;
 };
 
-constexpr std::array<Key, 32> keys{{
+constexpr std::array<Key, 33> keys{{
     {"separator", Takes::word, "tab|semicolon|bar|comma|space", "what parts the columns of a text file"},
     {"decimal", Takes::word, "point|comma", "the decimal mark of a text file"},
     {"comment", Takes::word, "", "how lines of a text file begin that are skipped; # where it is not set"},
@@ -42,6 +42,7 @@ constexpr std::array<Key, 32> keys{{
     {"axis", Takes::columns, "a column, or a list of them", "the angle or the rate of an axis"},
     {"holds", Takes::word, "rate|increment|angle", "what the axis holds"},
     {"unit", Takes::word, "", "the unit of the axis"},
+    {"missing", Takes::real, "a number", "the value that stands for a missing one, such as -9999"},
     {"half", Takes::raw_column, "", "the number of the half"},
     {"bias_sign", Takes::raw_column, "", "the sign of the bias field"},
     {"bias_sign_plus", Takes::real, "a number", "the value in that column which stands for +1"},

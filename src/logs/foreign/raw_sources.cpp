@@ -9,6 +9,7 @@
 #include <zlg/logs/error.hpp>
 
 #include "row_clock.hpp"
+#include "suspect_values.hpp"
 
 namespace zlg::logs {
 
@@ -47,6 +48,7 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
         throw MappingError(
             fmt::format("{}: counts = '{}'; allowed is a column", look.table.path, look.mapping.text("counts")));
     read_ = look.table.read(wanted, time_column(look.table, look.mapping));
+    take_out_missing(look.mapping, read_);
     n_ = read_.columns.front().values.size();
     std::size_t next = 0;
     for (RawSource& source : all_) {

@@ -44,6 +44,13 @@ void refuse_wraps(const ForeignLook& look, const TextColumn& column, const Angle
     }
 }
 
+void take_out_missing(const Mapping& mapping, TextTable& read) {
+    const auto mark = mapping.real("missing");
+    if (!mark) return;
+    for (TextColumn& column : read.columns)
+        std::ranges::replace(column.values, *mark, std::numeric_limits<double>::quiet_NaN());
+}
+
 void refuse_missing_marks(const std::string& path, const TextColumn& column) {
     constexpr std::array<double, 9> marks{999.0,   9999.0,  99999.0,      999999.0,    9999999.0,
                                           32767.0, 32768.0, 2147483647.0, 2147483648.0};
@@ -60,9 +67,10 @@ void refuse_missing_marks(const std::string& path, const TextColumn& column) {
             }
             const double apart = std::max(least - mark, mark - most);
             if (!(most > least) || !(apart > 10.0 * (most - least))) continue;
-            throw FormatError(fmt::format(
-                "{}, {}, row {}: {} is far from all other values, as a mark of a missing one is; allowed is nan there",
-                path, described(column), found - column.values.begin() + 1, mark));
+            throw FormatError(
+                fmt::format("{}, {}, row {}: {} is far from all other values, as a mark of a missing one is; allowed "
+                            "is nan there, or --map missing={}",
+                            path, described(column), found - column.values.begin() + 1, mark, mark));
         }
     }
 }

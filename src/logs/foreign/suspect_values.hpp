@@ -13,6 +13,9 @@ namespace zlg::logs {
 // errors  FormatError: an angle that begins anew after a circle, or a register that overflows.
 void refuse_wraps(const ForeignLook& look, const TextColumn& column, const AngleUnit& unit);
 
+// What the mapping calls missing becomes NaN, but for times.
+void take_out_missing(const Mapping& mapping, TextTable& read);
+
 // errors  FormatError: a value such as -9999, far from all others.
 void refuse_missing_marks(const std::string& path, const TextColumn& column);
 
