@@ -370,6 +370,17 @@ class OfALaboratory(Foreign):
         self.assertAlmostEqual(mean, sum(known) / len(known), places=9)
         self.assertEqual((axis["samples"], axis["known"]), (400, 398))
 
+    def test_a_count_that_marks_a_missing_row(self):
+        signs = [1 if k % 2 == 0 else -1 for k in range(200)]
+        counts = [-9999 if k == 50 else 150 * sign for k, sign in enumerate(signs)]
+        path = self.table("marked.csv", "dir,n", signs, counts)
+        raw = self.folder / "raw.csv"
+        said = ["import", path, "--out", raw, "--map", "counts=n", "--map", "bias_sign=dir", "--map", "tick_s=0.005", *FIXED, *SCALE]
+        self.refuse(3, *said, says=("row 51", "missing=-9999"))
+        self.succeed(*said, "--map", "missing=-9999")
+        rows = raw.read_text().splitlines()[-200:]
+        self.assertEqual([k for k, row in enumerate(rows) if row.split(",")[5] == "0"], [50])
+
     def test_rows_of_two_sensors(self):
         for one, two in (("1", "2"), ("A", "B")):
             path = self.table("two.csv", "t_s,sensor,w_dph", self.t, [one, two] * 200, self.w)

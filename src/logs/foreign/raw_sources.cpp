@@ -49,6 +49,7 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
             fmt::format("{}: counts = '{}'; allowed is a column", look.table.path, look.mapping.text("counts")));
     read_ = look.table.read(wanted, time_column(look.table, look.mapping));
     take_out_missing(look.mapping, read_);
+    for (const TextColumn& column : read_.columns) refuse_missing_marks(look.table.path, column);
     n_ = read_.columns.front().values.size();
     std::size_t next = 0;
     for (RawSource& source : all_) {
