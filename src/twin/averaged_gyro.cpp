@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
+
+#include "laser/laser.hpp"
 
 namespace zlg::twin {
 
@@ -10,6 +13,7 @@ AveragedGyro::AveragedGyro(const TwinConfig& config, Motion motion)
     : config_{config},
       motion_{std::move(motion)},
       housing_{config_},
+      course_{2 * housing_.n_pieces() * config.gyro.light_samples, housing_.half_s()},
       photodiodes_{config_},
       fringe_photodiodes_{config_},
       walk_noise_{config.seed, NoiseCause::random_walk},
@@ -18,9 +22,12 @@ AveragedGyro::AveragedGyro(const TwinConfig& config, Motion motion)
 
 TwinHalf AveragedGyro::advance(const core::ActuatorFrame& actuator) {
     housing_.begin_half(actuator);
+    course_.live(housing_.perimeter());
     const int bias_sign = housing_.bias_sign();
     TwinHalf half;
-    const BiasArea area = live_through_half(bias_sign, half);
+    take_light(bias_sign, half.sensor);
+    half.truth.detuning_end_lambda = housing_.perimeter().mode().detuning_lambda;
+    const BiasArea area = bias_area(half.truth);
     count(area, bias_sign, half);
     half.truth.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
     see_fringe(bias_sign, half);
@@ -28,41 +35,54 @@ TwinHalf AveragedGyro::advance(const core::ActuatorFrame& actuator) {
     return half;
 }
 
-// Step through the light samples: each at the middle of its interval, all of the bias on the way.
-BiasArea AveragedGyro::live_through_half(int bias_sign, TwinHalf& half) {
-    Perimeter& perimeter = housing_.perimeter();
-    const int n_pieces = housing_.n_pieces();
-    const int n_samples = config_.gyro.light_samples;
-    const double piece_s = housing_.half_s() / (n_pieces * n_samples);
-    const bool light_is_faulty = housing_.light_is_faulty();
-    BiasArea area;
-    garbage_cycles_ = 0.0;
-    Mode start = perimeter.mode();
-    area.subtract_edge(start, config_.gyro.bias_edge_s);
-    for (int sample = 0; sample < n_samples; ++sample) {
-        for (int piece = 0; piece < n_pieces; ++piece) {
-            const int place = sample * n_pieces + piece;
-            perimeter.step();
-            const Mode middle = perimeter.mode();
-            if (piece == n_pieces / 2) {
-                const LightParts left = light_is_faulty ? housing_.light_at((place + 0.5) * piece_s) : LightParts{};
-                const Photodiodes::Beams beams = photodiodes_.sample(middle, bias_sign, left);
-                half.sensor.light_a[static_cast<std::size_t>(sample)] = beams.a;
-                half.sensor.light_b[static_cast<std::size_t>(sample)] = beams.b;
-            }
-            perimeter.step();
-            const Mode end = perimeter.mode();
-            const bool is_dark = light_is_faulty && housing_.light_at((place + 0.5) * piece_s).is_dark();
-            if (is_dark || !area.add(start, middle, end, piece_s)) {
-                half.truth.lit = false;
-                garbage_cycles_ += piece_s * bias_hz() * (2.0 * dark_noise_.uniform() - 1.0);
-            }
-            start = end;
-        }
+// Each sample at the middle of its interval.
+void AveragedGyro::take_light(int bias_sign, core::SensorFrame& sensor) {
+    const auto n_pieces = static_cast<std::size_t>(housing_.n_pieces());
+    const auto n_samples = static_cast<std::size_t>(config_.gyro.light_samples);
+    const double interval_s = housing_.half_s() / config_.gyro.light_samples;
+    for (std::size_t k = 0; k < n_samples; ++k) {
+        const Mode mode = lasing_mode(course_.after_step((2 * k + 1) * n_pieces));
+        const LightParts left =
+            housing_.light_is_faulty() ? housing_.light_at((static_cast<double>(k) + 0.5) * interval_s) : LightParts{};
+        const Photodiodes::Beams beams = photodiodes_.sample(mode, bias_sign, left);
+        sensor.light_a[k] = beams.a;
+        sensor.light_b[k] = beams.b;
     }
+}
+
+// Of a half in one mode that is lit throughout by its mean square; of another piece by piece.
+BiasArea AveragedGyro::bias_area(TwinTruth& truth) {
+    const std::span<const double> nodes = course_.nodes();
+    const Mode start = lasing_mode(nodes.front());
+    const Mode end = lasing_mode(nodes.back());
+    garbage_cycles_ = 0.0;
+    BiasArea area;
     area.subtract_edge(start, config_.gyro.bias_edge_s);
-    half.truth.detuning_end_lambda = start.detuning_lambda;
+    const Mode least = lasing_mode(course_.least_lambda());
+    const Mode most = lasing_mode(course_.most_lambda());
+    const bool is_one_mode = least.centre_half_lambda == most.centre_half_lambda && least.two_way() && most.two_way();
+    if (is_one_mode && !housing_.light_is_faulty())
+        area.add_whole(start, nodes, housing_.half_s());
+    else
+        add_pieces(area, truth);
+    area.subtract_edge(end, config_.gyro.bias_edge_s);
     return area;
+}
+
+void AveragedGyro::add_pieces(BiasArea& area, TwinTruth& truth) {
+    const std::span<const double> nodes = course_.nodes();
+    const double piece_s = housing_.half_s() / (housing_.n_pieces() * config_.gyro.light_samples);
+    Mode start = lasing_mode(nodes.front());
+    for (std::size_t k = 0; k + 2 < nodes.size(); k += 2) {
+        const Mode end = lasing_mode(nodes[k + 2]);
+        const double middle_s = 0.5 * static_cast<double>(k + 1) * piece_s;
+        const bool is_dark = housing_.light_is_faulty() && housing_.light_at(middle_s).is_dark();
+        if (is_dark || !area.add(start, lasing_mode(nodes[k + 1]), end, piece_s)) {
+            truth.lit = false;
+            garbage_cycles_ += piece_s * bias_hz() * (2.0 * dark_noise_.uniform() - 1.0);
+        }
+        start = end;
+    }
 }
 
 //   cycles = sign p int helicity (1 - chi dl^2) shape dt + (rotation + drift)/scale

@@ -9,6 +9,7 @@
 #include "housing.hpp"
 #include "laser/bias_area.hpp"
 #include "noise.hpp"
+#include "perimeter/perimeter_course.hpp"
 #include "photodiodes.hpp"
 
 namespace zlg::twin {
@@ -21,7 +22,9 @@ public:
     TwinHalf advance(const core::ActuatorFrame& actuator) override;
 
 private:
-    BiasArea live_through_half(int bias_sign, TwinHalf& half);
+    void take_light(int bias_sign, core::SensorFrame& sensor);
+    BiasArea bias_area(TwinTruth& truth);
+    void add_pieces(BiasArea& area, TwinTruth& truth);
     void count(const BiasArea& area, int bias_sign, TwinHalf& half);
     void see_fringe(int bias_sign, TwinHalf& half);
     [[nodiscard]] double bias_hz() const { return config_.gyro.bias_hz * housing_.bias_growth(); }
@@ -30,6 +33,7 @@ private:
     TwinConfig config_;
     Motion motion_;
     Housing housing_;
+    PerimeterCourse course_;
     Photodiodes photodiodes_;
     FringePhotodiodes fringe_photodiodes_;
     NoiseStream walk_noise_;

@@ -6,6 +6,10 @@
 // The reversal is a trapezoid through zero, centred on the border of two halves: each end of a half loses the area
 // t_e/4 of the plateau, weighted with the detuning that the end has.
 
+#include <array>
+#include <cstddef>
+#include <span>
+
 #include "laser.hpp"
 
 namespace zlg::twin {
@@ -27,6 +31,17 @@ public:
         return true;
     }
 
+    // A whole stretch in one mode that is two-way throughout.
+    //
+    // length_lambda  at the ends and middles of equal pieces: an odd number of them.
+    void add_whole(const Mode& mode, std::span<const double> length_lambda, double duration_s) {
+        const double signed_s = mode.helicity() * duration_s;
+        lit_s_ += duration_s;
+        helicity_s_ += signed_s;
+        shaped_s_ += signed_s;
+        shaped_square_ += signed_s * mean_square(length_lambda, 0.5 * static_cast<double>(mode.centre_half_lambda));
+    }
+
     // Take away what a reversal at this end of the half costs.
     void subtract_edge(const Mode& mode, double edge_s) {
         if (!mode.two_way()) return;
@@ -41,6 +56,22 @@ public:
     [[nodiscard]] double shaped_square() const { return shaped_square_; }  // int helicity dl^2 shape dt
 
 private:
+    // Simpson's rule: the ends of the pieces with 2, their middles with 4, the outer ends with 1, over 6 for each piece. The
+    // sums of ends and of middles, in two lanes each, are sums of whole vectors.
+    static double mean_square(std::span<const double> length_lambda, double centre_lambda) {
+        const auto sq = [&](std::size_t k) {
+            return (length_lambda[k] - centre_lambda) * (length_lambda[k] - centre_lambda);
+        };
+        const std::size_t last = length_lambda.size() - 1;
+        std::array<double, 4> sum{};  // of ends, middles, ends, middles
+        std::size_t k = 0;
+        for (; k + 4 <= last; k += 4)
+            for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += sq(k + lane);
+        for (; k < last; ++k) sum[k % 2] += sq(k);
+        const double ends = 2.0 * (sum[0] + sum[2]) + (sq(last) - sq(0));
+        return (ends + 4.0 * (sum[1] + sum[3])) / (3.0 * static_cast<double>(last));
+    }
+
     static double square(const Mode& mode) { return mode.detuning_lambda * mode.detuning_lambda; }
 
     double lit_s_ = 0.0;

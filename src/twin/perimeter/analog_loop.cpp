@@ -4,35 +4,8 @@
 #include <utility>
 
 namespace zlg::twin {
-namespace {
 
-// exp(A t) of A = [[0, -1/tau], [1/rc, -1/rc]], by its eigenvalues.
-void exponential(double tau_s, double rc_s, double t_s, double (&result)[2][2]) {
-    const double mean = -0.5 / rc_s;
-    const double determinant = 1.0 / (tau_s * rc_s);
-    const double spread_sq = mean * mean - determinant;
-    double even = 0.0;   // the part that multiplies 1
-    double odd_s = 0.0;  // the part that multiplies A - mean
-    if (spread_sq > 0.0) {
-        // The slow root from the product of both: the difference would cancel where rc is short.
-        const double fast = mean - std::sqrt(spread_sq);
-        const double slow = determinant / fast;
-        even = 0.5 * (std::exp(slow * t_s) + std::exp(fast * t_s));
-        odd_s = -std::exp(slow * t_s) * std::expm1((fast - slow) * t_s) / (slow - fast);
-    } else {
-        const double turn = std::sqrt(-spread_sq) * t_s;
-        even = std::exp(mean * t_s) * std::cos(turn);
-        odd_s = std::exp(mean * t_s) * t_s * (turn > 0.0 ? std::sin(turn) / turn : 1.0);
-    }
-    result[0][0] = even - odd_s * mean;
-    result[0][1] = -odd_s / tau_s;
-    result[1][0] = odd_s / rc_s;
-    result[1][1] = even + odd_s * (-1.0 / rc_s - mean);
-}
-
-}  // namespace
-
-AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s,
+AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s, int n_steps,
                        std::shared_ptr<const ErrorSignal> signal)
     : stage_{stage},
       tau_s_{config.perimeter.tau_s},
@@ -47,7 +20,76 @@ AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, doubl
     // limiter or the current limit bends the motion.
     const double fastest_s = std::min({tau_s_, stage_.rc_s(), std::sqrt(tau_s_ * stage_.rc_s())});
     n_substeps_ = static_cast<int>(std::ceil(step_s / std::min(10e-6, 0.25 * fastest_s)));
-    exponential(tau_s_, stage_.rc_s(), step_s, propagator_);
+    tabulate(n_steps);
+}
+
+// A = [[0, -1/tau], [1/rc, -1/rc]], by its eigenvalues.
+AnalogLoop::Propagator AnalogLoop::propagator(double t_s) const {
+    const double rc_s = stage_.rc_s();
+    const double mean = -0.5 / rc_s;
+    const double determinant = 1.0 / (tau_s_ * rc_s);
+    const double spread_sq = mean * mean - determinant;
+    double even = 0.0;   // the part that multiplies 1
+    double odd_s = 0.0;  // the part that multiplies A - mean
+    if (spread_sq > 0.0) {
+        // The slow root from the product of both: the difference would cancel where rc is short.
+        const double fast = mean - std::sqrt(spread_sq);
+        const double slow = determinant / fast;
+        even = 0.5 * (std::exp(slow * t_s) + std::exp(fast * t_s));
+        odd_s = -std::exp(slow * t_s) * std::expm1((fast - slow) * t_s) / (slow - fast);
+    } else {
+        const double turn = std::sqrt(-spread_sq) * t_s;
+        even = std::exp(mean * t_s) * std::cos(turn);
+        odd_s = std::exp(mean * t_s) * t_s * (turn > 0.0 ? std::sin(turn) / turn : 1.0);
+    }
+    return {without_dust(even - odd_s * mean), without_dust(-odd_s / tau_s_), without_dust(odd_s / rc_s),
+            without_dust(even + odd_s * (-1.0 / rc_s - mean))};
+}
+
+void AnalogLoop::tabulate(int n_steps) {
+    const auto grow = [](double& largest, double entry) { largest = std::max(largest, std::abs(entry)); };
+    of_step_ = propagator(step_s_);
+    for (int k = 0; k <= n_steps; ++k) {
+        of_half_ = propagator(k * step_s_);
+        v_by_command_.push_back(of_half_.v_by_command);
+        v_by_v_.push_back(of_half_.v_by_v);
+        grow(reach_.command_by_command, of_half_.command_by_command);
+        grow(reach_.command_by_v, of_half_.command_by_v);
+        grow(reach_.v_by_command, of_half_.v_by_command);
+        grow(reach_.v_by_v, of_half_.v_by_v);
+        grow(reach_.lag_by_command, of_half_.command_by_command - of_half_.v_by_command);
+        grow(reach_.lag_by_v, of_half_.command_by_v - of_half_.v_by_v);
+    }
+}
+
+// As `step`. That every limit is kept on the way is shown by a bound: each entry of the propagator at its largest.
+bool AnalogLoop::live_through(State& state, const Mode& mode, int polarity, double drift_start, double drift_end,
+                              std::span<double> length) const {
+    if (mode.helicity() != polarity) return false;
+    const auto n_steps = static_cast<double>(length.size() - 1);
+    const double drift_lambda_s = (drift_end - drift_start) / n_steps * steps_per_s_;
+    const double rest_v = tau_s_ * drift_lambda_s;
+    const double rest_lag = -stage_.rc_s() * drift_lambda_s;
+    const double rest_command = rest_v + rest_lag;
+    const double centre = 0.5 * static_cast<double>(mode.centre_half_lambda) + settled_lambda_;
+    const double y_v = mode.detuning_lambda - settled_lambda_ - rest_v;
+    const double y_command =
+        mode.detuning_lambda - settled_lambda_ + (state.command_lambda - state.v_lambda) - rest_command;
+    const double c = std::abs(y_command);
+    const double v = std::abs(y_v);
+    const double detuning = std::abs(rest_v) + reach_.v_by_command * c + reach_.v_by_v * v;
+    const double lag = std::abs(rest_lag) + reach_.lag_by_command * c + reach_.lag_by_v * v;
+    const double command = std::abs(rest_command) + reach_.command_by_command * c + reach_.command_by_v * v +
+                           std::max(std::abs(centre - drift_start), std::abs(centre - drift_end));
+    if (!(detuning <= limit_lambda_ && detuning < straight_lambda_ && stage_.is_linear(command + lag, command)))
+        return false;
+    const double from = centre + rest_v;
+    for (std::size_t k = 0; k < length.size(); ++k)
+        length[k] = from + (v_by_command_[k] * y_command + v_by_v_[k] * y_v);
+    const double end_v = without_dust(of_half_.v_by_command * y_command + of_half_.v_by_v * y_v);
+    const double end_command = without_dust(of_half_.command_by_command * y_command + of_half_.command_by_v * y_v);
+    state = {centre - drift_end + (rest_command + end_command), centre - drift_end + (rest_v + end_v)};
+    return true;
 }
 
 double AnalogLoop::signal_at(double perimeter_lambda) const {

@@ -40,7 +40,7 @@ Perimeter::Perimeter(const TwinConfig& config, int n_steps, std::shared_ptr<cons
       stage_{config, step_s_},
       settled_lambda_{signal ? signal->settled_lambda() : 0.0},
       dac_{config.piezo.range_min_v, config.piezo.range_max_v, config.piezo.dac_bits},
-      loop_{config, stage_, step_s_, std::move(signal)},
+      loop_{config, stage_, step_s_, n_steps, std::move(signal)},
       piezo_{config, step_s_},
       centre_{settled_lambda_} {
     set_points_.reserve(core::max_set_points);
@@ -74,6 +74,50 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
         halves_since_closing_ += 1.0;
     }
     mode_ = lasing_mode(length_lambda());
+}
+
+void Perimeter::live(std::span<double> length) {
+    if (live_linear(length)) return;
+    length.front() = length_lambda();
+    for (double& after : length.subspan(1)) {
+        step();
+        after = length_lambda();
+    }
+}
+
+void Perimeter::step() {
+    ++steps_done_;
+    const double drift_before = drift_;
+    drift_ = drift_at(steps_done_);
+    if (!closed_ || config_.perimeter.loop == Loop::digital) {
+        follow_set_points();
+    } else if (is_dark()) {
+        v_ = stage_.followed(v_, command_, step_s_);  // no error signal: the integrator holds
+    } else if (config_.perimeter.loop == Loop::analog) {
+        // What the piezo adds to the voltage is taken as still for a step of the loop: 1e-4 wavelength in a fast move.
+        const AnalogLoop::State end =
+            loop_.step({command_, v_}, mode_, polarity_, drift_before + excess_, drift_ + excess_);
+        command_ = end.command_lambda;
+        v_ = end.v_lambda;
+    } else {
+        follow_exponential();
+    }
+    if (!piezo_.is_ideal()) excess_ = piezo_.move(v_) - v_;
+    mode_ = lasing_mode(length_lambda());
+}
+
+// Between switches, and without a fault, the closed loop of an ideal piezo is a small linear system.
+bool Perimeter::live_linear(std::span<double> length) {
+    if (!closed_ || config_.perimeter.loop != Loop::analog || faulty_ || !piezo_.is_ideal()) return false;
+    AnalogLoop::State state{command_, v_};
+    const double drift_end = drift_at(n_steps_);
+    if (!loop_.live_through(state, mode_, polarity_, drift_, drift_end, length)) return false;
+    command_ = state.command_lambda;
+    v_ = state.v_lambda;
+    drift_ = drift_end;
+    steps_done_ = n_steps_;
+    mode_ = lasing_mode(length_lambda());
+    return true;
 }
 
 void Perimeter::take_half_wave(double half_wave_v) {

@@ -2,6 +2,7 @@
 // Length of the ring: the piezo's part and the block's own, under whoever holds it.
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <zlg/core/records.hpp>
@@ -31,7 +32,10 @@ public:
                     const FaultyHalf* faulty = nullptr);
     // From here on half a wavelength takes another voltage; the voltage stays, the length follows.
     void take_half_wave(double half_wave_v);
-    void step();
+    // Live through the half that was begun.
+    //
+    // length_lambda  written: the length at its start and after each of its steps, n_steps + 1 numbers.
+    void live(std::span<double> length_lambda);
 
     // The mode that lases now: the nearest.
     [[nodiscard]] const Mode& mode() const { return mode_; }
@@ -47,6 +51,8 @@ private:
     [[nodiscard]] bool is_dark() const {
         return faulty_ && faulty_->light[static_cast<std::size_t>(steps_done_ - 1)].is_dark();
     }
+    void step();
+    [[nodiscard]] bool live_linear(std::span<double> length_lambda);
     void take_set_points(const core::ActuatorFrame& frame);
     void leave(int polarity);
     void aim();
@@ -95,27 +101,5 @@ private:
     double halves_since_closing_ = 0.0;
     std::vector<double> decay_;  // after each step of a half
 };
-
-// Lived through dozens of times in a half-period: it belongs into its caller's loop.
-inline void Perimeter::step() {
-    ++steps_done_;
-    const double drift_before = drift_;
-    drift_ = drift_at(steps_done_);
-    if (!closed_ || config_.perimeter.loop == Loop::digital) {
-        follow_set_points();
-    } else if (is_dark()) {
-        v_ = stage_.followed(v_, command_, step_s_);  // no error signal: the integrator holds
-    } else if (config_.perimeter.loop == Loop::analog) {
-        // What the piezo adds to the voltage is taken as still for a step of the loop: 1e-4 wavelength in a fast move.
-        const AnalogLoop::State end =
-            loop_.step({command_, v_}, mode_, polarity_, drift_before + excess_, drift_ + excess_);
-        command_ = end.command_lambda;
-        v_ = end.v_lambda;
-    } else {
-        follow_exponential();
-    }
-    if (!piezo_.is_ideal()) excess_ = piezo_.move(v_) - v_;
-    mode_ = lasing_mode(length_lambda());
-}
 
 }  // namespace zlg::twin

@@ -2,7 +2,9 @@
 // The perimeter through one half, remembered: light and phases look at it at times of their own.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "perimeter.hpp"
@@ -14,21 +16,18 @@ public:
     PerimeterCourse(int n_steps, double half_s)
         : node_(static_cast<std::size_t>(n_steps) + 1), steps_per_s_{n_steps / half_s} {}
 
-    // Step the perimeter through the half that it has begun.
+    // Live through the half that the perimeter has begun.
     void live(Perimeter& perimeter) {
-        double least = node_[0] = perimeter.length_lambda();
-        double most = least;
-        for (std::size_t k = 1; k < node_.size(); ++k) {
-            perimeter.step();
-            node_[k] = perimeter.length_lambda();
-            least = std::min(least, node_[k]);
-            most = std::max(most, node_[k]);
-        }
-        spread_lambda_ = most - least;
+        perimeter.live(node_);
+        find_ends();
     }
 
+    // Length after each step; the first is that before them.
+    [[nodiscard]] std::span<const double> nodes() const { return node_; }
     [[nodiscard]] double after_step(std::size_t k) const { return node_[k]; }
-    [[nodiscard]] double spread_lambda() const { return spread_lambda_; }
+    [[nodiscard]] double least_lambda() const { return least_lambda_; }
+    [[nodiscard]] double most_lambda() const { return most_lambda_; }
+    [[nodiscard]] double spread_lambda() const { return most_lambda_ - least_lambda_; }
 
     // Straight between the steps; beyond the half, what it begins or ends with.
     [[nodiscard]] double at(double time_s) const {
@@ -40,9 +39,32 @@ public:
     }
 
 private:
+    // In lanes, which the compiler makes vectors of.
+    void find_ends() {
+        constexpr std::size_t n_lanes = 4;
+        std::array<double, n_lanes> least;
+        least.fill(node_.front());
+        std::array<double, n_lanes> most = least;
+        std::size_t k = 1;
+        for (; k + n_lanes <= node_.size(); k += n_lanes) {
+            for (std::size_t lane = 0; lane < n_lanes; ++lane) {
+                const double x = node_[k + lane];
+                least[lane] = x < least[lane] ? x : least[lane];
+                most[lane] = x > most[lane] ? x : most[lane];
+            }
+        }
+        for (; k < node_.size(); ++k) {
+            least[0] = std::min(least[0], node_[k]);
+            most[0] = std::max(most[0], node_[k]);
+        }
+        least_lambda_ = *std::min_element(least.begin(), least.end());
+        most_lambda_ = *std::max_element(most.begin(), most.end());
+    }
+
     std::vector<double> node_;
     double steps_per_s_;
-    double spread_lambda_ = 0.0;
+    double least_lambda_ = 0.0;
+    double most_lambda_ = 0.0;
 };
 
 }  // namespace zlg::twin
