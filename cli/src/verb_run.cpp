@@ -82,6 +82,7 @@ json summary_json(const config::Config& config, const study::RunResult& result) 
     for (const study::VariantResult& v : result.variants) variants.push_back(variant_json(v));
     return {{"duration_s", static_cast<double>(result.ticks) * result.tick_s},
             {"ticks", result.ticks},
+            {"fingerprint", result.fingerprint},
             {"switches", result.switches.size()},
             {"switches_failed", result.tally.failed},
             {"ticks_as_whole_counts", result.whole_count_ticks},

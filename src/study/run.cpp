@@ -13,6 +13,7 @@
 
 #include <zlg/core/health.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/fingerprint.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "gyro_drift.hpp"
@@ -45,14 +46,16 @@ public:
           variants_{variants(task.config, curve_stride(ticks))},
           switches_{task.config.compensation.relock_ticks} {}
 
-    // The first half of a tick, while its light is there.
-    void first_half(const rig::LoopHalf& first, const core::LightSamples& light) {
+    // The first half of a tick, while its frame and its light are there.
+    void first_half(const rig::LoopHalf& first, const core::SensorFrame& sensor, const core::LightSamples& light) {
+        fingerprint_.take(first, sensor);
         for (Variant& v : variants_)
             if (is_stepped(v)) v.replay.take(first.record, light);
     }
 
     void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second,
-              const core::LightSamples& light_second) {
+              const core::SensorFrame& sensor_second, const core::LightSamples& light_second) {
+        fingerprint_.take(second, sensor_second);
         switches_.take(tick, first.record, second.record);
         profile_.take(first.record, second.record, first.truth.false_relock_arcsec + second.truth.false_relock_arcsec);
         const MagnifiedTick shown = shown_tick(tick, task_.config.gyro.scale_arcsec, first, second);
@@ -87,6 +90,7 @@ public:
     void report(RunResult& result) const {
         for (const Variant& v : variants_) result.variants.push_back(v.result());
         take_out_magnetic(result);
+        result.fingerprint = fingerprint_.text();
         result.health_raised = health_raised_;
         result.invalid_ticks = invalid_ticks_;
         result.switches = switch_lines();
@@ -143,6 +147,7 @@ private:
         v.meter.take(row, {waiting.true_arcsec, v.taken_out_arcsec[place], waiting.rounding_arcsec},
                      switches_.windows());
         if (!is_configured(v)) return;
+        fingerprint_.take(row);
         switches_.take(row);
         if ((row.flags & core::flag_invalid) != 0 && (row.flags & core::flag_switching) == 0) ++invalid_ticks_;
         MagnifiedTick shown = waiting.shown;
@@ -206,6 +211,7 @@ private:
     rig::SwitchCount count_;
     std::vector<Variant> variants_;
     SwitchTable switches_;
+    rig::Fingerprint fingerprint_;
     RelockProfile profile_{profile_ticks};
     Magnifier magnifier_;
     std::array<WaitingTick, core::history_ticks> waiting_{};  // by tick modulo the size: a final row comes sooner
@@ -271,9 +277,9 @@ void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t
     const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
         const rig::LoopHalf first = advance(loop, task);
-        experiment.first_half(first, loop.light());
+        experiment.first_half(first, loop.sensor(), loop.light());
         const rig::LoopHalf second = advance(loop, task);
-        experiment.tick(tick, first, second, loop.light());
+        experiment.tick(tick, first, second, loop.sensor(), loop.light());
         if (task.on_progress && tick % progress_stride == 0)
             task.on_progress(static_cast<double>(tick) / static_cast<double>(ticks));
     }
