@@ -1,4 +1,6 @@
-#include <zlg/numeric/draw.hpp>
+// A Draw: its laws, and what changes its numbers.
+
+#include <zlg/chance/draw.hpp>
 
 #include <array>
 #include <cmath>
@@ -7,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zlg::numeric {
+namespace zlg::chance {
 namespace {
 
 constexpr int n = 100'000;
@@ -17,7 +19,7 @@ struct Moments {
 };
 
 Moments moments(const std::function<double(Draw&)>& number) {
-    Draw draw{7};
+    Draw draw{7, Cause::test};
     double sum = 0.0, squares = 0.0;
     for (int i = 0; i < n; ++i) {
         const double x = number(draw);
@@ -33,17 +35,36 @@ void expect(const Moments& moments, double mean, double variance) {
     EXPECT_NEAR(moments.variance, variance, 0.03 * variance);
 }
 
-TEST(Draw, TheBitsAreThoseOfTheStandardsMersenneTwister) {
-    Draw draw{5489};
-    for (int i = 1; i < 10'000; ++i) draw.bits();
-    EXPECT_EQ(draw.bits(), 9981545732273789042u);  // [rand.predef]
+TEST(Draw, NumbersAreThoseOfTheAddressFromIndexZeroOn) {
+    const Address address{.seed = 5, .gyro = 7, .cause = Cause::test, .half = 6};
+    Draw draw{5, Cause::test, 6, 7};
+    EXPECT_EQ(draw.bits(), chance::bits(address, 0));
+    EXPECT_EQ(draw.uniform(), chance::uniform(address, 1));
+    for (std::uint32_t i = 0; i < 100; ++i) ASSERT_EQ(draw.normal(), chance::normal(address, i));
+    EXPECT_EQ(draw.uniform(), chance::uniform(address, 2));
 }
 
-TEST(Draw, ASeedGivesTheSameNumbersAndAnotherGivesOthers) {
-    Draw a{1}, b{1}, c{2};
-    EXPECT_EQ(a.normal(), b.normal());
-    EXPECT_EQ(a.uniform(), b.uniform());
-    EXPECT_NE(a.uniform(), c.uniform());
+TEST(Draw, SeedCauseTrialAndThingEachMakeOtherNumbers) {
+    const double first = Draw{1, Cause::test, 2, 3}.normal();
+    EXPECT_EQ((Draw{1, Cause::test, 2, 3}.normal()), first);
+    EXPECT_NE((Draw{2, Cause::test, 2, 3}.normal()), first);
+    EXPECT_NE((Draw{1, Cause::benchmark, 2, 3}.normal()), first);
+    EXPECT_NE((Draw{1, Cause::test, 3, 3}.normal()), first);
+    EXPECT_NE((Draw{1, Cause::test, 2, 4}.normal()), first);
+}
+
+TEST(Draw, ACopyGoesOnLikeTheOriginal) {
+    Draw draw{1, Cause::test};
+    for (int i = 0; i < 5; ++i) draw.normal();
+    Draw copy = draw;
+    for (int i = 0; i < 100; ++i) ASSERT_EQ(copy.normal(), draw.normal());
+}
+
+// The published test values of FNV-1a.
+TEST(Draw, NamesMakeTheirHashes) {
+    EXPECT_EQ(thing_of(""), 0x811c9dc5u);
+    EXPECT_EQ(thing_of("a"), 0xe40c292cu);
+    EXPECT_EQ(thing_of("foobar"), 0xbf9cf968u);
 }
 
 TEST(Draw, NumbersHaveTheMomentsOfTheirLaw) {
@@ -58,11 +79,11 @@ TEST(Draw, NumbersHaveTheMomentsOfTheirLaw) {
 }
 
 TEST(Draw, ChoicesAreOfTheArrayAndAllOfThem) {
-    Draw draw{3};
+    Draw draw{3, Cause::test};
     std::array<int, 3> counts{};
     for (int i = 0; i < 300; ++i) ++counts.at(static_cast<std::size_t>(draw.one_of(std::array{0, 1, 2})));
     for (const int count : counts) EXPECT_GT(count, 50);
 }
 
 }  // namespace
-}  // namespace zlg::numeric
+}  // namespace zlg::chance

@@ -1,0 +1,55 @@
+#pragma once
+// What a random number is drawn for. Two causes never share a number, so that drawing more for one changes no other.
+//
+// All causes stand here, so that no two users take the same by accident. A number is never given again: with it, the runs of a seed
+// would change.
+
+#include <cstdint>
+
+namespace zlg::chance {
+
+enum class Cause : std::uint16_t {
+    // 0x0000..0x00ff: the twin
+    light = 0x0001,
+    random_walk,
+    adc,
+    dark_counts,
+    start_phase,
+    coil,
+    fringe,
+    fringe_jitter,
+
+    // 0x0100..0x01ff: its faults
+    faults = 0x0100,
+    fault_times,
+    faulty_light,
+
+    // 0x0200..0x02ff: the paper recomputed
+    phase_at_switch = 0x0200,
+
+    // 0x8000..0xffff: campaigns, benchmarks and tests
+    synthetic_motion = 0x8000,
+    synthetic_gyro,
+    synthetic_start,
+    manoeuvre,
+    switch_start,
+    vehicle,
+    sigma_gyro,
+    gap_gyro,
+    field_pulse,
+    drift_motion,
+    noise_gyro,
+    noise_record,
+    deviation_record,
+    magnetic_base,
+    magnetic_walk,
+    magnetic_reading,
+    scenario,
+    fault_trial,
+    random_gyro,
+    wire_damage,
+    benchmark,
+    test,
+};
+
+}  // namespace zlg::chance
