@@ -16,18 +16,19 @@ AveragedGyro::AveragedGyro(const TwinConfig& config, Motion motion)
       course_{2 * housing_.n_pieces() * config.gyro.light_samples, housing_.half_s()},
       photodiodes_{config_},
       fringe_photodiodes_{config_},
-      walk_noise_{config.seed, NoiseCause::random_walk},
-      dark_noise_{config.seed, NoiseCause::dark_counts},
-      counter_{NoiseStream{config.seed, NoiseCause::start_phase}.uniform()} {}
+      walk_noise_{config.seed, chance::Cause::random_walk},
+      dark_noise_{config.seed, chance::Cause::dark_counts},
+      counter_{Noise{config.seed, chance::Cause::start_phase}.uniform(0, 0)} {}
 
 TwinHalf AveragedGyro::advance(const core::ActuatorFrame& actuator) {
     housing_.begin_half(actuator);
     course_.live(housing_.perimeter());
     const int bias_sign = housing_.bias_sign();
     TwinHalf half;
-    take_light(bias_sign, half.sensor);
+    const bool is_steady = is_lit_in_one_mode();
+    take_light(bias_sign, is_steady, half.sensor);
     half.truth.detuning_end_lambda = housing_.perimeter().mode().detuning_lambda;
-    const BiasArea area = bias_area(half.truth);
+    const BiasArea area = bias_area(is_steady, half.truth);
     count(area, bias_sign, half);
     half.truth.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
     see_fringe(bias_sign, half);
@@ -35,37 +36,47 @@ TwinHalf AveragedGyro::advance(const core::ActuatorFrame& actuator) {
     return half;
 }
 
+bool AveragedGyro::is_lit_in_one_mode() const {
+    const Mode least = lasing_mode(course_.least_lambda());
+    const Mode most = lasing_mode(course_.most_lambda());
+    return least.centre_half_lambda == most.centre_half_lambda && least.two_way() && most.two_way() &&
+           !housing_.light_is_faulty();
+}
+
 // Each sample at the middle of its interval.
-void AveragedGyro::take_light(int bias_sign, core::SensorFrame& sensor) {
+void AveragedGyro::take_light(int bias_sign, bool is_steady, core::SensorFrame& sensor) {
     const auto n_pieces = static_cast<std::size_t>(housing_.n_pieces());
     const auto n_samples = static_cast<std::size_t>(config_.gyro.light_samples);
+    const std::span a = std::span{sensor.light_a}.first(n_samples);
+    const std::span b = std::span{sensor.light_b}.first(n_samples);
+    photodiodes_.begin_half(housing_.index());
+    if (is_steady) {
+        photodiodes_.see(housing_.perimeter().mode(), bias_sign, course_.nodes(), n_pieces, a, b);
+        return;
+    }
     const double interval_s = housing_.half_s() / config_.gyro.light_samples;
     for (std::size_t k = 0; k < n_samples; ++k) {
         const Mode mode = lasing_mode(course_.after_step((2 * k + 1) * n_pieces));
         const LightParts left =
             housing_.light_is_faulty() ? housing_.light_at((static_cast<double>(k) + 0.5) * interval_s) : LightParts{};
-        const Photodiodes::Beams beams = photodiodes_.sample(mode, bias_sign, left);
-        sensor.light_a[k] = beams.a;
-        sensor.light_b[k] = beams.b;
+        const Photodiodes::Beams beams = photodiodes_.sample(k, mode, bias_sign, left);
+        a[k] = beams.a;
+        b[k] = beams.b;
     }
 }
 
-// Of a half in one mode that is lit throughout by its mean square; of another piece by piece.
-BiasArea AveragedGyro::bias_area(TwinTruth& truth) {
+// Of a steady half by the mean square of its detuning; of another piece by piece.
+BiasArea AveragedGyro::bias_area(bool is_steady, TwinTruth& truth) {
     const std::span<const double> nodes = course_.nodes();
     const Mode start = lasing_mode(nodes.front());
-    const Mode end = lasing_mode(nodes.back());
     garbage_cycles_ = 0.0;
     BiasArea area;
     area.subtract_edge(start, config_.gyro.bias_edge_s);
-    const Mode least = lasing_mode(course_.least_lambda());
-    const Mode most = lasing_mode(course_.most_lambda());
-    const bool is_one_mode = least.centre_half_lambda == most.centre_half_lambda && least.two_way() && most.two_way();
-    if (is_one_mode && !housing_.light_is_faulty())
+    if (is_steady)
         area.add_whole(start, nodes, housing_.half_s());
     else
         add_pieces(area, truth);
-    area.subtract_edge(end, config_.gyro.bias_edge_s);
+    area.subtract_edge(housing_.perimeter().mode(), config_.gyro.bias_edge_s);
     return area;
 }
 
@@ -79,7 +90,8 @@ void AveragedGyro::add_pieces(BiasArea& area, TwinTruth& truth) {
         const bool is_dark = housing_.light_is_faulty() && housing_.light_at(middle_s).is_dark();
         if (is_dark || !area.add(start, lasing_mode(nodes[k + 1]), end, piece_s)) {
             truth.lit = false;
-            garbage_cycles_ += piece_s * bias_hz() * (2.0 * dark_noise_.uniform() - 1.0);
+            garbage_cycles_ += piece_s * bias_hz() *
+                               (2.0 * dark_noise_.uniform(housing_.index(), static_cast<std::uint32_t>(k)) - 1.0);
         }
         start = end;
     }
@@ -102,7 +114,7 @@ void AveragedGyro::count(const BiasArea& area, int bias_sign, TwinHalf& half) {
                          config_.drift.nonmagnetic_arcsec_s * lit_part * half_s;
     if (config_.drift.random_walk_arcsec_sqrt_s > 0.0) {
         half.truth.random_walk_arcsec =
-            config_.drift.random_walk_arcsec_sqrt_s * std::sqrt(half_s) * walk_noise_.gauss();
+            config_.drift.random_walk_arcsec_sqrt_s * std::sqrt(half_s) * walk_noise_.gauss(housing_.index());
         seen_arcsec += half.truth.random_walk_arcsec;
     }
     counter_.advance(signed_hz * area.shaped_s() + false_cycles + garbage_cycles_ +
@@ -122,7 +134,7 @@ void AveragedGyro::see_fringe(int bias_sign, TwinHalf& half) {
         beat.plateau_hz = bias_sign * mode.helicity() * plateau_hz();
         beat.rotation_hz = half.truth.dtheta_arcsec / config_.gyro.scale_arcsec / half_s;
     }
-    fringe_photodiodes_.sample(beat, half.sensor);
+    fringe_photodiodes_.sample(housing_.index(), beat, half.sensor);
 }
 
 }  // namespace zlg::twin

@@ -22,8 +22,9 @@ public:
     TwinHalf advance(const core::ActuatorFrame& actuator) override;
 
 private:
-    void take_light(int bias_sign, core::SensorFrame& sensor);
-    BiasArea bias_area(TwinTruth& truth);
+    [[nodiscard]] bool is_lit_in_one_mode() const;  // throughout the half
+    void take_light(int bias_sign, bool is_steady, core::SensorFrame& sensor);
+    BiasArea bias_area(bool is_steady, TwinTruth& truth);
     void add_pieces(BiasArea& area, TwinTruth& truth);
     void count(const BiasArea& area, int bias_sign, TwinHalf& half);
     void see_fringe(int bias_sign, TwinHalf& half);
@@ -36,8 +37,8 @@ private:
     PerimeterCourse course_;
     Photodiodes photodiodes_;
     FringePhotodiodes fringe_photodiodes_;
-    NoiseStream walk_noise_;
-    NoiseStream dark_noise_;
+    NoiseAhead<1> walk_noise_;
+    Noise dark_noise_;
     FringeCounter counter_;
     double garbage_cycles_ = 0.0;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace zlg::twin {
 
@@ -14,7 +15,9 @@ public:
 
     [[nodiscard]] double quantised_v(double volts) const {
         const double limited_v = std::clamp(volts, min_v_, max_v_);
-        return std::min(max_v_, min_v_ + step_v_ * std::round((limited_v - min_v_) / step_v_));
+        // Codes are not negative, so that cutting off what follows the point rounds.
+        const auto code = static_cast<std::int64_t>((limited_v - min_v_) / step_v_ + 0.5);
+        return std::min(max_v_, min_v_ + step_v_ * static_cast<double>(code));
     }
 
 private:

@@ -38,19 +38,20 @@ public:
           config_{config.photodiodes},
           edge_s_{config.gyro.bias_edge_s},
           adc_{-photodiode_range, photodiode_range, config.photodiodes.adc_bits},
-          noise_{config.seed, NoiseCause::fringe},
-          jitter_{config.seed, NoiseCause::fringe_jitter} {}
+          noise_{config.seed, chance::Cause::fringe},
+          jitter_{config.seed, chance::Cause::fringe_jitter} {}
 
-    void sample(const LatchedBeat& beat, core::SensorFrame& sensor) {
+    void sample(std::uint64_t half, const LatchedBeat& beat, core::SensorFrame& sensor) {
         if (!on_) return;
-        const double tau_s = config_.skew_s + (config_.jitter_s > 0.0 ? config_.jitter_s * jitter_.gauss() : 0.0);
+        const double tau_s = config_.skew_s + (config_.jitter_s > 0.0 ? config_.jitter_s * jitter_.gauss(half) : 0.0);
         const double phase_rad = 2.0 * std::numbers::pi * (beat.turns + turned_back(beat, tau_s));
         const double angle_rad = config_.angle_error_deg * std::numbers::pi / 180.0;
         sensor.has_fringe = true;
         sensor.fringe_quarter = static_cast<std::uint8_t>(beat.quarter & 3u);
-        sensor.fringe_c = seen(config_.offset_cosine + beat.amplitude * std::cos(phase_rad));
-        sensor.fringe_s = seen(config_.offset_sine +
-                               (1.0 + config_.amplitude_error) * beat.amplitude * std::sin(phase_rad + angle_rad));
+        sensor.fringe_c = seen(half, 0, config_.offset_cosine + beat.amplitude * std::cos(phase_rad));
+        sensor.fringe_s = seen(
+            half, 1,
+            config_.offset_sine + (1.0 + config_.amplitude_error) * beat.amplitude * std::sin(phase_rad + angle_rad));
     }
 
 private:
@@ -62,8 +63,8 @@ private:
         return beat.rotation_hz * tau_s - beat.plateau_hz * (on_edge + (away_s - within));
     }
 
-    float seen(double value) {
-        const double noise = config_.noise > 0.0 ? config_.noise * noise_.gauss() : 0.0;
+    float seen(std::uint64_t half, std::size_t diode, double value) {
+        const double noise = config_.noise > 0.0 ? config_.noise * noise_.gauss(half, diode) : 0.0;
         return static_cast<float>(adc_.quantised_v(value + noise));
     }
 
@@ -71,8 +72,8 @@ private:
     PhotodiodesConfig config_;
     double edge_s_;
     Converter adc_;
-    NoiseStream noise_;
-    NoiseStream jitter_;
+    NoiseAhead<2> noise_;
+    NoiseAhead<1> jitter_;
 };
 
 }  // namespace zlg::twin

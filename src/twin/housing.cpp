@@ -67,12 +67,13 @@ int pieces_per_sample(const TwinConfig& config) {
 Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> signal)
     : config_{config},
       half_s_{0.5 * config.gyro.tick_s},
+      half_ticks_{static_cast<std::uint64_t>(std::llround(half_s_ * timer_hz))},
       n_pieces_{pieces_per_sample(config)},
       adc_{config.piezo.range_min_v, config.piezo.range_max_v, config.piezo.adc_bits},
       perimeter_{config, 2 * n_pieces_ * config.gyro.light_samples, std::move(signal)},
-      adc_noise_{config.seed, NoiseCause::adc},
+      adc_noise_{config.seed, chance::Cause::adc},
       coil_adc_{-coil_adc_range_a, coil_adc_range_a, coil_adc_bits},
-      coil_noise_{config.seed, NoiseCause::coil},
+      coil_noise_{config.seed, chance::Cause::coil},
       counter_limit_{config.counter_max_hz},
       faults_{config.faults},
       frame_faults_{config.seed} {}
@@ -156,8 +157,7 @@ void Housing::end_half(const core::ActuatorFrame& actuator, std::uint64_t counte
     core::SensorFrame& sensor = half.sensor;
     sensor.sequence = static_cast<std::uint32_t>(index_);
     sensor.bias_sign = static_cast<std::int8_t>(bias_sign());
-    sensor.timer_ticks = (index_ + 1) * static_cast<std::uint64_t>(std::llround(half_s_ * timer_hz)) +
-                         static_cast<std::uint64_t>(std::int64_t{offset_ticks});
+    sensor.timer_ticks = (index_ + 1) * half_ticks_ + static_cast<std::uint64_t>(std::int64_t{offset_ticks});
     sensor.counter = counter_limit_.shown(counter, half_s_ + (offset_ticks - offset_before_ticks_) / timer_hz);
     offset_before_ticks_ = offset_ticks;
     sensor.polarity = actuator.polarity;
@@ -166,14 +166,14 @@ void Housing::end_half(const core::ActuatorFrame& actuator, std::uint64_t counte
     sensor.has_light_b = true;
     half.truth.perimeter_v = perimeter_.voltage_v();
     read_slow(sensor, half.truth.perimeter_v);
-    if (!faults_.is_empty()) frame_faults_.act(faults_.active(), start_s(), end_s(), sensor);
+    if (!faults_.is_empty()) frame_faults_.act(faults_.active(), index_, half_s_, sensor);
     ++index_;
 }
 
 void Housing::read_slow(core::SensorFrame& sensor, double perimeter_v) {
-    const double noise_v = config_.piezo.adc_noise_v > 0.0 ? config_.piezo.adc_noise_v * adc_noise_.gauss() : 0.0;
+    const double noise_v = config_.piezo.adc_noise_v > 0.0 ? config_.piezo.adc_noise_v * adc_noise_.gauss(index_) : 0.0;
     sensor.piezo_v = adc_.quantised_v(perimeter_v + noise_v);
-    const double noise_a = config_.coil_noise_a > 0.0 ? config_.coil_noise_a * coil_noise_.gauss() : 0.0;
+    const double noise_a = config_.coil_noise_a > 0.0 ? config_.coil_noise_a * coil_noise_.gauss(index_) : 0.0;
     sensor.coil_current_a = coil_adc_.quantised_v(sensor.bias_sign * coil_plateau_a * coil_ratio() + noise_a);
     sensor.temperature_c =
         config_.gyro.reference_temperature_c + config_.gyro.temperature_rise_c * warming_end_ + shock_end_c_;

@@ -64,12 +64,13 @@ private:
 
     TwinConfig config_;
     double half_s_;
+    std::uint64_t half_ticks_;
     int n_pieces_;
     Converter adc_;
     Perimeter perimeter_;
-    NoiseStream adc_noise_;
+    NoiseAhead<1> adc_noise_;
     Converter coil_adc_;
-    NoiseStream coil_noise_;
+    NoiseAhead<1> coil_noise_;
     CounterLimit counter_limit_;
     FaultPlan faults_;
     FrameFaults frame_faults_;

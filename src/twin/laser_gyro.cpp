@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -65,7 +66,7 @@ LaserGyro::LaserGyro(const TwinConfig& config, Motion motion)
       // The difference of two beams has sqrt(2) times the noise of one, over a sum of two levels.
       light_noise_{std::sqrt(2.0) * level * std::abs(signal_->averaged().discriminator_per_lambda) *
                    config.gyro.light_noise_lambda},
-      light_stream_{config.seed, NoiseCause::light} {}
+      light_stream_{config.seed, chance::Cause::light} {}
 
 TwinHalf LaserGyro::advance(const core::ActuatorFrame& actuator) {
     const BiasHalf bias = enter(actuator);
@@ -112,16 +113,17 @@ void LaserGyro::take_light(const BiasHalf& bias, core::SensorFrame& sensor) {
     const auto n_samples = static_cast<std::size_t>(config_.gyro.light_samples);
     const double interval_s = housing_.half_s() / config_.gyro.light_samples;
     const double per_intensity = level / table_.exact().centre_intensity();
-    const auto seen = [&](double intensity) {
-        const double noise = light_noise_ > 0.0 ? light_noise_ * light_stream_.gauss() : 0.0;
-        return static_cast<float>(per_intensity * intensity + noise);
+    std::array<double, 2 * core::max_light_samples> noise{};  // of beam A, then of beam B
+    if (light_noise_ > 0.0) light_stream_.gauss(housing_.index(), std::span{noise}.first(2 * n_samples));
+    const auto seen = [&](double intensity, double deviate) {
+        return static_cast<float>(per_intensity * intensity + light_noise_ * deviate);
     };
     for (std::size_t k = 0; k < n_samples; ++k) {
         const double time_s = (static_cast<double>(k) + 0.5) * interval_s;
         const LaserLight light = table_.at(course_.after_step((2 * k + 1) * n_pieces), bias.at(time_s));
         const LightParts left = housing_.light_is_faulty() ? housing_.light_at(time_s) : LightParts{};
-        sensor.light_a[k] = seen(left.a * light.cw());
-        sensor.light_b[k] = seen(left.b * light.ccw());
+        sensor.light_a[k] = seen(left.a * light.cw(), noise[k]);
+        sensor.light_b[k] = seen(left.b * light.ccw(), noise[n_samples + k]);
     }
 }
 
@@ -136,7 +138,8 @@ void LaserGyro::live_through_half(const BiasHalf& bias, TwinTruth& truth) {
 
 void LaserGyro::see_fringe(TwinHalf& half) {
     const Signals z = beats_.signals();
-    fringe_photodiodes_.sample({.turns = std::atan2(z.s, z.c) / (2.0 * std::numbers::pi),
+    fringe_photodiodes_.sample(housing_.index(),
+                               {.turns = std::atan2(z.s, z.c) / (2.0 * std::numbers::pi),
                                 .amplitude = std::hypot(z.s, z.c),
                                 .quarter = beats_.beats().latch_quarters(),
                                 .plateau_hz = housing_.bias_sign() * followed_ * reference_.plateau_hz,

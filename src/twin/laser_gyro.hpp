@@ -65,7 +65,7 @@ private:
     FringePhotodiodes fringe_photodiodes_;
     Reference reference_;
     double light_noise_;
-    NoiseStream light_stream_;
+    Noise light_stream_;
     std::int32_t offset_ticks_ = 0;  // of the reversal that began the half
     int followed_ = 0;               // helicity that the counter follows
 };

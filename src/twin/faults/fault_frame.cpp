@@ -1,6 +1,7 @@
 #include "fault_frame.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,20 +14,29 @@ namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
+// A fault is known by its start: another one beside it does not change its noise.
+std::uint32_t thing_of(const Fault& fault) {
+    const auto bits = std::bit_cast<std::uint64_t>(fault.at_s);
+    return static_cast<std::uint32_t>(bits ^ (bits >> 32));
+}
+
 }  // namespace
 
-void FrameFaults::act(std::span<const Fault> active, double start_s, double end_s, core::SensorFrame& sensor) {
+void FrameFaults::act(std::span<const Fault> active, std::uint64_t half, double half_s, core::SensorFrame& sensor) {
+    const double end_s = static_cast<double>(half + 1) * half_s;
     for (const Fault& fault : active) {
-        spoil_light(fault, start_s, end_s, sensor);
+        spoil_light(fault, half, half_s, sensor);
         if (acts_at(fault, end_s)) spoil_slow(fault, sensor);
     }
     deliver(active, end_s, sensor);
 }
 
 // Each sample at the middle of its interval. A converter that sticks keeps the code of the sample before.
-void FrameFaults::spoil_light(const Fault& fault, double start_s, double end_s, core::SensorFrame& sensor) {
+void FrameFaults::spoil_light(const Fault& fault, std::uint64_t half, double half_s, core::SensorFrame& sensor) {
     const std::size_t n = sensor.n_light;
-    const double interval_s = (end_s - start_s) / static_cast<double>(n);
+    const double start_s = static_cast<double>(half) * half_s;
+    const double interval_s = half_s / static_cast<double>(n);
+    const Noise light_noise{seed_, chance::Cause::faulty_light, thing_of(fault)};
     const auto before = [&](const auto& now, const auto& earlier, std::size_t k) {
         if (k > 0) return now[k - 1];
         return has_latched_ ? earlier[n - 1] : now[0];
@@ -40,8 +50,9 @@ void FrameFaults::spoil_light(const Fault& fault, double start_s, double end_s, 
             if (fault.size >= 1.0) b = before(sensor.light_b, latched_.light_b, k);
         } else if (fault.kind == FaultKind::light_noisy) {
             const double noise = fault.size * light_level;
-            a += static_cast<float>(noise * light_noise_.gauss());
-            b += static_cast<float>(noise * light_noise_.gauss());
+            const auto index = static_cast<std::uint32_t>(2 * k);
+            a += static_cast<float>(noise * light_noise.gauss(half, index));
+            b += static_cast<float>(noise * light_noise.gauss(half, index + 1));
         } else if (fault.kind == FaultKind::light_saturated) {
             a = std::min(a, static_cast<float>(fault.size * light_level));
             b = std::min(b, static_cast<float>(fault.size * light_level));

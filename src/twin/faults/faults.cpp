@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "noise.hpp"
+#include <zlg/chance/draw.hpp>
 
 namespace zlg::twin {
 
-Fault random_fault(FaultKind kind, double at_s, std::uint64_t seed) {
+Fault random_fault(FaultKind kind, double at_s, std::uint64_t seed, std::uint64_t number) {
     const FaultFacts& f = facts(kind);
-    NoiseStream draw{seed, NoiseCause::faults};
-    const double duration_s = f.random_s.least * std::pow(f.random_s.most / f.random_s.least, draw.uniform());
+    chance::Draw draw{seed, chance::Cause::faults, number};
+    const double duration_s = draw.within_log(f.random_s.least, f.random_s.most);
     const auto [least, most] = f.random_size;
     double size = least + (most - least) * draw.uniform();
     if (f.is_whole) size = std::floor(least + (most - least + 1.0) * draw.uniform());
@@ -31,13 +31,12 @@ std::vector<Fault> random_faults(double per_hour, double until_s, std::uint64_t 
     if (kinds.empty()) kinds = all_fault_kinds;
     std::vector<Fault> made;
     if (per_hour == 0.0) return made;
-    NoiseStream draw{seed, NoiseCause::fault_times};
-    const auto wait_s = [&] { return -std::log1p(-draw.uniform()) * 3600.0 / per_hour; };
-    for (double at_s = wait_s(); at_s < until_s; at_s += wait_s()) {
-        const auto k = static_cast<std::size_t>(draw.uniform() * static_cast<double>(kinds.size()));
-        made.push_back(random_fault(kinds[k], at_s, scrambled(seed) + made.size()));
+    for (double at_s = 0.0;;) {
+        chance::Draw draw{seed, chance::Cause::fault_times, made.size()};
+        at_s += draw.exponential() * 3600.0 / per_hour;
+        if (!(at_s < until_s)) return made;
+        made.push_back(random_fault(kinds[draw.below(kinds.size())], at_s, seed, made.size()));
     }
-    return made;
 }
 
 }  // namespace zlg::twin

@@ -21,11 +21,11 @@ Backscatter scatter(double lock_hz, double phase_deg) {
 }
 
 OpticalBeats beats_of(std::uint64_t seed, double threshold) {
-    NoiseStream start{seed, NoiseCause::start_phase};
+    const Noise start{seed, chance::Cause::start_phase};
     Turns left;
-    left.part = start.uniform();
+    left.part = start.uniform(0, 0);
     Turns right;
-    right.part = start.uniform();
+    right.part = start.uniform(0, 1);
     return OpticalBeats{threshold, left, right};
 }
 

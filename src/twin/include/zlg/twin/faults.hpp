@@ -20,8 +20,8 @@ struct Fault {
     double size = 0.0;  // in the unit of its kind; nothing to those that have none
 };
 
-// One fault of a kind, with duration and size as the seed draws them.
-[[nodiscard]] Fault random_fault(FaultKind kind, double at_s, std::uint64_t seed);
+// Fault `number` of a seed, of this kind, with duration and size as its address draws them.
+[[nodiscard]] Fault random_fault(FaultKind kind, double at_s, std::uint64_t seed, std::uint64_t number = 0);
 
 // Faults at random moments from 0 to `until_s`, `per_hour` of them an hour on average, in the order of their start; the
 // kinds equally often, all of them where `kinds` is empty.
