@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -21,9 +22,10 @@ constexpr double white_part = 1e-9;
 
 void add_line(core::Window& prior, double variance_arcsec2_s2, double frequency_hz, double half_s) {
     const double x = std::numbers::pi * frequency_hz * half_s;
-    const double mean = x > 0.0 ? std::sin(x) / x : 1.0;
+    const double mean = x > 0.0 ? core::maths::sin(x) / x : 1.0;
     const double variance = variance_arcsec2_s2 * half_s * half_s * mean * mean;
-    for (std::size_t k = 0; k < prior.size(); ++k) prior[k] += variance * std::cos(2.0 * x * static_cast<double>(k));
+    for (std::size_t k = 0; k < prior.size(); ++k)
+        prior[k] += variance * core::maths::cos(2.0 * x * static_cast<double>(k));
 }
 
 // Covariance of the angles of two half-ticks of h = T/2 by their distance k, arcsec^2.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -158,7 +159,7 @@ void add_relock(const config::Config& config, core::PerimeterLoopConfig& loop) {
     const config::Perimeter& p = config.perimeter;
     if (loop.kind != core::LoopKind::digital || p.relock_halves == 0) return;
     loop.relock_halves = p.relock_halves;
-    loop.relock_gain = 1.0 - std::pow(1.0 - p.sample_gain, config.gyro.light_samples);
+    loop.relock_gain = 1.0 - core::maths::pow(1.0 - p.sample_gain, config.gyro.light_samples);
     loop.time_constant = core::Seconds{std::max(p.settled_tau_s, 0.5 * config.gyro.tick_s)};
 }
 

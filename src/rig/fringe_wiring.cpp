@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "bias_wiring.hpp"
 
 namespace zlg::rig {
@@ -59,14 +61,15 @@ core::FringeReadoutConfig fringe_readout_of(const config::Config& config) {
                                    .max_skew_turns = max_skew_turns(config)};
     // The comparators of the averaged gyro have no threshold.
     if (config.gyro.fidelity == config::Fidelity::laser) {
-        made.lag_turns = std::asin(config.laser.comparator_threshold) / turn_rad;
+        made.lag_turns = core::maths::asin(config.laser.comparator_threshold) / turn_rad;
         made.turned_back_turns = turned_back_turns(config);
     }
     return made;
 }
 
 double fringe_noise_counts(const config::Config& config) {
-    return std::min(std::hypot(counts_per_turn(config) * noise_turns(config.photodiodes), jitter_counts(config)), 1.0);
+    return std::min(
+        core::maths::hypot(counts_per_turn(config) * noise_turns(config.photodiodes), jitter_counts(config)), 1.0);
 }
 
 }  // namespace zlg::rig

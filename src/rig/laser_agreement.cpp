@@ -8,6 +8,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -55,7 +56,7 @@ double walk_of_lock_in(const config::Config& config) {
     const config::Gyro& g = config.gyro;
     const int counts = counts_per_turn(config.laser.quadrature);
     const double lock_hz =
-        std::hypot(config.laser.lock_in_left_hz, config.laser.lock_in_right_hz) / std::numbers::sqrt2;
+        core::maths::hypot(config.laser.lock_in_left_hz, config.laser.lock_in_right_hz) / std::numbers::sqrt2;
     return g.scale_arcsec * counts * lock_hz * std::sqrt(0.5 * g.bias_edge_s * counts / g.bias_hz / g.tick_s);
 }
 

@@ -10,6 +10,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/averaged_laser.hpp>
@@ -28,7 +29,8 @@ static_assert(n_before_kink + n_beyond_kink == core::max_side_nodes);
 std::vector<double> nodes(double kink_lambda, double max_lambda) {
     const double first = std::min(kink_lambda, max_lambda);
     std::vector<double> at;
-    for (int k = 1; k <= n_before_kink; ++k) at.push_back(first * std::sin(0.5 * std::numbers::pi * k / n_before_kink));
+    for (int k = 1; k <= n_before_kink; ++k)
+        at.push_back(first * core::maths::sin(0.5 * std::numbers::pi * k / n_before_kink));
     if (!(max_lambda > first)) return at;
     for (int k = 1; k <= n_beyond_kink; ++k) {
         at.push_back(first + (max_lambda - first) * k * k / (n_beyond_kink * n_beyond_kink));

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/twin/twin_config.hpp>
 
@@ -48,10 +49,10 @@ public:
         const double angle_rad = config_.angle_error_deg * std::numbers::pi / 180.0;
         sensor.has_fringe = true;
         sensor.fringe_quarter = static_cast<std::uint8_t>(beat.quarter & 3u);
-        sensor.fringe_c = seen(half, 0, config_.offset_cosine + beat.amplitude * std::cos(phase_rad));
-        sensor.fringe_s = seen(
-            half, 1,
-            config_.offset_sine + (1.0 + config_.amplitude_error) * beat.amplitude * std::sin(phase_rad + angle_rad));
+        sensor.fringe_c = seen(half, 0, config_.offset_cosine + beat.amplitude * core::maths::cos(phase_rad));
+        sensor.fringe_s = seen(half, 1,
+                               config_.offset_sine + (1.0 + config_.amplitude_error) * beat.amplitude *
+                                                         core::maths::sin(phase_rad + angle_rad));
     }
 
 private:

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "faults/fault_perimeter.hpp"
 
 namespace zlg::twin {
@@ -14,7 +16,7 @@ namespace {
 // Integral of size sin^2(pi progress) from the start of the fault.
 double turned_until_arcsec(const Fault& fault, double time_s) {
     const double part = progress(fault, time_s);
-    const double swing = std::sin(2.0 * std::numbers::pi * part) / (2.0 * std::numbers::pi);
+    const double swing = core::maths::sin(2.0 * std::numbers::pi * part) / (2.0 * std::numbers::pi);
     return 0.5 * fault.size * fault.duration_s * (part - swing);
 }
 
@@ -79,7 +81,7 @@ Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> si
       frame_faults_{config.seed} {}
 
 double Housing::warming_at(std::uint64_t half) const {
-    return -std::expm1(-static_cast<double>(half) * half_s_ / config_.drift.thermal_time_s);
+    return -core::maths::expm1(-static_cast<double>(half) * half_s_ / config_.drift.thermal_time_s);
 }
 
 double Housing::drift_lambda(double warming, double shock_c) const {

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "laser/laser.hpp"
 
 namespace zlg::twin {
@@ -139,8 +141,8 @@ void LaserGyro::live_through_half(const BiasHalf& bias, TwinTruth& truth) {
 void LaserGyro::see_fringe(TwinHalf& half) {
     const Signals z = beats_.signals();
     fringe_photodiodes_.sample(housing_.index(),
-                               {.turns = std::atan2(z.s, z.c) / (2.0 * std::numbers::pi),
-                                .amplitude = std::hypot(z.s, z.c),
+                               {.turns = core::maths::atan2(z.s, z.c) / (2.0 * std::numbers::pi),
+                                .amplitude = core::maths::hypot(z.s, z.c),
                                 .quarter = beats_.beats().latch_quarters(),
                                 .plateau_hz = housing_.bias_sign() * followed_ * reference_.plateau_hz,
                                 .rotation_hz = half.truth.dtheta_arcsec / fringe_arcsec_ / housing_.half_s()},

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "fault_plan.hpp"
 
 namespace zlg::twin {
@@ -13,7 +15,7 @@ LightParts light_parts(std::span<const Fault> active, double time_s) {
         if (!acts_at(fault, time_s)) continue;
         if (fault.kind == FaultKind::laser_off) return {0.0, 0.0};
         if (fault.kind != FaultKind::beam_fades) continue;
-        const double depth = std::sin(std::numbers::pi * progress(fault, time_s));
+        const double depth = core::maths::sin(std::numbers::pi * progress(fault, time_s));
         parts.a *= 1.0 - fault.size * depth * depth;
     }
     return parts;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "fault_plan.hpp"
 
 namespace zlg::twin {
@@ -17,9 +19,9 @@ double length_lambda(const Fault& fault, double time_s, double vibration_hz) {
             return fault.size * fault.duration_s * part;
         case FaultKind::vibration:
             if (!acts_at(fault, time_s)) return 0.0;
-            return fault.size * std::sin(2.0 * std::numbers::pi * vibration_hz * (time_s - fault.at_s));
+            return fault.size * core::maths::sin(2.0 * std::numbers::pi * vibration_hz * (time_s - fault.at_s));
         case FaultKind::shock:
-            return part < 1.0 ? fault.size * std::sin(std::numbers::pi * part) : 0.0;
+            return part < 1.0 ? fault.size * core::maths::sin(std::numbers::pi * part) : 0.0;
         default:
             return 0.0;
     }

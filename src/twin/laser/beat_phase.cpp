@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::twin {
 namespace {
 
@@ -36,8 +38,8 @@ struct Pull {
 };
 
 Pull pull_at(const Turns& psi, Coupling c) {
-    const double cosine = std::cos(psi.part_rad());
-    const double sine = std::sin(psi.part_rad());
+    const double cosine = core::maths::cos(psi.part_rad());
+    const double sine = core::maths::sin(psi.part_rad());
     return {c.real() * cosine - c.imag() * sine, -(c.real() * sine + c.imag() * cosine)};
 }
 
@@ -46,19 +48,19 @@ double beating_turns(double drive_hz, double k_hz, double duration_s, Pull pull)
     const double total = k_hz * duration_s;
     const double whole = std::floor(total);
     const double rest = pi * (total - whole);
-    const double per_k = std::sin(rest) / k_hz;
+    const double per_k = core::maths::sin(rest) / k_hz;
     const double forward = std::copysign(1.0, drive_hz);
     // Less than a turn is left, forward: rounding must not turn it into one backward.
     const double im = std::max(0.0, forward * per_k * (drive_hz + pull.im));
-    const double re = std::cos(rest) + per_k * pull.re;
-    return forward * (whole + std::atan2(im, re) / pi);
+    const double re = core::maths::cos(rest) + per_k * pull.re;
+    return forward * (whole + core::maths::atan2(im, re) / pi);
 }
 
 // The coupling holds the phase: it moves to the locked place by less than a turn.
 double locked_turns(double drive_hz, double kappa_hz, double duration_s, Pull pull) {
     const double x = pi * kappa_hz * duration_s;
-    const double per_kappa = x < 1e-8 ? pi * duration_s : std::tanh(x) / kappa_hz;
-    return std::atan2(per_kappa * (drive_hz + pull.im), 1.0 + per_kappa * pull.re) / pi;
+    const double per_kappa = x < 1e-8 ? pi * duration_s : core::maths::tanh(x) / kappa_hz;
+    return core::maths::atan2(per_kappa * (drive_hz + pull.im), 1.0 + per_kappa * pull.re) / pi;
 }
 
 // exp of the generator of one piece, applied to u.
@@ -164,13 +166,13 @@ void BeatPhase::ramp_in_pieces(double start_hz, double end_hz, Coupling coupling
     const double tilt = change / 6.0;                             // pi f' h^2/6
     const double o_re = pi * h * (coupling.real() + tilt * coupling.imag());
     const double o_im = pi * h * (tilt * coupling.real() - coupling.imag());
-    const Spinor start{std::cos(pi * psi_.part), std::sin(pi * psi_.part)};
+    const Spinor start{core::maths::cos(pi * psi_.part), core::maths::sin(pi * psi_.part)};
     Spinor u = start;
     const double first = pi * h * start_hz + 0.5 * change;
     for (int i = 0; i < pieces; ++i) u = apply(first + i * change, o_re, o_im, u);
 
     // u knows the phase up to two turns; the drive alone says which.
-    const double turned = std::atan2(u.im * start.re - u.re * start.im, u.re * start.re + u.im * start.im) / pi;
+    const double turned = core::maths::atan2(u.im * start.re - u.re * start.im, u.re * start.re + u.im * start.im) / pi;
     const double free = 0.5 * (start_hz + end_hz) * duration_s;
     psi_.add(turned + 2.0 * std::round(0.5 * (free - turned)));
 }

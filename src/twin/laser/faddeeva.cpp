@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::twin {
 namespace {
 
@@ -23,8 +25,8 @@ Rule make_rule() {
         const double half_on = at + 0.5 * rule.step;
         rule.trapezoid_sq[k] = at * at;
         rule.midpoint_sq[k] = half_on * half_on;
-        rule.trapezoid_weight[k] = (k == 0 ? 0.5 : 1.0) * std::exp(-at * at);
-        rule.midpoint_weight[k] = std::exp(-half_on * half_on);
+        rule.trapezoid_weight[k] = (k == 0 ? 0.5 : 1.0) * core::maths::exp(-at * at);
+        rule.midpoint_weight[k] = core::maths::exp(-half_on * half_on);
     }
     return rule;
 }
@@ -59,12 +61,12 @@ Parts sum(double x, double y, double step, const std::array<double, n_nodes>& no
 
 // 2 exp(-z^2) / (1 + sign exp(-2 i pi z / h)): what the rule misses of the pole at t = z.
 Parts residue(double x, double y, double step, double sign) {
-    const double growth = std::exp(2.0 * std::numbers::pi * y / step);
+    const double growth = core::maths::exp(2.0 * std::numbers::pi * y / step);
     const double turn = 2.0 * std::numbers::pi * x / step;
-    const double size = 2.0 * std::exp((y - x) * (y + x));
+    const double size = 2.0 * core::maths::exp((y - x) * (y + x));
     const double phase = 2.0 * x * y;
-    return quotient({size * std::cos(phase), -size * std::sin(phase)},
-                    {1.0 + sign * growth * std::cos(turn), -sign * growth * std::sin(turn)});
+    return quotient({size * core::maths::cos(phase), -size * core::maths::sin(phase)},
+                    {1.0 + sign * growth * core::maths::cos(turn), -sign * growth * core::maths::sin(turn)});
 }
 
 Parts first_quadrant(double x, double y) {
@@ -94,7 +96,7 @@ std::complex<double> faddeeva(std::complex<double> z) {
 std::complex<double> faddeeva_slope(std::complex<double> a, std::complex<double> w_a, std::complex<double> b,
                                     std::complex<double> w_b) {
     const double step = b.real() - a.real();
-    if (std::abs(step) * (1.0 + std::abs(a)) >= 0.03) return (w_b - w_a) / step;
+    if (std::abs(step) * (1.0 + core::maths::hypot(a.real(), a.imag())) >= 0.03) return (w_b - w_a) / step;
     constexpr double two_over_root_pi = 2.0 * std::numbers::inv_sqrtpi;
     std::complex<double> previous = w_a;
     std::complex<double> derivative = -2.0 * a * w_a + std::complex<double>{0.0, two_over_root_pi};

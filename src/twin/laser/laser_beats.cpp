@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "noise.hpp"
 
 namespace zlg::twin {
@@ -16,7 +18,7 @@ constexpr double faint_ratio = 0.01;
 // Equal mirrors whose coupling locks equal waves below lock_hz.
 Backscatter scatter(double lock_hz, double phase_deg) {
     const double phase_rad = phase_deg * std::numbers::pi / 180.0;
-    const double each_hz = 0.5 * lock_hz / std::cos(phase_rad);
+    const double each_hz = 0.5 * lock_hz / core::maths::cos(phase_rad);
     return {each_hz, each_hz, phase_rad, 0.0};
 }
 

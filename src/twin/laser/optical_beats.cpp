@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::twin {
 namespace {
 
@@ -39,8 +41,8 @@ OpticalBeats::OpticalBeats(double threshold, const Turns& left, const Turns& rig
 Signals OpticalBeats::signals() const {
     const double l = left_.value().part_rad();
     const double r = right_.value().part_rad();
-    return {left_amplitude_ * std::sin(l) + right_amplitude_ * std::sin(r),
-            left_amplitude_ * std::cos(l) + right_amplitude_ * std::cos(r)};
+    return {left_amplitude_ * core::maths::sin(l) + right_amplitude_ * core::maths::sin(r),
+            left_amplitude_ * core::maths::cos(l) + right_amplitude_ * core::maths::cos(r)};
 }
 
 // arg z minus the phase of the larger part [turns].
@@ -51,7 +53,7 @@ double OpticalBeats::beside_larger() const {
     if (!(smaller > 0.0)) return 0.0;
     const double apart = 2.0 * pi * (right_.value().part - left_.value().part) * (left_leads ? 1.0 : -1.0);
     const double ratio = smaller / larger;
-    return std::atan2(ratio * std::sin(apart), 1.0 + ratio * std::cos(apart)) / (2.0 * pi);
+    return core::maths::atan2(ratio * core::maths::sin(apart), 1.0 + ratio * core::maths::cos(apart)) / (2.0 * pi);
 }
 
 void OpticalBeats::set_amplitudes(double left, double right) {
@@ -116,8 +118,8 @@ void OpticalBeats::sample_sum(const Beat& left, const Beat& right, const Turns& 
         const double x = static_cast<double>(i) / static_cast<double>(n);
         const double l = 2.0 * pi * left_at(x);
         const double r = 2.0 * pi * right_at(x);
-        decoder.see({left_amplitude_ * std::sin(l) + right_amplitude_ * std::sin(r),
-                     left_amplitude_ * std::cos(l) + right_amplitude_ * std::cos(r)});
+        decoder.see({left_amplitude_ * core::maths::sin(l) + right_amplitude_ * core::maths::sin(r),
+                     left_amplitude_ * core::maths::cos(l) + right_amplitude_ * core::maths::cos(r)});
     }
     // Of the quarters that the comparators allow, the one nearest to where the sum is now.
     const std::int64_t here = QuarterTurns::floor_of(winding_);
@@ -140,7 +142,7 @@ void OpticalBeats::follow(const Turns& phase) {
     if (now < 1.5 * threshold_ || !(now > 0.0)) return;
     if (now != lag_size_) {
         lag_size_ = now;
-        lag_turns_ = std::asin(threshold_ / now) / (2.0 * pi);
+        lag_turns_ = core::maths::asin(threshold_ / now) / (2.0 * pi);
     }
     count_.see(phase, lag_turns_);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::twin {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double max_turns = 1e17;  // the exact stepper refuses what is beyond
 double ripple(const Turns& phase, double drive_hz, Coupling c) {
     if (!(std::abs(drive_hz) > free_ratio * std::abs(c))) return 0.0;
     const double angle = phase.part_rad();
-    return (c.real() * std::cos(angle) - c.imag() * std::sin(angle)) / (2.0 * pi * drive_hz);
+    return (c.real() * core::maths::cos(angle) - c.imag() * core::maths::sin(angle)) / (2.0 * pi * drive_hz);
 }
 
 // The slip that the endless ramp would have beyond its end [rad], expanded to second order in 1/(f t_e):
@@ -23,8 +25,8 @@ double ripple(const Turns& phase, double drive_hz, Coupling c) {
 double missing(const Turns& phase, double drive_hz, double slope_hz_s, Coupling c) {
     const double k = slope_hz_s / (2.0 * pi * drive_hz * drive_hz * drive_hz);
     const double q = 3.0 * k * slope_hz_s / (2.0 * pi * drive_hz * drive_hz);
-    const double cosine = std::cos(phase.part_rad());
-    const double sine = std::sin(phase.part_rad());
+    const double cosine = core::maths::cos(phase.part_rad());
+    const double sine = core::maths::sin(phase.part_rad());
     const double re = c.real() * cosine - c.imag() * sine;
     const double im = c.real() * sine + c.imag() * cosine;
     return k * im - q * re;
@@ -68,16 +70,16 @@ Turns SlipPhase::reversal(double start_hz, double end_hz, Coupling coupling, dou
     Turns at_zero = smooth_;
     at_zero.add(-0.5 * start_hz * start_hz / slope);
     const double depth = 2.0 * pi * lock_hz / std::sqrt(std::abs(slope));
-    const double b = std::sqrt(-std::expm1(-0.25 * depth * depth));
+    const double b = std::sqrt(-core::maths::expm1(-0.25 * depth * depth));
     const double q = at_zero.part_rad() + std::arg(coupling) + std::copysign(0.25 * pi, slope);
-    const double slip = -2.0 * std::atan2(b * std::sin(q), 1.0 + b * std::cos(q)) / (2.0 * pi);
+    const double slip = -2.0 * core::maths::atan2(b * core::maths::sin(q), 1.0 + b * core::maths::cos(q)) / (2.0 * pi);
 
     Turns middle = smooth_;
     middle.add(0.125 * (3.0 * start_hz + end_hz) * duration_s + 0.5 * slip);
     Turns after = smooth_;
     after.add(0.5 * (start_hz + end_hz) * duration_s + slip);
     // Between unequal ends the mean pull -f_L^2/(2 f) of the beat does not cancel.
-    const double pulled = -0.5 * lock_hz * lock_hz / slope * std::log(std::abs(end_hz / start_hz));
+    const double pulled = -0.5 * lock_hz * lock_hz / slope * core::maths::log(std::abs(end_hz / start_hz));
     const double ends = missing(after, end_hz, slope, coupling) - missing(smooth_, start_hz, slope, coupling);
     after.add(pulled + ends / (2.0 * pi));
     smooth_ = after;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "motion_source.hpp"
 
 namespace zlg::twin {
@@ -37,9 +39,9 @@ public:
         for (const Sine& sine : sines_) {
             const double w = 2.0 * std::numbers::pi * sine.frequency_hz;
             const double half_turn = 0.5 * w * dt_s;
-            const double sinc = half_turn == 0.0 ? 1.0 : std::sin(half_turn) / half_turn;
+            const double sinc = half_turn == 0.0 ? 1.0 : core::maths::sin(half_turn) / half_turn;
             const double phase = sine.phase_deg * (std::numbers::pi / 180.0);
-            sum += sine.amplitude_arcsec_s * dt_s * sinc * std::sin(w * middle_s + phase);
+            sum += sine.amplitude_arcsec_s * dt_s * sinc * core::maths::sin(w * middle_s + phase);
         }
         return sum;
     }

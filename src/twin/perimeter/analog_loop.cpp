@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::twin {
 
 AnalogLoop::AnalogLoop(const TwinConfig& config, const HighVoltage& stage, double step_s, int n_steps,
@@ -35,12 +37,12 @@ AnalogLoop::Propagator AnalogLoop::propagator(double t_s) const {
         // The slow root from the product of both: the difference would cancel where rc is short.
         const double fast = mean - std::sqrt(spread_sq);
         const double slow = determinant / fast;
-        even = 0.5 * (std::exp(slow * t_s) + std::exp(fast * t_s));
-        odd_s = -std::exp(slow * t_s) * std::expm1((fast - slow) * t_s) / (slow - fast);
+        even = 0.5 * (core::maths::exp(slow * t_s) + core::maths::exp(fast * t_s));
+        odd_s = -core::maths::exp(slow * t_s) * core::maths::expm1((fast - slow) * t_s) / (slow - fast);
     } else {
         const double turn = std::sqrt(-spread_sq) * t_s;
-        even = std::exp(mean * t_s) * std::cos(turn);
-        odd_s = std::exp(mean * t_s) * t_s * (turn > 0.0 ? std::sin(turn) / turn : 1.0);
+        even = core::maths::exp(mean * t_s) * core::maths::cos(turn);
+        odd_s = core::maths::exp(mean * t_s) * t_s * (turn > 0.0 ? core::maths::sin(turn) / turn : 1.0);
     }
     return {without_dust(even - odd_s * mean), without_dust(-odd_s / tau_s_), without_dust(odd_s / rc_s),
             without_dust(even + odd_s * (-1.0 / rc_s - mean))};

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <zlg/core/common/maths.hpp>
+
 #include "laser/laser.hpp"
 
 namespace zlg::twin {
@@ -12,7 +14,7 @@ HighVoltage::HighVoltage(const TwinConfig& config, double usual_step_s)
       rc_s_{config.piezo.rc_s},
       slew_v_s_{config.piezo.slew_v_s},
       usual_step_s_{usual_step_s},
-      usual_decay_{std::exp(-usual_step_s / rc_s_)} {
+      usual_decay_{core::maths::exp(-usual_step_s / rc_s_)} {
     take_half_wave(config.piezo.half_wave_v);
 }
 
@@ -34,7 +36,7 @@ double HighVoltage::followed(double v_lambda, double command_lambda, double dt_s
         exponential_s -= excess / slew_lambda_s_;
         error = std::copysign(slew_error_lambda_, error);
     }
-    const double decay = exponential_s == usual_step_s_ ? usual_decay_ : std::exp(-exponential_s / rc_s_);
+    const double decay = exponential_s == usual_step_s_ ? usual_decay_ : core::maths::exp(-exponential_s / rc_s_);
     return clamped(command_lambda - error * decay);
 }
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::twin {
 namespace {
 
@@ -44,7 +46,7 @@ Perimeter::Perimeter(const TwinConfig& config, int n_steps, std::shared_ptr<cons
       piezo_{config, step_s_},
       centre_{settled_lambda_} {
     set_points_.reserve(core::max_set_points);
-    for (int k = 0; k <= n_steps; ++k) decay_.push_back(std::exp(-k * step_s_ / config.perimeter.tau_s));
+    for (int k = 0; k <= n_steps; ++k) decay_.push_back(core::maths::exp(-k * step_s_ / config.perimeter.tau_s));
 }
 
 double Perimeter::voltage_v() const {
@@ -69,8 +71,8 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
     if (uses_set_points(frame, config_.perimeter.loop)) take_set_points(frame);
     if (aims) aim();
     if (config_.perimeter.loop == Loop::exponential && closed_) {
-        amplitude_ =
-            miss_at_closing_ * std::exp(-halves_since_closing_ * (0.5 * config_.gyro.tick_s) / config_.perimeter.tau_s);
+        amplitude_ = miss_at_closing_ *
+                     core::maths::exp(-halves_since_closing_ * (0.5 * config_.gyro.tick_s) / config_.perimeter.tau_s);
         halves_since_closing_ += 1.0;
     }
     mode_ = lasing_mode(length_lambda());

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::twin {
 namespace {
 
@@ -48,8 +50,8 @@ void PiezoMirror::set_creep(double per_decade) {
     double time_s = 0.01;
     for (std::size_t k = 0; k < n_creeps; ++k) {
         const double x = step_s_ / time_s;
-        const double gone = -std::expm1(-x);
-        creep_.kept[k] = std::exp(-x);
+        const double gone = -core::maths::expm1(-x);
+        creep_.kept[k] = core::maths::exp(-x);
         creep_.by_end[k] = per_decade * (1.0 - gone / x);
         creep_.by_start[k] = per_decade * gone - creep_.by_end[k];
         time_s *= 10.0;
@@ -61,9 +63,9 @@ void PiezoMirror::set_mirror(double frequency_hz, double damping) {
     if (mirror_.is_rigid) return;
     const double w = 2.0 * std::numbers::pi * frequency_hz;
     const double ringing = w * std::sqrt(1.0 - damping * damping);
-    const double decay = std::exp(-damping * w * step_s_);
-    const double even = decay * std::cos(ringing * step_s_);
-    const double odd_s = decay * std::sin(ringing * step_s_) / ringing;
+    const double decay = core::maths::exp(-damping * w * step_s_);
+    const double even = decay * core::maths::cos(ringing * step_s_);
+    const double odd_s = decay * core::maths::sin(ringing * step_s_) / ringing;
     mirror_.lag_s = 2.0 * damping / w;
     mirror_.propagator[0][0] = even + damping * w * odd_s;
     mirror_.propagator[0][1] = odd_s;
