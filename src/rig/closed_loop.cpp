@@ -13,6 +13,8 @@
 namespace zlg::rig {
 namespace {
 
+constexpr core::SensorFrame before_the_first{};
+
 twin::Twin make_twin(const config::Config& config, twin::Motion motion) {
     const twin::TwinConfig made = twin_config(config);
     try {
@@ -26,7 +28,8 @@ twin::Twin make_twin(const config::Config& config, twin::Motion motion) {
 }
 
 // Whether the counter can follow the rates of a motion shows only in the run.
-twin::TwinHalf advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuator, const config::Config& config) {
+const twin::TwinHalf& advance_twin(twin::Twin& twin, const core::ActuatorFrame& actuator,
+                                   const config::Config& config) {
     try {
         return twin.advance(actuator);
     } catch (const std::overflow_error& error) {
@@ -59,6 +62,7 @@ ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin
       control_config_{control_config(config)},
       control_state_{initial_state(control_config_)},
       actuator_{initial_actuator(control_config_)},
+      sensor_{&before_the_first},
       processor_{processor} {
     control_config_.schedule.end_tick = end_tick;
     if (processor_)
@@ -68,40 +72,37 @@ ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin
 }
 
 LoopHalf ClosedLoop::advance() {
-    const twin::TwinHalf half = advance_twin(twin_, actuator_, config_);
-    sensor_ = half.sensor;
-    LoopHalf out;
-    if (processor_)
-        step_outside(out);
-    else
-        step_here(out);
+    const twin::TwinHalf& half = advance_twin(twin_, actuator_, config_);
+    sensor_ = &half.sensor;
+    LoopHalf out = processor_ ? step_outside() : step_here();
     out.record = out.control.record;
     out.truth = half.truth;
     actuator_ = out.control.actuator;
     return out;
 }
 
-void ClosedLoop::step_here(LoopHalf& out) {
+LoopHalf ClosedLoop::step_here() {
     const core::SwitchAdvice advice =
         adviser_ ? core::advice(adviser_->config(), adviser_->state()) : core::SwitchAdvice{};
-    out.control = step(control_config_, control_state_, sensor_, advice);
+    LoopHalf out{.control = step(control_config_, control_state_, *sensor_, advice)};
     if (adviser_) adviser_->take(out.control.record, light());
     out.half_wave_v = control_state_.half_wave.estimate_v;
     out.half_wave_sigma_v = sigma(control_state_.half_wave).value();
+    return out;
 }
 
-void ClosedLoop::step_outside(LoopHalf& out) {
-    const ProcessorHalf half = processor_->half(sensor_);
-    out.control = half.control;
-    out.compensation = half.compensation;
-    out.half_wave_v = half.half_wave.estimate_v;
-    out.half_wave_sigma_v = sigma(half.half_wave).value();
+LoopHalf ClosedLoop::step_outside() {
+    const ProcessorHalf half = processor_->half(*sensor_);
+    return {.control = half.control,
+            .half_wave_v = half.half_wave.estimate_v,
+            .half_wave_sigma_v = sigma(half.half_wave).value(),
+            .compensation = half.compensation};
 }
 
 core::LightSamples ClosedLoop::light() const {
-    const std::span a{sensor_.light_a};
-    const std::span b{sensor_.light_b};
-    return {a.first(sensor_.n_light), b.first(sensor_.has_light_b ? sensor_.n_light : 0u)};
+    const std::span a{sensor_->light_a};
+    const std::span b{sensor_->light_b};
+    return {a.first(sensor_->n_light), b.first(sensor_->has_light_b ? sensor_->n_light : 0u)};
 }
 
 }  // namespace zlg::rig

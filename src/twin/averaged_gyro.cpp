@@ -12,6 +12,8 @@ namespace zlg::twin {
 AveragedGyro::AveragedGyro(const TwinConfig& config, Motion motion)
     : config_{config},
       motion_{std::move(motion)},
+      plateau_over_mean_{1.0 / (1.0 - config.gyro.bias_edge_s / config.gyro.tick_s)},
+      walk_of_half_arcsec_{config.drift.random_walk_arcsec_sqrt_s * std::sqrt(0.5 * config.gyro.tick_s)},
       housing_{config_},
       course_{2 * housing_.n_pieces() * config.gyro.light_samples, housing_.half_s()},
       photodiodes_{config_},
@@ -20,20 +22,20 @@ AveragedGyro::AveragedGyro(const TwinConfig& config, Motion motion)
       dark_noise_{config.seed, chance::Cause::dark_counts},
       counter_{Noise{config.seed, chance::Cause::start_phase}.uniform(0, 0)} {}
 
-TwinHalf AveragedGyro::advance(const core::ActuatorFrame& actuator) {
+const TwinHalf& AveragedGyro::advance(const core::ActuatorFrame& actuator) {
     housing_.begin_half(actuator);
     course_.live(housing_.perimeter());
     const int bias_sign = housing_.bias_sign();
-    TwinHalf half;
     const bool is_steady = is_lit_in_one_mode();
-    take_light(bias_sign, is_steady, half.sensor);
-    half.truth.detuning_end_lambda = housing_.perimeter().mode().detuning_lambda;
-    const BiasArea area = bias_area(is_steady, half.truth);
-    count(area, bias_sign, half);
-    half.truth.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
-    see_fringe(bias_sign, half);
-    housing_.end_half(actuator, counter_.value(), 0, half);
-    return half;
+    half_.truth = {};
+    take_light(bias_sign, is_steady, half_.sensor);
+    half_.truth.detuning_end_lambda = housing_.perimeter().mode().detuning_lambda;
+    const BiasArea area = bias_area(is_steady, half_.truth);
+    count(area, bias_sign, half_);
+    half_.truth.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
+    see_fringe(bias_sign, half_);
+    housing_.end_half(actuator, counter_.value(), 0, half_);
+    return half_;
 }
 
 bool AveragedGyro::is_lit_in_one_mode() const {
@@ -112,16 +114,15 @@ void AveragedGyro::count(const BiasArea& area, int bias_sign, TwinHalf& half) {
     const double lit_part = half.truth.lit ? 1.0 : area.lit_s() / half_s;
     double seen_arcsec = lit_part * half.truth.dtheta_arcsec + housing_.magnetic_arcsec_s() * area.helicity_s() +
                          config_.drift.nonmagnetic_arcsec_s * lit_part * half_s;
-    if (config_.drift.random_walk_arcsec_sqrt_s > 0.0) {
-        half.truth.random_walk_arcsec =
-            config_.drift.random_walk_arcsec_sqrt_s * std::sqrt(half_s) * walk_noise_.gauss(housing_.index());
+    if (walk_of_half_arcsec_ > 0.0) {
+        half.truth.random_walk_arcsec = walk_of_half_arcsec_ * walk_noise_.gauss(housing_.index());
         seen_arcsec += half.truth.random_walk_arcsec;
     }
     counter_.advance(signed_hz * area.shaped_s() + false_cycles + garbage_cycles_ +
                      seen_arcsec / config_.gyro.scale_arcsec);
 }
 
-double AveragedGyro::plateau_hz() const { return bias_hz() / (1.0 - config_.gyro.bias_edge_s / config_.gyro.tick_s); }
+double AveragedGyro::plateau_hz() const { return bias_hz() * plateau_over_mean_; }
 
 // A count is a fringe, and the comparators stand where the phase does.
 void AveragedGyro::see_fringe(int bias_sign, TwinHalf& half) {

@@ -19,7 +19,7 @@ public:
     // config  validated.
     AveragedGyro(const TwinConfig& config, Motion motion);
 
-    TwinHalf advance(const core::ActuatorFrame& actuator) override;
+    const TwinHalf& advance(const core::ActuatorFrame& actuator) override;
 
 private:
     [[nodiscard]] bool is_lit_in_one_mode() const;  // throughout the half
@@ -33,6 +33,8 @@ private:
 
     TwinConfig config_;
     Motion motion_;
+    double plateau_over_mean_;    // the bias between its reversals over its mean
+    double walk_of_half_arcsec_;  // standard deviation
     Housing housing_;
     PerimeterCourse course_;
     Photodiodes photodiodes_;
@@ -41,6 +43,7 @@ private:
     Noise dark_noise_;
     FringeCounter counter_;
     double garbage_cycles_ = 0.0;
+    TwinHalf half_{};
 };
 
 }  // namespace zlg::twin

@@ -11,7 +11,8 @@ public:
     Gyro(const Gyro&) = delete;
     Gyro& operator=(const Gyro&) = delete;
     virtual ~Gyro() = default;
-    virtual TwinHalf advance(const core::ActuatorFrame& actuator) = 0;
+    // What happened in the next half; until the next call.
+    virtual const TwinHalf& advance(const core::ActuatorFrame& actuator) = 0;
 };
 
 }  // namespace zlg::twin

@@ -157,6 +157,7 @@ void Housing::begin_half(const core::ActuatorFrame& actuator) {
 void Housing::end_half(const core::ActuatorFrame& actuator, std::uint64_t counter, std::int32_t offset_ticks,
                        TwinHalf& half) {
     core::SensorFrame& sensor = half.sensor;
+    sensor.status = 0;
     sensor.sequence = static_cast<std::uint32_t>(index_);
     sensor.bias_sign = static_cast<std::int8_t>(bias_sign());
     sensor.timer_ticks = (index_ + 1) * half_ticks_ + static_cast<std::uint64_t>(std::int64_t{offset_ticks});

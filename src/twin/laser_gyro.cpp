@@ -70,15 +70,15 @@ LaserGyro::LaserGyro(const TwinConfig& config, Motion motion)
                    config.gyro.light_noise_lambda},
       light_stream_{config.seed, chance::Cause::light} {}
 
-TwinHalf LaserGyro::advance(const core::ActuatorFrame& actuator) {
+const TwinHalf& LaserGyro::advance(const core::ActuatorFrame& actuator) {
     const BiasHalf bias = enter(actuator);
-    TwinHalf half;
-    take_light(bias, half.sensor);
-    live_through_half(bias, half.truth);
-    see_fringe(half);
+    half_.truth = {};
+    take_light(bias, half_.sensor);
+    live_through_half(bias, half_.truth);
+    see_fringe(half_);
     offset_ticks_ = actuator.edge_offset_ticks;
-    housing_.end_half(actuator, beats_.latch(), offset_ticks_, half);
-    return half;
+    housing_.end_half(actuator, beats_.latch(), offset_ticks_, half_);
+    return half_;
 }
 
 // Warming scales the field: light and bias change together, the bias nearly in proportion.

@@ -25,7 +25,7 @@ public:
     // errors  std::runtime_error as averaged_laser and LaserTable.
     LaserGyro(const TwinConfig& config, Motion motion);
 
-    TwinHalf advance(const core::ActuatorFrame& actuator) override;
+    const TwinHalf& advance(const core::ActuatorFrame& actuator) override;
 
 private:
     static constexpr std::size_t n_edge_pieces = 4;  // of the half of a reversal that lies in one half-period
@@ -68,6 +68,7 @@ private:
     Noise light_stream_;
     std::int32_t offset_ticks_ = 0;  // of the reversal that began the half
     int followed_ = 0;               // helicity that the counter follows
+    TwinHalf half_{};
 };
 
 }  // namespace zlg::twin

@@ -100,6 +100,6 @@ Twin::~Twin() = default;
 Twin::Twin(Twin&&) noexcept = default;
 Twin& Twin::operator=(Twin&&) noexcept = default;
 
-TwinHalf Twin::advance(const core::ActuatorFrame& actuator) { return gyro_->advance(actuator); }
+const TwinHalf& Twin::advance(const core::ActuatorFrame& actuator) { return gyro_->advance(actuator); }
 
 }  // namespace zlg::twin

@@ -64,10 +64,14 @@ private:
         };
         const std::size_t last = length_lambda.size() - 1;
         std::array<double, 4> sum{};  // of ends, middles, ends, middles
-        std::size_t k = 0;
-        for (; k + 4 <= last; k += 4)
-            for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += sq(k + lane);
-        for (; k < last; ++k) sum[k % 2] += sq(k);
+        const double* x = length_lambda.data();
+        std::size_t left = last;
+        for (; left >= 4; left -= 4, x += 4) {
+            std::array<double, 4> from_centre;
+            for (std::size_t lane = 0; lane < 4; ++lane) from_centre[lane] = x[lane] - centre_lambda;
+            for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += from_centre[lane] * from_centre[lane];
+        }
+        for (std::size_t k = last - left; k < last; ++k) sum[k % 2] += sq(k);
         const double ends = 2.0 * (sum[0] + sum[2]) + (sq(last) - sq(0));
         return (ends + 4.0 * (sum[1] + sum[3])) / (3.0 * static_cast<double>(last));
     }

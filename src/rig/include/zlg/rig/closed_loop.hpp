@@ -37,22 +37,22 @@ public:
     [[nodiscard]] core::LightSamples light() const;
 
     // The sensor frame of the half before; and the control, where this program runs it.
-    [[nodiscard]] const core::SensorFrame& sensor() const { return sensor_; }
+    [[nodiscard]] const core::SensorFrame& sensor() const { return *sensor_; }
     [[nodiscard]] const core::GyroControlState& control() const { return control_state_; }
 
 private:
     ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion, Processor* processor);
 
-    void step_here(LoopHalf& out);
-    void step_outside(LoopHalf& out);
+    LoopHalf step_here();
+    LoopHalf step_outside();
 
     config::Config config_;  // for messages
     twin::Twin twin_;
     core::GyroControlConfig control_config_;
     core::GyroControlState control_state_;
     core::ActuatorFrame actuator_;
-    core::SensorFrame sensor_{};
-    std::optional<Replay> adviser_;  // compensation beside the control, for a schedule that asks for what is measured
+    const core::SensorFrame* sensor_;  // of the twin, which keeps its place
+    std::optional<Replay> adviser_;    // compensation beside the control, for a schedule that asks for what is measured
     Processor* processor_;
 };
 

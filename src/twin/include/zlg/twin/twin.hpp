@@ -32,8 +32,9 @@ public:
     // it to act on. Everything else, the truth included, stays on the grid of equal halves.
     // errors  std::invalid_argument for a frame that hardware could not obey; std::overflow_error where a half brings
     //         more fringes than 64 bits tell.
-    // cost    about 1 us with 16 light samples, of `laser` about 3 us; no allocation.
-    TwinHalf advance(const core::ActuatorFrame& actuator);
+    // return  until the next call.
+    // cost    about 0.3 us with 16 light samples, of `laser` about 2.7 us; no allocation.
+    const TwinHalf& advance(const core::ActuatorFrame& actuator);
 
 private:
     std::unique_ptr<Gyro> gyro_;
