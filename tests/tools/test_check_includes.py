@@ -11,7 +11,7 @@ GOOD = {
     "src/core/common/pair.hpp": "#pragma once\n",
     "src/core/include/zlg/core/gyro_compensation.hpp": "#include <zlg/core/compensation/gap_bridge.hpp>\n",
     "src/core/control/mode_switch.cpp": '#include <zlg/core/records.hpp>\n#include "common/pair.hpp"\n',
-    "src/twin/twin.cpp": "#include <zlg/core/records.hpp>\n#include <cmath>\n#include <boost/random.hpp>\n",
+    "src/twin/twin.cpp": "#include <zlg/core/records.hpp>\n#include <zlg/core/common/maths.hpp>\n#include <cmath>\n#include <boost/random.hpp>\n",
     "src/logs/raw_log.cpp": "#include <zlg/core/units.hpp>\n#include <fmt/format.h>\n",
     "src/config/schema.cpp": "#include <zlg/core/methods.hpp>\n",
     "src/rig/rig.cpp": "#include <zlg/twin/twin.hpp>\n#include <zlg/logs/raw_log.hpp>\n#include <zlg/config/config.hpp>\n",

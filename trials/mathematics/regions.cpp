@@ -48,8 +48,7 @@ double near_quarter(Bits& bits, int greatest) {
 Arguments power(double x, double exponent) { return {x, exponent / std::log2(x)}; }
 Arguments whole_power(double x, double exponent) { return {-x, std::rint(exponent / std::log2(x))}; }
 
-// Numbers whose distance from a multiple of pi/2 is among the least of all doubles, and their neighbours: Kahan's example,
-// and one of the moderate ones.
+// Two of the doubles that come closest to a multiple of pi/2 for their size, and their neighbours.
 double least_rest(Bits& bits) {
     constexpr double some[] = {6381956970095103.0 * 0x1p797, 5319372648326541.0 * 0x1p255};
     return signed_as(bits, beside(bits, some[bits() % 2u]));

@@ -19,7 +19,7 @@ double clamped(double x, double least, double greatest) noexcept {
 // Beyond the limits the result is an infinity or zero as well.
 double exp(double x) noexcept { return value_of(exp_parts(clamped(x, -760.0, 720.0), 0.0)); }
 
-// Halved, so that no power of two overflows before the result does. The lower part is up to a seventh of the upper one.
+// Halved, so that no power of two overflows before the result does. The lower part is up to a tenth of the upper one.
 Sum half_expm1(double x) noexcept {
     const ExpParts parts = exp_parts(x, 0.0);
     const double half_power = power_of_two(parts.exponent - 1u);

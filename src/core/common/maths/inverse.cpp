@@ -74,7 +74,7 @@ double atan2(double y, double x) noexcept {
     const double larger = is_limit ? 1.0 : given;
     const double smaller = is_limit ? (other == infinity ? 1.0 : 0.0) : other;
     const double scale = scale_of(larger);
-    const bool is_upper = smaller > larger * tan_of_pi_over_8;
+    const bool is_upper = smaller * scale > larger * scale * tan_of_pi_over_8;
     const Sum t = tangent(smaller * scale, larger * scale, is_upper);
     const bool is_left = __builtin_copysign(1.0, x) < 0.0;
     int n_quarters = is_upper ? 1 : 0;

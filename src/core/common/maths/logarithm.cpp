@@ -19,8 +19,9 @@ double special_log(double x) noexcept {
 
 double log(double x) noexcept {
     if (!(x > 0.0 && x < infinity)) return special_log(x);
-    if (x >= 0x1p-1022) return log_kernel(x);
-    const auto [high, low] = log_parts(x * 0x1p54);
+    const bool is_subnormal = x < 0x1p-1022;
+    const auto [high, low] = log_parts(is_subnormal ? x * 0x1p54 : x);
+    if (!is_subnormal) return high + low;
     const Sum sum = sum_of(high, -54.0 * ln2_high);
     return sum.high + (sum.low + (low - 54.0 * ln2_low));
 }
