@@ -72,7 +72,9 @@ def halves_by_hand(config, n_halves):
 
 def fingerprint_by_hand(config, angles):
     halves = chained(halves_by_hand(config, 2 * len(angles)))
-    rows = chained(bytes_of("row of the angle log", lambda name: getattr(angles, name)[k]) for k in range(len(angles)))
+    rows = chained(
+        bytes_of("row of the angle log", lambda name: k if name == "tick" else getattr(angles, name)[k])
+        for k in range(len(angles)))
     return f"{xxhash.xxh64_intdigest(halves.to_bytes(8, 'little') + rows.to_bytes(8, 'little')):016x}"
 
 

@@ -144,8 +144,8 @@ TEST(Fingerprint, every_bit_of_a_sensor_frame_changes_it) {
         changes.each_bit([k](Taken& t) -> float& { return t.sensor.light_a[k]; });
         changes.each_bit([k](Taken& t) -> float& { return t.sensor.light_b[k]; });
     }
-    for (const std::uint8_t n : {0, 1, 3, 64})
-        changes.other([](Taken& t) -> std::uint8_t& { return t.sensor.n_light; }, n);
+    for (const int n : {0, 1, 3, 64})
+        changes.other([](Taken& t) -> std::uint8_t& { return t.sensor.n_light; }, static_cast<std::uint8_t>(n));
     EXPECT_TRUE(changes.all_differ()) << changes.number() << " changes";
 }
 
@@ -156,8 +156,9 @@ TEST(Fingerprint, every_bit_of_an_actuator_frame_changes_it) {
     changes.each_bit([](Taken& t) -> std::int32_t& { return t.half.control.actuator.edge_offset_ticks; });
     for (std::size_t k = 0; k < 2; ++k)
         changes.each_bit([k](Taken& t) -> double& { return t.half.control.actuator.set_point_v[k]; });
-    for (const std::uint8_t n : {1, 3, 16})
-        changes.other([](Taken& t) -> std::uint8_t& { return t.half.control.actuator.n_set_points; }, n);
+    for (const int n : {1, 3, 16})
+        changes.other([](Taken& t) -> std::uint8_t& { return t.half.control.actuator.n_set_points; },
+                      static_cast<std::uint8_t>(n));
     EXPECT_TRUE(changes.all_differ()) << changes.number() << " changes";
 }
 
