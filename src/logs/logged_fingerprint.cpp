@@ -1,7 +1,5 @@
 #include "logged_fingerprint.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>

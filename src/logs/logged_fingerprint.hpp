@@ -1,6 +1,7 @@
 #pragma once
 // The fingerprint of a run in a log: room that is made before the rows and filled when all of them are there.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 

@@ -24,7 +24,9 @@ const std::string digits = "0123456789abcdef";
 const Settings settings{{"gyro.tick_s", "0.005"}, {"laboratory", "12"}};
 
 core::HalfRecord half_of(std::int64_t half) {
-    return {.half = half, .counts = half % 2 == 0 ? 150 : -150, .bias_sign = static_cast<std::int8_t>(half % 2 == 0 ? 1 : -1)};
+    return {.half = half,
+            .counts = half % 2 == 0 ? 150 : -150,
+            .bias_sign = static_cast<std::int8_t>(half % 2 == 0 ? 1 : -1)};
 }
 
 // A log of either kind, with room for a fingerprint.
@@ -98,7 +100,8 @@ TEST_P(LoggedFingerprint, changes_nothing_else_in_the_log) {
     EXPECT_EQ(RawReader{file("with")}.header().settings, RawReader{file("without")}.header().settings);
     EXPECT_EQ(RawReader{file("without")}.header().fingerprint, "");
     if (file("").ends_with("csv"))
-        EXPECT_EQ(test::content_of(file("with")), "# fingerprint = " + digits + "\n" + test::content_of(file("without")));
+        EXPECT_EQ(test::content_of(file("with")),
+                  "# fingerprint = " + digits + "\n" + test::content_of(file("without")));
 }
 
 TEST_P(LoggedFingerprint, that_was_not_set_is_none) {

@@ -26,7 +26,7 @@ void add_angle_settings(TableWriter& table, Settings settings);
 //
 // With `adds_tick` false, tick_s is only compared with /config.
 //
-// errors  FormatError: no TOML, a format_version that is neither 1 nor 2, an attribute that is no number or contradicts /config.
+// errors  FormatError: no TOML, a format_version but 1 and 2, an attribute that is no number or contradicts /config.
 [[nodiscard]] Settings read_settings(const Source& source, bool adds_tick = true);
 
 }  // namespace zlg::logs::hdf5
