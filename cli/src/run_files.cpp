@@ -64,12 +64,14 @@ void RunFiles::open_logs(const config::Config& config, bool force, KeptLogs kept
         if (!force && fs::exists(path(log)))
             throw logs::IoError{fmt::format("{} exists; use --force to overwrite", path(log))};
     if (kept == KeptLogs::all)
-        raw_.emplace(
-            path(raw_file), config::to_settings(config), force, raw_columns(config),
-            logs::RawWriterOptions{.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true});
+        raw_.emplace(path(raw_file), config::to_settings(config), force, raw_columns(config),
+                     logs::RawWriterOptions{.light_samples = light_samples,
+                                            .light_b = light_samples > 0,
+                                            .keep_part = true,
+                                            .has_fingerprint = true});
     if (kept != KeptLogs::none)
         angles_.emplace(path(angles_file), config.gyro.tick_s, rig::angle_settings(config), force,
-                        logs::AngleWriterOptions{.has_truth = true, .keep_part = true});
+                        logs::AngleWriterOptions{.has_truth = true, .keep_part = true, .has_fingerprint = true});
 }
 
 RunFiles::~RunFiles() {
@@ -87,8 +89,10 @@ void RunFiles::write_health(std::int64_t half, std::uint32_t bits) {
 }
 
 void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std::string& summary,
-                      const std::string& page) {
+                      const std::string& page, const std::string& fingerprint) {
     const logs::Together all_or_none;
+    if (raw_) raw_->set_fingerprint(fingerprint);
+    if (angles_) angles_->set_fingerprint(fingerprint);
     switches_->append(switch_csv(switches, true));
     summary_->append(summary);
     page_->append(page);

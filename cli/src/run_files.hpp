@@ -39,7 +39,9 @@ public:
     void write_health(std::int64_t half, std::uint32_t bits);
     [[nodiscard]] const std::string& folder() const { return folder_->path(); }
 
-    void finish(const std::vector<study::SwitchLine>& switches, const std::string& summary, const std::string& page);
+    // fingerprint  of the run, for the logs.
+    void finish(const std::vector<study::SwitchLine>& switches, const std::string& summary, const std::string& page,
+                const std::string& fingerprint);
 
     // Their names, for a reader.
     [[nodiscard]] std::string list() const;

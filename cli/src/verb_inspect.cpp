@@ -118,6 +118,11 @@ json fact(const config::Settings& settings, std::string_view name, double value)
     return nullptr;
 }
 
+// Of the run whose log it is; null where the log does not say it.
+json fingerprint_json(const std::string& fingerprint) {
+    return fingerprint.empty() ? json(nullptr) : json(fingerprint);
+}
+
 json raw_json(const InspectOptions& options, const logs::RawHeader& header, const LogSettings& log,
               const RawFindings& f) {
     const config::Gyro& gyro = log.config.gyro;
@@ -139,6 +144,7 @@ json raw_json(const InspectOptions& options, const logs::RawHeader& header, cons
             {"mode_changes", f.mode_changes},
             {"open_halves", f.open_halves},
             {"invalid_halves", f.invalid_halves},
+            {"fingerprint", fingerprint_json(header.fingerprint)},
             {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
@@ -149,12 +155,16 @@ struct AngleFindings {
     std::string damage;
 };
 
-json angle_json(const InspectOptions& options, const AngleFindings& f) {
+json angle_json(const InspectOptions& options, const logs::AngleHeader& header, const AngleFindings& f) {
     json flags = json::object();
     for (std::size_t bit = 0; bit < f.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = f.flagged[bit];
-    return {{"file", options.file},   {"kind", "angles"},
-            {"ticks", f.ticks},       {"duration_s", f.end_s},
-            {"flagged_ticks", flags}, {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
+    return {{"file", options.file},
+            {"kind", "angles"},
+            {"ticks", f.ticks},
+            {"duration_s", f.end_s},
+            {"flagged_ticks", flags},
+            {"fingerprint", fingerprint_json(header.fingerprint)},
+            {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
 AngleFindings read_angles(logs::AngleReader& reader, const std::string& path) {
@@ -256,7 +266,8 @@ json inspect_angles(const InspectOptions& options) {
             "--repair {}: is an angle log; allowed is a raw log. zlg convert copies the whole rows of an angle log",
             options.file)};
     logs::AngleReader reader{options.file};
-    return angle_json(options, read_angles(reader, options.file));
+    const AngleFindings found = read_angles(reader, options.file);
+    return angle_json(options, reader.header(), found);
 }
 
 json inspect_log(const InspectOptions& options) {

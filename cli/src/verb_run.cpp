@@ -97,8 +97,9 @@ json summary_json(const config::Config& config, const study::RunResult& result) 
 }
 
 std::string text(const study::Resolved& resolved, const study::RunResult& result, const RunFiles& files) {
-    return fmt::format("{}written to {}: {}\nopen {} in a browser\n", run_text(resolved.config, result),
-                       printable(files.folder()), files.list(), printable(files.page()));
+    return fmt::format("{}fingerprint of the run: {}\nwritten to {}: {}\nopen {} in a browser\n",
+                       run_text(resolved.config, result), result.fingerprint, printable(files.folder()), files.list(),
+                       printable(files.page()));
 }
 
 struct RunOptions : Options {
@@ -197,7 +198,7 @@ void run(const RunOptions& options) {
         for (const std::string& warning : std::span{result.warnings}.subspan(resolved.warnings.size()))
             complain("warning: " + warning);
         const std::string summary = pretty(summary_json(config, result));
-        files.finish(result.switches, summary, report::html(study::run_page(config, result)));
+        files.finish(result.switches, summary, report::html(study::run_page(config, result)), result.fingerprint);
         // The page to open is the last line, so what waits goes before.
         print_notes();
         print(options.json ? summary : text(resolved, result, files));

@@ -48,6 +48,7 @@ py::dict run(const config::Config& config, const std::vector<std::string>& warni
     py::dict d;
     d["tick_s"] = result.tick_s;
     d["ticks"] = result.ticks;
+    d["fingerprint"] = result.fingerprint;
     d["switches_failed"] = result.tally.failed;
     d["none_succeeded"] = result.tally.none_succeeded();
     d["warnings"] = result.warnings;

@@ -118,6 +118,8 @@ void bind_twin(py::module_& m) {
         .def_readonly("false_relock_arcsec", &twin::TwinTruth::false_relock_arcsec)
         .def_readonly("detuning_end_lambda", &twin::TwinTruth::detuning_end_lambda)
         .def_readonly("perimeter_v", &twin::TwinTruth::perimeter_v)
+        .def_readonly("rounding_arcsec", &twin::TwinTruth::rounding_arcsec)
+        .def_readonly("random_walk_arcsec", &twin::TwinTruth::random_walk_arcsec)
         .def_readonly("lit", &twin::TwinTruth::lit);
     py::class_<twin::Twin>(m, "Twin")
         .def(py::init(&twin_of), "config"_a, "motion"_a = py::none())

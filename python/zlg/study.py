@@ -72,6 +72,8 @@ class RunResult(Shown):
 
     tick_s: float
     ticks: int
+    #: 16 hexadecimal digits: runs with the same ones agree in every bit of what passed between gyro, processor and outside
+    fingerprint: str
     variants: list[Variant]
     #: as configured, with the magnetic drift estimated
     magnetic_estimate: Variant

@@ -6,6 +6,7 @@
 #include <zlg/logs/log_kind.hpp>
 
 #include "log_io.hpp"
+#include "logged_fingerprint.hpp"
 #include "settings_lines.hpp"
 
 namespace zlg::logs {
@@ -27,7 +28,8 @@ std::unique_ptr<LogSink<AngleTable>> create(const std::string& path, double tick
     if (!find_setting(settings, "tick_s") && !std::isnan(tick_s))
         settings.emplace_back("tick_s", fmt::format("{}", tick_s));
     if (format_of(path) == LogFormat::hdf5) return create_angle_hdf5(path, force, settings, options);
-    return create_csv<AngleTable>(path, force, settings, {}, options.keep_csv_part);
+    return create_csv<AngleTable>(path, force, settings, {},
+                                  {.keep_part = options.keep_csv_part, .has_fingerprint = options.has_fingerprint});
 }
 
 }  // namespace
@@ -53,6 +55,10 @@ void AngleWriter::write(const core::AngleRow& row, double truth_dtheta_arcsec) {
 
 void AngleWriter::write_timed(const TimedAngle& angle) { sink_->write(angle, {}); }
 void AngleWriter::flush() { sink_->flush(); }
+void AngleWriter::set_fingerprint(const std::string& fingerprint) {
+    require_fingerprint(fingerprint, part_path());
+    sink_->set_fingerprint(fingerprint);
+}
 void AngleWriter::close() { sink_->close(); }
 const std::string& AngleWriter::part_path() const { return sink_->part_path(); }
 

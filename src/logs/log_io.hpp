@@ -39,6 +39,8 @@ public:
     virtual ~LogSink() = default;
     virtual void write(const typename Table::Row& row, const core::LightSamples& light) = 0;
     virtual void flush() = 0;
+    // errors  FormatError: no room was asked for; IoError.
+    virtual void set_fingerprint(const std::string& fingerprint) = 0;
     virtual void close() = 0;
     [[nodiscard]] virtual const std::string& part_path() const = 0;
 };
@@ -48,10 +50,17 @@ template <class Table>
 [[nodiscard]] std::unique_ptr<LogSource<RawTable>> open_raw_hdf5(const std::string& path);
 [[nodiscard]] std::unique_ptr<LogSource<AngleTable>> open_angle_hdf5(const std::string& path);
 
-// A log of the given columns, with these settings above it; `keep_part` as in AngleWriterOptions.
+// As in AngleWriterOptions.
+struct CsvOptions {
+    bool keep_part = false;
+    bool has_fingerprint = false;
+};
+
+// A log of the given columns, with these settings above it.
 template <class Table>
 [[nodiscard]] std::unique_ptr<LogSink<Table>> create_csv(const std::string& path, bool force, const Settings& settings,
-                                                         const typename Table::Presence& columns, bool keep_part);
+                                                         const typename Table::Presence& columns,
+                                                         const CsvOptions& options);
 [[nodiscard]] std::unique_ptr<LogSink<RawTable>> create_raw_hdf5(const std::string& path, bool force,
                                                                  const Settings& settings, const RawColumns& columns,
                                                                  const RawWriterOptions& options);

@@ -9,6 +9,7 @@
 #include <zlg/logs/log_kind.hpp>
 
 #include "log_io.hpp"
+#include "logged_fingerprint.hpp"
 #include "raw_timer.hpp"
 
 namespace zlg::logs {
@@ -31,7 +32,7 @@ std::unique_ptr<LogSink<RawTable>> create(const std::string& path, const Setting
     }
     Settings lines = settings;
     if (columns.has_edge_offset) lines.emplace_back(timer_setting, fmt::format("{}", columns.timer_hz));
-    return create_csv<RawTable>(path, force, lines, columns, false);
+    return create_csv<RawTable>(path, force, lines, columns, {.has_fingerprint = options.has_fingerprint});
 }
 
 // Rows that are in memory, made of another program's file.
@@ -89,6 +90,10 @@ RawWriter::RawWriter(RawWriter&&) noexcept = default;
 
 void RawWriter::write(const core::HalfRecord& record, const core::LightSamples& light) { sink_->write(record, light); }
 void RawWriter::flush() { sink_->flush(); }
+void RawWriter::set_fingerprint(const std::string& fingerprint) {
+    require_fingerprint(fingerprint, part_path());
+    sink_->set_fingerprint(fingerprint);
+}
 void RawWriter::close() { sink_->close(); }
 const std::string& RawWriter::part_path() const { return sink_->part_path(); }
 

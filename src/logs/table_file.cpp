@@ -38,11 +38,7 @@ struct TableFile::State {
         while (!left.empty()) {
             const ssize_t n = ::write(file.fd(), left.data(), left.size());
             if (n < 0 && errno == EINTR) continue;
-            if (n < 0) {
-                const int error = errno;
-                give_up();
-                fail_io("write", file.part(), error);
-            }
+            if (n < 0) fail(errno);
             const std::size_t line_end = left.substr(0, static_cast<std::size_t>(n)).rfind('\n');
             if (line_end != std::string_view::npos) whole_bytes = written_bytes + line_end + 1;
             written_bytes += static_cast<std::size_t>(n);
@@ -50,6 +46,23 @@ struct TableFile::State {
         }
         buffer.clear();
         if (has_rows_to_keep()) file.keep_if_abandoned();
+    }
+
+    [[noreturn]] void fail(int error) {
+        give_up();
+        fail_io("write", file.part(), error);
+    }
+
+    // What is still in the buffer goes to its place in the file first.
+    void overwrite(std::size_t at, std::string_view text) {
+        flush();
+        while (!text.empty()) {
+            const ssize_t n = ::pwrite(file.fd(), text.data(), text.size(), static_cast<off_t>(at));
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) fail(errno);
+            at += static_cast<std::size_t>(n);
+            text.remove_prefix(static_cast<std::size_t>(n));
+        }
     }
 
     [[nodiscard]] bool has_rows_to_keep() const { return whole_bytes > keep_from; }
@@ -87,6 +100,11 @@ void TableFile::append(std::string_view text) {
     s.require_open("write");
     s.buffer += text;
     if (s.buffer.size() >= block_bytes) s.flush();
+}
+
+void TableFile::overwrite(std::size_t at, std::string_view text) {
+    state_->require_open("write");
+    state_->overwrite(at, text);
 }
 
 void TableFile::flush() {

@@ -154,6 +154,9 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
                   "its claimed and its true error."},
              .figures = {error_size_figure(result), switch_error_figure(result)}});
     page.sections.push_back(how_made("run", config));
+    page.sections.back().paragraphs.push_back(
+        fmt::format("Fingerprint of the run: {}. Made again by this version, on any machine, it has the same.",
+                    result.fingerprint));
     return page;
 }
 

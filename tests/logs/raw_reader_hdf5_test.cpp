@@ -261,8 +261,8 @@ TEST(RawReader, refuses_a_configuration_that_contradicts_or_is_none) {
         "the attribute tick_s is 0.01, but /config says 0.005");
     expect_contains(complaint([](Hdf5File& f) { f.text("/config", "a = 1\nb =\n"); }), "/config:2:");
     expect_contains(complaint([](Hdf5File& f) { f.column<int>("/config", {1}); }), "/config: allowed is one text");
-    expect_contains(complaint([](Hdf5File& f) { f.attribute("format_version", 2); }),
-                    "format_version is 2; allowed is 1");
+    expect_contains(complaint([](Hdf5File& f) { f.attribute("format_version", 3); }),
+                    "format_version is 3; allowed are 1 and 2");
     expect_contains(complaint([](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); }),
                     "the attribute tick_s is inf; allowed is a finite number");
     expect_contains(complaint([](Hdf5File& f) { f.text_attribute("tick_s", "0.005"); }),

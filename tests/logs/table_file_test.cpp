@@ -202,3 +202,17 @@ TEST(TableFile, flush_hands_over_what_was_buffered) {
     EXPECT_EQ(content_of(folder.file("a.csv")), "one\ntwo\n");
     EXPECT_THROW(file.flush(), IoError);
 }
+
+TEST(TableFile, bytes_can_be_put_over_those_before_and_the_rest_goes_on) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("a.csv");
+    TableFile file{path, false};
+    file.append("name = ....\n");
+    file.overwrite(7, "left");  // still in the buffer
+    file.append(std::string(3 << 20, 'x') + "\n");
+    file.overwrite(7, "riGh");  // long in the file
+    file.append("end\n");
+    file.close();
+    EXPECT_EQ(content_of(path), "name = riGh\n" + std::string(3 << 20, 'x') + "\nend\n");
+    EXPECT_THROW(file.overwrite(0, "n"), IoError);
+}

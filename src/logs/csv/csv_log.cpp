@@ -6,6 +6,7 @@
 
 #include "csv_reader.hpp"
 #include "log_io.hpp"
+#include "logged_fingerprint.hpp"
 #include "raw_timer.hpp"
 #include "settings_lines.hpp"
 
@@ -25,6 +26,7 @@ class CsvSource final : public LogSource<Table> {
 public:
     explicit CsvSource(const std::string& path) : csv_{path, known_columns<Table>} {
         this->header_.settings = csv_.settings();
+        this->header_.fingerprint = take_fingerprint(this->header_.settings);
         this->header_.warnings = csv_.warnings();
         complete_header(csv_, path, this->header_);
     }
@@ -53,15 +55,16 @@ template <class Table>
 class CsvSink final : public LogSink<Table> {
 public:
     CsvSink(const std::string& path, bool force, const Settings& settings, const typename Table::Presence& columns,
-            bool keep_part)
-        : file_{path, force}, columns_{columns} {
+            const CsvOptions& options)
+        : file_{path, force}, columns_{columns}, has_fingerprint_{options.has_fingerprint} {
+        if (has_fingerprint_) file_.append(fmt::format("{}{}\n", fingerprint_line, no_fingerprint));
         write_settings(file_, settings);
         std::string names;
         for_each_column<Table>([&](const auto& field, std::size_t) {
             if (field.is_in(columns)) names += fmt::format("{}{}", names.empty() ? "" : ",", field.name);
         });
         file_.append(names + "\n");
-        if (keep_part) file_.keep_what_follows();
+        if (options.keep_part) file_.keep_what_follows();
     }
 
     void write(const typename Table::Row& row, const core::LightSamples&) override {
@@ -77,12 +80,17 @@ public:
     }
 
     void flush() override { file_.flush(); }
+    void set_fingerprint(const std::string& fingerprint) override {
+        if (!has_fingerprint_) refuse_fingerprint(part_path());
+        file_.overwrite(fingerprint_line.size(), fingerprint);
+    }
     void close() override { file_.close(); }
     [[nodiscard]] const std::string& part_path() const override { return file_.part_path(); }
 
 private:
     TableFile file_;
     typename Table::Presence columns_;
+    bool has_fingerprint_;
 };
 
 }  // namespace
@@ -96,12 +104,12 @@ template std::unique_ptr<LogSource<AngleTable>> open_csv(const std::string&);
 
 template <class Table>
 std::unique_ptr<LogSink<Table>> create_csv(const std::string& path, bool force, const Settings& settings,
-                                           const typename Table::Presence& columns, bool keep_part) {
-    return std::make_unique<CsvSink<Table>>(path, force, settings, columns, keep_part);
+                                           const typename Table::Presence& columns, const CsvOptions& options) {
+    return std::make_unique<CsvSink<Table>>(path, force, settings, columns, options);
 }
 template std::unique_ptr<LogSink<RawTable>> create_csv<RawTable>(const std::string&, bool, const Settings&,
-                                                                 const RawColumns&, bool);
+                                                                 const RawColumns&, const CsvOptions&);
 template std::unique_ptr<LogSink<AngleTable>> create_csv<AngleTable>(const std::string&, bool, const Settings&,
-                                                                     const AngleTable::Presence&, bool);
+                                                                     const AngleTable::Presence&, const CsvOptions&);
 
 }  // namespace zlg::logs

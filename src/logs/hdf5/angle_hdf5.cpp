@@ -20,7 +20,7 @@ constexpr const char* truth_path = "/truth/dtheta_arcsec";
 class AngleHdf5Sink final : public hdf5::TableSink<AngleTable> {
 public:
     AngleHdf5Sink(const std::string& path, bool force, const Settings& settings, const AngleWriterOptions& options)
-        : TableSink{path, force, options.keep_part, {}} {
+        : TableSink{path, force, options, {}} {
         hdf5::add_angle_settings(table_, settings);
         add_columns();
         if (options.has_truth) {

@@ -25,8 +25,9 @@ const std::string* find_in_any_section(const Settings& settings, const std::stri
 
 void check_version(const Source& source) {
     const auto version = source.real_attribute("format_version");
-    if (!version || *version == static_cast<double>(format_version)) return;
-    throw FormatError(fmt::format("{}: format_version is {}; allowed is {}", source.path(), *version, format_version));
+    if (!version || *version == 1.0 || *version == static_cast<double>(format_version)) return;
+    throw FormatError(
+        fmt::format("{}: format_version is {}; allowed are 1 and {}", source.path(), *version, format_version));
 }
 
 void merge_root(const Source& source, const char* name, bool adds, Settings& settings) {

@@ -8,7 +8,8 @@
 
 namespace zlg::logs::hdf5 {
 
-inline constexpr std::int64_t format_version = 1;
+// From 2 on a seed in /config names the same run on every machine; the layout is that of 1.
+inline constexpr std::int64_t format_version = 2;
 
 // Writes /config and format_version, and of the settings tick_s and scale_arcsec, with or without `gyro.`, the attributes
 // of that name.
@@ -25,7 +26,7 @@ void add_angle_settings(TableWriter& table, Settings settings);
 //
 // With `adds_tick` false, tick_s is only compared with /config.
 //
-// errors  FormatError: no TOML, another format_version, an attribute that is no number or contradicts /config.
+// errors  FormatError: no TOML, a format_version but 1 and 2, an attribute that is no number or contradicts /config.
 [[nodiscard]] Settings read_settings(const Source& source, bool adds_tick = true);
 
 }  // namespace zlg::logs::hdf5

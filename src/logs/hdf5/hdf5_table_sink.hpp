@@ -5,6 +5,7 @@
 
 #include "hdf5_table_writer.hpp"
 #include "log_io.hpp"
+#include "logged_fingerprint.hpp"
 
 namespace zlg::logs::hdf5 {
 
@@ -14,10 +15,18 @@ using Buffer = T*;
 template <class Table>
 class TableSink : public LogSink<Table> {
 public:
-    TableSink(const std::string& path, bool force, bool keep_part, const typename Table::Presence& columns)
-        : table_{path, force, keep_part}, columns_{columns} {}
+    // options  RawWriterOptions or AngleWriterOptions.
+    template <class Options>
+    TableSink(const std::string& path, bool force, const Options& options, const typename Table::Presence& columns)
+        : table_{path, force, options.keep_part}, columns_{columns}, has_fingerprint_{options.has_fingerprint} {
+        if (has_fingerprint_) table_.add_text(fingerprint_path, std::string(fingerprint_digits, '\0'));
+    }
 
     void flush() override { table_.flush(); }
+    void set_fingerprint(const std::string& fingerprint) override {
+        if (!has_fingerprint_) refuse_fingerprint(part_path());
+        table_.overwrite_text(fingerprint_path, fingerprint);
+    }
     void close() override { table_.close(); }
     [[nodiscard]] const std::string& part_path() const override { return table_.part_path(); }
 
@@ -47,6 +56,7 @@ protected:
 
 private:
     typename Table::Presence columns_;
+    bool has_fingerprint_;
     PartsOf<Table, Buffer> buffers_{};
 };
 

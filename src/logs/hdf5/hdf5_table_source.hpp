@@ -6,6 +6,7 @@
 
 #include "hdf5_table_reader.hpp"
 #include "log_io.hpp"
+#include "logged_fingerprint.hpp"
 
 namespace zlg::logs::hdf5 {
 
@@ -33,7 +34,7 @@ public:
 
     bool refresh() override {
         const bool grown = table_.refresh();
-        this->header_.complete = table_.is_complete();
+        note_completeness();
         return grown;
     }
 
@@ -48,7 +49,7 @@ protected:
     void measure() {
         table_.measure();
         this->header_.warnings = table_.warnings();
-        this->header_.complete = table_.is_complete();
+        note_completeness();
     }
 
     // Reads and checks the other columns of a block.
@@ -60,6 +61,15 @@ protected:
     TableReader table_;
 
 private:
+    // A fingerprint that stands already in a log without its last rows is not theirs.
+    void note_completeness() {
+        this->header_.complete = table_.is_complete();
+        if (!this->header_.complete) return;
+        this->header_.fingerprint = table_.source().text(fingerprint_path).value_or("");
+        if (!this->header_.fingerprint.empty())
+            require_fingerprint(this->header_.fingerprint, table_.source().path() + ", " + fingerprint_path);
+    }
+
     void take_columns(Block& block) {
         n_handed_out_ = 0;
         for_each_column<Table>(

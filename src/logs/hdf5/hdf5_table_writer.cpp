@@ -120,6 +120,17 @@ void TableWriter::add_text(const std::string& path, const std::string& text) {
     }
 }
 
+// Space for the text was allotted when it was added: nothing that describes the file changes, as SWMR demands.
+void TableWriter::overwrite_text(const std::string& path, const std::string& text) {
+    require_open();
+    const Handle type = text_type(text.size());
+    const Handle set{H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), &H5Dclose};
+    if (!set.is_open() || H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0) {
+        fail("write");
+    }
+    check_storage();
+}
+
 void TableWriter::set_text(const std::string& object, const char* name, const std::string& text) {
     const Handle type = text_type(H5T_VARIABLE);
     const Handle attribute{H5Acreate_by_name(file_.get(), object.c_str(), name, type.get(), scalar().get(), H5P_DEFAULT,

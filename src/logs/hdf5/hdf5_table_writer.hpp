@@ -53,6 +53,10 @@ public:
     }
 
     void add_text(const std::string& path, const std::string& text);
+
+    // Another text of the same length in the place of one that was added, at any time until `close`. errors  IoError.
+    void overwrite_text(const std::string& path, const std::string& text);
+
     void set_text(const std::string& object, const char* name, const std::string& text);
     // An attribute of the root.
     void set_real(const char* name, double value) { set_number(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value); }

@@ -28,8 +28,7 @@ class RawHdf5Sink final : public hdf5::TableSink<RawTable> {
 public:
     RawHdf5Sink(const std::string& path, bool force, const Settings& settings, const RawColumns& columns,
                 const RawWriterOptions& options)
-        : TableSink{path, force, options.keep_part, columns},
-          light_samples_{static_cast<std::size_t>(options.light_samples)} {
+        : TableSink{path, force, options, columns}, light_samples_{static_cast<std::size_t>(options.light_samples)} {
         hdf5::add_settings(table_, settings);
         if (columns.has_edge_offset) table_.set_real(timer_setting, columns.timer_hz);
         add_columns();

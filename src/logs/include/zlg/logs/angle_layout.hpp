@@ -19,6 +19,7 @@ struct AngleHeader {
     std::vector<std::string> warnings;  // unknown columns that are ignored, one line each
     bool has_truth = false;             // /truth/dtheta_arcsec
     bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
+    std::string fingerprint;            // of the whole run, 16 hexadecimal digits; empty: not said, or not complete
 };
 
 // A row and the time at which its tick ends.
@@ -32,7 +33,8 @@ struct AngleWriterOptions {
     bool has_truth = false;  // HDF5: the column /truth/dtheta_arcsec; a CSV log has none
     // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
     bool keep_part = false;
-    bool keep_csv_part = false;  // the same of CSV, for what cannot be had again
+    bool keep_csv_part = false;    // the same of CSV, for what cannot be had again
+    bool has_fingerprint = false;  // room for one, which `set_fingerprint` fills
 };
 
 // A member of the row of a tick, from a TimedAngle.

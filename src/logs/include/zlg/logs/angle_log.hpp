@@ -63,6 +63,12 @@ public:
 
     // Makes all rows so far visible to readers of PATH.part. errors  IoError.
     void flush();
+
+    // The fingerprint of the run whose rows these are, before `close`; without it the log says none.
+    //
+    // errors  FormatError: not 16 hexadecimal digits, or no room was asked for; IoError.
+    void set_fingerprint(const std::string& fingerprint);
+
     void close();
 
     [[nodiscard]] const std::string& part_path() const;

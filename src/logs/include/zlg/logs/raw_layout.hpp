@@ -43,6 +43,7 @@ struct RawHeader : RawColumns {
     int light_samples = 0;              // N of /raw/light; 0: there is none
     bool has_light_b = false;           // /raw/light_b beside it
     bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
+    std::string fingerprint;            // of the whole run, 16 hexadecimal digits; empty: not said, or not complete
 };
 
 struct RawWriterOptions {
@@ -50,6 +51,7 @@ struct RawWriterOptions {
     bool light_b = false;   // of beam B too
     // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
     bool keep_part = false;
+    bool has_fingerprint = false;  // room for one, which `set_fingerprint` fills
 };
 
 // All columns of a raw log but the light, in the order of a CSV log.

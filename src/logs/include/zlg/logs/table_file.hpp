@@ -1,6 +1,7 @@
 #pragma once
 // A text file that appears under its name whole or not at all.
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ public:
 
     // errors  IoError: the disk is full, or any other failure to write.
     void append(std::string_view text);
+
+    // Puts `text` over as many bytes that were appended before, from the byte `at` of the file. errors  IoError.
+    void overwrite(std::size_t at, std::string_view text);
 
     // Hands what was buffered to the file. errors  IoError.
     void flush();

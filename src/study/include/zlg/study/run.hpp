@@ -29,7 +29,7 @@ struct HealthTime {
 struct RunResult {
     double tick_s = 0.0;
     std::int64_t ticks = 0;
-    std::string fingerprint;  // rig::Fingerprint of the gyro that switches and of the rows of `configured`
+    std::string fingerprint;              // rig::Fingerprint of the gyro that switches and of the rows of `configured`
     std::vector<VariantResult> variants;  // one_mode first, configured last
     // As configured, with compensation.magnetic = "estimate". Beside the list, whose names and order are those of old files.
     VariantResult magnetic_estimate;
