@@ -3,24 +3,17 @@
 #include <cmath>
 #include <numbers>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/address.hpp>
 
 namespace zlg::paper {
-namespace {
-
-// The twin draws from generators of the same kind, whose seeds go through a scrambler: with this number the phases have a
-// stream of their own.
-constexpr std::uint64_t phase_stream = 0x7068617365736565u;
-
-}  // namespace
-
 RandomPhaseMotion::RandomPhaseMotion(const SubstitutionExperiment& e, const SwitchGrid& grid)
     : grid_{grid},
       amplitude_arcsec_s_{e.amplitude_arcsec_s > 0.0 ? e.amplitude_arcsec_s : e.slow_rate_arcsec_s},
       frequency_hz_{e.amplitude_arcsec_s > 0.0 ? e.frequency_hz : 0.0} {
-    numeric::Draw draw{e.seed ^ phase_stream};
     for (int k = 0; k < grid.switches + 2; ++k) {
-        const double u = draw.uniform();
+        const chance::Address of_switch{
+            .seed = e.seed, .cause = chance::Cause::phase_at_switch, .half = static_cast<std::uint64_t>(k)};
+        const double u = uniform(of_switch, 0);
         const double phase = 2.0 * std::numbers::pi * u;
         about_gap_.push_back(frequency_hz_ > 0.0 ? Quadratures{std::sin(phase), std::cos(phase)}
                                                  : Quadratures{2.0 * u - 1.0, 0.0});

@@ -20,8 +20,8 @@ const std::vector<double>& constant_ratios() {
 
 SyntheticGyro::SyntheticGyro(const GyroLaw& law, const MotionLaw& motion, std::uint64_t seed)
     : law_{law},
-      motion_{motion, 0.5 * law.tick_s, 2 * seed},
-      draw_{2 * seed + 1},
+      motion_{motion, 0.5 * law.tick_s, {seed, chance::Cause::synthetic_motion}},
+      draw_{seed, chance::Cause::synthetic_gyro},
       decay_{relock_decay(law.loop, law.light_samples)},
       first_sign_{static_cast<std::int8_t>(draw_.sign())},
       since_closing_{static_cast<std::int64_t>(decay_.size())},

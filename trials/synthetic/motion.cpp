@@ -50,8 +50,8 @@ double band_covariance(const Band& band, double half_s, double lag_s) {
 
 }  // namespace
 
-SyntheticMotion::SyntheticMotion(const MotionLaw& law, double half_s, std::uint64_t seed)
-    : draw_{seed}, half_s_{half_s}, constant_arcsec_{0.0}, shocks_{law.shocks} {
+SyntheticMotion::SyntheticMotion(const MotionLaw& law, double half_s, const chance::Draw& draw)
+    : draw_{draw}, half_s_{half_s}, constant_arcsec_{0.0}, shocks_{law.shocks} {
     const double spread = law.rate_spread_arcsec_s * (2.0 * draw_.uniform() - 1.0);
     constant_arcsec_ = (law.rate_arcsec_s + spread) * half_s;
     for (const Tone& tone : law.tones) add_tone(tone.frequency_hz, tone.amplitude_arcsec_s, 2.0 * pi * draw_.uniform());

@@ -56,4 +56,13 @@ private:
     std::array<double, 32> normals_{};  // those from the latest multiple of so many on, as soon as one is taken
 };
 
+// The draws of one trial, each for a thing that has a name: one more changes no other.
+struct Draws {
+    std::uint64_t seed = 0;
+    Cause cause{};
+    std::uint64_t trial = 0;  // below 2^48
+
+    [[nodiscard]] Draw of(std::string_view thing) const noexcept { return {seed, cause, trial, thing_of(thing)}; }
+};
+
 }  // namespace zlg::chance
