@@ -35,7 +35,7 @@ struct Presumed {
 };
 
 Presumed presumed_at(const MagneticDriftConfig& c, double age_s) noexcept {
-    const double warmed = 1.0 - exponential(-age_s / c.thermal_time.value());
+    const double warmed = 1.0 - maths::exp(-age_s / c.thermal_time.value());
     const double sigma = c.presumed_sigma_arcsec_s, warming = c.warming_sigma_arcsec_s * warmed;
     return {.drift_arcsec_s = c.presumed_arcsec_s + c.warming_arcsec_s * warmed,
             .variance = sigma * sigma + warming * warming + wander_variance(age_s, c.thermal_time.value())};

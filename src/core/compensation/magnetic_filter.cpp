@@ -104,7 +104,7 @@ void predict(MagneticFilterState& s, std::int8_t mode, double time_s, double the
     // F: v decays as exp(-t/tau); its integral over the time goes into Om, the integral of that into M. Short times by
     // series.
     const double elapsed_ratio = time_s / thermal_time_s;
-    const double remaining = exponential(-elapsed_ratio);
+    const double remaining = maths::exp(-elapsed_ratio);
     const bool brief = elapsed_ratio < 1e-3;
     const double integral_s =
         brief ? time_s * (1.0 - elapsed_ratio * (0.5 - elapsed_ratio / 6.0)) : thermal_time_s * (1.0 - remaining);

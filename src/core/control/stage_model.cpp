@@ -31,7 +31,7 @@ Piece followed(const StageModel& m, double v, double command_v) noexcept {
     const double slewed_vs = 0.5 * (v + corner_at_v) * slewing_s;
     if (!(needed_s < m.piece_s)) return {corner_at_v, slewed_vs};
     const double rest_s = m.piece_s - slewing_s;
-    const double gone_v = (command_v - corner_at_v) * (1.0 - exponential(-rest_s / m.rc_s));
+    const double gone_v = (command_v - corner_at_v) * (1.0 - maths::exp(-rest_s / m.rc_s));
     return {corner_at_v + gone_v, slewed_vs + command_v * rest_s - m.rc_s * gone_v};
 }
 
@@ -52,7 +52,7 @@ Piece slewed(const StageModel& m, double v, double target_v) noexcept {
 }  // namespace
 
 StageModel stage_model(double rc_s, double slew_v_s, double piece_s) noexcept {
-    return {.rc_s = rc_s, .slew_v_s = slew_v_s, .piece_s = piece_s, .decay = exponential(-piece_s / rc_s)};
+    return {.rc_s = rc_s, .slew_v_s = slew_v_s, .piece_s = piece_s, .decay = maths::exp(-piece_s / rc_s)};
 }
 
 StageMove move_towards(const StageModel& stage, const PiezoRange& range, double from_v, double target_v,

@@ -107,7 +107,7 @@ std::int64_t balanced_interval(const SwitchScheduleConfig& c, const SwitchAdvice
         is_positive(advice.magnetic_arcsec_s) ? advice.magnetic_arcsec_s : c.presumed.magnetic_arcsec_s;
     const double time_s = static_cast<double>(tick > 1 ? tick : 1) * c.tick_s;
     const double ratio = error / drift;
-    const double ticks = exponential(natural_log(6.0 * ratio * ratio * time_s) / 3.0) / c.tick_s;
+    const double ticks = maths::exp(maths::log(6.0 * ratio * ratio * time_s) / 3.0) / c.tick_s;
     if (!(ticks > static_cast<double>(c.min_ticks))) return c.min_ticks;
     return ticks < static_cast<double>(c.max_ticks) ? static_cast<std::int64_t>(ticks) : c.max_ticks;
 }

@@ -81,7 +81,7 @@ double coarse(const GapMixture& m, double weight) noexcept {
 
 void rescale(double log_unit, GapMixture& m) noexcept {
     MixtureSums& s = m.sums;
-    const double keep = exponential(s.log_unit - log_unit);
+    const double keep = maths::exp(s.log_unit - log_unit);
     s.log_unit = log_unit;
     s.weight *= keep;
     s.off *= keep;
@@ -121,7 +121,7 @@ struct ShapeSums {
 
 // All sizes of one shape.
 void add_sizes(const Shape& shape, GapMixture& m, ShapeSums& sums) noexcept {
-    const double prior = natural_log(prior_of_each(m));
+    const double prior = maths::log(prior_of_each(m));
     Bidiagonal b;
     MixtureColumn y{};
     double s2 = shape.least * m.smallest;
@@ -130,14 +130,14 @@ void add_sizes(const Shape& shape, GapMixture& m, ShapeSums& sums) noexcept {
         const double log_weight = prior + 0.5 * (model.log_evidence - m.nothing.log_evidence);
         if (!is_finite(log_weight)) continue;
         if (log_weight > m.sums.log_unit + most_log_weight) {
-            const double keep = exponential(m.sums.log_unit - log_weight);
+            const double keep = maths::exp(m.sums.log_unit - log_weight);
             rescale(log_weight, m);
             sums.weight *= keep;
             sums.rate *= keep;
             scale(keep, sums.dual);
             scale(keep, sums.by_size);
         }
-        const double weight = exponential(log_weight - m.sums.log_unit);
+        const double weight = maths::exp(log_weight - m.sums.log_unit);
         add(model, weight, m);
         sums.weight += weight;
         sums.rate += weight * model.rate;
@@ -220,7 +220,7 @@ void turn_round(const MotionCovariance& covariance, GapMixture& m) noexcept {
 void conclude(const MotionCovariance& covariance, GapMixture& m) noexcept {
     const MixturePoints& p = m.points;
     const auto n = static_cast<unsigned>(p.n);
-    const double of_nothing = exponential(-m.sums.log_unit);
+    const double of_nothing = maths::exp(-m.sums.log_unit);
     const double per_weight = 1.0 / (of_nothing + m.sums.weight);
     MixtureEstimate& e = m.estimate;
     e.nothing = of_nothing * per_weight;

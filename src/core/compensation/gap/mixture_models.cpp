@@ -44,7 +44,7 @@ void add(double h, double z, double g, double weight, MixtureProducts& p) noexce
 MixtureModel model_of(const MixtureProducts& p, double determinant, double variance, int n_gap) noexcept {
     const double rate = p.hz / p.hh;
     const double gain = n_gap - p.hg;
-    return {.log_evidence = -(p.zz - p.hz * rate) - natural_log(determinant * p.hh),
+    return {.log_evidence = -(p.zz - p.hz * rate) - maths::log(determinant * p.hh),
             .rate = rate,
             .value = p.gz + rate * gain,
             .variance = variance - p.gg + gain * gain / p.hh};

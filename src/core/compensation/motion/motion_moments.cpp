@@ -121,7 +121,7 @@ void fold(const MotionMomentsConfig& config, MotionMomentsState& state) noexcept
     MotionBlock& block = state.block;
     std::array<double, 2> keep{};
     const bool anew = begins_anew(state);
-    for (unsigned m = 0; m < keep.size() && !anew; ++m) keep[m] = exponential(-block.n_windows / memory_windows[m]);
+    for (unsigned m = 0; m < keep.size() && !anew; ++m) keep[m] = maths::exp(-block.n_windows / memory_windows[m]);
     for (int r = 0; r < window_of(config); ++r) {
         if (r >= stride) unfold(config, state.recent, block, r);
         add_row(window_of(config), r, block.row[static_cast<unsigned>(r % stride)], keep, state);

@@ -32,7 +32,7 @@ double at_steady_rate(double rotation_counts) noexcept {
 
 // The coherence exp(-2 pi^2 s^2) of (2).
 double coherence_of(double variance) noexcept {
-    return variance < max_scatter_counts2 ? exponential(-two_pi_squared * variance) : 0.0;
+    return variance < max_scatter_counts2 ? maths::exp(-two_pi_squared * variance) : 0.0;
 }
 
 // Learnt mean square of the angle of the first n = 0, 1.. ticks of a window about n times the level: sums over the

@@ -75,7 +75,7 @@ FalseAngle by_detuning(const CompensationConstants& g, const RelockTick& t) noex
     if (!(rho > 0.0 && rho < 1.0 && first < max_detuning_lambda && first > -max_detuning_lambda)) return {};
     const double quarter_chi_f0 = 0.25 * g.chi * bias_at_hz(g, t.temperature_c);
     const double sum = first + second;
-    const double log_rho = natural_log(rho);
+    const double log_rho = maths::log(rho);
     const double centre = 4.0 * g.centre.value();
     const double by_first = seen.first.slope * (sum * (2.0 * log_rho - sum / first) + centre);
     const double by_second = seen.second.slope * (sum * (2.0 * log_rho + sum / second) - centre);
@@ -108,7 +108,7 @@ struct Decay {
 Decay decay(double deficit, double first_deficit, double i) noexcept {
     const double ratio = deficit / first_deficit;
     if (!(ratio > 0.0 && ratio < 1.0)) return {};
-    return {true, exponential(natural_log(ratio) / (2.0 * (i - 1.0)))};
+    return {true, maths::exp(maths::log(ratio) / (2.0 * (i - 1.0)))};
 }
 
 // Tick i >= 2 from its own deficit and that of tick 1.

@@ -99,8 +99,8 @@ void scale(RelockMixture& m, double factor) noexcept {
 // Weight of this onset relative to the best one so far. A better one becomes the best, and the sums are scaled to it.
 double weigh(RelockMixture& m, double log_likelihood, double prior) noexcept {
     const bool is_first = !(m.weight > 0.0);
-    if (!is_first && log_likelihood <= m.log_best) return prior * exponential(log_likelihood - m.log_best);
-    if (!is_first) scale(m, exponential(m.log_best - log_likelihood));
+    if (!is_first && log_likelihood <= m.log_best) return prior * maths::exp(log_likelihood - m.log_best);
+    if (!is_first) scale(m, maths::exp(m.log_best - log_likelihood));
     m.log_best = log_likelihood;
     return prior;
 }

@@ -8,12 +8,9 @@
 #include <bit>
 #include <cstdint>
 
-namespace zlg::core::maths {
+#include <zlg/core/common/maths.hpp>
 
-struct SinCos {
-    double sin = 0.0;
-    double cos = 1.0;
-};
+namespace zlg::core::maths {
 
 // A number as the unevaluated sum of two doubles, the second below a unit in the last place of the first or so.
 struct Sum {
@@ -72,7 +69,7 @@ struct Scaled {
     return {high, low - (half_square - (of_s + k * ln2_low))};
 }
 
-// Natural logarithm of a normal positive x. accuracy 0.6 units in the last place
+// Natural logarithm of a normal positive x. accuracy 0.9 units in the last place
 [[nodiscard]] inline double log_kernel(double x) noexcept {
     const auto [high, low] = log_parts(x);
     return high + low;
@@ -104,18 +101,22 @@ struct Scaled {
             .cos = std::bit_cast<double>(cos ^ exchanged ^ (((quadrant + 1u) & 2u) << 62))};
 }
 
-// Sine and cosine of t turns, |t| <= 2^48. accuracy 0.9 units in the last place for |t| >= 2^-900; a zero of either
-// sign where the sine or cosine is zero
-//
-// The quarter turns are taken off exactly. The rest times 2 pi is a sum of two doubles: heads multiply exactly.
-[[nodiscard]] inline SinCos sincos_turns_kernel(double t) noexcept {
+// 2 pi (head + tail) radians as a sum: head, of 26 bits, multiplies exactly.
+[[nodiscard]] inline Sum radians_of(double head, double tail) noexcept {
     constexpr double two_pi = 0x1.921fb54442d18p+2;
     constexpr double two_pi_high = 0x1.921fb5p+2;  // 26 bits
     constexpr double two_pi_low = 0x1.110b4611a6263p-24;
+    return sum_of(head * two_pi_high, head * two_pi_low + tail * two_pi);
+}
+
+// Sine and cosine of t turns, |t| <= 2^48. accuracy 0.9 units in the last place for |t| >= 2^-900; a zero has either sign
+//
+// The quarter turns are taken off exactly.
+[[nodiscard]] inline SinCos sincos_turns_kernel(double t) noexcept {
     const double shifted = 4.0 * t + to_whole;
     const double r = t - 0.25 * (shifted - to_whole);
     const double head = head_of(r);
-    const auto [angle, rest] = sum_of(head * two_pi_high, head * two_pi_low + (r - head) * two_pi);
+    const auto [angle, rest] = radians_of(head, r - head);
     return in_quadrant(sincos_near_zero(angle, rest), std::bit_cast<std::uint64_t>(shifted));
 }
 

@@ -1,0 +1,87 @@
+#include <zlg/core/common/maths_kernels.hpp>
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <zlg/core/common/maths.hpp>
+
+#include "compensation/compensation_support.hpp"
+
+namespace {
+
+using namespace zlg::core::maths;
+using namespace compensation_test;
+
+constexpr int n_random = 100'000;
+
+double any_normal(Random& random) { return std::ldexp(random.uniform(1.0, 2.0), random.index(-1022, 1023)); }
+
+TEST(MathsKernels, LogIsThePublicOneOnNormals) {
+    Random random{1};
+    for (int k = 0; k < n_random; ++k) {
+        const double x = any_normal(random);
+        EXPECT_EQ(log_kernel(x), zlg::core::maths::log(x)) << x;
+    }
+}
+
+TEST(MathsKernels, SincosOfTurnsIsThePublicOneWithinItsRange) {
+    Random random{2};
+    for (int k = 0; k < n_random; ++k) {
+        const double t = std::ldexp(random.uniform(-1.0, 1.0), random.index(-300, 48));
+        const auto [sin, cos] = sincos_turns_kernel(t);
+        EXPECT_EQ(sin, sin_turns(t)) << t;
+        EXPECT_EQ(cos, cos_turns(t)) << t;
+    }
+}
+
+TEST(MathsKernels, ASumIsExact) {
+    Random random{3};
+    for (int k = 0; k < n_random; ++k) {
+        const double a = random.uniform(-1.0, 1.0);
+        const double b = a * std::ldexp(random.uniform(-1.0, 1.0), -random.index(0, 59));
+        const auto [high, low] = sum_of(a, b);
+        EXPECT_TRUE(Quad{high} + Quad{low} == Quad{a} + Quad{b}) << a << " + " << b;
+        EXPECT_EQ(high, a + b);
+    }
+}
+
+TEST(MathsKernels, AHeadHas26BitsAndIsTruncated) {
+    Random random{4};
+    for (int k = 0; k < n_random; ++k) {
+        const double x = any_normal(random);
+        const double head = head_of(x);
+        int exponent = 0;
+        const double scaled_head = std::ldexp(std::frexp(head, &exponent), 26);
+        EXPECT_EQ(scaled_head, std::floor(scaled_head)) << x;
+        EXPECT_TRUE(head <= x && x - head < x * 0x1p-25) << x;
+    }
+}
+
+TEST(MathsKernels, MantissaAndExponentMakeTheNumber) {
+    Random random{5};
+    for (int k = 0; k < n_random; ++k) {
+        const double x = any_normal(random);
+        const auto [exponent, mantissa] = scaled(x);
+        EXPECT_EQ(std::ldexp(mantissa, static_cast<int>(exponent)), x);
+        EXPECT_TRUE(mantissa >= std::sqrt(0.5) && mantissa < std::sqrt(2.0)) << x;
+    }
+}
+
+TEST(MathsKernels, QuadrantsTurnByRightAngles) {
+    const SinCos some{.sin = 0.25, .cos = 0.75};
+    const auto expect = [&](std::uint64_t quadrant, double sin, double cos) {
+        const SinCos turned = in_quadrant(some, quadrant);
+        EXPECT_EQ(turned.sin, sin) << quadrant;
+        EXPECT_EQ(turned.cos, cos) << quadrant;
+    };
+    expect(0, 0.25, 0.75);
+    expect(1, 0.75, -0.25);
+    expect(2, -0.25, -0.75);
+    expect(3, -0.75, 0.25);
+    expect(std::uint64_t{0} - 1, -0.75, 0.25);
+}
+
+}  // namespace
