@@ -6,7 +6,7 @@
 namespace zlg::chance {
 
 double Draw::within_log(double least, double most) noexcept {
-    return least * core::exponential(core::natural_log(most / least) * uniform());
+    return least * core::maths::exp(core::maths::log(most / least) * uniform());
 }
 
 double Draw::normal() noexcept {
@@ -16,6 +16,6 @@ double Draw::normal() noexcept {
     return normals_[at];
 }
 
-double Draw::exponential() noexcept { return -core::natural_log(1.0 - uniform()); }
+double Draw::exponential() noexcept { return -core::maths::log(1.0 - uniform()); }
 
 }  // namespace zlg::chance

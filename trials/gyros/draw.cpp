@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <zlg/chance/draw.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -342,7 +343,7 @@ private:
         const double left_hz = c_.laser.lock_in_left_hz, right_hz = c_.laser.lock_in_right_hz;
         const bool is_calibrated = is_laser_ && is_one_in(2, "calibrated lock-in");
         const double mean_hz = 0.5 * (left_hz + right_hz);
-        const double sigma_hz = std::hypot(0.5 * (left_hz - right_hz), 0.03 * mean_hz);
+        const double sigma_hz = core::maths::hypot(0.5 * (left_hz - right_hz), 0.03 * mean_hz);
         set("compensation.lock_in_hz", is_calibrated ? mean_hz : 0.0);
         set("compensation.lock_in_sigma_hz", is_calibrated ? sigma_hz : c_.compensation.lock_in_sigma_hz);
     }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
@@ -48,7 +50,7 @@ GateResult judge(const MagneticGate& gate, const MovingBase& base, std::uint64_t
         const double t_s = static_cast<double>(k) * tick_s;
         const bool measured = gap == 0;
         if (gap > 0) --gap;
-        drift = 0.7 + 0.7 * (1.0 - std::exp(-t_s / 3000.0));
+        drift = 0.7 + 0.7 * -maths::expm1(-t_s / 3000.0);
         const double turned = mode * drift * tick_s;
         angle += rate(t_s, mode) * tick_s + turned + walk_arcsec_sqrt_s * std::sqrt(tick_s) * walk.normal();
         const double now = gate.count_arcsec * std::floor(angle / gate.count_arcsec);

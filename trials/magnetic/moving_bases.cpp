@@ -1,9 +1,9 @@
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <zlg/core/common/maths.hpp>
 #include <zlg/trials/magnetic_gate.hpp>
 
 namespace zlg::trials {
@@ -14,7 +14,7 @@ using chance::Draw;
 constexpr double tick_s = 0.005;
 
 BaseRate sine(double amplitude, double frequency_hz, double phase) {
-    return [=](double t_s, int) { return amplitude * std::sin(2.0 * std::numbers::pi * (frequency_hz * t_s + phase)); };
+    return [=](double t_s, int) { return amplitude * core::maths::sin_turns(frequency_hz * t_s + phase); };
 }
 
 // Changes its sign every half-period.

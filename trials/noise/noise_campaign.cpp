@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <zlg/chance/draw.hpp>
+#include <zlg/core/common/maths.hpp>
 
 namespace zlg::trials {
 namespace {
@@ -72,7 +73,7 @@ RandomGyro random_gyro(const Draws& draws, double n) {
 
 // Means over the samples of an exponentially correlated rate: value and integral together.
 void add_markov(std::vector<double>& rates, double deviation, double time_s, Draw draw) {
-    const double a = std::exp(-1.0 / time_s), loss = -std::expm1(-1.0 / time_s);
+    const double a = core::maths::exp(-1.0 / time_s), loss = -core::maths::expm1(-1.0 / time_s);
     const double end_variance = loss * (1.0 + a);
     const double both = time_s * loss * loss;
     const double integral_variance = time_s * time_s * (2.0 / time_s - 3.0 + 4.0 * a - a * a);
@@ -121,7 +122,7 @@ std::vector<double> simulate(const RandomGyro& g, std::size_t n, const Draws& dr
         const double t = static_cast<double>(k) + 0.5;
         if (g.of(NoiseKind::ramp)) rates[k] += g.size(NoiseKind::ramp) * t;
         if (g.of(NoiseKind::sine))
-            rates[k] += g.size(NoiseKind::sine) * std::sin(x) / x * std::cos(2.0 * x * t + phase);
+            rates[k] += g.size(NoiseKind::sine) * core::maths::sin(x) / x * core::maths::cos(2.0 * x * t + phase);
     }
     return rates;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
@@ -42,15 +44,15 @@ double FringeReader::converted(double value) const {
 }
 
 core::FringeReadoutInput FringeReader::sample(double phase_counts, chance::Draw& draw) const {
-    const double phase_rad = turn_rad * (phase_counts - std::floor(phase_counts));
-    const double angle_rad = law_.angle_error_deg * std::numbers::pi / 180.0;
-    const double c = law_.offset_cosine + std::cos(phase_rad) + law_.noise * draw.normal();
-    const double s =
-        law_.offset_sine + (1.0 + law_.amplitude_error) * std::sin(phase_rad + angle_rad) + law_.noise * draw.normal();
+    const double place = phase_counts - std::floor(phase_counts);
+    const double c = law_.offset_cosine + core::maths::cos_turns(place) + law_.noise * draw.normal();
+    const double s = law_.offset_sine +
+                     (1.0 + law_.amplitude_error) * core::maths::sin_turns(place + law_.angle_error_deg / 360.0) +
+                     law_.noise * draw.normal();
     return {.present = true,
             .c = static_cast<float>(converted(c)),
             .s = static_cast<float>(converted(s)),
-            .quarter = static_cast<std::uint32_t>(4.0 * (phase_counts - std::floor(phase_counts))) & 3u,
+            .quarter = static_cast<std::uint32_t>(4.0 * place) & 3u,
             .counter = static_cast<std::uint64_t>(whole(phase_counts))};
 }
 

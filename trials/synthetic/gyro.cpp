@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
@@ -40,7 +42,7 @@ void SyntheticGyro::open() {
 double SyntheticGyro::magnetic_arcsec_s() const {
     if (law_.magnetic_arcsec_s == 0.0 && law_.magnetic_thermal_arcsec_s == 0.0) return 0.0;
     const double t = 0.5 * law_.tick_s * static_cast<double>(half_);
-    return law_.magnetic_arcsec_s - law_.magnetic_thermal_arcsec_s * std::expm1(-t / law_.thermal_time_s);
+    return law_.magnetic_arcsec_s - law_.magnetic_thermal_arcsec_s * core::maths::expm1(-t / law_.thermal_time_s);
 }
 
 SyntheticHalf SyntheticGyro::advance(double more_arcsec) {

@@ -1,8 +1,8 @@
 #pragma once
 // What a random number is drawn for. Two causes never share a number, so that drawing more for one changes no other.
 //
-// All causes stand here, so that no two users take the same by accident. A number is never given again: with it, the runs of a seed
-// would change.
+// All causes stand here, so that no two users take the same by accident. A new one goes to the end of its
+// range, and none is taken away: the numbers of the others would change, and with them the runs of a seed.
 
 #include <cstdint>
 
@@ -50,8 +50,8 @@ enum class Cause : std::uint16_t {
     fault_trial,
     random_gyro,
     wire_damage,
-    benchmark,
-    test,
+    benchmark = 0xfffe,
+    test = 0xffff,
 };
 
 }  // namespace zlg::chance
