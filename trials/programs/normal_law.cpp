@@ -1,4 +1,5 @@
-// A thousand million normal deviates against their law: moments, the whole distribution function, the tails; as a table in Markdown.
+// A thousand million normal deviates against their law: moments, the whole distribution function, the tails; as a table
+// in Markdown.
 //
 // Exit 1 where chance alone would bring a figure so far off less than once in ten thousand times.
 
@@ -64,7 +65,8 @@ Tally piece(std::uint64_t seed, std::size_t k) {
     return tally;
 }
 
-// Largest distance of the distribution functions at the borders of the cells; what it may be further within one is below 1e-6.
+// Largest distance of the distribution functions at the borders of the cells; what it may be further within one is
+// below 1e-6.
 double distance(const Tally& tally, double n) {
     double below = 0.0, furthest = 0.0;
     for (std::size_t k = 0; k < n_cells; ++k) {

@@ -1,8 +1,9 @@
 #pragma once
-// One number after the other from an address, of whatever law is wanted: for what is drawn once, as the gyro of a trial.
+// One number after the other from an address, of whatever law is wanted: for what is drawn once, as the gyro of a
+// trial.
 //
-// Normal deviates and all others are counted by themselves, each from index 0 on: the first normal deviate of a Draw is that of index 0,
-// whatever was drawn before. No more than 2^32 of either; then they repeat.
+// Normal deviates and all others are counted by themselves, each from index 0 on: the first normal deviate of a Draw is
+// that of index 0, whatever was drawn before. No more than 2^32 of either; then they repeat.
 
 #include <array>
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 namespace zlg::chance {
 
-// A number for a thing that has a name, to be the `thing` of a Draw (hash FNV-1a of 32 bits). Of a hundred names two have the same with
-// a probability of 1e-6.
+// A number for a thing that has a name, to be the `thing` of a Draw (hash FNV-1a of 32 bits). Of a hundred names two
+// have the same with a probability of 1e-6.
 [[nodiscard]] constexpr std::uint32_t thing_of(std::string_view name) noexcept {
     std::uint32_t hash = 0x811c9dc5u;
     for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
