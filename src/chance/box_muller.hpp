@@ -1,6 +1,6 @@
 #pragma once
-// Box and Muller's transform of words of 64 random bits, without branches: the compiler makes instructions for two words of a loop. The
-// law is that of address.hpp.
+// Box and Muller's transform of words of 64 random bits, without branches: the compiler makes instructions for two
+// words of a loop. The law is that of address.hpp.
 //
 // The bits of a word: 0 and 1 signs, 2..23 angle, 24..63 radius.
 
@@ -22,14 +22,15 @@ inline constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(base) | word >> 24) - (base - 0x1p-41);
 }
 
-// Bits 2..23 as t = 2 (j + 1/2) 2^-22 - 1. A unit in the last place of 2^29 is 2^-23, so that they stand where they must; the bit
-// below them is the half.
+// Bits 2..23 as t = 2 (j + 1/2) 2^-22 - 1. A unit in the last place of 2^29 is 2^-23, so that they stand where they
+// must; the bit below them is the half.
 [[nodiscard]] inline double angle_uniform(std::uint64_t word) noexcept {
     constexpr double base = 0x1p29;
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(base) | (word & 0xfffffcu) | 2u) - (base + 1.0);
 }
 
-// sqrt(-ln u), -ln(2^e m) = -e ln 2 - 2 atanh s, s = (m - 1)/(m + 1). polynomial error 5e-12 of atanh (Chebyshev fit in s^2)
+// sqrt(-ln u), -ln(2^e m) = -e ln 2 - 2 atanh s, s = (m - 1)/(m + 1). polynomial error 5e-12 of atanh (Chebyshev fit in
+// s^2)
 [[nodiscard]] inline double root_of_log(double u) noexcept {
     constexpr double ln2 = 0x1.62e42fefa39efp-1;
     const auto [exponent, mantissa] = core::maths::scaled(u);

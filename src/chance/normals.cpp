@@ -1,4 +1,5 @@
-// Normal deviates of an address, many side by side: loops over arrays, of which the compiler makes instructions for two numbers.
+// Normal deviates of an address, many side by side: loops over arrays, of which the compiler makes instructions for two
+// numbers.
 
 #include <zlg/chance/address.hpp>
 

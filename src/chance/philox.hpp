@@ -1,8 +1,9 @@
 #pragma once
 // Philox4x32-10, the generator without a state: a block of 128 random bits is a function of a counter and a key.
 //
-// Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as 1, 2, 3", Proc. SC11 (2011),
-// section 4.3 and table 2. A round takes the words (a, b, c, d) of the counter and the halves (k, l) of the key to
+// Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as 1, 2, 3", Proc. SC11
+// (2011), section 4.3 and table 2. A round takes the words (a, b, c, d) of the counter and the halves (k, l) of the key
+// to
 //
 //   a' = high(M c) ^ b ^ k,  b' = low(M c),  c' = high(N a) ^ d ^ l,  d' = low(N a)
 //
@@ -46,8 +47,8 @@ using Block = std::array<std::uint64_t, 2>;
 
 #ifdef __SSE2__
 
-// Two blocks: each word of theirs in the lower half of a lane of 64 bits. The upper half holds what a product left there; the
-// multiplication does not read it.
+// Two blocks: each word of theirs in the lower half of a lane of 64 bits. The upper half holds what a product left
+// there; the multiplication does not read it.
 struct TwoBlocks {
     __m128i a, b, c, d;
 

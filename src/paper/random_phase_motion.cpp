@@ -1,29 +1,21 @@
 #include "random_phase_motion.hpp"
 
-#include <cmath>
 #include <numbers>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/address.hpp>
+#include <zlg/core/common/maths.hpp>
 
 namespace zlg::paper {
-namespace {
-
-// The twin draws from generators of the same kind, whose seeds go through a scrambler: with this number the phases have a
-// stream of their own.
-constexpr std::uint64_t phase_stream = 0x7068617365736565u;
-
-}  // namespace
-
 RandomPhaseMotion::RandomPhaseMotion(const SubstitutionExperiment& e, const SwitchGrid& grid)
     : grid_{grid},
       amplitude_arcsec_s_{e.amplitude_arcsec_s > 0.0 ? e.amplitude_arcsec_s : e.slow_rate_arcsec_s},
       frequency_hz_{e.amplitude_arcsec_s > 0.0 ? e.frequency_hz : 0.0} {
-    numeric::Draw draw{e.seed ^ phase_stream};
     for (int k = 0; k < grid.switches + 2; ++k) {
-        const double u = draw.uniform();
-        const double phase = 2.0 * std::numbers::pi * u;
-        about_gap_.push_back(frequency_hz_ > 0.0 ? Quadratures{std::sin(phase), std::cos(phase)}
-                                                 : Quadratures{2.0 * u - 1.0, 0.0});
+        const chance::Address of_switch{
+            .seed = e.seed, .cause = chance::Cause::phase_at_switch, .half = static_cast<std::uint64_t>(k)};
+        const double u = uniform(of_switch, 0);
+        const auto [sine, cosine] = core::maths::sincos_turns(u);
+        about_gap_.push_back(frequency_hz_ > 0.0 ? Quadratures{sine, cosine} : Quadratures{2.0 * u - 1.0, 0.0});
     }
 }
 
@@ -33,7 +25,7 @@ RandomPhaseMotion::RandomPhaseMotion(const SubstitutionExperiment& e, const Swit
 std::vector<double> RandomPhaseMotion::increments_arcsec() const {
     const double half_s = 0.5 * grid_.tick_s;
     const double turn = std::numbers::pi * frequency_hz_ * half_s;
-    const double scale_arcsec = amplitude_arcsec_s_ * half_s * (turn > 0.0 ? std::sin(turn) / turn : 1.0);
+    const double scale_arcsec = amplitude_arcsec_s_ * half_s * (turn > 0.0 ? core::maths::sin(turn) / turn : 1.0);
     const std::int64_t n_halves = 2 * grid_.ticks();
     std::vector<double> increments;
     increments.reserve(static_cast<std::size_t>(n_halves));
@@ -42,7 +34,8 @@ std::vector<double> RandomPhaseMotion::increments_arcsec() const {
         const std::int64_t k = (half - grid_.n + grid_.interval_ticks) / (2 * grid_.interval_ticks);
         const std::int64_t from_middle = half - 2 * k * grid_.interval_ticks - grid_.n;
         const double angle = 2.0 * turn * (static_cast<double>(from_middle) + 0.5);
-        increments.push_back(scale_arcsec * (at(k).sine * std::cos(angle) + at(k).cosine * std::sin(angle)));
+        const auto [sine, cosine] = core::maths::sincos(angle);
+        increments.push_back(scale_arcsec * (at(k).sine * cosine + at(k).cosine * sine));
     }
     return increments;
 }

@@ -60,6 +60,12 @@ TEST(Draw, ACopyGoesOnLikeTheOriginal) {
     for (int i = 0; i < 100; ++i) ASSERT_EQ(copy.normal(), draw.normal());
 }
 
+TEST(Draw, TheDrawsOfATrialAreFoundByName) {
+    const Draws draws{.seed = 1, .cause = Cause::test, .trial = 2};
+    EXPECT_EQ(draws.of("bias").bits(), (Draw{1, Cause::test, 2, thing_of("bias")}.bits()));
+    EXPECT_NE(draws.of("bias").bits(), draws.of("scale").bits());
+}
+
 // The published test values of FNV-1a.
 TEST(Draw, NamesMakeTheirHashes) {
     EXPECT_EQ(thing_of(""), 0x811c9dc5u);

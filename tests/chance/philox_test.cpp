@@ -1,4 +1,5 @@
-// The generator against its authors: known answers of their paper's software, and their own code, which Debian packages.
+// The generator against its authors: known answers of their paper's software, and their own code, which Debian
+// packages.
 
 #include "philox.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <mutex>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
 
 #include "bound.hpp"
@@ -27,8 +27,8 @@ SwitchTrial trial_of(const AccuracyCase& c, int done, std::uint64_t seed) {
                       .interval_ticks = c.interval_ticks,
                       .seed = seed};
     if (c.max_start > c.min_start)
-        trial.learn_ticks = static_cast<std::int64_t>(
-            numeric::Draw{~seed}.within(static_cast<double>(c.min_start), static_cast<double>(c.max_start)));
+        trial.learn_ticks = static_cast<std::int64_t>(chance::Draw{seed, chance::Cause::switch_start}.within(
+            static_cast<double>(c.min_start), static_cast<double>(c.max_start)));
     return trial;
 }
 

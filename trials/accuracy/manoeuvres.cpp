@@ -4,7 +4,8 @@
 #include <limits>
 #include <numbers>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
+#include <zlg/core/common/maths.hpp>
 
 #include "synthetic/gyro.hpp"
 
@@ -26,7 +27,7 @@ struct Compensation {
     core::GyroCompensationState state{};
 };
 
-double start_of(const Manoeuvre& m, const GyroLaw& law, numeric::Draw& draw) {
+double start_of(const Manoeuvre& m, const GyroLaw& law, chance::Draw& draw) {
     const double gap_s = law.tick_s * law.gap_ticks;
     const double beside_s = place_ticks * law.tick_s * draw.uniform();
     switch (m.place) {
@@ -46,7 +47,7 @@ double start_of(const Manoeuvre& m, const GyroLaw& law, numeric::Draw& draw) {
 class Gap {
 public:
     Gap(const ManoeuvreTrial& trial, const Manoeuvre& manoeuvre, const SyntheticGyro& gyro,
-        const std::vector<Compensation>& compensations, double rounding_arcsec, std::int64_t tick, numeric::Draw& draw)
+        const std::vector<Compensation>& compensations, double rounding_arcsec, std::int64_t tick, chance::Draw& draw)
         : trial_{trial},
           manoeuvre_{manoeuvre},
           gyro_{gyro},
@@ -59,7 +60,7 @@ public:
           sign_{draw.sign()},
           rounding_arcsec_{rounding_arcsec},
           tick_{tick} {
-        seed_ = static_cast<std::uint64_t>(1e15 * draw.uniform());
+        seed_ = draw.bits();
         gyro_.draw_anew(seed_);
     }
 
@@ -147,11 +148,11 @@ struct Common {
 double manoeuvre_angle(ManoeuvreLaw law, double duration_s, double t_s) {
     if (t_s <= 0.0) return 0.0;
     const double x = t_s / duration_s;
-    if (law == ManoeuvreLaw::exponential) return duration_s * (x + std::expm1(-3.0 * x) / 3.0);
+    if (law == ManoeuvreLaw::exponential) return duration_s * (x + core::maths::expm1(-3.0 * x) / 3.0);
     if (law == ManoeuvreLaw::pulse)
-        return x < 1.0 ? 0.5 * duration_s * (x - std::sin(2.0 * pi * x) / (2.0 * pi)) : 0.5 * duration_s;
+        return x < 1.0 ? 0.5 * duration_s * (x - core::maths::sin_turns(x) / (2.0 * pi)) : 0.5 * duration_s;
     if (x >= 1.0) return duration_s * (x - 0.5);
-    return duration_s * (law == ManoeuvreLaw::linear ? 0.5 * x * x : 0.5 * (x - std::sin(pi * x) / pi));
+    return duration_s * (law == ManoeuvreLaw::linear ? 0.5 * x * x : 0.5 * (x - core::maths::sin_turns(0.5 * x) / pi));
 }
 
 std::vector<std::vector<std::vector<SwitchError>>> run_manoeuvres(const ManoeuvreTrial& trial,
@@ -161,15 +162,17 @@ std::vector<std::vector<std::vector<SwitchError>>> run_manoeuvres(const Manoeuvr
     while (common.tick < trial.learn_ticks) common.advance();
     std::vector<std::vector<std::vector<SwitchError>>> errors(trial.manoeuvres.size());
     for (auto& of_manoeuvre : errors) of_manoeuvre.resize(methods.size());
-    numeric::Draw draw{trial.seed ^ 0x9e3779b97f4a7c15u};
+    chance::Draw step{trial.seed, chance::Cause::manoeuvre_step};
     for (int k = 0; k < trial.gaps; ++k) {
         for (std::size_t i = 0; i < trial.manoeuvres.size(); ++i) {
+            chance::Draw draw{trial.seed, chance::Cause::manoeuvre, static_cast<std::uint64_t>(k),
+                              static_cast<std::uint32_t>(i)};
             Gap gap{trial, trial.manoeuvres[i], common.gyro, common.compensations, common.rounding_arcsec, common.tick,
                     draw};
             const std::vector<SwitchError> found = gap.run();
             for (std::size_t m = 0; m < methods.size(); ++m) errors[i][m].push_back(found[m]);
         }
-        const auto ticks = step_ticks + static_cast<std::int64_t>(step_ticks * draw.uniform());
+        const auto ticks = step_ticks + static_cast<std::int64_t>(step_ticks * step.uniform());
         for (std::int64_t t = 0; t < ticks; ++t) common.advance();
     }
     return errors;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
 
 #include "parts.hpp"
@@ -15,36 +15,36 @@
 namespace zlg::trials {
 namespace {
 
-using numeric::Draw;
+using chance::Draw;
 
 // A sigma that is right within a fifth: the square roots of these limits are 0.84 and 1.18.
 constexpr double min_nev = 0.7;
 constexpr double max_nev = 1.4;
 
-using MakeMotion = MotionLaw (*)(Draw&);
+using MakeMotion = MotionLaw (*)(Draw);
 
-MotionLaw rest(Draw&) { return {}; }
+MotionLaw rest(Draw) { return {}; }
 
-MotionLaw steady(Draw& draw) {
+MotionLaw steady(Draw draw) {
     const double sign = draw.sign();
     return {.rate_arcsec_s = sign * draw.within_log(1e-3, 3e5)};
 }
 
-MotionLaw tone(Draw& draw) {
+MotionLaw tone(Draw draw) {
     MotionLaw m{.rate_arcsec_s = 100.0 * (draw.uniform() - 0.5)};
     m.tones = {{draw.within_log(0.1, 80.0), draw.within_log(1.0, 1e5)}};
     return m;
 }
 
 // Whole ticks of 5 ms a period, or two periods: readings repeat.
-MotionLaw repeating(Draw& draw) {
+MotionLaw repeating(Draw draw) {
     const double ticks = 4.0 + std::floor(77.0 * draw.uniform());
     return {.tones = {{(draw.uniform() < 0.5 ? 200.0 : 400.0) / ticks, draw.within_log(10.0, 3e4)}}};
 }
 
-MotionLaw twenty(Draw&) { return {.tones = {{20.0, 12000.0}}}; }
+MotionLaw twenty(Draw) { return {.tones = {{20.0, 12000.0}}}; }
 
-MotionLaw band(Draw& draw) { return {.bands = {{0.0, draw.within_log(0.5, 30.0), draw.within_log(1.0, 1e4)}}}; }
+MotionLaw band(Draw draw) { return {.bands = {{0.0, draw.within_log(0.5, 30.0), draw.within_log(1.0, 1e4)}}}; }
 
 struct MotionClass {
     const char* name;
@@ -76,7 +76,7 @@ const std::vector<std::string> without_miss{method_name::uncorrected_optimal, me
 const std::vector<std::string> with_miss{method_name::optimal_ticks, method_name::automatic_ticks, method_name::optimal,
                                          method_name::automatic};
 
-GyroLaw draw_gyro(Draw& draw) {
+GyroLaw draw_gyro(Draw draw) {
     GyroLaw g;
     g.scale_arcsec = draw.within_log(0.3, 4.35);
     g.bias_hz *= 3.263 / g.scale_arcsec * (1.0 + 0.01 * draw.uniform());
@@ -92,11 +92,12 @@ struct ErrorsOfGyro {
 };
 
 ErrorsOfGyro errors_of(const MotionClass& of, std::uint64_t seed) {
-    Draw draw{seed};
-    SwitchTrial trial{.gyro = draw_gyro(draw), .switches = of.switches, .interval_ticks = 600, .seed = seed};
-    trial.motion = of.make(draw);
+    const chance::Draws draws{.seed = seed, .cause = chance::Cause::sigma_gyro};
+    SwitchTrial trial{
+        .gyro = draw_gyro(draws.of("gyro")), .switches = of.switches, .interval_ticks = 600, .seed = seed};
+    trial.motion = of.make(draws.of("motion"));
     if (of.with_phase) trial.gyro.photodiodes = {.reads = true, .learnt = true};
-    trial.learn_ticks = of.min_start + static_cast<int>((of.max_start - of.min_start) * draw.uniform());
+    trial.learn_ticks = of.min_start + static_cast<int>((of.max_start - of.min_start) * draws.of("start").uniform());
     const config::Config config = config_of(trial.gyro);
     ErrorsOfGyro errors;
     errors.with = run_trial(trial, methods_for(config, with_miss));

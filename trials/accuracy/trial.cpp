@@ -18,7 +18,7 @@ constexpr std::int64_t disturbed_ticks = 20;
 constexpr std::int64_t drain_ticks = 80;  // until every final value is known
 
 std::vector<std::int64_t> openings_of(const SwitchTrial& trial) {
-    numeric::Draw draw{trial.seed ^ 0x5f3759df};
+    chance::Draw draw{trial.seed, chance::Cause::switch_opening};
     std::vector<std::int64_t> openings;
     std::int64_t tick = trial.learn_ticks;
     for (int k = 0; k < trial.switches; ++k) {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -48,7 +48,7 @@ config::Config drawn(const DriftGyro& gyro, std::uint64_t seed, double run_s) {
     config.compensation = gyro.methods.front().compensation;
     config.run.seed = seed;
     config.run.duration_s = run_s;
-    numeric::Draw draw{seed};
+    chance::Draw draw{seed, chance::Cause::drift_motion};
     for (double& phase : config.motion.phase_deg) phase = 360.0 * draw.uniform();
     return config;
 }

@@ -8,7 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -101,8 +102,8 @@ constexpr double longest_gap_ticks = 16.0;  // of the core
 
 class Drawing {
 public:
-    Drawing(numeric::Draw& draw, config::Fidelity fidelity)
-        : draw_{draw}, is_laser_{fidelity == config::Fidelity::laser} {}
+    Drawing(const chance::Draws& draws, config::Fidelity fidelity)
+        : draws_{draws}, is_laser_{fidelity == config::Fidelity::laser} {}
 
     config::Settings all() {
         set_run();
@@ -127,17 +128,30 @@ private:
     }
 
     void set(const Range& r) {
+        chance::Draw draw = draws_.of(r.key);
         switch (r.law) {
             case Law::even:
-                return set(r.key, draw_.within(r.least, r.most));
+                return set(r.key, draw.within(r.least, r.most));
             case Law::logarithmic:
-                return set(r.key, draw_.within_log(r.least, r.most));
-            case Law::either_sign:
-                return set(r.key, draw_.sign() * draw_.within_log(r.least, r.most));
+                return set(r.key, draw.within_log(r.least, r.most));
+            case Law::either_sign: {
+                const double sign = draw.sign();
+                return set(r.key, sign * draw.within_log(r.least, r.most));
+            }
             case Law::whole:
                 return set(r.key,
-                           r.least + static_cast<double>(draw_.below(static_cast<std::size_t>(r.most - r.least) + 1)));
+                           r.least + static_cast<double>(draw.below(static_cast<std::size_t>(r.most - r.least) + 1)));
         }
+    }
+    void set_even(std::string_view key, double least, double most) { set({key, Law::even, least, most}); }
+    void set_log(std::string_view key, double least, double most) { set({key, Law::logarithmic, least, most}); }
+    // The whole numbers from the least on, so many of them.
+    void set_whole(std::string_view key, double least, std::size_t n) {
+        set(key, least + static_cast<double>(draws_.of(key).below(n)));
+    }
+    // A choice that is no key of its own, named by what depends on it.
+    [[nodiscard]] bool is_one_in(std::size_t n, std::string_view choice) const {
+        return draws_.of(choice).is_one_in(n);
     }
     template <std::size_t n>
     void set(const Range (&ranges)[n]) {
@@ -147,23 +161,23 @@ private:
     // A name that stands there twice is drawn twice as often.
     template <std::size_t n>
     void set_one_of(std::string_view key, const std::array<const char*, n>& names) {
-        set(key, std::string{draw_.one_of(names)});
+        set(key, std::string{draws_.of(key).one_of(names)});
     }
 
     void set_run() {
-        set("run.seed", fmt::format("{}", draw_.below(1'000'000'000)));
-        set("run.duration_s", draw_.within_log(60.0, 600.0));
+        set("run.seed", fmt::format("{}", draws_.of("run.seed").below(1'000'000'000)));
+        set_log("run.duration_s", 60.0, 600.0);
         set("gyro.fidelity", std::string{is_laser_ ? "laser" : "averaged"});
     }
 
     void set_gyro() {
         set(of_any_gyro);
-        set("gyro.bias_edge_s", c_.gyro.tick_s * draw_.within_log(0.005, 0.04));  // coil and driver
-        set("gyro.first_bias_sign", draw_.sign());
+        set_log("gyro.bias_edge_s", 0.005 * c_.gyro.tick_s, 0.04 * c_.gyro.tick_s);  // coil and driver
+        set("gyro.first_bias_sign", draws_.of("gyro.first_bias_sign").sign());
         set_one_of("gyro.readout", std::array{"count", "count", "phase"});
         if (c_.gyro.readout == config::Readout::phase) set(of_photodiodes);
-        if (draw_.is_one_in(4)) set("gyro.counter_max_hz", draw_.within_log(2e6, 1e7));  // of counters that one can buy
-        const bool is_x4 = draw_.is_one_in(3);
+        if (is_one_in(4, "counter is slow")) set_log("gyro.counter_max_hz", 2e6, 1e7);  // of counters that one can buy
+        const bool is_x4 = is_one_in(3, "counter of all edges");
         if (is_laser_) {
             set(of_laser);
             set("laser.quadrature", std::string{is_x4 ? "x4" : "x1"});
@@ -174,8 +188,8 @@ private:
         set(of_averaged);
         // 4 lambda/L of square rings of 10 to 28 cm; a counter of all four edges has a quarter, and four times the bias.
         const double counts = is_x4 ? 4.0 : 1.0;
-        set("gyro.scale_arcsec", 3.263 * 0.16 / draw_.within(0.1, 0.28) / counts);
-        set("gyro.bias_hz", counts * draw_.within_log(30e3, 120e3));
+        set("gyro.scale_arcsec", 3.263 * 0.16 / draws_.of("gyro.scale_arcsec").within(0.1, 0.28) / counts);
+        set_log("gyro.bias_hz", counts * 30e3, counts * 120e3);
     }
 
     // The light is not sampled while the field is reversed, sooner or later by up to a cycle of the bias.
@@ -192,26 +206,30 @@ private:
     }
 
     void set_piezo() {
-        const double move_s = draw_.within_log(2e-3, 12e-3);  // published: a few milliseconds for a half-wave
+        const double move_s =
+            draws_.of("piezo.slew_v_s").within_log(2e-3, 12e-3);  // published: a few milliseconds for a half-wave
         set("piezo.slew_v_s", c_.piezo.half_wave_v / move_s);
         // A switch and the warming must find room: three to eight half-waves, from zero or of either sign.
-        const double range_v = c_.piezo.half_wave_v * draw_.within(3.0, 8.0);
-        const double below = draw_.is_one_in(2) ? 0.5 : 0.0;
+        const double range_v = c_.piezo.half_wave_v * draws_.of("piezo.range_max_v").within(3.0, 8.0);
+        const double below = is_one_in(2, "range of either sign") ? 0.5 : 0.0;
         set("piezo.range_min_v", -below * range_v);
         set("piezo.range_max_v", (1.0 - below) * range_v);
         set_one_of("perimeter.loop", std::array{"analog", "analog", "digital", "digital", "exponential"});
         // The loop of a formula has no use for a real piezo, and refuses it.
-        if (c_.perimeter.loop == config::Loop::exponential || draw_.is_one_in(3)) return;
+        if (c_.perimeter.loop == config::Loop::exponential || is_one_in(3, "ideal piezo")) return;
         set(of_a_real_piezo);
         set("piezo.hysteresis_stroke_v", range_v);
     }
 
     void set_perimeter() {
-        set("perimeter.tau_s", draw_.within_log(std::max(0.003, 0.5 * c_.gyro.tick_s), 0.02));
-        set("perimeter.relock_halves", static_cast<double>(draw_.below(9)));
+        set_log("perimeter.tau_s", std::max(0.003, 0.5 * c_.gyro.tick_s), 0.02);
+        set_whole("perimeter.relock_halves", 0.0, 9);
         // What comes of itself, for half of them; else where the light runs both ways: of lasers of 10 cm or of little gain it
         // does not from 0.15 wavelength on, so that no switch with such a miss succeeds.
-        set("perimeter.miss_lambda", draw_.is_one_in(2) ? 0.0 : draw_.within(0.02, is_laser_ ? 0.12 : 0.2));
+        if (is_one_in(2, "miss of itself"))
+            set("perimeter.miss_lambda", 0.0);
+        else
+            set_even("perimeter.miss_lambda", 0.02, is_laser_ ? 0.12 : 0.2);
     }
 
     // Of a vehicle or a turntable: up to 28 deg/s for ever, 8 deg/s there and back.
@@ -219,15 +237,18 @@ private:
         set_one_of("motion.kind", std::array{"rest", "constant", "sine", "sine", "sum"});
         const config::MotionKind kind = c_.motion.kind;
         if (kind == config::MotionKind::rest) return;
-        if (kind == config::MotionKind::constant || draw_.is_one_in(2))
-            set("motion.rate_arcsec_s", draw_.sign() * draw_.within_log(1.0, 1e5));
+        if (kind == config::MotionKind::constant || is_one_in(2, "rate beside the tones"))
+            set({"motion.rate_arcsec_s", Law::either_sign, 1.0, 1e5});
         if (kind == config::MotionKind::constant) return;
-        const std::size_t n = kind == config::MotionKind::sine ? 1 : 2 + draw_.below(3);
+        const std::size_t n = kind == config::MotionKind::sine ? 1 : 2 + draws_.of("number of tones").below(3);
+        chance::Draw amplitude = draws_.of("motion.amplitude_arcsec_s");
+        chance::Draw frequency = draws_.of("motion.frequency_hz");
+        chance::Draw phase = draws_.of("motion.phase_deg");
         std::vector<std::string> amplitudes, frequencies, phases;
         for (std::size_t i = 0; i < n; ++i) {
-            amplitudes.push_back(fmt::format("{:.4g}", draw_.within_log(10.0, 3e4)));
-            frequencies.push_back(fmt::format("{:.4g}", draw_.within_log(0.02, 25.0)));
-            phases.push_back(fmt::format("{:.4g}", draw_.within(0.0, 360.0)));
+            amplitudes.push_back(fmt::format("{:.4g}", amplitude.within_log(10.0, 3e4)));
+            frequencies.push_back(fmt::format("{:.4g}", frequency.within_log(0.02, 25.0)));
+            phases.push_back(fmt::format("{:.4g}", phase.within(0.0, 360.0)));
         }
         set("motion.amplitude_arcsec_s", fmt::format("[{}]", fmt::join(amplitudes, ",")));
         set("motion.frequency_hz", fmt::format("[{}]", fmt::join(frequencies, ",")));
@@ -246,42 +267,45 @@ private:
         const double tick_s = c_.gyro.tick_s;
         // The stage must have arrived: hysteresis and U_lambda/2 make the move longer by a fifth.
         const double move_s = 1.2 * c_.piezo.half_wave_v / c_.piezo.slew_v_s + 4.0 * c_.piezo.rc_s;
-        const double gap_ticks = std::ceil(move_s / tick_s) + static_cast<double>(draw_.below(3));
+        const double gap_ticks =
+            std::ceil(move_s / tick_s) + static_cast<double>(draws_.of("switching.gap_ticks").below(3));
         set("switching.gap_ticks", std::clamp(gap_ticks, 2.0, longest_gap_ticks));
-        if (draw_.is_one_in(2)) set("switching.gap_min_ticks", 1.0 + static_cast<double>(draw_.below(2)));
+        if (is_one_in(2, "short gap")) set_whole("switching.gap_min_ticks", 1.0, 2);
         set("compensation.relock_ticks",
-            std::max(10.0, std::ceil(settling_s() / tick_s) + static_cast<double>(draw_.below(10))));
+            std::max(10.0, std::ceil(settling_s() / tick_s) +
+                               static_cast<double>(draws_.of("compensation.relock_ticks").below(10))));
         // Several re-locks long, and eight of them in the run.
         const double cycle_s = (c_.switching.gap_ticks + c_.compensation.relock_ticks) * tick_s;
         const double least_s = std::max(2.0, 5.0 * cycle_s);
         const double most_s = std::max(1.01 * least_s, *c_.run.duration_s / 8.0);
-        set("switching.interval_s", draw_.within_log(least_s, most_s));
-        if (draw_.is_one_in(12)) set("switching.interval_s", std::string{"optimal"});
+        set_log("switching.interval_s", least_s, most_s);
+        if (is_one_in(12, "optimal interval")) set("switching.interval_s", std::string{"optimal"});
         set_one_of("switching.first_segment", std::array{"full", "half"});
         set_one_of("switching.last_segment", std::array{"any", "half"});
         set_one_of("switching.schedule", std::array{"fixed", "fixed", "growing", "measured"});
-        set("switching.interval_min_s", draw_.within(least_s, most_s));
-        set("switching.interval_max_s", draw_.within(most_s, 2.0 * most_s));
+        set_even("switching.interval_min_s", least_s, most_s);
+        set_even("switching.interval_max_s", most_s, 2.0 * most_s);
     }
 
     void set_compensation() {
         set_one_of("compensation.relock", std::array{"mean_square", "mean_square", "joint", "joint"});
         // Both take the decay for exponential.
-        if (c_.perimeter.loop != config::Loop::digital && draw_.is_one_in(3))
+        if (c_.perimeter.loop != config::Loop::digital && is_one_in(3, "exponential re-lock"))
             set_one_of("compensation.relock", std::array{"detuning", "frequency"});
         // The sigma of a polynomial holds no motion beyond its order (docs/compensation.md).
         const bool is_even =
             c_.motion.kind == config::MotionKind::rest || c_.motion.kind == config::MotionKind::constant;
-        if (is_even && draw_.is_one_in(2))
+        if (is_even && is_one_in(2, "polynomial bridge"))
             set_one_of("compensation.bridge", std::array{"quadratic", "linear", "constant"});
         else
             set_one_of("compensation.bridge", std::array{"auto", "auto", "optimal"});
-        set("compensation.points_before", 2.0 + static_cast<double>(draw_.below(4)));
-        set("compensation.points_after", 2.0 + static_cast<double>(draw_.below(4)));
-        set("compensation.extrapolation_points", 3.0 + static_cast<double>(draw_.below(4)));
+        set_whole("compensation.points_before", 2.0, 4);
+        set_whole("compensation.points_after", 2.0, 4);
+        set_whole("compensation.extrapolation_points", 3.0, 4);
         if (c_.compensation.bridge == core::BridgeMethod::optimal) set_prior();
         set_one_of("compensation.magnetic", std::array{"none", "none", "watch", "estimate"});
-        if (c_.compensation.magnetic != core::MagneticMethod::none && draw_.is_one_in(2)) set_calibrated_drift();
+        if (c_.compensation.magnetic != core::MagneticMethod::none && is_one_in(2, "calibrated drift"))
+            set_calibrated_drift();
     }
 
     // A user who presumes a motion knows it.
@@ -303,27 +327,28 @@ private:
     // A calibration that errs by its own sigma.
     void set_calibrated_drift() {
         const auto set_known = [&](const char* key, const char* sigma_key, double truth) {
-            const double sigma = draw_.within_log(0.01, 1.0);
-            set(key, truth + sigma * draw_.normal());
+            const double sigma = draws_.of(sigma_key).within_log(0.01, 1.0);
+            set(key, truth + sigma * draws_.of(key).normal());
             set(sigma_key, sigma);
         };
         set_known("compensation.magnetic_arcsec_s", "compensation.magnetic_sigma_arcsec_s", c_.drift.magnetic_arcsec_s);
         set_known("compensation.magnetic_thermal_arcsec_s", "compensation.magnetic_thermal_sigma_arcsec_s",
                   c_.drift.magnetic_thermal_arcsec_s);
-        set("compensation.magnetic_thermal_time_s", c_.drift.thermal_time_s * draw_.within(0.8, 1.25));
+        set("compensation.magnetic_thermal_time_s",
+            c_.drift.thermal_time_s * draws_.of("compensation.magnetic_thermal_time_s").within(0.8, 1.25));
     }
 
     // Not calibrated, or by both modes together, of which either is off by half of their difference. The averaged gyro does not lock.
     void set_lock_in() {
         const double left_hz = c_.laser.lock_in_left_hz, right_hz = c_.laser.lock_in_right_hz;
-        const bool is_calibrated = is_laser_ && draw_.is_one_in(2);
+        const bool is_calibrated = is_laser_ && is_one_in(2, "calibrated lock-in");
         const double mean_hz = 0.5 * (left_hz + right_hz);
-        const double sigma_hz = std::hypot(0.5 * (left_hz - right_hz), 0.03 * mean_hz);
+        const double sigma_hz = core::maths::hypot(0.5 * (left_hz - right_hz), 0.03 * mean_hz);
         set("compensation.lock_in_hz", is_calibrated ? mean_hz : 0.0);
         set("compensation.lock_in_sigma_hz", is_calibrated ? sigma_hz : c_.compensation.lock_in_sigma_hz);
     }
 
-    numeric::Draw& draw_;
+    chance::Draws draws_;
     bool is_laser_;
     config::Config c_;  // as far as it is drawn
     config::Settings settings_;
@@ -346,10 +371,11 @@ config::Config accepted(const config::Settings& settings) {
 
 GyroTrial random_gyro(std::uint64_t seed, std::uint64_t number, config::Fidelity fidelity) {
     constexpr std::size_t patience = 100;
-    numeric::Draw draw{(seed << 32) + number};
     GyroTrial trial{.number = number};
     for (;;) {
-        trial.settings = Drawing{draw, fidelity}.all();
+        const chance::Draws draws{
+            .seed = seed, .cause = chance::Cause::random_gyro, .trial = number * (patience + 1) + trial.refused.size()};
+        trial.settings = Drawing{draws, fidelity}.all();
         try {
             trial.config = accepted(trial.settings);
             return trial;

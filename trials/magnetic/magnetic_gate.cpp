@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
@@ -25,14 +27,15 @@ SwitchScheduleConfig schedule_of(const MagneticGate& gate) {
 }  // namespace
 
 GateResult judge(const MagneticGate& gate, const MovingBase& base, std::uint64_t seed) {
-    numeric::Draw draw{seed};
-    const BaseRate rate = base.make(draw, seed);
+    const BaseRate rate = base.make({seed, chance::Cause::magnetic_base}, seed);
+    chance::Draw walk{seed, chance::Cause::magnetic_walk};
     const CompensationConstants constants;
     MagneticDriftState state;
     const SwitchScheduleConfig schedule = schedule_of(gate);
     SwitchScheduleState switches = initial_state(schedule);
     const double judged_s = 2.0 * std::fmax(gate.longest_s, gate.interval_s);
-    const std::int64_t end = ticks_of(gate.run_s + judged_s * draw.uniform());
+    const std::int64_t end =
+        ticks_of(gate.run_s + judged_s * chance::Draw{seed, chance::Cause::magnetic_end}.uniform());
     const std::int64_t judged = end - ticks_of(judged_s);
     double magnetic = 0.0, residual = 0.0, angle = 0.0, read = 0.0, drift = 0.0, without_sq = 0.0, with_sq = 0.0;
     std::int64_t n = 0;
@@ -47,9 +50,9 @@ GateResult judge(const MagneticGate& gate, const MovingBase& base, std::uint64_t
         const double t_s = static_cast<double>(k) * tick_s;
         const bool measured = gap == 0;
         if (gap > 0) --gap;
-        drift = 0.7 + 0.7 * (1.0 - std::exp(-t_s / 3000.0));
+        drift = 0.7 + 0.7 * -maths::expm1(-t_s / 3000.0);
         const double turned = mode * drift * tick_s;
-        angle += rate(t_s, mode) * tick_s + turned + walk_arcsec_sqrt_s * std::sqrt(tick_s) * draw.normal();
+        angle += rate(t_s, mode) * tick_s + turned + walk_arcsec_sqrt_s * std::sqrt(tick_s) * walk.normal();
         const double now = gate.count_arcsec * std::floor(angle / gate.count_arcsec);
         const double subtracted = step(constants, gate.estimator, state, {measured, mode, now - read});
         read = now;

@@ -1,20 +1,20 @@
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include <zlg/core/common/maths.hpp>
 #include <zlg/trials/magnetic_gate.hpp>
 
 namespace zlg::trials {
 namespace {
 
-using numeric::Draw;
+using chance::Draw;
 
 constexpr double tick_s = 0.005;
 
 BaseRate sine(double amplitude, double frequency_hz, double phase) {
-    return [=](double t_s, int) { return amplitude * std::sin(2.0 * std::numbers::pi * (frequency_hz * t_s + phase)); };
+    return [=](double t_s, int) { return amplitude * core::maths::sin_turns(frequency_hz * t_s + phase); };
 }
 
 // Changes its sign every half-period.
@@ -26,8 +26,8 @@ BaseRate square(double amplitude, double frequency_hz, double phase) {
 }
 
 // Gauss and Markov: correlated over `time_s`; infinite: a random walk of sigma a root second.
-BaseRate wandering(double sigma, double time_s, std::uint64_t seed) {
-    const auto draw = std::make_shared<Draw>(Draw{seed});
+BaseRate wandering(double sigma, double time_s, const Draw& numbers) {
+    const auto draw = std::make_shared<Draw>(numbers);
     const bool walks = !std::isfinite(time_s);
     const auto rate = std::make_shared<double>(walks ? 0.0 : sigma * draw->normal());
     const double step = sigma * std::sqrt(walks ? tick_s : 2.0 * tick_s / time_s);
@@ -35,23 +35,23 @@ BaseRate wandering(double sigma, double time_s, std::uint64_t seed) {
 }
 
 // Changes its sign at random, after `time_s` on average.
-BaseRate telegraph(double amplitude, double time_s, std::uint64_t seed) {
-    const auto draw = std::make_shared<Draw>(Draw{seed});
+BaseRate telegraph(double amplitude, double time_s, const Draw& numbers) {
+    const auto draw = std::make_shared<Draw>(numbers);
     const auto rate = std::make_shared<double>(amplitude);
     return [=](double, int) { return draw->uniform() < tick_s / time_s ? *rate = -*rate : *rate; };
 }
 
 // Turns of up to 90 degrees in 3 to 8 s, a minute apart, and a rough road.
-BaseRate vehicle(std::uint64_t seed) {
+BaseRate vehicle(const Draw& numbers) {
     struct State {
         Draw draw;
         double left_s = 0.0, rate = 0.0;
     };
-    const auto s = std::make_shared<State>(State{.draw = Draw{seed}});
+    const auto s = std::make_shared<State>(State{.draw = numbers});
     return [s](double, int) {
         if ((s->left_s -= tick_s) <= 0.0) {
             const bool turns = s->rate == 0.0;
-            s->left_s = turns ? 3.0 + 5.0 * s->draw.uniform() : 2.0 - 60.0 * std::log(1.0 - s->draw.uniform());
+            s->left_s = turns ? 3.0 + 5.0 * s->draw.uniform() : 2.0 + 60.0 * s->draw.exponential();
             s->rate = turns ? (s->draw.uniform() - 0.5) * 2.0 * 90.0 * 3600.0 / s->left_s : 0.0;
         }
         return s->rate + 1500.0 * s->draw.normal();
@@ -71,19 +71,20 @@ BaseRate stepping_table(double angle_arcsec, double frequency_hz, double phase) 
 void add_at_random(std::vector<MovingBase>& all) {
     for (const double amplitude : {0.5, 2.0, 5.0, 10.0})
         for (const double hz : {0.5, 0.05, 0.011, 0.003})
-            all.push_back({fmt::format("oscillation of {} arcsec/s at {} Hz", amplitude, hz), [=](Draw& r, auto) {
-                               return sine(amplitude, hz * (0.8 + 0.4 * r.uniform()), r.uniform());
+            all.push_back({fmt::format("oscillation of {} arcsec/s at {} Hz", amplitude, hz), [=](Draw r, auto) {
+                               const double ratio = r.within(0.8, 1.2);
+                               return sine(amplitude, hz * ratio, r.uniform());
                            }});
     for (const double sigma : {0.01, 0.1, 1.0, 10.0})
         all.push_back({fmt::format("random walk of the rate, {} arcsec/s a root second", sigma),
-                       [=](Draw& r, auto) { return wandering(sigma, INFINITY, r.bits()); }});
+                       [=](Draw r, auto) { return wandering(sigma, INFINITY, r); }});
     for (const double sigma : {0.1, 1.0, 10.0, 100.0, 1000.0})
         for (const double time_s : {5.0, 60.0, 600.0})
             all.push_back({fmt::format("random rate of {} arcsec/s over {} s", sigma, time_s),
-                           [=](Draw& r, auto) { return wandering(sigma, time_s, r.bits()); }});
+                           [=](Draw r, auto) { return wandering(sigma, time_s, r); }});
     for (const double amplitude : {0.5, 5.0, 50.0, 1000.0})
         all.push_back({fmt::format("{} arcsec/s that turn their sign at random, after 45 s on average", amplitude),
-                       [=](Draw& r, auto) { return telegraph(amplitude, 45.0, r.bits()); }});
+                       [=](Draw r, auto) { return telegraph(amplitude, 45.0, r); }});
 }
 
 void add_in_step(std::vector<MovingBase>& all, const MagneticGate& gate) {
@@ -95,28 +96,29 @@ void add_in_step(std::vector<MovingBase>& all, const MagneticGate& gate) {
     const auto phase_of = [=](std::uint64_t seed) { return start + (seed % 2 == 0 ? 0.5 : 0.0); };
     for (const double a : {0.5, 1.0, 2.0, 5.0, 10.0, 25.0, 100.0, 1000.0})
         all.push_back({fmt::format("in step: sine of {} arcsec/s", a),
-                       [=](Draw&, std::uint64_t seed) { return sine(a, hz, phase_of(seed)); }});
+                       [=](const Draw&, std::uint64_t seed) { return sine(a, hz, phase_of(seed)); }});
     for (const double a : {1.0, 10.0, 100.0})
         for (const double ratio : {1.001, 0.995, 1.02, 0.95})
             all.push_back({fmt::format("near step: sine of {} arcsec/s, {} of that frequency", a, ratio),
-                           [=](Draw&, std::uint64_t seed) { return sine(a, hz * ratio, phase_of(seed)); }});
+                           [=](const Draw&, std::uint64_t seed) { return sine(a, hz * ratio, phase_of(seed)); }});
     for (const double a : {0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 100.0, 1000.0})
         all.push_back({fmt::format("in step: square wave of {} arcsec/s", a),
-                       [=](Draw&, std::uint64_t seed) { return square(a, hz, phase_of(seed)); }});
+                       [=](const Draw&, std::uint64_t seed) { return square(a, hz, phase_of(seed)); }});
     for (const double a : {1.0, 10.0, 100.0})
         for (const double ratio : {1.001, 0.995, 1.02, 0.95})
             all.push_back({fmt::format("near step: square wave of {} arcsec/s, {} of that frequency", a, ratio),
-                           [=](Draw&, std::uint64_t seed) { return square(a, hz * ratio, phase_of(seed)); }});
+                           [=](const Draw&, std::uint64_t seed) { return square(a, hz * ratio, phase_of(seed)); }});
     for (const double a : {1.0, 10.0, 100.0})
         for (const double shift : {0.05, 0.15})
             all.push_back({fmt::format("square wave of {} arcsec/s, {} of a period late", a, shift),
-                           [=](Draw&, std::uint64_t seed) { return square(a, hz, phase_of(seed) - shift); }});
+                           [=](const Draw&, std::uint64_t seed) { return square(a, hz, phase_of(seed) - shift); }});
     for (const double a : {20.0, 1000.0})
         for (const double shift : {0.0, 0.1, 0.25, 0.42})
-            all.push_back({fmt::format("turntable, {} arcsec to and fro in step, {} of a period late", a, shift),
-                           [=](Draw&, std::uint64_t seed) { return stepping_table(a, hz, phase_of(seed) - shift); }});
+            all.push_back(
+                {fmt::format("turntable, {} arcsec to and fro in step, {} of a period late", a, shift),
+                 [=](const Draw&, std::uint64_t seed) { return stepping_table(a, hz, phase_of(seed) - shift); }});
     for (const double a : {0.5, 2.0, 10.0, 100.0})
-        all.push_back({fmt::format("{} arcsec/s times the mode", a), [=](Draw&, std::uint64_t seed) {
+        all.push_back({fmt::format("{} arcsec/s times the mode", a), [=](const Draw&, std::uint64_t seed) {
                            const double signed_a = seed % 2 == 0 ? -a : a;
                            return [=](double, int mode) { return signed_a * mode; };
                        }});
@@ -126,18 +128,18 @@ void add_in_step(std::vector<MovingBase>& all, const MagneticGate& gate) {
 
 std::vector<MovingBase> moving_bases(const MagneticGate& gate) {
     std::vector<MovingBase> all{
-        {"rest", [](Draw&, auto) { return sine(0.0, 0.0, 0.0); }},
-        {"15 arcsec/s", [](Draw&, auto) { return [](double, int) { return 15.0; }; }},
+        {"rest", [](const Draw&, auto) { return sine(0.0, 0.0, 0.0); }},
+        {"15 arcsec/s", [](const Draw&, auto) { return [](double, int) { return 15.0; }; }},
         {"coning: 3 arcsec/s that oscillate by 1 in 600 s",
-         [](Draw& r, auto) {
+         [](Draw r, auto) {
              const BaseRate slow = sine(1.0, 1.0 / 600.0, r.uniform());
              return [=](double t_s, int mode) { return 3.0 + slow(t_s, mode); };
          }},
-        {"vehicle", [](Draw& r, auto) { return vehicle(r.bits()); }},
+        {"vehicle", [](Draw r, auto) { return vehicle(r); }},
     };
     for (const double hz : {20.06, 7.03})
         all.push_back({fmt::format("12 000 arcsec/s at {} Hz", hz),
-                       [=](Draw& r, auto) { return sine(12000.0, hz, r.uniform()); }});
+                       [=](Draw r, auto) { return sine(12000.0, hz, r.uniform()); }});
     add_at_random(all);
     add_in_step(all, gate);
     return all;

@@ -8,14 +8,16 @@
 
 #include <fmt/format.h>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
+#include <zlg/core/common/maths.hpp>
 
 namespace zlg::trials {
 namespace {
 
+using chance::Draw;
+using chance::Draws;
 using noise::FittedTerm;
 using noise::NoiseKind;
-using numeric::Draw;
 using std::numbers::pi;
 
 constexpr std::size_t n_kinds = 7;
@@ -36,22 +38,24 @@ struct RandomGyro {
     [[nodiscard]] double size(NoiseKind kind) const { return value[static_cast<std::size_t>(kind)]; }
 };
 
-RandomGyro random_gyro(Draw& draw, double n) {
+RandomGyro random_gyro(const Draws& draws, double n) {
     RandomGyro g;
-    for (bool& has : g.has) has = draw.is_one_in(2);
+    Draw kinds = draws.of("kinds");
+    for (bool& has : g.has) has = kinds.is_one_in(2);
     g.has[static_cast<std::size_t>(NoiseKind::angle_random_walk)] = true;
     if (g.of(NoiseKind::bias_instability) && g.of(NoiseKind::markov))
-        g.has[static_cast<std::size_t>(draw.is_one_in(2) ? NoiseKind::bias_instability : NoiseKind::markov)] = false;
+        g.has[static_cast<std::size_t>(draws.of("one of both").is_one_in(2) ? NoiseKind::bias_instability
+                                                                            : NoiseKind::markov)] = false;
     g.size(NoiseKind::angle_random_walk) = 1.0;
     // 3 Q^2/tau^2 = 1/tau, K^2 tau/3 = 1/tau
-    g.size(NoiseKind::quantisation) = std::sqrt(draw.within_log(2.0, 16.0) / 3.0);
-    const double crossing_s = draw.within_log(n / 1024.0, n / 64.0);
+    g.size(NoiseKind::quantisation) = std::sqrt(draws.of("quantisation").within_log(2.0, 16.0) / 3.0);
+    const double crossing_s = draws.of("rate random walk").within_log(n / 1024.0, n / 64.0);
     g.size(NoiseKind::rate_random_walk) = std::sqrt(3.0) / crossing_s;
     const double lowest = g.of(NoiseKind::rate_random_walk) ? 2.0 / crossing_s : 32.0 / n;
-    g.size(NoiseKind::bias_instability) = draw.within(1.5, 3.0) * std::sqrt(lowest) / 0.664;
-    g.time_s = draw.within_log(16.0, n / 256.0);
-    g.size(NoiseKind::markov) = std::sqrt(draw.within(3.0, 30.0) / g.time_s);
-    g.frequency_hz = draw.within_log(64.0 / n, 0.4);
+    g.size(NoiseKind::bias_instability) = draws.of("bias instability").within(1.5, 3.0) * std::sqrt(lowest) / 0.664;
+    g.time_s = draws.of("Markov, time").within_log(16.0, n / 256.0);
+    g.size(NoiseKind::markov) = std::sqrt(draws.of("Markov, deviation").within(3.0, 30.0) / g.time_s);
+    g.frequency_hz = draws.of("sinusoid, frequency").within_log(64.0 / n, 0.4);
     const noise::NoiseTerms noise{
         .angle_random_walk_arcsec_sqrt_s = 1.0,
         .bias_instability_arcsec_s = g.of(NoiseKind::bias_instability) ? g.size(NoiseKind::bias_instability) : 0.0,
@@ -60,16 +64,16 @@ RandomGyro random_gyro(Draw& draw, double n) {
         .markov = {
             {.deviation_arcsec_s = g.of(NoiseKind::markov) ? g.size(NoiseKind::markov) : 0.0, .time_s = g.time_s}}};
     // A line of amplitude A stands against noise of the spectrum S by A^2 T/(2 S); a ramp against the noise of the longest times.
-    g.size(NoiseKind::sine) =
-        draw.within(6.0, 40.0) * std::sqrt(2.0 * noise::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
-    g.size(NoiseKind::ramp) =
-        draw.sign() * draw.within(6.0, 40.0) * 2.0 * std::sqrt(noise::allan_variance(noise, n / 2.0)) / n;
+    g.size(NoiseKind::sine) = draws.of("sinusoid, amplitude").within(6.0, 40.0) *
+                              std::sqrt(2.0 * noise::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
+    g.size(NoiseKind::ramp) = draws.of("sign of the ramp").sign() * draws.of("ramp").within(6.0, 40.0) * 2.0 *
+                              std::sqrt(noise::allan_variance(noise, n / 2.0)) / n;
     return g;
 }
 
 // Means over the samples of an exponentially correlated rate: value and integral together.
-void add_markov(std::vector<double>& rates, double deviation, double time_s, Draw& draw) {
-    const double a = std::exp(-1.0 / time_s), loss = -std::expm1(-1.0 / time_s);
+void add_markov(std::vector<double>& rates, double deviation, double time_s, Draw draw) {
+    const double a = core::maths::exp(-1.0 / time_s), loss = -core::maths::expm1(-1.0 / time_s);
     const double end_variance = loss * (1.0 + a);
     const double both = time_s * loss * loss;
     const double integral_variance = time_s * time_s * (2.0 / time_s - 3.0 + 4.0 * a - a * a);
@@ -84,10 +88,12 @@ void add_markov(std::vector<double>& rates, double deviation, double time_s, Dra
     }
 }
 
-std::vector<double> simulate(const RandomGyro& g, std::size_t n, Draw& draw) {
+std::vector<double> simulate(const RandomGyro& g, std::size_t n, const Draws& draws) {
     std::vector<double> rates(n, 0.0);
-    for (double& r : rates) r += draw.normal();
+    Draw white = draws.of("angle random walk");
+    for (double& r : rates) r += white.normal();
     if (g.of(NoiseKind::quantisation)) {
+        Draw draw = draws.of("quantisation");
         double before = draw.normal();
         for (double& r : rates) {
             const double now = draw.normal();
@@ -96,10 +102,13 @@ std::vector<double> simulate(const RandomGyro& g, std::size_t n, Draw& draw) {
         }
     }
     // 1/f is the sum of such processes with times an octave apart, from far below a sample on.
+    std::uint32_t octave = chance::thing_of("bias instability");
     if (g.of(NoiseKind::bias_instability))
         for (double t = 1.0 / 64.0; t < 200.0 * static_cast<double>(n); t *= 2.0)
-            add_markov(rates, g.size(NoiseKind::bias_instability) * std::sqrt(std::numbers::ln2 / pi), t, draw);
+            add_markov(rates, g.size(NoiseKind::bias_instability) * std::sqrt(std::numbers::ln2 / pi), t,
+                       Draw{draws.seed, draws.cause, draws.trial, octave++});
     if (g.of(NoiseKind::rate_random_walk)) {
+        Draw draw = draws.of("rate random walk");
         double rate = 0.0;
         for (double& r : rates) {
             const double end = draw.normal(), within = draw.normal();
@@ -107,13 +116,13 @@ std::vector<double> simulate(const RandomGyro& g, std::size_t n, Draw& draw) {
             rate += g.size(NoiseKind::rate_random_walk) * end;
         }
     }
-    if (g.of(NoiseKind::markov)) add_markov(rates, g.size(NoiseKind::markov), g.time_s, draw);
-    const double phase = draw.within(0.0, 2.0 * pi), x = pi * g.frequency_hz;
+    if (g.of(NoiseKind::markov)) add_markov(rates, g.size(NoiseKind::markov), g.time_s, draws.of("Markov"));
+    const double phase = draws.of("phase of the sinusoid").within(0.0, 2.0 * pi), x = pi * g.frequency_hz;
     for (std::size_t k = 0; k < n; ++k) {
         const double t = static_cast<double>(k) + 0.5;
         if (g.of(NoiseKind::ramp)) rates[k] += g.size(NoiseKind::ramp) * t;
         if (g.of(NoiseKind::sine))
-            rates[k] += g.size(NoiseKind::sine) * std::sin(x) / x * std::cos(2.0 * x * t + phase);
+            rates[k] += g.size(NoiseKind::sine) * core::maths::sin(x) / x * core::maths::cos(2.0 * x * t + phase);
     }
     return rates;
 }
@@ -154,9 +163,10 @@ NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
     for (const char* name : score_names) campaign.terms.push_back({.name = name});
     const auto n = static_cast<double>(task.n_samples);
     for (int k = 0; k < task.n_gyros; ++k) {
-        Draw draw(task.seed * 1'000'003 + static_cast<std::uint64_t>(k));
-        const RandomGyro gyro = random_gyro(draw, n);
-        std::vector<double> rates = simulate(gyro, static_cast<std::size_t>(task.n_samples), draw);
+        const auto trial = static_cast<std::uint64_t>(k);
+        const RandomGyro gyro = random_gyro({task.seed, chance::Cause::noise_gyro, trial}, n);
+        std::vector<double> rates =
+            simulate(gyro, static_cast<std::size_t>(task.n_samples), {task.seed, chance::Cause::noise_record, trial});
         const auto fit = noise::fit_noise_in_place(rates, 1.0);
         judge(gyro, fit, n, campaign.terms);
         campaign.low_probability += fit.probability < 0.05 ? 1.0 / task.n_gyros : 0.0;

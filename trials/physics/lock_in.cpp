@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/control/edge_dither.hpp>
 #include <zlg/twin/slip_phase.hpp>
 
@@ -171,7 +172,7 @@ Figure random_walk() {
         Series seen = blank_series(fmt::format("f_L = {} Hz", lock_hz), Mark::points);
         Series formula = blank_series(fmt::format("formula, {} Hz", lock_hz), Mark::line, true, colour);
         for (int k = 0; k <= 28; ++k) {
-            const double rate = std::pow(10.0, 0.125 * k);
+            const double rate = core::maths::pow(10.0, 0.125 * k);
             add_point(seen, rate, walk(g, rate));
         }
         add_point(formula, 1.0, walk_formula(g));

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -17,10 +18,10 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include <zlg/chance/draw.hpp>
 #include <zlg/deviations/averaging.hpp>
 #include <zlg/deviations/deviation.hpp>
 #include <zlg/deviations/deviation_confidence.hpp>
-#include <zlg/numeric/draw.hpp>
 
 #include "command.hpp"
 
@@ -38,8 +39,11 @@ constexpr double allowed_percent = 3.0;
 // simulated.
 class PowerLawNoise {
 public:
-    PowerLawNoise(int noise, std::size_t samples, unsigned seed)
-        : samples_(samples), size_(std::bit_ceil(8 * samples)), is_summed_(noise < 0), draw_(seed) {
+    PowerLawNoise(int noise, std::size_t samples, std::uint64_t seed)
+        : samples_(samples),
+          size_(std::bit_ceil(8 * samples)),
+          is_summed_(noise < 0),
+          draw_(seed, zlg::chance::Cause::deviation_record) {
         const double order = -0.5 * noise - (is_summed_ ? 1.0 : 0.0);
         std::vector<double> weight(size_, 0.0);
         weight[0] = 1.0;
@@ -81,7 +85,7 @@ public:
 private:
     std::size_t samples_, size_;
     bool is_summed_;
-    zlg::numeric::Draw draw_;
+    zlg::chance::Draw draw_;
     Eigen::FFT<double> transform_;
     std::vector<std::complex<double>> response_;
 };

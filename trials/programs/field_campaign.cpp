@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include <zlg/chance/draw.hpp>
 #include <zlg/config/schema.hpp>
-#include <zlg/numeric/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
@@ -27,12 +27,13 @@ struct Pulse {
 };
 
 Pulse drawn(std::uint64_t seed) {
-    numeric::Draw draw{seed};
+    const chance::Draws draws{.seed = seed, .cause = chance::Cause::field_pulse};
     Pulse made;
-    made.at_s = draw.within(earliest_s, earliest_s + 90.0);
-    made.duration_s = draw.within_log(0.1, 60.0);
-    made.hz = draw.sign() * draw.within(0.3, 30.0);
-    if (draw.below(2) == 0) made.rate_arcsec_s = draw.sign() * draw.within_log(10.0, 1e5);
+    made.at_s = draws.of("at_s").within(earliest_s, earliest_s + 90.0);
+    made.duration_s = draws.of("duration_s").within_log(0.1, 60.0);
+    made.hz = draws.of("sign").sign() * draws.of("hz").within(0.3, 30.0);
+    if (draws.of("turns").is_one_in(2))
+        made.rate_arcsec_s = draws.of("sign of the rate").sign() * draws.of("rate_arcsec_s").within_log(10.0, 1e5);
     return made;
 }
 

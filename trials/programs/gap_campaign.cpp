@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
 
 #include "accuracy/parts.hpp"
@@ -46,16 +46,18 @@ void print_case(const Motion& motion, const Case& c, std::size_t gyros, int thre
                                          method_name::quadratic};
     std::vector<std::vector<std::vector<SwitchError>>> found(gyros);
     zlg::numeric::in_parallel(gyros, threads, [&](std::size_t k) {
-        zlg::numeric::Draw draw{1000 * k + static_cast<std::uint64_t>(c.min_start + c.gap_ticks)};
+        const zlg::chance::Draws draws{.seed = static_cast<std::uint64_t>(c.min_start + c.gap_ticks),
+                                       .cause = zlg::chance::Cause::gap_gyro,
+                                       .trial = k};
         SwitchTrial trial{.motion = motion.law, .switches = c.switches, .interval_ticks = 600, .seed = k + 1};
         trial.gyro.gap_ticks = c.gap_ticks;
-        trial.gyro.bias_hz *= 1.0 + 0.01 * draw.uniform();
+        trial.gyro.bias_hz *= 1.0 + 0.01 * draws.of("bias").uniform();
         if (c.readout == Readout::fine_counts) {
             trial.gyro.scale_arcsec /= 4.0;
             trial.gyro.bias_hz *= 4.0;
         }
         if (c.readout == Readout::phase) trial.gyro.photodiodes = {.reads = true, .learnt = true};
-        trial.learn_ticks = c.min_start + static_cast<int>((c.max_start - c.min_start) * draw.uniform());
+        trial.learn_ticks = c.min_start + static_cast<int>((c.max_start - c.min_start) * draws.of("start").uniform());
         auto config = config_of(trial.gyro);
         config.drift.random_walk_arcsec_sqrt_s = 0.0;
         found[k] = run_trial(trial, methods_for(config, names));

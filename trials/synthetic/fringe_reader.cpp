@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
@@ -26,7 +28,7 @@ FringeReader::FringeReader(const PhotodiodeLaw& law, double phase_counts)
       counter_{whole(phase_counts)},
       reading_counts_{static_cast<double>(counter_)} {}
 
-void FringeReader::learn(numeric::Draw& draw) {
+void FringeReader::learn(chance::Draw& draw) {
     constexpr int halves = 8192;
     for (int k = 0; k < halves; ++k) {
         core::FringeReadoutInput in = sample(draw.uniform(), draw);
@@ -41,20 +43,20 @@ double FringeReader::converted(double value) const {
     return std::fmin(std::fmax(step * (std::floor(value / step) + 0.5), -range), range);
 }
 
-core::FringeReadoutInput FringeReader::sample(double phase_counts, numeric::Draw& draw) const {
-    const double phase_rad = turn_rad * (phase_counts - std::floor(phase_counts));
-    const double angle_rad = law_.angle_error_deg * std::numbers::pi / 180.0;
-    const double c = law_.offset_cosine + std::cos(phase_rad) + law_.noise * draw.normal();
-    const double s =
-        law_.offset_sine + (1.0 + law_.amplitude_error) * std::sin(phase_rad + angle_rad) + law_.noise * draw.normal();
+core::FringeReadoutInput FringeReader::sample(double phase_counts, chance::Draw& draw) const {
+    const double place = phase_counts - std::floor(phase_counts);
+    const double c = law_.offset_cosine + core::maths::cos_turns(place) + law_.noise * draw.normal();
+    const double s = law_.offset_sine +
+                     (1.0 + law_.amplitude_error) * core::maths::sin_turns(place + law_.angle_error_deg / 360.0) +
+                     law_.noise * draw.normal();
     return {.present = true,
             .c = static_cast<float>(converted(c)),
             .s = static_cast<float>(converted(s)),
-            .quarter = static_cast<std::uint32_t>(4.0 * (phase_counts - std::floor(phase_counts))) & 3u,
+            .quarter = static_cast<std::uint32_t>(4.0 * place) & 3u,
             .counter = static_cast<std::uint64_t>(whole(phase_counts))};
 }
 
-FringeReading FringeReader::read(double phase_counts, int sign, bool settled, numeric::Draw& draw) {
+FringeReading FringeReader::read(double phase_counts, int sign, bool settled, chance::Draw& draw) {
     FringeReading reading;
     std::int64_t counter = whole(phase_counts);
     reading_counts_ = static_cast<double>(counter);
@@ -75,7 +77,7 @@ FringeReading FringeReader::read(double phase_counts, int sign, bool settled, nu
 }
 
 // A sample of noise alone, as of a beat that is not there.
-void FringeReader::lose(double phase_counts, numeric::Draw& draw) {
+void FringeReader::lose(double phase_counts, chance::Draw& draw) {
     counter_ = whole(phase_counts);
     reading_counts_ = static_cast<double>(counter_) + (law_.reads ? 0.5 : 0.0);
     if (!law_.reads) return;

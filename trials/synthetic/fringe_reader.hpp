@@ -7,9 +7,9 @@
 
 #include <cstdint>
 
+#include <zlg/chance/draw.hpp>
 #include <zlg/core/control/fringe_readout.hpp>
 #include <zlg/core/records.hpp>
-#include <zlg/numeric/draw.hpp>
 
 #include "laws.hpp"
 
@@ -25,16 +25,16 @@ public:
     FringeReader(const PhotodiodeLaw& law, double phase_counts);
 
     // Twenty seconds of a settled gyro that turns, before the first reading.
-    void learn(numeric::Draw& draw);
+    void learn(chance::Draw& draw);
 
     // The reading at the end of a half.
     //
     // sign     of the beat in this half.
     // settled  the beat is steady since some halves.
-    FringeReading read(double phase_counts, int sign, bool settled, numeric::Draw& draw);
+    FringeReading read(double phase_counts, int sign, bool settled, chance::Draw& draw);
 
     // The same of a half without a beat: nothing is known of the fringe.
-    void lose(double phase_counts, numeric::Draw& draw);
+    void lose(double phase_counts, chance::Draw& draw);
 
     // The latest reading, in counts as the compensation takes it: whole ones as they are; with photodiodes the place
     // within the count, or its middle where that is not known.
@@ -42,7 +42,7 @@ public:
 
 private:
     [[nodiscard]] double converted(double value) const;
-    core::FringeReadoutInput sample(double phase_counts, numeric::Draw& draw) const;
+    core::FringeReadoutInput sample(double phase_counts, chance::Draw& draw) const;
 
     PhotodiodeLaw law_;
     core::FringeReadoutConfig config_;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
@@ -20,8 +22,8 @@ const std::vector<double>& constant_ratios() {
 
 SyntheticGyro::SyntheticGyro(const GyroLaw& law, const MotionLaw& motion, std::uint64_t seed)
     : law_{law},
-      motion_{motion, 0.5 * law.tick_s, 2 * seed},
-      draw_{2 * seed + 1},
+      motion_{motion, 0.5 * law.tick_s, {seed, chance::Cause::synthetic_motion}},
+      draw_{seed, chance::Cause::synthetic_gyro},
       decay_{relock_decay(law.loop, law.light_samples)},
       first_sign_{static_cast<std::int8_t>(draw_.sign())},
       since_closing_{static_cast<std::int64_t>(decay_.size())},
@@ -40,7 +42,7 @@ void SyntheticGyro::open() {
 double SyntheticGyro::magnetic_arcsec_s() const {
     if (law_.magnetic_arcsec_s == 0.0 && law_.magnetic_thermal_arcsec_s == 0.0) return 0.0;
     const double t = 0.5 * law_.tick_s * static_cast<double>(half_);
-    return law_.magnetic_arcsec_s - law_.magnetic_thermal_arcsec_s * std::expm1(-t / law_.thermal_time_s);
+    return law_.magnetic_arcsec_s - law_.magnetic_thermal_arcsec_s * core::maths::expm1(-t / law_.thermal_time_s);
 }
 
 SyntheticHalf SyntheticGyro::advance(double more_arcsec) {

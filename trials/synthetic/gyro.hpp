@@ -44,14 +44,14 @@ public:
 
     // The motion of the case from the next half on.
     void move_by(const MotionLaw& motion, std::uint64_t seed) {
-        motion_ = SyntheticMotion{motion, 0.5 * law_.tick_s, seed};
+        motion_ = SyntheticMotion{motion, 0.5 * law_.tick_s, {seed, chance::Cause::synthetic_motion}};
     }
 
     // more_arcsec  rotation in this half beyond the motion of the case.
     SyntheticHalf advance(double more_arcsec = 0.0);
 
     // Noise and nonsense counts from here on are those of another seed: for a copy that is to differ from its original.
-    void draw_anew(std::uint64_t seed) { draw_ = numeric::Draw{seed}; }
+    void draw_anew(std::uint64_t seed) { draw_ = chance::Draw{seed, chance::Cause::synthetic_gyro}; }
 
 private:
     void in_gap(SyntheticHalf& half);
@@ -62,7 +62,7 @@ private:
 
     GyroLaw law_;
     SyntheticMotion motion_;
-    numeric::Draw draw_;
+    chance::Draw draw_;
     std::vector<DecayHalf> decay_;
     std::int64_t half_ = 0;
     int gap_left_ = 0;  // halves

@@ -4,19 +4,32 @@
 #include <complex>
 #include <numbers>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
+namespace maths = core::maths;
 using std::numbers::pi;
 
 // A shock rings as the imaginary part of exp(pole t).
 std::complex<double> pole(const Shocks& s) { return {-1.0 / s.decay_s, 2.0 * pi * s.ring_hz}; }
 
+std::complex<double> exponential(std::complex<double> z) {
+    const auto [sine, cosine] = maths::sincos(z.imag());
+    return maths::exp(z.real()) * std::complex<double>{cosine, sine};
+}
+
+// Not by the run-time library of the compiler, whose quotient need not be the same everywhere.
+std::complex<double> quotient(std::complex<double> a, std::complex<double> b) {
+    return a * std::conj(b) / std::norm(b);
+}
+
 // Angle from t0 to t1 by one shock at time 0.
 double integral_of_shock(const Shocks& s, double t0, double t1) {
     if (t1 <= 0.0) return 0.0;
     const std::complex<double> p = pole(s);
-    return s.rate_arcsec_s * std::imag((std::exp(p * t1) - std::exp(p * std::max(0.0, t0))) / p);
+    return s.rate_arcsec_s * std::imag(quotient(exponential(p * t1) - exponential(p * std::max(0.0, t0)), p));
 }
 
 // Campbell's theorem: a Poisson process of shocks at rate r with responses g has the covariance r int g(t) g(t + lag) dt (Papoulis,
@@ -31,13 +44,15 @@ double shock_covariance(const Shocks& s, double half_s, double lag_s) {
 }
 
 // Amplitude of the increment of a half by a tone of unit rate.
-double tone_gain(double w, double half_s) { return w * half_s < 1e-9 ? half_s : 2.0 / w * std::sin(0.5 * w * half_s); }
+double tone_gain(double w, double half_s) {
+    return w * half_s < 1e-9 ? half_s : 2.0 / w * maths::sin(0.5 * w * half_s);
+}
 
 // Covariance of the increments of two halves, lag_s apart, by a tone whose rate has a mean square of 1.
 double tone_covariance(double frequency_hz, double half_s, double lag_s) {
     const double w = 2.0 * pi * frequency_hz;
     const double gain = tone_gain(w, half_s);
-    return gain * gain * std::cos(w * lag_s);
+    return gain * gain * maths::cos(w * lag_s);
 }
 
 double band_covariance(const Band& band, double half_s, double lag_s) {
@@ -50,8 +65,8 @@ double band_covariance(const Band& band, double half_s, double lag_s) {
 
 }  // namespace
 
-SyntheticMotion::SyntheticMotion(const MotionLaw& law, double half_s, std::uint64_t seed)
-    : draw_{seed}, half_s_{half_s}, constant_arcsec_{0.0}, shocks_{law.shocks} {
+SyntheticMotion::SyntheticMotion(const MotionLaw& law, double half_s, const chance::Draw& draw)
+    : draw_{draw}, half_s_{half_s}, constant_arcsec_{0.0}, shocks_{law.shocks} {
     const double spread = law.rate_spread_arcsec_s * (2.0 * draw_.uniform() - 1.0);
     constant_arcsec_ = (law.rate_arcsec_s + spread) * half_s;
     for (const Tone& tone : law.tones) add_tone(tone.frequency_hz, tone.amplitude_arcsec_s, 2.0 * pi * draw_.uniform());
@@ -62,10 +77,10 @@ SyntheticMotion::SyntheticMotion(const MotionLaw& law, double half_s, std::uint6
 void SyntheticMotion::add_tone(double frequency_hz, double amplitude_arcsec_s, double phase) {
     const double w = 2.0 * pi * frequency_hz;
     const double gain = amplitude_arcsec_s * tone_gain(w, half_s_);
-    re_.push_back(gain * std::cos(phase));
-    im_.push_back(gain * std::sin(phase));
-    turn_re_.push_back(std::cos(w * half_s_));
-    turn_im_.push_back(std::sin(w * half_s_));
+    re_.push_back(gain * maths::cos(phase));
+    im_.push_back(gain * maths::sin(phase));
+    turn_re_.push_back(maths::cos(w * half_s_));
+    turn_im_.push_back(maths::sin(w * half_s_));
 }
 
 // One tone in each of equal cells, at a random place in it: the period of the whole is longer than any run. Normal
@@ -76,7 +91,8 @@ void SyntheticMotion::add_band(const Band& band) {
         const double frequency = band.low_hz + cell * (i + draw_.uniform());
         const double a = draw_.normal();
         const double b = draw_.normal();
-        add_tone(frequency, band.rms_arcsec_s / std::sqrt(double{tones_per_band}) * std::hypot(a, b), std::atan2(b, a));
+        add_tone(frequency, band.rms_arcsec_s / std::sqrt(double{tones_per_band}) * maths::hypot(a, b),
+                 maths::atan2(b, a));
     }
 }
 
@@ -94,15 +110,15 @@ double SyntheticMotion::advance_tones() {
 double SyntheticMotion::advance_shocks() {
     if (!(shocks_.per_s > 0.0)) return 0.0;
     const std::complex<double> p = pole(shocks_);
-    const std::complex<double> turn = std::exp(p * half_s_);
+    const std::complex<double> turn = exponential(p * half_s_);
     std::complex<double> ring{ring_[0], ring_[1]};
-    double sum = std::imag(ring * (turn - 1.0) / p);
+    double sum = std::imag(quotient(ring * (turn - 1.0), p));
     ring *= turn;
     while (next_shock_s_ < half_s_) {
         const double left = half_s_ - next_shock_s_;
         const double sign = draw_.sign();
         sum += sign * integral_of_shock(shocks_, 0.0, left);
-        ring += sign * shocks_.rate_arcsec_s * std::exp(p * left);
+        ring += sign * shocks_.rate_arcsec_s * exponential(p * left);
         next_shock_s_ += draw_.exponential() / shocks_.per_s;
     }
     next_shock_s_ -= half_s_;

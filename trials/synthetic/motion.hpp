@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <zlg/numeric/draw.hpp>
+#include <zlg/chance/draw.hpp>
 
 #include "laws.hpp"
 
@@ -17,7 +17,7 @@ inline constexpr int tones_per_band = 96;
 
 class SyntheticMotion {
 public:
-    SyntheticMotion(const MotionLaw& law, double half_s, std::uint64_t seed);
+    SyntheticMotion(const MotionLaw& law, double half_s, const chance::Draw& draw);
 
     // Rotation in the next half, arcsec.
     double advance();
@@ -28,7 +28,7 @@ private:
     double advance_tones();
     double advance_shocks();
 
-    numeric::Draw draw_;
+    chance::Draw draw_;
     double half_s_;
     double constant_arcsec_;
     // Each tone is a phasor that turns by a fixed angle a half: its increment is the imaginary part.

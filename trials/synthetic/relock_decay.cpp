@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace zlg::trials {
 namespace {
 
@@ -10,15 +12,15 @@ double slewed(double t) {
     constexpr double slew = 0.28;
     constexpr double tail = 1.1;
     const double t_tail = (1.0 - slew * tail) / slew;
-    return t < t_tail ? 1.0 - slew * t : slew * tail * std::exp(-(t - t_tail) / tail);
+    return t < t_tail ? 1.0 - slew * t : slew * tail * core::maths::exp(-(t - t_tail) / tail);
 }
 
 double underdamped(double t) {
     constexpr double damping = 0.6;
     constexpr double natural = 1.0;
     const double ringing = natural * std::sqrt(1.0 - damping * damping);
-    return std::exp(-damping * natural * t) *
-           (std::cos(ringing * t) + damping * natural / ringing * std::sin(ringing * t));
+    return core::maths::exp(-damping * natural * t) *
+           (core::maths::cos(ringing * t) + damping * natural / ringing * core::maths::sin(ringing * t));
 }
 
 // Simpson's rule over a half, fine enough for the kinks of the laws: 1e-7 of the miss squared.
@@ -38,11 +40,11 @@ double mean_square(LoopShape shape, double start_ticks) {
 double detuning_ratio(LoopShape shape, double t) {
     switch (shape) {
         case LoopShape::exponential:
-            return std::exp(-t / 3.5);
+            return core::maths::exp(-t / 3.5);
         case LoopShape::slew:
             return slewed(t);
         case LoopShape::second_order:
-            return (1.0 + t / 1.05) * std::exp(-t / 1.05);
+            return (1.0 + t / 1.05) * core::maths::exp(-t / 1.05);
         case LoopShape::underdamped:
             return underdamped(t);
         case LoopShape::dead_time:

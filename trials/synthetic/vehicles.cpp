@@ -43,11 +43,15 @@ std::vector<Vehicle> vehicles() {
 }
 
 // One axis: stretches of the regimes in turn, faded into each other over two seconds.
-std::vector<double> axis_of(const Vehicle& vehicle, double rate_hz, std::int64_t rows, std::uint64_t seed) {
-    numeric::Draw draw{seed};
+std::vector<double> axis_of(const Vehicle& vehicle, double rate_hz, std::int64_t rows, std::uint64_t seed,
+                            std::uint64_t axis) {
+    chance::Draw draw{seed, chance::Cause::vehicle, axis};
     const double row_s = 1.0 / rate_hz;
     std::vector<SyntheticMotion> motions;
-    for (const Regime& r : vehicle.regimes) motions.emplace_back(r.motion, row_s, seed + 1000 * (motions.size() + 1));
+    for (const Regime& r : vehicle.regimes)
+        motions.emplace_back(
+            r.motion, row_s,
+            chance::Draw{seed, chance::Cause::vehicle_motion, axis, static_cast<std::uint32_t>(motions.size())});
     std::vector<double> share(motions.size(), 0.0);
     std::size_t now = 0;
     share[0] = 1.0;
@@ -76,7 +80,7 @@ std::vector<VehicleRecord> vehicle_records(bool quick, std::uint64_t seed) {
         VehicleRecord record{.name = vehicle.name};
         for (std::uint64_t axis = 0; axis < (quick ? 1u : 3u); ++axis)
             record.increment_arcsec.push_back(
-                axis_of(vehicle, record.rate_hz, quick ? 60'000 : 200'000, (seed << 40) + (all.size() << 20) + axis));
+                axis_of(vehicle, record.rate_hz, quick ? 60'000 : 200'000, seed, (all.size() << 8) + axis));
         all.push_back(std::move(record));
     }
     return all;

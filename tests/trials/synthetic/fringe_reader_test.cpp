@@ -19,7 +19,7 @@ struct Track {
 };
 
 Track track(const PhotodiodeLaw& law, int halves) {
-    numeric::Draw draw{7};
+    chance::Draw draw{7, chance::Cause::test};
     FringeReader reader{law, 0.0};
     if (law.learnt) reader.learn(draw);
     Track t;
@@ -39,7 +39,7 @@ Track track(const PhotodiodeLaw& law, int halves) {
 }
 
 TEST(FringeReader, WithoutPhotodiodesItCountsWholeFringes) {
-    numeric::Draw draw{1};
+    chance::Draw draw{1, chance::Cause::test};
     FringeReader reader{{}, 0.7};
     EXPECT_EQ(reader.read(3.2, 1, true, draw).counts, 3);
     EXPECT_EQ(reader.read(-0.1, -1, true, draw).counts, -4);
@@ -66,7 +66,7 @@ TEST(FringeReader, AtTheStartOfAGyroItsEllipseIsNotKnown) {
 }
 
 TEST(FringeReader, AHalfWithoutABeatHasNoPlace) {
-    numeric::Draw draw{3};
+    chance::Draw draw{3, chance::Cause::test};
     FringeReader reader{{.reads = true, .learnt = true}, 0.0};
     reader.learn(draw);
     reader.lose(5.9, draw);

@@ -13,7 +13,7 @@ namespace {
 constexpr double half_s = 0.0025;
 
 std::vector<double> increments(const MotionLaw& law, std::size_t n, std::uint64_t seed) {
-    SyntheticMotion motion{law, half_s, seed};
+    SyntheticMotion motion{law, half_s, {seed, chance::Cause::test}};
     std::vector<double> x(n);
     for (double& v : x) v = motion.advance();
     return x;

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include <zlg/chance/draw.hpp>
 #include <zlg/core/compensation/magnetic_drift.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
-#include <zlg/numeric/draw.hpp>
 
 namespace zlg::trials {
 
@@ -30,7 +30,7 @@ using BaseRate = std::function<double(double t_s, int mode)>;
 
 struct MovingBase {
     std::string name;
-    std::function<BaseRate(numeric::Draw& draw, std::uint64_t seed)> make;
+    std::function<BaseRate(chance::Draw draw, std::uint64_t seed)> make;
 };
 
 // Rest, motion at random, oscillations; motion in step with the switches, whose phase is that of the switches for odd seeds

@@ -1,8 +1,8 @@
 #pragma once
 // What a random number is drawn for. Two causes never share a number, so that drawing more for one changes no other.
 //
-// All causes stand here, so that no two users take the same by accident. A number is never given again: with it, the runs of a seed
-// would change.
+// All causes stand here, so that no two users take the same by accident. A new one goes to the end of its
+// range, and none is taken away: the numbers of the others would change, and with them the runs of a seed.
 
 #include <cstdint>
 
@@ -30,10 +30,12 @@ enum class Cause : std::uint16_t {
     // 0x8000..0xffff: campaigns, benchmarks and tests
     synthetic_motion = 0x8000,
     synthetic_gyro,
-    synthetic_start,
-    manoeuvre,
-    switch_start,
     vehicle,
+    vehicle_motion,
+    manoeuvre,
+    manoeuvre_step,
+    switch_start,
+    switch_opening,
     sigma_gyro,
     gap_gyro,
     field_pulse,
@@ -43,13 +45,13 @@ enum class Cause : std::uint16_t {
     deviation_record,
     magnetic_base,
     magnetic_walk,
-    magnetic_reading,
+    magnetic_end,
     scenario,
     fault_trial,
     random_gyro,
     wire_damage,
-    benchmark,
-    test,
+    benchmark = 0xfffe,
+    test = 0xffff,
 };
 
 }  // namespace zlg::chance

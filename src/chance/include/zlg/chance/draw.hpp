@@ -1,8 +1,9 @@
 #pragma once
-// One number after the other from an address, of whatever law is wanted: for what is drawn once, as the gyro of a trial.
+// One number after the other from an address, of whatever law is wanted: for what is drawn once, as the gyro of a
+// trial.
 //
-// Normal deviates and all others are counted by themselves, each from index 0 on: the first normal deviate of a Draw is that of index 0,
-// whatever was drawn before. No more than 2^32 of either; then they repeat.
+// Normal deviates and all others are counted by themselves, each from index 0 on: the first normal deviate of a Draw is
+// that of index 0, whatever was drawn before. No more than 2^32 of either; then they repeat.
 
 #include <array>
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 namespace zlg::chance {
 
-// A number for a thing that has a name, to be the `thing` of a Draw (hash FNV-1a of 32 bits). Of a hundred names two have the same with
-// a probability of 1e-6.
+// A number for a thing that has a name, to be the `thing` of a Draw (hash FNV-1a of 32 bits). Of a hundred names two
+// have the same with a probability of 1e-6.
 [[nodiscard]] constexpr std::uint32_t thing_of(std::string_view name) noexcept {
     std::uint32_t hash = 0x811c9dc5u;
     for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193u;
@@ -54,6 +55,15 @@ private:
     std::uint32_t n_taken_ = 0;
     std::uint32_t n_normals_taken_ = 0;
     std::array<double, 32> normals_{};  // those from the latest multiple of so many on, as soon as one is taken
+};
+
+// The draws of one trial, each for a thing that has a name: one more changes no other.
+struct Draws {
+    std::uint64_t seed = 0;
+    Cause cause{};
+    std::uint64_t trial = 0;  // below 2^48
+
+    [[nodiscard]] Draw of(std::string_view thing) const noexcept { return {seed, cause, trial, thing_of(thing)}; }
 };
 
 }  // namespace zlg::chance
