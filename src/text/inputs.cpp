@@ -30,12 +30,16 @@ List& list() {
     return the_list;
 }
 
+bool holds(const std::vector<Noted>& files, const Noted& file) {
+    return std::find(files.begin(), files.end(), file) != files.end();
+}
+
 // Only a regular file can be overwritten by one that takes its name.
 void note(const struct stat& status) {
     if (!S_ISREG(status.st_mode)) return;
     const std::lock_guard lock{list().mutex};
     const Noted file{status.st_dev, status.st_ino};
-    if (list().watches && std::ranges::find(list().files, file) == list().files.end()) list().files.push_back(file);
+    if (list().watches && !holds(list().files, file)) list().files.push_back(file);
 }
 
 }  // namespace
@@ -66,14 +70,14 @@ bool is_own_output(const std::string& path) {
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0) return false;
     const std::lock_guard lock{list().mutex};
-    return std::ranges::find(list().outputs, Noted{status.st_dev, status.st_ino}) != list().outputs.end();
+    return holds(list().outputs, {status.st_dev, status.st_ino});
 }
 
 void refuse_input(const std::string& output_path) {
     struct stat status {};
     if (::stat(output_path.c_str(), &status) != 0) return;
     const std::lock_guard lock{list().mutex};
-    if (std::ranges::find(list().files, Noted{status.st_dev, status.st_ino}) == list().files.end()) return;
+    if (!holds(list().files, {status.st_dev, status.st_ino})) return;
     throw OutputIsInput{fmt::format("{}: is an input; name another file", output_path)};
 }
 
