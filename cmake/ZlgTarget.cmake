@@ -63,7 +63,7 @@ function(zlg_library name)
     target_include_directories(zlg_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(zlg_${name} PUBLIC ${arg_USES})
     # The Python module is made of the same archives. Without the right of others to replace our functions it costs next to nothing.
-    if(NOT ZLG_CORE_ONLY)
+    if(NOT ZLG_CORE_ONLY AND NOT ZLG_LOOP_ONLY)
         set_target_properties(zlg_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
         target_compile_options(zlg_${name} PRIVATE -fno-semantic-interposition)
     endif()

@@ -10,6 +10,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
 
 #include "failure.hpp"
@@ -108,7 +109,7 @@ config::Config read_angles(const Options& options, const std::string& path, std:
 config::Config read_raw(const Options& options, const std::string& path, std::vector<study::AxisRecord>& axes) {
     logs::RawReader raw = open_raw(options, path);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
-    const rig::LogCompensation asked = log_compensation(options, raw.header(), path);
+    const recorded::LogCompensation asked = log_compensation(options, raw.header(), path);
     TickRates ticks(path, asked.config.gyro.tick_s, asked.config.analysis.angles);
     rig::Replay replay{asked.compensation};
     const auto take = [&](const core::AngleRow& row) { ticks.take(row); };
@@ -119,7 +120,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
         if (replay.halves() % 100'000 == 0) progress.show(raw.fraction_read());
     }
     replay.end(take);
-    replay.require_a_tick(path);
+    recorded::require_a_tick(replay, path);
     if (asked.lacks_detuning) warn_uncorrected(replay, path);
     for (const std::string& wrong : replay.contradictions(path)) complain("warning: " + wrong);
     ticks.finish(axes);

@@ -70,9 +70,10 @@ config::Config load_log_config(const Options& options, const config::Settings& l
     return config;
 }
 
-rig::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log, const std::string& log_path) {
-    rig::LogCompensation made =
-        rig::asked_compensation(load_log_config(options, log.settings, log_path), log, log_path);
+recorded::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log,
+                                           const std::string& log_path) {
+    recorded::LogCompensation made =
+        recorded::log_compensation(load_log_config(options, log.settings, log_path), log, log_path);
     const config::Config asked = load_config(options);
     const bool by_phase = asked.gyro.readout == config::Readout::phase;
     if (config::is_given(asked, "gyro.readout") && by_phase != log.has_fringe)

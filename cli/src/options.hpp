@@ -12,7 +12,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
-#include <zlg/rig/asked_compensation.hpp>
+#include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/study/resolved.hpp>
@@ -56,9 +56,9 @@ enum class LogFacts { none, tick, tick_and_scale };
 
 // The compensation of a raw log, with a line on standard error for each note and warning.
 //
-// errors  those of load_log_config and of rig::asked_compensation.
-[[nodiscard]] rig::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log,
-                                                    const std::string& log_path);
+// errors  those of load_log_config and of recorded::log_compensation.
+[[nodiscard]] recorded::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log,
+                                                         const std::string& log_path);
 
 // Of a log for whose want of detuning nothing is subtracted after a closing: a line on standard error where its loop was opened.
 void warn_uncorrected(const rig::Replay& replay, const std::string& log_path);

@@ -7,6 +7,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/core/health.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 
 #include "options.hpp"
 #include "switch_csv.hpp"

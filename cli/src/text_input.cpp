@@ -13,7 +13,7 @@
 #include <zlg/logs/row_times.hpp>
 #include <zlg/logs/text_columns.hpp>
 #include <zlg/logs/time_check.hpp>
-#include <zlg/rig/text_layout.hpp>
+#include <zlg/recorded/text_layout.hpp>
 
 #include "failure.hpp"
 #include "output.hpp"
@@ -44,14 +44,14 @@ TextAxes text_axes(const config::Config& config, const std::string& path) {
     const config::Analysis& a = config.analysis;
     TextAxes axes;
     if (a.column_holds) {
-        axes.layout = rig::text_layout(a);
+        axes.layout = recorded::text_layout(a);
         axes.layout.columns = a.column;
         axes.holds = *a.column_holds;
         axes.scale_arcsec = a.scale_arcsec;
         axes.rate_hz = a.rate_hz;
     } else if (motion_describes_a_file(config.motion)) {
         const config::Motion& m = config.motion;
-        axes.layout = rig::text_layout(m);
+        axes.layout = recorded::text_layout(m);
         axes.layout.columns = a.column;
         if (a.column.empty() && !m.column.empty()) axes.layout.columns = {m.column};
         axes.holds =

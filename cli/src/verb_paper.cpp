@@ -11,6 +11,7 @@
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
 #include <zlg/paper/paper.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/report/export.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
@@ -137,7 +138,7 @@ std::string text(const paper::Paper& paper, const std::string& folder, std::size
 void announce_run(const paper::PaperTask& task) {
     constexpr double paper_s = 3600.0;
     if (task.config.run.duration_s.value_or(paper_s) <= paper_s) return;
-    announce({.ticks = rig::run_ticks(task.config, rig::motion(task.config)), .bytes_a_tick = 0.0, .out = {}},
+    announce({.ticks = rig::run_ticks(task.config, recorded::motion(task.config)), .bytes_a_tick = 0.0, .out = {}},
              [&task](std::int64_t ticks) {
                  config::Config beginning = task.config;
                  beginning.run.duration_s = static_cast<double>(ticks) * task.config.gyro.tick_s;

@@ -15,6 +15,8 @@
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
+#include <zlg/recorded/log_compensation.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/study/half_wave_replay.hpp>
 #include <zlg/study/switch_table.hpp>
@@ -183,7 +185,7 @@ void process(const ProcessOptions& options) {
         throw UsageError{
             fmt::format("--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.raw)};
     logs::RawReader raw = open_raw(options, options.raw);
-    const rig::LogCompensation asked = log_compensation(options, raw.header(), options.raw);
+    const recorded::LogCompensation asked = log_compensation(options, raw.header(), options.raw);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
     rig::Replay replay{asked.compensation};
@@ -191,7 +193,7 @@ void process(const ProcessOptions& options) {
     Switches switches{options, asked.config};
     logs::AngleWriter angles{options.out, asked.config.gyro.tick_s, rig::angle_settings(asked.config), options.force};
     const Summary summary = compensate(raw, replay, angles, switches, options, interruptible);
-    replay.require_a_tick(options.raw);
+    recorded::require_a_tick(replay, options.raw);
     if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
     if (asked.lacks_detuning) warn_uncorrected(replay, options.raw);
     for (const std::string& wrong : replay.contradictions(options.raw)) complain("warning: " + wrong);

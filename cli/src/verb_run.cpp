@@ -11,6 +11,7 @@
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/processor/qemu.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
@@ -166,7 +167,7 @@ void announce_run(const config::Config& config, const RunOptions& options, logs:
                   rig::Processor* processor) {
     const bool has_file = config.motion.kind == config::MotionKind::file;
     if (has_file && !std::filesystem::is_regular_file(config.motion.path)) return;
-    const twin::Motion motion = rig::motion(config);
+    const twin::Motion motion = recorded::motion(config);
     announce({.ticks = rig::run_ticks(config, motion),
               .bytes_a_tick = bytes_a_tick(options, format, light_samples),
               .out = options.out},

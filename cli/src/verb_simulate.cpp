@@ -11,6 +11,7 @@
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/rig/wire_stream.hpp>
@@ -100,7 +101,7 @@ void simulate(const SimulateOptions& options) {
         throw UsageError{fmt::format("--wire {}: is the raw log; name another file", options.wire)};
     const config::Config config = resolve(load_config(options)).config;
     const int light_samples = logged_light_samples(options, config, format);
-    const twin::Motion motion = rig::motion(config);
+    const twin::Motion motion = recorded::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};
     rig::SwitchCount count{config};

@@ -2,6 +2,7 @@
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/gyro_control.hpp>
+#include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -51,7 +52,7 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
     config::apply_log(said, log.settings, "the log");
     config::require_log_facts(said, "the log");
     config::check_against_log(config, log.settings, "the log");
-    rig::LogCompensation asked = rig::asked_compensation(config, log, "the log");
+    recorded::LogCompensation asked = recorded::log_compensation(config, log, "the log");
     rig::Replay replay{asked.compensation};
     const Progress tell{progress};
     AngleCollector angles;
@@ -76,7 +77,7 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
         }
         replay.end(add, note);
     }
-    replay.require_a_tick("the log");
+    recorded::require_a_tick(replay, "the log");
     std::vector<std::string> warnings = std::move(asked.warnings);
     warnings.insert(warnings.end(), asked.notes.begin(), asked.notes.end());
     if (raw.size() % 2 != 0) warnings.push_back(replay.odd_half("the log"));

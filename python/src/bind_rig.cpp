@@ -1,4 +1,5 @@
 #include <zlg/config/config.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
@@ -53,14 +54,14 @@ py::dict advance(Loop& shared, std::int64_t halves, bool light, const py::object
 void bind_rig(py::module_& m) {
     py::class_<Loop>(m, "ClosedLoop")
         .def(py::init([](const config::Config& config, const std::optional<twin::Motion>& motion) {
-                 return Loop{rig::ClosedLoop{config, motion ? *motion : rig::motion(config)}};
+                 return Loop{rig::ClosedLoop{config, motion ? *motion : recorded::motion(config)}};
              }),
              "config"_a, "motion"_a)
         .def("advance", &advance, "halves"_a, "light"_a, "progress"_a);
     m.def(
         "run_ticks",
         [](const config::Config& config, const std::optional<twin::Motion>& motion) {
-            return rig::run_ticks(config, motion ? *motion : rig::motion(config));
+            return rig::run_ticks(config, motion ? *motion : recorded::motion(config));
         },
         "config"_a, "motion"_a);
     m.def(

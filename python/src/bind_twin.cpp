@@ -2,6 +2,7 @@
 
 #include <zlg/config/config.hpp>
 #include <zlg/config/schema.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/twin.hpp>
 
@@ -89,7 +90,7 @@ void bind_frames(py::module_& m) {
 
 twin::Twin twin_of(const config::Config& config, const std::optional<twin::Motion>& motion) {
     const twin::TwinConfig made = rig::twin_config(config);
-    twin::Motion turning = motion ? *motion : rig::motion(config);
+    twin::Motion turning = motion ? *motion : recorded::motion(config);
     try {
         return twin::Twin{made, std::move(turning)};
     } catch (const std::runtime_error& error) {

@@ -53,7 +53,7 @@ void check_motion(const Motion& m) {
 }
 
 void require_growth(std::string_view name, const std::vector<double>& values) {
-    const auto fallen = std::ranges::adjacent_find(values, std::greater_equal{});
+    const auto fallen = std::adjacent_find(values.begin(), values.end(), std::greater_equal{});
     if (fallen == values.end()) return;
     throw ConfigError(fmt::format("perimeter.{}: {} after {}; allowed is growth", name, text::toml_real(fallen[1]),
                                   text::toml_real(*fallen)));
@@ -64,7 +64,7 @@ void check_discriminator(const Perimeter& p) {
     constexpr auto most = static_cast<std::ptrdiff_t>(core::max_side_nodes);
     const std::vector<double>& detuning = p.discriminator_detuning_lambda;
     const std::vector<double>& signal = p.discriminator_signal;
-    const auto n_below = std::ranges::count_if(detuning, [](double x) { return x < 0.0; });
+    const auto n_below = std::count_if(detuning.begin(), detuning.end(), [](double x) { return x < 0.0; });
     const auto n_above = std::ssize(detuning) - n_below;
     if (signal.size() != detuning.size() || n_below > most || n_above > most) {
         throw ConfigError(fmt::format(

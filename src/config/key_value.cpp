@@ -99,8 +99,9 @@ bool is_within(const Slot& slot, const Config& config) {
                  [&](const Choice& s) { return s.get(config) < static_cast<int>(s.names.size()); },
                  [&](const Column& s) { return s.value(config).empty() || is_column(s.value(config), s.may_be_none); },
                  [&](const ColumnList& s) {
-                     return std::ranges::all_of(s.value(config),
-                                                [](const std::string& column) { return is_column(column, false); });
+                     const std::vector<std::string>& columns = s.value(config);
+                     return std::all_of(columns.begin(), columns.end(),
+                                        [](const std::string& column) { return is_column(column, false); });
                  }},
         slot);
 }

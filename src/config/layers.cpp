@@ -21,7 +21,7 @@ std::string node_text(const toml::node& node) {
     std::ostringstream out;
     node.visit([&](const auto& value) { out << value; });
     std::string text = out.str();
-    std::ranges::replace(text, '\n', ' ');
+    std::replace(text.begin(), text.end(), '\n', ' ');
     return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
@@ -71,7 +71,7 @@ struct Reader {
     }
 
     [[nodiscard]] int choice(const toml::node& given, std::span<const std::string_view> names) const {
-        const auto found = std::ranges::find(names, std::string_view{text(given)});
+        const auto found = std::find(names.begin(), names.end(), text(given));
         if (found == names.end()) refuse_value(node_text(given));
         return static_cast<int>(found - names.begin());
     }
@@ -207,7 +207,8 @@ toml::table parse_value(const std::string& place, std::string_view text) {
 }  // namespace
 
 bool is_known_section(std::string_view name) {
-    return std::ranges::find(all_keys(), name, &Key::section) != all_keys().end();
+    const auto keys = all_keys();
+    return std::any_of(keys.begin(), keys.end(), [&](const Key& key) { return key.section == name; });
 }
 
 bool is_given(const Config& config, std::string_view dotted_key) {

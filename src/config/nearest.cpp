@@ -23,11 +23,18 @@ std::vector<std::string_view> sections() {
     return names;
 }
 
+// The key of the lowest cost, the first of equals.
+template <class Cost>
+const Key& cheapest(const Cost& cost) {
+    const auto keys = all_keys();
+    return *std::min_element(keys.begin(), keys.end(), [&](const Key& a, const Key& b) { return cost(a) < cost(b); });
+}
+
 }  // namespace
 
 std::optional<std::string_view> misspelt_section(std::string_view name) {
     static const std::vector<std::string_view> known = sections();
-    if (name.size() > longest_name || std::ranges::find(known, name) != known.end()) return std::nullopt;
+    if (name.size() > longest_name || std::find(known.begin(), known.end(), name) != known.end()) return std::nullopt;
     const std::string lower = text::lower_case(name);
     for (const std::string_view section : known) {
         const std::size_t longer = std::max(section.size(), lower.size());
@@ -40,7 +47,7 @@ std::optional<std::string_view> misspelt_section(std::string_view name) {
 std::string nearest_section(std::string_view section) {
     section = section.substr(0, longest_name);
     const auto apart = [&](const Key& key) { return text::letters_apart(section, key.section); };
-    return std::string{std::ranges::min_element(all_keys(), {}, apart)->section};
+    return std::string{cheapest(apart).section};
 }
 
 std::string nearest_key(std::string_view section, std::string_view name) {
@@ -50,7 +57,7 @@ std::string nearest_key(std::string_view section, std::string_view name) {
     const auto apart = [&](const Key& key) {
         return 2 * text::letters_apart(name, key.name) + (key.section == section ? 0 : 1);
     };
-    const Key& nearest = *std::ranges::min_element(all_keys(), {}, apart);
+    const Key& nearest = cheapest(apart);
     return nearest.section == section ? std::string{nearest.name}
                                       : fmt::format("[{}] {}", nearest.section, nearest.name);
 }

@@ -152,8 +152,10 @@ LaserCalibration calibrate(const config::Config& config) {
     perimeter.discriminator_centre_lambda = settled.centre_lambda();
     if (at != 0.0) {
         add_nodes(settled, below, perimeter);
-        std::ranges::reverse(perimeter.discriminator_detuning_lambda);
-        std::ranges::reverse(perimeter.discriminator_signal);
+        std::vector<double>& detuning = perimeter.discriminator_detuning_lambda;
+        std::vector<double>& signal = perimeter.discriminator_signal;
+        std::reverse(detuning.begin(), detuning.end());
+        std::reverse(signal.begin(), signal.end());
     }
     add_nodes(settled, above, perimeter);
 

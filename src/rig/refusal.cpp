@@ -26,7 +26,8 @@ config::Settings set_by_user(const config::Config& config) {
     config::Settings set;
     const config::Settings defaults = config::to_settings(config::Config{});
     for (const auto& setting : config::to_settings(config)) {
-        if (!setting.first.starts_with("analysis.") && std::ranges::find(defaults, setting) == defaults.end())
+        if (!setting.first.starts_with("analysis.") &&
+            std::find(defaults.begin(), defaults.end(), setting) == defaults.end())
             set.push_back(setting);
     }
     return set;
@@ -43,7 +44,7 @@ std::string with_value(const std::pair<std::string, std::string>& setting) {
 std::string named(const config::Config& config, const std::string& message) {
     const config::Settings set = set_by_user(config);
     const auto is_named = [&](const auto& setting) { return names_key(message, setting.first); };
-    if (set.empty() || std::ranges::any_of(set, is_named)) return message;
+    if (set.empty() || std::any_of(set.begin(), set.end(), is_named)) return message;
     std::string list;
     for (const auto& setting : set) list += (list.empty() ? "" : ", ") + with_value(setting);
     return fmt::format("{}; set: {}", message, list);
@@ -52,7 +53,7 @@ std::string named(const config::Config& config, const std::string& message) {
 void refuse(const config::Config& config, std::initializer_list<std::string_view> keys, std::string_view allowed) {
     std::string list;
     for (const auto& setting : config::to_settings(config))
-        if (std::ranges::find(keys, setting.first) != keys.end())
+        if (std::find(keys.begin(), keys.end(), setting.first) != keys.end())
             list += (list.empty() ? "" : ", ") + with_value(setting);
     throw config::ConfigError{named(config, fmt::format("{}: allowed is {}", list, allowed))};
 }

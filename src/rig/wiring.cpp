@@ -12,7 +12,6 @@
 
 #include "bias_wiring.hpp"
 #include "fault_wiring.hpp"
-#include "motion_file.hpp"
 
 namespace zlg::rig {
 namespace {
@@ -39,7 +38,9 @@ twin::Motion motion(const config::Config& config) {
         case config::MotionKind::sum:
             return sines(m);
         case config::MotionKind::file:
-            return motion_of_file(m);
+            throw ConfigError{
+                "motion.kind = \"file\": no files are read here; allowed are \"rest\", \"constant\", \"sine\", "
+                "\"sum\""};
     }
     return twin::Motion::rest();
 }

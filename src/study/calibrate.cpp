@@ -10,7 +10,7 @@
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
-#include <zlg/rig/asked_compensation.hpp>
+#include <zlg/recorded/log_compensation.hpp>
 #include <zlg/study/calibrate.hpp>
 
 namespace zlg::study {
@@ -83,7 +83,7 @@ Lab read_all(const CalibrationTask& task) {
             lab.warnings.push_back(
                 fmt::format("{}: the shifts of the bias edges are left in its counts, as noise", path));
         lab.configs.push_back(config_of(task.said, header.settings, path));
-        lab.recorded.push_back(rig::as_recorded(lab.configs.back(), header.settings, path));
+        lab.recorded.push_back(recorded::as_recorded(lab.configs.back(), header.settings, path));
         const auto tell = [&](double of_log) {
             if (task.on_progress) task.on_progress((static_cast<double>(k) + of_log) / n_logs);
         };

@@ -1,3 +1,4 @@
+#include <zlg/recorded/motion.hpp>
 #include <zlg/study/compensated_run.hpp>
 
 #include <zlg/rig/asked_compensation.hpp>
@@ -50,7 +51,7 @@ void MeteredCompensation::take(const core::GapReport& gap) const {
 }
 
 ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {
-    rig::ClosedLoop loop{config, rig::motion(config)};
+    rig::ClosedLoop loop{config, recorded::motion(config)};
     MeteredCompensation compensation{config, stride};
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
         const rig::LoopHalf now = loop.advance();

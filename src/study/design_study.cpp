@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <zlg/design/error.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/switch_trial.hpp>
@@ -51,7 +52,7 @@ design::Optimum best_interval(const config::Config& config, double switch_error_
 
 config::Config with_interval(config::Config config, double switch_error_arcsec) {
     if (!config.switching.interval_optimal) return config;
-    const std::int64_t ticks = rig::run_ticks(config, rig::motion(config));
+    const std::int64_t ticks = rig::run_ticks(config, recorded::motion(config));
     const double run_s = static_cast<double>(ticks) * config.gyro.tick_s;
     const double interval_s = best_interval(config, switch_error_arcsec, run_s).interval_s;
     config.switching.interval_s = std::max(interval_s, shortest_interval_s(config));

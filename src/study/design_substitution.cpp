@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <zlg/design/substitution_noise.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "design_parts.hpp"
@@ -41,7 +42,7 @@ MotionError on_record(const Substitution& s, const std::vector<double>& tick_arc
 }
 
 std::vector<double> recorded_ticks(const config::Config& config) {
-    const twin::Motion motion = rig::motion(config);
+    const twin::Motion motion = recorded::motion(config);
     std::vector<double> ticks(static_cast<std::size_t>(rig::run_ticks(config, motion)));
     for (std::size_t k = 0; k < ticks.size(); ++k)
         ticks[k] = motion.increment_arcsec(static_cast<double>(k) * config.gyro.tick_s,

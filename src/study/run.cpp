@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <zlg/core/health.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/fingerprint.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -290,7 +291,7 @@ void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t
 }  // namespace
 
 RunResult run(const RunTask& task) {
-    const twin::Motion motion = rig::motion(task.config);
+    const twin::Motion motion = recorded::motion(task.config);
     const std::int64_t ticks = rig::run_ticks(task.config, motion);
     RunResult result{.tick_s = task.config.gyro.tick_s, .ticks = ticks, .warnings = task.warnings};
     VariantResult unswitched;

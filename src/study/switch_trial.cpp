@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/compensated_run.hpp>
 
@@ -37,7 +38,7 @@ config::Config on_trial(config::Config config) {
 // Ticks of a trial, of what the motion holds.
 std::int64_t trial_ticks(const config::Config& config) {
     const double wanted_s = (n_learning + n_judged + 1) * config.switching.interval_s;
-    const double available_s = rig::motion(config).duration_s();
+    const double available_s = recorded::motion(config).duration_s();
     const double ticks = std::min(wanted_s, available_s) / config.gyro.tick_s * (1.0 - 1e-12);
     return static_cast<std::int64_t>(std::min(ticks, max_ticks));
 }

@@ -17,9 +17,19 @@ struct Noted {
     friend bool operator==(const Noted&, const Noted&) = default;
 };
 
-// Verbs read in several threads.
+// Verbs read in several threads. A machine without threads has no locks either.
+#ifdef _LIBCPP_HAS_NO_THREADS
+struct Mutex {};
+struct Lock {
+    explicit Lock(Mutex&) {}
+};
+#else
+using Mutex = std::mutex;
+using Lock = std::lock_guard<Mutex>;
+#endif
+
 struct List {
-    std::mutex mutex;
+    Mutex mutex;
     bool watches = false;
     std::vector<Noted> files;
     std::vector<Noted> outputs;
@@ -30,18 +40,22 @@ List& list() {
     return the_list;
 }
 
+bool holds(const std::vector<Noted>& files, const Noted& file) {
+    return std::find(files.begin(), files.end(), file) != files.end();
+}
+
 // Only a regular file can be overwritten by one that takes its name.
 void note(const struct stat& status) {
     if (!S_ISREG(status.st_mode)) return;
-    const std::lock_guard lock{list().mutex};
+    const Lock lock{list().mutex};
     const Noted file{status.st_dev, status.st_ino};
-    if (list().watches && std::ranges::find(list().files, file) == list().files.end()) list().files.push_back(file);
+    if (list().watches && !holds(list().files, file)) list().files.push_back(file);
 }
 
 }  // namespace
 
 void watch_inputs() {
-    const std::lock_guard lock{list().mutex};
+    const Lock lock{list().mutex};
     list().watches = true;
 }
 
@@ -58,22 +72,22 @@ void note_input(const std::string& path) {
 void note_output(int open_file) {
     struct stat status {};
     if (::fstat(open_file, &status) != 0) return;
-    const std::lock_guard lock{list().mutex};
+    const Lock lock{list().mutex};
     if (list().watches) list().outputs.push_back({status.st_dev, status.st_ino});
 }
 
 bool is_own_output(const std::string& path) {
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0) return false;
-    const std::lock_guard lock{list().mutex};
-    return std::ranges::find(list().outputs, Noted{status.st_dev, status.st_ino}) != list().outputs.end();
+    const Lock lock{list().mutex};
+    return holds(list().outputs, {status.st_dev, status.st_ino});
 }
 
 void refuse_input(const std::string& output_path) {
     struct stat status {};
     if (::stat(output_path.c_str(), &status) != 0) return;
-    const std::lock_guard lock{list().mutex};
-    if (std::ranges::find(list().files, Noted{status.st_dev, status.st_ino}) == list().files.end()) return;
+    const Lock lock{list().mutex};
+    if (!holds(list().files, {status.st_dev, status.st_ino})) return;
     throw OutputIsInput{fmt::format("{}: is an input; name another file", output_path)};
 }
 

@@ -6,6 +6,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "bytes.hpp"
@@ -55,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t used = std::min(size, head);
     config.motion.path = fuzz::scratch().write("motion.txt", data + used, size - used);
     try {
-        claim_adds_up(rig::motion(config));
+        claim_adds_up(recorded::motion(config));
     } catch (const std::invalid_argument&) {
         // The rate is out of range.
     } catch (const config::ConfigError&) {

@@ -140,6 +140,13 @@ TEST(Wiring, a_run_ends_with_its_sampled_motion) {
     EXPECT_THROW((void)rig::run_ticks(c, motion), config::ConfigError);
 }
 
+TEST(Wiring, a_recorded_motion_is_refused_where_no_files_are_read) {
+    config::Config c;
+    c.motion.kind = config::MotionKind::file;
+    c.motion.path = "motion.txt";
+    EXPECT_THROW((void)rig::motion(c), config::ConfigError);
+}
+
 TEST(Wiring, a_polynomial_needs_more_points_than_its_order) {
     config::Config c;
     c.compensation.extrapolation_points = 2;

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <zlg/numeric/parallel.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/motion.hpp>
@@ -50,7 +51,7 @@ std::vector<double> column_of(const Recording& r, int column) {
                      .rate_hz = r.rate_hz,
                      .comment = r.comment,
                      .skip_lines = r.skip_lines};
-    const twin::Motion motion = rig::motion(config);
+    const twin::Motion motion = recorded::motion(config);
     std::vector<double> increments(static_cast<std::size_t>(std::llround(motion.duration_s() * r.rate_hz)));
     for (std::size_t k = 0; k < increments.size(); ++k) {
         const auto t = static_cast<double>(k);

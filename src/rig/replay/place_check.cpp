@@ -89,7 +89,8 @@ void PlaceCheck::add_difference() {
 
 bool PlaceCheck::is_even(const Stretch& s) {
     const double part = s.n / static_cast<double>(s.n_in_part.size());
-    return std::ranges::all_of(s.n_in_part, [&](int n) { return n >= least_even * part && n <= most_even * part; });
+    return std::all_of(s.n_in_part.begin(), s.n_in_part.end(),
+                       [&](int n) { return n >= least_even * part && n <= most_even * part; });
 }
 
 PlaceCheck::Verdict PlaceCheck::verdict(const Stretch& s) {

@@ -2,14 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/logs/error.hpp>
-
 namespace zlg::rig {
-
-void Replay::require_a_tick(const std::string& log_name) const {
-    if (halves_ < 2)
-        throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", log_name)};
-}
 
 std::string Replay::odd_half(const std::string& log_name) const {
     if (halves_ % 2 == 0) return {};

@@ -8,7 +8,7 @@
 namespace zlg::twin {
 
 FaultPlan::FaultPlan(std::vector<Fault> faults) : faults_{std::move(faults)} {
-    std::ranges::stable_sort(faults_, {}, &Fault::at_s);
+    std::stable_sort(faults_.begin(), faults_.end(), [](const Fault& a, const Fault& b) { return a.at_s < b.at_s; });
     active_.reserve(faults_.size());
 }
 
@@ -20,7 +20,8 @@ void FaultPlan::enter(double start_s, double end_s) {
         return over;
     });
     const auto any_on = [&](FaultActs thing) {
-        return std::ranges::any_of(active_, [&](const Fault& fault) { return facts(fault.kind).acts_on == thing; });
+        return std::any_of(active_.begin(), active_.end(),
+                           [&](const Fault& fault) { return facts(fault.kind).acts_on == thing; });
     };
     moves_perimeter_ = settled_lambda_ != 0.0 || any_on(FaultActs::length);
     dims_light_ = any_on(FaultActs::light);

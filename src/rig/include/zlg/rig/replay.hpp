@@ -64,9 +64,6 @@ public:
         hand_over_rest([this] { return core::drain(config_, state_); }, on_row, on_gap);
     }
 
-    // errors  logs::FormatError where there was no whole tick.
-    void require_a_tick(const std::string& log_name) const;
-
     // One line on a last half whose other half is missing; empty where every half has one.
     [[nodiscard]] std::string odd_half(const std::string& log_name) const;
 

@@ -14,7 +14,7 @@ namespace zlg::rig {
 
 using twin::timer_hz;
 
-// errors  logs::IoError, logs::FormatError for a motion file.
+// errors  config::ConfigError for the kind "file": a recorded motion is read by recorded::motion.
 [[nodiscard]] twin::Motion motion(const config::Config& config);
 
 // Whole ticks of the run: duration_s where it is set, else 3600 s or the length of the motion file.

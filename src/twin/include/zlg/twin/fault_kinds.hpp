@@ -119,8 +119,8 @@ inline constexpr std::size_t n_fault_kinds = fault_table.size();
 // Row by row the kinds themselves.
 static_assert([] {
     std::size_t n = 0;
-    return std::ranges::all_of(fault_table,
-                               [&](const FaultFacts& row) { return static_cast<std::size_t>(row.kind) == n++; });
+    return std::all_of(fault_table.begin(), fault_table.end(),
+                       [&](const FaultFacts& row) { return static_cast<std::size_t>(row.kind) == n++; });
 }());
 
 [[nodiscard]] constexpr const FaultFacts& facts(FaultKind kind) {
@@ -130,7 +130,7 @@ static_assert([] {
 template <auto Fact>
 [[nodiscard]] constexpr auto of_all_kinds() {
     std::array<std::remove_cvref_t<decltype(fault_table[0].*Fact)>, n_fault_kinds> values{};
-    std::ranges::transform(fault_table, values.begin(), Fact);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = fault_table[k].*Fact;
     return values;
 }
 

@@ -1,4 +1,4 @@
-#include <zlg/rig/text_layout.hpp>
+#include <zlg/recorded/text_layout.hpp>
 
 #include <string>
 #include <utility>
@@ -7,7 +7,7 @@
 
 #include <zlg/config/schema.hpp>
 
-namespace zlg::rig {
+namespace zlg::recorded {
 namespace {
 
 TEST(TextLayout, EachWordOfTheKeysIsTheOneOfTheReader) {
@@ -34,4 +34,4 @@ TEST(TextLayout, EachWordOfTheKeysIsTheOneOfTheReader) {
 }
 
 }  // namespace
-}  // namespace zlg::rig
+}  // namespace zlg::recorded

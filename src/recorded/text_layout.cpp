@@ -1,6 +1,6 @@
-#include <zlg/rig/text_layout.hpp>
+#include <zlg/recorded/text_layout.hpp>
 
-namespace zlg::rig {
+namespace zlg::recorded {
 namespace {
 
 logs::TextSeparator separator_of(config::TextSeparator separator) {
@@ -51,4 +51,4 @@ logs::TextLayout text_layout(const config::Analysis& analysis) { return layout_o
 
 logs::TextLayout text_layout(const config::Motion& motion) { return layout_of(motion, "motion"); }
 
-}  // namespace zlg::rig
+}  // namespace zlg::recorded

@@ -4,9 +4,9 @@
 #include <zlg/config/config.hpp>
 #include <zlg/logs/text_columns.hpp>
 
-namespace zlg::rig {
+namespace zlg::recorded {
 
 [[nodiscard]] logs::TextLayout text_layout(const config::Analysis& analysis);
 [[nodiscard]] logs::TextLayout text_layout(const config::Motion& motion);
 
-}  // namespace zlg::rig
+}  // namespace zlg::recorded

@@ -12,9 +12,9 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/text_columns.hpp>
 #include <zlg/logs/time_check.hpp>
-#include <zlg/rig/text_layout.hpp>
+#include <zlg/recorded/text_layout.hpp>
 
-namespace zlg::rig {
+namespace zlg::recorded {
 namespace {
 
 using config::ConfigError;
@@ -63,4 +63,4 @@ twin::Motion motion_of_file(const config::Motion& m) {
     return twin::Motion::from_increments(std::move(values), m.rate_hz);
 }
 
-}  // namespace zlg::rig
+}  // namespace zlg::recorded

@@ -11,7 +11,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 
-namespace zlg::rig {
+namespace zlg::recorded {
 namespace {
 
 // A text file that lives as long as the test.
@@ -168,4 +168,4 @@ TEST(MotionFile, ARealLogLoadsAndShowsTheEarth) {
 }
 
 }  // namespace
-}  // namespace zlg::rig
+}  // namespace zlg::recorded

@@ -1,0 +1,21 @@
+# The libraries of headers that the closed loop needs, for a build for another machine: those of the host's packages.
+#
+# They lie among the headers of the host's C library, which must not be seen: a folder of links shows these alone.
+
+set(zlg_host_headers ${CMAKE_BINARY_DIR}/host_headers)
+file(MAKE_DIRECTORY ${zlg_host_headers})
+foreach(header boost/version.hpp fmt/format.h toml++/toml.h)
+    find_path(folder ${header} PATHS /usr/local/include /usr/include REQUIRED NO_CACHE NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
+    cmake_path(GET header PARENT_PATH library)
+    file(CREATE_LINK ${folder}/${library} ${zlg_host_headers}/${library} SYMBOLIC)
+    unset(folder)
+endforeach()
+include_directories(SYSTEM ${zlg_host_headers})
+
+# find_package() then finds these targets, and not the host's, which bring the host's archives.
+add_library(fmt::fmt INTERFACE IMPORTED)
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+add_library(tomlplusplus::tomlplusplus INTERFACE IMPORTED)
+foreach(package fmt tomlplusplus)
+    file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/${package}-config.cmake "")
+endforeach()

@@ -1,0 +1,54 @@
+#pragma once
+// One configured gyro in its closed loop, with the compensation that its configuration asks for beside it.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include <zlg/config/config.hpp>
+#include <zlg/core/records.hpp>
+#include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/replay.hpp>
+
+namespace zlg::lab {
+
+// The defaults, over them each `section.key=value` as the program's --set reads it, the later over the earlier, and what [laser]
+// says of the constants that the processor presumes.
+//
+// errors  config::ConfigError, with the program's own message.
+[[nodiscard]] config::Config configured(std::span<const std::string> settings);
+
+class LoopRun {
+public:
+    // errors  config::ConfigError where the configuration makes no gyro; here a motion file makes none, and the best interval is not
+    //         sought.
+    explicit LoopRun(const config::Config& config);
+
+    // One half-period of bias; `on_row` is called with the core::AngleRow that is settled by it, where there is one.
+    //
+    // errors  config::ConfigError where the rate is beyond any counter.
+    template <class OnRow>
+    rig::LoopHalf advance(const OnRow& on_row) {
+        const rig::LoopHalf half = loop_.advance();
+        replay_.take(half.record, loop_.light(), on_row);
+        return half;
+    }
+
+    // There are no more halves: the rows that are still open.
+    template <class OnRow>
+    void end(const OnRow& on_row) {
+        replay_.end(on_row);
+    }
+
+    [[nodiscard]] std::int64_t halves() const { return replay_.halves(); }
+    [[nodiscard]] std::int64_t run_halves() const { return run_halves_; }  // of run.duration_s
+    [[nodiscard]] double time_s() const { return 0.5 * tick_s_ * static_cast<double>(replay_.halves()); }
+
+private:
+    double tick_s_;
+    std::int64_t run_halves_;
+    rig::ClosedLoop loop_;
+    rig::Replay replay_;
+};
+
+}  // namespace zlg::lab

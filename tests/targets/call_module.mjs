@@ -1,0 +1,27 @@
+// Calls the module of the closed loop as a page does: node --no-warnings call_module.mjs zlg_loop.wasm '[["configure", "text"], ["advance", 10], ...]'
+// Prints, as JSON, what each call gave: the time in seconds after it, or the message of a refusal. A list of numbers in place of a text
+// is its bytes.
+import { readFile } from "node:fs/promises";
+import { argv } from "node:process";
+import { WASI } from "node:wasi";
+
+const wasi = new WASI({ version: "preview1" });
+const { instance } = await WebAssembly.instantiate(await readFile(argv[2]), wasi.getImportObject());
+wasi.initialize(instance);
+const loop = instance.exports;
+
+function configure(text) {
+    const bytes = typeof text === "string" ? new TextEncoder().encode(text) : Uint8Array.from(text);
+    // The memory may move when the module asks for more: it is looked up after the call.
+    const place = loop.zlg_text(bytes.length);
+    new Uint8Array(loop.memory.buffer, place, bytes.length).set(bytes);
+    return loop.zlg_configure();
+}
+
+function message() {
+    const place = loop.zlg_message();
+    return new TextDecoder().decode(new Uint8Array(loop.memory.buffer, place, loop.zlg_message_bytes()));
+}
+
+const calls = { configure, advance: (halves) => loop.zlg_advance(halves) };
+console.log(JSON.stringify(JSON.parse(argv[3]).map(([name, value]) => (calls[name](value) === 1 ? loop.zlg_time_s() : message()))));
