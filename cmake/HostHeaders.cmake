@@ -10,6 +10,9 @@ foreach(header boost/version.hpp fmt/format.h toml++/toml.h)
     file(CREATE_LINK ${folder}/${library} ${zlg_host_headers}/${library} SYMBOLIC)
     unset(folder)
 endforeach()
+find_path(folder xxhash.h PATHS /usr/local/include /usr/include REQUIRED NO_CACHE NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
+file(CREATE_LINK ${folder}/xxhash.h ${zlg_host_headers}/xxhash.h SYMBOLIC)
+unset(folder)
 include_directories(SYSTEM ${zlg_host_headers})
 
 # find_package() then finds these targets, and not the host's, which bring the host's archives.

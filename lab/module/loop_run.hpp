@@ -8,6 +8,7 @@
 #include <zlg/config/config.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/fingerprint.hpp>
 #include <zlg/rig/replay.hpp>
 
 namespace zlg::lab {
@@ -30,14 +31,20 @@ public:
     template <class OnRow>
     rig::LoopHalf advance(const OnRow& on_row) {
         const rig::LoopHalf half = loop_.advance();
-        replay_.take(half.record, loop_.light(), on_row);
+        fingerprint_.take(half, loop_.sensor());
+        replay_.take(half.record, loop_.light(), [&](const core::AngleRow& row) {
+            fingerprint_.take(row);
+            on_row(row);
+        });
         return half;
     }
 
-    // There are no more halves: the rows that are still open.
-    template <class OnRow>
-    void end(const OnRow& on_row) {
-        replay_.end(on_row);
+    // That of a run which ends here, with the rows that are still open.
+    [[nodiscard]] std::string fingerprint() const {
+        rig::Fingerprint at_end = fingerprint_;
+        rig::Replay rest = replay_;
+        rest.end([&](const core::AngleRow& row) { at_end.take(row); });
+        return at_end.text();
     }
 
     [[nodiscard]] std::int64_t halves() const { return replay_.halves(); }
@@ -49,6 +56,7 @@ private:
     std::int64_t run_halves_;
     rig::ClosedLoop loop_;
     rig::Replay replay_;
+    rig::Fingerprint fingerprint_;
 };
 
 }  // namespace zlg::lab

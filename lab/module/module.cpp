@@ -25,6 +25,7 @@ using namespace zlg;
 struct Page {
     std::string text;  // of the page
     std::string message;
+    std::string fingerprint;
     std::unique_ptr<lab::LoopRun> run;
 };
 
@@ -79,6 +80,13 @@ ZLG_EXPORT(zlg_advance) int zlg_advance(std::uint32_t halves) {
 
 // Since the gyro was configured; 0 without one.
 ZLG_EXPORT(zlg_time_s) double zlg_time_s() { return page().run ? page().run->time_s() : 0.0; }
+
+// The fingerprint of a run that ends now: 16 hexadecimal digits; null without a gyro.
+ZLG_EXPORT(zlg_fingerprint) const char* zlg_fingerprint() {
+    if (!page().run) return nullptr;
+    page().fingerprint = page().run->fingerprint();
+    return page().fingerprint.data();
+}
 
 // What was refused last, UTF-8.
 ZLG_EXPORT(zlg_message) const char* zlg_message() { return page().message.data(); }
