@@ -29,7 +29,8 @@ const CaseFigures* find_case(CaseGroup group, const std::string& name) {
 // Every criterion at once, each by its own words: a limit is broken only where chance does not explain it.
 void meets_what_is_wanted() {
     // What is weak (docs/accuracy.md). Where one is mended its line must go.
-    const std::set<std::string> known_misses{"gaps of 1 to 10 ticks: NEV at least 0.7"};
+    const std::set<std::string> known_misses{"gaps of 1 to 10 ticks: NEV at least 0.7",
+                                             "first manoeuvres: ramps from 50 ms, at most 2 % beyond 3 sigma"};
     for (const Criterion& c : quick().criteria)
         EXPECT_EQ(c.verdict == Verdict::missed, known_misses.contains(c.wanted))
             << c.table << ": " << c.wanted << ": " << c.got;
