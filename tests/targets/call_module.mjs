@@ -1,6 +1,7 @@
 // Calls the module of the closed loop as a page does: node --no-warnings call_module.mjs zlg_loop.wasm
-// Reads the calls from standard input, [["configure", "text"], ["advance", 10], ...]; prints, as JSON, what each call gave: the time in seconds after it, or the message of a refusal; "memory_bytes" gives what the module has. A list of numbers in place of a text
-// is its bytes.
+// Reads the calls from standard input, [["configure", "text"], ["advance", 10], ...], and prints, as JSON, what each gave: the time in
+// seconds after it, or the message of a refusal; "memory_bytes" gives what the module has. A list of numbers in place of a text is its
+// bytes.
 import { readFile } from "node:fs/promises";
 import { argv, stdin } from "node:process";
 import { text } from "node:stream/consumers";
