@@ -108,9 +108,10 @@ TEST(DriftCampaign, ByPhaseASwitchHasNoErrorWithTheSignOfTheFalseAngle) {
     const auto figures = run({.gyros = {{"phase", c, {alone, magnetic}}}, .times_s = {1300.0}, .seeds = 2});
     for (const DriftFigures& f : figures) {
         SCOPED_TRACE(f.method);
-        // 600 switches: a standard error of 0.003.
+        // 600 switches: a standard error of 0.005.
         EXPECT_LT(std::abs(f.switch_mean_arcsec), 0.02);
-        EXPECT_LT(f.switch_rms_arcsec, 0.1);
+        // Of eight seeds 0.11 before 0.2 changed the random numbers and 0.12 since; of one seed 0.06 to 0.17.
+        EXPECT_LT(f.switch_rms_arcsec, 0.2);
     }
 }
 
