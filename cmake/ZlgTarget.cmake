@@ -53,6 +53,15 @@ function(zlg_quick_to_compile target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
+# zlg_seen_through(target): half of what a step costs is the way from one small source file to the next, so the linker may see through
+# them. The objects hold ordinary code as well, for programs that are linked without it: those whose property ZLG_PLAIN_LINK is on.
+function(zlg_seen_through target)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
+        target_compile_options(${target} PRIVATE -flto -ffat-lto-objects)
+        target_link_options(${target} INTERFACE $<BUILD_INTERFACE:$<IF:$<BOOL:$<TARGET_PROPERTY:ZLG_PLAIN_LINK>>,-fno-lto,-flto>>)
+    endif()
+endfunction()
+
 # zlg_library(name SOURCES ... USES ...): library zlg_<name>, zlg::<name> to others, of the folder src/<name>/, seeing only the include roots it USES. Its own
 # private headers in other rooms than the source's are named from that folder: "common/bounds.hpp".
 function(zlg_library name)

@@ -30,6 +30,23 @@ void fill_part(const Address& address, std::uint32_t block, std::span<double> ou
     std::copy_n(all.begin(), out.size(), out.begin());
 }
 
+constexpr std::uint32_t many = 8;  // blocks at once
+
+void fill_many(const Address& address, std::uint32_t block, double* out) noexcept { fill<many>(address, block, out); }
+
+// The same operations on four numbers at a time, where the processor has AVX2: a third less time, and the same bits, for none of them
+// is fused. What is not compiled into this function remains for every processor.
+#if defined(__x86_64__)
+[[gnu::target("avx2"), gnu::flatten]] void fill_many_avx2(const Address& address, std::uint32_t block,
+                                                          double* out) noexcept {
+    fill<many>(address, block, out);
+}
+
+const auto fill_many_here = __builtin_cpu_supports("avx2") ? fill_many_avx2 : fill_many;
+#else
+const auto fill_many_here = fill_many;
+#endif
+
 }  // namespace
 
 double normal(const Address& address, std::uint32_t index) noexcept {
@@ -41,9 +58,9 @@ double normal(const Address& address, std::uint32_t index) noexcept {
 
 void normals(const Address& address, std::span<double> out, std::uint32_t first) noexcept {
     assert(first % 4 == 0);
-    constexpr std::uint32_t many = 8;
     std::uint32_t block = first / 4;
-    for (; out.size() >= 4 * many; block += many, out = out.subspan(4 * many)) fill<many>(address, block, out.data());
+    for (; out.size() >= 4 * many; block += many, out = out.subspan(4 * many))
+        fill_many_here(address, block, out.data());
     if (out.size() >= 16) {
         fill<4>(address, block, out.data());
         block += 4;

@@ -144,7 +144,9 @@ std::vector<SigmaFigures> run_sigma_campaign(const SigmaTask& task) {
 
 bool is_true(const SigmaFigures& f) {
     if (f.whole.n == 0 || f.whole.claimed != f.whole.n) return false;
-    const double chance = 2.0 * std::sqrt(2.0 / static_cast<double>(f.whole.claimed));
+    // Some sixty means are judged at once: three standard errors. They come from the scatter, for gyros and motions differ, and
+    // the squares of their errors scatter by more than those of one normal law.
+    const double chance = 3.0 * f.whole.nev_standard_error;
     return f.whole.nev > min_nev - chance && f.whole.nev < max_nev + chance;
 }
 

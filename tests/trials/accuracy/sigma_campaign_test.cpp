@@ -13,10 +13,9 @@
 namespace zlg::trials {
 namespace {
 
-// A fifth of the campaign. A single error of ten sigma fails a class of 120 switches: of the seeds 1 to 7 three pass, 2, 4
-// and 7. The whole campaign is for the program.
+// A fifth of the campaign.
 const std::vector<SigmaFigures>& figures() {
-    static const std::vector<SigmaFigures> all = run_sigma_campaign({.share = 0.2, .seed = 2, .threads = 2});
+    static const std::vector<SigmaFigures> all = run_sigma_campaign({.share = 0.2, .seed = 1, .threads = 2});
     return all;
 }
 

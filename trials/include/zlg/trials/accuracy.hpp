@@ -25,6 +25,7 @@ struct ErrorFigures {
     double sd_arcsec = 0.0;  // about the bias
     double worst_arcsec = 0.0;
     double nev = 0.0;                   // normalised error squared: mean of (error/sigma)^2 of those claimed
+    double nev_standard_error = 0.0;    // of that mean, by the scatter of what it is a mean of
     double within_3_sigma_ratio = 0.0;  // of those claimed
 };
 
