@@ -80,51 +80,48 @@ double step_error_v(double quantum_v, double reading_variance_v2) {
     return quantum_v * std::sqrt(sum);
 }
 
-// The step of the converter and the error that a mean reading keeps of it.
+// The step of the converter, and the error that a mean reading of each log keeps of it.
 struct Converter {
-    double step_v = 0.0;
-    double error_v = 0.0;
+    double quantum_v = 0.0;
+    std::vector<double> error_v;
 };
 
 Converter converter_of(std::span<const LabLog> logs) {
     Converter c;
-    double variance_v2 = std::numeric_limits<double>::infinity();
-    for (const LabLog& log : logs) {
-        if (!log.has_piezo()) continue;
-        c.step_v = std::fmax(c.step_v, log.piezo_quantum_v);
-        variance_v2 = std::fmin(variance_v2, log.piezo_variance_v2);
-    }
-    if (c.step_v > 0.0) c.error_v = step_error_v(c.step_v, variance_v2);
+    for (const LabLog& log : logs)
+        if (log.has_piezo()) c.quantum_v = std::fmax(c.quantum_v, log.piezo_quantum_v);
+    for (const LabLog& log : logs)
+        c.error_v.push_back(c.quantum_v > 0.0 ? step_error_v(c.quantum_v, log.piezo_variance_v2) : 0.0);
     return c;
 }
 
 // What the errors of the converter do to the coefficients. An error belongs to a place of the voltage and comes again
 // with every reading there, in whichever log; a step of the converter away it is another one:
 //
-//   e(v) = cos(pi t/2) e_k + sin(pi t/2) e_(k+1),   v = (k + t) step_v,   e_k independent of variance error_v^2
+//   e(v) = cos(pi t/2) e_k + sin(pi t/2) e_(k+1),   v = (k + t) quantum_v,   e_k independent, of variance error_v^2
 //
 // so its variance is the same everywhere. Each e_k contributes the square of all that it does in the fit.
 Eigen::MatrixXd converter_covariance(const std::vector<Step>& steps, const Eigen::MatrixXd& by_voltage,
                                      const Converter& converter) {
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(by_voltage.rows(), by_voltage.rows());
-    if (!(converter.error_v > 0.0)) return covariance;
+    if (!(converter.quantum_v > 0.0)) return covariance;
     std::map<double, Eigen::VectorXd> by_place;
     const auto add = [&](double voltage_v, const Eigen::VectorXd& effect) {
-        const double k = std::floor(voltage_v / converter.step_v);
-        const double angle = 0.5 * std::numbers::pi * (voltage_v / converter.step_v - k);
+        const double k = std::floor(voltage_v / converter.quantum_v);
+        const double angle = 0.5 * std::numbers::pi * (voltage_v / converter.quantum_v - k);
         const Eigen::VectorXd none = Eigen::VectorXd::Zero(effect.size());
         by_place.try_emplace(k, none).first->second += std::cos(angle) * effect;
         by_place.try_emplace(k + 1.0, none).first->second += std::sin(angle) * effect;
     };
     for (std::size_t n = 0; n < steps.size(); ++n) {
         const Step& s = steps[n];
-        const double up = std::copysign(1.0, s.to_v - s.from_v) / s.half_waves;
-        const Eigen::VectorXd effect = up * by_voltage.col(static_cast<Eigen::Index>(n));
+        const double error_v = std::copysign(converter.error_v[s.log], s.to_v - s.from_v) / s.half_waves;
+        const Eigen::VectorXd effect = error_v * by_voltage.col(static_cast<Eigen::Index>(n));
         add(s.to_v, effect);
         add(s.from_v, -effect);
     }
     for (const auto& [k, effect] : by_place) covariance += effect * effect.transpose();
-    return converter.error_v * converter.error_v * covariance;
+    return covariance;
 }
 
 struct Regression {
@@ -151,7 +148,7 @@ Regression regress(const std::vector<Step>& steps, const Eigen::MatrixXd& laws, 
     for (Eigen::Index k = 0; k < v.size(); ++k) {
         const Step& s = steps[static_cast<std::size_t>(k)];
         v[k] = s.voltage_v;
-        converter_sum += 2.0 * converter.error_v * converter.error_v / (s.half_waves * s.half_waves);
+        converter_sum += 2.0 * std::pow(converter.error_v[s.log] / s.half_waves, 2);
     }
     const Eigen::MatrixXd normal = laws.transpose() * laws;
     const Eigen::MatrixXd inverse = normal.inverse();
