@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -19,9 +20,11 @@ constexpr std::int64_t min_switches = 4;
 struct Step {
     std::size_t log = 0;
     std::int64_t segment = 0;  // behind the switch
-    double voltage_v = 0.0;
+    double from_v = 0.0;
+    double to_v = 0.0;
+    double half_waves = 1.0;
+    double voltage_v = 0.0;  // of one half wavelength
     double temperature_c = 0.0;
-    double drift_v = 0.0;  // within the segment before
 };
 
 bool has_windows(const Segment& s) { return s.at_start.n > 0 && s.at_end.n > 0; }
@@ -35,9 +38,10 @@ void collect(const LabLog& log, std::size_t index, std::vector<Step>& steps) {
         const double drift_v = 0.5 * (slope_v_per_tick(before) + slope_v_per_tick(after)) * elapsed_ticks;
         steps.push_back({.log = index,
                          .segment = static_cast<std::int64_t>(k),
+                         .from_v = before.at_end.voltage_v,
+                         .to_v = after.at_start.voltage_v,
                          .voltage_v = std::abs(after.at_start.voltage_v - before.at_end.voltage_v - drift_v),
-                         .temperature_c = 0.5 * (before.at_end.temperature_c + after.at_start.temperature_c),
-                         .drift_v = before.at_end.voltage_v - before.at_start.voltage_v});
+                         .temperature_c = 0.5 * (before.at_end.temperature_c + after.at_start.temperature_c)});
     }
 }
 
@@ -57,7 +61,10 @@ double longest_rest_ticks(std::span<const LabLog> logs) {
 // A switch that ends in another mode of the same helicity has moved by 3, 5, ... half wavelengths.
 void divide_by_multiple(std::vector<Step>& steps) {
     const double usual_v = median_v(steps);
-    for (Step& s : steps) s.voltage_v /= 2.0 * std::fmax(0.0, std::round(0.5 * (s.voltage_v / usual_v - 1.0))) + 1.0;
+    for (Step& s : steps) {
+        s.half_waves = 2.0 * std::fmax(0.0, std::round(0.5 * (s.voltage_v / usual_v - 1.0))) + 1.0;
+        s.voltage_v /= s.half_waves;
+    }
     std::erase_if(steps, [&](const Step& s) { return !(std::abs(s.voltage_v - usual_v) < 0.25 * usual_v); });
 }
 
@@ -73,21 +80,48 @@ double step_error_v(double quantum_v, double reading_variance_v2) {
     return quantum_v * std::sqrt(sum);
 }
 
-// A converter that meets the same steps at every switch gives the voltage no better, however often it is read. It meets
-// others where the voltage goes on from switch to switch.
-double resolution_v(std::span<const LabLog> logs, const std::vector<Step>& steps) {
+// The step of the converter, and the error that a mean reading of each log keeps of it.
+struct Converter {
     double quantum_v = 0.0;
-    double variance_v2 = std::numeric_limits<double>::infinity();
-    for (const LabLog& log : logs) {
-        if (!log.has_piezo()) continue;
-        quantum_v = std::fmax(quantum_v, log.piezo_quantum_v);
-        variance_v2 = std::fmin(variance_v2, log.piezo_variance_v2);
+    std::vector<double> error_v;
+};
+
+Converter converter_of(std::span<const LabLog> logs) {
+    Converter c;
+    for (const LabLog& log : logs)
+        if (log.has_piezo()) c.quantum_v = std::fmax(c.quantum_v, log.piezo_quantum_v);
+    for (const LabLog& log : logs)
+        c.error_v.push_back(c.quantum_v > 0.0 ? step_error_v(c.quantum_v, log.piezo_variance_v2) : 0.0);
+    return c;
+}
+
+// What the errors of the converter do to the coefficients. An error belongs to a place of the voltage and comes again
+// with every reading there, in whichever log; a step of the converter away it is another one:
+//
+//   e(v) = cos(pi t/2) e_k + sin(pi t/2) e_(k+1),   v = (k + t) quantum_v,   e_k independent, of variance error_v^2
+//
+// so its variance is the same everywhere. Each e_k contributes the square of all that it does in the fit.
+Eigen::MatrixXd converter_covariance(const std::vector<Step>& steps, const Eigen::MatrixXd& by_voltage,
+                                     const Converter& converter) {
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(by_voltage.rows(), by_voltage.rows());
+    if (!(converter.quantum_v > 0.0)) return covariance;
+    std::map<double, Eigen::VectorXd> by_place;
+    const auto add = [&](double voltage_v, const Eigen::VectorXd& effect) {
+        const double k = std::floor(voltage_v / converter.quantum_v);
+        const double angle = 0.5 * std::numbers::pi * (voltage_v / converter.quantum_v - k);
+        const Eigen::VectorXd none = Eigen::VectorXd::Zero(effect.size());
+        by_place.try_emplace(k, none).first->second += std::cos(angle) * effect;
+        by_place.try_emplace(k + 1.0, none).first->second += std::sin(angle) * effect;
+    };
+    for (std::size_t n = 0; n < steps.size(); ++n) {
+        const Step& s = steps[n];
+        const double error_v = std::copysign(converter.error_v[s.log], s.to_v - s.from_v) / s.half_waves;
+        const Eigen::VectorXd effect = error_v * by_voltage.col(static_cast<Eigen::Index>(n));
+        add(s.to_v, effect);
+        add(s.from_v, -effect);
     }
-    if (!(quantum_v > 0.0)) return 0.0;
-    double passed_v = 0.0;
-    for (const Step& s : steps) passed_v += std::abs(s.drift_v);
-    const double independent = 1.0 + std::fmin(static_cast<double>(steps.size()) - 1.0, passed_v / quantum_v);
-    return std::sqrt(2.0 / independent) * step_error_v(quantum_v, variance_v2);
+    for (const auto& [k, effect] : by_place) covariance += effect * effect.transpose();
+    return covariance;
 }
 
 struct Regression {
@@ -96,26 +130,41 @@ struct Regression {
     double rms_v = 0.0;
 };
 
-// Ordinary least squares; the covariance holds what neighbours of one log have in common.
-Regression regress(const std::vector<Step>& steps, const Eigen::MatrixXd& laws) {
-    Eigen::VectorXd v(std::ssize(steps));
-    for (Eigen::Index k = 0; k < v.size(); ++k) v[k] = steps[static_cast<std::size_t>(k)].voltage_v;
-    const Eigen::MatrixXd inverse = (laws.transpose() * laws).inverse();
-    Regression r{inverse * laws.transpose() * v, {}, 0.0};
-    const Eigen::VectorXd residual = v - laws * r.coefficient;
-    const double dof = static_cast<double>(v.size() - laws.cols());
+// Sum of squares of the residuals, with twice the products of neighbours of one log.
+double sum_with_neighbours(const std::vector<Step>& steps, const Eigen::VectorXd& residual) {
     double shared = 0.0;
     for (std::size_t k = 1; k < steps.size(); ++k)
         if (steps[k].log == steps[k - 1].log && steps[k].segment == steps[k - 1].segment + 1)
             shared += residual[static_cast<Eigen::Index>(k)] * residual[static_cast<Eigen::Index>(k) - 1];
     const double sum = residual.squaredNorm();
-    const double sigma_v = numeric::widened(std::sqrt(std::fmax(0.75 * sum, sum + 2.0 * shared) / dof), dof);
-    r.covariance = sigma_v * sigma_v * inverse;
-    r.rms_v = std::sqrt(sum / dof);
+    return std::fmax(0.75 * sum, sum + 2.0 * shared);
+}
+
+// Ordinary least squares; the covariance holds what neighbours of one log have in common, and the errors of the
+// converter. What the latter are expected to leave in the residuals, tr((I - H) C), counts only once.
+Regression regress(const std::vector<Step>& steps, const Eigen::MatrixXd& laws, const Converter& converter) {
+    Eigen::VectorXd v(std::ssize(steps));
+    double converter_sum = 0.0;
+    for (Eigen::Index k = 0; k < v.size(); ++k) {
+        const Step& s = steps[static_cast<std::size_t>(k)];
+        v[k] = s.voltage_v;
+        converter_sum += 2.0 * std::pow(converter.error_v[s.log] / s.half_waves, 2);
+    }
+    const Eigen::MatrixXd normal = laws.transpose() * laws;
+    const Eigen::MatrixXd inverse = normal.inverse();
+    const Eigen::MatrixXd by_voltage = inverse * laws.transpose();
+    Regression r{by_voltage * v, converter_covariance(steps, by_voltage, converter), 0.0};
+    const Eigen::VectorXd residual = v - laws * r.coefficient;
+    const double dof = static_cast<double>(v.size() - laws.cols());
+    converter_sum -= (normal * r.covariance).trace();
+    const double sum = std::fmax(0.0, sum_with_neighbours(steps, residual) - std::fmax(0.0, converter_sum));
+    const double sigma_v = numeric::widened(std::sqrt(sum / dof), dof);
+    r.covariance += sigma_v * sigma_v * inverse;
+    r.rms_v = std::sqrt(residual.squaredNorm() / dof);
     return r;
 }
 
-void fit(const std::vector<Step>& steps, bool with_law, double resolution, HalfWaveLaw& law) {
+void fit(const std::vector<Step>& steps, bool with_law, const Converter& converter, HalfWaveLaw& law) {
     double mean_c = 0.0;
     for (const Step& s : steps) mean_c += s.temperature_c / static_cast<double>(steps.size());
     Eigen::MatrixXd laws = Eigen::MatrixXd::Ones(std::ssize(steps), with_law ? 2 : 1);
@@ -127,9 +176,8 @@ void fit(const std::vector<Step>& steps, bool with_law, double resolution, HalfW
         else if (known_c)
             laws(k, 0) = 1.0 + law.coefficient_taken_per_c * (t_c - law.reference_temperature_c);
     }
-    Regression r = regress(steps, laws);
+    const Regression r = regress(steps, laws, converter);
     law.scatter_v = r.rms_v;
-    r.covariance(0, 0) = std::fmax(r.covariance(0, 0), resolution * resolution);
     if (!with_law) {
         law.half_wave_v = numeric::estimated(r.coefficient[0], std::sqrt(r.covariance(0, 0)));
         return;
@@ -169,7 +217,7 @@ HalfWaveLaw find_half_wave_law(std::span<const LabLog> logs, double reference_te
     const std::string too_few = too_few_temperatures(logs);
     const bool with_law = too_few.empty() && law.n_switches > min_switches;
     if (!with_law) law.temperature_coefficient_per_c = numeric::refused(too_few.empty() ? "too few switches" : too_few);
-    fit(steps, with_law, resolution_v(logs, steps), law);
+    fit(steps, with_law, converter_of(logs), law);
     return law;
 }
 

@@ -68,6 +68,11 @@ double rest_after_ticks(const std::vector<Relock>& relocks) {
 
 constexpr std::size_t window_halves = 2 * window_ticks;
 
+// The control decides by its last 8 readings whether the voltage goes up or down. Readings that decided are not a fair
+// sample: near the middle of the range they are too low where it goes up, too high where it goes down, and the step
+// would be found too long.
+constexpr std::size_t steering_halves = 8;
+
 constexpr std::int64_t start_ticks(std::size_t k) { return settled_after_ticks << k; }
 
 int bias_and_mode(const core::HalfRecord& r) { return r.bias_sign * r.mode; }
@@ -86,7 +91,7 @@ void add_reading(PiezoLevel& level, const core::HalfRecord& r) {
 LabReader::LabReader(std::string name, double tick_s) {
     log_.name = std::move(name);
     log_.tick_s = tick_s;
-    recent_.reserve(window_halves);
+    recent_.reserve(window_halves + steering_halves);
 }
 
 void LabReader::take(const core::HalfRecord& record) {
@@ -169,12 +174,12 @@ void LabReader::take_window(const core::HalfRecord& record) {
         add_reading(starts_.back()[k], record);
         if (std::isfinite(record.piezo_v)) start_voltage_[k].add(record.piezo_v);
     }
-    if (recent_.size() < window_halves) {
+    if (recent_.size() < window_halves + steering_halves) {
         recent_.push_back(record);
         return;
     }
     recent_[oldest_] = record;
-    oldest_ = (oldest_ + 1) % window_halves;
+    oldest_ = (oldest_ + 1) % recent_.size();
 }
 
 void LabReader::choose_start() {
@@ -190,7 +195,8 @@ void LabReader::choose_start() {
 
 void LabReader::end_segment() {
     if (in_segment_)
-        for (const core::HalfRecord& r : recent_) add_reading(log_.segments.back().at_end, r);
+        for (std::size_t k = 0; k < std::min(recent_.size(), window_halves); ++k)
+            add_reading(log_.segments.back().at_end, recent_[(oldest_ + k) % recent_.size()]);
     for (std::size_t k = 0; k < n_starts; ++k)
         if (start_voltage_[k].n > 1) window_variance_[k].add(start_voltage_[k].variance());
     start_voltage_ = {};

@@ -89,7 +89,7 @@ TEST(LabReader, voltages_of_rest_are_means_of_the_windows_at_either_end) {
     EXPECT_EQ(log.segments[0].at_end.n, 2 * window_ticks);
     EXPECT_DOUBLE_EQ(log.segments[0].at_end.voltage_v, 100.0);
     EXPECT_DOUBLE_EQ(log.segments[1].at_start.voltage_v, 140.0);
-    EXPECT_DOUBLE_EQ(log.segments[0].at_end.middle_ticks, 190.25);
+    EXPECT_DOUBLE_EQ(log.segments[0].at_end.middle_ticks, 186.25);  // ends 8 readings before the segment
     EXPECT_DOUBLE_EQ(log.piezo_quantum_v, 40.0);
     EXPECT_EQ(slope_v_per_tick(log.segments[0]), 0.0);
 }

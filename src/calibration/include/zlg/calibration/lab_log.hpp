@@ -47,7 +47,7 @@ struct Segment {
     std::int64_t n_ticks = 0;
     std::int64_t n_settled = 0;
     PiezoLevel at_start;  // first window at rest; no readings where the segment ends before it
-    PiezoLevel at_end;    // last settled window
+    PiezoLevel at_end;    // last settled window before the readings by which a switch was directed
 };
 
 // Drift of the voltage from the first window to the last; 0 where they overlap.

@@ -38,7 +38,7 @@ private:
     bool has_first_ = false;
     core::HalfRecord first_;
     double last_piezo_v_ = std::numeric_limits<double>::quiet_NaN();
-    std::vector<core::HalfRecord> recent_;  // the last settled window, a ring
+    std::vector<core::HalfRecord> recent_;  // the last settled window and what steered, a ring
     std::size_t oldest_ = 0;
     std::array<Moments, n_starts> start_voltage_;
     std::array<Moments, n_starts> window_variance_;
