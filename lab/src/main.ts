@@ -138,7 +138,7 @@ class Lab {
         this.views.show(frame);
         this.ring.show(frame);
         this.health?.show(frame.now[11], frame.health);
-        marked("time").textContent = frame.time_s.toFixed(3);
+        marked("time").textContent = frame.time_s.toFixed(4);
         marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
         this.show_state(frame.state);
     }

@@ -52,10 +52,11 @@ class Runs(unittest.TestCase):
         return json.loads(ran.stdout)["fingerprint"]
 
     def test_random_gyros_of_both_fidelities_give_the_fingerprints_of_the_program(self):
-        for gyro in random_gyros(6, 60, seed=7):
+        # Every second is a laser.
+        for gyro in random_gyros(6, 60, seed=3):
             with self.subTest(gyro=gyro):
                 self.assertEqual(self.fingerprint(fragment_of(gyro[1:], 60)), self.of_the_program(gyro))
-                self.assertEqual(self.browser.marked("time"), "60.000")
+                self.assertEqual(self.browser.marked("time"), "60.0000")
         self.assertEqual(self.browser.complaints(), [])
         self.assertEqual(self.browser.requests(), [])
 
