@@ -21,6 +21,7 @@ export interface ChartOptions {
     log_y?: boolean;
     y_range?: [number, number];
     y_splits?: number[];
+    least_span?: number; // of the y axis: noise within it is not blown up to the whole height
     x_names?: string[]; // in place of numbers 0, 1, 2 ...
     sync?: string;
 }
@@ -36,6 +37,15 @@ export function short(value: number, digits = 4): string {
     if (!Number.isFinite(value)) return "–";
     const text = Math.abs(value) >= 1e7 || (value !== 0 && Math.abs(value) < 1e-4) ? value.toExponential(Math.min(2, digits - 1)) : String(Number(value.toPrecision(digits)));
     return text.replace("-", "−");
+}
+
+function wide_enough(least_span: number): (_: uPlot, min: number | null, max: number | null) => uPlot.Range.MinMax {
+    return (_, min, max) => {
+        if (min === null || max === null) return [0, least_span];
+        const middle = 0.5 * (min + max);
+        const half = Math.max(0.55 * (max - min), 0.5 * least_span);
+        return [middle - half, middle + half];
+    };
 }
 
 export class Chart {
@@ -80,7 +90,7 @@ export class Chart {
             legend: { live: true, markers: { width: 2 } },
             scales: {
                 x: { time: false, distr: options.log_x ? 3 : 1, ...(named ? { range: [-0.6, named.length - 0.4] } : {}) },
-                y: { distr: options.log_y ? 3 : 1, ...(options.y_range ? { range: options.y_range } : {}) },
+                y: { distr: options.log_y ? 3 : 1, ...(options.y_range ? { range: options.y_range } : options.least_span ? { range: wide_enough(options.least_span) } : {}) },
             },
             axes: [
                 { ...axis, label: options.x, size: 34, ...(named ? { splits: () => named.map((_, at) => at), values: (_: uPlot, at: number[]) => at.map((k) => named[k] ?? "") } : { values: plain }) },

@@ -113,7 +113,7 @@ export class RingDrawing {
         this.values["Rate of the case"].textContent = `${short(rate / 3600, 3)} deg/s`;
         this.values["Detuning"].textContent = `${short(detuning, 3)} λ`;
         this.values["Piezo"].textContent = `${piezo.toFixed(2)} V`;
-        this.values["Next switch"].textContent = to_switch > 0 && to_switch < 1e6 ? `in ${to_switch.toFixed(2)} s` : to_switch >= 1e6 ? "never" : "now";
+        this.values["Next switch"].textContent = to_switch > 0 && to_switch < 1e5 ? `in ${to_switch.toFixed(2)} s` : to_switch >= 1e5 ? "never" : "now";
         this.values["Speed"].textContent = frame.state === "running" && frame.speed > 0 ? `${short(frame.speed, 3)} × real time` : "stands";
     }
 
