@@ -1,6 +1,7 @@
 """The lab page: its runs are those of the program, and it says what the program says."""
 
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -45,11 +46,14 @@ class Runs(unittest.TestCase):
         self.assertEqual(self.browser.marked("state"), "done")
         return self.browser.marked("fingerprint")
 
-    def of_the_program(self, settings):
+    def summary_of_the_program(self, settings):
         with tempfile.TemporaryDirectory() as out:
             ran = zlg("run", *[word for each in settings for word in ("--set", each)], "--logs", "none", "--json", "--out", Path(out) / "run")
         self.assertNotEqual(ran.stdout, "", ran.stderr)
-        return json.loads(ran.stdout)["fingerprint"]
+        return json.loads(ran.stdout)
+
+    def of_the_program(self, settings):
+        return self.summary_of_the_program(settings)["fingerprint"]
 
     def test_random_gyros_of_both_fidelities_give_the_fingerprints_of_the_program(self):
         # Every second is a laser.
@@ -59,6 +63,21 @@ class Runs(unittest.TestCase):
                 self.assertEqual(self.browser.marked("time"), "60.0000")
         self.assertEqual(self.browser.complaints(), [])
         self.assertEqual(self.browser.requests(), [])
+
+    def test_the_errors_of_the_switches_are_those_of_the_program(self):
+        for settings in (["switching.interval_s=2"], ["switching.interval_s=1", "compensation.magnetic=estimate", "motion.frequency_hz=3.1"],
+                         ["switching.interval_s=2", "gyro.readout=phase", "compensation.relock=joint"]):
+            with self.subTest(settings=settings):
+                self.fingerprint(fragment_of(settings, 40.6))
+                text = self.browser.text("#histogram-text")
+                summary = self.summary_of_the_program([*settings, "run.duration_s=40.6"])
+                variants = {variant["name"]: variant for variant in summary["variants"]}
+                self.assertEqual([variants[name]["switches_unrepaired"] for name in ("switching", "bridge_quadratic", "configured")], [0, 0, 0])
+                self.assertTrue(text.startswith(f"{summary['switches']} switches;"), text)
+                shown = re.search(r"as read ([\d.]+), the paper's ([\d.]+), as configured ([\d.]+) arcsec", text).groups()
+                for value, name in zip(shown, ("switching", "bridge_quadratic", "configured")):
+                    expected = variants[name]["switch_error_rms_arcsec"]
+                    self.assertAlmostEqual(float(value) / expected, 1.0, delta=0.006)  # three digits are shown
 
     def test_a_gyro_that_runs_in_steps_has_the_fingerprint_of_a_run_to_that_time(self):
         self.browser.open_lab("switching.interval_s=1")

@@ -34,8 +34,8 @@ struct Link {
 
 struct Page {
     std::string title;
-    std::string verdict;  // the result in one sentence, the first that is read
-    std::string lead;     // one or two sentences under it
+    std::string verdict;        // the result in one sentence, the first that is read
+    std::string lead;           // one or two sentences under it
     std::vector<Link> links{};  // after the lead
     std::vector<Section> sections{};
     bool numbered = true;  // false where titles and captions bring numbers of their own
