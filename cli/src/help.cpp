@@ -34,6 +34,7 @@ constexpr std::array verb_table{
              "  zlg run --duration 600 --set motion.kind=rest --logs none --out demo\n"
              "  zlg run my_gyro.toml --seed 7 --format csv"},
     VerbHelp{"simulate", simulating, "  zlg simulate --duration 600 --set switching.interval_s=60 --out raw.h5"},
+    VerbHelp{"lab", simulating, "  zlg lab --out lab.html                        then open it in a browser"},
     VerbHelp{"paper", simulating, "  zlg paper --out paper                         some half a minute"},
     VerbHelp{"import", processing,
              "  zlg import logger.csv                         says what it understood and what is missing\n"

@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
     cli::add_calibrate(program);
     cli::add_follow(program);
     cli::add_inspect(program);
+    cli::add_lab(program);
     cli::add_analyze(program);
     cli::complete_help(program);
     cli::add_manual(program);

@@ -1,5 +1,5 @@
 #pragma once
-// A folder for files that may yet fail.
+// A folder for files that may yet fail, and the folder of the program.
 
 #include <filesystem>
 #include <optional>
@@ -12,6 +12,11 @@
 #include <zlg/logs/unfinished.hpp>
 
 namespace zlg::cli {
+
+// Where the program lies.
+[[nodiscard]] inline std::string program_folder() {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
 
 // Made if it is not there, and removed at the end if it was made and nothing is in it. A signal finds it either not made
 // or known as new.

@@ -17,16 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum File : std::size_t { raw_file, angles_file, health_file, switches_file, summary_file, page_file };
+enum File : std::size_t { raw_file, angles_file, health_file, switches_file, summary_file, page_file, lab_file };
 
-std::array<std::string, 6> file_names(logs::LogFormat format) {
+std::array<std::string, 7> file_names(logs::LogFormat format) {
     const char* suffix = format == logs::LogFormat::csv ? ".csv" : ".h5";
     return {fmt::format("raw{}", suffix),
             fmt::format("angles{}", suffix),
             "health.csv",
             "switches.csv",
             "summary.json",
-            "report.html"};
+            "report.html",
+            "lab.html"};
 }
 
 void make_new_folder(std::optional<OwnFolder>& folder) {
@@ -60,6 +61,11 @@ RunFiles::RunFiles(const std::string& out, bool force, const config::Config& con
     page_.emplace(path(page_file), force);
 }
 
+void RunFiles::add_lab(const std::string& page, bool force) {
+    lab_.emplace(path(lab_file), force);
+    lab_->append(page);
+}
+
 void RunFiles::open_logs(const config::Config& config, bool force, KeptLogs kept, int light_samples) {
     for (const File log : {raw_file, angles_file})
         if (!force && fs::exists(path(log)))
@@ -78,7 +84,7 @@ void RunFiles::open_logs(const config::Config& config, bool force, KeptLogs kept
 RunFiles::~RunFiles() {
     if (finished_) return;
     const logs::Together all_or_none;
-    for (auto* file : {&health_, &switches_, &summary_, &page_}) file->reset();
+    for (auto* file : {&health_, &switches_, &summary_, &page_, &lab_}) file->reset();
     raw_.reset();
     angles_.reset();
     std::error_code ignored;
@@ -107,6 +113,7 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
     complete(switches_, switches_file);
     complete(summary_, summary_file);
     complete(page_, page_file);
+    if (lab_) complete(lab_, lab_file);
     const auto complete_log = [&](auto& file, File which) {
         std::error_code ignored;
         if (file)
@@ -120,7 +127,8 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
 }
 
 std::string RunFiles::list() const {
-    std::vector<std::string> written{names_.begin() + health_file, names_.end()};
+    std::vector<std::string> written{names_.begin() + health_file, names_.begin() + lab_file};
+    if (lab_) written.push_back(names_[lab_file]);
     if (angles_) written.insert(written.begin(), names_[angles_file]);
     if (raw_) written.insert(written.begin(), names_[raw_file]);
     return fmt::format("{}", fmt::join(written, ", "));

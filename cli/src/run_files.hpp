@@ -39,6 +39,11 @@ public:
     void write_health(std::int64_t half, std::uint32_t bits);
     [[nodiscard]] const std::string& folder() const { return folder_->path(); }
 
+    // The page of the lab beside the report.
+    //
+    // errors  logs::IoError, as the constructor.
+    void add_lab(const std::string& page, bool force);
+
     // fingerprint  of the run, for the logs.
     void finish(const std::vector<study::SwitchLine>& switches, const std::string& summary, const std::string& page,
                 const std::string& fingerprint);
@@ -57,7 +62,7 @@ private:
 
     std::optional<OwnFolder> folder_;
     double tick_s_;
-    std::array<std::string, 6> names_;
+    std::array<std::string, 7> names_;
     bool finished_ = false;
     std::vector<std::string> completed_;  // by this run, where nothing stood before
     std::optional<logs::RawWriter> raw_;
@@ -66,6 +71,7 @@ private:
     std::optional<logs::TableFile> switches_;
     std::optional<logs::TableFile> summary_;
     std::optional<logs::TableFile> page_;
+    std::optional<logs::TableFile> lab_;  // where it is asked for
 };
 
 }  // namespace zlg::cli

@@ -23,8 +23,10 @@
 #include "failure.hpp"
 #include "fields_json.hpp"
 #include "interrupt.hpp"
+#include "lab_page.hpp"
 #include "options.hpp"
 #include "output.hpp"
+#include "own_folder.hpp"
 #include "run_files.hpp"
 #include "run_text.hpp"
 #include "verbs.hpp"
@@ -37,8 +39,6 @@ struct ProcessorOptions {
     std::string processor = "host";
     std::string image;  // empty: the one beside the program
 };
-
-std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
 void add_processor_options(CLI::App& verb, ProcessorOptions& options) {
     verb.add_option("--processor", options.processor,
@@ -56,7 +56,7 @@ std::unique_ptr<rig::Processor> make_processor(const ProcessorOptions& options) 
     }
     if (options.processor != "qemu")
         throw UsageError{fmt::format("--processor {}: allowed are host and qemu", options.processor)};
-    const std::string image = options.image.empty() ? processor::image_beside(own_folder()) : options.image;
+    const std::string image = options.image.empty() ? processor::image_beside(program_folder()) : options.image;
     return std::make_unique<processor::QemuProcessor>(processor::QemuOptions{.image = image});
 }
 
@@ -107,6 +107,7 @@ struct RunOptions : Options {
     ProcessorOptions processor;
     std::string format = "h5";
     std::string logs = "all";
+    bool lab = false;
 };
 
 logs::LogFormat format_named(const std::string& name) {
@@ -179,12 +180,31 @@ void announce_run(const config::Config& config, const RunOptions& options, logs:
              });
 }
 
+// The page of the lab that goes beside the report; empty: none.
+//
+// errors  UsageError for a run that the page could not repeat; logs::IoError where there is no page.
+std::string asked_lab_page(const RunOptions& options, const config::Config& config) {
+    if (!options.lab) return "";
+    if (config.motion.kind == config::MotionKind::file)
+        throw UsageError{"--lab: the page reads no motion file; leave --lab out, or choose another motion.kind"};
+    return lab_page();
+}
+
+report::Page report_page(const RunOptions& options, const config::Config& config, const study::RunResult& result) {
+    report::Page page = study::run_page(config, result);
+    if (options.lab)
+        page.links.push_back({"This run in the lab page: watch it, and change it",
+                              "lab.html#" + lab_fragment(config, static_cast<double>(result.ticks) * result.tick_s)});
+    return page;
+}
+
 // The files are gone when this returns by an exception, but for the logs that grew until then.
 void run(const RunOptions& options) {
     const logs::LogFormat format = format_named(options.format);
     const KeptLogs kept = kept_logs(options);
     const study::Resolved resolved = resolve(load_config(options));
     const config::Config& config = resolved.config;
+    const std::string lab = asked_lab_page(options, config);
     const std::unique_ptr<rig::Processor> processor = make_processor(options.processor);
     announce_run(config, options, format, logged_light_samples(options, config, format), processor.get());
     const Interruptible interruptible;
@@ -193,13 +213,14 @@ void run(const RunOptions& options) {
     rig::SwitchTally tally;
     try {
         RunFiles files{options.out, options.force, config, format, kept, logged_light_samples(options, config, format)};
+        if (!lab.empty()) files.add_lab(lab, options.force);
         raw_part = files.raw_part();
         angles_part = files.angles_part();
         const study::RunResult result = run_into(files, resolved, options, processor.get(), interruptible);
         for (const std::string& warning : std::span{result.warnings}.subspan(resolved.warnings.size()))
             complain("warning: " + warning);
         const std::string summary = pretty(summary_json(config, result));
-        files.finish(result.switches, summary, report::html(study::run_page(config, result)), result.fingerprint);
+        files.finish(result.switches, summary, report::html(report_page(options, config, result)), result.fingerprint);
         // The page to open is the last line, so what waits goes before.
         print_notes();
         print(options.json ? summary : text(resolved, result, files));
@@ -219,6 +240,7 @@ void add_run(CLI::App& program) {
     add_config_argument(*verb, *options);
     verb->add_option("--format", options->format, "format of the logs (h5)");
     verb->add_option("--logs", options->logs, "which logs stay (all): an hour of the paper's gyro takes 113 MB");
+    verb->add_flag("--lab", options->lab, "also write the lab page, to which the report links with this configuration");
     add_light_option(*verb, *options);
     add_processor_options(*verb, options->processor);
     add_run_options(*verb, *options);

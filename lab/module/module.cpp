@@ -4,16 +4,21 @@
 // function that returns 0 has refused; zlg_message then says why, in the program's own words. Whatever it refuses, the module
 // goes on: after a refused configuration with the gyro that it had.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "live_run.hpp"
 #include "loop_run.hpp"
+#include "schema.hpp"
 
 // A function that the page sees under its own name.
 #define ZLG_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -23,10 +28,13 @@ namespace {
 using namespace zlg;
 
 struct Page {
-    std::string text;  // of the page
-    std::string message;
+    std::string text;     // of the page
+    std::string message;  // of the module: a refusal, or an answer
     std::string fingerprint;
-    std::unique_ptr<lab::LoopRun> run;
+    std::optional<std::string> other;  // settings of the second gyro, over those of the first
+    config::Config asked;
+    std::shared_ptr<lab::HandTurns> hand = std::make_shared<lab::HandTurns>();
+    std::unique_ptr<lab::LiveRun> run;
 };
 
 Page& page() {
@@ -57,6 +65,21 @@ int done(const Work& work) {
     }
 }
 
+void configure() {
+    std::vector<std::string> settings = lines(page().text);
+    config::Config asked = lab::asked(settings);
+    const config::Config config = lab::configured(settings);
+    std::optional<config::Config> other;
+    if (page().other) {
+        for (const std::string& line : lines(*page().other)) settings.push_back(line);
+        other = lab::configured(settings);
+    }
+    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand);
+    page().asked = std::move(asked);
+}
+
+const std::vector<double>& rows(std::uint32_t view) { return page().run->rows(static_cast<lab::View>(view)); }
+
 }  // namespace
 
 // Where `bytes` of the page's text go.
@@ -66,20 +89,46 @@ ZLG_EXPORT(zlg_text) char* zlg_text(std::size_t bytes) {
 }
 
 // A new gyro, of that text: a line `section.key=value` for each setting, the later over the earlier.
-ZLG_EXPORT(zlg_configure) int zlg_configure() {
-    return done([] { page().run = std::make_unique<lab::LoopRun>(lab::configured(lines(page().text))); });
+ZLG_EXPORT(zlg_configure) int zlg_configure() { return done(configure); }
+
+// From the next zlg_configure on a second gyro runs beside the first on the same motion, with the settings of the text over those of
+// the first; where `wanted` is 0, none.
+ZLG_EXPORT(zlg_other) void zlg_other(int wanted) {
+    page().other = wanted != 0 ? std::optional{page().text} : std::nullopt;
 }
 
 // So many half-periods of bias, also beyond run.duration_s.
 ZLG_EXPORT(zlg_advance) int zlg_advance(std::uint32_t halves) {
     return done([halves] {
         if (!page().run) throw std::logic_error{"no gyro is configured"};
-        for (std::uint32_t half = 0; half < halves; ++half) page().run->advance(rig::ignored);
+        for (std::uint32_t half = 0; half < halves; ++half) page().run->advance();
     });
 }
 
+// From now on the case also turns at this rate, arcsec/s, in this gyro and, at the same times, in those that are configured after it,
+// until zlg_let_go. What a turned gyro does is not what its configuration alone says.
+ZLG_EXPORT(zlg_turn) int zlg_turn(double rate_arcsec_s) {
+    return done([rate_arcsec_s] {
+        if (!page().run) throw std::logic_error{"no gyro is configured"};
+        if (!std::isfinite(rate_arcsec_s)) throw std::invalid_argument{"a rate of turn must be a finite number"};
+        const double now_s = page().run->run().time_s();
+        lab::HandTurns& turns = *page().hand;
+        std::erase_if(turns, [now_s](const twin::RateStep& turn) { return turn.at_s >= now_s; });
+        turns.push_back({now_s, rate_arcsec_s});
+    });
+}
+ZLG_EXPORT(zlg_let_go) void zlg_let_go() { page().hand->clear(); }
+
 // Since the gyro was configured; 0 without one.
-ZLG_EXPORT(zlg_time_s) double zlg_time_s() { return page().run ? page().run->time_s() : 0.0; }
+ZLG_EXPORT(zlg_time_s) double zlg_time_s() { return page().run ? page().run->run().time_s() : 0.0; }
+ZLG_EXPORT(zlg_halves) double zlg_halves() {
+    return page().run ? static_cast<double>(page().run->run().halves()) : 0.0;
+}
+
+// Of run.duration_s, 3600 s where it is unset; 0 without a gyro.
+ZLG_EXPORT(zlg_run_halves) double zlg_run_halves() {
+    return page().run ? static_cast<double>(page().run->run().run_halves()) : 0.0;
+}
 
 // The fingerprint of a run that ends now: 16 hexadecimal digits; null without a gyro.
 ZLG_EXPORT(zlg_fingerprint) const char* zlg_fingerprint() {
@@ -88,6 +137,17 @@ ZLG_EXPORT(zlg_fingerprint) const char* zlg_fingerprint() {
     return page().fingerprint.data();
 }
 
-// What was refused last, UTF-8.
+// The rows of a view (live_run.hpp: 0 signals, 1 angles, 2 switches) since zlg_forget, and how many numbers they are; the numbers of
+// the half before. There must be a gyro; the place holds until the next call of zlg_advance or zlg_configure.
+ZLG_EXPORT(zlg_rows) const double* zlg_rows(std::uint32_t view) { return rows(view).data(); }
+ZLG_EXPORT(zlg_rows_numbers) std::size_t zlg_rows_numbers(std::uint32_t view) { return rows(view).size(); }
+ZLG_EXPORT(zlg_forget) void zlg_forget() { page().run->forget(); }
+ZLG_EXPORT(zlg_now) const double* zlg_now() { return page().run->now().data(); }
+
+// Answers, as zlg_message: the table of keys as JSON, and the settings of the gyro that differ from the defaults, one a line.
+ZLG_EXPORT(zlg_schema) void zlg_schema() { page().message = lab::schema_json(); }
+ZLG_EXPORT(zlg_changed) void zlg_changed() { page().message = lab::changed_settings(page().asked); }
+
+// What was refused, or answered, last, UTF-8.
 ZLG_EXPORT(zlg_message) const char* zlg_message() { return page().message.data(); }
 ZLG_EXPORT(zlg_message_bytes) std::size_t zlg_message_bytes() { return page().message.size(); }

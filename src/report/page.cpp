@@ -34,6 +34,13 @@ std::string paragraph(const std::string& text, const char* tag) {
     return text.empty() ? "" : fmt::format("<p{}>{}</p>\n", tag, shown(text));
 }
 
+std::string links(const Page& page) {
+    std::string out;
+    for (const Link& link : page.links)
+        out += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escaped(link.address), shown(link.text));
+    return out;
+}
+
 std::string contents(const Page& page) {
     if (page.sections.size() <= longest_without_contents) return "";
     std::string out = "<nav aria-label=\"Contents\"><ol>\n";
@@ -170,7 +177,8 @@ std::string html(const Page& page) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
         shown(page.title), page_css);
-    out += paragraph(page.verdict, " class=\"verdict\"") + paragraph(page.lead, " class=\"lead\"") + hint(page);
+    out += paragraph(page.verdict, " class=\"verdict\"") + paragraph(page.lead, " class=\"lead\"") + links(page) +
+           hint(page);
     out += "</header>\n" + contents(page) + "<main>\n";
     for (std::size_t i = 0; i < page.sections.size(); ++i) out += section_of(page.sections[i], i, counters);
     return out + fmt::format("</main>\n</body>\n<script>{}</script>\n</html>\n", page_js);

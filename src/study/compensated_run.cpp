@@ -3,9 +3,8 @@
 
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/wiring.hpp>
-
-#include "gyro_drift.hpp"
-#include "reading_error.hpp"
+#include <zlg/study/gyro_drift.hpp>
+#include <zlg/study/reading_error.hpp>
 
 namespace zlg::study {
 

@@ -7,10 +7,10 @@
 #include <zlg/recorded/motion.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/study/gyro_drift.hpp>
 #include <zlg/study/switch_trial.hpp>
 
 #include "design_parts.hpp"
-#include "gyro_drift.hpp"
 
 namespace zlg::study {
 namespace {

@@ -16,10 +16,10 @@
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/fingerprint.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/study/gyro_drift.hpp>
+#include <zlg/study/reading_error.hpp>
 
-#include "gyro_drift.hpp"
 #include "magnifier.hpp"
-#include "reading_error.hpp"
 #include "relock_profile.hpp"
 #include "run_variant.hpp"
 #include "trouble.hpp"

@@ -2,8 +2,7 @@
 
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/wiring.hpp>
-
-#include "gyro_drift.hpp"
+#include <zlg/study/gyro_drift.hpp>
 
 namespace zlg::study {
 

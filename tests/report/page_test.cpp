@@ -179,6 +179,15 @@ TEST(Html, lines_to_copy_stay_lines) {
     EXPECT_NE(html(p).find("<pre>a = -1e-3\nb = &quot;&lt;&quot;\n</pre>"), std::string::npos);
 }
 
+TEST(Html, links_stand_after_the_lead_with_their_addresses_escaped) {
+    Page p = page(1);
+    p.links.push_back({"The same & more", "lab.html#a=1&b=%22x%22"});
+    const std::string text = html(p);
+    const auto at = text.find("<p><a href=\"lab.html#a=1&amp;b=%22x%22\">The same &amp; more</a></p>");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_LT(at, text.find("</header>"));
+}
+
 TEST(Html, body_is_well_formed_and_text_is_escaped) {
     const auto body = body_of(html(page(2)));
     EXPECT_EQ(markup::all(body, "h1").at(0).text, "A run <1>");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -95,6 +96,27 @@ TEST(Motion, HoursOfFastRotationTakeNoDigitsFromAnIncrement) {
     const Motion motion = Motion::from_increments(std::vector<double>(1440000, 14400.0), 100.0);
     EXPECT_NEAR(motion.increment_arcsec(14399.5, 14399.5 + 0.0078125), 14400.0 * 0.78125, 2e-6);
     EXPECT_NEAR(motion.increment_arcsec(14399.5, 14399.51), 14400.0, 2e-6);
+}
+
+TEST(Motion, StepsAddTheIntegralOfARateThatIsConstantFromStepToStep) {
+    const auto steps = std::make_shared<std::vector<RateStep>>(std::vector<RateStep>{{1.0, 8.0}, {1.5, -4.0}});
+    const Motion motion = Motion::with_steps(Motion::sines(16.0, {}), steps);
+    EXPECT_EQ(motion.increment_arcsec(0.0, 1.0), 16.0);
+    EXPECT_EQ(motion.increment_arcsec(0.75, 1.25), 8.0 + 2.0);
+    EXPECT_EQ(motion.increment_arcsec(0.0, 3.0), 48.0 + 4.0 - 6.0);
+    EXPECT_EQ(motion.increment_arcsec(3.0, 0.0), -46.0);
+    steps->push_back({3.0, 0.0});
+    EXPECT_EQ(motion.increment_arcsec(2.0, 4.0), 32.0 - 4.0);
+}
+
+TEST(Motion, BeforeItsFirstStepAMotionIsItsBaseToTheLastBit) {
+    const auto steps = std::make_shared<std::vector<RateStep>>(std::vector<RateStep>{{5.0, 1.0}});
+    const Motion base = Motion::sines(0.1, {{12000.0, 7.03, 30.0}});
+    const Motion motion = Motion::with_steps(base, steps);
+    for (int k = 0; k < 1000; ++k)
+        EXPECT_EQ(motion.increment_arcsec(k * 0.005, (k + 1) * 0.005),
+                  base.increment_arcsec(k * 0.005, (k + 1) * 0.005));
+    EXPECT_EQ(motion.duration_s(), base.duration_s());
 }
 
 TEST(Motion, NumbersThatAreNotFiniteAreRefused) {

@@ -18,6 +18,10 @@ Motion Motion::from_increments(std::vector<double> increment_arcsec, double rate
     return Motion{make_sampled(std::move(increment_arcsec), rate_hz)};
 }
 
+Motion Motion::with_steps(Motion base, std::shared_ptr<const std::vector<RateStep>> steps) {
+    return Motion{make_steps(std::move(base.source_), std::move(steps))};
+}
+
 double Motion::increment_arcsec(double t0_s, double t1_s) const { return source_->increment_arcsec(t0_s, t1_s); }
 
 double Motion::duration_s() const { return source_->duration_s(); }

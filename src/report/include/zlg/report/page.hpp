@@ -27,10 +27,16 @@ struct Section {
     std::string code{};               // lines to copy, shown as they are, last
 };
 
+struct Link {
+    std::string text;
+    std::string address;  // relative to the page, percent-encoded
+};
+
 struct Page {
     std::string title;
-    std::string verdict;  // the result in one sentence, the first that is read
-    std::string lead;     // one or two sentences under it
+    std::string verdict;        // the result in one sentence, the first that is read
+    std::string lead;           // one or two sentences under it
+    std::vector<Link> links{};  // after the lead
     std::vector<Section> sections{};
     bool numbered = true;  // false where titles and captions bring numbers of their own
 };

@@ -14,6 +14,12 @@ struct Sine {
     double phase_deg = 0.0;  // rate = amplitude * sin(2 pi frequency t + phase)
 };
 
+// From an instant on the case turns at this rate, until the next step.
+struct RateStep {
+    double at_s = 0.0;
+    double rate_arcsec_s = 0.0;
+};
+
 class Motion {
 public:
     static Motion rest();
@@ -22,6 +28,10 @@ public:
     // increment k is the rotation from k/rate_hz to (k + 1)/rate_hz; the angle between is a smooth cubic.
     // errors  std::invalid_argument: no increments, one that is not finite, a rate that is not positive.
     static Motion from_increments(std::vector<double> increment_arcsec, double rate_hz);
+
+    // `base`, and added to it a rate in steps, 0 before the first. Steps may be added at any time, as by a hand that turns the
+    // gyro while it runs, each later than the one before.
+    static Motion with_steps(Motion base, std::shared_ptr<const std::vector<RateStep>> steps);
 
     // Rotation from t0_s to t1_s. Beyond the end of sampled motion the case rests.
     [[nodiscard]] double increment_arcsec(double t0_s, double t1_s) const;

@@ -1,0 +1,60 @@
+#include "lab_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/text/whole_file.hpp>
+
+#include "own_folder.hpp"
+
+namespace zlg::cli {
+namespace {
+
+constexpr std::size_t longest_page = std::size_t{16} << 20;
+
+std::string percent_encoded(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+                           std::string_view{"-._~"}.find(c) != std::string_view::npos;
+        out += plain ? std::string{c} : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string lab_page() {
+    const std::filesystem::path folder = program_folder();
+    const std::filesystem::path path = (folder / "../share/zlg/lab.html").lexically_normal();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        throw logs::IoError{
+            fmt::format("this build holds no lab page: {} is not a file; `scripts/install lab` installs what makes it "
+                        "with the program",
+                        path.string())};
+    try {
+        return text::read_whole(path, longest_page);
+    } catch (const text::CannotRead& reason) {
+        throw logs::IoError{fmt::format("{}: {}", path.string(), reason.what())};
+    }
+}
+
+std::string lab_fragment(const config::Config& config, double until_s) {
+    const config::Settings defaults = config::to_settings(config::Config{});
+    std::string out;
+    for (const auto& setting : config::to_settings(config)) {
+        const auto& [key, value] = setting;
+        if (key == "run.duration_s" || std::ranges::find(defaults, setting) != defaults.end()) continue;
+        out += fmt::format("{}={}&", key, percent_encoded(value));
+    }
+    return out + fmt::format("until={}", until_s);
+}
+
+}  // namespace zlg::cli

@@ -1,0 +1,17 @@
+#pragma once
+// The lab page that lies beside the program, and the links into it.
+
+#include <string>
+
+#include <zlg/config/config.hpp>
+
+namespace zlg::cli {
+
+// errors  logs::IoError where this build holds no page, or it cannot be read.
+[[nodiscard]] std::string lab_page();
+
+// The fragment of an address of the page: the settings that differ from the defaults, percent-encoded (RFC 3986), and `until`,
+// to which a run of this configuration lasts.
+[[nodiscard]] std::string lab_fragment(const config::Config& config, double until_s);
+
+}  // namespace zlg::cli

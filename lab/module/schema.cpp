@@ -1,0 +1,74 @@
+// The table of keys as JSON.
+#include "schema.hpp"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/core/health.hpp>
+#include <zlg/twin/fault_kinds.hpp>
+
+namespace zlg::lab {
+namespace {
+
+// In the order of config::ValueKind.
+constexpr std::array<const char*, 11> kind_names{"real",     "optional_real", "integer",         "text",
+                                                 "reals",    "choice",        "optional_choice", "choices",
+                                                 "interval", "column",        "columns"};
+
+// The texts of the table hold no control characters.
+std::string quoted(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + "\"";
+}
+
+template <class Range, class Text>
+std::string list(const Range& range, const Text& text) {
+    std::string out = "[";
+    for (const auto& each : range) {
+        if (out.size() > 1) out += ",";
+        out += text(each);
+    }
+    return out + "]";
+}
+
+std::string key_json(const config::KeyInfo& key) {
+    return fmt::format(
+        R"({{"section":{},"name":{},"unit":{},"meaning":{},"default":{},"allowed":{},"kind":"{}","choices":{}}})",
+        quoted(key.section), quoted(key.name), quoted(key.unit), quoted(key.meaning), quoted(key.default_text),
+        quoted(key.allowed), kind_names.at(static_cast<std::size_t>(key.kind)), list(key.choices, quoted));
+}
+
+std::string fault_json(const twin::FaultFacts& fault) {
+    return fmt::format(R"({{"name":{},"unit":{},"least":{},"most":{},"duration_s":{:.2g}}})", quoted(fault.name),
+                       quoted(fault.unit), fault.random_size.least, fault.random_size.most,
+                       std::sqrt(fault.random_s.least * fault.random_s.most));
+}
+
+}  // namespace
+
+std::string schema_json() {
+    return fmt::format(R"({{"keys":{},"health":{},"faults":{}}})", list(config::describe_keys(), key_json),
+                       list(core::health_bit_names, quoted), list(twin::fault_table, fault_json));
+}
+
+std::string changed_settings(const config::Config& config) {
+    std::string out;
+    const config::Settings defaults = config::to_settings(config::Config{});
+    for (const auto& [key, value] : config::to_settings(config)) {
+        bool is_default = false;
+        for (const auto& [default_key, default_value] : defaults)
+            is_default = is_default || (key == default_key && value == default_value);
+        if (!is_default) out += fmt::format("{}={}\n", key, value);
+    }
+    return out;
+}
+
+}  // namespace zlg::lab

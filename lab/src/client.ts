@@ -1,0 +1,48 @@
+// The gyro as the page sees it: the worker behind one interface.
+import type { Frame, FromWorker, Gyro, Schema, ToWorker } from "./protocol";
+
+export interface Listener {
+    loaded(schema: Schema): void;
+    configured(changed: string[]): void;
+    refused(message: string, whole: boolean): void;
+    frame(frame: Frame): void;
+}
+
+export class GyroClient {
+    private readonly worker: Worker;
+    private number = 0; // of the gyro that was configured last
+
+    // worker_script, code  texts of the page: the worker's script, and the module, gzipped, in base64.
+    constructor(worker_script: string, code: string, listener: Listener) {
+        const address = URL.createObjectURL(new Blob([worker_script], { type: "text/javascript" }));
+        this.worker = new Worker(address);
+        URL.revokeObjectURL(address);
+        this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.take(event.data, listener);
+        this.worker.onerror = (event) => listener.refused(`the page's worker has failed: ${event.message}`, true);
+        this.send({ kind: "load", code });
+    }
+
+    send(message: ToWorker): void {
+        this.worker.postMessage(message);
+    }
+
+    configure(gyro: Gyro, running: boolean): void {
+        this.send({ kind: "configure", gyro, running });
+    }
+
+    private take(message: FromWorker, listener: Listener): void {
+        switch (message.kind) {
+            case "loaded":
+                return listener.loaded(message.schema);
+            case "configured":
+                this.number = message.number;
+                return listener.configured(message.changed);
+            case "refused":
+                return listener.refused(message.message, message.whole);
+            case "frame":
+                // The next comes when this one is drawn: a slow page gets fewer.
+                if (message.number === this.number) listener.frame(message);
+                this.send({ kind: "seen" });
+        }
+    }
+}

@@ -1,0 +1,170 @@
+// Controls for the settings, made from the table of keys: the important ones first, all others by search.
+import type { Key } from "./protocol";
+
+// In the order in which a newcomer meets them.
+const important = [
+    "switching.interval_s", "motion.kind", "motion.amplitude_arcsec_s", "motion.frequency_hz", "motion.rate_arcsec_s",
+    "drift.magnetic_arcsec_s", "drift.magnetic_thermal_arcsec_s", "drift.thermal_time_s", "drift.random_walk_arcsec_sqrt_s", "gyro.fidelity",
+    "compensation.relock", "compensation.bridge", "compensation.magnetic", "perimeter.miss_lambda", "perimeter.tau_s",
+    "perimeter.loop", "gyro.readout", "gyro.light_noise_lambda", "piezo.half_wave_v", "run.seed",
+];
+// Of the laboratory's files and the designer's tables: they change nothing here.
+const elsewhere = new Set(["design", "analysis"]);
+
+export class Controls {
+    private readonly settings = new Map<string, string>(); // that differ from the defaults, as TOML
+    private wrong: { key: string; message: string } | null = null;
+    private timer = 0;
+
+    constructor(
+        private readonly place: HTMLElement,
+        private readonly search: HTMLInputElement,
+        private readonly keys: Key[],
+        private readonly on_change: () => void,
+    ) {
+        this.search.addEventListener("input", () => this.draw());
+        this.draw();
+    }
+
+    // What the gyro has, `section.key=value` each.
+    set(settings: string[]): void {
+        this.settings.clear();
+        this.wrong = null;
+        for (const setting of settings) {
+            const at = setting.indexOf("=");
+            this.settings.set(setting.slice(0, at), setting.slice(at + 1));
+        }
+        if (!this.place.contains(document.activeElement)) this.draw();
+        else this.mark();
+    }
+
+    list(): string[] {
+        return [...this.settings].map(([key, value]) => `${key}=${value}`);
+    }
+
+    // The last change was refused: it is taken back once the reader changes something else.
+    refuse(message: string): void {
+        if (this.wrong === null) this.wrong = { key: this.last_key, message };
+        else this.wrong.message = message;
+        this.mark();
+    }
+
+    private last_key = "";
+
+    private chosen(): [string, Key[]][] {
+        const words = this.search.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
+        const usable = this.keys.filter((key) => !elsewhere.has(key.section) && key.kind !== "column" && key.kind !== "columns");
+        if (words.length === 0) {
+            const found = important.map((name) => usable.find((key) => `${key.section}.${key.name}` === name)).filter((key) => key !== undefined);
+            return [["", found]];
+        }
+        const sections = new Map<string, Key[]>();
+        for (const key of usable) {
+            const text = `${key.section}.${key.name} ${key.meaning} ${key.unit}`.toLowerCase();
+            if (!words.every((word) => text.includes(word))) continue;
+            sections.set(key.section, [...(sections.get(key.section) ?? []), key]);
+        }
+        return [...sections];
+    }
+
+    private draw(): void {
+        this.place.replaceChildren();
+        for (const [section, keys] of this.chosen()) {
+            if (section) this.place.append(made("h3", `[${section}]`));
+            for (const key of keys) this.place.append(this.control(key));
+        }
+        if (this.place.childElementCount === 0) this.place.append(made("p", "No setting has these words."));
+        this.mark();
+    }
+
+    private control(key: Key): HTMLElement {
+        const name = `${key.section}.${key.name}`;
+        const box = made("div");
+        box.className = "control";
+        box.dataset.key = name;
+        const label = made("label", name);
+        const id = `control-${name.replace(".", "-")}`;
+        (label as HTMLLabelElement).htmlFor = id;
+        if (key.unit) {
+            const unit = made("span", ` ${key.unit}`);
+            unit.className = "unit";
+            label.append(unit);
+        }
+        const value = this.settings.get(name) ?? key.default;
+        const field = key.choices.length > 0 && key.kind !== "choices" ? choice(key, value) : text_field(value);
+        field.id = id;
+        field.setAttribute("aria-describedby", `${id}-help`);
+        field.addEventListener("change", () => this.change(key, field.value));
+        if (field instanceof HTMLInputElement) field.addEventListener("input", () => this.change_soon(key, field.value));
+        const reset = made("button", "↺") as HTMLButtonElement;
+        reset.type = "button";
+        reset.setAttribute("aria-label", `${name} back to its default`);
+        reset.addEventListener("click", () => {
+            field.value = bare(key, key.default);
+            this.change(key, field.value);
+        });
+        const help = made("small", `${key.meaning}. Allowed: ${key.allowed}`);
+        help.id = `${id}-help`;
+        const wrong = made("small");
+        wrong.className = "wrong";
+        box.append(label, field, reset, help, wrong);
+        return box;
+    }
+
+    // While it is typed, once it rests.
+    private change_soon(key: Key, text: string): void {
+        clearTimeout(this.timer);
+        this.timer = window.setTimeout(() => this.change(key, text), 700);
+    }
+
+    private change(key: Key, text: string): void {
+        clearTimeout(this.timer);
+        const name = `${key.section}.${key.name}`;
+        if (this.wrong !== null && this.wrong.key !== name) this.settings.delete(this.wrong.key);
+        const before = this.settings.get(name) ?? bare(key, key.default);
+        if (text === before && this.wrong === null) return;
+        this.wrong = null;
+        this.last_key = name;
+        if (text === "" || text === bare(key, key.default)) this.settings.delete(name);
+        else this.settings.set(name, text);
+        this.on_change();
+    }
+
+    private mark(): void {
+        for (const box of this.place.querySelectorAll<HTMLElement>(".control")) {
+            const name = box.dataset.key!;
+            box.classList.toggle("changed", this.settings.has(name));
+            const message = this.wrong?.key === name ? this.wrong.message : "";
+            box.querySelector(".wrong")!.textContent = message;
+        }
+    }
+}
+
+function made(name: string, text = ""): HTMLElement {
+    const element = document.createElement(name);
+    element.textContent = text;
+    return element;
+}
+
+// A text without its quotes.
+function bare(key: Key, value: string): string {
+    return key.kind === "choice" || key.kind === "optional_choice" || key.kind === "text" || key.kind === "interval" ? value.replace(/^"(.*)"$/, "$1") : value;
+}
+
+function text_field(value: string): HTMLInputElement {
+    const field = document.createElement("input");
+    field.type = "text";
+    field.spellcheck = false;
+    field.autocomplete = "off";
+    field.placeholder = "unset";
+    field.value = value;
+    return field;
+}
+
+function choice(key: Key, value: string): HTMLSelectElement {
+    const field = document.createElement("select");
+    const names = key.kind === "optional_choice" ? ["", ...key.choices] : key.choices;
+    for (const name of names) field.add(new Option(name === "" ? "unset" : name, name));
+    field.value = bare(key, value);
+    return field;
+}

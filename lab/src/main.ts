@@ -1,0 +1,265 @@
+// The lab page: puts the parts together.
+import { GyroClient } from "./client";
+import { Controls } from "./controls";
+import { csv, save, svg, toml } from "./export";
+import { fault_buttons, with_fault } from "./faults";
+import { parse_fragment } from "./fragment";
+import { HealthList } from "./health";
+import { keep_charts, short } from "./plots";
+import type { Fault, Frame, Schema, State } from "./protocol";
+import { RingDrawing } from "./ring";
+import { share_dialog } from "./share";
+import { type Step, Tour } from "./tour";
+import { Views } from "./views";
+
+const longest_repeat_s = 120; // of a gyro that is changed while it runs: later it begins again
+const hidden_ms = 200; // between two looks at a page that does not show
+const signal_names = ["t_s", "true_arcsec_s", "measured_arcsec_s", "detuning_lambda", "piezo_v", "light_a", "light_b", "mode", "loop_closed", "valid", "bias_hz", "health"];
+const error_names = ["t_s", "as_read_arcsec", "paper_arcsec", "configured_arcsec", "second_gyro_arcsec"];
+
+function element<T extends HTMLElement = HTMLElement>(id: string): T {
+    return document.getElementById(id) as T;
+}
+
+function marked(name: string): HTMLElement {
+    return document.querySelector<HTMLElement>(`[data-zlg="${name}"]`)!;
+}
+
+class Lab {
+    private readonly views = new Views();
+    private readonly ring = new RingDrawing(element("ring"), element("now"));
+    private readonly client: GyroClient;
+    private readonly tour: Tour;
+    private controls: Controls | null = null;
+    private health: HealthList | null = null;
+    private settings: string[] = []; // of the gyro that runs
+    private until_s: string | null = null;
+    private wants_to_run = true;
+    private refused = false; // by a link, or in the run: there is nothing to show
+    private from_link = false;
+    private frame: Frame | null = null;
+    private waiting: Frame | null = null; // to be drawn
+
+    constructor() {
+        this.tour = new Tour(element("tour"), (step) => this.take_step(step), () => undefined);
+        this.client = new GyroClient(element("worker").textContent!, element("module").textContent!, {
+            loaded: (schema) => this.loaded(schema),
+            configured: (changed) => this.configured(changed),
+            refused: (message, whole) => this.refuse(message, whole),
+            frame: (frame) => this.take_frame(frame),
+        });
+        this.listen();
+        keep_charts();
+    }
+
+    private loaded(schema: Schema): void {
+        this.controls = new Controls(element("controls"), element<HTMLInputElement>("search"), schema.keys, () => this.changed_by_hand());
+        this.health = new HealthList(element("health"), schema.health);
+        fault_buttons(element("faults"), schema.faults, (fault) => this.break_it(fault));
+        this.send_speed();
+        this.open_link();
+    }
+
+    private open_link(): void {
+        this.from_link = true;
+        try {
+            const wanted = parse_fragment(location.hash);
+            this.begin(wanted.settings, 0, wanted.until_s);
+        } catch (error) {
+            this.refuse((error as Error).message, true);
+        }
+    }
+
+    // A gyro of these settings, at this time at once.
+    private begin(settings: string[], from_s = 0, until_s: string | null = null): void {
+        this.until_s = until_s;
+        this.client.configure({ settings, other: until_s === null ? this.other() : null, until_s, from_s }, this.wants_to_run);
+    }
+
+    private other(): string[] | null {
+        const kind = element<HTMLSelectElement>("other").value;
+        if (kind === "none") return null;
+        if (kind === "one_mode") return ["switching.interval_s=1000000"];
+        return element<HTMLTextAreaElement>("other-settings").value.split("\n").map((line) => line.trim()).filter((line) => line !== "");
+    }
+
+    private configured(changed: string[]): void {
+        this.settings = changed.filter((setting) => this.until_s === null || !setting.startsWith("run.duration_s="));
+        this.refused = false;
+        this.from_link = false;
+        this.waiting = null;
+        this.show_message("");
+        this.controls?.set(this.settings);
+        this.views.begin();
+    }
+
+    private refuse(message: string, whole: boolean): void {
+        if (!whole && !this.from_link) {
+            this.controls?.refuse(message);
+            this.show_message(message);
+            return;
+        }
+        this.client.send({ kind: "run", running: false });
+        this.refused = true;
+        this.from_link = false;
+        this.waiting = null;
+        this.show_message(message);
+        this.show_state("refused");
+        marked("fingerprint").textContent = "";
+    }
+
+    private show_message(message: string): void {
+        marked("message").textContent = message;
+        marked("message").hidden = message === "";
+    }
+
+    private show_state(state: State): void {
+        marked("state").textContent = state;
+        element("run").textContent = state === "running" ? "Pause" : state === "done" ? "Go on" : "Run";
+        for (const id of ["run", "step-half", "step-tick", "jump"]) element<HTMLButtonElement>(id).disabled = state === "refused";
+    }
+
+    private take_frame(frame: Frame): void {
+        if (this.refused) return;
+        const switches = this.waiting?.switches ?? [];
+        const first = this.waiting === null;
+        this.waiting = { ...frame, switches: [...switches, ...frame.switches] };
+        if (!first) return;
+        // A hidden page draws nothing of itself.
+        if (document.hidden) setTimeout(() => this.draw(), hidden_ms);
+        else requestAnimationFrame(() => this.draw());
+    }
+
+    private draw(): void {
+        const frame = this.waiting;
+        this.waiting = null;
+        if (frame === null || this.refused) return;
+        this.frame = frame;
+        this.views.show(frame);
+        this.ring.show(frame);
+        this.health?.show(frame.now[11], frame.health);
+        marked("time").textContent = frame.time_s.toFixed(4);
+        marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
+        this.show_state(frame.state);
+    }
+
+    // Settings that were changed while the gyro runs: as if it had always been so.
+    private changed_by_hand(): void {
+        this.begin(this.controls!.list(), this.repeat_s());
+    }
+
+    private repeat_s(): number {
+        const time_s = this.frame?.time_s ?? 0;
+        return time_s <= longest_repeat_s ? time_s : 0;
+    }
+
+    private break_it(fault: Fault): void {
+        const from_s = this.repeat_s();
+        this.begin(with_fault(this.settings, fault, from_s), from_s);
+    }
+
+    private take_step(step: Step): void {
+        element<HTMLSelectElement>("other").value = step.other;
+        element<HTMLSelectElement>("window").value = step.window_s;
+        this.client.send({ kind: "window", window_s: Number(step.window_s) });
+        element<HTMLInputElement>("speed").value = String(Math.log10(step.speed));
+        this.send_speed();
+        this.wants_to_run = true;
+        this.begin(step.settings);
+    }
+
+    private send_speed(): void {
+        const slider = element<HTMLInputElement>("speed");
+        const at = Number(slider.value);
+        const fastest = at >= Number(slider.max);
+        const speed = fastest ? Infinity : Number((10 ** at).toPrecision(2));
+        const text = fastest ? "as fast as it goes" : `${short(speed, 2)} ×`;
+        element("speed-text").textContent = text;
+        slider.setAttribute("aria-valuetext", text);
+        this.client.send({ kind: "speed", speed });
+    }
+
+    private run_or_pause(): void {
+        const state = this.frame?.state;
+        if (state === "done") {
+            this.wants_to_run = true;
+            this.begin(this.settings, this.frame!.time_s);
+            return;
+        }
+        this.wants_to_run = state !== "running";
+        this.client.send({ kind: "run", running: this.wants_to_run });
+    }
+
+    private step(halves: number): void {
+        this.wants_to_run = false;
+        this.client.send({ kind: "step", halves });
+    }
+
+    private listen(): void {
+        const on_click = (id: string, action: () => void) => element(id).addEventListener("click", action);
+        const buttons: [string, string, () => void][] = [
+            ["run", " ", () => this.run_or_pause()],
+            ["step-half", "h", () => this.step(1)],
+            ["step-tick", "t", () => this.step(2)],
+            ["jump", "n", () => this.client.send({ kind: "jump" })],
+            ["restart", "0", () => this.begin(this.settings)],
+        ];
+        for (const [id, , action] of buttons) on_click(id, action);
+        document.addEventListener("keydown", (event) => {
+            const place = event.target as HTMLElement;
+            if (event.ctrlKey || event.metaKey || event.altKey || place.closest("input, select, textarea, button, summary, dialog") !== null) return;
+            const button = buttons.find(([, key]) => key === event.key);
+            if (button === undefined || this.refused) return;
+            event.preventDefault();
+            button[2]();
+        });
+        element("speed").addEventListener("input", () => this.send_speed());
+        element("window").addEventListener("change", () => this.client.send({ kind: "window", window_s: Number(element<HTMLSelectElement>("window").value) }));
+        on_click("tour-start", () => this.tour.go(0));
+        window.addEventListener("hashchange", () => this.open_link());
+        this.listen_to_pad();
+        this.listen_to_other();
+        this.listen_to_exports(on_click);
+        share_dialog(() => ({ settings: this.settings, time_s: this.frame?.time_s ?? 0 }));
+    }
+
+    // The slider springs back when it is let go, by pointer or by key.
+    private listen_to_pad(): void {
+        const pad = element<HTMLInputElement>("pad");
+        const turn = () => {
+            element("pad-text").textContent = `${short(Number(pad.value))} deg/s`;
+            this.client.send({ kind: "turn", rate_arcsec_s: Number(pad.value) * 3600 });
+        };
+        const let_go = () => {
+            if (Number(pad.value) === 0) return;
+            pad.value = "0";
+            turn();
+        };
+        pad.addEventListener("input", turn);
+        for (const event of ["pointerup", "pointercancel", "keyup", "blur"]) pad.addEventListener(event, let_go);
+    }
+
+    private listen_to_other(): void {
+        const kind = element<HTMLSelectElement>("other");
+        kind.addEventListener("change", () => {
+            element("other-settings-label").hidden = kind.value !== "own";
+            this.begin(this.settings, this.repeat_s());
+        });
+        element("other-settings").addEventListener("change", () => this.begin(this.settings, this.repeat_s()));
+    }
+
+    private listen_to_exports(on_click: (id: string, action: () => void) => void): void {
+        on_click("export-toml", () => save("gyro.toml", "application/toml", toml(this.settings)));
+        on_click("export-csv", () => this.frame && save("signals.csv", "text/csv", csv(signal_names, this.frame.signals)));
+        on_click("export-error-csv", () => this.frame && save("error.csv", "text/csv", csv(error_names, this.frame.error)));
+        on_click("export-svg", () => {
+            if (this.frame === null) return;
+            const [time, ...errors] = this.frame.error;
+            const names = ["as read", "the paper's", "as configured", "second gyro"];
+            const colours = ["#b42318", "#b26a00", "#0b5cad", "#5d6672"];
+            save("error.svg", "image/svg+xml", svg("time, s", "error of the angle, arcsec", time, errors.map((values, at) => ({ name: names[at], colour: colours[at], values }))));
+        });
+    }
+}
+
+new Lab();

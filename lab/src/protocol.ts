@@ -1,0 +1,85 @@
+// What the page and its worker say to each other. The worker has the gyro; the page sees it through the frames that it sends.
+
+// As the module's schema_json gives it.
+export interface Key {
+    section: string;
+    name: string;
+    unit: string;
+    meaning: string;
+    default: string; // TOML; empty where it is unset
+    allowed: string;
+    kind: "real" | "optional_real" | "integer" | "text" | "reals" | "choice" | "optional_choice" | "choices" | "interval" | "column" | "columns";
+    choices: string[];
+}
+
+export interface Fault {
+    name: string;
+    unit: string;
+    least: number;
+    most: number;
+    duration_s: number;
+}
+
+export interface Schema {
+    keys: Key[];
+    health: string[];
+    faults: Fault[];
+}
+
+export type State = "running" | "paused" | "done" | "refused";
+
+export interface Gyro {
+    settings: string[]; // `section.key=value`
+    other: string[] | null; // of a second gyro, over these
+    until_s: string | null; // run to this time at full speed and stop
+    from_s: number; // be at this time at once; 0: begin
+}
+
+export type ToWorker =
+    | { kind: "load"; code: string } // the module, gzipped, in base64
+    | { kind: "configure"; gyro: Gyro; running: boolean }
+    | { kind: "speed"; speed: number } // gyro's seconds a second; Infinity: as fast as it goes
+    | { kind: "run"; running: boolean }
+    | { kind: "step"; halves: number }
+    | { kind: "jump" } // to the end of the next switch
+    | { kind: "turn"; rate_arcsec_s: number } // by hand, from now on
+    | { kind: "window"; window_s: number } // of the signals that are shown
+    | { kind: "seen" }; // a frame: the next may come
+
+// Columns of equal length.
+export type Columns = Float64Array[];
+
+export interface SwitchRow {
+    compensation: number; // 0 as read, 1 by the paper, 2 as configured
+    first_tick: number;
+    gap_ticks: number;
+    last_tick: number;
+    mode_after: number;
+    miss_lambda: number;
+    error_arcsec: number;
+}
+
+export interface Frame {
+    kind: "frame";
+    number: number; // of the gyro: grows with each that is configured
+    state: State;
+    tick_s: number;
+    time_s: number;
+    speed: number; // measured, gyro's seconds a second
+    fingerprint: string; // empty of a gyro that was turned by hand
+    turned: boolean;
+    now: Float64Array; // LiveRun::now
+    signals: Columns; // LiveRun's columns of the last window, thinned
+    error: Columns; // time, errors as read, by the paper, as configured, of the other gyro: the whole run, thinned
+    angles: Columns; // LiveRun's columns of the ticks around the last switch
+    last_switch: SwitchRow | null; // as configured
+    switches: SwitchRow[]; // that were added since the frame before
+    allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
+    health: number; // bits that were raised since the start
+}
+
+export type FromWorker =
+    | { kind: "loaded"; schema: Schema }
+    | { kind: "configured"; number: number; changed: string[] }
+    | { kind: "refused"; message: string; whole: boolean } // whole: there is no gyro any more that could go on
+    | Frame;

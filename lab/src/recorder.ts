@@ -1,0 +1,90 @@
+// What the worker remembers of the gyro's rows, to show it.
+import type { Columns, SwitchRow } from "./protocol";
+import { AllanDeviation, Ring, Thinned } from "./series";
+
+const signal_columns = 12;
+const angle_columns = 11;
+const switch_columns = 7;
+const newest_ticks = 32768;
+const most_points = 1200;
+const configured = 2; // among the compensations of a switch
+const ticks_around_switch = 12;
+const longest_relock_ticks = 40; // that is shown
+
+// Of signals: the column by whose peaks they are thinned, and others.
+const detuning_column = 3;
+const health_column = 11;
+// Of angles.
+const error_columns = [7, 8, 9, 10];
+
+export class Recorder {
+    private readonly signal_rows = new Ring(signal_columns, newest_ticks);
+    private readonly angle_rows = new Ring(angle_columns, newest_ticks);
+    private readonly errors = new Thinned(1024);
+    private readonly deviations: AllanDeviation[];
+    private unsent: SwitchRow[] = [];
+    private slice_has_switch = false;
+    last_switch: SwitchRow | null = null; // as configured
+    health = 0;
+
+    constructor(private readonly tick_s: number) {
+        this.deviations = [0, 1, 2].map(() => new AllanDeviation(tick_s));
+    }
+
+    take(signals: Float64Array, angles: Float64Array, switches: Float64Array): void {
+        this.signal_rows.add(signals);
+        for (let at = health_column; at < signals.length; at += signal_columns) this.health = (this.health | signals[at]) >>> 0;
+        this.angle_rows.add(angles);
+        for (let at = 0; at < angles.length; at += angle_columns) {
+            const errors = error_columns.map((column) => angles[at + column]);
+            this.errors.add([(angles[at] + 1) * this.tick_s, ...errors]);
+            this.deviations.forEach((deviation, which) => deviation.add(errors[which]));
+        }
+        for (let at = 0; at < switches.length; at += switch_columns) this.take_switch(switches.subarray(at, at + switch_columns));
+    }
+
+    private take_switch(row: Float64Array): void {
+        const [compensation, first_tick, gap_ticks, last_tick, mode_after, miss_lambda, error_arcsec] = row;
+        const found = { compensation, first_tick, gap_ticks, last_tick, mode_after, miss_lambda, error_arcsec };
+        this.unsent.push(found);
+        if (compensation !== configured) return;
+        this.last_switch = found;
+        this.slice_has_switch = true;
+    }
+
+    begin_slice(): void {
+        this.slice_has_switch = false;
+    }
+
+    has_new_switch(): boolean {
+        return this.slice_has_switch;
+    }
+
+    new_switches(): SwitchRow[] {
+        const rows = this.unsent;
+        this.unsent = [];
+        return rows;
+    }
+
+    signals(window_s: number): Columns {
+        const { end } = this.signal_rows;
+        return this.signal_rows.slice(end - Math.round(window_s / this.tick_s), end, most_points, detuning_column);
+    }
+
+    error(): Columns {
+        return this.errors.columns(1 + error_columns.length);
+    }
+
+    // The row of a tick is that of its number.
+    around_last_switch(): Columns {
+        const at = this.last_switch;
+        if (at === null) return [];
+        const last = Math.min(at.last_tick, at.first_tick + at.gap_ticks + longest_relock_ticks);
+        return this.angle_rows.slice(at.first_tick - ticks_around_switch, last + ticks_around_switch, Infinity, 0);
+    }
+
+    allan(): Columns {
+        const points = this.deviations.map((deviation) => deviation.points());
+        return [points[0][0], ...points.map(([, values]) => values)].map((values) => Float64Array.from(values));
+    }
+}

@@ -1,0 +1,125 @@
+// Numbers that grow without end, in bounded memory.
+
+// The newest rows of a flat table.
+export class Ring {
+    private readonly numbers: Float64Array;
+    private n = 0; // rows that were ever added
+
+    constructor(
+        private readonly columns: number,
+        private readonly capacity: number,
+    ) {
+        this.numbers = new Float64Array(columns * capacity);
+    }
+
+    add(rows: Float64Array): void {
+        const count = rows.length / this.columns;
+        for (let row = Math.max(0, count - this.capacity); row < count; ++row) {
+            const place = ((this.n + row) % this.capacity) * this.columns;
+            this.numbers.set(rows.subarray(row * this.columns, (row + 1) * this.columns), place);
+        }
+        this.n += count;
+    }
+
+    clear(): void {
+        this.n = 0;
+    }
+
+    get first(): number {
+        return Math.max(0, this.n - this.capacity);
+    }
+
+    get end(): number {
+        return this.n;
+    }
+
+    at(row: number, column: number): number {
+        return this.numbers[(row % this.capacity) * this.columns + column];
+    }
+
+    // Rows [from, to) in columns. More than `most` rows are thinned: of each run of rows, the two with the least and the greatest
+    // value of the column `shape`, so that no short peak is lost.
+    slice(from: number, to: number, most: number, shape: number): Float64Array[] {
+        const begin = Math.max(from, this.first);
+        const end = Math.min(to, this.n);
+        const rows: number[] = [];
+        const stride = Math.max(1, Math.ceil((2 * (end - begin)) / most));
+        // Runs begin at whole multiples of their length: a row that stays in view is then shown or not, and does not flicker.
+        for (let at = begin - (begin % stride); at < end; at += stride) {
+            const last = Math.min(at + stride, end);
+            let least = Math.max(at, begin);
+            let greatest = least;
+            for (let row = least; row < last; ++row) {
+                if (this.at(row, shape) < this.at(least, shape)) least = row;
+                if (this.at(row, shape) > this.at(greatest, shape)) greatest = row;
+            }
+            if (least === greatest) rows.push(least);
+            else rows.push(Math.min(least, greatest), Math.max(least, greatest));
+        }
+        return Array.from({ length: this.columns }, (_, column) => Float64Array.from(rows, (row) => this.at(row, column)));
+    }
+}
+
+// A whole run: every stride-th row, the stride doubled whenever the table is full.
+export class Thinned {
+    private rows: number[][] = [];
+    private stride = 1;
+    private n = 0;
+
+    constructor(private readonly capacity: number) {}
+
+    add(row: number[]): void {
+        if (this.n++ % this.stride !== 0) return;
+        if (this.rows.length === this.capacity) {
+            this.rows = this.rows.filter((_, index) => index % 2 === 0);
+            this.stride *= 2;
+            if ((this.n - 1) % this.stride !== 0) return;
+        }
+        this.rows.push(row);
+    }
+
+    columns(count: number): Float64Array[] {
+        return Array.from({ length: count }, (_, column) => Float64Array.from(this.rows, (row) => row[column]));
+    }
+}
+
+// Allan deviation of an angle that grows tick by tick, for averaging times of T, 2T, 4T ...:
+//
+//   sigma^2(tau) = <(theta[k+2] - 2 theta[k+1] + theta[k])^2> / (2 tau^2)      theta at multiples of tau
+//
+// (Allan 1966, without overlap: one sum a time, and no record is kept.)
+export class AllanDeviation {
+    private levels: { n: number; sum: number; before: number[] }[] = [];
+    private tick = 0;
+
+    constructor(private readonly tick_s: number) {}
+
+    // The angle after the next tick; the first call is tick 0.
+    add(angle: number): void {
+        for (let level = 0, multiple = this.tick; ; ++level, multiple /= 2) {
+            if (level === this.levels.length) this.levels.push({ n: 0, sum: 0, before: [] });
+            const at = this.levels[level];
+            if (at.before.length === 2) {
+                at.sum += (angle - 2 * at.before[1] + at.before[0]) ** 2;
+                ++at.n;
+                at.before.shift();
+            }
+            at.before.push(angle);
+            if (multiple === 0 || multiple % 2 !== 0) break;
+        }
+        ++this.tick;
+    }
+
+    // Averaging times with at least `least` differences, and the deviations there.
+    points(least = 3): [number[], number[]] {
+        const taus: number[] = [];
+        const deviations: number[] = [];
+        this.levels.forEach((at, level) => {
+            if (at.n < least) return;
+            const tau = this.tick_s * 2 ** level;
+            taus.push(tau);
+            deviations.push(Math.sqrt(at.sum / at.n / 2) / tau);
+        });
+        return [taus, deviations];
+    }
+}

@@ -1,0 +1,40 @@
+// The dialogue with the link to this gyro.
+import { make_fragment } from "./fragment";
+
+export interface Shared {
+    settings: string[];
+    time_s: number;
+}
+
+function element<T extends HTMLElement>(id: string): T {
+    return document.getElementById(id) as T;
+}
+
+// A word of a POSIX shell.
+function quoted(word: string): string {
+    return /^[\w.=,+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}
+
+export function share_dialog(shared: () => Shared): void {
+    const dialog = element<HTMLDialogElement>("share-dialog");
+    const link = element<HTMLTextAreaElement>("share-link");
+    const until = element<HTMLInputElement>("share-until");
+    const write = () => {
+        const { settings, time_s } = shared();
+        const fragment = make_fragment(settings, until.checked ? String(Number(time_s.toFixed(6))) : null);
+        link.value = `${location.href.split("#")[0]}${fragment ? `#${fragment}` : ""}`;
+        const duration = until.checked ? ["--duration", String(Number(time_s.toFixed(6)))] : [];
+        element("share-command").textContent = ["zlg", "run", ...duration, ...settings.flatMap((each) => ["--set", quoted(each)])].join(" ");
+    };
+    until.addEventListener("change", write);
+    element("share").addEventListener("click", () => {
+        write();
+        dialog.showModal();
+        link.select();
+    });
+    element("share-copy").addEventListener("click", () => {
+        link.select();
+        // From a file the clipboard may be closed to scripts; the text is then selected, to be copied by hand.
+        void navigator.clipboard?.writeText(link.value).catch(() => undefined);
+    });
+}

@@ -1,0 +1,67 @@
+// The tour: ten steps that tell, on the live gyro, why a Zeeman laser gyro switches its mode and what that costs.
+
+export interface Step {
+    title: string;
+    text: string;
+    look: string; // id of the card that is shown
+    settings: string[];
+    other: "one_mode" | "none";
+    speed: number;
+    window_s: string;
+}
+
+const slow_motion = ["motion.amplitude_arcsec_s=12000", "motion.frequency_hz=7.03"];
+const no_warming = ["drift.magnetic_thermal_arcsec_s=0", "drift.random_walk_arcsec_sqrt_s=0"];
+
+export const steps: Step[] = [
+    { title: "Light that runs round", look: "card-ring", settings: ["motion.kind=rest"], other: "none", speed: 1, window_s: "1", text: "A laser gyro is a ring in which two beams of light run in opposite directions. When the case turns, one way round becomes longer than the other, and the two beams differ in frequency. Counting their beat gives the angle: one count is 3.263 arcsec here. This case is at rest." },
+    { title: "Turn it", look: "card-ring", settings: ["motion.kind=rest"], other: "none", speed: 1, window_s: "5", text: "Drag the slider under the drawing, or focus it and use the arrow keys. In the chart “rate” the measured rate follows the true one. Let go, and it rests again." },
+    { title: "Why there is a magnet", look: "card-ring", settings: slow_motion, other: "none", speed: 0.01, window_s: "0.25", text: "At small rates the two beams would lock together and the gyro would be blind. The magnet splits their frequencies by 60 kHz, a “bias” that keeps them apart. Its sign changes every 2.5 ms, so that it cancels in the sum of two half-periods: a tick of 5 ms. Time runs a hundred times slower now: see the sign change." },
+    { title: "What the magnet spoils", look: "card-error", settings: ["switching.interval_s=1000000", ...no_warming], other: "none", speed: 64, window_s: "5", text: "But the gyro takes a magnetic field for a turn: here 0.7 arcsec every second, a drift of 0.7 degrees an hour. The error of the angle only grows. Nothing in the counts tells it from a true rotation." },
+    { title: "The trick: the other mode", look: "card-error", settings: ["switching.interval_s=20", ...no_warming], other: "one_mode", speed: 64, window_s: "30", text: "Light of the other helicity sees the magnetic drift with the opposite sign. So the gyro switches every 20 s from one mode to the other, and what the one adds the other takes away: the error makes a saw and comes back. The grey line is the same gyro on the same motion that never switches." },
+    { title: "How a switch is made", look: "card-switch", settings: ["switching.interval_s=4"], other: "none", speed: 1, window_s: "5", text: "The piezo mirrors move until the ring is half a wavelength longer or shorter; there the other mode lases. Meanwhile the control loop is open for 3 ticks, 15 ms, and the counter’s numbers mean nothing: in the chart the red points leave the green line. “Next switch” runs to one." },
+    { title: "Bridging the gap", look: "card-switch", settings: ["switching.interval_s=4"], other: "none", speed: 1, window_s: "1", text: "What the case did in these 15 ms must be guessed from before (extrapolated: at once, for whoever steers by it) and from both sides (interpolated: a little later, and better). The more the case shakes, the harder the guess. Change the frequency of the motion to 15 and see." },
+    { title: "The loop comes back", look: "card-signals", settings: ["switching.interval_s=1"], other: "none", speed: 0.25, window_s: "1", text: "When the loop closes the ring is a fifth of a wavelength off, and the loop pulls it back. While it is detuned the bias is a little smaller, and that looks like a turn: a false angle, of the same size at every switch. It is subtracted, by the measured detuning." },
+    { title: "What a switch costs", look: "card-histogram", settings: ["switching.interval_s=4"], other: "none", speed: 100, window_s: "30", text: "Each switch leaves a small error for ever. As read from the counter: hundreds of arcsec. With the paper’s corrections: a few. As this program does it: less. Switch too often and these errors add up; switch too rarely and the drift of warming does not cancel: there is a best interval." },
+    { title: "Break it", look: "card-faults", settings: ["switching.interval_s=4"], other: "none", speed: 1, window_s: "5", text: "The gyro watches itself. Press a fault: the light goes out, the mode hops, a bit of the counter sticks. The health bits name what was seen, and the angle goes on with what can be trusted. That is the tour: all controls are yours." },
+];
+
+export class Tour {
+    constructor(
+        private readonly place: HTMLElement,
+        private readonly on_step: (step: Step) => void,
+        private readonly on_end: () => void,
+    ) {}
+
+    go(at: number): void {
+        document.querySelector(".card.shown")?.classList.remove("shown");
+        const step = steps[at];
+        this.place.hidden = step === undefined;
+        if (step === undefined) {
+            this.place.replaceChildren();
+            this.on_end();
+            return;
+        }
+        const card = document.getElementById(step.look)!;
+        card.classList.add("shown");
+        const box = document.createElement("div");
+        const number = Object.assign(document.createElement("p"), { className: "step", textContent: `Step ${at + 1} of ${steps.length}` });
+        const title = Object.assign(document.createElement("h2"), { textContent: step.title });
+        const text = Object.assign(document.createElement("p"), { textContent: step.text });
+        const row = Object.assign(document.createElement("div"), { className: "row" });
+        const button = (name: string, to: number, main = false) => {
+            const made = Object.assign(document.createElement("button"), { type: "button", textContent: name, className: main ? "main" : "" });
+            made.addEventListener("click", () => this.go(to));
+            row.append(made);
+            return made;
+        };
+        button("Back", at - 1).disabled = at === 0;
+        const next = button(at + 1 < steps.length ? "Next" : "Done", at + 1, true);
+        button("End the tour", -1);
+        box.append(number, title, text, row);
+        this.place.replaceChildren(box);
+        next.focus({ preventScroll: true });
+        this.on_step(step);
+        card.scrollIntoView({ block: "nearest", behavior: "smooth" });
+    }
+}

@@ -1,0 +1,45 @@
+#include <algorithm>
+#include <utility>
+
+#include "motion_source.hpp"
+
+namespace zlg::twin {
+namespace {
+
+// The integral of a rate that is constant from step to step, over that of the base. Where no step lies before t1 the increment is that
+// of the base to the last bit.
+//
+// cost  of increment_arcsec: a step for each that lies after t0, from the newest back.
+class Steps final : public Motion::Source {
+public:
+    Steps(std::shared_ptr<const Motion::Source> base, std::shared_ptr<const std::vector<RateStep>> steps)
+        : base_{std::move(base)}, steps_{std::move(steps)} {}
+
+    [[nodiscard]] double increment_arcsec(double t0_s, double t1_s) const override {
+        if (t1_s < t0_s) return -increment_arcsec(t1_s, t0_s);
+        double sum = base_->increment_arcsec(t0_s, t1_s);
+        double end_s = t1_s;
+        for (auto step = steps_->rbegin(); step != steps_->rend() && end_s > t0_s; ++step) {
+            if (step->at_s >= end_s) continue;
+            const double begin_s = std::max(step->at_s, t0_s);
+            sum += step->rate_arcsec_s * (end_s - begin_s);
+            end_s = begin_s;
+        }
+        return sum;
+    }
+
+    [[nodiscard]] double duration_s() const override { return base_->duration_s(); }
+
+private:
+    std::shared_ptr<const Motion::Source> base_;
+    std::shared_ptr<const std::vector<RateStep>> steps_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Motion::Source> make_steps(std::shared_ptr<const Motion::Source> base,
+                                                 std::shared_ptr<const std::vector<RateStep>> steps) {
+    return std::make_shared<Steps>(std::move(base), std::move(steps));
+}
+
+}  // namespace zlg::twin
