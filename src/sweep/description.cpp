@@ -70,7 +70,7 @@ std::string toml_of(const Value& value) {
 std::string to_toml(const Description& d) {
     std::string text = fmt::format("# zlg {}\n[sweep]\ngyros = {}\nseed = {}\n", ZLG_VERSION, d.n_gyros, d.seed);
     if (d.duration_s) text += fmt::format("duration_s = {}\n", text::toml_real(*d.duration_s));
-    text += fmt::format("sobol_shift = {}\n[base]\n", d.sobol_shift);
+    text += fmt::format("sobol_shift = {}\nsensitivity = {}\n[base]\n", d.sobol_shift, d.sensitivity);
     for (const auto& [key, value] : d.base) text += fmt::format("{} = {}\n", key, value);
     for (const Parameter& p : d.parameters) text += text_of(p);
     for (const Metric& metric : d.metrics) text += text_of(metric);

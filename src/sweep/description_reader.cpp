@@ -213,6 +213,19 @@ void read_gyros(const Table& sweep, Description& d) {
         sweep.refuse("gyros", fmt::format("a multiple of the {} points of the grid, or nothing", points));
 }
 
+// A row of Saltelli's design has a gyro for each parameter and two more.
+void check_sensitivity(const Table& sweep, const Description& d) {
+    if (!d.sensitivity) return;
+    const bool are_sobol = !d.parameters.empty() && std::ranges::all_of(d.parameters, [](const Parameter& p) {
+        return p.draw == DrawKind::sobol;
+    });
+    if (!are_sobol) sweep.refuse("sensitivity", "true where every [[parameter]] has draw = \"sobol\", and false");
+    const auto row = static_cast<std::int64_t>(d.parameters.size()) + 2;
+    if (d.n_gyros % row != 0)
+        sweep.refuse("gyros",
+                     fmt::format("a multiple of {}, two more than there are parameters, for sensitivity", row));
+}
+
 toml::table parse_document(std::string_view text, std::string_view source_name) {
     try {
         return text::parse_toml(text);
@@ -231,18 +244,17 @@ Description parse(std::string_view text, std::string_view source_name) {
     root.allow_only({"sweep", "base", "parameter", "metric"});
     if (!root.node("sweep").is_table()) root.fail(root.node("sweep"), "sweep is a section: write [sweep] once");
     const Table sweep{source_name, "sweep", *root.node("sweep").as_table()};
-    sweep.allow_only({"gyros", "seed", "duration_s", "sobol_shift"});
+    sweep.allow_only({"gyros", "seed", "duration_s", "sobol_shift", "sensitivity"});
     Description d;
     if (sweep.has("seed")) d.seed = static_cast<std::uint64_t>(sweep.integer("seed", 0, int64_max));
     d.duration_s = sweep.optional_real("duration_s");
-    if (sweep.has("sobol_shift")) {
-        if (!sweep.node("sobol_shift").is_boolean()) sweep.refuse("sobol_shift", "true or false");
-        d.sobol_shift = sweep.node("sobol_shift").as_boolean()->get();
-    }
+    d.sobol_shift = sweep.boolean("sobol_shift", d.sobol_shift);
+    d.sensitivity = sweep.boolean("sensitivity", d.sensitivity);
     read_base(root, source_name, d);
     read_parameters(root, source_name, d);
     read_metrics(root, source_name, d);
     read_gyros(sweep, d);
+    check_sensitivity(sweep, d);
     return d;
 }
 

@@ -76,6 +76,11 @@ public:
         if (!value || *value < min || *value > max) refuse(key, fmt::format("an integer {}..{}", min, max));
         return *value;
     }
+    [[nodiscard]] bool boolean(std::string_view key, bool by_default) const {
+        if (!has(key)) return by_default;
+        if (!node(key).is_boolean()) refuse(key, "true or false");
+        return node(key).as_boolean()->get();
+    }
     [[nodiscard]] std::string text(std::string_view key) const {
         const toml::node& found = node(key);
         if (!found.is_string()) refuse(key, "a text");

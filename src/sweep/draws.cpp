@@ -51,8 +51,9 @@ Draws::Draws(const Description& description)
             order_[k] = shuffled(description.n_gyros, {description.seed, chance::Cause::sweep_order, 0, thing_of(p)});
         if (p.draw != DrawKind::sobol) continue;
         ++n_sobol_;
-        if (description.sobol_shift)
-            shift_[k] = chance::Draw{description.seed, chance::Cause::sweep_shift, 0, thing_of(p)}.bits();
+        if (!description.sobol_shift) continue;
+        chance::Draw draw{description.seed, chance::Cause::sweep_shift, 0, thing_of(p)};
+        for (std::uint64_t& shift : shift_[k]) shift = draw.bits();
     }
 }
 
@@ -82,17 +83,34 @@ double Draws::number(std::size_t parameter, std::int64_t gyro) const {
 }
 
 // The engine of Boost leaves out the first point, the origin.
-std::vector<std::uint64_t> Draws::sobol_bits(std::int64_t gyro) const {
-    std::vector<std::uint64_t> bits(n_sobol_);
-    if (n_sobol_ == 0 || gyro == 0) return bits;
-    boost::random::sobol engine{n_sobol_};
-    engine.seed(static_cast<std::uint64_t>(gyro - 1));
+std::vector<std::uint64_t> Draws::sobol_point(std::int64_t index, std::size_t n_dimensions) {
+    std::vector<std::uint64_t> bits(n_dimensions);
+    if (index == 0 || n_dimensions == 0) return bits;
+    boost::random::sobol engine{n_dimensions};
+    engine.seed(static_cast<std::uint64_t>(index - 1));
     std::ranges::generate(bits, [&] { return engine(); });
     return bits;
 }
 
+// Of Saltelli's design, row by row: A, A with the column of one parameter from B, and so on, B. A is the first half of the
+// dimensions of a point, B the second.
+std::vector<double> Draws::sobol_places(std::int64_t gyro) const {
+    const bool is_design = description_.sensitivity;
+    const auto row_length = static_cast<std::int64_t>(is_design ? n_sobol_ + 2 : 1);
+    const auto kind = static_cast<std::size_t>(gyro % row_length);
+    const std::vector<std::uint64_t> bits = sobol_point(gyro / row_length, is_design ? 2 * n_sobol_ : n_sobol_);
+    std::vector<double> places;
+    for (std::size_t k = 0; k < description_.parameters.size(); ++k) {
+        if (description_.parameters[k].draw != DrawKind::sobol) continue;
+        const std::size_t dimension = places.size();
+        const bool from_b = is_design && (kind == dimension + 1 || kind == n_sobol_ + 1);
+        places.push_back(unit_interval(bits[dimension + (from_b ? n_sobol_ : 0)] ^ shift_[k][from_b ? 1 : 0]));
+    }
+    return places;
+}
+
 std::vector<Value> Draws::values(std::int64_t gyro) const {
-    const std::vector<std::uint64_t> sobol = sobol_bits(gyro);
+    const std::vector<double> sobol = sobol_places(gyro);
     std::size_t dimension = 0;
     std::vector<Value> values(description_.parameters.size());
     auto point = static_cast<std::size_t>(gyro);  // of the grid: mixed radix, the last parameter its lowest digit
@@ -107,7 +125,7 @@ std::vector<Value> Draws::values(std::int64_t gyro) const {
         if (p.draw == DrawKind::list)
             values[k] = p.values[static_cast<std::size_t>(gyro) % p.values.size()];
         else if (p.draw == DrawKind::sobol)
-            values[k] = at(p, unit_interval(sobol[dimension++] ^ shift_[k]));
+            values[k] = at(p, sobol[dimension++]);
         else if (p.draw != DrawKind::grid)
             values[k] = number(k, gyro);
     }

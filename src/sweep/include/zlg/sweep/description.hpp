@@ -46,8 +46,9 @@ struct Metric {
 struct Description {
     std::int64_t n_gyros = 0;
     std::uint64_t seed = 1;
-    std::optional<double> duration_s;                       // unset: as of a run
-    bool sobol_shift = true;                                // whether Sobol's points get a random digital shift
+    std::optional<double> duration_s;  // unset: as of a run
+    bool sobol_shift = true;           // whether Sobol's points get a random digital shift
+    bool sensitivity = false;          // the gyros are the points of Saltelli's design, for Sobol's indices
     std::vector<std::pair<std::string, std::string>> base;  // dotted keys with their TOML
     std::vector<Parameter> parameters;
     std::vector<Metric> metrics;

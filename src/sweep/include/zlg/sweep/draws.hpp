@@ -4,6 +4,7 @@
 // Every number has an address (zlg/chance/address.hpp) made of the seed, the parameter's keys and the gyro: neither
 // order, threads and parts nor other parameters change it. Of latin and grid, all gyros together make the design.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,17 +29,20 @@ public:
     //              parts of [min, max) has one gyro, at an even place within
     // sobol        Sobol's sequence with the direction numbers of S. Joe and F. Y. Kuo (SIAM J. Sci. Comput. 30, 2008, 2635), one
     //              dimension for each parameter that is drawn so, in their order; gyro k has the point k in the order of Gray's code;
+    //              with sensitivity the gyros are the rows of Saltelli's design (sensitivity.hpp), A, A_B^1 ... A_B^d, B, and
+    //              row j is the point j of 2 d dimensions;
     //              with sobol_shift the bits of each dimension are added modulo 2 to 64 random ones
     [[nodiscard]] std::vector<Value> values(std::int64_t gyro) const;
 
 private:
     [[nodiscard]] double number(std::size_t parameter, std::int64_t gyro) const;
     [[nodiscard]] double latin(std::size_t parameter, std::int64_t gyro) const;
-    [[nodiscard]] std::vector<std::uint64_t> sobol_bits(std::int64_t gyro) const;
+    [[nodiscard]] std::vector<double> sobol_places(std::int64_t gyro) const;
+    [[nodiscard]] static std::vector<std::uint64_t> sobol_point(std::int64_t index, std::size_t n_dimensions);
 
     Description description_;
-    std::vector<std::vector<std::uint32_t>> order_;  // by parameter: of the parts of latin
-    std::vector<std::uint64_t> shift_;               // by parameter: of sobol
+    std::vector<std::vector<std::uint32_t>> order_;    // by parameter: of the parts of latin
+    std::vector<std::array<std::uint64_t, 2>> shift_;  // by parameter: of sobol, and of its column in B
     std::size_t n_sobol_ = 0;
 };
 
