@@ -89,6 +89,7 @@ constexpr std::array kinds{
     Kind{"FILE", ""},
     Kind{"SWEEP", "FILE.toml"},
     Kind{"--part", "K/N"},
+    Kind{"--page", "FILE.html"},
     Kind{"--merge", "FILE.h5"},
     Kind{"SOURCE", "FILE|DEVICE|ADDRESS"},
     Kind{"--switches", "FILE.csv"},

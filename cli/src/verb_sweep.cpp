@@ -1,4 +1,5 @@
 #include <charconv>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <zlg/sweep/gyros.hpp>
 #include <zlg/sweep/statistics.hpp>
 #include <zlg/sweep/sweep.hpp>
+#include <zlg/sweep/sweep_page.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
@@ -28,6 +30,7 @@ struct SweepOptions {
     std::vector<std::string> merged;
     std::string part;
     std::string out;
+    std::string page;
     int threads = 2;
     bool force = false;
     bool json = false;
@@ -59,11 +62,18 @@ void check_options(const SweepOptions& options) {
         throw UsageError{"either SWEEP.toml is wanted, or --merge with the files to put together"};
     if (!options.merged.empty() && !options.part.empty())
         throw UsageError{"--part: is for a sweep that runs, not for --merge"};
+    if (!options.page.empty()) require_suffix(options.page, ".html");
+    // Said before the gyros run, which may take hours.
+    if (!options.page.empty() && !options.force && std::filesystem::exists(options.page))
+        throw logs::IoError{
+            fmt::format("{} exists; remove it or name another, for --force begins the sweep anew", options.page)};
     for (const std::string& path : options.merged) refuse_own_input(path, options.out);
 }
 
 // A gyro that has failed is a result, and says no.
 void show(const SweepOptions& options, const sweep::Gyros& gyros, const sweep::Rows& rows) {
+    if (!options.page.empty() && !rows.empty())
+        write_file(options.page, report::html(sweep::sweep_page(gyros, rows)), options.force);
     print(options.json ? pretty(sweep_json(gyros, rows))
                        : sweep_text(gyros, rows) + fmt::format("written to {}\n", printable(options.out)));
     const sweep::Summary summary = summary_of(gyros.description(), rows);
@@ -112,6 +122,7 @@ void add_sweep(CLI::App& program) {
         "sweep", "many gyros of drawn parameters, whose results can be interrupted, continued, parted and merged");
     verb->add_option("SWEEP", options->description, "what is drawn and recorded, TOML");
     verb->add_option("--out", options->out, "the file of results, .h5; FILE.part while it grows");
+    verb->add_option("--page", options->page, "a page of the results, FILE.html");
     verb->add_option("--part", options->part, "only the k-th of n parts of the gyros");
     verb->add_option("--merge", options->merged, "put files of results together");
     verb->add_option("--threads", options->threads, "1..256 (2)")->check(CLI::Range(1, 256).description(""));

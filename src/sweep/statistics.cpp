@@ -46,13 +46,6 @@ MetricSummary summary_of(const Metric& metric, const Rows& rows, std::size_t k) 
     return summary;
 }
 
-bool passes_all(const Description& description, const Row& row) {
-    if (!is_good(row)) return false;
-    for (std::size_t k = 0; k < row.metrics.size(); ++k)
-        if (!passes(description.metrics[k], row.metrics[k])) return false;
-    return true;
-}
-
 }  // namespace
 
 Yield yield_of(std::int64_t passed, std::int64_t gyros) {
@@ -74,6 +67,13 @@ double quantile(std::span<const double> sorted, double p) {
 
 bool passes(const Metric& metric, double value) {
     return (!metric.min || value >= *metric.min) && (!metric.max || value <= *metric.max);
+}
+
+bool passes_all(const Description& description, const Row& row) {
+    if (!is_good(row)) return false;
+    for (std::size_t k = 0; k < row.metrics.size(); ++k)
+        if (!passes(description.metrics[k], row.metrics[k])) return false;
+    return true;
 }
 
 Summary summary_of(const Description& description, const Rows& rows) {

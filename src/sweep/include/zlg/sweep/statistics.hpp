@@ -47,6 +47,9 @@ struct Summary {
 // Whether a number lies within the limits of its metric.
 [[nodiscard]] bool passes(const Metric& metric, double value);
 
+// Whether a gyro is good and within all limits.
+[[nodiscard]] bool passes_all(const Description& description, const Row& row);
+
 [[nodiscard]] Summary summary_of(const Description& description, const Rows& rows);
 
 // The gyros to look at first: those that failed, then those farthest beyond the middle of the first metric. At most n.
