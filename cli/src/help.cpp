@@ -36,6 +36,10 @@ constexpr std::array verb_table{
     VerbHelp{"simulate", simulating, "  zlg simulate --duration 600 --set switching.interval_s=60 --out raw.h5"},
     VerbHelp{"lab", simulating, "  zlg lab --out lab.html                        then open it in a browser"},
     VerbHelp{"paper", simulating, "  zlg paper --out paper                         some half a minute"},
+    VerbHelp{"sweep", simulating,
+             "  zlg sweep tolerances.toml --out results.h5    go on with it by the same line\n"
+             "  zlg sweep tolerances.toml --part 1/4 --out part_1.h5\n"
+             "  zlg sweep --merge part_1.h5 part_2.h5 part_3.h5 part_4.h5 --out results.h5"},
     VerbHelp{"import", processing,
              "  zlg import logger.csv                         says what it understood and what is missing\n"
              "  zlg import logger.csv --map axis=gyro_z --map holds=rate --map unit=deg/s --out angles.h5"},
@@ -84,6 +88,10 @@ constexpr std::array kinds{
     Kind{"--wire", "FILE"},
     Kind{"RAW", "FILE"},
     Kind{"FILE", ""},
+    Kind{"SWEEP", "FILE.toml"},
+    Kind{"--part", "K/N"},
+    Kind{"--page", "FILE.html"},
+    Kind{"--merge", "FILE.h5"},
     Kind{"SOURCE", "FILE|DEVICE|ADDRESS"},
     Kind{"--switches", "FILE.csv"},
     Kind{"--give-up", "SECONDS"},

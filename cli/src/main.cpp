@@ -95,6 +95,7 @@ int main(int argc, char** argv) {
     cli::add_process(program);
     cli::add_design(program);
     cli::add_paper(program);
+    cli::add_sweep(program);
     cli::add_convert(program);
     cli::add_import(program);
     cli::add_calibrate(program);

@@ -30,8 +30,9 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    // unit    where the rate of the work is shown: whole work in such units, as 1000 "gyros".
     // errors  logs::IoError where the disk cannot hold `part` when it is done.
-    void show(double fraction);
+    void show(double fraction, double whole = 0.0, std::string_view unit = {});
 
 private:
     Growth growth_;

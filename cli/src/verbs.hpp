@@ -10,6 +10,7 @@ void add_simulate(CLI::App& program);
 void add_process(CLI::App& program);
 void add_design(CLI::App& program);
 void add_paper(CLI::App& program);
+void add_sweep(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_calibrate(CLI::App& program);
 void add_import(CLI::App& program);

@@ -19,5 +19,6 @@ void bind_noise(pybind11::module_& m);
 void bind_calibration(pybind11::module_& m);
 void bind_line(pybind11::module_& m);
 void bind_study(pybind11::module_& m);
+void bind_sweep(pybind11::module_& m);
 
 }  // namespace zlg::python

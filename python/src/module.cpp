@@ -15,4 +15,5 @@ PYBIND11_MODULE(_zlg, m) {
     zlg::python::bind_calibration(m);
     zlg::python::bind_line(m);
     zlg::python::bind_study(m);
+    zlg::python::bind_sweep(m);
 }

@@ -3,13 +3,13 @@
     import zlg
     result = zlg.run(zlg.Config.of("run.duration_s=600"))
 
-Modules: `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `calibration`, `line`, `study`. Arrays are NumPy's; what C++ computed is handed over
+Modules: `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `calibration`, `line`, `study`, `sweeps`. Arrays are NumPy's; what C++ computed is handed over
 without a copy, and contiguous arrays of the right type are read where they are. Names carry their unit; 1 arcsec/s is 1 deg/h.
-Long calls release the interpreter. `run`, `simulate`, `compensate`, `calibrate`, `paper`, `analyze` and the readers and writers of logs
+Long calls release the interpreter. `run`, `simulate`, `compensate`, `calibrate`, `paper`, `analyze`, `sweep` and the readers and writers of logs
 take `progress`, a function of the fraction done, and end on Ctrl-C, as `follow` does; a deviation, a fit and `design_gyro` go on to their end.
 """
 
-from . import _zlg, analysis, calibration, config, core, design, line, logs, rig, study, twin
+from . import _zlg, analysis, calibration, config, core, design, line, logs, rig, study, sweeps, twin
 from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, SeriesError
 from .calibration import Calibration, calibrate
 from .config import Config
@@ -18,6 +18,7 @@ from .logs import convert
 from .rig import simulate
 from .core import compensate
 from .study import RunResult, run
+from .sweeps import SobolIndices, read_sweep, sobol, sweep
 
 __version__: str = _zlg.version
 
@@ -31,6 +32,7 @@ __all__ = [
     "IoError",
     "RunResult",
     "SeriesError",
+    "SobolIndices",
     "__version__",
     "analysis",
     "calibrate",
@@ -43,9 +45,13 @@ __all__ = [
     "follow",
     "line",
     "logs",
+    "read_sweep",
     "rig",
     "run",
     "simulate",
+    "sobol",
     "study",
+    "sweep",
+    "sweeps",
     "twin",
 ]

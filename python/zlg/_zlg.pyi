@@ -290,6 +290,8 @@ def read_imu_yaml(path: str) -> tuple[NoiseTerms, float]: ...
 
 def read_raw(path: str, light: bool, progress: Any) -> dict[str, Any]: ...
 
+def read_sweep(path: str) -> tuple[str, list[tuple[str, str, Any]]]: ...
+
 def read_text_columns(
     path: str, columns: list[str], comment: str, skip_lines: int, separator: str, decimal: str
 ) -> list[NDArray[np.float64]]: ...
@@ -317,6 +319,13 @@ def spectrogram(
     least_known_ratio: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
 
+def sobol(
+    samples: NDArray[np.float64],
+    values: NDArray[np.float64],
+    n_resamples: int,
+    seed: int,
+) -> dict[str, Any]: ...
+
 def split_modes(
     rates_arcsec_s: NDArray[np.float64],
     mode: NDArray[np.int8],
@@ -333,6 +342,17 @@ def substitution_response(
     tick_s: float,
     frequency_hz: ArrayLike,
 ) -> NDArray[np.float64]: ...
+
+def sweep(
+    description: str,
+    source_name: str,
+    out: str,
+    part: int,
+    parts: int,
+    threads: int,
+    force: bool,
+    progress: Any,
+) -> list[tuple[str, str, Any]]: ...
 
 def terms_of_sheet(
     quantisation_arcsec: float,

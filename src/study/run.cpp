@@ -30,7 +30,9 @@ namespace {
 constexpr std::int64_t curve_points = 2000;  // at most about twice as many: what a figure can show
 constexpr int profile_ticks = 8;             // after closing, of which the mean false drift is reported
 
-std::int64_t curve_stride(std::int64_t ticks) { return std::max<std::int64_t>(1, ticks / curve_points); }
+std::int64_t curve_stride(const RunTask& task, std::int64_t ticks) {
+    return task.has_figures ? std::max<std::int64_t>(1, ticks / curve_points) : ticks + 1;
+}
 
 // A tick between its records and its final row.
 struct WaitingTick {
@@ -44,7 +46,7 @@ public:
     Experiment(const RunTask& task, std::int64_t ticks)
         : task_{task},
           count_{task.config},
-          variants_{variants(task.config, curve_stride(ticks))},
+          variants_{variants(task.config, curve_stride(task, ticks), task.variants)},
           switches_{task.config.compensation.relock_ticks} {}
 
     // The first half of a tick, while its frame and its light are there.
@@ -59,9 +61,10 @@ public:
         fingerprint_.take(second, sensor_second);
         switches_.take(tick, first.record, second.record);
         profile_.take(first.record, second.record, first.truth.false_relock_arcsec + second.truth.false_relock_arcsec);
-        const MagnifiedTick shown = shown_tick(tick, task_.config.gyro.scale_arcsec, first, second);
-        waiting_[static_cast<std::size_t>(tick) % waiting_.size()] = {
-            shown.true_arcsec, reading_error_arcsec(task_.config, second), shown};
+        WaitingTick& waiting = waiting_[static_cast<std::size_t>(tick) % waiting_.size()];
+        waiting.true_arcsec = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec;
+        waiting.rounding_arcsec = reading_error_arcsec(task_.config, second);
+        if (task_.has_figures) waiting.shown = shown_tick(tick, task_.config.gyro.scale_arcsec, first, second);
         count_whole(first, second);
         for (const rig::LoopHalf* half : {&first, &second}) {
             take_health(*half);
@@ -90,7 +93,7 @@ public:
 
     void report(RunResult& result) const {
         for (const Variant& v : variants_) result.variants.push_back(v.result());
-        take_out_magnetic(result);
+        if (is_wanted(task_.variants, magnetic_estimate)) take_out_magnetic(result);
         result.fingerprint = fingerprint_.text();
         result.health_raised = health_raised_;
         result.invalid_ticks = invalid_ticks_;
@@ -151,11 +154,14 @@ private:
         fingerprint_.take(row);
         switches_.take(row);
         if ((row.flags & core::flag_invalid) != 0 && (row.flags & core::flag_switching) == 0) ++invalid_ticks_;
-        MagnifiedTick shown = waiting.shown;
+        if (task_.has_figures) magnify(waiting.shown, row);
+        if (task_.on_row) task_.on_row(row, waiting.true_arcsec);
+    }
+
+    void magnify(MagnifiedTick shown, const core::AngleRow& row) {
         shown.dtheta_arcsec = row.dtheta_arcsec;
         shown.final_arcsec = row.dtheta_final_arcsec;
         magnifier_.take(shown, switches_.windows());
-        if (task_.on_row) task_.on_row(row, waiting.true_arcsec);
     }
 
     [[nodiscard]] std::vector<SwitchLine> switch_lines() const {
@@ -242,13 +248,13 @@ std::optional<std::string> late_switches(const config::Config& config, const std
 }
 
 // The same gyro without switching: its error is what switching is to remove.
-VariantResult one_mode(const config::Config& config, const twin::Motion& motion, std::int64_t ticks) {
-    const config::Config unswitched = rig::without_switching(config);
+VariantResult one_mode(const RunTask& task, const twin::Motion& motion, std::int64_t ticks) {
+    const config::Config unswitched = rig::without_switching(task.config);
     rig::ClosedLoop loop{unswitched, motion};
     Variant variant{
         "one_mode", "the same gyro, never switched",
         rig::Replay{rig::compensation_config(unswitched, core::RelockMethod::none, unswitched.compensation.bridge)},
-        ErrorMeter{unswitched.gyro.tick_s, curve_stride(ticks), gyro_drift(unswitched)}};
+        ErrorMeter{unswitched.gyro.tick_s, curve_stride(task, ticks), gyro_drift(unswitched)}};
     std::array<double, core::history_ticks> truth{};
     const std::deque<SwitchWindow> no_windows;
     const auto take = [&](const core::AngleRow& row) {
@@ -295,11 +301,14 @@ RunResult run(const RunTask& task) {
     const std::int64_t ticks = rig::run_ticks(task.config, motion);
     RunResult result{.tick_s = task.config.gyro.tick_s, .ticks = ticks, .warnings = task.warnings};
     VariantResult unswitched;
-    if (task.threads > 1) {
+    const bool has_unswitched = is_wanted(task.variants, "one_mode");
+    if (!has_unswitched) {
+        switching_run(task, motion, ticks, result);
+    } else if (task.threads > 1) {
         std::exception_ptr failure;
         std::jthread beside{[&] {
             try {
-                unswitched = one_mode(task.config, motion, ticks);
+                unswitched = one_mode(task, motion, ticks);
             } catch (...) {
                 failure = std::current_exception();
             }
@@ -309,10 +318,10 @@ RunResult run(const RunTask& task) {
         if (failure) std::rethrow_exception(failure);
     } else {
         switching_run(task, motion, ticks, result);
-        unswitched = one_mode(task.config, motion, ticks);
+        unswitched = one_mode(task, motion, ticks);
     }
     if (auto late = late_switches(task.config, result.switches)) result.warnings.push_back(std::move(*late));
-    result.variants.insert(result.variants.begin(), std::move(unswitched));
+    if (has_unswitched) result.variants.insert(result.variants.begin(), std::move(unswitched));
     return result;
 }
 

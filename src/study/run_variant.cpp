@@ -6,7 +6,8 @@
 
 namespace zlg::study {
 
-std::vector<Variant> variants(const config::Config& config, std::int64_t stride) {
+std::vector<Variant> variants(const config::Config& config, std::int64_t stride,
+                              const std::optional<std::vector<std::string>>& wanted) {
     using core::BridgeMethod;
     using core::RelockMethod;
     struct Choice {
@@ -45,10 +46,11 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride)
         all.push_back({c.name, c.meaning, rig::Replay{rig::compensation_config(of, c.relock, c.bridge)},
                        ErrorMeter{config.gyro.tick_s, stride, gyro_drift(config)}});
     };
-    for (const Choice& c : choices) add(paper, c);
+    for (const Choice& c : choices)
+        if (is_wanted(wanted, c.name)) add(paper, c);
     const RelockMethod relock = rig::asked_relock(config);
     const BridgeMethod bridge = config.compensation.bridge;
-    if (config.compensation.magnetic != core::MagneticMethod::estimate)
+    if (config.compensation.magnetic != core::MagneticMethod::estimate && is_wanted(wanted, magnetic_estimate))
         add(estimating, {magnetic_estimate, "as configured, with the magnetic drift estimated", relock, bridge});
     add(config, {"configured", "as the configuration says", relock, bridge});
     return all;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <zlg/config/config.hpp>
@@ -36,8 +39,14 @@ struct Variant {
     }
 };
 
-// Those that the paper compares, magnetic_estimate unless the configuration is that, and last the configured one.
-// stride: as of ErrorMeter.
-[[nodiscard]] std::vector<Variant> variants(const config::Config& config, std::int64_t stride);
+// Whether a variant is among those that a task asks for: see RunTask::variants.
+[[nodiscard]] inline bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name) {
+    return !wanted || std::ranges::find(*wanted, name) != wanted->end();
+}
+
+// Of the wanted ones those that the paper compares, magnetic_estimate unless the configuration is that, and last the
+// configured one in any case. stride: as of ErrorMeter.
+[[nodiscard]] std::vector<Variant> variants(const config::Config& config, std::int64_t stride,
+                                            const std::optional<std::vector<std::string>>& wanted);
 
 }  // namespace zlg::study

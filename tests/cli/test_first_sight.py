@@ -9,7 +9,7 @@ import unittest
 
 from support import ZLG, CliTest
 
-VERBS = ["run", "simulate", "paper", "process", "convert", "calibrate", "follow", "inspect", "design", "analyze", "lab"]
+VERBS = ["run", "simulate", "paper", "lab", "sweep", "process", "convert", "calibrate", "follow", "inspect", "design", "analyze"]
 SHORT = ["--duration", 12, "--set", "switching.interval_s=5"]
 
 

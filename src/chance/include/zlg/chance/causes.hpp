@@ -27,6 +27,13 @@ enum class Cause : std::uint16_t {
     // 0x0200..0x02ff: the paper recomputed
     phase_at_switch = 0x0200,
 
+    // 0x0300..0x03ff: many gyros
+    sweep_seed = 0x0300,
+    sweep_parameter,
+    sweep_order,
+    sweep_shift,
+    sweep_resampling,
+
     // 0x8000..0xffff: campaigns, benchmarks and tests
     synthetic_motion = 0x8000,
     synthetic_gyro,

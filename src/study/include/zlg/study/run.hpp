@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,8 @@ struct RunResult {
     std::int64_t ticks = 0;
     std::string fingerprint;              // rig::Fingerprint of the gyro that switches and of the rows of `configured`
     std::vector<VariantResult> variants;  // one_mode first, configured last
-    // As configured, with compensation.magnetic = "estimate". Beside the list, whose names and order are those of old files.
+    // As configured, with compensation.magnetic = "estimate"; without a name where it was not asked for. Beside the list, whose
+    // names and order are those of old files.
     VariantResult magnetic_estimate;
     std::vector<SwitchLine> switches;  // of the configured compensation
     std::vector<MagnifiedTick> magnified;
@@ -60,6 +62,11 @@ struct RunTask {
     // Runs the core of the gyro that switches, and its configured compensation; null: this program does. The gyro of
     // one mode and the other compensations always run here.
     rig::Processor* processor = nullptr;
+    // Names of the variants that are computed beside `configured`, one_mode and magnetic_estimate among them; unset: all. A run of
+    // `configured` alone costs a fraction. What is computed has the same bits whatever else is.
+    std::optional<std::vector<std::string>> variants;
+    // Whether the result has what only a page shows: curves and the magnified switch.
+    bool has_figures = true;
     // All optional; called in order, from the calling thread.
     std::function<void(const core::HalfRecord&, const core::LightSamples&)> on_record;
     std::function<void(const core::AngleRow&, double true_arcsec)> on_row;  // the rows of `configured`

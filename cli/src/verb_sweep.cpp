@@ -1,0 +1,137 @@
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/sweep/description.hpp>
+#include <zlg/sweep/gyros.hpp>
+#include <zlg/sweep/statistics.hpp>
+#include <zlg/sweep/sweep.hpp>
+#include <zlg/sweep/sweep_page.hpp>
+
+#include "as_json.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "options.hpp"
+#include "output.hpp"
+#include "sweep_text.hpp"
+#include "verbs.hpp"
+
+namespace zlg::cli {
+namespace {
+
+struct SweepOptions {
+    std::string description;
+    std::vector<std::string> merged;
+    std::string part;
+    std::string out;
+    std::string page;
+    int threads = 2;
+    bool force = false;
+    bool json = false;
+};
+
+constexpr std::int64_t max_parts = 1'000'000;
+
+// errors  UsageError.
+sweep::Part part_of(const std::string& text) {
+    sweep::Part part;
+    const char* const end = text.data() + text.size();
+    const auto [slash, k_error] = std::from_chars(text.data(), end, part.k);
+    const bool has_slash = k_error == std::errc{} && slash != end && *slash == '/';
+    const auto [last, n_error] =
+        has_slash ? std::from_chars(slash + 1, end, part.n) : std::from_chars_result{end, k_error};
+    if (!has_slash || n_error != std::errc{} || last != end ||
+        !(part.k >= 1 && part.k <= part.n && part.n <= max_parts))
+        throw UsageError{fmt::format("--part {}: allowed is k/n with 1 <= k <= n <= {}", text, max_parts)};
+    return part;
+}
+
+void check_options(const SweepOptions& options) {
+    if (options.out.empty())
+        throw UsageError{"--out is missing: name the file of results, with the suffix .h5 or .hdf5"};
+    if (!options.out.ends_with(".h5") && !options.out.ends_with(".hdf5"))
+        throw UsageError{
+            fmt::format("{}: the suffix names no format of results; allowed are .h5 and .hdf5", options.out)};
+    if (options.merged.empty() == options.description.empty())
+        throw UsageError{"either SWEEP.toml is wanted, or --merge with the files to put together"};
+    if (!options.merged.empty() && !options.part.empty())
+        throw UsageError{"--part: is for a sweep that runs, not for --merge"};
+    if (!options.page.empty()) require_suffix(options.page, ".html");
+    // Said before the gyros run, which may take hours.
+    if (!options.page.empty() && !options.force && std::filesystem::exists(options.page))
+        throw logs::IoError{
+            fmt::format("{} exists; remove it or name another, for --force begins the sweep anew", options.page)};
+    for (const std::string& path : options.merged) refuse_own_input(path, options.out);
+}
+
+// A gyro that has failed is a result, and says no.
+void show(const SweepOptions& options, const sweep::Gyros& gyros, const sweep::Rows& rows) {
+    if (!options.page.empty() && !rows.empty())
+        write_file(options.page, report::html(sweep::sweep_page(gyros, rows)), options.force);
+    print(options.json ? pretty(sweep_json(gyros, rows))
+                       : sweep_text(gyros, rows) + fmt::format("written to {}\n", printable(options.out)));
+    const sweep::Summary summary = summary_of(gyros.description(), rows);
+    if (summary.failed == 0) return;
+    explain_exit(
+        fmt::format("{} of {} gyros failed: their rows have a status and a reason", summary.failed, summary.gyros));
+    print_notes();
+    throw CLI::RuntimeError{result_says_no};
+}
+
+void merge(const SweepOptions& options) {
+    const sweep::Merged merged = sweep::merge(options.merged, options.out, options.force);
+    const auto n = static_cast<std::int64_t>(merged.rows.size());
+    if (n < merged.description.n_gyros)
+        complain(fmt::format("warning: {} holds {} of {} gyros; merge the other parts with it, or go on by zlg sweep",
+                             options.out, n, merged.description.n_gyros));
+    show(options, sweep::Gyros{merged.description}, merged.rows);
+}
+
+void sweep_gyros(const SweepOptions& options) {
+    const Interruptible interruptible;
+    Progress progress;
+    sweep::Task task{.description = sweep::read_description(options.description),
+                     .out = options.out,
+                     .threads = options.threads,
+                     .force = options.force};
+    if (!options.part.empty()) task.part = part_of(options.part);
+    task.is_stopped = [&] { return interruptible.is_noted(); };
+    task.on_progress = [&](std::int64_t done, std::int64_t asked) {
+        progress.show(static_cast<double>(done) / static_cast<double>(asked), static_cast<double>(asked), "gyros");
+    };
+    const sweep::Outcome outcome = sweep::run(task);
+    if (outcome.is_stopped)
+        throw logs::IoError{
+            fmt::format("interrupted by a signal; {} of {} gyros are in {}.part, and the same line goes on",
+                        outcome.rows.size(), task.description.n_gyros, options.out)};
+    if (outcome.n_run == 0) complain(fmt::format("note: {} held every gyro that is asked for", options.out));
+    show(options, sweep::Gyros{task.description}, outcome.rows);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& program) {
+    const auto options = std::make_shared<SweepOptions>();
+    CLI::App* verb = program.add_subcommand(
+        "sweep", "many gyros of drawn parameters, whose results can be interrupted, continued, parted and merged");
+    verb->add_option("SWEEP", options->description, "what is drawn and recorded, TOML");
+    verb->add_option("--out", options->out, "the file of results, .h5; FILE.part while it grows");
+    verb->add_option("--page", options->page, "a page of the results, FILE.html");
+    verb->add_option("--part", options->part, "only the k-th of n parts of the gyros");
+    verb->add_option("--merge", options->merged, "put files of results together");
+    verb->add_option("--threads", options->threads, "1..256 (2)")->check(CLI::Range(1, 256).description(""));
+    verb->add_flag("--force", options->force, "overwrite what exists, and begin anew");
+    verb->add_flag("--json", options->json, "the result as one JSON object on standard output");
+    verb->callback([options] {
+        check_options(*options);
+        options->merged.empty() ? sweep_gyros(*options) : merge(*options);
+    });
+}
+
+}  // namespace zlg::cli

@@ -1,0 +1,134 @@
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/sweep/checkpoint.hpp>
+#include <zlg/sweep/metrics.hpp>
+#include <zlg/sweep/sensitivity.hpp>
+#include <zlg/sweep/sweep.hpp>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+
+namespace zlg::python {
+namespace {
+
+// Ctrl-C is seen by the thread that called; the others ask what it saw.
+class Interruption {
+public:
+    bool operator()() {
+        if (std::this_thread::get_id() == caller_ && !is_seen_) {
+            const py::gil_scoped_acquire interpreter;
+            if (PyErr_CheckSignals() != 0) {
+                error_.emplace();
+                is_seen_ = true;
+            }
+        }
+        return is_seen_;
+    }
+
+    // With the interpreter held. errors  what the handler of the signal raised.
+    void raise() {
+        if (error_) throw *error_;
+    }
+
+private:
+    std::thread::id caller_ = std::this_thread::get_id();
+    std::atomic<bool> is_seen_{false};
+    std::optional<py::error_already_set> error_;
+};
+
+py::list number_or_text(const std::vector<sweep::Value>& values) {
+    py::list column;
+    for (const sweep::Value& value : values) std::visit([&](const auto& each) { column.append(each); }, value);
+    return column;
+}
+
+// Name, unit and values of each column, in the order of the file.
+py::list columns_of(const sweep::Gyros& gyros, const sweep::Rows& rows) {
+    py::list columns;
+    const auto add = [&](const std::string& name, const std::string& unit, py::object values) {
+        columns.append(py::make_tuple(name, unit, std::move(values)));
+    };
+    const auto of_rows = [&](const auto& get) {
+        std::vector<std::decay_t<decltype(get(rows.begin()->second))>> values;
+        for (const auto& [gyro, row] : rows) values.push_back(get(row));
+        return values;
+    };
+    add("gyro", "1", as_array(of_rows([](const sweep::Row& r) { return r.gyro; })));
+    add("seed", "1", as_array(of_rows([&](const sweep::Row& r) { return gyros.seed(r.gyro); })));
+    const std::vector<sweep::Parameter>& parameters = gyros.description().parameters;
+    std::map<std::string, std::string> units;
+    for (const config::KeyInfo& key : config::describe_keys()) units[key.section + "." + key.name] = key.unit;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        const py::list values = number_or_text(of_rows([&](const sweep::Row& r) { return gyros.values(r.gyro)[k]; }));
+        for (const std::string& key : parameters[k].keys) add(key, units[key], values);
+    }
+    const std::vector<sweep::Metric>& metrics = gyros.description().metrics;
+    for (std::size_t k = 0; k < metrics.size(); ++k)
+        add(metrics[k].name, sweep::unit_of(metrics[k].name),
+            as_array(of_rows([k](const sweep::Row& r) { return r.metrics[k]; })));
+    add("status", "1", as_array(of_rows([](const sweep::Row& r) { return static_cast<std::int64_t>(r.status); })));
+    add("reason", "", py::cast(of_rows([](const sweep::Row& r) { return r.reason; })));
+    add("fingerprint", "", py::cast(of_rows([](const sweep::Row& r) { return r.fingerprint; })));
+    add("command", "", py::cast(of_rows([&](const sweep::Row& r) { return gyros.command(r.gyro); })));
+    return columns;
+}
+
+py::list run_sweep(const std::string& description, const std::string& source_name, const std::string& out,
+                   std::int64_t part, std::int64_t parts, int threads, bool force, const py::object& progress) {
+    if (!(part >= 1 && part <= parts)) throw std::invalid_argument{"part: allowed is (k, n) with 1 <= k <= n"};
+    if (!(threads >= 1)) throw std::invalid_argument{"threads: allowed is 1 and more"};
+    Interruption interruption;
+    sweep::Task task{.description = sweep::parse(description, source_name),
+                     .out = out,
+                     .part = {part, parts},
+                     .threads = threads,
+                     .force = force,
+                     .is_stopped = std::ref(interruption)};
+    task.on_progress = [&](std::int64_t done, std::int64_t asked) {
+        const py::gil_scoped_acquire interpreter;
+        if (!progress.is_none()) progress(static_cast<double>(done) / static_cast<double>(asked));
+    };
+    const sweep::Outcome outcome = without_interpreter([&] { return sweep::run(task); });
+    interruption.raise();
+    return columns_of(sweep::Gyros{task.description}, outcome.rows);
+}
+
+// The description, and the columns.
+py::tuple read_sweep(const std::string& path) {
+    const sweep::Results results = without_interpreter(
+        [&] { return sweep::is_checkpoint(path) ? sweep::read_checkpoint(path) : sweep::read_results(path); });
+    const sweep::Gyros gyros{sweep::parse(results.description, path)};
+    return py::make_tuple(results.description, columns_of(gyros, results.rows));
+}
+
+py::dict sobol_of(const In<double>& points, const In<double>& values, int n_resamples, std::uint64_t seed) {
+    if (points.ndim() != 2) throw std::invalid_argument{"samples: allowed are two dimensions, points by inputs"};
+    const auto n_inputs = static_cast<std::size_t>(points.shape(1));
+    const std::span<const double> all{points.data(), static_cast<std::size_t>(points.size())};
+    const sweep::SobolIndices found =
+        sweep::sobol_indices(sweep::as_design(all, span_of(values, "values"), n_inputs), n_resamples, seed);
+    const auto of = [&](double sweep::SobolIndex::*member) {
+        std::vector<double> column;
+        for (const sweep::SobolIndex& index : found.inputs) column.push_back(index.*member);
+        return as_array(std::move(column));
+    };
+    using Index = sweep::SobolIndex;
+    return py::dict("first"_a = of(&Index::first), "first_low"_a = of(&Index::first_low),
+                    "first_high"_a = of(&Index::first_high), "total"_a = of(&Index::total),
+                    "total_low"_a = of(&Index::total_low), "total_high"_a = of(&Index::total_high),
+                    "n_rows"_a = found.n_rows, "n_dropped"_a = found.n_dropped, "variance"_a = found.variance);
+}
+
+}  // namespace
+
+void bind_sweep(py::module_& m) {
+    m.def("sweep", &run_sweep, "description"_a, "source_name"_a, "out"_a, "part"_a, "parts"_a, "threads"_a, "force"_a,
+          "progress"_a);
+    m.def("read_sweep", &read_sweep, "path"_a);
+    m.def("sobol", &sobol_of, "samples"_a, "values"_a, "n_resamples"_a, "seed"_a);
+}
+
+}  // namespace zlg::python

@@ -1,0 +1,134 @@
+#include <zlg/sweep/results.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <zlg/logs/column_file.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/sweep/metrics.hpp>
+
+namespace zlg::sweep {
+namespace {
+
+constexpr std::int64_t format_version = 1;
+
+using logs::FileColumn;
+
+std::map<std::string, std::string> units_of_keys() {
+    std::map<std::string, std::string> units;
+    for (const config::KeyInfo& key : config::describe_keys()) units[key.section + "." + key.name] = key.unit;
+    return units;
+}
+
+// Reals, or texts where any value is one.
+FileColumn column_of(const std::string& key, const std::string& unit, const std::vector<Value>& values) {
+    const bool are_numbers = std::ranges::all_of(values, [](const Value& v) { return v.index() == 0; });
+    if (are_numbers) {
+        std::vector<double> numbers;
+        for (const Value& value : values) numbers.push_back(std::get<double>(value));
+        return {key, unit.empty() ? "1" : unit, std::move(numbers)};
+    }
+    std::vector<std::string> texts;
+    for (const Value& value : values) texts.push_back(toml_of(value));
+    return {key, unit, std::move(texts)};
+}
+
+template <class Get>
+auto column(const Rows& rows, const Get& get) {
+    std::vector<decltype(get(rows.begin()->second))> values;
+    values.reserve(rows.size());
+    for (const auto& [gyro, row] : rows) values.push_back(get(row));
+    return values;
+}
+
+void add_parameters(logs::ColumnFile& file, const Gyros& gyros, const Rows& rows) {
+    const std::vector<Parameter>& parameters = gyros.description().parameters;
+    std::vector<std::vector<Value>> drawn(parameters.size());
+    for (const auto& [gyro, row] : rows) {
+        std::vector<Value> values = gyros.values(gyro);
+        for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k].push_back(std::move(values[k]));
+    }
+    const std::map<std::string, std::string> units = units_of_keys();
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+        for (const std::string& key : parameters[k].keys)
+            file.columns.push_back(column_of(key, units.at(key), drawn[k]));
+}
+
+struct Damage {
+    const std::string& path;
+
+    [[noreturn]] void operator()(std::size_t row, const std::string& what) const {
+        throw logs::FormatError(fmt::format("{}, row {}: {}", path, row + 1, what));
+    }
+};
+
+}  // namespace
+
+void write_results(const std::string& path, const Gyros& gyros, const Rows& rows) {
+    logs::ColumnFile file{.group = "/gyros"};
+    file.texts = {{"/sweep", to_toml(gyros.description())}};
+    file.marks = {{"format_version", format_version}};
+    file.columns.push_back({"gyro", "1", column(rows, [](const Row& r) { return r.gyro; })});
+    file.columns.push_back({"seed", "1", column(rows, [&](const Row& r) { return gyros.seed(r.gyro); })});
+    add_parameters(file, gyros, rows);
+    const std::vector<Metric>& metrics = gyros.description().metrics;
+    for (std::size_t k = 0; k < metrics.size(); ++k)
+        file.columns.push_back({metrics[k].name, unit_of(metrics[k].name), column(rows, [k](const Row& r) {
+                                    // One pattern of bits for what is no number.
+                                    const double value = r.metrics[k];
+                                    return value == value ? value : std::numeric_limits<double>::quiet_NaN();
+                                })});
+    file.columns.push_back(
+        {"status", "1", column(rows, [](const Row& r) { return static_cast<std::int64_t>(r.status); })});
+    file.columns.push_back({"reason", "", column(rows, [](const Row& r) { return r.reason; })});
+    file.columns.push_back({"fingerprint", "", column(rows, [](const Row& r) { return r.fingerprint; })});
+    logs::write_columns(path, file);
+}
+
+Results read_results(const std::string& path) {
+    const logs::ColumnReader file{path, "/gyros"};
+    if (file.mark("format_version") != format_version)
+        throw logs::FormatError(
+            fmt::format("{}: format_version is {}; allowed is {}", path, file.mark("format_version"), format_version));
+    Results results{.description = file.text("/sweep"), .rows = {}};
+    const Description description = parse(results.description, path);
+    const auto gyros = file.integers("gyro");
+    const auto seeds = file.integers("seed");
+    const auto status = file.integers("status");
+    const auto reasons = file.texts("reason");
+    const auto fingerprints = file.texts("fingerprint");
+    std::vector<std::vector<double>> metrics;
+    for (const Metric& metric : description.metrics) metrics.push_back(file.reals(metric.name));
+    const auto is_short = [&](const auto& values) { return values.size() != gyros.size(); };
+    if (is_short(seeds) || is_short(status) || is_short(reasons) || is_short(fingerprints) ||
+        std::ranges::any_of(metrics, is_short))
+        throw logs::FormatError(fmt::format("{}: the columns of /gyros are not of one length", path));
+    const Damage damage{path};
+    for (std::size_t k = 0; k < gyros.size(); ++k) {
+        if (gyros[k] < 0 || gyros[k] >= description.n_gyros || (k > 0 && gyros[k] <= gyros[k - 1]))
+            damage(k, fmt::format("gyro is {}; allowed is growth within 0..{}", gyros[k], description.n_gyros - 1));
+        if (seeds[k] != gyro_seed(description, gyros[k]))
+            damage(k, fmt::format("seed is {}; that of gyro {} is {}", seeds[k], gyros[k],
+                                  gyro_seed(description, gyros[k])));
+        if (status[k] < 0 || status[k] > static_cast<std::int64_t>(Status::not_finite))
+            damage(k, fmt::format("status is {}; allowed is 0..{}", status[k], static_cast<int>(Status::not_finite)));
+        Row row{gyros[k], static_cast<Status>(status[k]), reasons[k], fingerprints[k], {}};
+        for (const std::vector<double>& values : metrics) row.metrics.push_back(values[k]);
+        results.rows.emplace_hint(results.rows.end(), row.gyro, std::move(row));
+    }
+    return results;
+}
+
+void add_rows(Rows& rows, const Rows& more, const std::string& source) {
+    for (const auto& [gyro, row] : more) {
+        const auto [at, is_new] = rows.emplace(gyro, row);
+        if (!is_new && !are_equal(at->second, row))
+            throw logs::FormatError(
+                fmt::format("{}: gyro {} differs from the one of the same number in another file", source, gyro));
+    }
+}
+
+}  // namespace zlg::sweep

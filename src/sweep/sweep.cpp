@@ -1,0 +1,148 @@
+#include <zlg/sweep/sweep.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <zlg/logs/error.hpp>
+#include <zlg/numeric/parallel.hpp>
+#include <zlg/sweep/checkpoint.hpp>
+#include <zlg/text/inputs.hpp>
+
+namespace zlg::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string part_of(const std::string& out) { return out + ".part"; }
+
+void require_regular(const std::string& path) {
+    std::error_code ignored;
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+        throw logs::IoError(fmt::format("cannot create {}: it is no regular file", path));
+    const fs::path folder = fs::path{path}.parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, ignored))
+        throw logs::IoError(fmt::format("cannot create {}: there is no folder {}", path, folder.string()));
+}
+
+void require_same_sweep(const std::string& path, const std::string& theirs, const std::string& ours) {
+    if (const std::string what = difference(theirs, ours); !what.empty())
+        throw logs::IoError(
+            fmt::format("{} is of another sweep: it {}; name another file with --out, or use --force", path, what));
+}
+
+// What RESULTS holds already; nothing where there is none.
+std::optional<Results> results_until_now(const Task& task, const std::string& description) {
+    std::error_code ignored;
+    if (task.force || !fs::exists(task.out, ignored)) return std::nullopt;
+    Results results = read_results(task.out);
+    require_same_sweep(task.out, results.description, description);
+    const std::int64_t n = task.description.n_gyros;
+    if (!results.rows.empty() && results.rows.rbegin()->first >= n)
+        throw config::ConfigError(
+            fmt::format("sweep.gyros = {}: {} has gyro {} already; allowed are more, or another file by --out", n,
+                        task.out, results.rows.rbegin()->first));
+    return results;
+}
+
+std::vector<std::int64_t> missing(const Task& task, const Rows& rows) {
+    std::vector<std::int64_t> gyros;
+    for (std::int64_t k = task.part.k - 1; k < task.description.n_gyros; k += task.part.n)
+        if (!rows.contains(k)) gyros.push_back(k);
+    return gyros;
+}
+
+// Runs gyros and records each as it comes. Returns false where it was stopped.
+class Crew {
+public:
+    Crew(const Task& task, const Gyros& gyros, Checkpoint& checkpoint, Rows& rows)
+        : task_{task}, gyros_{gyros}, checkpoint_{checkpoint}, rows_{rows} {}
+
+    bool run(const std::vector<std::int64_t>& asked) {
+        try {
+            numeric::in_parallel(asked.size(), task_.threads, [&](std::size_t k) {
+                take(gyros_.run(asked[k], task_.is_stopped), static_cast<std::int64_t>(asked.size()));
+            });
+        } catch (const Stopped&) {
+            return false;
+        }
+        return true;
+    }
+
+private:
+    void take(Row row, std::int64_t asked) {
+        const std::scoped_lock one_at_a_time{recording_};
+        checkpoint_.append(row);
+        rows_.emplace(row.gyro, std::move(row));
+        ++done_;
+        if (task_.on_progress) task_.on_progress(done_, asked);
+    }
+
+    const Task& task_;
+    const Gyros& gyros_;
+    Checkpoint& checkpoint_;
+    Rows& rows_;
+    std::mutex recording_;
+    std::int64_t done_ = 0;
+};
+
+}  // namespace
+
+Outcome run(const Task& task) {
+    const Gyros gyros{task.description};
+    const std::string description = to_toml(task.description);
+    const std::string part = part_of(task.out);
+    const config::Motion motion = base_config(task.description).motion;
+    if (motion.kind == config::MotionKind::file) text::note_input(motion.path);
+    for (const std::string& path : {task.out, part}) {
+        require_regular(path);
+        text::refuse_input(path);
+    }
+    if (task.force) ::unlink(part.c_str());
+    Outcome outcome;
+    const std::optional<Results> before = results_until_now(task, description);
+    if (before) outcome.rows = before->rows;
+    const bool is_current = before && before->description == description;
+    if (is_current && !fs::exists(part) && missing(task, outcome.rows).empty()) return outcome;
+
+    Checkpoint checkpoint{part, description};
+    add_rows(outcome.rows, checkpoint.rows(), part);
+    const std::vector<std::int64_t> asked = missing(task, outcome.rows);
+    const std::size_t n_before = outcome.rows.size();
+    outcome.is_stopped = !Crew{task, gyros, checkpoint, outcome.rows}.run(asked);
+    outcome.n_run = static_cast<std::int64_t>(outcome.rows.size() - n_before);
+    if (outcome.is_stopped) return outcome;
+    write_results(task.out, gyros, outcome.rows);
+    checkpoint.remove();
+    return outcome;
+}
+
+Merged merge(const std::vector<std::string>& paths, const std::string& out, bool force) {
+    require_regular(out);
+    std::error_code ignored;
+    if (!force && fs::exists(out, ignored))
+        throw logs::IoError(fmt::format("{} exists; use --force to overwrite", out));
+    text::refuse_input(out);
+    std::string first;
+    Merged merged;
+    for (const std::string& path : paths) {
+        Results results = is_checkpoint(path) ? read_checkpoint(path) : read_results(path);
+        // Also the numbers of gyros and the limits: the bytes must not depend on which file comes first.
+        if (first.empty()) {
+            first = results.description;
+            merged.description = parse(first, path);
+        } else if (results.description != first) {
+            throw logs::IoError(fmt::format("{} is of another sweep than {}: its description differs, {}", path,
+                                            paths.front(), first_difference(results.description, first)));
+        }
+        add_rows(merged.rows, results.rows, path);
+    }
+    write_results(out, Gyros{merged.description}, merged.rows);
+    return merged;
+}
+
+}  // namespace zlg::sweep

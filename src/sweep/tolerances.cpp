@@ -1,0 +1,116 @@
+#include <zlg/sweep/tolerances.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw_names.hpp"
+
+namespace zlg::sweep {
+namespace {
+
+constexpr double draw_in = 0.9;
+
+// A gyro as the ways of its parameters, and whether it passes.
+struct Placed {
+    std::vector<double> ways;
+    bool passes = false;
+};
+
+std::vector<Placed> placed(const Gyros& gyros, const Rows& rows, const std::vector<Range>& ranges) {
+    std::vector<Placed> all;
+    for (const auto& [gyro, row] : rows) {
+        const std::vector<Value> values = gyros.values(gyro);
+        Placed one{.ways = {}, .passes = passes_all(gyros.description(), row)};
+        for (const Range& range : ranges) one.ways.push_back(range.way(std::get<double>(values[range.parameter])));
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+struct Count {
+    std::int64_t passed = 0;
+    std::int64_t gyros = 0;
+
+    [[nodiscard]] double yield() const { return static_cast<double>(passed) / static_cast<double>(gyros); }
+};
+
+Count count_within(const std::vector<Placed>& all, const std::vector<double>& ways) {
+    Count count;
+    for (const Placed& one : all) {
+        if (!std::ranges::equal(one.ways, ways, std::ranges::less_equal{})) continue;
+        ++count.gyros;
+        if (one.passes) ++count.passed;
+    }
+    return count;
+}
+
+// The parameter to draw in next; ways.size(): none leaves enough gyros.
+std::size_t next(const std::vector<Placed>& all, const std::vector<double>& ways, std::int64_t least_gyros) {
+    const Count before = count_within(all, ways);
+    std::size_t best = ways.size();
+    double best_gain = 0.0;
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+        std::vector<double> tried = ways;
+        tried[k] *= draw_in;
+        const Count after = count_within(all, tried);
+        if (after.gyros < least_gyros) continue;
+        const auto lost = static_cast<double>(before.gyros - after.gyros);
+        const double gain = (after.yield() - before.yield()) / (lost + 1.0);
+        if (best < ways.size() && gain <= best_gain) continue;
+        best = k;
+        best_gain = gain;
+    }
+    return best;
+}
+
+}  // namespace
+
+double Range::way(double value) const {
+    const double end = value < nominal ? min : max;
+    return end == nominal ? std::abs(value - nominal) > 0.0 : (value - nominal) / (end - nominal);
+}
+
+std::vector<Range> ranges(const Gyros& gyros) {
+    const Description& description = gyros.description();
+    const config::Settings base = config::to_settings(base_config(description));
+    std::vector<Range> found;
+    for (std::size_t k = 0; k < description.parameters.size(); ++k) {
+        const Parameter& p = description.parameters[k];
+        if (has_values(p.draw)) continue;
+        Range range{.parameter = k, .min = p.min, .max = p.max};
+        if (!has_range(p.draw)) range = {.parameter = k, .min = p.mean - 2.0 * p.sd, .max = p.mean + 2.0 * p.sd};
+        const auto at = std::ranges::find(base, p.keys.front(), &std::pair<std::string, std::string>::first);
+        range.nominal = 0.5 * (range.min + range.max);
+        if (at != base.end()) {
+            char* end = nullptr;
+            const double value = std::strtod(at->second.c_str(), &end);
+            if (end != at->second.c_str() && *end == '\0') range.nominal = std::clamp(value, range.min, range.max);
+        }
+        found.push_back(range);
+    }
+    return found;
+}
+
+std::optional<Yield> yield_within(const Gyros& gyros, const Rows& rows, const std::vector<Range>& ranges,
+                                  const std::vector<double>& ways) {
+    const Count count = count_within(placed(gyros, rows, ranges), ways);
+    return count.gyros > 0 ? std::optional{yield_of(count.passed, count.gyros)} : std::nullopt;
+}
+
+Tolerances tolerances(const Gyros& gyros, const Rows& rows, double wanted_yield, std::int64_t least_gyros) {
+    Tolerances found{.ranges = ranges(gyros)};
+    found.ways.assign(found.ranges.size(), 1.0);
+    const std::vector<Placed> all = placed(gyros, rows, found.ranges);
+    Count count = count_within(all, found.ways);
+    while (count.gyros >= least_gyros && count.yield() < wanted_yield) {
+        const std::size_t k = next(all, found.ways, least_gyros);
+        if (k == found.ways.size()) break;
+        found.ways[k] *= draw_in;
+        count = count_within(all, found.ways);
+    }
+    if (count.gyros > 0) found.yield = yield_of(count.passed, count.gyros);
+    found.is_reached = count.gyros >= least_gyros && count.yield() >= wanted_yield;
+    return found;
+}
+
+}  // namespace zlg::sweep

@@ -1,0 +1,296 @@
+"""`zlg sweep`: the same bytes by any way, rows that `zlg run` repeats, one line for what is wrong."""
+
+import json
+import random
+import shlex
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy
+
+from support import ZLG, CliTest, complaints, run
+
+SWEEP = """[sweep]
+gyros = 12
+seed = 7
+duration_s = 6
+[base.switching]
+interval_s = 2
+[[parameter]]
+keys = ["piezo.half_wave_v"]
+draw = "normal"
+mean = 40
+sd = 1
+[[parameter]]
+keys = ["compensation.relock"]
+draw = "list"
+values = ["mean_square", "detuning"]
+[[parameter]]
+keys = ["gyro.bias_chi"]
+draw = "sobol"
+min = 3.4
+max = 3.8
+[[metric]]
+name = "configured.switch_error_rms_arcsec"
+max = 3
+[[metric]]
+name = "bridge_quadratic.angle_error_arcsec"
+[[metric]]
+name = "switches"
+min = 1
+"""
+
+# Half of these gyros are refused: their light noise is negative.
+FAILING = """[sweep]
+gyros = 8
+duration_s = 6
+[base.switching]
+interval_s = 2
+[[parameter]]
+keys = ["gyro.light_noise_lambda"]
+draw = "list"
+values = [0.003, 0.002]
+[[parameter]]
+keys = ["drift.random_walk_arcsec_sqrt_s"]
+draw = "normal"
+mean = 0
+sd = 1
+[[metric]]
+name = "configured.switch_error_rms_arcsec"
+"""
+
+
+class SweepTest(CliTest):
+    def description(self, text=SWEEP, name="sweep.toml"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def swept(self, name, *arguments, text=SWEEP):
+        """The results as bytes."""
+        out = self.folder / name
+        self.succeed("sweep", self.description(text), "--out", out, *arguments)
+        self.assertEqual([p.name for p in self.folder.glob(f"{name}.*")], [], "nothing is left beside the results")
+        return out.read_bytes()
+
+
+class SameBytes(SweepTest):
+    def test_by_any_number_of_threads(self):
+        one = self.swept("1.h5", "--threads", 1)
+        for threads in (2, 4):
+            self.assertEqual(self.swept(f"{threads}.h5", "--threads", threads), one)
+
+    def test_by_any_parts_in_any_order(self):
+        whole = self.swept("whole.h5")
+        chance = random.Random(3)
+        for n in (2, 3, 5):
+            parts = []
+            for k in range(1, n + 1):
+                self.swept(f"{n}_{k}.h5", "--part", f"{k}/{n}")
+                parts.append(self.folder / f"{n}_{k}.h5")
+            for trial in range(2):
+                chance.shuffle(parts)
+                out = self.folder / f"merged_{n}_{trial}.h5"
+                self.succeed("sweep", "--merge", *parts, "--out", out)
+                self.assertEqual(out.read_bytes(), whole)
+
+    def test_after_any_number_of_kills_with_another_number_of_threads_each(self):
+        longer = SWEEP.replace("duration_s = 6", "duration_s = 60").replace("gyros = 12", "gyros = 24")
+        whole = self.swept("whole.h5", text=longer)
+        description = self.description(longer)
+        chance = random.Random(11)
+        for trial in range(4):
+            out = self.folder / f"killed_{trial}.h5"
+            kills = 0
+            for k in range(60):
+                call = subprocess.Popen([ZLG, "sweep", description, "--out", out, "--threads", str(1 + k % 3)],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                time.sleep(chance.uniform(0.0, 0.15))
+                kills += call.poll() is None
+                call.kill()
+                call.wait()
+                if out.exists():
+                    break
+            self.assertGreater(kills, 0)
+            self.assertEqual(self.swept(out.name, text=longer), whole, f"after {kills} kills")
+
+    def test_with_gyros_added(self):
+        whole = self.swept("whole.h5")
+        self.swept("grown.h5", text=SWEEP.replace("gyros = 12", "gyros = 5"))
+        self.assertEqual(self.swept("grown.h5"), whole)
+
+    def test_from_a_checkpoint_that_was_merged(self):
+        whole = self.swept("whole.h5")
+        description, out = self.description(), self.folder / "cut.h5"
+        part = self.folder / "cut.h5.part"
+        call = subprocess.Popen([ZLG, "sweep", description, "--out", out, "--threads", "1"], stdout=subprocess.DEVNULL)
+        while not part.exists() or b"\n0\t" not in part.read_bytes():
+            time.sleep(0.001)
+        call.kill()
+        call.wait()
+        merged = self.folder / "merged.h5"
+        result = run("sweep", "--merge", part, "--out", merged)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.swept("merged.h5"), whole)
+
+
+class Interrupted(SweepTest):
+    def test_ends_with_what_is_recorded_and_goes_on(self):
+        text = SWEEP.replace("duration_s = 6", "duration_s = 600")
+        out = self.folder / "r.h5"
+        part = self.folder / "r.h5.part"
+        call = subprocess.Popen([ZLG, "sweep", self.description(text), "--out", out], stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True)
+        while not part.exists() or b"rows\t" not in part.read_bytes():
+            time.sleep(0.001)
+        call.send_signal(signal.SIGINT)
+        stdout, stderr = call.communicate(timeout=10)
+        self.assertEqual((call.returncode, stdout), (3, ""))
+        self.assertRegex(stderr, r"^zlg: interrupted by a signal; \d+ of 12 gyros are in .*r\.h5\.part, and the same line goes on\n$")
+        self.assertFalse(out.exists())
+
+
+class Rows(SweepTest):
+    def test_are_what_zlg_run_gives_alone_bit_for_bit(self):
+        self.swept("r.h5")
+        result = json.loads(run("sweep", self.description(), "--out", self.folder / "r.h5", "--json").stdout)
+        with h5py.File(self.folder / "r.h5") as file:
+            gyros = {name: column[()] for name, column in file["gyros"].items()}
+        for shown in result["worst"]:
+            words = shlex.split(shown["command"])
+            self.assertEqual(words[:2], ["zlg", "run"])
+            alone = self.succeed(*words[1:], "--logs", "none", "--json", "--quiet", "--out", self.folder / f"run_{shown['gyro']}")
+            summary = json.loads(alone.stdout)
+            k = shown["gyro"]
+            variants = {variant["name"]: variant for variant in summary["variants"]}
+            self.assertEqual(summary["fingerprint"], gyros["fingerprint"][k].decode())
+            self.assertEqual(variants["configured"]["switch_error_rms_arcsec"], gyros["configured.switch_error_rms_arcsec"][k])
+            self.assertEqual(variants["bridge_quadratic"]["angle_error_arcsec"], gyros["bridge_quadratic.angle_error_arcsec"][k])
+            self.assertEqual(summary["switches"], gyros["switches"][k])
+            self.assertEqual(summary["config"]["run.seed"], gyros["seed"][k])
+            self.assertEqual(summary["config"]["piezo.half_wave_v"], gyros["piezo.half_wave_v"][k])
+
+    def test_have_columns_with_units(self):
+        self.swept("r.h5")
+        with h5py.File(self.folder / "r.h5") as file:
+            units = {name: column.attrs["unit"].decode() for name, column in file["gyros"].items()}
+            self.assertEqual(list(file["gyros/gyro"]), list(range(12)))
+            self.assertEqual([w.decode() for w in file["gyros/compensation.relock"][:2]], ['"mean_square"', '"detuning"'])
+        self.assertEqual(units["piezo.half_wave_v"], "V")
+        self.assertEqual(units["configured.switch_error_rms_arcsec"], "arcsec")
+        self.assertEqual(set(units), {"gyro", "seed", "status", "reason", "fingerprint", "piezo.half_wave_v", "compensation.relock",
+                                      "gyro.bias_chi", "configured.switch_error_rms_arcsec",
+                                      "bridge_quadratic.angle_error_arcsec", "switches"})
+
+    def test_summary_is_that_of_the_columns(self):
+        self.swept("r.h5")
+        result = json.loads(run("sweep", self.description(), "--out", self.folder / "r.h5", "--json").stdout)
+        with h5py.File(self.folder / "r.h5") as file:
+            values = file["gyros/configured.switch_error_rms_arcsec"][()]
+        found = result["metrics"]["configured.switch_error_rms_arcsec"]
+        self.assertEqual((result["gyros"], result["failed"]), (12, 0))
+        self.assertAlmostEqual(found["mean"], values.mean(), places=12)
+        self.assertAlmostEqual(found["sd"], values.std(ddof=1), places=12)
+        for name, p in (("p05", 5), ("p50", 50), ("p95", 95)):
+            self.assertAlmostEqual(found[name], numpy.percentile(values, p), places=12)
+        self.assertEqual(found["yield"], numpy.mean(values <= 3))
+        self.assertIsNone(result["metrics"]["bridge_quadratic.angle_error_arcsec"]["yield"])
+
+
+class FailedGyros(SweepTest):
+    def test_are_rows_with_a_reason_and_exit_1(self):
+        out = self.folder / "r.h5"
+        result = run("sweep", self.description(FAILING), "--out", out, "--json")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        found = json.loads(result.stdout)
+        with h5py.File(out) as file:
+            status = file["gyros/status"][()]
+            values = file["gyros/configured.switch_error_rms_arcsec"][()]
+            reasons = [reason.decode() for reason in file["gyros/reason"]]
+        self.assertTrue(0 < found["failed"] < 8)
+        self.assertEqual(found["failed"], numpy.count_nonzero(status))
+        self.assertTrue(numpy.all(numpy.isnan(values) == (status != 0)))
+        self.assertAlmostEqual(found["metrics"]["configured.switch_error_rms_arcsec"]["mean"], values[status == 0].mean(), places=12)
+        for k in range(8):
+            self.assertEqual(bool(reasons[k]), status[k] != 0)
+            if status[k]:
+                self.assertIn("drift.random_walk_arcsec_sqrt_s", reasons[k])
+        self.assertIn(f"{found['failed']} of 8 gyros failed", result.stderr)
+        refused = next(shown for shown in found["worst"] if shown["status"] == "refused")
+        alone = run(*shlex.split(refused["command"])[1:], "--out", self.folder / "alone")
+        self.assertEqual(alone.returncode, 2, "refused alone, too")
+
+
+class BadInput(SweepTest):
+    def refused(self, code, *arguments, says):
+        result = run("sweep", *arguments)
+        self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
+        self.assertEqual(len(complaints(result)), 1, result.stderr)
+        self.assertIn(says, complaints(result)[0])
+
+    def test_of_the_command_line(self):
+        description, out = self.description(), self.folder / "r.h5"
+        self.refused(2, description, says="--out is missing")
+        self.refused(2, description, "--out", self.folder / "r.csv", says="allowed are .h5 and .hdf5")
+        self.refused(2, "--out", out, says="either SWEEP.toml is wanted, or --merge")
+        for part in ("0/3", "4/3", "2", "1/", "a/b", "1/3x"):
+            self.refused(2, description, "--part", part, "--out", out, says=f"--part {part}: allowed is k/n")
+        self.refused(2, self.folder / "none.toml", "--out", out, says="none.toml")
+        self.refused(2, "--merge", out, "--part", "1/2", "--out", self.folder / "m.h5", says="not for --merge")
+        self.refused(2, description, "--out", self.folder / "r.h5", "--threads", 0, says="--threads")
+
+    def test_of_the_description(self):
+        out = self.folder / "r.h5"
+        for old, new, says in (("gyros = 12", "gyros = 0", "gyros = 0: allowed is"),
+                               ("gyros = 12", "gyros = 1000000000000", "allowed is an integer 1..10000000"),
+                               ("half_wave_v", "half_wave", "did you mean half_wave_v?"),
+                               ("min = 3.4", "min = 3.9", "allowed is a number above min"),
+                               ("seed = 7", "sed = 7", "unknown key [sweep] sed"),
+                               ("duration_s = 6", "duration_s = -6", "run.duration_s = -6"),
+                               ("interval_s = 2", "interval_s = true", "switching.interval_s")):
+            self.refused(2, self.description(SWEEP.replace(old, new)), "--out", out, says=says)
+        self.assertFalse(out.exists() or (self.folder / "r.h5.part").exists())
+
+    def test_results_of_another_sweep_stay(self):
+        before = self.swept("r.h5")
+        other = self.description(SWEEP.replace("seed = 7", "seed = 8"), "other.toml")
+        self.refused(3, other, "--out", self.folder / "r.h5", says="has `seed = 7`, this one `seed = 8`")
+        fewer = self.description(SWEEP.replace("gyros = 12", "gyros = 11"), "fewer.toml")
+        self.refused(2, fewer, "--out", self.folder / "r.h5", says="sweep.gyros = 11")
+        self.assertEqual((self.folder / "r.h5").read_bytes(), before)
+
+    def test_a_part_that_is_not_its_own_stays(self):
+        part = self.folder / "r.h5.part"
+        part.write_bytes(b"\x89HDF\r\n\x1a\n of something else")
+        self.refused(3, self.description(), "--out", self.folder / "r.h5", says="is no checkpoint of a sweep")
+        self.assertTrue(part.read_bytes().endswith(b"something else"))
+
+    def test_damaged_results_are_named(self):
+        whole = self.swept("r.h5")
+        for size in (0, 100, len(whole) // 2, len(whole) - 1):
+            (self.folder / "r.h5").write_bytes(whole[:size])
+            self.refused(3, self.description(), "--out", self.folder / "r.h5", says="r.h5")
+            self.refused(3, "--merge", self.folder / "r.h5", "--out", self.folder / "m.h5", says="r.h5")
+            self.assertFalse((self.folder / "m.h5").exists())
+
+    def test_a_full_disk_loses_nothing(self):
+        whole = self.swept("whole.h5")
+        out = self.folder / "full.h5"
+        limited = ["bash", "-c", 'ulimit -f 1; exec "$@"', "limited", ZLG, "sweep", self.description(), "--out", out]
+        result = subprocess.run(list(map(str, limited)), capture_output=True, text=True)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertRegex(result.stderr, r"^zlg: cannot write .*full\.h5\.part: File too large\n$")
+        self.assertTrue((self.folder / "full.h5.part").exists())
+        self.assertEqual(self.swept("full.h5"), whole)
+
+    def test_the_description_is_never_overwritten(self):
+        path = self.description(name="sweep.h5")
+        self.refused(2, path, "--out", path, "--force", says="sweep.h5")
+        self.assertEqual(path.read_text(), SWEEP)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,79 @@
+// Claims about files of columns: what is written reads back, and a file is as before or whole.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include <zlg/logs/column_file.hpp>
+#include <zlg/logs/error.hpp>
+
+namespace {
+
+using namespace zlg::logs;
+namespace fs = std::filesystem;
+
+class ColumnFiles : public testing::Test {
+protected:
+    ColumnFiles() {
+        std::string name = (fs::temp_directory_path() / "zlg-columns-XXXXXX").string();
+        folder_ = ::mkdtemp(name.data());
+    }
+    ~ColumnFiles() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] std::string path() const { return folder_ / "c.h5"; }
+
+    fs::path folder_;
+};
+
+ColumnFile three() {
+    return {.group = "/things",
+            .columns = {{"n", "1", std::vector<std::int64_t>{1, -2}},
+                        {"x_s", "s", std::vector<double>{0.5, std::numeric_limits<double>::infinity()}},
+                        {"word", "", std::vector<std::string>{"", "a longer one"}}},
+            .texts = {{"/note", "two\nlines"}},
+            .marks = {{"format_version", 7}}};
+}
+
+TEST_F(ColumnFiles, read_back_what_is_written) {
+    write_columns(path(), three());
+    const ColumnReader file{path(), "/things"};
+    EXPECT_EQ(file.integers("n"), (std::vector<std::int64_t>{1, -2}));
+    EXPECT_EQ(file.reals("x_s"), (std::vector<double>{0.5, std::numeric_limits<double>::infinity()}));
+    EXPECT_EQ(file.texts("word"), (std::vector<std::string>{"", "a longer one"}));
+    EXPECT_EQ(file.text("/note"), "two\nlines");
+    EXPECT_EQ(file.mark("format_version"), 7);
+}
+
+TEST_F(ColumnFiles, may_have_no_rows) {
+    ColumnFile empty = three();
+    empty.columns = {{"n", "1", std::vector<std::int64_t>{}}, {"word", "", std::vector<std::string>{}}};
+    write_columns(path(), empty);
+    EXPECT_TRUE((ColumnReader{path(), "/things"}.integers("n").empty()));
+    EXPECT_TRUE((ColumnReader{path(), "/things"}.texts("word").empty()));
+}
+
+TEST_F(ColumnFiles, refuse_a_column_of_another_type_or_none) {
+    write_columns(path(), three());
+    const ColumnReader file{path(), "/things"};
+    EXPECT_THROW((void)file.integers("x_s"), FormatError);
+    EXPECT_THROW((void)file.reals("word"), FormatError);
+    EXPECT_THROW((void)file.texts("n"), FormatError);
+    EXPECT_THROW((void)file.reals("y_s"), FormatError);
+    EXPECT_THROW((void)file.mark("version"), FormatError);
+}
+
+TEST_F(ColumnFiles, stay_as_they_were_where_writing_fails) {
+    write_columns(path(), three());
+    fs::create_directory(path() + ".new");
+    EXPECT_THROW(write_columns(path(), ColumnFile{.group = "/other"}), IoError);
+    EXPECT_EQ((ColumnReader{path(), "/things"}.mark("format_version")), 7);
+}
+
+TEST_F(ColumnFiles, need_a_folder) { EXPECT_THROW(write_columns(folder_ / "none" / "c.h5", three()), IoError); }
+
+}  // namespace

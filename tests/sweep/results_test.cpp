@@ -1,0 +1,102 @@
+// Claims about result files: bytes follow from rows, what is written reads back, and damage is found.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <zlg/logs/column_file.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/sweep/results.hpp>
+
+#include "descriptions.hpp"
+#include "folder.hpp"
+
+namespace {
+
+using namespace zlg;
+using namespace zlg::sweep;
+
+Rows two_rows() {
+    Rows rows;
+    rows[4] = {.gyro = 4, .fingerprint = "0123456789abcdef", .metrics = {1.5}};
+    rows[1] = {.gyro = 1, .status = Status::refused, .reason = "why not", .metrics = {std::nan("")}};
+    return rows;
+}
+
+TEST(Results, what_is_written_reads_back) {
+    const Folder folder;
+    const Gyros gyros{short_sweep()};
+    write_results(folder / "r.h5", gyros, two_rows());
+    const Results read = read_results(folder / "r.h5");
+    EXPECT_EQ(read.description, to_toml(gyros.description()));
+    ASSERT_EQ(read.rows.size(), 2u);
+    for (const auto& [gyro, row] : two_rows()) EXPECT_TRUE(are_equal(row, read.rows.at(gyro)));
+}
+
+TEST(Results, columns_are_those_of_the_gyros) {
+    const Folder folder;
+    const Gyros gyros{short_sweep()};
+    write_results(folder / "r.h5", gyros, two_rows());
+    const logs::ColumnReader file{folder / "r.h5", "/gyros"};
+    EXPECT_EQ(file.integers("gyro"), (std::vector<std::int64_t>{1, 4}));
+    EXPECT_EQ(file.integers("seed"), (std::vector<std::int64_t>{gyros.seed(1), gyros.seed(4)}));
+    EXPECT_EQ(file.reals("gyro.bias_chi")[1], std::get<double>(gyros.values(4)[0]));
+}
+
+TEST(Results, nothing_but_the_rows_decides_the_bytes) {
+    const Folder folder;
+    const Gyros gyros{short_sweep()};
+    write_results(folder / "a.h5", gyros, two_rows());
+    Rows same = two_rows();
+    same.at(1).metrics[0] = -std::numeric_limits<double>::quiet_NaN();
+    write_results(folder / "b.h5", gyros, same);
+    EXPECT_EQ(bytes_of(folder / "a.h5"), bytes_of(folder / "b.h5"));
+    same.at(4).metrics[0] = 1.25;
+    write_results(folder / "b.h5", gyros, same);
+    EXPECT_NE(bytes_of(folder / "a.h5"), bytes_of(folder / "b.h5"));
+}
+
+TEST(Results, damage_is_an_error_and_never_a_crash) {
+    const Folder folder;
+    write_results(folder / "r.h5", Gyros{short_sweep()}, two_rows());
+    const std::string whole = bytes_of(folder / "r.h5");
+    for (std::size_t size = 0; size < whole.size(); size += whole.size() / 40) {
+        write_bytes(folder / "cut.h5", whole.substr(0, size));
+        EXPECT_THROW((void)read_results(folder / "cut.h5"), std::runtime_error) << size;
+    }
+    write_bytes(folder / "text.h5", "gyro,seed\n");
+    EXPECT_THROW((void)read_results(folder / "text.h5"), logs::FormatError);
+    EXPECT_THROW((void)read_results(folder / "none.h5"), logs::IoError);
+}
+
+TEST(Results, a_seed_that_is_not_the_gyros_is_damage) {
+    const Folder folder;
+    Rows rows = two_rows();
+    write_results(folder / "r.h5", Gyros{short_sweep()}, rows);
+    std::string bytes = bytes_of(folder / "r.h5");
+    const std::int64_t seed = Gyros{short_sweep()}.seed(4);
+    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&seed), sizeof seed));
+    ASSERT_NE(at, std::string::npos);
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    write_bytes(folder / "r.h5", bytes);
+    try {
+        (void)read_results(folder / "r.h5");
+        FAIL();
+    } catch (const logs::FormatError& error) {
+        EXPECT_NE(std::string{error.what()}.find("row 2: seed is "), std::string::npos) << error.what();
+    }
+}
+
+TEST(Results, two_files_may_not_contradict_each_other) {
+    Rows rows = two_rows();
+    add_rows(rows, two_rows(), "again");
+    EXPECT_EQ(rows.size(), 2u);
+    Rows other = two_rows();
+    other.at(4).metrics[0] = 2.5;
+    EXPECT_THROW(add_rows(rows, other, "other"), logs::FormatError);
+}
+
+}  // namespace
