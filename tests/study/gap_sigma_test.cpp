@@ -95,7 +95,7 @@ TEST(GapSigma, of_a_polynomial_holds_the_re_lock_behind_the_gap) {
     config.compensation.bridge = core::BridgeMethod::constant;
     double sum = 0.0;
     int n = 0;
-    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
         config.run.seed = seed;
         study::RunTask task;
         task.config = config;

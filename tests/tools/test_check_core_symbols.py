@@ -13,6 +13,14 @@ FORBIDDEN = {
     "output": ('#include <cstdio>\nvoid f() { std::printf("%d", 1); }', "printf"),
 }
 
+# Of the twin and what it stands on: functions that compile to another result on another machine.
+DIFFERENT = {
+    "a sine": ("#include <cmath>\ndouble f(double x) { return std::sin(x); }", "sin"),
+    "a size": ("#include <complex>\ndouble f(std::complex<double> x) { return std::abs(x); }", "cabs"),
+    "a quotient": ("#include <complex>\nstd::complex<double> f(std::complex<double> x) { return 1.0 / x; }", "__divdc3"),
+    "a float": ("#include <cmath>\nfloat f(float x) { return std::exp(x); }", "expf"),
+}
+
 
 class CheckCoreSymbols(TreeTest):
     def archive(self, *texts):
@@ -42,6 +50,15 @@ class CheckCoreSymbols(TreeTest):
         good = self.archive("int f() { return 1; }").rename(self.root / "good.a")
         bad = self.archive(FORBIDDEN["malloc"][0])
         self.assert_refused(self.run_check("check_core_symbols", bad, good), "needs malloc")
+
+    def test_with_bits_what_differs_between_machines_is_named(self):
+        for claim, (text, symbol) in DIFFERENT.items():
+            with self.subTest(claim):
+                self.assert_refused(self.run_check("check_core_symbols", "--bits", self.archive(text)), f"needs {symbol}, ")
+
+    def test_with_bits_heap_and_rounding_are_good(self):
+        text = "#include <cmath>\ndouble* f(double x) { return new double{std::round(x) + std::sqrt(x) + std::fmod(x, 3.0)}; }"
+        self.assert_good(self.run_check("check_core_symbols", "--bits", self.archive(text)))
 
     def test_a_file_that_is_no_archive_is_refused(self):
         self.assert_refused(self.run_check("check_core_symbols", self.write("x.a", "text")), "no symbols")

@@ -111,7 +111,11 @@ Backscatter Backscatter::equal(double lock_hz, double origin_rad) {
 
 Coupling Backscatter::coupling(double intensity_1, double intensity_2) const {
     const double root = std::sqrt(intensity_1 / intensity_2);
-    return std::polar(first_hz * root, origin_rad - eps_rad) + std::polar(second_hz / root, origin_rad + eps_rad);
+    const core::maths::SinCos first = core::maths::sincos(origin_rad - eps_rad);
+    const core::maths::SinCos second = core::maths::sincos(origin_rad + eps_rad);
+    const double size_1 = first_hz * root;
+    const double size_2 = second_hz / root;
+    return {size_1 * first.cos + size_2 * second.cos, size_1 * first.sin + size_2 * second.sin};
 }
 
 void BeatPhase::plateau(double drive_hz, Coupling coupling, double duration_s) {

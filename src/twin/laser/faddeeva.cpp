@@ -84,6 +84,10 @@ Parts first_quadrant(double x, double y) {
     return w;
 }
 
+std::complex<double> product(std::complex<double> a, std::complex<double> b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
 }  // namespace
 
 std::complex<double> faddeeva(std::complex<double> z) {
@@ -99,12 +103,12 @@ std::complex<double> faddeeva_slope(std::complex<double> a, std::complex<double>
     if (std::abs(step) * (1.0 + core::maths::hypot(a.real(), a.imag())) >= 0.03) return (w_b - w_a) / step;
     constexpr double two_over_root_pi = 2.0 * std::numbers::inv_sqrtpi;
     std::complex<double> previous = w_a;
-    std::complex<double> derivative = -2.0 * a * w_a + std::complex<double>{0.0, two_over_root_pi};
+    std::complex<double> derivative = -2.0 * product(a, w_a) + std::complex<double>{0.0, two_over_root_pi};
     std::complex<double> slope = 0.0;
     double factor = 1.0;  // step^(n-1) / n!
     for (int n = 1; n <= 10; ++n) {
         slope += factor * derivative;
-        const std::complex<double> next = -2.0 * a * derivative - 2.0 * n * previous;
+        const std::complex<double> next = -2.0 * product(a, derivative) - 2.0 * n * previous;
         previous = derivative;
         derivative = next;
         factor *= step / (n + 1);

@@ -15,7 +15,7 @@ constexpr double max_turns = 1e17;  // the exact stepper refuses what is beyond
 
 // psi - smooth [turns], to first order.
 double ripple(const Turns& phase, double drive_hz, Coupling c) {
-    if (!(std::abs(drive_hz) > free_ratio * std::abs(c))) return 0.0;
+    if (!(std::abs(drive_hz) > free_ratio * std::sqrt(std::norm(c)))) return 0.0;
     const double angle = phase.part_rad();
     return (c.real() * core::maths::cos(angle) - c.imag() * core::maths::sin(angle)) / (2.0 * pi * drive_hz);
 }
