@@ -4,7 +4,8 @@
 //   |U- - U+| = m U0 (1 + beta (T - T_ref)),  m = 1, 3, ... half wavelengths
 //
 // Both voltages are means of a settled window; the drift of the voltage between the windows follows from the slopes of
-// the segments. Neighbouring switches share a segment, so their errors are correlated.
+// the segments. Neighbouring switches share a segment, so their errors are correlated; the error of a converter's step
+// is one and the same for all switches that meet it.
 
 #include <cstdint>
 #include <span>
