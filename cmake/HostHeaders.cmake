@@ -22,3 +22,14 @@ add_library(tomlplusplus::tomlplusplus INTERFACE IMPORTED)
 foreach(package fmt tomlplusplus)
     file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/${package}-config.cmake "")
 endforeach()
+
+# Without streams and locales, which would be a seventh of a module of WebAssembly: toml++ reads numbers by <charconv>, of which
+# libc++ 14 lacks the half that fast_float has.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")
+    find_path(folder fast_float/fast_float.h PATHS /usr/local/include /usr/include REQUIRED NO_CACHE NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH)
+    file(CREATE_LINK ${folder}/fast_float ${zlg_host_headers}/fast_float SYMBOLIC)
+    unset(folder)
+    target_compile_definitions(fmt::fmt INTERFACE FMT_STATIC_THOUSANDS_SEPARATOR=44)
+    target_compile_definitions(tomlplusplus::tomlplusplus INTERFACE TOML_FLOAT_CHARCONV=1)
+    target_compile_options(tomlplusplus::tomlplusplus INTERFACE -include ${CMAKE_CURRENT_SOURCE_DIR}/lab/module/wasm_charconv.hpp)
+endif()

@@ -6,24 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <zlg/config/schema.hpp>
 
 #include "key.hpp"
 #include "nearest.hpp"
+#include "node_text.hpp"
 
 namespace zlg::config {
 
 namespace {
-
-std::string node_text(const toml::node& node) {
-    constexpr std::size_t longest = 60;
-    std::ostringstream out;
-    node.visit([&](const auto& value) { out << value; });
-    std::string text = out.str();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.size() > longest ? text.substr(0, longest) + "..." : text;
-}
 
 std::string_view type_name(const toml::node& node) {
     if (node.is_string()) return "a string";

@@ -92,6 +92,31 @@ TEST(Schema, AWrongTypeIsToldWithTheWantedOne) {
     expect_contains(set_complaint("switching.interval_s=best"), "or \"optimal\"");
 }
 
+TEST(Schema, AValueOfAWrongTypeIsShownAsItCouldBeWritten) {
+    const auto shown = [](const std::string& value) {
+        const std::string complaint = set_complaint("run.seed=" + value);
+        const auto begin = complaint.find("= ") + 2;
+        return complaint.substr(begin, complaint.find(": an integer is wanted") - begin);
+    };
+    EXPECT_EQ(shown("0.1"), "0.1");
+    EXPECT_EQ(shown("1.0"), "1.0");
+    EXPECT_EQ(shown("-0.0"), "-0.0");
+    EXPECT_EQ(shown("1e22"), "1e+22");
+    EXPECT_EQ(shown("-inf"), "-inf");
+    EXPECT_EQ(shown("word"), "'word'");
+    EXPECT_EQ(shown("\"it's\""), "\"it's\"");
+    EXPECT_EQ(shown("\"a\\nb\""), "\"a\\u000Ab\"");
+    EXPECT_EQ(shown("[]"), "[]");
+    EXPECT_EQ(shown("[1, [2.5, 'x']]"), "[ 1, [ 2.5, 'x' ] ]");
+    EXPECT_EQ(shown("{}"), "{}");
+    EXPECT_EQ(shown("{ \"a b\" = { c = true } }"), "{ 'a b' = { c = true } }");
+    EXPECT_EQ(shown("2024-02-03"), "2024-02-03");
+    EXPECT_EQ(shown("12:00:01.50"), "12:00:01.5");
+    EXPECT_EQ(shown("2024-02-03T04:05:06Z"), "2024-02-03T04:05:06Z");
+    EXPECT_EQ(shown("2024-02-03T04:05:06-01:30"), "2024-02-03T04:05:06-01:30");
+    EXPECT_EQ(shown("'" + std::string(70, 'x') + "'"), "'" + std::string(59, 'x') + "...");
+}
+
 TEST(Schema, AValueOutOfRangeIsToldWhatIsAllowed) {
     EXPECT_EQ(set_complaint("switching.gap_ticks=99"), "--set: switching.gap_ticks = 99: allowed is 1..16");
     expect_refused(toml_complaint("[gyro]\n\ntick_s = 0\n"), "lab.toml:3: gyro.tick_s", "0", "1e-6..10");

@@ -27,6 +27,8 @@ GYROS = [
 REFUSED = [
     ["run.duraton_s=10"],
     ["gyro.tick_s=abc"],
+    ["run.seed=[0.1, 1e-320, {a = 1.0}, 2024-02-03T04:05:06-01:30]"],
+    ["run.seed=0.30000000000000004"],
     ["run=1"],
     ["motion.kind=file", "motion.path=x"],
     ["switching.interval_s=optimal"],
