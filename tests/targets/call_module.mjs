@@ -10,12 +10,23 @@ const { instance } = await WebAssembly.instantiate(await readFile(argv[2]), wasi
 wasi.initialize(instance);
 const loop = instance.exports;
 
-function configure(text) {
+function hand_over(text) {
     const bytes = typeof text === "string" ? new TextEncoder().encode(text) : Uint8Array.from(text);
     // The memory may move when the module asks for more: it is looked up after the call.
     const place = loop.zlg_text(bytes.length);
     new Uint8Array(loop.memory.buffer, place, bytes.length).set(bytes);
+}
+
+function configure(text) {
+    hand_over(text);
     return loop.zlg_configure();
+}
+
+// The settings of a second gyro beside those that are configured from now on.
+function other(text) {
+    hand_over(text);
+    loop.zlg_other(1);
+    return 1;
 }
 
 function message() {
@@ -23,5 +34,5 @@ function message() {
     return new TextDecoder().decode(new Uint8Array(loop.memory.buffer, place, loop.zlg_message_bytes()));
 }
 
-const calls = { configure, advance: (halves) => loop.zlg_advance(halves) };
+const calls = { configure, other, advance: (halves) => loop.zlg_advance(halves) };
 console.log(JSON.stringify(JSON.parse(argv[3]).map(([name, value]) => (calls[name](value) === 1 ? loop.zlg_time_s() : message()))));
