@@ -46,7 +46,12 @@ LiveRun::LiveRun(const config::Config& config, const std::optional<config::Confi
           Compared{replay_of(config, core::RelockMethod::none, core::BridgeMethod::none), ErrorTrack{config}},
           Compared{replay_of(config, core::RelockMethod::detuning, core::BridgeMethod::quadratic), ErrorTrack{config}}},
       switches_{config.compensation.relock_ticks} {
-    if (other) other_.emplace(*other, std::move(hand));
+    if (!other) return;
+    try {
+        other_.emplace(*other, std::move(hand));
+    } catch (const config::ConfigError& error) {
+        refuse_other(error);
+    }
 }
 
 void LiveRun::advance() {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <zlg/config/config.hpp>
+#include <zlg/config/schema.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/study/switch_window.hpp>
@@ -23,6 +23,11 @@ namespace zlg::lab {
 
 // The page's views of the gyro. Each holds rows, one number a column, until `forget`.
 enum class View { signals, angles, switches };
+
+// What is wrong with the second gyro of two, as that.
+[[noreturn]] inline void refuse_other(const config::ConfigError& error) {
+    throw config::ConfigError{std::string{"the second gyro: "} + error.what()};
+}
 
 class LiveRun {
 public:

@@ -72,7 +72,11 @@ void configure() {
     std::optional<config::Config> other;
     if (page().other) {
         for (const std::string& line : lines(*page().other)) settings.push_back(line);
-        other = lab::configured(settings);
+        try {
+            other = lab::configured(settings);
+        } catch (const config::ConfigError& error) {
+            lab::refuse_other(error);
+        }
     }
     page().run = std::make_unique<lab::LiveRun>(config, other, page().hand);
     page().asked = std::move(asked);

@@ -34,6 +34,7 @@ class Lab {
     private health: HealthList | null = null;
     private settings: string[] = []; // of the gyro that runs
     private until_s: string | null = null;
+    private asked = { settings: [] as string[], from_s: 0 }; // of the gyro that was begun last
     private wants_to_run = true;
     private refused = false; // by a link, or in the run: there is nothing to show
     private from_link = false;
@@ -73,13 +74,14 @@ class Lab {
     // A gyro of these settings, at this time at once.
     private begin(settings: string[], from_s = 0, until_s: string | null = null): void {
         this.until_s = until_s;
+        this.asked = { settings, from_s };
         this.client.configure({ settings, other: until_s === null ? this.other() : null, until_s, from_s }, this.wants_to_run);
     }
 
     private other(): string[] | null {
         const kind = element<HTMLSelectElement>("other").value;
         if (kind === "none") return null;
-        if (kind === "one_mode") return ["switching.interval_s=1000000"];
+        if (kind === "one_mode") return ["switching.schedule=fixed", "switching.interval_s=1000000"];
         return element<HTMLTextAreaElement>("other-settings").value.split("\n").map((line) => line.trim()).filter((line) => line !== "");
     }
 
@@ -94,6 +96,13 @@ class Lab {
     }
 
     private refuse(message: string, whole: boolean): void {
+        // The gyro itself may be good: it goes on alone.
+        const other = element<HTMLSelectElement>("other");
+        if (message.startsWith("the second gyro: ") && other.value === "one_mode") {
+            other.value = "none";
+            this.begin(this.asked.settings, this.asked.from_s);
+            return;
+        }
         if (!whole && !this.from_link) {
             this.controls?.refuse(message);
             this.show_message(message);

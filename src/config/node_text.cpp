@@ -41,7 +41,7 @@ std::string text_of(const toml::time& t) {
 }
 
 std::string text_of(const toml::date_time& at) {
-    const std::string text = text_of(at.date) + "T" + text_of(at.time);
+    std::string text = text_of(at.date) + "T" + text_of(at.time);
     if (!at.offset) return text;
     const int minutes = at.offset->minutes;
     if (minutes == 0) return text + "Z";

@@ -95,6 +95,22 @@ class Views(unittest.TestCase):
         self.browser.wait_until(lambda: not self.browser.marked("message"))
         self.assertIn("switching.interval_s=2", self.link()[0])
 
+    def test_a_second_gyro_of_own_settings_runs_on_the_same_motion(self):
+        self.browser.fill("#other", "own")
+        self.browser.fill("#other-settings", "no.such=1")
+        self.browser.wait_until(lambda: self.browser.marked("message").startswith("the second gyro: --set: unknown"))
+        self.browser.fill("#other-settings", "run.seed=1")
+        self.browser.wait_until(lambda: not self.browser.marked("message"))
+        self.pause()
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.send("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            self.browser.value("document.getElementById('export-error-csv').click()")
+            self.browser.wait_until((Path(folder) / "error.csv").exists)
+            rows = [row.split(",") for row in (Path(folder) / "error.csv").read_text().splitlines()[1:]]
+        # The same settings and seed: the same error, tick by tick.
+        self.assertGreater(len(rows), 50)
+        self.assertEqual([row[3] for row in rows], [row[4] for row in rows])
+
     def test_search_finds_any_setting_with_unit_range_and_meaning(self):
         self.browser.fill("#search", "mirror")
         shown = self.browser.value("[...document.querySelectorAll('.control')].map(e => e.dataset.key)")

@@ -12,12 +12,23 @@ const { instance } = await WebAssembly.instantiate(await readFile(argv[2]), wasi
 wasi.initialize(instance);
 const loop = instance.exports;
 
-function configure(settings) {
-    const bytes = typeof settings === "string" ? new TextEncoder().encode(settings) : Uint8Array.from(settings);
+function hand_over(text) {
+    const bytes = typeof text === "string" ? new TextEncoder().encode(text) : Uint8Array.from(text);
     // The memory may move when the module asks for more: it is looked up after the call.
     const place = loop.zlg_text(bytes.length);
     new Uint8Array(loop.memory.buffer, place, bytes.length).set(bytes);
+}
+
+function configure(text) {
+    hand_over(text);
     return loop.zlg_configure();
+}
+
+// The settings of a second gyro beside those that are configured from now on.
+function other(text) {
+    hand_over(text);
+    loop.zlg_other(1);
+    return 1;
 }
 
 function message() {
@@ -28,6 +39,7 @@ function message() {
 const answer = (is_done) => (is_done ? loop.zlg_time_s() : message());
 const calls = {
     configure: (settings) => answer(configure(settings)),
+    other: (settings) => answer(other(settings)),
     advance: (halves) => answer(loop.zlg_advance(halves)),
     memory_bytes: () => loop.memory.buffer.byteLength,
 };
