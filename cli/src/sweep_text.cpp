@@ -61,9 +61,9 @@ std::string yield_text(const sweep::Yield& y) {
 
 std::string table(const sweep::Summary& summary) {
     std::string text =
-        fmt::format("{:<44}{:>11}{:>11}{:>11}{:>11}{:>11}  {}\n", "", "mean", "sd", "5 %", "50 %", "95 %", "unit");
+        fmt::format("{:<58}{:>11}{:>11}{:>11}{:>11}{:>11}  {}\n", "", "mean", "sd", "5 %", "50 %", "95 %", "unit");
     for (const sweep::MetricSummary& m : summary.metrics)
-        text += fmt::format("{:<44}{:>11}{:>11}{:>11}{:>11}{:>11}  {}\n", m.metric.name, number_text(m.mean),
+        text += fmt::format("{:<58}{:>11}{:>11}{:>11}{:>11}{:>11}  {}\n", m.metric.name, number_text(m.mean),
                             number_text(m.sd), number_text(m.p05), number_text(m.p50), number_text(m.p95),
                             sweep::unit_of(m.metric.name));
     return text;

@@ -21,6 +21,7 @@ namespace zlg::sweep {
 // A value as TOML, on one line.
 [[nodiscard]] inline std::string text_of(const toml::node& node) {
     if (node.is_string()) return text::toml_string(node.as_string()->get());
+    if (node.is_floating_point()) return text::toml_real(node.as_floating_point()->get());
     std::ostringstream out;
     node.visit([&](const auto& value) { out << value; });
     std::string text = out.str();

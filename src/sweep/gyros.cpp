@@ -116,7 +116,12 @@ std::string Gyros::command(std::int64_t gyro) const {
     const auto set = [&](const std::string& key, const std::string& value) {
         line += fmt::format(" --set {}", quoted(fmt::format("{}={}", key, value)));
     };
-    for (const auto& [key, value] : description_.base) set(key, value);
+    const auto is_drawn = [&](const std::string& key) {
+        return std::ranges::any_of(description_.parameters,
+                                   [&](const Parameter& p) { return std::ranges::find(p.keys, key) != p.keys.end(); });
+    };
+    for (const auto& [key, value] : description_.base)
+        if (!is_drawn(key)) set(key, value);
     const std::vector<Value> values = draws_.values(gyro);
     for (std::size_t k = 0; k < values.size(); ++k)
         for (const std::string& key : description_.parameters[k].keys) set(key, toml_of(values[k]));

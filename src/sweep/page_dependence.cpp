@@ -45,6 +45,7 @@ std::vector<Figure> response_figures(const Description& d, const Columns& c) {
     std::vector<Figure> figures;
     for (std::size_t m = 0; m < c.metrics.size(); ++m)
         for (std::size_t p = 0; p < c.parameters.size() && figures.size() < max_figures; ++p) {
+            if (!varies(c.metrics[m]) || !varies(c.parameters[p])) continue;
             Figure f = blank_figure(fmt::format("response-{}-{}", m, p),
                                     fmt::format("{} by {}", d.metrics[m].name, c.names[p]),
                                     "Each point is a gyro; the line is the median of equally many gyros.", c.names[p],

@@ -1,6 +1,7 @@
 #pragma once
 // What the parts of the page of a sweep share.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -22,6 +23,11 @@ struct Columns {
 };
 
 [[nodiscard]] Columns columns_of(const Gyros& gyros, const Rows& rows);
+
+// Whether there is anything to draw of a column.
+[[nodiscard]] inline bool varies(const std::vector<double>& values) {
+    return std::ranges::any_of(values, [&](double value) { return value != values.front(); });
+}
 
 // A limit that could be set, and the number of the good gyros that is held against it.
 struct Limit {

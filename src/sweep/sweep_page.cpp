@@ -177,6 +177,7 @@ report::Page sweep_page(const Gyros& gyros, const Rows& rows) {
     Section numbers{.heading = "What came out", .tables = {summary_table(summary)}};
     if (summary.yield) numbers.tables.push_back(yield_table(summary));
     for (std::size_t k = 0; k < d.metrics.size() && summary.failed < summary.gyros; ++k) {
+        if (!varies(columns.metrics[k])) continue;
         numbers.figures.push_back(distribution_figure(d.metrics[k], columns.metrics[k], k));
         numbers.figures.push_back(yield_figure(d.metrics[k], columns.metrics[k], summary.gyros, k));
     }

@@ -200,6 +200,20 @@ class Rows(SweepTest):
         self.assertIsNone(result["metrics"]["bridge_quadratic.angle_error_arcsec"]["yield"])
 
 
+class Page(SweepTest):
+    def test_is_written_beside_the_results_and_over_nothing(self):
+        page = self.folder / "page.html"
+        self.succeed("sweep", self.description(), "--out", self.folder / "r.h5", "--page", page)
+        text = page.read_text()
+        for heading in ("What came out", "Tolerances to be held", "What the numbers depend on", "Gyros to look at"):
+            self.assertIn(heading, text)
+        self.assertIn("<svg", text)
+        again = run("sweep", self.description(), "--out", self.folder / "other.h5", "--page", page)
+        self.assertEqual(again.returncode, 3)
+        self.assertIn("page.html exists", again.stderr)
+        self.assertFalse((self.folder / "other.h5").exists())
+
+
 class FailedGyros(SweepTest):
     def test_are_rows_with_a_reason_and_exit_1(self):
         out = self.folder / "r.h5"

@@ -88,6 +88,17 @@ TEST(Gyros, the_command_names_all_that_differs_from_the_defaults) {
         EXPECT_NE(line.find(key), std::string::npos) << key << " in " << line;
 }
 
+TEST(Gyros, the_command_names_no_key_twice) {
+    const Gyros gyros{
+        parse("[sweep]\ngyros = 1\n[base.gyro]\nbias_chi = 3.5\ntick_s = 1e-2\n[[parameter]]\n"
+              "keys = [\"gyro.bias_chi\"]\ndraw = \"list\"\nvalues = [3.25]\n" +
+                  testing_metric,
+              "s")};
+    EXPECT_EQ(gyros.command(0),
+              "zlg run --seed " + std::to_string(gyros.seed(0)) + " --set gyro.tick_s=0.01 --set gyro.bias_chi=3.25");
+    EXPECT_EQ(gyros.config(0).gyro.bias_chi, 3.25);
+}
+
 TEST(Gyros, rows_are_equal_bit_for_bit_or_not) {
     const double nan = std::nan("");
     const Row row{.gyro = 1, .fingerprint = "a", .metrics = {0.0, nan}};
