@@ -71,7 +71,8 @@ Turns SlipPhase::reversal(double start_hz, double end_hz, Coupling coupling, dou
     at_zero.add(-0.5 * start_hz * start_hz / slope);
     const double depth = 2.0 * pi * lock_hz / std::sqrt(std::abs(slope));
     const double b = std::sqrt(-core::maths::expm1(-0.25 * depth * depth));
-    const double q = at_zero.part_rad() + core::maths::atan2(coupling.imag(), coupling.real()) + std::copysign(0.25 * pi, slope);
+    const double q =
+        at_zero.part_rad() + core::maths::atan2(coupling.imag(), coupling.real()) + std::copysign(0.25 * pi, slope);
     const double slip = -2.0 * core::maths::atan2(b * core::maths::sin(q), 1.0 + b * core::maths::cos(q)) / (2.0 * pi);
 
     Turns middle = smooth_;
