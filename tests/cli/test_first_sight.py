@@ -107,7 +107,7 @@ class Progress(CliTest):
     def test_the_bar_says_what_time_is_left(self):
         for quiet in ([], ["--quiet"]):
             master, slave = pty.openpty()
-            call = ["run", "--duration", "1800", "--threads", "1", "--logs", "none", *quiet, "--out", str(self.folder / f"run{len(quiet)}")]
+            call = ["run", "--duration", "10800", "--threads", "1", "--logs", "none", *quiet, "--out", str(self.folder / f"run{len(quiet)}")]
             subprocess.run([ZLG, *call], stdout=subprocess.DEVNULL, stderr=slave, check=True, timeout=300)
             os.close(slave)
             drawn = b""
