@@ -85,7 +85,7 @@ TEST(HalfWaveLaw, errors_of_many_gyros_with_a_coarse_converter_are_those_stated)
             voltage_sq += voltage * voltage / n;
             coefficient_sq += coefficient * coefficient / n;
         }
-        // Noise of a third of a code is told from none only where a voltage is not in the middle of a code: there the
+        // Noise of a third of a code is distinguished from none only where a voltage is not in the middle of a code: there the
         // standard error is cautious.
         for (const double mean_sq : {voltage_sq, coefficient_sq}) {
             EXPECT_LT(mean_sq, 2.0) << noise_v;

@@ -26,10 +26,10 @@ name = "configured.switch_error_rms_arcsec"
 
 
 def test_gives_rows_that_run_repeats(tmp_path):
-    told = []
-    frame = zlg.sweep(SWEEP, tmp_path / "r.h5", threads=2, progress=told.append)
+    reported = []
+    frame = zlg.sweep(SWEEP, tmp_path / "r.h5", threads=2, progress=reported.append)
     assert list(frame.index) == list(range(6))
-    assert told[-1] == 1.0 and len(told) == 6
+    assert reported[-1] == 1.0 and len(reported) == 6
     assert frame.attrs["units"]["configured.switch_error_rms_arcsec"] == "arcsec"
     row = frame.loc[3]
     config = zlg.Config.of("run.duration_s=5", "switching.interval_s=2", f"run.seed={row['seed']}",
