@@ -77,12 +77,9 @@ Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> si
       coil_adc_{-coil_adc_range_a, coil_adc_range_a, coil_adc_bits},
       coil_noise_{config.seed, chance::Cause::coil},
       counter_limit_{config.counter_max_hz},
+      warming_{half_s_, config.drift.thermal_time_s},
       faults_{config.faults},
       frame_faults_{config.seed} {}
-
-double Housing::warming_at(std::uint64_t half) const {
-    return -core::maths::expm1(-static_cast<double>(half) * half_s_ / config_.drift.thermal_time_s);
-}
 
 double Housing::drift_lambda(double warming, double shock_c) const {
     return config_.perimeter.expansion_lambda_per_c * config_.gyro.temperature_rise_c * warming +
@@ -145,7 +142,7 @@ void Housing::enter_faults() {
 }
 
 void Housing::begin_half(const core::ActuatorFrame& actuator) {
-    const double warming_next = warming_at(index_ + 1);
+    const double warming_next = warming_.at(index_ + 1);
     enter_faults();
     const bool half_wave_changes = config_.piezo.half_wave_temperature_coefficient_per_c != 0.0 || !faults_.is_empty();
     if (half_wave_changes) perimeter_.take_half_wave(half_wave_v());

@@ -16,6 +16,7 @@
 #include "laser/error_signal.hpp"
 #include "noise.hpp"
 #include "perimeter/perimeter.hpp"
+#include "warming.hpp"
 
 namespace zlg::twin {
 
@@ -55,7 +56,6 @@ public:
     [[nodiscard]] double turned_arcsec(double from_s, double to_s) const;  // beyond the motion
 
 private:
-    [[nodiscard]] double warming_at(std::uint64_t half) const;
     [[nodiscard]] double drift_lambda(double warming, double shock_c) const;
     [[nodiscard]] double half_wave_v() const;
     [[nodiscard]] double coil_ratio() const;  // of its current over its own
@@ -72,13 +72,14 @@ private:
     Converter coil_adc_;
     NoiseAhead<1> coil_noise_;
     CounterLimit counter_limit_;
+    Warming warming_;
     FaultPlan faults_;
     FrameFaults frame_faults_;
     FaultyHalf faulty_half_;
     bool is_faulty_ = false;                // length, light or opening of the half entered
     std::int32_t offset_before_ticks_ = 0;  // of the latch that began the half
     std::uint64_t index_ = 0;
-    double warming_start_ = 0.0;  // 1 - exp(-t/thermal_time_s) at the start and the end of the half
+    double warming_start_ = 0.0;  // at the start and the end of the half
     double warming_end_ = 0.0;
     double shock_start_c_ = 0.0;  // warming by faults
     double shock_end_c_ = 0.0;

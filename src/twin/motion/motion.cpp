@@ -10,8 +10,8 @@ Motion::Motion(std::shared_ptr<const Source> source) : source_{std::move(source)
 
 Motion Motion::rest() { return sines(0.0, {}); }
 
-Motion Motion::sines(double rate_arcsec_s, std::vector<Sine> sines) {
-    return Motion{make_sines(rate_arcsec_s, std::move(sines))};
+Motion Motion::sines(double rate_arcsec_s, const std::vector<Sine>& sines) {
+    return Motion{make_sines(rate_arcsec_s, sines)};
 }
 
 Motion Motion::from_increments(std::vector<double> increment_arcsec, double rate_hz) {

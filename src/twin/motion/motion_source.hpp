@@ -19,7 +19,7 @@ public:
     [[nodiscard]] virtual double duration_s() const { return std::numeric_limits<double>::infinity(); }
 };
 
-std::shared_ptr<const Motion::Source> make_sines(double rate_arcsec_s, std::vector<Sine> sines);
+std::shared_ptr<const Motion::Source> make_sines(double rate_arcsec_s, const std::vector<Sine>& sines);
 std::shared_ptr<const Motion::Source> make_steps(std::shared_ptr<const Motion::Source> base,
                                                  std::shared_ptr<const std::vector<RateStep>> steps);
 std::shared_ptr<const Motion::Source> make_sampled(std::vector<double> increment_arcsec, double rate_hz);

@@ -24,7 +24,7 @@ class Motion {
 public:
     static Motion rest();
     // A constant rate plus any number of sines. Numbers that are not finite: std::invalid_argument.
-    static Motion sines(double rate_arcsec_s, std::vector<Sine> sines);
+    static Motion sines(double rate_arcsec_s, const std::vector<Sine>& sines);
     // increment k is the rotation from k/rate_hz to (k + 1)/rate_hz; the angle between is a smooth cubic.
     // errors  std::invalid_argument: no increments, one that is not finite, a rate that is not positive.
     static Motion from_increments(std::vector<double> increment_arcsec, double rate_hz);
