@@ -109,6 +109,20 @@ TEST(Twin, MagneticDriftAndPerimeterWarmUpByTheThermalLaw) {
     EXPECT_LT(std::abs(last.truth.detuning_end_lambda), 0.0065 * 0.5 / 0.7);
 }
 
+// The law is computed from two parts: every half of several blocks, and a gyro that has been warm for long.
+TEST(Twin, WarmsByTheExponentialInEveryHalf) {
+    for (const double thermal_time_s : {0.05, 0.7, 3000.0, 1e9}) {
+        TwinConfig config = quiet_gyro();
+        config.drift.thermal_time_s = thermal_time_s;
+        Twin twin{config, Motion::rest()};
+        for (int half = 1; half <= 200; ++half) {
+            const double risen = -std::expm1(-half * 0.5 * config.gyro.tick_s / thermal_time_s);
+            const double warmed_c = twin.advance(frame(true, 1)).sensor.temperature_c - 20.0;
+            EXPECT_NEAR(warmed_c, 20.0 * risen, 1e-14 + 4e-15 * 20.0) << thermal_time_s << " s, half " << half;
+        }
+    }
+}
+
 TEST(Twin, BiasFollowsTheTemperature) {
     TwinConfig config = quiet_gyro();
     config.gyro.bias_hz = 1e9;
