@@ -4,9 +4,7 @@ import random
 
 # Key, and how a value is drawn. What is left out keeps its default.
 CHOICES = {
-    "perimeter.loop": lambda r: r.choice(["analog", "digital"]),
     "gyro.readout": lambda r: r.choice(["count", "phase"]),
-    "gyro.dither": lambda r: r.choice(["none", "auto"]),
     "gyro.light_samples": lambda r: r.choice([8, 16, 24, 64]),
     "gyro.light_noise_lambda": lambda r: r.uniform(0.0, 0.006),
     "gyro.tick_s": lambda r: r.choice([0.004, 0.005, 0.006]),
@@ -28,24 +26,28 @@ CHOICES = {
     "compensation.magnetic": lambda r: r.choice(["none", "estimate"]),
     "motion.amplitude_arcsec_s": lambda r: r.uniform(0.0, 2e5),
     "motion.frequency_hz": lambda r: r.uniform(0.1, 40.0),
-    "faults.random_per_hour": lambda r: r.choice([0.0, 0.0, 600.0]),
-    "faults.random_seed": lambda r: r.randrange(1, 1000),
 }
 EACH_KEY = 0.4  # the part of the gyros that have a value of their own
 
 
+# Fidelity, perimeter loop, shifted reversals (of fidelity `laser` only) and faults take turns, so that the first three gyros have all of
+# them and twelve have every combination.
+COMBINATIONS = [
+    ("averaged", "digital", "none", 600), ("laser", "analog", "auto", 600), ("averaged", "analog", "none", 0), ("laser", "digital", "none", 0),
+    ("averaged", "analog", "none", 600), ("laser", "digital", "auto", 600), ("averaged", "digital", "none", 0), ("laser", "analog", "none", 0),
+    ("laser", "analog", "none", 600), ("laser", "digital", "none", 600), ("laser", "analog", "auto", 0), ("laser", "digital", "auto", 0),
+]
+
+
 def random_gyros(n, duration_s, seed=1):
-    """Settings of n gyros of this duration, every second of fidelity `laser`, a list of `key=value` each."""
+    """Settings of n gyros of this duration, a list of `key=value` each."""
     r = random.Random(seed)
     gyros = []
     for k in range(n):
-        gyro = [f"run.duration_s={duration_s}", f"run.seed={r.randrange(1, 2**31)}", f"switching.interval_s={r.uniform(1.0, 4.0)!r}"]
-        is_laser = k % 2 == 1
-        if is_laser:
-            gyro.append("gyro.fidelity=laser")
-        drawn = {key: draw(r) for key, draw in CHOICES.items() if r.random() < EACH_KEY}
-        if not is_laser:
-            drawn.pop("gyro.dither", None)  # the averaged gyro reverses its bias evenly
-        gyro += [f"{key}={value}" for key, value in drawn.items()]
+        fidelity, loop, dither, per_hour = COMBINATIONS[k % len(COMBINATIONS)]
+        gyro = [f"run.duration_s={duration_s}", f"run.seed={r.randrange(1, 2**31)}", f"switching.interval_s={r.uniform(1.0, 4.0)!r}",
+                f"gyro.fidelity={fidelity}", f"perimeter.loop={loop}", f"gyro.dither={dither}", f"faults.random_per_hour={per_hour}",
+                f"faults.random_seed={r.randrange(1, 1000)}"]
+        gyro += [f"{key}={draw(r)}" for key, draw in CHOICES.items() if r.random() < EACH_KEY]
         gyros.append(gyro)
     return gyros

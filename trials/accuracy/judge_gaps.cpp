@@ -1,8 +1,7 @@
 // Limits of gap lengths, of the first gap, of a motion that changes at the gap, of the phase and of lit halves.
 
-#include <cmath>
-
 #include <fmt/format.h>
+#include <zlg/core/common/maths.hpp>
 
 #include "parts.hpp"
 #include "worst.hpp"
@@ -99,9 +98,10 @@ void add_lit(const Accuracy& accuracy, std::vector<Criterion>& out) {
                 find_whole(accuracy, CaseGroup::lit, fmt::format("{}{}, {}", name, lit_halves_name, readout));
             if (dark == nullptr || lit == nullptr) continue;
             const double ratio = lit->rms_arcsec / dark->rms_arcsec;
-            inverse.add(ratio,
-                        ratio * std::hypot(rms_error(*lit) / lit->rms_arcsec, rms_error(*dark) / dark->rms_arcsec),
-                        readout);
+            inverse.add(
+                ratio,
+                ratio * core::maths::hypot(rms_error(*lit) / lit->rms_arcsec, rms_error(*dark) / dark->rms_arcsec),
+                readout);
         }
         if (!inverse.is_empty())
             out.push_back({"n", fmt::format(fmt::runtime(wanted), name), inverse.text(), inverse.against(most)});

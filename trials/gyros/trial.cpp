@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/health.hpp>
 #include <zlg/design/magnetic_angle.hpp>
 #include <zlg/rig/closed_loop.hpp>
@@ -122,7 +123,7 @@ private:
             const auto sigma = sigmas_arcsec_.find(s.window.first_tick);
             if (s.unrepaired || sigma == sigmas_arcsec_.end() || !std::isfinite(sigma->second)) continue;
             ++out_.judged;
-            const double sigmas = s.error_arcsec / std::hypot(sigma->second, unknown_rounding_arcsec(s.window));
+            const double sigmas = s.error_arcsec / core::maths::hypot(sigma->second, unknown_rounding_arcsec(s.window));
             ratio_sq += sigmas * sigmas;
             error_sq += s.error_arcsec * s.error_arcsec;
             const bool flagged = is_flagged(s.window);

@@ -78,8 +78,6 @@ const Function of_expm1{"expm1", [](Arguments a) { return maths::expm1(a.x); },
                         [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) { return mpfr_expm1(r, x, MPFR_RNDN); }};
 const Function of_log{"log", [](Arguments a) { return maths::log(a.x); },
                       [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) { return mpfr_log(r, x, MPFR_RNDN); }};
-const Function of_log1p{"log1p", [](Arguments a) { return maths::log1p(a.x); },
-                        [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) { return mpfr_log1p(r, x, MPFR_RNDN); }};
 const Function of_sin{"sin", [](Arguments a) { return maths::sin(a.x); },
                       [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) { return mpfr_sin(r, x, MPFR_RNDN); }};
 const Function of_cos{"cos", [](Arguments a) { return maths::cos(a.x); },
@@ -125,10 +123,6 @@ std::vector<Region> of_logarithms() {
         {of_log, "0.5 to 2", [](Bits& b) { return Arguments{uniform(b, 0.5, 2.0)}; }},
         {of_log, "near the root of 2",
          [](Bits& b) { return Arguments{near(b, whole(b, 0, 1) != 0 ? root_2 : 0.5 * root_2)}; }},
-        {of_log1p, "every binade", [](Bits& b) { return Arguments{positive(b)}; }},
-        {of_log1p, "near zero", [](Bits& b) { return Arguments{binade(b, -1022, -2)}; }},
-        {of_log1p, "near -1", [](Bits& b) { return Arguments{-1.0 + std::fabs(binade(b, -53, -1))}; }},
-        {of_log1p, "-0.5 to 2", [](Bits& b) { return Arguments{uniform(b, -0.5, 2.0)}; }},
     };
 }
 

@@ -104,7 +104,7 @@ double walk_formula(const Gyro& g) { return scale_arcsec / (2.0 * pi) * slip_rad
 
 double zone_formula(const Gyro& g, int k) {
     const double cycles = 0.5 * g.bias_hz * (tick_s - edge_s);
-    return scale_arcsec / (pi * tick_s) * slip_rad(g) * std::abs(std::cos(pi * (cycles + 0.5 * k - 0.25)));
+    return scale_arcsec / (pi * tick_s) * slip_rad(g) * std::abs(core::maths::cos(pi * (cycles + 0.5 * k - 0.25)));
 }
 
 double found_zone(const Gyro& g) {
@@ -176,7 +176,7 @@ Figure random_walk() {
             add_point(seen, rate, walk(g, rate));
         }
         add_point(formula, 1.0, walk_formula(g));
-        add_point(formula, std::pow(10.0, 3.5), walk_formula(g));
+        add_point(formula, core::maths::pow(10.0, 3.5), walk_formula(g));
         figure.series.push_back(std::move(seen));
         figure.series.push_back(std::move(formula));
     }

@@ -20,9 +20,12 @@ std::complex<double> exponential(std::complex<double> z) {
     return maths::exp(z.real()) * std::complex<double>{cosine, sine};
 }
 
-// Not by the run-time library of the compiler, whose quotient need not be the same everywhere.
+// Not by the run-time library of the compiler, whose products and quotients need not be the same everywhere.
+std::complex<double> product(std::complex<double> a, std::complex<double> b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
 std::complex<double> quotient(std::complex<double> a, std::complex<double> b) {
-    return a * std::conj(b) / std::norm(b);
+    return product(a, std::conj(b)) / std::norm(b);
 }
 
 // Angle from t0 to t1 by one shock at time 0.
@@ -112,8 +115,8 @@ double SyntheticMotion::advance_shocks() {
     const std::complex<double> p = pole(shocks_);
     const std::complex<double> turn = exponential(p * half_s_);
     std::complex<double> ring{ring_[0], ring_[1]};
-    double sum = std::imag(quotient(ring * (turn - 1.0), p));
-    ring *= turn;
+    double sum = std::imag(quotient(product(ring, turn - 1.0), p));
+    ring = product(ring, turn);
     while (next_shock_s_ < half_s_) {
         const double left = half_s_ - next_shock_s_;
         const double sign = draw_.sign();

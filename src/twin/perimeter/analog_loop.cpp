@@ -64,10 +64,11 @@ void AnalogLoop::tabulate(int n_steps) {
     }
 }
 
-// As `step`. That every limit is kept on the way is shown by a bound: each entry of the propagator at its largest.
+// As `step`. That every limit is kept at the end of each step is shown by a bound: each entry of the
+// propagator at its largest.
 bool AnalogLoop::live_through(State& state, const Mode& mode, int polarity, double drift_start, double drift_end,
                               std::span<double> length) const {
-    if (mode.helicity() != polarity) return false;
+    if (mode.helicity() != polarity || step_s_ > 0.1 * tau_s_) return false;
     const auto n_steps = static_cast<double>(length.size() - 1);
     const double drift_lambda_s = (drift_end - drift_start) / n_steps * steps_per_s_;
     const double rest_v = tau_s_ * drift_lambda_s;

@@ -41,7 +41,8 @@ public:
     [[nodiscard]] State step(State state, const Mode& mode, int polarity, double drift_start_lambda,
                              double drift_end_lambda) const;
 
-    // All steps of a half at once, if the loop is sure to stay linear in them; each length is that of its steps to rounding.
+    // All steps of a half at once, if the loop is sure to stay linear at the end of each of them; each length is that of its steps to
+    // rounding. Steps of more than a tenth of a time constant are taken one by one: between their ends the loop could do more than there.
     //
     // length_lambda  written: the perimeter at the start and after each step, n_steps + 1 numbers.
     // return         whether it was done; if not, neither `state` nor the lengths have changed.

@@ -19,14 +19,6 @@ constexpr int n_random = 100'000;
 
 double any_normal(Random& random) { return std::ldexp(random.uniform(1.0, 2.0), random.index(-1022, 1023)); }
 
-TEST(MathsKernels, LogIsThePublicOneOnNormals) {
-    Random random{1};
-    for (int k = 0; k < n_random; ++k) {
-        const double x = any_normal(random);
-        EXPECT_EQ(log_kernel(x), zlg::core::maths::log(x)) << x;
-    }
-}
-
 TEST(MathsKernels, SincosOfTurnsIsThePublicOneWithinItsRange) {
     Random random{2};
     for (int k = 0; k < n_random; ++k) {

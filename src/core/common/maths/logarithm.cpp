@@ -1,4 +1,4 @@
-// Logarithms of x and of 1 + x.
+// Natural logarithm.
 
 #include <zlg/core/common/maths.hpp>
 
@@ -24,15 +24,6 @@ double log(double x) noexcept {
     if (!is_subnormal) return high + low;
     const Sum sum = sum_of(high, -54.0 * ln2_high);
     return sum.high + (sum.low + (low - 54.0 * ln2_low));
-}
-
-// ln(u) + c/u, where u is 1 + x rounded and c what the rounding took.
-double log1p(double x) noexcept {
-    if (!(x > -1.0 && x < infinity)) return x == -1.0 ? -infinity : special_log(x);
-    const auto [u, c] = exact_sum(1.0, x);
-    const auto [high, low] = log_parts(u);
-    const double result = high + (low + c / u);
-    return __builtin_fabs(x) < 0x1p-54 ? x : result;
 }
 
 }  // namespace zlg::core::maths

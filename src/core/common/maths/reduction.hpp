@@ -12,7 +12,7 @@ struct Reduced {
     std::uint64_t quadrant = 0;  // modulo 4
 };
 
-// Of a finite x, |x| >= 2^22. error 2^-70 of the angle
+// Of a finite x, |x| >= 2^20. error 2^-70 of the angle
 Reduced reduced_large(double x) noexcept;
 
 }  // namespace zlg::core::maths

@@ -36,7 +36,7 @@ SinCos sincos(double x) noexcept {
 double sin(double x) noexcept { return sincos(x).sin; }
 double cos(double x) noexcept { return sincos(x).cos; }
 
-// From 2^53 on every number is whole. Of the others multiples of 2^20 are taken off exactly. The sine of the least is
+// From 2^52 on every number is whole. Of the others multiples of 2^20 are taken off exactly. The sine of the least is
 // proportional to them, and is computed where nothing is subnormal.
 SinCos sincos_turns(double t) noexcept {
     const double size = __builtin_fabs(t);

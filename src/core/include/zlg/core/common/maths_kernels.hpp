@@ -1,6 +1,7 @@
 #pragma once
 // The usual path of logarithm, sine and cosine, without branches and special values: for loops that the compiler makes
-// vectors of, and for maths.hpp. The same bits on every machine: +, -, *, / and operations on the bits alone.
+// vectors of, and for maths.hpp. The same bits on every machine, if the compiler fuses no multiplication with an addition
+// (-ffp-contract=off, which zlg::core passes on): +, -, *, / and operations on the bits alone.
 //
 // The coefficients are minimax fits in doubles (Sollya's fpminimax, relative error); each polynomial says how far it is
 // off.
@@ -67,12 +68,6 @@ struct Scaled {
     const double of_s = s * (half_square + z * (even + z * odd));
     const auto [high, low] = sum_of(k * ln2_high, f);
     return {high, low - (half_square - (of_s + k * ln2_low))};
-}
-
-// Natural logarithm of a normal positive x. accuracy 0.9 units in the last place
-[[nodiscard]] inline double log_kernel(double x) noexcept {
-    const auto [high, low] = log_parts(x);
-    return high + low;
 }
 
 // Sine and cosine of a + rest radians, |a| <= pi/4 and |rest| within a unit in the last place of a.
