@@ -56,13 +56,15 @@ constexpr int coil_adc_bits = 12;
 
 }  // namespace
 
-// Simpson's rule on pieces of 200 us, or a twentieth of the loop's time constant, is good to 1e-7 of the false angle.
+// Simpson's rule on pieces of 200 us, or a twentieth of the loop's time constant, is good to 1e-7 of the false angle. What a fault does to
+// the length has to be seen as well: four pieces for a period of a vibration, ten for a shock. With fewer the square of the detuning, which
+// has twice the frequency, would be sampled at one phase only.
 int pieces_per_sample(const TwinConfig& config) {
-    constexpr double max_piece_s = 200e-6;
-    constexpr int max_pieces = 4096;
+    double piece_s = std::min(200e-6, config.perimeter.tau_s / 20.0);
+    for (const Fault& fault : config.faults) piece_s = std::min(piece_s, longest_piece_s(fault, config.vibration_hz));
     const double interval_s = 0.5 * config.gyro.tick_s / config.gyro.light_samples;
-    const double wanted = std::ceil(interval_s / std::min(max_piece_s, config.perimeter.tau_s / 20.0));
-    const int pieces = static_cast<int>(std::clamp(wanted, 1.0, max_pieces / double{core::max_light_samples}));
+    const double wanted = std::ceil(interval_s / piece_s);
+    const int pieces = static_cast<int>(std::clamp(wanted, 1.0, double{max_pieces_per_sample}));
     return pieces | 1;
 }
 

@@ -21,6 +21,7 @@
 namespace zlg::twin {
 
 // Pieces of one light-sample interval: an odd number, so that the sample lies in the middle of a piece.
+inline constexpr int max_pieces_per_sample = 65;
 [[nodiscard]] int pieces_per_sample(const TwinConfig& config);
 
 class Housing {

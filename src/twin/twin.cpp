@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "averaged_gyro.hpp"
+#include "faults/fault_perimeter.hpp"
 #include "gyro.hpp"
+#include "housing.hpp"
 #include "laser_gyro.hpp"
 #include "refusal.hpp"
 
@@ -78,12 +80,30 @@ void validate_fault(const Fault& fault, Loop loop) {
                     known.name));
 }
 
+// The twin takes a half in so many pieces at most.
+void validate_quickest(const TwinConfig& c) {
+    const double piece_s = 0.5 * c.gyro.tick_s / c.gyro.light_samples / max_pieces_per_sample;
+    for (const Fault& fault : c.faults) {
+        if (longest_piece_s(fault, c.vibration_hz) >= piece_s) continue;
+        if (fault.kind == FaultKind::vibration)
+            refuse("faults.vibration_hz", c.vibration_hz,
+                   fmt::format(
+                       "<= {:.6g}, four pieces of a half to a period, with this gyro.tick_s and gyro.light_samples",
+                       0.25 / piece_s));
+        throw std::invalid_argument(
+            fmt::format("fault {}: faults.duration_s is {}, allowed is 0 or >= {:.6g}, ten pieces of a half, with this "
+                        "gyro.tick_s and gyro.light_samples",
+                        facts(fault.kind).name, fault.duration_s, 10.0 * piece_s));
+    }
+}
+
 // Refuse what the arithmetic cannot carry.
 //
 // errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
 void validate(const TwinConfig& config) {
     validate_perimeter(config);
     validate_laser(config);
+    validate_quickest(config);
     for (const Fault& fault : config.faults) validate_fault(fault, config.perimeter.loop);
 }
 

@@ -60,6 +60,53 @@ TEST(Faults, VibrationAndShockDetuneThePerimeter) {
     EXPECT_NEAR(bulge[9].truth.detuning_end_lambda - at_rest, 0.0, 1e-12);
 }
 
+// <1 - chi dl^2> of dl = A sin is 1 - chi A^2/2, whatever the frequency: also at the rate of the light samples, 6400 Hz, and its
+// multiples.
+TEST(Faults, AVibrationWeakensTheBiasBySizeAtEveryFrequency) {
+    constexpr int n_halves = 400;
+    for (const int light_samples : {4, 16, 64}) {
+        for (const double vibration_hz : {170.0, 1000.0, 3200.0, 6400.0, 6400.2, 12800.0, 25600.0}) {
+            TwinConfig config = held_gyro();
+            config.gyro.light_samples = light_samples;
+            config.gyro.scale_arcsec = 1e-3;
+            config.gyro.bias_hz = 6e7;  // so that a count is little
+            config.vibration_hz = vibration_hz;
+            const auto halves = with_faults(config, {{FaultKind::vibration, 0.0, 1e3, 0.05}}, n_halves);
+            double sum = 0.0;
+            for (std::size_t h = 1; h < halves.size(); ++h) sum += std::abs(static_cast<double>(counts(halves, h)));
+            const double bias = config.gyro.bias_hz * half_s;
+            EXPECT_NEAR(sum / (n_halves - 1) / bias, 1.0 - config.gyro.bias_chi * 0.5 * 0.05 * 0.05, 5e-5)
+                << vibration_hz << " Hz, " << light_samples << " samples";
+        }
+    }
+}
+
+TEST(Faults, WhatIsTooQuickForTheTwinIsRefused) {
+    TwinConfig config = quiet_gyro();
+    config.vibration_hz = 110e3;
+    config.faults = {{FaultKind::vibration, 0.0, 1.0, 0.05}};
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+    config.vibration_hz = 100e3;
+    EXPECT_NO_THROW((Twin{config, Motion::rest()}));
+    config.faults = {{FaultKind::shock, 0.0, 20e-6, 0.05}};
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+    config.faults = {{FaultKind::shock, 0.0, 30e-6, 0.05}};
+    EXPECT_NO_THROW((Twin{config, Motion::rest()}));
+}
+
+// int (A sin(pi t/T))^2 dt = A^2 T/2, however short the shock.
+TEST(Faults, AShockCostsItsSquareHoweverShort) {
+    for (const double duration_s : {50e-6, 200e-6, 1e-3}) {
+        TwinConfig config = held_gyro();
+        config.gyro.scale_arcsec = 1e-3;
+        config.gyro.bias_hz = 2e8;  // so that a count is little
+        const auto halves = with_faults(config, {{FaultKind::shock, 0.00601, duration_s, 0.2}}, 4);
+        const double lost = 2e8 * half_s - std::abs(static_cast<double>(counts(halves, 2)));
+        const double expected = 2e8 * config.gyro.bias_chi * 0.5 * 0.2 * 0.2 * duration_s;
+        EXPECT_NEAR(lost / expected, 1.0, 0.02) << duration_s;
+    }
+}
+
 TEST(Faults, ASwitchIsSentOffItsTarget) {
     for (const double miss_lambda : {0.0, 0.1}) {
         const auto landed = [&](std::vector<Fault> faults) {

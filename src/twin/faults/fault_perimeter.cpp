@@ -1,6 +1,7 @@
 #include "fault_perimeter.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <zlg/core/common/maths.hpp>
@@ -25,6 +26,12 @@ double length_lambda(const Fault& fault, double time_s, double vibration_hz) {
         default:
             return 0.0;
     }
+}
+
+double longest_piece_s(const Fault& fault, double vibration_hz) {
+    if (fault.kind == FaultKind::vibration) return 0.25 / vibration_hz;
+    if (fault.kind == FaultKind::shock && fault.duration_s > 0.0) return 0.1 * fault.duration_s;
+    return std::numeric_limits<double>::infinity();
 }
 
 double length_lambda(std::span<const Fault> active, double time_s, double vibration_hz) {
