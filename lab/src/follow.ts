@@ -227,10 +227,13 @@ class LivePage {
         this.draw_values(this.newest);
     }
 
+    // What is kept in full is drawn from that, what came before from the history.
     private draw_angle(): void {
+        const shown = this.rows.slice(this.rows.first, this.rows.end, most_points, at.angle);
         const { times, angles } = this.history;
-        const last = this.newest?.[5];
-        this.charts.angle.show(last === null || last === undefined ? [times, angles] : [[...times, this.next * this.tick_s], [...angles, last]]);
+        const before = times.findIndex((time_s) => time_s >= (shown[at.time][0] ?? Infinity));
+        const n = before < 0 ? times.length : before;
+        this.charts.angle.show([[...times.slice(0, n), ...shown[at.time]], [...angles.slice(0, n), ...finite(shown[at.angle])]]);
     }
 
     private draw_signals(): void {
