@@ -175,6 +175,7 @@ struct PageServer::State final : Connection::Owner {
         if (!error) acceptor.bind(here, error);
         if (!error) acceptor.listen(most_connections, error);
         if (error) refuse(wanted_port, error);
+        bound_port = acceptor.local_endpoint().port();
     }
 
     void accept() {
@@ -230,7 +231,7 @@ struct PageServer::State final : Connection::Owner {
     bool begin_stream(const std::shared_ptr<Connection>& connection) override {
         return pages.size() < static_cast<std::size_t>(most_pages) && pages.insert(connection).second;
     }
-    [[nodiscard]] std::uint16_t port() const override { return acceptor.local_endpoint().port(); }
+    [[nodiscard]] std::uint16_t port() const override { return bound_port; }
     void left(const std::shared_ptr<Connection>& connection) override {
         pages.erase(connection);
         connections.erase(connection);
@@ -251,6 +252,7 @@ struct PageServer::State final : Connection::Owner {
     const Text silence = std::make_shared<const std::string>(":\n\n");
     asio::io_context io{1};
     tcp::acceptor acceptor{io};
+    std::uint16_t bound_port = 0;
     asio::steady_timer timer{io};
     bool is_accepting = false;
     std::set<std::shared_ptr<Connection>> connections;

@@ -235,8 +235,8 @@ class LabFollow(CliTest):
         self.assertTrue(server.get().startswith(b"HTTP/1.1 200 "))
 
     def test_a_signal_ends_it_within_half_a_second_with_pages_open(self):
-        for what in (signal.SIGINT, signal.SIGTERM):
-            server = self.serve(self.files / "line.bin")
+        for what, source in ((signal.SIGINT, self.files / "line.bin"), (signal.SIGTERM, self.files / "angles.h5"), (signal.SIGINT, self.line(5.0).source)):
+            server = self.serve(source)
             pages = [self.events(server) for _ in range(5)]
             self.assertEqual(pages[0].next()[0], "snapshot")
             status, _, err, took_s = server.end(what)
