@@ -69,9 +69,9 @@ void tell(Bytes& bytes) {
         // What a source gives are finite angles.
         for (double* angle : {&record.angle.dtheta_arcsec, &record.angle.dtheta_final_arcsec})
             if (!std::isfinite(*angle)) *angle = 0.0;
-        const int n = 1 + bytes.take<std::uint8_t>();
+        const int n = 1 + bytes.take<std::uint8_t>() % 4;
         for (int k = 0; k < n; ++k) book.add(record, tick_s);
-        if (bytes.flag()) continue;
+        if (bytes.index(8) != 0) continue;
         const live::Event event = book.event(page);
         page = event.after;
         claim(std::ranges::count(event.text, '\n') == 3 && event.text.ends_with("\n\n"), "an event is two lines");
