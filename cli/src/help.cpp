@@ -34,7 +34,9 @@ constexpr std::array verb_table{
              "  zlg run --duration 600 --set motion.kind=rest --logs none --out demo\n"
              "  zlg run my_gyro.toml --seed 7 --format csv"},
     VerbHelp{"simulate", simulating, "  zlg simulate --duration 600 --set switching.interval_s=60 --out raw.h5"},
-    VerbHelp{"lab", simulating, "  zlg lab --out lab.html                        then open it in a browser"},
+    VerbHelp{"lab", simulating,
+             "  zlg lab --out lab.html                        then open it in a browser\n"
+             "  zlg lab --follow /dev/ttyUSB0 --out angles.h5"},
     VerbHelp{"paper", simulating, "  zlg paper --out paper                         some half a minute"},
     VerbHelp{"sweep", simulating,
              "  zlg sweep tolerances.toml --out results.h5    go on with it by the same line\n"
@@ -97,6 +99,7 @@ constexpr std::array kinds{
     Kind{"--give-up", "SECONDS"},
     Kind{"--run-lengths", "SECONDS,..."},
     Kind{"--baud", "NUMBER"},
+    Kind{"--port", "NUMBER"},
     Kind{"--mapping", "FILE.toml"},
     Kind{"--map", "KEY=VALUE"},
     Kind{"--write-mapping", "FILE.toml"},

@@ -46,6 +46,20 @@ std::string lab_page() {
     }
 }
 
+std::string live_lab_page() {
+    std::string page = lab_page();
+    const auto put_after = [&page](std::string_view place, std::string_view text) {
+        const std::size_t at = page.find(place);
+        if (at == std::string::npos)
+            throw logs::IoError{"the lab page beside this program is of another version: it shows no records"};
+        page.insert(at + place.size(), text);
+    };
+    put_after("content=\"default-src 'none'", "; connect-src 'self'");
+    // By this the page knows that it is to show records.
+    put_after("<meta charset=\"utf-8\">", "\n<meta name=\"zlg-records\" content=\"records\">");
+    return page;
+}
+
 std::string lab_fragment(const config::Config& config, double until_s) {
     const config::Settings defaults = config::to_settings(config::Config{});
     std::string out;

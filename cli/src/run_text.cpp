@@ -62,7 +62,7 @@ std::string lines(const Row& row) {
     return text + fmt::format("{:<{}}{}\n", line, name_width, row.numbers);
 }
 
-constexpr const char* head = R"(
+constexpr const char* table_head = R"(
                       error of a switch,      without the constant    with it
                       arcsec                  drift    at end         drift    at end
 compensation              rms    mean     max arcsec/s  arcsec arcsec/s  arcsec
@@ -85,7 +85,7 @@ std::string remarks(const config::Config& config, const study::RunResult& result
 std::string run_text(const config::Config& config, const study::RunResult& result) {
     std::string text;
     for (const std::string& sentence : study::what_happened(config, result)) text += sentence + "\n";
-    text += head;
+    text += table_head;
     for (const Row& row : rows(result)) text += lines(row);
     return text + remarks(config, result);
 }

@@ -1,16 +1,14 @@
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <zlg/logs/angle_log.hpp>
-#include <zlg/logs/error.hpp>
 #include <zlg/logs/follower.hpp>
 
+#include "angle_recording.hpp"
 #include "as_json.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -29,54 +27,21 @@ struct FollowOptions {
     bool json = false;
 };
 
-// The log, which begins when the length of a tick is known.
-class Recording {
-public:
-    explicit Recording(const FollowOptions& options) : options_{options} {
-        (void)log_format(options.out);
-        if (!options.force && std::filesystem::exists(std::filesystem::symlink_status(options.out)))
-            throw logs::IoError{fmt::format("{} exists; use --force to overwrite", options.out)};
-    }
-
-    void write(const core::AngleRow& row, double tick_s) {
-        if (!angles_)
-            angles_.emplace(options_.out, tick_s, logs::line_settings(), options_.force,
-                            logs::AngleWriterOptions{.keep_part = true, .keep_csv_part = true});
-        angles_->write(row);
-    }
-
-    void flush() {
-        if (angles_) angles_->flush();
-    }
-
-    void close() {
-        if (!angles_)
-            throw logs::IoError{
-                fmt::format("{}: not one message of a gyro in it; {} is not written", options_.source, options_.out)};
-        angles_->close();
-    }
-
-    [[nodiscard]] std::string part_path() const { return angles_ ? angles_->part_path() : std::string{}; }
-
-private:
-    const FollowOptions& options_;
-    std::optional<logs::AngleWriter> angles_;
-};
-
 // Until the source ends, a signal comes, or the log or the time is as long as was asked for.
-void receive(logs::Follower& follower, Recording& recording, const std::optional<double>& duration_s,
+void receive(logs::Follower& follower, AngleRecording& recording, const std::optional<double>& duration_s,
              const Interruptible& interruptible) {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::milliseconds flush_every{500};
     constexpr std::int64_t stride_rows = 1024;  // between two looks at the clock
     const auto started = Clock::now();
     auto flushed = started;
+    const logs::Settings settings = logs::line_settings();
     core::AngleRow row;
     while (true) {
         if (interruptible.is_noted()) follower.stop();
         const logs::Follower::Next next = follower.next(row);
         if (next == logs::Follower::Next::end) return;
-        if (next == logs::Follower::Next::row) recording.write(row, *follower.rows().tick_s());
+        if (next == logs::Follower::Next::row) recording.write(row, *follower.rows().tick_s(), settings);
         if (next == logs::Follower::Next::row && follower.n_rows() % stride_rows != 0) continue;
         const auto now = Clock::now();
         if (duration_s && std::chrono::duration<double>{now - started}.count() >= *duration_s) follower.stop();
@@ -142,7 +107,7 @@ nlohmann::json follow_json(const logs::Follower& follower, const FollowOptions& 
 }
 
 void follow(const FollowOptions& options) {
-    Recording recording{options};
+    AngleRecording recording{options.source, options.out, options.force};
     refuse_own_input(options.source, options.out);
     logs::Follower follower{options.source, options.baud, options.duration_s};
     const Interruptible interruptible;

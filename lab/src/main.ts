@@ -3,6 +3,7 @@ import { GyroClient } from "./client";
 import { Controls } from "./controls";
 import { csv, save, svg, toml } from "./export";
 import { fault_buttons, with_fault } from "./faults";
+import { follows_records } from "./follow";
 import { parse_fragment } from "./fragment";
 import { HealthList } from "./health";
 import { keep_charts, short } from "./plots";
@@ -271,4 +272,5 @@ class Lab {
     }
 }
 
-new Lab();
+if (follows_records()) keep_charts();
+else new Lab();

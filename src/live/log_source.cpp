@@ -1,0 +1,136 @@
+// Records from a log while it is being written.
+
+#include <zlg/live/record_source.hpp>
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <thread>
+#include <utility>
+
+#include <zlg/rig/replay.hpp>
+
+namespace zlg::live {
+namespace {
+
+constexpr std::chrono::milliseconds patience{50};
+
+// The next row that is there, or comes.
+template <class Reader, class Row>
+RecordSource::Next next_row(Reader& log, Row& row, bool is_stopped) {
+    using Next = RecordSource::Next;
+    if (is_stopped) return Next::end;
+    if (log.next(row)) return Next::record;
+    if (log.refresh()) return log.next(row) ? Next::record : Next::nothing;
+    // The last rows may have come, and the log been closed, between the look at the rows and that at its end.
+    if (log.header().complete) return log.refresh() && log.next(row) ? Next::record : Next::end;
+    std::this_thread::sleep_for(patience);
+    return Next::nothing;
+}
+
+std::optional<double> said_tick_s(const logs::Settings& settings) {
+    for (const auto& [key, text] : settings) {
+        if (key != "tick_s") continue;
+        double tick_s = 0.0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), tick_s);
+        if (error == std::errc{} && end == text.data() + text.size() && tick_s > 0.0 && std::isfinite(tick_s))
+            return tick_s;
+    }
+    return std::nullopt;
+}
+
+class AngleSource final : public RecordSource {
+public:
+    explicit AngleSource(logs::AngleReader log) : log_{std::move(log)}, tick_s_{said_tick_s(log_.header().settings)} {}
+
+    Next next(Record& record) override {
+        logs::TimedAngle angle;
+        const Next found = next_row(log_, angle, is_stopped_);
+        if (found != Next::record) return found;
+        record = {.angle = angle.row};
+        // The time of a row is the end of its tick.
+        if (!tick_s_ && angle.t_s > 0.0) tick_s_ = angle.t_s / static_cast<double>(angle.row.tick + 1);
+        return Next::record;
+    }
+
+    void stop() override { is_stopped_ = true; }
+    [[nodiscard]] std::optional<double> tick_s() const override { return tick_s_; }
+    [[nodiscard]] logs::Settings settings() const override { return log_.header().settings; }
+
+private:
+    logs::AngleReader log_;
+    std::optional<double> tick_s_;
+    bool is_stopped_ = false;
+};
+
+class RawSource final : public RecordSource {
+public:
+    RawSource(logs::RawReader log, const core::GyroCompensationConfig& compensation, double tick_s,
+              logs::Settings settings)
+        : log_{std::move(log)}, replay_{compensation}, tick_s_{tick_s}, settings_{std::move(settings)} {}
+
+    Next next(Record& record) override {
+        const auto settle = [this](const core::AngleRow& row) { settled_.push_back(row); };
+        while (settled_.empty()) {
+            if (is_ended_) return Next::end;
+            core::HalfRecord half;
+            const Next found = next_row(log_, half, is_stopped_);
+            if (found == Next::nothing) return found;
+            is_ended_ = found == Next::end;
+            if (is_ended_)
+                replay_.end(settle);
+            else
+                take(half, settle);
+        }
+        return take_settled(record);
+    }
+
+    void stop() override { is_stopped_ = true; }
+    [[nodiscard]] std::optional<double> tick_s() const override { return tick_s_; }
+    [[nodiscard]] logs::Settings settings() const override { return settings_; }
+
+private:
+    template <class Settle>
+    void take(const core::HalfRecord& half, const Settle& settle) {
+        const bool has_light = log_.header().light_samples > 0;
+        const double before_lambda = std::exchange(detuning_lambda_, half.detuning_lambda);
+        const core::CompensationOutput out =
+            replay_.take(half, has_light ? log_.light() : core::LightSamples{}, settle);
+        if (!out.has_sample) return;
+        ticks_.push_back({.detuning_lambda = 0.5 * (before_lambda + half.detuning_lambda),
+                          .piezo_v = half.piezo_v,
+                          .temperature_c = half.temperature_c});
+    }
+
+    Next take_settled(Record& record) {
+        record = ticks_.empty() ? Record{} : ticks_.front();
+        if (!ticks_.empty()) ticks_.pop_front();
+        record.angle = settled_.front();
+        settled_.pop_front();
+        return Next::record;
+    }
+
+    logs::RawReader log_;
+    rig::Replay replay_;
+    double tick_s_;
+    logs::Settings settings_;
+    double detuning_lambda_ = 0.0;        // of the half before
+    std::deque<Record> ticks_;            // that are not settled, without their angles
+    std::deque<core::AngleRow> settled_;  // that were not handed out
+    bool is_stopped_ = false;
+    bool is_ended_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<RecordSource> log_source(logs::AngleReader log) {
+    return std::make_unique<AngleSource>(std::move(log));
+}
+
+std::unique_ptr<RecordSource> log_source(logs::RawReader log, const core::GyroCompensationConfig& compensation,
+                                         double tick_s, logs::Settings settings) {
+    return std::make_unique<RawSource>(std::move(log), compensation, tick_s, std::move(settings));
+}
+
+}  // namespace zlg::live

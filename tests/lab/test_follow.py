@@ -1,0 +1,170 @@
+"""The lab page as `zlg lab --follow` serves it: the live picture, loaded again, and after a lost connection."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from lab_browser import PAGE, PROGRAM, ROOT, LabBrowser
+from test_lab import ZLG, setup_browser, zlg
+
+sys.path.insert(0, str(ROOT / "tests" / "cli"))
+from lab_server import LabServer, Line  # noqa: E402
+
+
+@unittest.skipUnless(PROGRAM, "there is no chromium")
+@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
+class Live(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        setup_browser(cls)
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.files = Path(folder.name)
+        made = zlg("simulate", "--duration", 60, "--set", "switching.interval_s=5", "--out", cls.files / "raw.h5", "--wire", cls.files / "line.bin")
+        assert made.returncode == 0, made.stderr
+        cls.bytes = (cls.files / "line.bin").read_bytes()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def serve(self, source, *options):
+        server = LabServer(source, *options)
+        self.addCleanup(server.close)
+        return server
+
+    def line(self, lasts_s, **options):
+        line = Line(self.folder / "line", self.bytes, lasts_s, **options)
+        self.addCleanup(line.close)
+        return line
+
+    def open_served(self, server, width=1200, dark=False):
+        b = self.browser
+        b.events.clear()
+        b.send("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600)
+        b.send("Emulation.setEmulatedMedia", media="screen", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        b.send("Page.navigate", url=server.address)
+        while not any(e.get("method") == "Page.loadEventFired" for e in b.events):
+            b.events.append(b.receive())
+
+    def time_s(self):
+        return float(self.browser.marked("time"))
+
+    def shown(self, name):
+        return self.browser.value(f"[...document.querySelectorAll('.values dt')].find(e => e.textContent === {name!r})?.nextElementSibling.textContent ?? null")
+
+    def requests_of(self, server):
+        asked = [e["params"]["request"]["url"] for e in self.browser.events if e.get("method") == "Network.requestWillBeSent"]
+        return [url for url in asked if url not in (server.address, f"{server.address}records") and not url.startswith(("data:,", "blob:"))]
+
+    def test_the_picture_lives_and_is_that_of_the_log_at_the_end(self):
+        server = self.serve(self.line(4.0, then_ends=True).source)
+        self.open_served(server)
+        self.browser.wait_for_state("live")
+        before_s = self.time_s()
+        self.browser.wait_until(lambda: self.time_s() > before_s + 5.0)
+        self.browser.wait_for_state("the source has ended")
+        self.browser.wait_until(lambda: self.browser.marked("time") == "60.0000")
+        angles = self.files / "angles.csv"
+        self.assertEqual(zlg("process", self.files / "raw.h5", "--out", angles, "--force").returncode, 0)
+        rows = [line.split(",") for line in angles.read_text().splitlines() if line[0].isdigit()]
+        angle = sum(float(row[3]) for row in rows)
+        self.assertAlmostEqual(float(self.shown("Angle").split()[0].replace("−", "-")) / angle, 1.0, delta=1e-5)
+        self.assertAlmostEqual(float(self.shown("Rate").split()[0].replace("−", "-")) / (float(rows[-1][3]) / 0.005), 1.0, delta=1e-5)
+        self.assertRegex(self.browser.text("main"), r"At 55 s nothing was measured for 3 ticks \(15 ms\); mode [+−]1 after it")
+        self.assertIn("warming up", self.browser.text("ul.health"))
+        self.assertEqual(self.browser.complaints(), [])
+        self.assertEqual(self.requests_of(server), [])
+
+    def test_loaded_again_it_shows_all_that_was(self):
+        server = self.serve(self.line(1.0).source)
+        self.open_served(server)
+        self.browser.wait_until(lambda: self.time_s() > 59.9)
+        before = self.shown("Angle"), self.browser.marked("time"), self.browser.text("main")
+        self.open_served(server)
+        self.browser.wait_until(lambda: self.time_s() > 59.9)
+        self.assertEqual((self.shown("Angle"), self.browser.marked("time"), self.browser.text("main")), before)
+        # The chart of the angle begins at the start, though most of the rows are no longer kept one by one.
+        self.assertEqual(self.browser.value("document.querySelectorAll('main .u-over').length"), 7)
+
+    def test_after_a_lost_connection_it_shows_what_there_is_then(self):
+        server = self.serve(self.line(20.0).source)
+        self.open_served(server)
+        self.browser.wait_for_state("live")
+        # The program is killed, and another one has its port later.
+        port = server.port
+        server.end(signal.SIGKILL)
+        self.browser.wait_for_state("connection lost, trying again")
+        angles = self.files / "other.h5"
+        self.assertEqual(zlg("process", self.files / "raw.h5", "--out", angles, "--force").returncode, 0)
+        other = subprocess.Popen([ZLG, "lab", "--follow", angles, "--port", str(port)], stdout=subprocess.PIPE)
+        self.addCleanup(other.communicate)
+        self.addCleanup(other.kill)
+        self.browser.wait_for_state("the source has ended")
+        self.browser.wait_until(lambda: self.browser.marked("time") == "60.0000")
+        self.assertIsNone(self.shown("Piezo"))
+        self.assertIn("other.h5", self.browser.text(".what"))
+
+    def test_a_program_that_was_stopped_for_a_while_is_followed_on(self):
+        server = self.serve(self.line(8.0).source)
+        self.open_served(server)
+        self.browser.wait_for_state("live")
+        server.process.send_signal(signal.SIGSTOP)
+        time.sleep(2.0)
+        server.process.send_signal(signal.SIGCONT)
+        self.browser.wait_until(lambda: self.time_s() > 59.9)
+        self.assertEqual(self.browser.marked("state"), "live")
+
+    def test_a_page_that_sleeps_gets_the_right_picture_when_it_wakes(self):
+        server = self.serve(self.line(3.0).source)
+        self.open_served(server)
+        self.browser.wait_for_state("live")
+        renderers = self.renderers()
+        self.assertTrue(renderers)
+        for pid in renderers:
+            os.kill(pid, signal.SIGSTOP)
+        time.sleep(4.0)
+        for pid in renderers:
+            os.kill(pid, signal.SIGCONT)
+        self.browser.wait_until(lambda: self.time_s() > 59.9)
+        angle = self.shown("Angle")
+        self.open_served(server)
+        self.browser.wait_until(lambda: self.time_s() > 59.9)
+        self.assertEqual(self.shown("Angle"), angle)
+
+    def renderers(self):
+        """Processes of the browser that run pages."""
+        parents, renderers = {}, []
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                parents[int(folder.name)] = int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1])
+                if b"--type=renderer" in (folder / "cmdline").read_bytes().replace(b" ", b"\0").split(b"\0"):
+                    renderers.append(int(folder.name))
+            except OSError:
+                continue  # it has ended meanwhile
+        return [pid for pid in renderers if self.is_below(pid, self.browser.process.pid, parents)]
+
+    def is_below(self, pid, ancestor, parents):
+        while pid and pid != ancestor:
+            pid = parents.get(pid, 0)
+        return pid == ancestor
+
+    def test_nothing_is_wider_than_the_screen(self):
+        server = self.serve(self.files / "line.bin")
+        for width in (390, 760, 1200):
+            for dark in (False, True):
+                with self.subTest(width=width, dark=dark):
+                    self.open_served(server, width, dark)
+                    self.browser.wait_until(lambda: self.time_s() > 59.9)
+                    self.assertEqual(self.browser.value("document.documentElement.scrollWidth"), width)
+        self.assertEqual(self.browser.complaints(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
