@@ -29,6 +29,9 @@ void print_warnings();
 // Print the rest of the queue, unless there was an error.
 void print_notes();
 
+// Of several processes only one speaks: from now on this one has no line for an error.
+void leave_errors_to_another();
+
 // The one line of an error, in place of what waits; from any thread. Only the first error has one.
 void report_error(const std::string& line);
 

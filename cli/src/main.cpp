@@ -1,22 +1,12 @@
-#include <algorithm>
-#include <csignal>
-#include <exception>
-#include <new>
-
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/design/error.hpp>
-#include <zlg/logs/byte_source.hpp>
-#include <zlg/logs/mapping.hpp>
-#include <zlg/text/inputs.hpp>
 
-#include "failure.hpp"
 #include "help.hpp"
 #include "interrupt.hpp"
 #include "manual.hpp"
 #include "output.hpp"
+#include "program.hpp"
 #include "verbs.hpp"
 
 namespace {
@@ -28,64 +18,10 @@ void print_keys() {
     throw CLI::Success{};
 }
 
-// What was wrong with a command line, in one line: where its verb is unknown, with the nearest one that exists.
-std::string explain(const CLI::App& program, const CLI::ParseError& error, int argc, char** argv) {
-    if (argc == 1) return "no verb is given";
-    const std::string first = argv[1];
-    const bool known = cli::find_verb(program, first) != nullptr;
-    if (!known && !first.empty() && first[0] != '-') return cli::unknown_verb(program, first);
-    std::string reason = error.what();
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    return fmt::format("{} (zlg {}--help lists what is allowed)", reason, known ? first + " " : "");
-}
-
-int parse_and_run(CLI::App& program, int argc, char** argv) {
-    try {
-        if (argc == 1) cli::print(program.help());
-        program.parse(argc, argv);
-        return cli::good;
-    } catch (const CLI::CallForHelp&) {
-        cli::print(program.help());
-        return cli::good;
-    } catch (const CLI::CallForVersion&) {
-        cli::print("zlg " ZLG_VERSION "\n");
-        return cli::good;
-    } catch (const CLI::Success&) {
-        return cli::good;
-    } catch (const CLI::RuntimeError& error) {
-        return error.get_exit_code();
-    } catch (const CLI::ParseError& error) {
-        cli::report_error(explain(program, error, argc, argv));
-        return cli::wrong_usage;
-    }
-}
-
-// What was asked for is not allowed, by the command line or by the configuration.
-bool is_wrong_usage(const std::exception& error) {
-    return dynamic_cast<const cli::UsageError*>(&error) || dynamic_cast<const design::DesignError*>(&error) ||
-           dynamic_cast<const config::ConfigError*>(&error) || dynamic_cast<const text::OutputIsInput*>(&error) ||
-           dynamic_cast<const logs::MappingError*>(&error) || dynamic_cast<const logs::SourceError*>(&error);
-}
-
-int guarded(CLI::App& program, int argc, char** argv) {
-    try {
-        return parse_and_run(program, argc, argv);
-    } catch (const std::bad_alloc&) {
-        cli::report_error("out of memory");
-        return cli::bad_input_or_output;
-    } catch (const std::exception& error) {
-        cli::report_error(error.what());
-        return is_wrong_usage(error) ? cli::wrong_usage : cli::bad_input_or_output;
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    // A full disk or a closed pipe is a failed write, not the end of the program.
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);
-    text::watch_inputs();
+    cli::begin_program();
     CLI::App program{"Software of a Zeeman laser gyro in the quasi-four-frequency regime", "zlg"};
     program.require_subcommand(1);
     program.set_version_flag("--version", "zlg " ZLG_VERSION);
@@ -106,7 +42,5 @@ int main(int argc, char** argv) {
     cli::complete_help(program);
     cli::add_manual(program);
     const cli::InterruptGuard guard;
-    const int exit_code = guarded(program, argc, argv);
-    cli::print_notes();
-    return exit_code;
+    return cli::run_program(program, argc, argv);
 }

@@ -93,12 +93,13 @@ void merge(const SweepOptions& options) {
     show(options, sweep::Gyros{merged.description}, merged.rows);
 }
 
-void sweep_gyros(const SweepOptions& options) {
+void sweep_gyros(const SweepOptions& options, const sweep::Crew& crew) {
     const Interruptible interruptible;
     Progress progress;
     sweep::Task task{.description = sweep::read_description(options.description),
                      .out = options.out,
                      .threads = options.threads,
+                     .crew = crew,
                      .force = options.force};
     if (!options.part.empty()) task.part = part_of(options.part);
     task.is_stopped = [&] { return interruptible.is_noted(); };
@@ -116,7 +117,7 @@ void sweep_gyros(const SweepOptions& options) {
 
 }  // namespace
 
-void add_sweep(CLI::App& program) {
+void add_sweep(CLI::App& program, const sweep::Crew& crew) {
     const auto options = std::make_shared<SweepOptions>();
     CLI::App* verb = program.add_subcommand(
         "sweep", "many gyros of drawn parameters, whose results can be interrupted, continued, parted and merged");
@@ -125,12 +126,12 @@ void add_sweep(CLI::App& program) {
     verb->add_option("--page", options->page, "a page of the results, FILE.html");
     verb->add_option("--part", options->part, "only the k-th of n parts of the gyros");
     verb->add_option("--merge", options->merged, "put files of results together");
-    verb->add_option("--threads", options->threads, "1..256 (2)")->check(CLI::Range(1, 256).description(""));
+    if (!crew) verb->add_option("--threads", options->threads, "1..256 (2)")->check(CLI::Range(1, 256).description(""));
     verb->add_flag("--force", options->force, "overwrite what exists, and begin anew");
     verb->add_flag("--json", options->json, "the result as one JSON object on standard output");
-    verb->callback([options] {
+    verb->callback([options, crew] {
         check_options(*options);
-        options->merged.empty() ? sweep_gyros(*options) : merge(*options);
+        options->merged.empty() ? sweep_gyros(*options, crew) : merge(*options);
     });
 }
 

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <zlg/sweep/sweep.hpp>
+
 namespace zlg::cli {
 
 void add_run(CLI::App& program);
@@ -10,7 +12,7 @@ void add_simulate(CLI::App& program);
 void add_process(CLI::App& program);
 void add_design(CLI::App& program);
 void add_paper(CLI::App& program);
-void add_sweep(CLI::App& program);
+void add_sweep(CLI::App& program, const sweep::Crew& crew = {});  // crew  others than the threads of this process
 void add_convert(CLI::App& program);
 void add_calibrate(CLI::App& program);
 void add_import(CLI::App& program);

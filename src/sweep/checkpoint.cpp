@@ -6,28 +6,22 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <span>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>
+#include <zlg/sweep/row_text.hpp>
 #include <zlg/text/inputs.hpp>
-#include <zlg/wire/crc.hpp>
 
 namespace zlg::sweep {
 namespace {
 
 constexpr std::string_view first_line = "zlg sweep checkpoint 1";
-constexpr std::size_t max_fields = 100'000;
-
-std::string checksum(std::string_view text) {
-    return fmt::format("{:08x}", wire::crc32c({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
-}
 
 std::string head_of(const std::string& description) {
     std::string head = fmt::format("{}\n", first_line);
@@ -36,49 +30,7 @@ std::string head_of(const std::string& description) {
         head += fmt::format("| {}\n", description.substr(at, end - at));
         at = end + 1;
     }
-    return head + fmt::format("rows\t{}\n", checksum(head));
-}
-
-// gyro, status, fingerprint, reason, metrics, checksum. Control characters in a reason are escaped already.
-std::string line_of(const Row& row) {
-    std::string line =
-        fmt::format("{}\t{}\t{}\t{}", row.gyro, static_cast<std::int64_t>(row.status), row.fingerprint, row.reason);
-    for (const double value : row.metrics) line += fmt::format("\t{}", value);
-    return line + fmt::format("\t{}\n", checksum(line));
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    for (std::size_t at = 0; fields.size() < max_fields;) {
-        const std::size_t end = line.find('\t', at);
-        fields.push_back(line.substr(at, end - at));
-        if (end == std::string_view::npos) break;
-        at = end + 1;
-    }
-    return fields;
-}
-
-template <class T>
-bool read_number(std::string_view text, T& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size();
-}
-
-bool read_row(std::string_view line, std::size_t n_metrics, Row& row) {
-    const std::size_t last_tab = line.rfind('\t');
-    if (last_tab == std::string_view::npos || line.substr(last_tab + 1) != checksum(line.substr(0, last_tab)))
-        return false;
-    const std::vector<std::string_view> fields = fields_of(line.substr(0, last_tab));
-    std::int64_t status = 0;
-    if (fields.size() != 4 + n_metrics || !read_number(fields[0], row.gyro) || !read_number(fields[1], status))
-        return false;
-    row.status = static_cast<Status>(status);
-    row.fingerprint = fields[2];
-    row.reason = fields[3];
-    row.metrics.assign(n_metrics, 0.0);
-    for (std::size_t k = 0; k < n_metrics; ++k)
-        if (!read_number(fields[4 + k], row.metrics[k])) return false;
-    return true;
+    return head + fmt::format("rows\t{}\n", text_checksum(head));
 }
 
 // A checkpoint as far as it is whole.
@@ -99,11 +51,11 @@ public:
         content.whole_bytes = at_;
         const Description description = parse(content.results.description, path_);
         for (std::string_view line; next(line); content.whole_bytes = at_) {
-            Row row;
-            if (!read_row(line, description.metrics.size(), row) || row.gyro < 0 || row.gyro >= max_gyros)
+            const std::optional<Row> row = row_of(line, description.metrics.size());
+            if (!row)
                 throw logs::FormatError(
                     fmt::format("{}, line {}: is damaged; allowed is what zlg sweep wrote", path_, line_));
-            add_rows(content.results.rows, {{row.gyro, row}}, path_);
+            add_rows(content.results.rows, {{row->gyro, *row}}, path_);
         }
         return content;
     }
@@ -131,7 +83,7 @@ private:
                 description += fmt::format("{}\n", line.substr(2));
                 continue;
             }
-            if (line == fmt::format("rows\t{}", checksum(std::string_view{text_}.substr(0, before)))) return true;
+            if (line == fmt::format("rows\t{}", text_checksum(std::string_view{text_}.substr(0, before)))) return true;
             throw logs::FormatError(
                 fmt::format("{}, line {}: is damaged; allowed is what zlg sweep wrote", path_, line_));
         }
@@ -202,7 +154,7 @@ void Checkpoint::begin(const std::string& description) {
     write(head_of(description));
 }
 
-void Checkpoint::append(const Row& row) { write(line_of(row)); }
+void Checkpoint::append(const Row& row) { write(text_of(row) + "\n"); }
 
 void Checkpoint::write(const std::string& text) {
     struct stat before {};

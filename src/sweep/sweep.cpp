@@ -56,39 +56,41 @@ std::vector<std::int64_t> missing(const Task& task, const Rows& rows) {
     return gyros;
 }
 
-// Runs gyros and records each as it comes. Returns false where it was stopped.
-class Crew {
+// Records the rows as they come, from any thread.
+class Record {
 public:
-    Crew(const Task& task, const Gyros& gyros, Checkpoint& checkpoint, Rows& rows)
-        : task_{task}, gyros_{gyros}, checkpoint_{checkpoint}, rows_{rows} {}
+    Record(const Task& task, Checkpoint& checkpoint, Rows& rows, std::size_t n_asked)
+        : task_{task}, checkpoint_{checkpoint}, rows_{rows}, n_asked_{static_cast<std::int64_t>(n_asked)} {}
 
-    bool run(const std::vector<std::int64_t>& asked) {
+    void take(Row row) {
+        const std::scoped_lock one_at_a_time{recording_};
+        checkpoint_.append(row);
+        rows_.emplace(row.gyro, std::move(row));
+        ++n_done_;
+        if (task_.on_progress) task_.on_progress(n_done_, n_asked_);
+    }
+
+private:
+    const Task& task_;
+    Checkpoint& checkpoint_;
+    Rows& rows_;
+    std::mutex recording_;
+    std::int64_t n_asked_;
+    std::int64_t n_done_ = 0;
+};
+
+// The crew of this process: its threads.
+Crew threads_of(const Task& task) {
+    return [&task](const Gyros& gyros, const std::vector<std::int64_t>& asked, const std::function<void(Row)>& take) {
         try {
-            numeric::in_parallel(asked.size(), task_.threads, [&](std::size_t k) {
-                take(gyros_.run(asked[k], task_.is_stopped), static_cast<std::int64_t>(asked.size()));
-            });
+            numeric::in_parallel(asked.size(), task.threads,
+                                 [&](std::size_t k) { take(gyros.run(asked[k], task.is_stopped)); });
         } catch (const Stopped&) {
             return false;
         }
         return true;
-    }
-
-private:
-    void take(Row row, std::int64_t asked) {
-        const std::scoped_lock one_at_a_time{recording_};
-        checkpoint_.append(row);
-        rows_.emplace(row.gyro, std::move(row));
-        ++done_;
-        if (task_.on_progress) task_.on_progress(done_, asked);
-    }
-
-    const Task& task_;
-    const Gyros& gyros_;
-    Checkpoint& checkpoint_;
-    Rows& rows_;
-    std::mutex recording_;
-    std::int64_t done_ = 0;
-};
+    };
+}
 
 }  // namespace
 
@@ -113,7 +115,9 @@ Outcome run(const Task& task) {
     add_rows(outcome.rows, checkpoint.rows(), part);
     const std::vector<std::int64_t> asked = missing(task, outcome.rows);
     const std::size_t n_before = outcome.rows.size();
-    outcome.is_stopped = !Crew{task, gyros, checkpoint, outcome.rows}.run(asked);
+    Record record{task, checkpoint, outcome.rows, asked.size()};
+    const Crew crew = task.crew ? task.crew : threads_of(task);
+    outcome.is_stopped = !crew(gyros, asked, [&](Row row) { record.take(std::move(row)); });
     outcome.n_run = static_cast<std::int64_t>(outcome.rows.size() - n_before);
     if (outcome.is_stopped) return outcome;
     write_results(task.out, gyros, outcome.rows);

@@ -148,28 +148,34 @@ TEST(Sensitivity, a_design_needs_sobol_everywhere_and_whole_rows) {
     EXPECT_THROW((void)of("9", "\"uniform\""), zlg::config::ConfigError);
 }
 
-// Of a known normal design the interval of 95 % holds the exact index in about 95 % of the trials.
+// Independent points, for which the resampling of rows is made.
+SobolDesign independent_rows(int n, std::uint64_t seed) {
+    zlg::chance::Draw draw{seed, zlg::chance::Cause::test};
+    SobolDesign design{.a = {}, .b = {}, .mixed = {{}, {}, {}}};
+    for (int row = 0; row < n; ++row) {
+        std::vector<double> a(3), b(3);
+        for (double& x : a) x = draw.within(-pi, pi);
+        for (double& x : b) x = draw.within(-pi, pi);
+        design.a.push_back(ishigami(a));
+        design.b.push_back(ishigami(b));
+        for (std::size_t i = 0; i < 3; ++i) {
+            std::vector<double> mixed = a;
+            mixed[i] = b[i];
+            design.mixed[i].push_back(ishigami(mixed));
+        }
+    }
+    return design;
+}
+
+// The interval of 95 % holds the exact index in 90 to 97 % of the trials; in 2000 of them it does so in 93 to 95 %, as percentiles
+// of 500 rows with long tails do.
 TEST(Sensitivity, bootstrap_intervals_cover_as_often_as_they_say) {
     const Exact exact;
     std::array<int, 6> covered{};
     constexpr int trials = 200;
     for (int trial = 0; trial < trials; ++trial) {
-        // Independent points, for which the resampling of rows is made.
-        zlg::chance::Draw draw{static_cast<std::uint64_t>(trial), zlg::chance::Cause::test};
-        SobolDesign design{.a = {}, .b = {}, .mixed = {{}, {}, {}}};
-        for (int row = 0; row < 500; ++row) {
-            std::vector<double> a(3), b(3);
-            for (double& x : a) x = draw.within(-pi, pi);
-            for (double& x : b) x = draw.within(-pi, pi);
-            design.a.push_back(ishigami(a));
-            design.b.push_back(ishigami(b));
-            for (std::size_t i = 0; i < 3; ++i) {
-                std::vector<double> mixed = a;
-                mixed[i] = b[i];
-                design.mixed[i].push_back(ishigami(mixed));
-            }
-        }
-        const SobolIndices found = sobol_indices(design, 300, static_cast<std::uint64_t>(trial));
+        const auto seed = static_cast<std::uint64_t>(trial);
+        const SobolIndices found = sobol_indices(independent_rows(500, seed), 300, seed);
         for (std::size_t i = 0; i < 3; ++i) {
             const SobolIndex& index = found.inputs[i];
             covered[i] += index.first_low <= exact.first[i] && exact.first[i] <= index.first_high;
@@ -178,7 +184,7 @@ TEST(Sensitivity, bootstrap_intervals_cover_as_often_as_they_say) {
     }
     for (const int n : covered) {
         EXPECT_GE(n, 180) << "90 %";
-        EXPECT_LE(n, 199);
+        EXPECT_LE(n, 194) << "97 %";
     }
 }
 

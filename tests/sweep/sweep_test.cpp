@@ -74,6 +74,23 @@ TEST(Sweep, stopped_at_any_gyro_it_goes_on) {
     EXPECT_EQ(bytes_of(folder / "r.h5"), whole_bytes());
 }
 
+// From the last to the first, and half of them in each call.
+TEST(Sweep, another_crew_in_another_order_gives_the_same_bytes) {
+    const Folder folder;
+    Task task = task_of(folder / "r.h5");
+    task.crew = [](const Gyros& gyros, const std::vector<std::int64_t>& asked, const std::function<void(Row)>& take) {
+        const std::size_t n = asked.size() > 3 ? 3 : asked.size();
+        for (std::size_t k = 0; k < n; ++k) take(gyros.run(asked[asked.size() - 1 - k]));
+        return n == asked.size();
+    };
+    const Outcome first = run(task);
+    EXPECT_TRUE(first.is_stopped);
+    EXPECT_EQ(first.rows.begin()->first, 3) << "gyros 3, 4 and 5 were run";
+    EXPECT_FALSE(std::filesystem::exists(folder / "r.h5"));
+    EXPECT_EQ(run(task).n_run, 3);
+    EXPECT_EQ(bytes_of(folder / "r.h5"), whole_bytes());
+}
+
 TEST(Sweep, finished_it_does_nothing) {
     const Folder folder;
     (void)run(task_of(folder / "r.h5"));

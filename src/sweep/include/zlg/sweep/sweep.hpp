@@ -16,11 +16,17 @@ struct Part {
     std::int64_t n = 1;
 };
 
+// Who runs the gyros `asked`: each once, in any order and anywhere, its row to `take`, from one thread or many. Returns false
+// where it was stopped before the end.
+using Crew = std::function<bool(const Gyros& gyros, const std::vector<std::int64_t>& asked,
+                                const std::function<void(Row)>& take)>;
+
 struct Task {
     Description description;
     std::string out;  // RESULTS; RESULTS.part is the checkpoint
     Part part;
-    int threads = 1;
+    int threads = 1;                   // of this process
+    Crew crew;                         // others than these threads
     bool force = false;                // what stands under either name goes, and all gyros are run anew
     std::function<bool()> is_stopped;  // asked from all threads
     std::function<void(std::int64_t done, std::int64_t asked)> on_progress;  // of this call; one thread at a time
