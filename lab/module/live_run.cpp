@@ -10,6 +10,8 @@
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/reading_error.hpp>
 
+#include "compared.hpp"
+
 namespace zlg::lab {
 namespace {
 
@@ -20,13 +22,8 @@ double mean(std::span<const float> samples) {
     return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
 }
 
-// The points of the paper, whatever the configuration takes.
-rig::Replay replay_of(config::Config config, core::RelockMethod relock, core::BridgeMethod bridge) {
-    const config::Compensation paper;
-    config.compensation.extrapolation_points = paper.extrapolation_points;
-    config.compensation.points_before = paper.points_before;
-    config.compensation.points_after = paper.points_after;
-    return rig::Replay{rig::compensation_config(config, relock, bridge)};
+rig::Replay replay_of(const config::Config& config, core::RelockMethod relock, core::BridgeMethod bridge) {
+    return rig::Replay{rig::compensation_config(with_points_of_paper(config), relock, bridge)};
 }
 
 double take_front(std::deque<double>& waiting) {

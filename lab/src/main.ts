@@ -1,10 +1,12 @@
 // The lab page: puts the parts together.
-import { GyroClient } from "./client";
+import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { csv, save, svg, toml } from "./export";
 import { fault_buttons, with_fault } from "./faults";
+import { on_files } from "./files";
 import { parse_fragment } from "./fragment";
 import { HealthList } from "./health";
+import { LogView } from "./log_view";
 import { keep_charts, short } from "./plots";
 import type { Fault, Frame, Schema, State } from "./protocol";
 import { RingDrawing } from "./ring";
@@ -30,6 +32,8 @@ class Lab {
     private readonly ring = new RingDrawing(element("ring"), element("now"));
     private readonly client: GyroClient;
     private readonly tour: Tour;
+    private readonly log: LogView;
+    private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
     private health: HealthList | null = null;
     private settings: string[] = []; // of the gyro that runs
@@ -43,7 +47,9 @@ class Lab {
 
     constructor() {
         this.tour = new Tour(element("tour"), (step) => this.take_step(step), () => undefined);
-        this.client = new GyroClient(element("worker").textContent!, element("module").textContent!, {
+        const worker = (listener: Partial<Listener>) => new GyroClient(element("worker").textContent!, element("module").textContent!, listener);
+        this.log = new LogView(worker, () => this.flag_names);
+        this.client = worker({
             loaded: (schema) => this.loaded(schema),
             configured: (changed) => this.configured(changed),
             refused: (message, whole) => this.refuse(message, whole),
@@ -57,6 +63,7 @@ class Lab {
         this.controls = new Controls(element("controls"), element<HTMLInputElement>("search"), schema.keys, () => this.changed_by_hand());
         this.health = new HealthList(element("health"), schema.health);
         fault_buttons(element("faults"), schema.faults, (fault) => this.break_it(fault));
+        this.flag_names = schema.angle_flags;
         this.send_speed();
         this.open_link();
     }
@@ -132,7 +139,8 @@ class Lab {
         if (this.refused) return;
         const switches = this.waiting?.switches ?? [];
         const first = this.waiting === null;
-        this.waiting = { ...frame, switches: [...switches, ...frame.switches] };
+        const pictures = this.waiting?.pictures ?? [];
+        this.waiting = { ...frame, switches: [...switches, ...frame.switches], pictures: [...pictures, ...frame.pictures] };
         if (!first) return;
         // A hidden page draws nothing of itself.
         if (document.hidden) setTimeout(() => this.draw(), hidden_ms);
@@ -226,6 +234,7 @@ class Lab {
         element("window").addEventListener("change", () => this.client.send({ kind: "window", window_s: Number(element<HTMLSelectElement>("window").value) }));
         on_click("tour-start", () => this.tour.go(0));
         window.addEventListener("hashchange", () => this.open_link());
+        on_files(element("open-log"), element<HTMLInputElement>("log-file"), (file) => this.log.open(file));
         this.listen_to_pad();
         this.listen_to_other();
         this.listen_to_exports(on_click);

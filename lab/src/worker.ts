@@ -1,6 +1,7 @@
 // The worker: it has the gyro, keeps its pace, and sends a frame whenever the page has drawn the one before.
+import { read_log } from "./log_reading";
 import { LoopModule, Refusal, View } from "./loop_module";
-import type { Frame, FromWorker, Gyro, State, SwitchRow, ToWorker } from "./protocol";
+import type { Frame, FromWorker, Gyro, State, ToWorker } from "./protocol";
 import { Recorder } from "./recorder";
 
 interface Scope {
@@ -76,6 +77,9 @@ class Pace {
                     this.turned = true;
                 }
                 break;
+            case "read_log":
+                read_log(this.module!, message, (answer) => scope.postMessage(answer));
+                return;
             case "window":
                 this.window_s = message.window_s;
                 break;
@@ -113,7 +117,7 @@ class Pace {
         this.tick_s = Number(changed.find((line) => line.startsWith("gyro.tick_s="))?.slice("gyro.tick_s=".length) ?? 0.005);
         this.recorder = new Recorder(this.tick_s);
         this.end_halves = gyro.until_s === null ? Infinity : module.run_halves();
-        this.catch_up_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s) * 2 : module.run_halves();
+        this.catch_up_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : module.run_halves();
         this.state = running || gyro.until_s !== null ? "running" : "paused";
         this.jump_to_switch = false;
         this.fingerprint = { ms: -Infinity, text: "" };
@@ -230,8 +234,7 @@ class Pace {
             now: module.now(),
             signals: recorder.signals(this.window_s),
             error: recorder.error(),
-            angles: recorder.around_last_switch(),
-            last_switch: recorder.last_switch as SwitchRow | null,
+            pictures: recorder.pictures.take(),
             switches: recorder.new_switches(),
             allan: recorder.allan(),
             health: recorder.health,

@@ -74,7 +74,7 @@ class Views(unittest.TestCase):
         time_s = self.time_s()
         self.change("motion.kind", "rest")
         self.browser.wait_until(lambda: "motion.kind" in self.link()[0])
-        self.browser.wait_until(lambda: self.time_s() == round(time_s // 0.005 * 0.005, 4))
+        self.browser.wait_until(lambda: self.time_s() == round((time_s + 1e-9) // 0.005 * 0.005, 4))
         link, command = self.link(until=True)
         fingerprint = self.browser.marked("fingerprint")
         with tempfile.TemporaryDirectory() as out:
