@@ -35,9 +35,9 @@ double take_front(std::deque<double>& waiting) {
 }  // namespace
 
 LiveRun::LiveRun(const config::Config& config, const std::optional<config::Config>& other,
-                 std::shared_ptr<const HandTurns> hand)
+                 std::shared_ptr<const HandTurns> hand, const MotionColumn& column)
     : config_{config},
-      run_{config, hand},
+      run_{config, hand, column},
       configured_{config},
       compared_{
           Compared{replay_of(config, core::RelockMethod::none, core::BridgeMethod::none), ErrorTrack{config}},
@@ -45,7 +45,7 @@ LiveRun::LiveRun(const config::Config& config, const std::optional<config::Confi
       switches_{config.compensation.relock_ticks} {
     if (!other) return;
     try {
-        other_.emplace(*other, std::move(hand));
+        other_.emplace(*other, std::move(hand), column);
     } catch (const config::ConfigError& error) {
         refuse_other(error);
     }

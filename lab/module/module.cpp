@@ -38,6 +38,7 @@ struct Page {
     std::optional<std::string> other;  // settings of the second gyro, over those of the first
     config::Config asked;
     std::shared_ptr<lab::HandTurns> hand = std::make_shared<lab::HandTurns>();
+    lab::MotionColumn column;
     std::unique_ptr<lab::LiveRun> run;
     std::unique_ptr<lab::LogRun> log;
 };
@@ -83,7 +84,7 @@ void configure() {
             lab::refuse_other(error);
         }
     }
-    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand);
+    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand, page().column);
     page().asked = std::move(asked);
 }
 
@@ -110,6 +111,13 @@ ZLG_EXPORT(zlg_configure) int zlg_configure() { return done(configure); }
 // the first; where `wanted` is 0, none.
 ZLG_EXPORT(zlg_other) void zlg_other(int wanted) {
     page().other = wanted != 0 ? std::optional{page().text} : std::nullopt;
+}
+
+// From the next zlg_configure on, the motion of the kind "file" whose path is the text: so many values of the file's column, which go
+// where this points.
+ZLG_EXPORT(zlg_motion) double* zlg_motion(std::size_t values) {
+    page().column = {page().text, std::vector<double>(values)};
+    return page().column.values.data();
 }
 
 // So many half-periods of bias, also beyond run.duration_s.

@@ -6,6 +6,8 @@ export interface Listener {
     configured(changed: string[]): void;
     refused(message: string, whole: boolean): void;
     frame(frame: Frame): void;
+    motion_read(name: string, settings: string[], note: string): void;
+    motion_refused(message: string): void;
     log_progress(fraction: number, ticks: number): void;
     log_read(log: LogPicture): void;
     log_angles(name: string, text: Blob): void;
@@ -48,6 +50,10 @@ export class GyroClient {
                 return listener.configured?.(message.changed);
             case "refused":
                 return listener.refused?.(message.message, message.whole);
+            case "motion_read":
+                return listener.motion_read?.(message.name, message.settings, message.note);
+            case "motion_refused":
+                return listener.motion_refused?.(message.message);
             case "log_progress":
                 return listener.log_progress?.(message.fraction, message.ticks);
             case "log_read":

@@ -1,11 +1,14 @@
 // Files that the reader gives to the page: dropped anywhere on it, or chosen.
 
-export function on_files(button: HTMLElement, input: HTMLInputElement, take: (file: File) => void): void {
+export function choose_file(button: HTMLElement, input: HTMLInputElement, take: (file: File) => void): void {
     button.addEventListener("click", () => input.click());
     input.addEventListener("change", () => {
         if (input.files?.[0]) take(input.files[0]);
         input.value = ""; // the same file may be chosen again
     });
+}
+
+export function on_drop(take: (file: File) => void): void {
     const holds_files = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
     document.addEventListener("dragover", (event) => {
         if (!holds_files(event)) return;

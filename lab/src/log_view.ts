@@ -39,6 +39,13 @@ export class LogView {
         this.read(false);
     }
 
+    // What was opened as a log is a motion.
+    hand_over(take: (file: File) => void): void {
+        if (this.file === null) return;
+        element("card-log").hidden = true;
+        take(this.file);
+    }
+
     private read(for_saving: boolean): void {
         const file = this.file;
         if (file === null) return;
@@ -82,6 +89,7 @@ export class LogView {
     private say(text: string, state: string): void {
         element("log-text").textContent = text;
         element("card-log").dataset.state = state;
+        element("log-as-motion").hidden = state !== "refused";
         element("log-work").hidden = state !== "reading";
         element("log-text").classList.toggle("wrong", state === "refused");
         for (const id of ["log-again", "log-save"]) element<HTMLButtonElement>(id).disabled = state === "reading";

@@ -19,6 +19,7 @@ interface Exports {
     zlg_text(bytes: number): number;
     zlg_configure(): number;
     zlg_other(wanted: number): void;
+    zlg_motion(values: number): number;
     zlg_advance(halves: number): number;
     zlg_turn(rate_arcsec_s: number): number;
     zlg_let_go(): void;
@@ -74,6 +75,13 @@ export class LoopModule {
         this.exports.zlg_other(other === null ? 0 : 1);
         this.hand_over(settings);
         this.done(this.exports.zlg_configure());
+    }
+
+    // The column of a motion file, for gyros that are configured later with this path.
+    take_motion(path: string, values: Float64Array): void {
+        this.hand_over([path]);
+        const place = this.exports.zlg_motion(values.length);
+        new Float64Array(this.exports.memory.buffer, place, values.length).set(values);
     }
 
     advance(halves: number): void {

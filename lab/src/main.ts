@@ -3,10 +3,11 @@ import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { csv, save, svg, toml } from "./export";
 import { fault_buttons, with_fault } from "./faults";
-import { on_files } from "./files";
+import { choose_file, on_drop } from "./files";
 import { parse_fragment } from "./fragment";
 import { HealthList } from "./health";
 import { LogView } from "./log_view";
+import { Motions, with_motion } from "./motions";
 import { keep_charts, short } from "./plots";
 import type { Fault, Frame, Schema, State } from "./protocol";
 import { RingDrawing } from "./ring";
@@ -33,6 +34,7 @@ class Lab {
     private readonly client: GyroClient;
     private readonly tour: Tour;
     private readonly log: LogView;
+    private readonly motions = new Motions(() => this.client);
     private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
     private health: HealthList | null = null;
@@ -53,6 +55,12 @@ class Lab {
             loaded: (schema) => this.loaded(schema),
             configured: (changed) => this.configured(changed),
             refused: (message, whole) => this.refuse(message, whole),
+            motion_read: (_, settings, note) => {
+                this.motions.say(note, false);
+                this.wants_to_run = true;
+                this.begin(with_motion(this.settings, settings));
+            },
+            motion_refused: (message) => this.motions.say(message, true),
             frame: (frame) => this.take_frame(frame),
         });
         this.listen();
@@ -234,7 +242,9 @@ class Lab {
         element("window").addEventListener("change", () => this.client.send({ kind: "window", window_s: Number(element<HTMLSelectElement>("window").value) }));
         on_click("tour-start", () => this.tour.go(0));
         window.addEventListener("hashchange", () => this.open_link());
-        on_files(element("open-log"), element<HTMLInputElement>("log-file"), (file) => this.log.open(file));
+        choose_file(element("open-log"), element<HTMLInputElement>("log-file"), (file) => this.log.open(file));
+        on_drop((file) => this.log.open(file));
+        element("log-as-motion").addEventListener("click", () => this.log.hand_over((file) => this.motions.read(file)));
         this.listen_to_pad();
         this.listen_to_other();
         this.listen_to_exports(on_click);

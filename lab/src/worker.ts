@@ -1,6 +1,7 @@
 // The worker: it has the gyro, keeps its pace, and sends a frame whenever the page has drawn the one before.
 import { read_log } from "./log_reading";
 import { LoopModule, Refusal, View } from "./loop_module";
+import { parse_motion } from "./motion_file";
 import type { Frame, FromWorker, Gyro, State, ToWorker } from "./protocol";
 import { Recorder } from "./recorder";
 
@@ -77,6 +78,15 @@ class Pace {
                     this.turned = true;
                 }
                 break;
+            case "read_motion":
+                try {
+                    const motion = parse_motion(message.file.name, await message.file.text());
+                    this.module!.take_motion(message.file.name, motion.values);
+                    scope.postMessage({ kind: "motion_read", name: message.file.name, settings: motion.settings, note: motion.note });
+                } catch (error) {
+                    scope.postMessage({ kind: "motion_refused", message: (error as Error).message });
+                }
+                return;
             case "read_log":
                 read_log(this.module!, message, (answer) => scope.postMessage(answer));
                 return;
@@ -116,7 +126,9 @@ class Pace {
         const changed = module.changed();
         this.tick_s = Number(changed.find((line) => line.startsWith("gyro.tick_s="))?.slice("gyro.tick_s=".length) ?? 0.005);
         this.recorder = new Recorder(this.tick_s);
-        this.end_halves = gyro.until_s === null ? Infinity : module.run_halves();
+        // A recorded motion ends.
+        const ends = gyro.until_s !== null || changed.includes('motion.kind="file"');
+        this.end_halves = ends ? module.run_halves() : Infinity;
         this.catch_up_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : module.run_halves();
         this.state = running || gyro.until_s !== null ? "running" : "paused";
         this.jump_to_switch = false;
