@@ -98,6 +98,10 @@ export class LoopModule {
         this.exports.zlg_let_go();
     }
 
+    memory_bytes(): number {
+        return this.exports.memory.buffer.byteLength;
+    }
+
     time_s(): number {
         return this.exports.zlg_time_s();
     }

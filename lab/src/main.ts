@@ -164,6 +164,7 @@ class Lab {
         this.ring.show(frame);
         this.health?.show(frame.now[11], frame.health);
         marked("time").textContent = frame.time_s.toFixed(4);
+        document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
         marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
         this.show_state(frame.state);
     }

@@ -109,6 +109,7 @@ export interface Frame {
     pictures: SwitchPicture[]; // drawn since the frame before
     switches: SwitchRow[]; // that were added since the frame before
     allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
+    module_bytes: number; // of its memory
     health: number; // bits that were raised since the start
 }
 

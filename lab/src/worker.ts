@@ -249,6 +249,7 @@ class Pace {
             pictures: recorder.pictures.take(),
             switches: recorder.new_switches(),
             allan: recorder.allan(),
+            module_bytes: module.memory_bytes(),
             health: recorder.health,
         };
     }
