@@ -19,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include "design_curve.hpp"
 #include "live_run.hpp"
 #include "log_run.hpp"
 #include "loop_run.hpp"
@@ -39,6 +40,7 @@ struct Page {
     config::Config asked;
     std::shared_ptr<lab::HandTurns> hand = std::make_shared<lab::HandTurns>();
     lab::MotionColumn column;
+    std::vector<double> design;
     std::unique_ptr<lab::LiveRun> run;
     std::unique_ptr<lab::LogRun> log;
 };
@@ -119,6 +121,13 @@ ZLG_EXPORT(zlg_motion) double* zlg_motion(std::size_t values) {
     page().column = {page().text, std::vector<double>(values)};
     return page().column.values.data();
 }
+
+// What the theory says of the gyro that runs, as rows of design_curve.hpp, whose place and number of numbers follow.
+ZLG_EXPORT(zlg_design) int zlg_design(double switch_error_arcsec, double run_s) {
+    return done([=] { page().design = lab::design_curve(page().asked, switch_error_arcsec, run_s); });
+}
+ZLG_EXPORT(zlg_design_rows) const double* zlg_design_rows() { return page().design.data(); }
+ZLG_EXPORT(zlg_design_numbers) std::size_t zlg_design_numbers() { return page().design.size(); }
 
 // So many half-periods of bias, also beyond run.duration_s.
 ZLG_EXPORT(zlg_advance) int zlg_advance(std::uint32_t halves) {

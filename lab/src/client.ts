@@ -1,11 +1,12 @@
 // The gyro as the page sees it: the worker behind one interface.
-import type { Frame, FromWorker, Gyro, LogPicture, Schema, ToWorker } from "./protocol";
+import type { Columns, Frame, FromWorker, Gyro, LogPicture, Schema, ToWorker } from "./protocol";
 
 export interface Listener {
     loaded(schema: Schema): void;
     configured(changed: string[]): void;
     refused(message: string, whole: boolean): void;
     frame(frame: Frame): void;
+    designed(columns: Columns): void;
     motion_read(name: string, settings: string[], note: string): void;
     motion_refused(message: string): void;
     log_progress(fraction: number, ticks: number): void;
@@ -50,6 +51,8 @@ export class GyroClient {
                 return listener.configured?.(message.changed);
             case "refused":
                 return listener.refused?.(message.message, message.whole);
+            case "designed":
+                return listener.designed?.(message.columns);
             case "motion_read":
                 return listener.motion_read?.(message.name, message.settings, message.note);
             case "motion_refused":

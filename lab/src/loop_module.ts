@@ -19,6 +19,9 @@ interface Exports {
     zlg_text(bytes: number): number;
     zlg_configure(): number;
     zlg_other(wanted: number): void;
+    zlg_design(switch_error_arcsec: number, run_s: number): number;
+    zlg_design_rows(): number;
+    zlg_design_numbers(): number;
     zlg_motion(values: number): number;
     zlg_advance(halves: number): number;
     zlg_turn(rate_arcsec_s: number): number;
@@ -75,6 +78,13 @@ export class LoopModule {
         this.exports.zlg_other(other === null ? 0 : 1);
         this.hand_over(settings);
         this.done(this.exports.zlg_configure());
+    }
+
+    // Drift over the switching interval, in the columns of design_curve.hpp.
+    design(switch_error_arcsec: number, run_s: number): Float64Array[] {
+        this.done(this.exports.zlg_design(switch_error_arcsec, run_s));
+        const rows = new Float64Array(this.exports.memory.buffer, this.exports.zlg_design_rows(), this.exports.zlg_design_numbers());
+        return [0, 1, 2, 3].map((column) => rows.filter((_, at) => at % 4 === column));
     }
 
     // The column of a motion file, for gyros that are configured later with this path.

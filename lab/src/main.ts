@@ -3,6 +3,7 @@ import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { csv, save, svg, toml } from "./export";
 import { fault_buttons, with_fault } from "./faults";
+import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
 import { parse_fragment } from "./fragment";
 import { HealthList } from "./health";
@@ -34,6 +35,7 @@ class Lab {
     private readonly client: GyroClient;
     private readonly tour: Tour;
     private readonly log: LogView;
+    private readonly design = new DesignView((switch_error_arcsec, run_s) => this.client.send({ kind: "design", switch_error_arcsec, run_s }));
     private readonly motions = new Motions(() => this.client);
     private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
@@ -55,6 +57,7 @@ class Lab {
             loaded: (schema) => this.loaded(schema),
             configured: (changed) => this.configured(changed),
             refused: (message, whole) => this.refuse(message, whole),
+            designed: (columns) => this.design.show(columns),
             motion_read: (_, settings, note) => {
                 this.motions.say(note, false);
                 this.wants_to_run = true;
@@ -108,6 +111,7 @@ class Lab {
         this.show_message("");
         this.controls?.set(this.settings);
         this.views.begin();
+        this.design.begin(this.settings);
     }
 
     private refuse(message: string, whole: boolean): void {
@@ -161,6 +165,7 @@ class Lab {
         if (frame === null || this.refused) return;
         this.frame = frame;
         this.views.show(frame);
+        this.design.follow(...this.views.switch_errors());
         this.ring.show(frame);
         this.health?.show(frame.now[11], frame.health);
         marked("time").textContent = frame.time_s.toFixed(4);

@@ -46,6 +46,7 @@ export type ToWorker =
     | { kind: "turn"; rate_arcsec_s: number } // by hand, from now on
     | { kind: "window"; window_s: number } // of the signals that are shown
     | { kind: "read_log"; file: File; settings: string[]; save: boolean } // save: its angles as a file, in place of a picture
+    | { kind: "design"; switch_error_arcsec: number; run_s: number }
     | { kind: "read_motion"; file: File }
     | { kind: "seen" }; // a frame: the next may come
 
@@ -117,6 +118,7 @@ export type FromWorker =
     | { kind: "loaded"; schema: Schema }
     | { kind: "configured"; number: number; changed: string[] }
     | { kind: "refused"; message: string; whole: boolean } // whole: there is no gyro any more that could go on
+    | { kind: "designed"; columns: Columns } // interval, s; drift by eq (7), of the worst end, expected, arcsec/s
     | { kind: "motion_read"; name: string; settings: string[]; note: string } // the settings with which it moves a gyro
     | { kind: "motion_refused"; message: string }
     | { kind: "log_progress"; fraction: number; ticks: number }

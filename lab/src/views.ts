@@ -36,6 +36,12 @@ export class Views {
     private counts = compensations.map(() => decades.map(() => 0));
     private squares = [0, 0, 0];
 
+    // Of the configured compensation: switches, and the rms error they left.
+    switch_errors(): [number, number] {
+        const n = this.counts[2].reduce((sum, count) => sum + count, 0);
+        return [n, Math.sqrt(this.squares[2] / Math.max(1, n))];
+    }
+
     begin(): void {
         this.counts = compensations.map(() => decades.map(() => 0));
         this.squares = [0, 0, 0];

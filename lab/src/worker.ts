@@ -78,6 +78,9 @@ class Pace {
                     this.turned = true;
                 }
                 break;
+            case "design":
+                this.design(message.switch_error_arcsec, message.run_s);
+                return;
             case "read_motion":
                 try {
                     const motion = parse_motion(message.file.name, await message.file.text());
@@ -141,6 +144,16 @@ class Pace {
     private refuse(error: unknown): void {
         if (!(error instanceof Refusal)) throw error;
         scope.postMessage({ kind: "refused", message: error.message, whole: this.gyro === null });
+    }
+
+    // A gyro that the theory does not cover has no chart.
+    private design(switch_error_arcsec: number, run_s: number): void {
+        try {
+            scope.postMessage({ kind: "designed", columns: this.module!.design(switch_error_arcsec, run_s) });
+        } catch (error) {
+            if (!(error instanceof Refusal)) throw error;
+            scope.postMessage({ kind: "designed", columns: [] });
+        }
     }
 
     private restart_pace(): void {
