@@ -39,7 +39,10 @@ public:
 
     // The next switch whose error is known since this was asked last; null where there is none.
     [[nodiscard]] const study::SwitchError* next_switch() {
-        return n_reported_ < meter_.switches().size() ? &meter_.switches()[n_reported_++] : nullptr;
+        if (n_reported_ < meter_.switches().size()) return &meter_.switches()[n_reported_++];
+        meter_.forget_switches();
+        n_reported_ = 0;
+        return nullptr;
     }
 
 private:

@@ -10,6 +10,8 @@
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/reading_error.hpp>
 
+#include "compared.hpp"
+
 namespace zlg::lab {
 namespace {
 
@@ -20,13 +22,8 @@ double mean(std::span<const float> samples) {
     return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
 }
 
-// The points of the paper, whatever the configuration takes.
-rig::Replay replay_of(config::Config config, core::RelockMethod relock, core::BridgeMethod bridge) {
-    const config::Compensation paper;
-    config.compensation.extrapolation_points = paper.extrapolation_points;
-    config.compensation.points_before = paper.points_before;
-    config.compensation.points_after = paper.points_after;
-    return rig::Replay{rig::compensation_config(config, relock, bridge)};
+rig::Replay replay_of(const config::Config& config, core::RelockMethod relock, core::BridgeMethod bridge) {
+    return rig::Replay{rig::compensation_config(with_points_of_paper(config), relock, bridge)};
 }
 
 double take_front(std::deque<double>& waiting) {
@@ -38,9 +35,9 @@ double take_front(std::deque<double>& waiting) {
 }  // namespace
 
 LiveRun::LiveRun(const config::Config& config, const std::optional<config::Config>& other,
-                 std::shared_ptr<const HandTurns> hand)
+                 std::shared_ptr<const HandTurns> hand, const MotionColumn& column)
     : config_{config},
-      run_{config, hand},
+      run_{config, hand, column},
       configured_{config},
       compared_{
           Compared{replay_of(config, core::RelockMethod::none, core::BridgeMethod::none), ErrorTrack{config}},
@@ -48,7 +45,7 @@ LiveRun::LiveRun(const config::Config& config, const std::optional<config::Confi
       switches_{config.compensation.relock_ticks} {
     if (!other) return;
     try {
-        other_.emplace(*other, std::move(hand));
+        other_.emplace(*other, std::move(hand), column);
     } catch (const config::ConfigError& error) {
         refuse_other(error);
     }

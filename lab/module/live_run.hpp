@@ -33,10 +33,11 @@ class LiveRun {
 public:
     // other  a second gyro on the same motion, whose error of the angle is shown beside; nothing: none.
     // hand   turns that are added to the motion of both, in the order of their times, later ones while the gyro runs.
+    // column  of a motion file, as for LoopRun.
     //
     // errors  as LoopRun.
     LiveRun(const config::Config& config, const std::optional<config::Config>& other,
-            std::shared_ptr<const HandTurns> hand);
+            std::shared_ptr<const HandTurns> hand, const MotionColumn& column);
 
     // One half-period of bias, and the rows that are settled by it.
     //

@@ -26,12 +26,20 @@ namespace zlg::lab {
 
 using HandTurns = std::vector<twin::RateStep>;
 
+// The column of a motion file that the page has read, as it stands there.
+struct MotionColumn {
+    std::string path;  // in place of the file of this name
+    std::vector<double> values;
+};
+
 class LoopRun {
 public:
     // hand    turns that are added to the motion of the configuration, while the gyro runs; null: none.
-    // errors  config::ConfigError where the configuration makes no gyro; here a motion file makes none, and the best interval is not
-    //         sought.
-    explicit LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand = nullptr);
+    // column  for the motion of the kind "file".
+    // errors  config::ConfigError where the configuration makes no gyro; here another motion file makes none, and the best interval is
+    //         not sought.
+    explicit LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand = nullptr,
+                     const MotionColumn& column = {});
 
     // One half-period of bias; `on_row` is called with the core::AngleRow that is settled by it, where there is one.
     //
@@ -65,6 +73,8 @@ public:
     [[nodiscard]] double time_s() const { return 0.5 * tick_s_ * static_cast<double>(replay_.halves()); }
 
 private:
+    LoopRun(const config::Config& config, twin::Motion motion, std::shared_ptr<const HandTurns> hand);
+
     double tick_s_;
     std::int64_t run_halves_;
     rig::ClosedLoop loop_;

@@ -10,13 +10,18 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "design_curve.hpp"
 #include "live_run.hpp"
+#include "log_run.hpp"
 #include "loop_run.hpp"
 #include "schema.hpp"
 
@@ -34,7 +39,10 @@ struct Page {
     std::optional<std::string> other;  // settings of the second gyro, over those of the first
     config::Config asked;
     std::shared_ptr<lab::HandTurns> hand = std::make_shared<lab::HandTurns>();
+    lab::MotionColumn column;
+    std::vector<double> design;
     std::unique_ptr<lab::LiveRun> run;
+    std::unique_ptr<lab::LogRun> log;
 };
 
 Page& page() {
@@ -78,11 +86,17 @@ void configure() {
             lab::refuse_other(error);
         }
     }
-    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand);
+    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand, page().column);
     page().asked = std::move(asked);
 }
 
-const std::vector<double>& rows(std::uint32_t view) { return page().run->rows(static_cast<lab::View>(view)); }
+// Those of the gyro, and behind them those of the log.
+constexpr std::uint32_t log_ticks = 3;
+
+const std::vector<double>& rows(std::uint32_t view) {
+    if (view < log_ticks) return page().run->rows(static_cast<lab::View>(view));
+    return view == log_ticks ? page().log->ticks() : page().log->switches();
+}
 
 }  // namespace
 
@@ -100,6 +114,20 @@ ZLG_EXPORT(zlg_configure) int zlg_configure() { return done(configure); }
 ZLG_EXPORT(zlg_other) void zlg_other(int wanted) {
     page().other = wanted != 0 ? std::optional{page().text} : std::nullopt;
 }
+
+// From the next zlg_configure on, the motion of the kind "file" whose path is the text: so many values of the file's column, which go
+// where this points.
+ZLG_EXPORT(zlg_motion) double* zlg_motion(std::size_t values) {
+    page().column = {page().text, std::vector<double>(values)};
+    return page().column.values.data();
+}
+
+// What the theory says of the gyro that runs, as rows of design_curve.hpp, whose place and number of numbers follow.
+ZLG_EXPORT(zlg_design) int zlg_design(double switch_error_arcsec, double run_s) {
+    return done([=] { page().design = lab::design_curve(page().asked, switch_error_arcsec, run_s); });
+}
+ZLG_EXPORT(zlg_design_rows) const double* zlg_design_rows() { return page().design.data(); }
+ZLG_EXPORT(zlg_design_numbers) std::size_t zlg_design_numbers() { return page().design.size(); }
 
 // So many half-periods of bias, also beyond run.duration_s.
 ZLG_EXPORT(zlg_advance) int zlg_advance(std::uint32_t halves) {
@@ -141,12 +169,37 @@ ZLG_EXPORT(zlg_fingerprint) const char* zlg_fingerprint() {
     return page().fingerprint.data();
 }
 
-// The rows of a view (live_run.hpp: 0 signals, 1 angles, 2 switches) since zlg_forget, and how many numbers they are; the numbers of
-// the half before. There must be a gyro; the place holds until the next call of zlg_advance or zlg_configure.
+// The rows of a view (live_run.hpp: 0 signals, 1 angles, 2 switches; log_run.hpp: 3 ticks, 4 switches) since it was forgotten, and how
+// many numbers they are; the numbers of the half before. There must be a gyro, or a log; the place holds until either goes on.
 ZLG_EXPORT(zlg_rows) const double* zlg_rows(std::uint32_t view) { return rows(view).data(); }
 ZLG_EXPORT(zlg_rows_numbers) std::size_t zlg_rows_numbers(std::uint32_t view) { return rows(view).size(); }
 ZLG_EXPORT(zlg_forget) void zlg_forget() { page().run->forget(); }
 ZLG_EXPORT(zlg_now) const double* zlg_now() { return page().run->now().data(); }
+
+// A log in the file that the page serves (page_file.cpp): the text is the file's name and below it settings, one a line.
+ZLG_EXPORT(zlg_log) int zlg_log() {
+    return done([] {
+        const std::vector<std::string> text = lines(page().text);
+        page().log = std::make_unique<lab::LogRun>(text.at(0), std::span{text}.subspan(1));
+    });
+}
+
+// At most so many of its rows: 0 refused, 1 there may be more, 2 it has ended.
+ZLG_EXPORT(zlg_log_advance) int zlg_log_advance(std::uint32_t rows) {
+    bool goes_on = false;
+    const int is_good = done([&] { goes_on = page().log->advance(rows); });
+    return is_good != 0 && !goes_on ? 2 : is_good;
+}
+ZLG_EXPORT(zlg_log_forget) void zlg_log_forget() { page().log->forget(); }
+ZLG_EXPORT(zlg_log_fraction) double zlg_log_fraction() { return page().log->fraction_read(); }
+
+// Answers, as zlg_message: what the log is, and what there is to say of it so far, a line each: `raw` or `angles`; the length of a tick, s;
+// notes; behind an empty line the settings that differ from the defaults.
+ZLG_EXPORT(zlg_log_facts) void zlg_log_facts() {
+    const lab::LogRun& log = *page().log;
+    page().message = fmt::format("{}\n{}\n{}\n\n{}", log.is_raw() ? "raw" : "angles", log.config().gyro.tick_s,
+                                 fmt::join(log.notes(), "\n"), lab::changed_settings(log.config()));
+}
 
 // Answers, as zlg_message: the table of keys as JSON, and the settings of the gyro that differ from the defaults, one a line.
 ZLG_EXPORT(zlg_schema) void zlg_schema() { page().message = lab::schema_json(); }

@@ -9,6 +9,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/core/health.hpp>
+#include <zlg/core/records.hpp>
 #include <zlg/twin/fault_kinds.hpp>
 
 namespace zlg::lab {
@@ -55,8 +56,9 @@ std::string fault_json(const twin::FaultFacts& fault) {
 }  // namespace
 
 std::string schema_json() {
-    return fmt::format(R"({{"keys":{},"health":{},"faults":{}}})", list(config::describe_keys(), key_json),
-                       list(core::health_bit_names, quoted), list(twin::fault_table, fault_json));
+    return fmt::format(R"({{"keys":{},"health":{},"angle_flags":{},"faults":{}}})",
+                       list(config::describe_keys(), key_json), list(core::health_bit_names, quoted),
+                       list(core::angle_flag_names, quoted), list(twin::fault_table, fault_json));
 }
 
 std::string changed_settings(const config::Config& config) {

@@ -1,11 +1,17 @@
 // The gyro as the page sees it: the worker behind one interface.
-import type { Frame, FromWorker, Gyro, Schema, ToWorker } from "./protocol";
+import type { Columns, Frame, FromWorker, Gyro, LogPicture, Schema, ToWorker } from "./protocol";
 
 export interface Listener {
     loaded(schema: Schema): void;
     configured(changed: string[]): void;
     refused(message: string, whole: boolean): void;
     frame(frame: Frame): void;
+    designed(columns: Columns): void;
+    motion_read(name: string, settings: string[], note: string): void;
+    motion_refused(message: string): void;
+    log_progress(fraction: number, ticks: number): void;
+    log_read(log: LogPicture): void;
+    log_angles(name: string, text: Blob): void;
 }
 
 export class GyroClient {
@@ -13,12 +19,13 @@ export class GyroClient {
     private number = 0; // of the gyro that was configured last
 
     // worker_script, code  texts of the page: the worker's script, and the module, gzipped, in base64.
-    constructor(worker_script: string, code: string, listener: Listener) {
+    // listener  of a gyro, or of a log; it hears of what it listens to.
+    constructor(worker_script: string, code: string, listener: Partial<Listener>) {
         const address = URL.createObjectURL(new Blob([worker_script], { type: "text/javascript" }));
         this.worker = new Worker(address);
         URL.revokeObjectURL(address);
         this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.take(event.data, listener);
-        this.worker.onerror = (event) => listener.refused(`the page's worker has failed: ${event.message}`, true);
+        this.worker.onerror = (event) => listener.refused?.(`the page's worker has failed: ${event.message}`, true);
         this.send({ kind: "load", code });
     }
 
@@ -30,18 +37,35 @@ export class GyroClient {
         this.send({ kind: "configure", gyro, running });
     }
 
-    private take(message: FromWorker, listener: Listener): void {
+    // Nothing more comes from it.
+    end(): void {
+        this.worker.terminate();
+    }
+
+    private take(message: FromWorker, listener: Partial<Listener>): void {
         switch (message.kind) {
             case "loaded":
-                return listener.loaded(message.schema);
+                return listener.loaded?.(message.schema);
             case "configured":
                 this.number = message.number;
-                return listener.configured(message.changed);
+                return listener.configured?.(message.changed);
             case "refused":
-                return listener.refused(message.message, message.whole);
+                return listener.refused?.(message.message, message.whole);
+            case "designed":
+                return listener.designed?.(message.columns);
+            case "motion_read":
+                return listener.motion_read?.(message.name, message.settings, message.note);
+            case "motion_refused":
+                return listener.motion_refused?.(message.message);
+            case "log_progress":
+                return listener.log_progress?.(message.fraction, message.ticks);
+            case "log_read":
+                return listener.log_read?.(message.log);
+            case "log_angles":
+                return listener.log_angles?.(message.name, message.text);
             case "frame":
                 // The next comes when this one is drawn: a slow page gets fewer.
-                if (message.number === this.number) listener.frame(message);
+                if (message.number === this.number) listener.frame?.(message);
                 this.send({ kind: "seen" });
         }
     }

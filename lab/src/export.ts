@@ -1,7 +1,7 @@
 // What can be taken along: configuration, numbers, a picture.
 import type { Columns } from "./protocol";
 
-export function save(name: string, type: string, text: string): void {
+export function save(name: string, type: string, text: string | Blob): void {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(new Blob([text], { type }));
     link.download = name;

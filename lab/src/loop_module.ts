@@ -1,11 +1,14 @@
 // The WebAssembly module of the closed loop, behind typed calls. What each does stands in lab/module/module.cpp.
 
 import type { Schema } from "./protocol";
+import { PageFile, System } from "./system";
 
 export const enum View {
     signals,
     angles,
     switches,
+    log_ticks,
+    log_switches,
 }
 
 const now_numbers = 12;
@@ -16,6 +19,10 @@ interface Exports {
     zlg_text(bytes: number): number;
     zlg_configure(): number;
     zlg_other(wanted: number): void;
+    zlg_design(switch_error_arcsec: number, run_s: number): number;
+    zlg_design_rows(): number;
+    zlg_design_numbers(): number;
+    zlg_motion(values: number): number;
     zlg_advance(halves: number): number;
     zlg_turn(rate_arcsec_s: number): number;
     zlg_let_go(): void;
@@ -29,46 +36,38 @@ interface Exports {
     zlg_now(): number;
     zlg_schema(): void;
     zlg_changed(): void;
+    zlg_log(): number;
+    zlg_log_advance(rows: number): number;
+    zlg_log_forget(): void;
+    zlg_log_fraction(): number;
+    zlg_log_facts(): void;
     zlg_message(): number;
     zlg_message_bytes(): number;
 }
 
-const wasi_success = 0;
-const wasi_no_such_call = 52;
-
-// What the C library asks of a system: there are neither files nor arguments, and nothing is printed.
-function imports(module: WebAssembly.Module, memory: () => WebAssembly.Memory): WebAssembly.Imports {
-    const zero_two = (first: number, second: number) => {
-        const view = new DataView(memory().buffer);
-        view.setUint32(first, 0, true);
-        view.setUint32(second, 0, true);
-        return wasi_success;
-    };
-    const known: Record<string, (...words: number[]) => number> = {
-        environ_sizes_get: (count, bytes) => zero_two(count, bytes),
-        environ_get: () => wasi_success,
-        proc_exit: (status) => {
-            throw new Error(`the module has ended with status ${status}`);
-        },
-    };
-    const system: Record<string, (...words: number[]) => number> = {};
-    for (const wanted of WebAssembly.Module.imports(module))
-        system[wanted.name] = known[wanted.name] ?? (() => wasi_no_such_call);
-    return { wasi_snapshot_preview1: system };
+export interface LogFacts {
+    kind: "raw" | "angles";
+    tick_s: number;
+    notes: string[]; // a line each
+    settings: string[]; // that differ from the defaults
 }
 
 export class Refusal extends Error {}
 
 export class LoopModule {
-    private constructor(private readonly exports: Exports) {}
+    private constructor(
+        private readonly exports: Exports,
+        private readonly system: System,
+    ) {}
 
     static async load(code: BufferSource): Promise<LoopModule> {
         const module = await WebAssembly.compile(code);
-        let exports: Exports | null = null;
-        const instance = await WebAssembly.instantiate(module, imports(module, () => exports!.memory));
-        exports = instance.exports as unknown as Exports;
+        const system = new System();
+        const instance = await WebAssembly.instantiate(module, system.imports(module));
+        const exports = instance.exports as unknown as Exports;
+        system.memory = exports.memory;
         exports._initialize();
-        return new LoopModule(exports);
+        return new LoopModule(exports, system);
     }
 
     // A new gyro, of one setting a line. Throws a Refusal with the program's message, and the gyro before stays.
@@ -79,6 +78,20 @@ export class LoopModule {
         this.exports.zlg_other(other === null ? 0 : 1);
         this.hand_over(settings);
         this.done(this.exports.zlg_configure());
+    }
+
+    // Drift over the switching interval, in the columns of design_curve.hpp.
+    design(switch_error_arcsec: number, run_s: number): Float64Array[] {
+        this.done(this.exports.zlg_design(switch_error_arcsec, run_s));
+        const rows = new Float64Array(this.exports.memory.buffer, this.exports.zlg_design_rows(), this.exports.zlg_design_numbers());
+        return [0, 1, 2, 3].map((column) => rows.filter((_, at) => at % 4 === column));
+    }
+
+    // The column of a motion file, for gyros that are configured later with this path.
+    take_motion(path: string, values: Float64Array): void {
+        this.hand_over([path]);
+        const place = this.exports.zlg_motion(values.length);
+        new Float64Array(this.exports.memory.buffer, place, values.length).set(values);
     }
 
     advance(halves: number): void {
@@ -93,6 +106,10 @@ export class LoopModule {
     // All turns are forgotten.
     let_go(): void {
         this.exports.zlg_let_go();
+    }
+
+    memory_bytes(): number {
+        return this.exports.memory.buffer.byteLength;
     }
 
     time_s(): number {
@@ -139,6 +156,35 @@ export class LoopModule {
         return this.message()
             .split("\n")
             .filter((line) => line !== "");
+    }
+
+    // A log, with these settings over its own. Throws a Refusal with the program's message.
+    open_log(file: File, settings: readonly string[]): void {
+        this.system.file = new PageFile(file);
+        this.hand_over([file.name.replaceAll("\n", " "), ...settings]);
+        this.done(this.exports.zlg_log());
+    }
+
+    // So many more of its rows; false: that was all.
+    advance_log(rows: number): boolean {
+        const status = this.exports.zlg_log_advance(rows);
+        if (status === 0) throw new Refusal(this.message());
+        return status === 1;
+    }
+
+    forget_log(): void {
+        this.exports.zlg_log_forget();
+    }
+
+    log_fraction(): number {
+        return this.exports.zlg_log_fraction();
+    }
+
+    log_facts(): LogFacts {
+        this.exports.zlg_log_facts();
+        const [facts, settings] = this.message().split("\n\n");
+        const [kind, tick_s, ...notes] = facts.split("\n");
+        return { kind: kind as LogFacts["kind"], tick_s: Number(tick_s), notes: notes.filter((note) => note !== ""), settings: (settings ?? "").split("\n").filter((line) => line !== "") };
     }
 
     private hand_over(settings: readonly string[]): void {

@@ -1,11 +1,15 @@
 // The lab page: puts the parts together.
-import { GyroClient } from "./client";
+import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { csv, save, svg, toml } from "./export";
 import { fault_buttons, with_fault } from "./faults";
+import { DesignView } from "./design_view";
+import { choose_file, on_drop } from "./files";
 import { follows_records } from "./follow";
 import { parse_fragment } from "./fragment";
 import { HealthList } from "./health";
+import { LogView } from "./log_view";
+import { Motions, with_motion } from "./motions";
 import { keep_charts, short } from "./plots";
 import type { Fault, Frame, Schema, State } from "./protocol";
 import { RingDrawing } from "./ring";
@@ -31,6 +35,10 @@ class Lab {
     private readonly ring = new RingDrawing(element("ring"), element("now"));
     private readonly client: GyroClient;
     private readonly tour: Tour;
+    private readonly log: LogView;
+    private readonly design = new DesignView((switch_error_arcsec, run_s) => this.client.send({ kind: "design", switch_error_arcsec, run_s }));
+    private readonly motions = new Motions(() => this.client);
+    private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
     private health: HealthList | null = null;
     private settings: string[] = []; // of the gyro that runs
@@ -44,10 +52,19 @@ class Lab {
 
     constructor() {
         this.tour = new Tour(element("tour"), (step) => this.take_step(step), () => undefined);
-        this.client = new GyroClient(element("worker").textContent!, element("module").textContent!, {
+        const worker = (listener: Partial<Listener>) => new GyroClient(element("worker").textContent!, element("module").textContent!, listener);
+        this.log = new LogView(worker, () => this.flag_names);
+        this.client = worker({
             loaded: (schema) => this.loaded(schema),
             configured: (changed) => this.configured(changed),
             refused: (message, whole) => this.refuse(message, whole),
+            designed: (columns) => this.design.show(columns),
+            motion_read: (_, settings, note) => {
+                this.motions.say(note, false);
+                this.wants_to_run = true;
+                this.begin(with_motion(this.settings, settings));
+            },
+            motion_refused: (message) => this.motions.say(message, true),
             frame: (frame) => this.take_frame(frame),
         });
         this.listen();
@@ -58,6 +75,7 @@ class Lab {
         this.controls = new Controls(element("controls"), element<HTMLInputElement>("search"), schema.keys, () => this.changed_by_hand());
         this.health = new HealthList(element("health"), schema.health);
         fault_buttons(element("faults"), schema.faults, (fault) => this.break_it(fault));
+        this.flag_names = schema.angle_flags;
         this.send_speed();
         this.open_link();
     }
@@ -94,6 +112,7 @@ class Lab {
         this.show_message("");
         this.controls?.set(this.settings);
         this.views.begin();
+        this.design.begin(this.settings);
     }
 
     private refuse(message: string, whole: boolean): void {
@@ -133,7 +152,8 @@ class Lab {
         if (this.refused) return;
         const switches = this.waiting?.switches ?? [];
         const first = this.waiting === null;
-        this.waiting = { ...frame, switches: [...switches, ...frame.switches] };
+        const pictures = this.waiting?.pictures ?? [];
+        this.waiting = { ...frame, switches: [...switches, ...frame.switches], pictures: [...pictures, ...frame.pictures] };
         if (!first) return;
         // A hidden page draws nothing of itself.
         if (document.hidden) setTimeout(() => this.draw(), hidden_ms);
@@ -146,9 +166,11 @@ class Lab {
         if (frame === null || this.refused) return;
         this.frame = frame;
         this.views.show(frame);
+        this.design.follow(...this.views.switch_errors());
         this.ring.show(frame);
         this.health?.show(frame.now[11], frame.health);
         marked("time").textContent = frame.time_s.toFixed(4);
+        document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
         marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
         this.show_state(frame.state);
     }
@@ -227,6 +249,9 @@ class Lab {
         element("window").addEventListener("change", () => this.client.send({ kind: "window", window_s: Number(element<HTMLSelectElement>("window").value) }));
         on_click("tour-start", () => this.tour.go(0));
         window.addEventListener("hashchange", () => this.open_link());
+        choose_file(element("open-log"), element<HTMLInputElement>("log-file"), (file) => this.log.open(file));
+        on_drop((file) => this.log.open(file));
+        element("log-as-motion").addEventListener("click", () => this.log.hand_over((file) => this.motions.read(file)));
         this.listen_to_pad();
         this.listen_to_other();
         this.listen_to_exports(on_click);

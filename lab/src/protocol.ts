@@ -23,6 +23,7 @@ export interface Fault {
 export interface Schema {
     keys: Key[];
     health: string[];
+    angle_flags: string[]; // names of the bits of an angle log
     faults: Fault[];
 }
 
@@ -44,6 +45,9 @@ export type ToWorker =
     | { kind: "jump" } // to the end of the next switch
     | { kind: "turn"; rate_arcsec_s: number } // by hand, from now on
     | { kind: "window"; window_s: number } // of the signals that are shown
+    | { kind: "read_log"; file: File; settings: string[]; save: boolean } // save: its angles as a file, in place of a picture
+    | { kind: "design"; switch_error_arcsec: number; run_s: number }
+    | { kind: "read_motion"; file: File }
     | { kind: "seen" }; // a frame: the next may come
 
 // Columns of equal length.
@@ -59,6 +63,38 @@ export interface SwitchRow {
     error_arcsec: number;
 }
 
+// One switch, magnified: ticks since the gap began; true, read, extrapolated and interpolated rate, arcsec/s, NaN where there is none.
+export interface SwitchPicture {
+    first_tick: number;
+    at_s: number;
+    gap_s: number;
+    gap_ticks: number;
+    mode_after: number;
+    cost_arcsec: number; // of a gyro on the page: its error; of a log: dP of eq (16)
+    columns: Columns;
+}
+
+// A log that was read to its end.
+export interface LogPicture {
+    name: string;
+    kind: "raw" | "angles";
+    tick_s: number;
+    ticks: number;
+    gaps: number;
+    angle_arcsec: number; // accumulated, as delivered
+    notes: string[];
+    settings: string[];
+    n_switches: number;
+    rms_dp_arcsec: number;
+    flags: number[]; // ticks with each bit
+    angle: Columns; // time and accumulated final angle
+    rate: Columns; // time, final rate, rate as read
+    difference: Columns; // time; angle as read and by the paper, each less the configured one
+    light: Columns; // time, detuning, piezo voltage
+    allan: Columns; // tau; deviation as read, by the paper, as configured, arcsec/s
+    pictures: SwitchPicture[];
+}
+
 export interface Frame {
     kind: "frame";
     number: number; // of the gyro: grows with each that is configured
@@ -71,10 +107,10 @@ export interface Frame {
     now: Float64Array; // LiveRun::now
     signals: Columns; // LiveRun's columns of the last window, thinned
     error: Columns; // time, errors as read, by the paper, as configured, of the other gyro: the whole run, thinned
-    angles: Columns; // LiveRun's columns of the ticks around the last switch
-    last_switch: SwitchRow | null; // as configured
+    pictures: SwitchPicture[]; // drawn since the frame before
     switches: SwitchRow[]; // that were added since the frame before
     allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
+    module_bytes: number; // of its memory
     health: number; // bits that were raised since the start
 }
 
@@ -82,4 +118,10 @@ export type FromWorker =
     | { kind: "loaded"; schema: Schema }
     | { kind: "configured"; number: number; changed: string[] }
     | { kind: "refused"; message: string; whole: boolean } // whole: there is no gyro any more that could go on
+    | { kind: "designed"; columns: Columns } // interval, s; drift by eq (7), of the worst end, expected, arcsec/s
+    | { kind: "motion_read"; name: string; settings: string[]; note: string } // the settings with which it moves a gyro
+    | { kind: "motion_refused"; message: string }
+    | { kind: "log_progress"; fraction: number; ticks: number }
+    | { kind: "log_read"; log: LogPicture }
+    | { kind: "log_angles"; name: string; text: Blob }
     | Frame;

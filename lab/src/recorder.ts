@@ -1,6 +1,7 @@
 // What the worker remembers of the gyro's rows, to show it.
 import type { Columns, SwitchRow } from "./protocol";
-import { AllanDeviation, Ring, Thinned } from "./series";
+import { AllanDeviation, allan_columns, Ring, Thinned } from "./series";
+import { SwitchPictures } from "./switch_pictures";
 
 const signal_columns = 12;
 const angle_columns = 11;
@@ -8,8 +9,6 @@ const switch_columns = 7;
 const newest_ticks = 32768;
 const most_points = 1200;
 const configured = 2; // among the compensations of a switch
-const ticks_around_switch = 12;
-const longest_relock_ticks = 40; // that is shown
 
 // Of signals: the column by whose peaks they are thinned, and others.
 const detuning_column = 3;
@@ -24,11 +23,12 @@ export class Recorder {
     private readonly deviations: AllanDeviation[];
     private unsent: SwitchRow[] = [];
     private slice_has_switch = false;
-    last_switch: SwitchRow | null = null; // as configured
+    readonly pictures: SwitchPictures;
     health = 0;
 
     constructor(private readonly tick_s: number) {
         this.deviations = [0, 1, 2].map(() => new AllanDeviation(tick_s));
+        this.pictures = new SwitchPictures(this.angle_rows, { true: 1, read: 2, delivered: 3, final: 4 }, tick_s);
     }
 
     take(signals: Float64Array, angles: Float64Array, switches: Float64Array): void {
@@ -41,6 +41,7 @@ export class Recorder {
             this.deviations.forEach((deviation, which) => deviation.add(errors[which]));
         }
         for (let at = 0; at < switches.length; at += switch_columns) this.take_switch(switches.subarray(at, at + switch_columns));
+        this.pictures.settle();
     }
 
     private take_switch(row: Float64Array): void {
@@ -48,7 +49,7 @@ export class Recorder {
         const found = { compensation, first_tick, gap_ticks, last_tick, mode_after, miss_lambda, error_arcsec };
         this.unsent.push(found);
         if (compensation !== configured) return;
-        this.last_switch = found;
+        this.pictures.expect({ first_tick, gap_ticks, last_tick, mode_after, cost_arcsec: error_arcsec });
         this.slice_has_switch = true;
     }
 
@@ -75,16 +76,7 @@ export class Recorder {
         return this.errors.columns(1 + error_columns.length);
     }
 
-    // The row of a tick is that of its number.
-    around_last_switch(): Columns {
-        const at = this.last_switch;
-        if (at === null) return [];
-        const last = Math.min(at.last_tick, at.first_tick + at.gap_ticks + longest_relock_ticks);
-        return this.angle_rows.slice(at.first_tick - ticks_around_switch, last + ticks_around_switch, Infinity, 0);
-    }
-
     allan(): Columns {
-        const points = this.deviations.map((deviation) => deviation.points());
-        return [points[0][0], ...points.map(([, values]) => values)].map((values) => Float64Array.from(values));
+        return allan_columns(this.deviations);
     }
 }

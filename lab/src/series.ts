@@ -83,6 +83,57 @@ export class Thinned {
     }
 }
 
+// A whole run in a bounded number of stretches of equal length, each with the least and the greatest value of every column, so that
+// no peak is lost. The length is doubled whenever the table is full.
+export class Envelope {
+    private stretches: { at: number; least: number[]; greatest: number[] }[] = [];
+    private length = 1; // rows of a stretch
+    private n = 0;
+
+    constructor(private readonly capacity: number) {}
+
+    add(at: number, values: number[]): void {
+        if (this.n++ % this.length === 0) {
+            if (this.stretches.length === this.capacity) this.halve();
+            this.stretches.push({ at, least: [...values], greatest: [...values] });
+            return;
+        }
+        widen(this.stretches[this.stretches.length - 1], values, values);
+    }
+
+    private halve(): void {
+        this.stretches = this.stretches.filter((stretch, index) => {
+            if (index % 2 === 0) return true;
+            widen(this.stretches[index - 1], stretch.least, stretch.greatest);
+            return false;
+        });
+        this.length *= 2;
+    }
+
+    // First `at` of each stretch, then the columns: least and greatest value one behind the other.
+    columns(count: number): Float64Array[] {
+        const each = this.length === 1 ? 1 : 2;
+        const n = this.stretches.length * each;
+        const column = (value: (stretch: { at: number; least: number[]; greatest: number[] }, end: number) => number) => Float64Array.from({ length: n }, (_, k) => value(this.stretches[Math.floor(k / each)], k % each));
+        const step = (this.stretches[1]?.at ?? 0) - (this.stretches[0]?.at ?? 0);
+        return [column((stretch, end) => stretch.at + 0.5 * end * step), ...Array.from({ length: count }, (_, k) => column((stretch, end) => (end === 0 ? stretch.least[k] : stretch.greatest[k])))];
+    }
+}
+
+// NaN is no value.
+function widen(stretch: { least: number[]; greatest: number[] }, least: number[], greatest: number[]): void {
+    for (let k = 0; k < least.length; ++k) {
+        if (!(stretch.least[k] <= least[k]) && !Number.isNaN(least[k])) stretch.least[k] = least[k];
+        if (!(stretch.greatest[k] >= greatest[k]) && !Number.isNaN(greatest[k])) stretch.greatest[k] = greatest[k];
+    }
+}
+
+// Averaging times, and the deviations of each.
+export function allan_columns(deviations: AllanDeviation[]): Float64Array[] {
+    const points = deviations.map((deviation) => deviation.points());
+    return [points[0][0], ...points.map(([, values]) => values)].map((values) => Float64Array.from(values));
+}
+
 // Allan deviation of an angle that grows tick by tick, for averaging times of T, 2T, 4T ...:
 //
 //   sigma^2(tau) = <(theta[k+2] - 2 theta[k+1] + theta[k])^2> / (2 tau^2)      theta at multiples of tau

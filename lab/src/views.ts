@@ -1,12 +1,12 @@
 // The views of the gyro: each frame is drawn into them.
+import { MagnifiedSwitches } from "./magnified";
 import { Chart, short } from "./plots";
 import type { Frame, SwitchRow } from "./protocol";
 
 const compensations = ["as read", "the paper's", "as configured"];
 
-// Columns of Frame.signals and Frame.angles (live_run.hpp).
+// Columns of Frame.signals (live_run.hpp).
 const signal = { time: 0, true_rate: 1, rate: 2, detuning: 3, piezo: 4, light_a: 5, light_b: 6, mode: 7, closed: 8 };
-const angle = { tick: 0, true: 1, read: 2, delivered: 3, final: 4 };
 
 // Decades of the size of an error, arcsec.
 const decades = ["0.01", "0.1", "1", "10", "100", ">"];
@@ -30,27 +30,30 @@ export class Views {
     private readonly light = new Chart(element("plot-light"), { x: "time, s", y: "light, any unit", least_span: 100, height: 150, sync: "signals", lines: [{ label: "beam A", colour: "--ours", unit: "" }, { label: "beam B", colour: "--read", unit: "" }] });
     private readonly mode = new Chart(element("plot-mode"), { x: "time, s", y: "mode", height: 130, sync: "signals", y_range: [-1.3, 1.3], y_splits: [-1, 0, 1], lines: [{ label: "mode (0: loop open)", colour: "--true", unit: "", steps: true }] });
     private readonly error = new Chart(element("plot-error"), { x: "time, s", y: "error, arcsec", least_span: 20, height: 260, lines: [...compared_lines("arcsec"), { label: "second gyro", colour: "--other", unit: "arcsec", dash: [5, 4] }] });
-    private readonly magnified = new Chart(element("plot-switch"), { x: "ticks since the loop was opened", y: "rate, arcsec/s", height: 240, lines: [{ label: "true", colour: "--true", unit: "arcsec/s" }, { label: "read from the counter", colour: "--read", unit: "arcsec/s", points: true }, { label: "extrapolated", colour: "--paper", unit: "arcsec/s", points: true, dash: [4, 3] }, { label: "interpolated", colour: "--ours", unit: "arcsec/s", points: true }] });
+    private readonly magnified = new MagnifiedSwitches("switch", "Error left in the angle, as configured", true);
     private readonly histogram = new Chart(element("plot-histogram"), { x: "error of a switch up to, arcsec", y: "switches", height: 220, x_names: decades, lines: compared_lines("").map((line) => ({ ...line, bars: true })) });
     private readonly allan = new Chart(element("plot-allan"), { x: "averaging time, s", y: "deviation, deg/h", height: 220, log_x: true, log_y: true, lines: compared_lines("deg/h") });
     private counts = compensations.map(() => decades.map(() => 0));
     private squares = [0, 0, 0];
-    private shown_switch: SwitchRow | null = null;
+
+    // Of the configured compensation: switches, and the rms error they left.
+    switch_errors(): [number, number] {
+        const n = this.counts[2].reduce((sum, count) => sum + count, 0);
+        return [n, Math.sqrt(this.squares[2] / Math.max(1, n))];
+    }
 
     begin(): void {
         this.counts = compensations.map(() => decades.map(() => 0));
         this.squares = [0, 0, 0];
-        this.shown_switch = null;
-        this.magnified.show([[], [], [], [], []]);
+        this.magnified.begin("No switch yet. “Next switch” runs to the end of one.");
         this.histogram.show([[], [], [], []]);
-        element("switch-text").textContent = "No switch yet. “Next switch” runs to the end of one.";
         element("histogram-text").textContent = "No switch yet.";
     }
 
     show(frame: Frame): void {
         this.show_signals(frame);
         this.error.show(frame.error.map((column) => Array.from(column, finite)));
-        this.show_switch(frame);
+        this.magnified.add(frame.pictures);
         if (frame.switches.length > 0) this.count(frame.switches);
         this.allan.show(frame.allan.map((column) => Array.from(column, (value) => (value > 0 ? value : null))));
     }
@@ -63,19 +66,6 @@ export class Views {
         this.piezo.show([at[signal.time], at[signal.piezo]]);
         this.light.show([at[signal.time], Array.from(at[signal.light_a], finite), Array.from(at[signal.light_b], finite)]);
         this.mode.show([at[signal.time], open]);
-    }
-
-    private show_switch(frame: Frame): void {
-        const found = frame.last_switch;
-        if (found === null || frame.angles.length === 0 || found.first_tick === this.shown_switch?.first_tick) return;
-        const to_rate = (column: number) => Array.from(frame.angles[column], (increment) => increment / frame.tick_s);
-        const ticks = Array.from(frame.angles[angle.tick], (tick) => tick - found.first_tick);
-        // What was extrapolated and interpolated is of interest within the gap and beside it.
-        const near = (column: number) => to_rate(column).map((rate, row) => (ticks[row] >= -1 && ticks[row] <= found.gap_ticks ? rate : null));
-        this.magnified.show([ticks, to_rate(angle.true), to_rate(angle.read), near(angle.delivered), near(angle.final)]);
-        // Only whole once the ticks after it have come.
-        if (frame.angles[angle.tick].at(-1)! >= Math.min(found.last_tick, found.first_tick + found.gap_ticks + 40) + 11) this.shown_switch = found;
-        element("switch-text").textContent = `At ${short(found.first_tick * frame.tick_s, 6)} s the loop was open for ${found.gap_ticks} ticks (${short(found.gap_ticks * frame.tick_s * 1000)} ms) and caught mode ${found.mode_after > 0 ? "+1" : "−1"}. Error left in the angle, as configured: ${short(found.error_arcsec, 3)} arcsec.`;
     }
 
     private count(switches: SwitchRow[]): void {

@@ -1,6 +1,8 @@
 // The worker: it has the gyro, keeps its pace, and sends a frame whenever the page has drawn the one before.
+import { read_log } from "./log_reading";
 import { LoopModule, Refusal, View } from "./loop_module";
-import type { Frame, FromWorker, Gyro, State, SwitchRow, ToWorker } from "./protocol";
+import { parse_motion } from "./motion_file";
+import type { Frame, FromWorker, Gyro, State, ToWorker } from "./protocol";
 import { Recorder } from "./recorder";
 
 interface Scope {
@@ -76,6 +78,21 @@ class Pace {
                     this.turned = true;
                 }
                 break;
+            case "design":
+                this.design(message.switch_error_arcsec, message.run_s);
+                return;
+            case "read_motion":
+                try {
+                    const motion = parse_motion(message.file.name, await message.file.text());
+                    this.module!.take_motion(message.file.name, motion.values);
+                    scope.postMessage({ kind: "motion_read", name: message.file.name, settings: motion.settings, note: motion.note });
+                } catch (error) {
+                    scope.postMessage({ kind: "motion_refused", message: (error as Error).message });
+                }
+                return;
+            case "read_log":
+                read_log(this.module!, message, (answer) => scope.postMessage(answer));
+                return;
             case "window":
                 this.window_s = message.window_s;
                 break;
@@ -112,8 +129,10 @@ class Pace {
         const changed = module.changed();
         this.tick_s = Number(changed.find((line) => line.startsWith("gyro.tick_s="))?.slice("gyro.tick_s=".length) ?? 0.005);
         this.recorder = new Recorder(this.tick_s);
-        this.end_halves = gyro.until_s === null ? Infinity : module.run_halves();
-        this.catch_up_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s) * 2 : module.run_halves();
+        // A recorded motion ends.
+        const ends = gyro.until_s !== null || changed.includes('motion.kind="file"');
+        this.end_halves = ends ? module.run_halves() : Infinity;
+        this.catch_up_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : module.run_halves();
         this.state = running || gyro.until_s !== null ? "running" : "paused";
         this.jump_to_switch = false;
         this.fingerprint = { ms: -Infinity, text: "" };
@@ -125,6 +144,16 @@ class Pace {
     private refuse(error: unknown): void {
         if (!(error instanceof Refusal)) throw error;
         scope.postMessage({ kind: "refused", message: error.message, whole: this.gyro === null });
+    }
+
+    // A gyro that the theory does not cover has no chart.
+    private design(switch_error_arcsec: number, run_s: number): void {
+        try {
+            scope.postMessage({ kind: "designed", columns: this.module!.design(switch_error_arcsec, run_s) });
+        } catch (error) {
+            if (!(error instanceof Refusal)) throw error;
+            scope.postMessage({ kind: "designed", columns: [] });
+        }
     }
 
     private restart_pace(): void {
@@ -230,10 +259,10 @@ class Pace {
             now: module.now(),
             signals: recorder.signals(this.window_s),
             error: recorder.error(),
-            angles: recorder.around_last_switch(),
-            last_switch: recorder.last_switch as SwitchRow | null,
+            pictures: recorder.pictures.take(),
             switches: recorder.new_switches(),
             allan: recorder.allan(),
+            module_bytes: module.memory_bytes(),
             health: recorder.health,
         };
     }

@@ -14,7 +14,9 @@ constexpr std::size_t misspelt_letters = 2;
 
 void refuse_misspelt(std::span<const KnownColumn> columns, const std::string& name, const std::string& place) {
     const auto apart = [&](const KnownColumn& column) { return text::letters_apart(name, column.name); };
-    const KnownColumn& nearest = *std::ranges::min_element(columns, {}, apart);
+    const KnownColumn& nearest =
+        *std::min_element(columns.begin(), columns.end(),
+                          [&](const KnownColumn& a, const KnownColumn& b) { return apart(a) < apart(b); });
     if (apart(nearest) <= misspelt_letters) {
         throw FormatError(fmt::format("{}: unknown column '{}'; did you mean '{}'?", place, name, nearest.name));
     }
@@ -39,7 +41,8 @@ ColumnMap map_columns(std::span<const KnownColumn> columns, const std::vector<st
             names.begin() + static_cast<std::ptrdiff_t>(field)) {
             throw FormatError(fmt::format("{}: the column '{}' stands there twice", place, name));
         }
-        const auto known = std::ranges::find(columns, std::string_view{name}, &KnownColumn::name);
+        const auto known = std::find_if(columns.begin(), columns.end(),
+                                        [&](const KnownColumn& column) { return column.name == name; });
         if (known != columns.end()) {
             map.field_of[static_cast<std::size_t>(known - columns.begin())] = field;
         } else {

@@ -38,7 +38,7 @@ void require_one_line(const std::string& key, const std::string& value) {
 
 void require_shallow_keys(const Settings& settings, const std::string& place) {
     for (const auto& [key, value] : settings) {
-        const auto depth = std::ranges::count(key, '.') + 1;
+        const auto depth = std::count(key.begin(), key.end(), '.') + 1;
         if (depth > text::max_toml_levels)
             throw FormatError(fmt::format("{}: the setting {}... is nested {} deep; allowed is {}", place,
                                           key.substr(0, 40), depth, text::max_toml_levels));

@@ -13,6 +13,7 @@
 #include <zlg/logs/text_columns.hpp>
 #include <zlg/logs/time_check.hpp>
 #include <zlg/recorded/text_layout.hpp>
+#include <zlg/rig/wiring.hpp>
 
 namespace zlg::recorded {
 namespace {
@@ -54,8 +55,7 @@ twin::Motion motion_of_file(const config::Motion& m) {
     std::vector<double>& values = table.columns.front().values;
     for (std::size_t row = 0; row < values.size(); ++row) {
         const double read = values[row];
-        values[row] *= m.scale_arcsec;
-        if (m.column_holds == config::ColumnHolds::rate) values[row] /= m.rate_hz;
+        values[row] = rig::motion_increment_arcsec(m, read);
         if (!std::isfinite(values[row]))
             throw logs::FormatError{fmt::format("{}, {}: {} in row {}, allowed is a finite number", m.path,
                                                 logs::described(table.columns.front()), read, row + 1)};

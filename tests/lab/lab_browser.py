@@ -57,3 +57,9 @@ class LabBrowser(Browser):
         """Addresses that were asked for, but for the page itself and what it made."""
         asked = [e["params"]["request"]["url"] for e in self.events if e.get("method") == "Network.requestWillBeSent"]
         return [url for url in asked if not url.startswith(("file:///", "data:,", "blob:"))]
+
+    def give(self, selector, path):
+        """Choose a file for an input, as a reader does in the browser's dialogue."""
+        root = self.send("DOM.getDocument")["root"]["nodeId"]
+        node = self.send("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+        self.send("DOM.setFileInputFiles", files=[str(path)], nodeId=node)

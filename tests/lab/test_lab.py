@@ -1,5 +1,7 @@
 """The lab page: its runs are those of the program, and it says what the program says."""
 
+import base64
+import gzip
 import json
 import re
 import subprocess
@@ -147,6 +149,12 @@ class Program(unittest.TestCase):
     def test_the_page_is_small_and_forbids_requests(self):
         page = PAGE.read_text()
         self.assertLessEqual(len(page), 1_000_000)
+        module = base64.b64decode(re.search(r'id="module">([^<]*)<', page)[1])
+        self.assertEqual(gzip.decompress(module)[:4], b"\0asm")
+        self.assertLessEqual(len(module), 280_000)
+        scripts = [part.split(">", 1)[1] for part in page.split("</script>")[:-1] for part in [part[part.rindex("<script"):]]]
+        self.assertEqual(len(scripts), 3)
+        self.assertLessEqual(sum(len(gzip.compress(script.encode())) for script in scripts[1:]), 90_000)
         self.assertIn("default-src 'none'", page)
         self.assertNotIn("connect-src", page)
 

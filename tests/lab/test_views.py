@@ -1,6 +1,7 @@
 """What the lab page shows and does: controls, faults, turning by hand, links, exports, tour, narrow and dark screens."""
 
 import json
+import math
 import re
 import tempfile
 import unittest
@@ -74,7 +75,7 @@ class Views(unittest.TestCase):
         time_s = self.time_s()
         self.change("motion.kind", "rest")
         self.browser.wait_until(lambda: "motion.kind" in self.link()[0])
-        self.browser.wait_until(lambda: self.time_s() == round(time_s // 0.005 * 0.005, 4))
+        self.browser.wait_until(lambda: self.time_s() == round((time_s + 1e-9) // 0.005 * 0.005, 4))
         link, command = self.link(until=True)
         fingerprint = self.browser.marked("fingerprint")
         with tempfile.TemporaryDirectory() as out:
@@ -184,6 +185,14 @@ class Views(unittest.TestCase):
         unnamed = self.browser.value("""[...document.querySelectorAll('input, select, textarea, button')].filter(e =>
             !(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim())).map(e => e.outerHTML)""")
         self.assertEqual(unnamed, [])
+
+    def test_the_chart_of_the_interval_follows_the_gyro(self):
+        # Without warming the expected drift is |nm| + sqrt((L Om/t)^2/3 + s^2/(t L)), of which s is 10 arcsec where few switches are known.
+        self.browser.open_lab("switching.interval_s=40&drift.magnetic_thermal_arcsec_s=0&drift.magnetic_arcsec_s=0.5&drift.nonmagnetic_arcsec_s=0.02")
+        self.browser.wait_until(lambda: "This gyro switches every 40 s" in self.browser.text("#design-text"))
+        shown = float(re.search(r"every 40 s: ([\d.]+) deg/h", self.browser.text("#design-text"))[1])
+        expected = 0.02 + math.sqrt((40 * 0.5 / 3600) ** 2 / 3 + 10**2 / (3600 * 40))
+        self.assertAlmostEqual(shown / expected, 1.0, delta=0.01)
 
     def test_what_is_typed_is_answered_at_full_speed(self):
         self.browser.fill("#speed", "4")

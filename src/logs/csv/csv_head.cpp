@@ -26,7 +26,7 @@ char separator_of(std::string_view names) {
     char found = blanks_separator;
     std::ptrdiff_t most = 0;
     for (const char separator : {',', ';', '\t', '|'}) {
-        const auto n = std::ranges::count(names, separator);
+        const auto n = std::count(names.begin(), names.end(), separator);
         if (n > most) found = separator;
         most = std::max(most, n);
     }
@@ -54,11 +54,11 @@ CsvHead read_head(LineReader& lines) {
     std::vector<Field> fields;
     split_fields(line, head.separator, fields);
     for (const Field& field : fields) head.names.emplace_back(field.text);
-    if (std::ranges::all_of(head.names, looks_like_number)) {
+    if (std::all_of(head.names.begin(), head.names.end(), looks_like_number)) {
         throw FormatError(fmt::format("{}:{}: a row of numbers; the column names must stand above it", lines.path(),
                                       lines.line_number()));
     }
-    const auto nameless = std::ranges::find(head.names, std::string{});
+    const auto nameless = std::find(head.names.begin(), head.names.end(), std::string{});
     if (nameless != head.names.end()) {
         throw FormatError(fmt::format("{}:{}: column {} of {} has no name", lines.path(), lines.line_number(),
                                       nameless - head.names.begin() + 1, head.names.size()));

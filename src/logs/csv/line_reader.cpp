@@ -18,10 +18,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 }  // namespace
 
 LineReader::LineReader(std::string path, std::int64_t max_bytes)
-    : path_{std::move(path)},
-      file_{open_to_read(path_)},
-      buffer_{std::make_unique_for_overwrite<char[]>(max_line_bytes)},
-      max_bytes_{max_bytes} {
+    : path_{std::move(path)}, file_{open_to_read(path_)}, buffer_{new char[max_line_bytes]}, max_bytes_{max_bytes} {
     text::note_input(file_.get());
     struct stat status {};
     if (::fstat(file_.get(), &status) == 0) size_bytes_ = status.st_size;

@@ -89,7 +89,7 @@ bool is_date(std::string_view text) {
     const std::size_t second = text.find(text[first], first + 1);
     if (second == std::string_view::npos) return false;
     const std::string_view last = text.substr(second + 1);
-    const auto digits = [](std::string_view part) { return std::ranges::all_of(part, is_digit); };
+    const auto digits = [](std::string_view part) { return std::all_of(part.begin(), part.end(), is_digit); };
     const std::size_t middle = second - first - 1;
     const bool year_first = first == 4 && last.size() >= 1 && last.size() <= 2;
     const bool year_last = first >= 1 && first <= 2 && (last.size() == 4 || last.size() == 2);
@@ -130,7 +130,7 @@ std::optional<Number> number_of(std::string_view text, Mark mark) {
         return std::nullopt;
     if (comma == 0 || comma + 1 == text.size() || !is_digit(text[comma - 1]) || !is_digit(text[comma + 1]))
         return std::nullopt;
-    std::ranges::copy(text, copy.begin());
+    std::copy(text.begin(), text.end(), copy.begin());
     copy[comma] = '.';
     if (!parses({copy.data(), text.size()}, number.value)) return std::nullopt;
     number.mark = Mark::comma;
@@ -140,7 +140,7 @@ std::optional<Number> number_of(std::string_view text, Mark mark) {
 
 bool says_missing(std::string_view text) {
     constexpr std::array<std::string_view, 7> words{"nan", "-nan", "na", "n/a", "null", "#n/a", "#nv"};
-    return text.empty() || std::ranges::find(words, text::lower_case(text)) != words.end();
+    return text.empty() || std::find(words.begin(), words.end(), text::lower_case(text)) != words.end();
 }
 
 FieldKind kind_of(const Field& field, Mark mark) {
@@ -153,7 +153,7 @@ FieldKind kind_of(const Field& field, Mark mark) {
 bool may_be_name(std::string_view word) {
     if (word.empty() || is_digit(word.front()) || std::string_view{"+-.,"}.find(word.front()) != std::string_view::npos)
         return false;
-    return std::ranges::any_of(word, is_letter);
+    return std::any_of(word.begin(), word.end(), is_letter);
 }
 
 bool has_parted_thousands(std::string_view line, char mark) {
@@ -163,7 +163,7 @@ bool has_parted_thousands(std::string_view line, char mark) {
     const std::size_t end = std::min(line.find_first_of(".,", last + 1), line.size());
     const std::string_view rest = line.substr(end);
     return is_grouped(line.substr(0, end), mark) &&
-           (rest.empty() || (rest.size() > 1 && std::ranges::all_of(rest.substr(1), is_digit)));
+           (rest.empty() || (rest.size() > 1 && std::all_of(rest.begin() + 1, rest.end(), is_digit)));
 }
 
 }  // namespace zlg::logs

@@ -20,6 +20,11 @@ enum class LogKind {
 // FormatError: an HDF5 file that is damaged or was left unfinished by a program that does not write for readers.
 [[nodiscard]] LogKind recognise(const std::string& path);
 
+// The same of a file that is no HDF5.
+//
+// errors  IoError: the file cannot be read.
+[[nodiscard]] LogKind recognise_text(const std::string& path);
+
 enum class LogFormat { csv, hdf5 };
 
 // In which format an output is written: suffix .csv, .h5 or .hdf5. errors  IoError: another suffix.

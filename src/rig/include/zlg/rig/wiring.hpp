@@ -17,6 +17,12 @@ using twin::timer_hz;
 // errors  config::ConfigError for the kind "file": a recorded motion is read by recorded::motion.
 [[nodiscard]] twin::Motion motion(const config::Config& config);
 
+// The angle increment that a value of the column of a motion file stands for, arcsec.
+[[nodiscard]] inline double motion_increment_arcsec(const config::Motion& motion, double value) {
+    const double scaled = value * motion.scale_arcsec;
+    return motion.column_holds == config::ColumnHolds::rate ? scaled / motion.rate_hz : scaled;
+}
+
 // Whole ticks of the run: duration_s where it is set, else 3600 s or the length of the motion file.
 //
 // errors  config::ConfigError where the run is longer than the motion file or shorter than a tick.

@@ -78,6 +78,9 @@ public:
 
     // The run has ended: a switch whose window is not over is dropped.
     [[nodiscard]] const std::vector<SwitchError>& switches() const { return done_; }
+
+    // For whoever runs without end: those until now are no longer among `switches`.
+    void forget_switches() { done_.clear(); }
     [[nodiscard]] double drift_arcsec_s() const { return drift_.slope_arcsec_s(); }
     // Without the constant part that both modes share, which a measurement removes with its bias.
     [[nodiscard]] double drift_without_nonmagnetic_arcsec_s() const {

@@ -1,0 +1,180 @@
+// A recorded log on the page.
+#include "log_run.hpp"
+
+#include <limits>
+#include <utility>
+
+#include <zlg/config/log_settings.hpp>
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/file_nature.hpp>
+#include <zlg/logs/log_kind.hpp>
+
+#include "compared.hpp"
+
+namespace zlg::lab {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// The log's settings over the defaults, and over them the page's, as the program layers them.
+config::Config layered(const config::Settings& of_log, const std::string& name, std::span<const std::string> settings,
+                       bool scale_is_used) {
+    const config::Settings checked = config::checked_log_settings(of_log, name);
+    config::Config config;
+    config::apply_log(config, checked, name);
+    for (const std::string& setting : settings) config::apply_set(config, setting);
+    config::require_log_facts(config, name, scale_is_used);
+    config::check_compensation(config);
+    config::check_against_log(config, checked, name);
+    return config;
+}
+
+core::GyroCompensationConfig compared_compensation(config::Config config, const logs::RawHeader& log,
+                                                   const std::string& name, core::RelockMethod relock,
+                                                   core::BridgeMethod bridge) {
+    config.compensation.relock = relock;
+    config.compensation.bridge = bridge;
+    return recorded::log_compensation(with_points_of_paper(config), log, name).compensation;
+}
+
+void append(std::vector<std::string>& notes, std::span<const std::string> more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+LogRun::LogRun(std::string name, std::span<const std::string> settings) : name_{std::move(name)} {
+    if (logs::foreign_nature(name_).starts_with("HDF5")) raw_.emplace(name_);  // refuses it
+    logs::refuse_foreign(name_);
+    switch (logs::recognise_text(name_)) {
+        case logs::LogKind::raw_csv:
+            open_raw(settings);
+            break;
+        case logs::LogKind::angle_csv:
+            open_angles(settings);
+            break;
+        default:
+            throw logs::FormatError{
+                name_ +
+                ": is no log; allowed is a CSV log, with the columns half, bias_sign, mode, counts, "
+                "loop_closed or tick, t_s, dtheta_arcsec, dtheta_final_arcsec, sigma_arcsec, mode, flags"};
+    }
+}
+
+void LogRun::open_raw(std::span<const std::string> settings) {
+    const logs::RawHeader& log = raw_.emplace(name_).header();
+    recorded::LogCompensation asked =
+        recorded::log_compensation(layered(log.settings, name_, settings, true), log, name_);
+    for (const auto& lines : {log.warnings, asked.notes, asked.warnings}) append(notes_, lines);
+    config_ = std::move(asked.config);
+    lacks_detuning_ = asked.lacks_detuning;
+    configured_.emplace(asked.compensation);
+    const auto relock = log.has_detuning ? core::RelockMethod::detuning : core::RelockMethod::none;
+    compared_.emplace_back(
+        compared_compensation(config_, log, name_, core::RelockMethod::none, core::BridgeMethod::none));
+    compared_.emplace_back(compared_compensation(config_, log, name_, relock, core::BridgeMethod::quadratic));
+    finder_ = study::SwitchFinder{config_.compensation.relock_ticks};
+}
+
+void LogRun::open_angles(std::span<const std::string> settings) {
+    const logs::AngleHeader& log = angles_.emplace(name_).header();
+    config_ = layered(log.settings, name_, settings, false);
+    append(notes_, log.warnings);
+}
+
+bool LogRun::advance(std::int64_t rows) {
+    core::HalfRecord half;
+    logs::TimedAngle angle;
+    for (; rows > 0 && !ended_; --rows) {
+        if (raw_ && raw_->next(half))
+            take(half);
+        else if (angles_ && angles_->next(angle))
+            take(angle);
+        else
+            end();
+    }
+    return !ended_;
+}
+
+void LogRun::take(const core::HalfRecord& half) {
+    if (first_) {
+        const std::int64_t tick = half.half / 2;
+        finder_.take(tick, *first_, half);
+        seen(tick) = {config_.gyro.scale_arcsec * static_cast<double>(first_->counts + half.counts),
+                      first_->loop_closed && half.loop_closed ? 1.0 : 0.0, half.detuning_lambda, half.piezo_v};
+        first_.reset();
+    } else {
+        first_ = half;
+    }
+    configured_->take(
+        half, {}, [this](const core::AngleRow& row) { final_.push_back(row); },
+        [this](const core::GapReport& gap) { note_switch(gap); });
+    for (Compared& each : compared_)
+        each.replay.take(half, {},
+                         [&each](const core::AngleRow& row) { each.final_arcsec.push_back(row.dtheta_final_arcsec); });
+    add_ticks();
+}
+
+void LogRun::take(const logs::TimedAngle& angle) {
+    seen(angle.row.tick) = {unknown, (angle.row.flags & core::flag_loop_unlocked) != 0 ? 0.0 : 1.0, unknown, unknown};
+    final_.push_back(angle.row);
+    add_ticks();
+}
+
+void LogRun::note_switch(const core::GapReport& gap) {
+    if (!gap.mode_changed) return;
+    double miss_lambda = unknown;
+    for (const study::SwitchWindow& window : finder_.windows())
+        if (window.first_tick == gap.first_tick) miss_lambda = window.miss_lambda;
+    switches_.insert(switches_.end(),
+                     {static_cast<double>(gap.first_tick), static_cast<double>(gap.n_ticks),
+                      static_cast<double>(gap.mode_after), miss_lambda, gap.dp_arcsec, gap.sigma_sum_arcsec});
+}
+
+void LogRun::add_ticks() {
+    const auto waits = [this] {
+        for (const Compared& each : compared_)
+            if (each.final_arcsec.empty()) return true;
+        return false;
+    };
+    while (!final_.empty() && !waits()) {
+        const core::AngleRow row = final_.front();
+        final_.pop_front();
+        const SeenTick& at = seen(row.tick);
+        ticks_.insert(ticks_.end(), {static_cast<double>(row.tick), at.read_arcsec, row.dtheta_arcsec,
+                                     row.dtheta_final_arcsec, row.sigma_arcsec, static_cast<double>(row.flags),
+                                     static_cast<double>(row.mode), at.closed, at.detuning_lambda, at.piezo_v});
+        for (Compared& each : compared_) {
+            each.less_configured.add(each.final_arcsec.front() - row.dtheta_final_arcsec);
+            each.final_arcsec.pop_front();
+            ticks_.push_back(each.less_configured.value());
+        }
+        if (compared_.empty()) ticks_.insert(ticks_.end(), {unknown, unknown});
+    }
+}
+
+void LogRun::end() {
+    ended_ = true;
+    if (!raw_) return;
+    recorded::require_a_tick(*configured_, name_);
+    configured_->end([this](const core::AngleRow& row) { final_.push_back(row); },
+                     [this](const core::GapReport& gap) { note_switch(gap); });
+    for (Compared& each : compared_)
+        each.replay.end([&each](const core::AngleRow& row) { each.final_arcsec.push_back(row.dtheta_final_arcsec); });
+    add_ticks();
+    if (std::string odd = configured_->odd_half(name_); !odd.empty()) notes_.push_back(std::move(odd));
+    if (std::string line = configured_->uncorrected(name_); lacks_detuning_ && !line.empty())
+        notes_.push_back(std::move(line));
+    append(notes_, configured_->contradictions(name_));
+    if (!raw_->line_is_ended()) notes_.push_back(name_ + ": the last line has no end; the file may have been cut off");
+}
+
+void LogRun::forget() {
+    ticks_.clear();
+    switches_.clear();
+}
+
+double LogRun::fraction_read() const { return raw_ ? raw_->fraction_read() : angles_->fraction_read(); }
+
+}  // namespace zlg::lab

@@ -1,0 +1,179 @@
+// The worker reads a log from its beginning to its end, and makes a picture of it in bounded memory. To cancel it, the page ends the worker.
+import { LoopModule, Refusal, View } from "./loop_module";
+import type { FromWorker, LogPicture } from "./protocol";
+import { AllanDeviation, allan_columns, Envelope, Ring } from "./series";
+import { SwitchPictures } from "./switch_pictures";
+
+const rows_a_slice = 4096;
+const progress_ms = 100;
+const most_stretches = 1024;
+const newest_ticks = 16384;
+
+// Columns of log_run.hpp.
+const tick_columns = 12;
+const tick_column = { tick: 0, read: 1, delivered: 2, final: 3, sigma: 4, flags: 5, mode: 6, closed: 7, detuning: 8, piezo: 9, read_less: 10, paper_less: 11 };
+const switch_columns = 6;
+const n_flags = 32;
+const in_gap = 0x300; // flag_loop_unlocked, flag_invalid
+const longest_relock_ticks = 20;
+
+// A sum whose error does not grow with the number of terms (Neumaier 1974).
+class Sum {
+    private sum = 0;
+    private rest = 0;
+
+    add(term: number): number {
+        const next = this.sum + term;
+        this.rest += Math.abs(this.sum) >= Math.abs(term) ? this.sum - next + term : term - next + this.sum;
+        this.sum = next;
+        return this.value();
+    }
+
+    value(): number {
+        return this.sum + this.rest;
+    }
+}
+
+class LogRecorder {
+    ticks = 0;
+    private gaps = 0;
+    private was_in_gap = false;
+    private readonly delivered = new Sum();
+    private readonly final = new Sum();
+    private readonly flags = new Array<number>(n_flags).fill(0);
+    private readonly angle = new Envelope(most_stretches);
+    private readonly rate = new Envelope(most_stretches);
+    private readonly difference = new Envelope(most_stretches);
+    private readonly light = new Envelope(most_stretches);
+    private readonly deviations: AllanDeviation[];
+    private readonly rows = new Ring(tick_columns, newest_ticks);
+    private readonly pictures: SwitchPictures;
+    private newest: LogPicture["pictures"] = [];
+    private n_switches = 0;
+    private squares = 0;
+
+    constructor(private readonly tick_s: number) {
+        this.deviations = [0, 1, 2].map(() => new AllanDeviation(tick_s));
+        this.pictures = new SwitchPictures(this.rows, { true: null, read: tick_column.read, delivered: tick_column.delivered, final: tick_column.final }, tick_s);
+    }
+
+    take(ticks: Float64Array, switches: Float64Array): void {
+        this.rows.add(ticks);
+        for (let at = 0; at < ticks.length; at += tick_columns) this.take_tick(ticks.subarray(at, at + tick_columns));
+        for (let at = 0; at < switches.length; at += switch_columns) {
+            const [first_tick, gap_ticks, mode_after, , dp_arcsec] = switches.subarray(at, at + switch_columns);
+            ++this.n_switches;
+            this.squares += dp_arcsec ** 2;
+            this.pictures.expect({ first_tick, gap_ticks, last_tick: first_tick + gap_ticks + longest_relock_ticks, mode_after, cost_arcsec: dp_arcsec });
+        }
+        this.pictures.settle();
+        this.keep_pictures();
+    }
+
+    private take_tick(row: Float64Array): void {
+        const at = tick_column;
+        const t_s = (row[at.tick] + 1) * this.tick_s;
+        this.delivered.add(row[at.delivered]);
+        const angle = this.final.add(row[at.final]);
+        this.angle.add(t_s, [angle]);
+        this.rate.add(t_s, [row[at.final] / this.tick_s, row[at.read] / this.tick_s]);
+        this.difference.add(t_s, [row[at.read_less], row[at.paper_less]]);
+        this.light.add(t_s, [row[at.detuning], row[at.piezo]]);
+        [row[at.read_less], row[at.paper_less], 0].forEach((less, which) => this.deviations[which].add(angle + less));
+        const gap = (row[at.flags] & in_gap) !== 0;
+        if (gap && !this.was_in_gap) ++this.gaps;
+        this.was_in_gap = gap;
+        for (let bits = row[at.flags] >>> 0, bit = 0; bits !== 0; bits >>>= 1, ++bit) this.flags[bit] += bits & 1;
+        ++this.ticks;
+    }
+
+    private keep_pictures(): void {
+        const more = this.pictures.take();
+        this.newest = [...this.newest.filter((old) => more.every((picture) => picture.first_tick !== old.first_tick)), ...more].slice(-8);
+    }
+
+    picture(): Omit<LogPicture, "name" | "kind" | "tick_s" | "notes" | "settings"> {
+        this.pictures.settle(true);
+        this.keep_pictures();
+        return {
+            ticks: this.ticks,
+            gaps: this.gaps,
+            angle_arcsec: this.delivered.value(),
+            n_switches: this.n_switches,
+            rms_dp_arcsec: Math.sqrt(this.squares / Math.max(1, this.n_switches)),
+            flags: this.flags,
+            angle: this.angle.columns(1),
+            rate: this.rate.columns(2),
+            difference: this.difference.columns(2),
+            light: this.light.columns(2),
+            allan: allan_columns(this.deviations),
+            pictures: this.newest,
+        };
+    }
+}
+
+// The rows of an angle log, as the program writes them.
+class AngleRows {
+    private readonly parts: string[];
+    n = 0;
+
+    constructor(
+        private readonly tick_s: number,
+        settings: string[],
+        legend: string[],
+    ) {
+        const lines = [...settings.map((setting) => setting.replace("=", " = ")), `tick_s = ${tick_s}`, `flags = ${legend.map((name, bit) => `${name}:${2 ** bit}`).join(" ")}`];
+        this.parts = [...lines.map((line) => `# ${line}\n`), "tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags\n"];
+    }
+
+    take(ticks: Float64Array): void {
+        const at = tick_column;
+        const lines: string[] = [];
+        for (let row = 0; row < ticks.length; row += tick_columns) {
+            const sigma = ticks[row + at.sigma];
+            lines.push(`${ticks[row]},${(ticks[row] + 1) * this.tick_s},${ticks[row + at.delivered]},${ticks[row + at.final]},${sigma === Infinity ? "inf" : sigma},${ticks[row + at.mode]},${ticks[row + at.flags]}\n`);
+        }
+        this.parts.push(lines.join(""));
+        this.n += lines.length;
+    }
+
+    blob(): Blob {
+        return new Blob(this.parts, { type: "text/csv" });
+    }
+}
+
+interface Wanted {
+    file: File;
+    settings: string[];
+    save: boolean;
+}
+
+export function read_log(module: LoopModule, wanted: Wanted, answer: (message: FromWorker) => void): void {
+    try {
+        module.open_log(wanted.file, wanted.settings);
+        const { tick_s, settings } = module.log_facts();
+        const recorder = new LogRecorder(tick_s);
+        const rows = wanted.save ? new AngleRows(tick_s, settings, module.schema().angle_flags) : null;
+        read_rows(module, (ticks, switches) => (rows !== null ? rows.take(ticks) : recorder.take(ticks, switches)), answer);
+        if (rows !== null) answer({ kind: "log_angles", name: wanted.file.name, text: rows.blob() });
+        else answer({ kind: "log_read", log: { name: wanted.file.name, ...module.log_facts(), ...recorder.picture() } });
+    } catch (error) {
+        if (!(error instanceof Refusal)) throw error;
+        answer({ kind: "refused", message: error.message, whole: true });
+    }
+}
+
+function read_rows(module: LoopModule, take: (ticks: Float64Array, switches: Float64Array) => void, answer: (message: FromWorker) => void): void {
+    let shown_ms = performance.now();
+    let n = 0;
+    for (let more = true; more; ) {
+        more = module.advance_log(rows_a_slice);
+        const ticks = module.rows(View.log_ticks);
+        take(ticks, module.rows(View.log_switches));
+        module.forget_log();
+        n += ticks.length / tick_columns;
+        if (performance.now() - shown_ms < progress_ms) continue;
+        shown_ms = performance.now();
+        answer({ kind: "log_progress", fraction: module.log_fraction(), ticks: n });
+    }
+}

@@ -1,0 +1,154 @@
+"""Logs of the reader's own on the lab page: the same angles and the same complaints as those of `zlg process`."""
+
+import re
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from lab_browser import PAGE, PROGRAM
+from test_lab import setup_browser, zlg
+
+
+def rows_of(path):
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    return lines[0], [tuple(float(field) for field in line.split(",")) for line in lines[1:]]
+
+
+@unittest.skipUnless(PROGRAM, "there is no chromium")
+@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
+class Logs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        setup_browser(cls)
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        cls.raw = cls.folder / "raw.csv"
+        made = zlg("simulate", "--duration", 60, "--set", "switching.interval_s=5", "--out", cls.raw)
+        assert made.returncode == 0, made.stderr
+
+    def setUp(self):
+        self.browser.open_lab("switching.interval_s=1")
+        self.browser.wait_for_state("running")
+
+    def tearDown(self):
+        self.assertEqual(self.browser.complaints(), [])
+        self.assertEqual(self.browser.requests(), [])
+
+    def state(self):
+        return self.browser.value("document.getElementById('card-log').dataset.state")
+
+    def give(self, path, state="shown"):
+        self.browser.give("#log-file", path)
+        self.browser.wait_until(lambda: self.state() in ("shown", "refused"))
+        self.assertEqual(self.state(), state, self.browser.text("#log-text"))
+        return self.browser.text("#log-text")
+
+    def saved_angles(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.send("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            self.browser.press("#log-save")
+            found = Path(folder) / "raw-angles.csv"
+            self.browser.wait_until(found.exists)
+            self.browser.wait_until(lambda: self.state() == "shown")
+            return rows_of(found)
+
+    def angles_of_the_program(self, *settings):
+        out = self.folder / "angles.csv"
+        ran = zlg("process", self.raw, "--out", out, "--force", *[word for each in settings for word in ("--set", each)])
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        return rows_of(out)
+
+    def test_the_angles_of_a_raw_log_are_those_of_the_program_to_the_last_bit(self):
+        text = self.give(self.raw)
+        self.assertRegex(text, r"^raw\.csv: a raw log, compensated here; 12000 ticks of 5 ms, 60 s; 11 gaps, 11 switches")
+        self.assertEqual(self.saved_angles(), self.angles_of_the_program())
+
+    def test_settings_of_the_reader_go_over_those_of_the_log(self):
+        settings = ["compensation.relock=frequency", "compensation.bridge=linear"]
+        self.browser.fill("#log-settings", "\n".join(settings))
+        self.give(self.raw)
+        self.assertEqual(self.saved_angles(), self.angles_of_the_program(*settings))
+        self.browser.fill("#log-settings", "gyro.tick_s=0.004")
+        text = self.give(self.raw, "refused")
+        said = zlg("process", self.raw, "--set", "gyro.tick_s=0.004", "--out", self.folder / "no.csv").stderr
+        self.assertEqual(text, said.strip().removeprefix("zlg: ").replace(str(self.raw), "raw.csv"))
+
+    def test_an_angle_log_is_shown_with_its_flags_and_its_angle(self):
+        _, rows = self.angles_of_the_program()
+        text = self.give(self.folder / "angles.csv")
+        self.assertIn("an angle log; 12000 ticks", text)
+        self.assertAlmostEqual(float(re.search(r"accumulated angle (\S+) arcsec", text.replace("−", "-"))[1]), sum(row[2] for row in rows), delta=1e-6)
+        flags = dict(item.rsplit(": ", 1) for item in self.browser.value("[...document.querySelectorAll('#log-flags li')].map(e => e.textContent)"))
+        self.assertEqual(int(flags["interpolated"]), sum(int(row[6]) >> 2 & 1 for row in rows))
+        self.assertTrue(self.browser.value("document.getElementById('log-switches').hidden"))
+
+    def test_a_damaged_log_is_refused_with_the_words_of_the_program(self):
+        head, *rows = self.raw.read_text().splitlines(keepends=True)
+        first = next(k for k, line in enumerate(rows) if line.startswith("0,"))
+        damages = {
+            "word": lambda r: r[first + 700].replace(",", ",x", 1),
+            "field": lambda r: r[first + 700].rsplit(",", 1)[0] + "\n",
+            "hole": lambda r: "",
+        }
+        for name, damage in damages.items():
+            with self.subTest(name):
+                damaged = [*rows]
+                damaged[first + 700] = damage(rows)
+                path = self.folder / f"{name}.csv"
+                path.write_text(head + "".join(damaged))
+                said = zlg("process", path, "--out", self.folder / "no.csv").stderr.strip().removeprefix("zlg: ")
+                self.assertIn("row 701", said)
+                self.assertEqual(self.give(path, "refused"), said.replace(str(path), path.name))
+
+    def test_a_file_that_is_no_log_is_refused_in_one_line_that_says_what_it_is(self):
+        hdf5 = self.folder / "log.h5"
+        self.assertEqual(zlg("convert", self.raw, "--out", hdf5).returncode, 0)
+        for name, content, words in (("log.h5", hdf5.read_bytes(), "is an HDF5 log; the page reads CSV"), ("a.zip", b"PK\x03\x04" + bytes(40), "a ZIP archive"),
+                                     ("empty.csv", b"", "is no log"), ("other.csv", b"a,b\n1,2\n", "is no log; allowed is a CSV log")):
+            with self.subTest(name):
+                path = self.folder / name
+                path.write_bytes(content)
+                text = self.give(path, "refused")
+                self.assertIn(words, text)
+                self.assertNotIn("\n", text)
+
+    def test_a_dropped_file_is_read_and_one_that_is_being_read_can_be_left(self):
+        big = self.folder / "big.csv"
+        text = self.raw.read_text()
+        rows = [line for line in text.splitlines() if line[0].isdigit()]
+        head = text[: text.index(rows[0])]
+        # The same minute again and again, its rows numbered anew: 10^6 of them.
+        per_part = len(rows)
+        tails = [row.split(",", 1)[1] for row in rows]
+        with big.open("w") as out:
+            out.write(head)
+            for part in range(1_000_000 // per_part + 1):
+                out.write("".join(f"{part * per_part + k},{tail}\n" for k, tail in enumerate(tails)))
+        data = {"items": [], "files": [str(big)], "dragOperationsMask": 1}
+        for kind in ("dragEnter", "dragOver", "drop"):
+            self.browser.send("Input.dispatchDragEvent", type=kind, x=600, y=300, data=data)
+        self.browser.wait_until(lambda: self.state() == "reading" and float(self.browser.value("document.getElementById('log-progress').value")) > 0.02)
+        # The page goes on: its clock, its frames, its answers.
+        slowest_ms = self.browser.value("""new Promise(done => { let last = performance.now(), slowest = 0, n = 0; const frame = () => {
+            const now = performance.now(); slowest = Math.max(slowest, now - last); last = now; ++n < 30 ? requestAnimationFrame(frame) : done(slowest); };
+            requestAnimationFrame(frame); })""")
+        self.assertLess(slowest_ms, 400)
+        self.browser.press("#log-cancel")
+        self.browser.wait_until(lambda: self.state() == "cancelled", 1)
+        begin = time.monotonic()
+        self.assertIn(f"{(1_000_000 // per_part + 1) * per_part // 2} ticks", self.give(big))
+        self.assertLess(time.monotonic() - begin, 60)
+
+    def test_a_small_switch_is_enlarged_by_a_click(self):
+        self.give(self.raw)
+        names = self.browser.value("[...document.querySelectorAll('#log-switch-strip button')].map(e => e.getAttribute('aria-label'))")
+        self.assertEqual(len(names), 8)
+        self.assertTrue(self.browser.text("#log-switch-text").startswith("At 55 s"))
+        self.browser.press("#log-switch-strip button:nth-child(2)")
+        self.assertTrue(self.browser.text("#log-switch-text").startswith(f"At {names[1].split()[2]} s"))
+
+
+if __name__ == "__main__":
+    unittest.main()
