@@ -1,5 +1,6 @@
 #include <zlg/twin/twin.hpp>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -87,13 +88,12 @@ void validate_quickest(const TwinConfig& c) {
         if (longest_piece_s(fault, c.vibration_hz) >= piece_s) continue;
         if (fault.kind == FaultKind::vibration)
             refuse("faults.vibration_hz", c.vibration_hz,
-                   fmt::format(
-                       "<= {:.6g}, four pieces of a half to a period, with this gyro.tick_s and gyro.light_samples",
-                       0.25 / piece_s));
+                   fmt::format("<= {}, four pieces of a half to a period, with this gyro.tick_s and gyro.light_samples",
+                               std::floor(0.25 / piece_s)));
         throw std::invalid_argument(
-            fmt::format("fault {}: faults.duration_s is {}, allowed is 0 or >= {:.6g}, ten pieces of a half, with this "
+            fmt::format("fault {}: faults.duration_s is {}, allowed is 0 or >= {}, ten pieces of a half, with this "
                         "gyro.tick_s and gyro.light_samples",
-                        facts(fault.kind).name, fault.duration_s, 10.0 * piece_s));
+                        facts(fault.kind).name, fault.duration_s, 1e-9 * std::ceil(1e10 * piece_s)));
     }
 }
 
