@@ -223,8 +223,8 @@ class BadUsage(BadInputTest):
         self.refuse_call(USAGE, "run", "--seed", "12x", "--out", self.folder / "run", says=["this is a string"])
 
     def test_warming_that_turns_the_bias_over(self):
-        self.refuse_call(USAGE, "run", "--set", "gyro.bias_temperature_coefficient_per_c=-0.1", "--out", self.folder / "run",
-                         says=["1 + gyro.bias_temperature_coefficient_per_c * gyro.temperature_rise_c is -1"])
+        self.refuse_call(USAGE, "run", "--set", "gyro.bias_temperature_coefficient_per_c=-0.1", "--out",
+                         self.folder / "run", says=["1 + gyro.bias_temperature_coefficient_per_c * gyro.temperature_rise_c is -1"])
 
     def test_run_durations(self):
         for value in ("-1", "nan", "0", "long"):

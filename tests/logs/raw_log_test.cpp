@@ -397,7 +397,8 @@ TEST(RawLog, with_shifts_says_how_fast_the_timer_runs) {
     writer.write({.half = 1, .counts = -150, .bias_sign = -1, .edge_offset_ticks = 41});
     writer.close();
     EXPECT_EQ(content_of(folder.file("raw.csv")),
-              "# format_version = 2\n# note = x\n# timer_hz = 10000000\nhalf,bias_sign,mode,counts,loop_closed,edge_offset_ticks\n"
+              "# format_version = 2\n# note = x\n# timer_hz = "
+              "10000000\nhalf,bias_sign,mode,counts,loop_closed,edge_offset_ticks\n"
               "0,1,1,151,1,-83\n1,-1,1,-150,1,41\n");
 }
 
