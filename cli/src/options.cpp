@@ -24,6 +24,13 @@ void apply_options(config::Config& config, const Options& options) {
 
 }  // namespace
 
+CLI::Validator is_a_name() {
+    return {[](const std::string& name) {
+                return name.empty() ? "the name is empty; allowed is the name of a file or folder" : "";
+            },
+            ""};
+}
+
 void add_config_options(CLI::App& verb, Options& options) {
     verb.add_option("--config", options.config_path, "configuration, TOML");
     verb.add_option("--set", options.sets, "section.key=value, over the file; repeatable")->allow_extra_args(false);
@@ -36,7 +43,7 @@ void add_run_options(CLI::App& verb, Options& options) {
 }
 
 void add_output_options(CLI::App& verb, Options& options) {
-    verb.add_option("--out", options.out, "where to write");
+    verb.add_option("--out", options.out, "where to write")->check(is_a_name());
     verb.add_flag("--force", options.force, "overwrite what exists");
     verb.add_flag("--json", options.json, "the result as one JSON object on standard output");
 }

@@ -37,6 +37,8 @@ void add_config_options(CLI::App& verb, Options& options);
 void add_config_argument(CLI::App& verb, Options& options);  // CONFIG as an argument or an option, and --set
 void add_run_options(CLI::App& verb, Options& options);      // seed, duration, threads
 void add_output_options(CLI::App& verb, Options& options);   // out, force, json
+// Of the name of an output. A shell gives an empty one for a variable that is not set, which must not mean the default.
+[[nodiscard]] CLI::Validator is_a_name();
 void add_light_option(CLI::App& verb, Options& options);
 
 // --set over --config over the defaults.

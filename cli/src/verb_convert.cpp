@@ -80,6 +80,7 @@ std::int64_t convert_raw(const ConvertOptions& options, std::optional<logs::LogF
     }
     logs::RawWriterOptions copied = copied_light(header, options.file, *format);
     copied.has_fingerprint = !header.fingerprint.empty();
+    copied.format_version = header.format_version;
     logs::RawWriter copy{options.out, header.settings, options.force, header, copied};
     if (copied.has_fingerprint) copy.set_fingerprint(header.fingerprint);
     return copy_raw(options, raw, copy);
@@ -123,11 +124,12 @@ std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::L
     if (header.has_truth && !with_truth)
         complain(fmt::format("warning: {}: /truth stays behind, a CSV log holds none", options.file));
     const bool with_fingerprint = !header.fingerprint.empty();
-    logs::AngleWriter copy{options.out,
-                           logged_tick_s(header, options),
-                           header.settings,
-                           options.force,
-                           {.has_truth = with_truth, .has_fingerprint = with_fingerprint}};
+    logs::AngleWriter copy{
+        options.out,
+        logged_tick_s(header, options),
+        header.settings,
+        options.force,
+        {.has_truth = with_truth, .has_fingerprint = with_fingerprint, .format_version = header.format_version}};
     if (with_fingerprint) copy.set_fingerprint(header.fingerprint);
     const std::int64_t rows =
         copy_angles(angles, copy.part_path(), [&copy](const logs::TimedAngle& angle) { copy.write_timed(angle); });

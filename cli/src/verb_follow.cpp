@@ -129,7 +129,7 @@ void add_follow(CLI::App& program) {
     verb->add_option("SOURCE", options->source,
                      "a file, a serial device, - for standard input, tcp:HOST:PORT or unix:PATH")
         ->required();
-    verb->add_option("--out", options->out, "angle log to write: .csv, .h5 or .hdf5");
+    verb->add_option("--out", options->out, "angle log to write: .csv, .h5 or .hdf5")->check(is_a_name());
     verb->add_option("--baud", options->baud, "speed of a serial device (921600)");
     verb->add_option("--duration", options->duration_s,
                      "end after so long, of the log or of the clock, whichever comes first")

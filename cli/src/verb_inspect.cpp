@@ -1,6 +1,6 @@
 #include <filesystem>
 #include <memory>
-#include <span>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,10 +10,13 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/rig/wiring.hpp>
+#include <zlg/twin/motion.hpp>
 
 #include "as_json.hpp"
 #include "failure.hpp"
 #include "foreign_file.hpp"
+#include "log_settings.hpp"
 #include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -104,13 +107,6 @@ std::string repaired_path(const InspectOptions& options) {
     return std::filesystem::path{file}.replace_extension(fmt::format(".repaired{}", file.extension().string()));
 }
 
-// What a log says of itself, as far as it can be understood; what cannot be is damage, and dropped from a repaired copy.
-struct LogSettings {
-    config::Settings good;
-    config::Config config;
-    std::string damage;
-};
-
 // A fact that the log gives; null where it does not.
 json fact(const config::Settings& settings, std::string_view name, double value) {
     for (const auto& [key, text] : settings)
@@ -122,6 +118,9 @@ json fact(const config::Settings& settings, std::string_view name, double value)
 json fingerprint_json(const std::string& fingerprint) {
     return fingerprint.empty() ? json(nullptr) : json(fingerprint);
 }
+
+// Which random numbers a seed in the settings names; null where the log does not say it.
+json version_json(const logs::FormatVersion& version) { return version ? json(*version) : json(nullptr); }
 
 json raw_json(const InspectOptions& options, const logs::RawHeader& header, const LogSettings& log,
               const RawFindings& f) {
@@ -145,6 +144,7 @@ json raw_json(const InspectOptions& options, const logs::RawHeader& header, cons
             {"open_halves", f.open_halves},
             {"invalid_halves", f.invalid_halves},
             {"fingerprint", fingerprint_json(header.fingerprint)},
+            {"format_version", version_json(header.format_version)},
             {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
@@ -164,6 +164,7 @@ json angle_json(const InspectOptions& options, const logs::AngleHeader& header, 
             {"duration_s", f.end_s},
             {"flagged_ticks", flags},
             {"fingerprint", fingerprint_json(header.fingerprint)},
+            {"format_version", version_json(header.format_version)},
             {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
@@ -203,37 +204,22 @@ std::string as_text(const json& findings) {
     return text;
 }
 
-// Together with what was understood before, which it may contradict.
-bool understand_all(const InspectOptions& options, std::span<const config::Settings::value_type> settings,
-                    LogSettings& found, std::string& damage) {
-    config::Settings together = found.good;
-    together.insert(together.end(), settings.begin(), settings.end());
-    try {
-        found.config = load_log_config(options, together, options.file, LogFacts::none);
-        found.good = std::move(together);
-        return true;
-    } catch (const std::runtime_error& error) {  // FormatError; ConfigError of two keys that do not agree
-        damage = error.what();
-        return false;
-    }
-}
-
-// Settings that can be understood together cost as much as one; where they cannot, each half is tried in turn.
-void understand(const InspectOptions& options, std::span<const config::Settings::value_type> settings,
-                LogSettings& found) {
-    std::string damage;
-    if (understand_all(options, settings, found, damage)) return;
-    if (settings.size() == 1) {
-        if (found.damage.empty()) found.damage = damage;
-        return;
-    }
-    understand(options, settings.first(settings.size() / 2), found);
-    understand(options, settings.subspan(settings.size() / 2), found);
+// A file that was cut at the end of a row looks whole, and says what the whole run was.
+void warn_of_missing(const LogSettings& log, std::int64_t ticks, const std::string& path) {
+    const std::optional<double>& duration_s = log.config.run.duration_s;
+    if (!duration_s || fact(log.good, "tick_s", 0.0).is_null() || *duration_s < log.config.gyro.tick_s) return;
+    const std::int64_t said = rig::run_ticks(log.config, twin::Motion::rest());
+    if (ticks >= said) return;
+    complain(
+        fmt::format("warning: {}: holds {} ticks, its settings (run.duration_s = {}) say {}; the file may have been "
+                    "cut off",
+                    path, ticks, *duration_s, said));
 }
 
 void repair(const InspectOptions& options, logs::RawReader& reader, const config::Settings& settings,
             RawFindings& found, const std::string& out) {
-    const logs::RawWriterOptions copied = copied_light(reader.header(), options.file, log_format(out));
+    logs::RawWriterOptions copied = copied_light(reader.header(), options.file, log_format(out));
+    copied.format_version = reader.header().format_version;
     refuse_own_input(options.file, out);
     logs::RawWriter copy{out, settings, options.force, reader.header(), copied};
     found = read_raw(reader, options.file, &copy);
@@ -244,8 +230,7 @@ void repair(const InspectOptions& options, logs::RawReader& reader, const config
 json inspect_raw(const InspectOptions& options) {
     logs::RawReader reader{options.file};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
-    LogSettings log;
-    understand(options, reader.header().settings, log);
+    const LogSettings log = understood(options, reader.header().settings, options.file);
     const std::string out = options.repair ? repaired_path(options) : "";
     RawFindings found;
     if (options.repair)
@@ -255,6 +240,7 @@ json inspect_raw(const InspectOptions& options) {
     if (found.damage.empty() && !reader.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
     if (found.damage.empty()) found.damage = log.damage;
+    if (found.damage.empty()) warn_of_missing(log, found.halves / 2, options.file);
     json findings = raw_json(options, reader.header(), log, found);
     if (options.repair) findings["repaired"] = out;
     return findings;
@@ -267,6 +253,8 @@ json inspect_angles(const InspectOptions& options) {
             options.file)};
     logs::AngleReader reader{options.file};
     const AngleFindings found = read_angles(reader, options.file);
+    if (found.damage.empty())
+        warn_of_missing(understood(options, reader.header().settings, options.file), found.ticks, options.file);
     return angle_json(options, reader.header(), found);
 }
 

@@ -122,7 +122,7 @@ void add_sweep(CLI::App& program, const sweep::Crew& crew) {
     CLI::App* verb = program.add_subcommand(
         "sweep", "many gyros of drawn parameters, whose results can be interrupted, continued, parted and merged");
     verb->add_option("SWEEP", options->description, "what is drawn and recorded, TOML");
-    verb->add_option("--out", options->out, "the file of results, .h5; FILE.part while it grows");
+    verb->add_option("--out", options->out, "the file of results, .h5; FILE.part while it grows")->check(is_a_name());
     verb->add_option("--page", options->page, "a page of the results, FILE.html");
     verb->add_option("--part", options->part, "only the k-th of n parts of the gyros");
     verb->add_option("--merge", options->merged, "put files of results together");

@@ -55,6 +55,7 @@ py::dict read_raw(const std::string& path, bool light, const py::object& progres
     columns["warnings"] = warnings;
     columns["settings"] = header.settings;
     columns["timer_hz"] = header.timer_hz;
+    columns["format_version"] = header.format_version;
     columns["complete"] = header.complete;
     return columns;
 }
@@ -64,9 +65,14 @@ void write_raw(const std::string& path, const py::dict& columns, const config::S
     const RawView rows{columns};
     const Progress tell{progress};
     const logs::RawColumns kept = header_of(columns, timer_hz);
+    const auto version = py::cast<logs::FormatVersion>(columns["format_version"]);
     const py::gil_scoped_release released;
     logs::RawWriter writer{
-        path, settings, force, kept, {.light_samples = rows.light_samples(), .light_b = rows.has_light_b()}};
+        path,
+        settings,
+        force,
+        kept,
+        {.light_samples = rows.light_samples(), .light_b = rows.has_light_b(), .format_version = version}};
     for (std::size_t row = 0; row < rows.size(); ++row) {
         if (row % rows_per_report == 0) tell(static_cast<double>(row) / static_cast<double>(rows.size()));
         writer.write(rows.record(row), rows.light(row));
@@ -91,6 +97,7 @@ py::dict read_angles(const std::string& path, const py::object& progress) {
     py::dict columns = rows.take_out();
     columns["warnings"] = reader->header().warnings;
     columns["settings"] = reader->header().settings;
+    columns["format_version"] = reader->header().format_version;
     columns["complete"] = reader->header().complete;
     return columns;
 }
@@ -99,8 +106,9 @@ void write_angles(const std::string& path, const py::dict& columns, double tick_
                   bool force, const py::object& progress) {
     const AngleView rows{columns};
     const Progress tell{progress};
+    const auto version = py::cast<logs::FormatVersion>(columns["format_version"]);
     const py::gil_scoped_release released;
-    logs::AngleWriter writer{path, tick_s, settings, force, {.has_truth = rows.has_truth()}};
+    logs::AngleWriter writer{path, tick_s, settings, force, {.has_truth = rows.has_truth(), .format_version = version}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (i % rows_per_report == 0) tell(static_cast<double>(i) / static_cast<double>(rows.size()));
         writer.write(rows.angle(i), rows.truth_arcsec(i));
@@ -150,6 +158,7 @@ py::list read_text(const std::string& path, const std::vector<std::string>& colu
 }  // namespace
 
 void bind_logs(py::module_& m) {
+    m.attr("format_version") = logs::format_version;
     m.def("log_kind", &kind, "path"_a);
     m.def("read_raw", &read_raw, "path"_a, "light"_a, "progress"_a);
     m.def("write_raw", &write_raw, "path"_a, "columns"_a, "settings"_a, "timer_hz"_a, "force"_a, "progress"_a);

@@ -363,6 +363,7 @@ def terms_of_sheet(
 ) -> NoiseTerms: ...
 
 timer_hz: float
+format_version: int
 
 def welch_spectrum(
     rates_arcsec_s: NDArray[np.float64],

@@ -53,6 +53,8 @@ class RawLog(Columns):
     timer_hz: float = 0.0
     #: ("section.key", TOML text), as they stand above the rows
     settings: list[tuple[str, str]] = field(default_factory=list)
+    #: which random numbers a seed in the settings names; None: of a log that does not say it
+    format_version: Optional[int] = _zlg.format_version
     #: False: it is being written, or its writer was interrupted
     complete: bool = True
 
@@ -104,6 +106,8 @@ class AngleLog(Columns):
     #: length of a tick; NaN: not known
     tick_s: float = math.nan
     settings: list[tuple[str, str]] = field(default_factory=list)
+    #: as in RawLog
+    format_version: Optional[int] = _zlg.format_version
     complete: bool = True
     #: what `compensate` found; None: of a log that was read
     switches: Optional[Switches] = None

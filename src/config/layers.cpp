@@ -5,7 +5,10 @@
 #include <zlg/text/whole_file.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <system_error>
 #include <zlg/config/schema.hpp>
 
 #include "key.hpp"
@@ -16,8 +19,17 @@ namespace zlg::config {
 
 namespace {
 
+// TOML's integers end at 2^63 - 1; one beyond that was taken for text, as other words are that are no TOML.
+bool is_long_integer(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc::result_out_of_range && end == text.data() + text.size();
+}
+
 std::string_view type_name(const toml::node& node) {
-    if (node.is_string()) return "a string";
+    if (node.is_string())
+        return is_long_integer(node.as_string()->get()) ? "an integer of more than 64 bits" : "a string";
     if (node.is_integer()) return "an integer";
     if (node.is_floating_point()) return "a real number";
     if (node.is_boolean()) return "a boolean";

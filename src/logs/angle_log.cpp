@@ -24,12 +24,15 @@ std::string flag_legend() {
 
 std::unique_ptr<LogSink<AngleTable>> create(const std::string& path, double tick_s, Settings settings, bool force,
                                             const AngleWriterOptions& options) {
+    if (options.format_version) (void)checked_format_version(*options.format_version, path);
     if (!find_setting(settings, "flags")) settings.emplace_back("flags", flag_legend());
     if (!find_setting(settings, "tick_s") && !std::isnan(tick_s))
         settings.emplace_back("tick_s", fmt::format("{}", tick_s));
     if (format_of(path) == LogFormat::hdf5) return create_angle_hdf5(path, force, settings, options);
     return create_csv<AngleTable>(path, force, settings, {},
-                                  {.keep_part = options.keep_csv_part, .has_fingerprint = options.has_fingerprint});
+                                  {.keep_part = options.keep_csv_part,
+                                   .has_fingerprint = options.has_fingerprint,
+                                   .format_version = options.format_version});
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ template <class Table>
 struct CsvOptions {
     bool keep_part = false;
     bool has_fingerprint = false;
+    FormatVersion format_version = logs::format_version;
 };
 
 // A log of the given columns, with these settings above it.

@@ -24,11 +24,16 @@ void refuse_fingerprint(const std::string& path) {
     throw FormatError(fmt::format("{}: has no room for a fingerprint; allowed is one with has_fingerprint", path));
 }
 
-std::string take_fingerprint(Settings& settings) {
+std::string take_fingerprint(Settings& settings, const std::string& path) {
     std::string found;
-    std::erase_if(settings, [&found](const auto& setting) {
+    std::erase_if(settings, [&](const auto& setting) {
         if (setting.first != "fingerprint") return false;
-        if (is_fingerprint(setting.second)) found = setting.second;
+        if (is_fingerprint(setting.second)) {
+            if (!found.empty() && found != setting.second)
+                throw FormatError(fmt::format("{}: fingerprint stands twice, as {} and as {}; allowed is one value",
+                                              path, found, setting.second));
+            found = setting.second;
+        }
         return is_fingerprint(setting.second) || setting.second == no_fingerprint;
     });
     return found;

@@ -26,6 +26,8 @@ void require_fingerprint(const std::string& fingerprint, const std::string& plac
 
 // The fingerprint that stands among the lines of a CSV log, which it leaves; empty where there is none. A line of that
 // name with another value is a note of a laboratory, and stays.
-[[nodiscard]] std::string take_fingerprint(Settings& settings);
+//
+// errors  FormatError: two of them that differ; names `path`.
+[[nodiscard]] std::string take_fingerprint(Settings& settings, const std::string& path);
 
 }  // namespace zlg::logs

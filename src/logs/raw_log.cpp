@@ -25,6 +25,7 @@ std::unique_ptr<LogSink<RawTable>> create(const std::string& path, const Setting
     if (options.light_b && options.light_samples == 0)
         throw FormatError(fmt::format("{}: light samples of beam B; allowed is with those of beam A", path));
     if (columns.has_edge_offset) check_timer_hz(columns.timer_hz, path);
+    if (options.format_version) (void)checked_format_version(*options.format_version, path);
     if (format_of(path) == LogFormat::hdf5) return create_raw_hdf5(path, force, settings, columns, options);
     if (options.light_samples > 0) {
         throw FormatError(
@@ -32,7 +33,8 @@ std::unique_ptr<LogSink<RawTable>> create(const std::string& path, const Setting
     }
     Settings lines = settings;
     if (columns.has_edge_offset) lines.emplace_back(timer_setting, fmt::format("{}", columns.timer_hz));
-    return create_csv<RawTable>(path, force, lines, columns, {.has_fingerprint = options.has_fingerprint});
+    return create_csv<RawTable>(path, force, lines, columns,
+                                {.has_fingerprint = options.has_fingerprint, .format_version = options.format_version});
 }
 
 // Rows that are in memory, made of another program's file.

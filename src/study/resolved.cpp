@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <zlg/logs/text_columns.hpp>
 #include <zlg/rig/laser_agreement.hpp>
 #include <zlg/study/design_study.hpp>
 #include <zlg/study/switch_trial.hpp>
@@ -24,6 +25,10 @@ Resolved resolved(const config::Config& config) {
     Resolved made{.config = std::move(agreement.config),
                   .notes = std::move(agreement.notes),
                   .warnings = std::move(agreement.warnings)};
+    const config::Motion& motion = config.motion;
+    if (motion.kind == config::MotionKind::file && !logs::ends_with_a_line(motion.path))
+        made.warnings.push_back(
+            fmt::format("{}: the last line has no end; the file may have been cut off", motion.path));
     if (!made.config.switching.interval_optimal) return made;
     const SwitchCost cost = switch_cost(made.config);
     made.config = with_interval(made.config, cost.error_arcsec);

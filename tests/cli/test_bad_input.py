@@ -7,7 +7,7 @@ import unittest
 
 from oracle import Settings
 from random_logs import random_log
-from support import SAID, CliTest, complaints, csv_text, quiet_log, run
+from support import SAID, CliTest, complaints, csv_text, quiet_log, run, warnings
 
 USAGE, INPUT = 2, 3
 
@@ -85,6 +85,14 @@ class BadRows(BadInputTest):
         rows = random_log(self.random, Settings(), {5}, 20)
         rows[7]["detuning_lambda"] = "far"
         self.refuse_log(csv_text(rows).replace("'far'", "far"), "raw.csv", "detuning_lambda", "far")
+
+    def test_motion_file_that_was_cut_in_its_last_number(self):
+        for end, n in (("\n", 0), ("", 1)):
+            path = self.write("motion.csv", "1.25\n" * 200 + "1.2" + end)
+            result = self.succeed("simulate", "--set", "motion.kind=file", "--set", f"motion.path={path}", "--force",
+                                  "--out", self.folder / "raw.csv")
+            says = f"zlg: warning: {path}: the last line has no end; the file may have been cut off"
+            self.assertEqual(warnings(result), [says] * n)
 
     def test_truncated_in_the_last_row(self):
         text = csv_text(quiet_log(20))
@@ -208,6 +216,16 @@ class BadUsage(BadInputTest):
             with self.subTest(relock=method):
                 self.refuse_call((USAGE, INPUT), *self.process_call, "--set", f"compensation.relock={method}", says=["detuning"])
 
+    def test_integer_of_more_than_64_bits(self):
+        for seed in ("9223372036854775808", "-9223372036854775809"):
+            self.refuse_call(USAGE, "run", "--seed", seed, "--out", self.folder / "run",
+                             says=["run.seed", seed, "an integer of more than 64 bits", "0..9223372036854775807"])
+        self.refuse_call(USAGE, "run", "--seed", "12x", "--out", self.folder / "run", says=["this is a string"])
+
+    def test_warming_that_turns_the_bias_over(self):
+        self.refuse_call(USAGE, "run", "--set", "gyro.bias_temperature_coefficient_per_c=-0.1", "--out",
+                         self.folder / "run", says=["1 + gyro.bias_temperature_coefficient_per_c * gyro.temperature_rise_c is -1"])
+
     def test_run_durations(self):
         for value in ("-1", "nan", "0", "long"):
             with self.subTest(duration=value):
@@ -242,6 +260,11 @@ class BadOutput(BadInputTest):
         self.refuse_call(INPUT, "process", self.raw, "--out", self.folder / "absent" / "a.csv", says=["absent"])
         self.refuse_call(INPUT, "simulate", "--duration", "1", "--out", self.folder / "absent" / "raw.csv", says=["absent"])
         self.refuse_call(INPUT, "run", "--duration", "1", "--out", self.folder / "absent" / "run", says=["absent"])
+
+    def test_output_without_a_name(self):
+        for call in (["run", "--duration", 1], ["simulate", "--duration", 1], ["process", self.raw, *SAID],
+                     ["convert", self.raw], ["follow", self.raw]):
+            self.refuse_call(USAGE, *call, "--out", "", says=["--out", "empty"])
 
     def test_output_that_is_a_folder(self):
         self.out.mkdir()

@@ -78,7 +78,7 @@ class Faces(FingerprintTest):
             self.assertNotIn(b"fingerprint", out.read_bytes())
         with_line = json.loads(self.succeed("inspect", SHARED["csv"] / "raw.csv", "--json").stdout)["settings"]
         lines = re.findall(r"(?m)^# .* = ", (SHARED["csv"] / "raw.csv").read_text())
-        self.assertEqual(with_line, len(lines) - 1)
+        self.assertEqual(with_line, len(lines) - 2)  # that of the version is none either
 
 
 class Equal(FingerprintTest):
@@ -132,6 +132,41 @@ class OtherLogs(FingerprintTest):
 
 
 class Versions(FingerprintTest):
+    def version_of(self, log):
+        found = json.loads(self.succeed("inspect", log, "--json").stdout)["format_version"]
+        lines = [line for line in self.succeed("inspect", log).stdout.splitlines() if line.startswith("format_version")]
+        self.assertEqual(lines, [] if found is None else [f"{'format_version':<18} {found}"])
+        return found
+
+    def test_a_log_of_a_run_says_2_and_one_without_the_line_says_none(self):
+        for form in ("csv", "h5"):
+            for name in ("raw", "angles"):
+                self.assertEqual(self.version_of(SHARED[form] / f"{name}.{form}"), 2)
+        self.assertIsNone(self.version_of(self.write("raw.csv", csv_text(quiet_log()))))
+
+    def test_a_copy_and_a_repaired_log_have_that_of_their_source(self):
+        for version in (1, 2):
+            log = self.copy_of_version(version)
+            for form, back_to in (("csv", "h5"), ("h5", "csv")):
+                copy, back = self.folder / f"copy.{form}", self.folder / f"back.{back_to}"
+                self.succeed("convert", log, "--out", copy, "--force")
+                self.succeed("convert", copy, "--out", back, "--force")
+                repaired = self.folder / f"repaired.{form}"
+                self.succeed("inspect", copy, "--repair", "--out", repaired, "--force")
+                self.assertEqual([self.version_of(each) for each in (log, copy, back, repaired)], [version] * 4)
+        unknown = self.write("unknown.csv", csv_text(quiet_log()))
+        self.succeed("convert", unknown, "--out", self.folder / "unknown.h5")
+        self.assertIsNone(self.version_of(self.folder / "unknown.h5"))
+
+    def test_copies_of_angles_have_it_too(self):
+        angles = self.folder / "angles.h5"
+        shutil.copy(SHARED["h5"] / "angles.h5", angles)
+        with h5py.File(angles, "r+") as file:
+            file.attrs["format_version"] = 1
+        copy = self.folder / "copy.csv"
+        self.succeed("convert", angles, "--out", copy)
+        self.assertEqual([self.version_of(angles), self.version_of(copy)], [1, 1])
+
     def copy_of_version(self, version):
         log = self.folder / "raw.h5"
         shutil.copy(SHARED["h5"] / "raw.h5", log)

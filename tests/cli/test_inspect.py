@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from support import CliTest, csv_text, quiet_log, run
+from support import CliTest, csv_text, quiet_log, run, warnings
 
 
 class Inspect(CliTest):
@@ -30,6 +30,26 @@ class Inspect(CliTest):
         found = self.findings(self.write("raw.csv", text), code=1)
         self.assertEqual(found["halves"], 30)
         self.assertIn("hole", found["damage"])
+
+    def test_fewer_rows_than_the_settings_say_are_warned_of(self):
+        self.succeed("run", "--duration", 2, "--format", "csv", "--quiet", "--out", self.folder / "run")
+        duration = "# run.duration_s = 2\n"
+        for name, rows_a_tick in (("raw", 2), ("angles", 1)):
+            unsaid = (self.folder / "run" / f"{name}.csv").read_text().replace(duration, "")
+            at = unsaid.index("# gyro.")
+            whole = (unsaid[:at] + duration + unsaid[at:]).splitlines(True)
+            self.assertEqual(warnings(self.succeed("inspect", self.write("log.csv", "".join(whole)))), [])
+            log = self.write("log.csv", "".join(whole[:-10 * rows_a_tick]))
+            self.assertEqual(warnings(self.succeed("inspect", log)),
+                             [f"zlg: warning: {log}: holds 390 ticks, its settings (run.duration_s = 2) say 400; "
+                              "the file may have been cut off"])
+            log = self.write("log.csv", "".join(unsaid.splitlines(True)[:-10 * rows_a_tick]))
+            self.assertEqual(warnings(self.succeed("inspect", log)), [])
+
+    def test_a_raw_log_of_a_run_says_how_long_it_is(self):
+        self.succeed("simulate", "--duration", 2, "--out", self.folder / "raw.csv")
+        rows = (self.folder / "raw.csv").read_text().splitlines(True)
+        self.assertEqual(len(warnings(self.succeed("inspect", self.write("cut.csv", "".join(rows[:-2]))))), 1)
 
     def test_repair_keeps_every_whole_row_and_no_other_column(self):
         for columns in (None, ["half", "bias_sign", "mode", "counts", "loop_closed", "valid", "temperature_c"]):

@@ -66,6 +66,19 @@ public:
         return *this;
     }
 
+    // A text of C, with a zero behind it, into the place of another.
+    Hdf5File& overwrite_text(const std::string& path, const std::string& text) {
+        const hid_t type = H5Tcopy(H5T_C_S1);
+        H5Tset_size(type, text.size() + 1);
+        const hid_t set = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
+        H5Tset_cset(type, H5T_CSET_UTF8);
+        if (H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()) < 0)
+            throw std::runtime_error("cannot write " + path);
+        H5Dclose(set);
+        H5Tclose(type);
+        return *this;
+    }
+
     Hdf5File& attribute(const std::string& name, double value) {
         return attribute(name, H5T_NATIVE_DOUBLE, H5Screate(H5S_SCALAR), &value);
     }

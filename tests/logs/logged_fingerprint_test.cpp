@@ -146,6 +146,32 @@ TEST(LoggedFingerprintCsv, of_another_form_is_a_note_of_the_laboratory) {
     }
 }
 
+TEST(LoggedFingerprintCsv, that_stands_twice_is_refused_where_both_differ) {
+    const TemporaryFolder folder;
+    const auto log_of = [&folder](const std::string& second) {
+        return folder.write("raw.csv", "# fingerprint = " + digits + "\n# fingerprint = " + second +
+                                           "\nhalf,bias_sign,mode,counts,loop_closed\n0,1,1,5,1\n1,-1,1,-5,1\n");
+    };
+    const std::string other = "0123456789abcdee";
+    const std::string path = log_of(other);
+    EXPECT_EQ(message_of<FormatError>([&] { RawReader{path}; }),
+              path + ": fingerprint stands twice, as " + digits + " and as " + other + "; allowed is one value");
+    for (const std::string& second : {digits, std::string{"left thumb"}})
+        EXPECT_EQ(RawReader{log_of(second)}.header().fingerprint, digits) << second;
+}
+
+TEST(LoggedFingerprintHdf5, can_be_written_anew_by_another_program) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("raw.h5");
+    RawWriter log = raw_writer(path);
+    write_rows(log, 2);
+    log.set_fingerprint(digits);
+    log.close();
+    const std::string anew = "fedcba9876543210";
+    test::Hdf5File{path, true}.overwrite_text("/fingerprint", anew);
+    EXPECT_EQ(RawReader{path}.header().fingerprint, anew);
+}
+
 TEST(LoggedFingerprintHdf5, of_a_log_that_is_not_complete_is_none) {
     const TemporaryFolder folder;
     const std::string path = folder.file("raw.h5");

@@ -359,4 +359,13 @@ RC_GTEST_PROP(TextColumnsProperty, a_table_in_any_dialect_is_read_right_or_refus
     RC_ASSERT(read == table[wanted]);
 }
 
+TEST(EndOfText, a_file_ends_with_a_line_where_its_last_byte_is_a_line_feed) {
+    const zlg::test::TemporaryFolder folder;
+    EXPECT_TRUE(ends_with_a_line(folder.write("a", "1\n2\n")));
+    EXPECT_TRUE(ends_with_a_line(folder.write("b", "1\r\n2\r\n")));
+    EXPECT_FALSE(ends_with_a_line(folder.write("c", "1\n2")));
+    EXPECT_TRUE(ends_with_a_line(folder.write("d", "")));
+    EXPECT_TRUE(ends_with_a_line("/dev/zero")) << "nothing is read of what never ends";
+}
+
 }  // namespace

@@ -98,6 +98,23 @@ def test_text_columns_have_names_and_decimal_commas(tmp_path):
         read_text_columns(tmp_path / "one.csv", [1], separator="dot")
 
 
+@pytest.mark.parametrize("version", [1, 2, None])
+def test_a_copy_has_the_version_of_its_source(version, tmp_path):
+    raw = three_ticks()
+    assert raw.format_version == 2
+    raw.format_version = version
+    angles = zlg.compensate(raw)
+    assert angles.format_version == 2
+    angles.format_version = version
+    write_raw(tmp_path / "raw.h5", raw)
+    write_angles(tmp_path / "angles.h5", angles)
+    for name, read in (("raw", read_raw), ("angles", read_angles)):
+        zlg.convert(tmp_path / f"{name}.h5", tmp_path / f"{name}.csv")
+        zlg.convert(tmp_path / f"{name}.csv", tmp_path / f"{name}_back.h5")
+        for file in (f"{name}.h5", f"{name}.csv", f"{name}_back.h5"):
+            assert read(tmp_path / file).format_version == version
+
+
 BAD_COLUMNS = {
     "a byte's overflow": ("mode", [1, 1, 257, 1, 1, 1], "mode: row 2 holds 257"),
     "no mode": ("mode", [1, 1, 0, 1, 1, 1], r"mode: row 2 holds 0; allowed is \+1 or -1"),

@@ -1,3 +1,7 @@
+#include <filesystem>
+#include <fstream>
+#include <string>
+
 #include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/study/resolved.hpp>
@@ -47,6 +51,21 @@ TEST(Resolved, says_that_an_estimate_of_the_drift_is_not_foreseen) {
     c.compensation.magnetic = core::MagneticMethod::estimate;
     EXPECT_NE(study::resolved(c).notes[0].find("compensation.magnetic = \"estimate\" takes out is not foreseen"),
               std::string::npos);
+}
+
+TEST(Resolved, warns_of_a_motion_file_whose_last_line_has_no_end) {
+    config::Config c;
+    c.motion.kind = config::MotionKind::file;
+    c.motion.path = (std::filesystem::path{testing::TempDir()} / "zlg_resolved_motion.txt").string();
+    const auto warnings_of = [&c](const char* text) {
+        std::ofstream{c.motion.path} << text;
+        return study::resolved(c).warnings;
+    };
+    EXPECT_TRUE(warnings_of("0.5\n1.523\n").empty());
+    const auto warnings = warnings_of("0.5\n1.5");
+    std::filesystem::remove(c.motion.path);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0], c.motion.path + ": the last line has no end; the file may have been cut off");
 }
 
 TEST(Resolved, takes_the_constants_of_a_laser) {

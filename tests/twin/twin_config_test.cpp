@@ -52,6 +52,28 @@ TEST(Twin, MembersThatDoNotMakeAGyroTogetherAreRefusedByKey) {
     }
 }
 
+// 1 + coefficient * 20 C would be -1, 0 and -0.2: a bias of the other sign, or none. Of either fidelity.
+TEST(Twin, ABiasThatWarmingTurnsOverIsRefused) {
+    for (const Fidelity fidelity : {Fidelity::averaged, Fidelity::laser}) {
+        TwinConfig config;
+        config.gyro.fidelity = fidelity;
+        for (const double bad : {-0.1, -0.05, -0.06, nan}) {
+            config.gyro.bias_temperature_coefficient_per_c = bad;
+            try {
+                Twin twin{config, Motion::rest()};
+                ADD_FAILURE() << bad << " was accepted";
+            } catch (const std::invalid_argument& error) {
+                EXPECT_NE(std::string{error.what()}.find(
+                              "1 + gyro.bias_temperature_coefficient_per_c * gyro.temperature_rise_c is "),
+                          std::string::npos)
+                    << error.what();
+            }
+        }
+        config.gyro.bias_temperature_coefficient_per_c = -0.04;
+        EXPECT_NO_THROW((Twin{config, Motion::rest()})) << "a fifth of the bias is left";
+    }
+}
+
 TEST(Twin, UnusualGyrosAreValid) {
     TwinConfig config = quiet_gyro();
     config.gyro.scale_arcsec = 1e-6;

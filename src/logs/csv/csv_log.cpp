@@ -14,6 +14,25 @@ namespace zlg::logs {
 
 namespace {
 
+constexpr const char* version_setting = "format_version";
+
+// The line of that name, which `settings` then lack.
+FormatVersion take_format_version(Settings& settings, const std::string& path) {
+    FormatVersion found;
+    for (const auto& [key, value] : settings) {
+        if (key != version_setting) continue;
+        const auto number = number_in(value);
+        if (!number) throw FormatError(fmt::format("{}: format_version is '{}'; allowed is a number", path, value));
+        const int version = checked_format_version(*number, path);
+        if (found && *found != version)
+            throw FormatError(fmt::format("{}: format_version stands twice, as {} and as {}; allowed is one value",
+                                          path, *found, version));
+        found = version;
+    }
+    std::erase_if(settings, [](const auto& setting) { return setting.first == version_setting; });
+    return found;
+}
+
 void complete_header(const CsvReader&, const std::string&, AngleHeader&) {}
 
 void complete_header(const CsvReader& csv, const std::string& path, RawHeader& header) {
@@ -26,7 +45,8 @@ class CsvSource final : public LogSource<Table> {
 public:
     explicit CsvSource(const std::string& path) : csv_{path, known_columns<Table>} {
         this->header_.settings = csv_.settings();
-        this->header_.fingerprint = take_fingerprint(this->header_.settings);
+        this->header_.fingerprint = take_fingerprint(this->header_.settings, path);
+        this->header_.format_version = take_format_version(this->header_.settings, path);
         this->header_.warnings = csv_.warnings();
         complete_header(csv_, path, this->header_);
     }
@@ -58,6 +78,7 @@ public:
             const CsvOptions& options)
         : file_{path, force}, columns_{columns}, has_fingerprint_{options.has_fingerprint} {
         if (has_fingerprint_) file_.append(fmt::format("{}{}\n", fingerprint_line, no_fingerprint));
+        if (options.format_version) file_.append(fmt::format("# {} = {}\n", version_setting, *options.format_version));
         write_settings(file_, settings);
         std::string names;
         for_each_column<Table>([&](const auto& field, std::size_t) {

@@ -6,10 +6,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/text_columns.hpp>
 #include <zlg/text/escape.hpp>
 #include <zlg/text/spelling.hpp>
 
@@ -256,11 +256,6 @@ std::string nature_of(const Look& look) {
     nature += look.dialect.names.empty() ? ", no names of columns" : ", named columns";
     if (!look.units.empty()) nature += " with a line of units";
     return nature + fmt::format(", numbers from line {} on", first_row);
-}
-
-bool ends_with_a_line(const std::string& path) {
-    std::ifstream file{path, std::ios::binary};
-    return !file.seekg(-1, std::ios::end) || file.get() == '\n';
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class AngleHdf5Sink final : public hdf5::TableSink<AngleTable> {
 public:
     AngleHdf5Sink(const std::string& path, bool force, const Settings& settings, const AngleWriterOptions& options)
         : TableSink{path, force, options, {}} {
-        hdf5::add_angle_settings(table_, settings);
+        hdf5::add_angle_settings(table_, settings, options.format_version);
         add_columns();
         if (options.has_truth) {
             table_.add_group(truth_group);
@@ -58,6 +58,7 @@ public:
             table_.add(truth_);
         }
         measure();
+        header_.format_version = hdf5::read_format_version(table_.source());
         header_.settings = settings();
         header_.has_truth = truth_.is_open();
     }

@@ -23,13 +23,6 @@ const std::string* find_in_any_section(const Settings& settings, const std::stri
     return value != nullptr ? value : find_setting(settings, name);
 }
 
-void check_version(const Source& source) {
-    const auto version = source.real_attribute("format_version");
-    if (!version || *version == 1.0 || *version == static_cast<double>(format_version)) return;
-    throw FormatError(
-        fmt::format("{}: format_version is {}; allowed are 1 and {}", source.path(), *version, format_version));
-}
-
 void merge_root(const Source& source, const char* name, bool adds, Settings& settings) {
     const auto value = source.real_attribute(name);
     if (!value) return;
@@ -45,9 +38,10 @@ void merge_root(const Source& source, const char* name, bool adds, Settings& set
 }
 
 // A given tick_s goes before the settings' own.
-void add_settings(TableWriter& table, const Settings& settings, std::optional<double> tick_s) {
+void add_settings(TableWriter& table, const Settings& settings, const FormatVersion& version,
+                  std::optional<double> tick_s) {
     table.add_text("/config", settings_to_toml(settings));
-    table.set_integer("format_version", format_version);
+    if (version) table.set_integer("format_version", *version);
     for (const char* name : root_reals) {
         if (tick_s && name == std::string_view{"tick_s"}) {
             table.set_real(name, *tick_s);
@@ -59,20 +53,27 @@ void add_settings(TableWriter& table, const Settings& settings, std::optional<do
 
 }  // namespace
 
-void add_settings(TableWriter& table, const Settings& settings) { add_settings(table, settings, std::nullopt); }
+void add_settings(TableWriter& table, const Settings& settings, const FormatVersion& version) {
+    add_settings(table, settings, version, std::nullopt);
+}
 
-void add_angle_settings(TableWriter& table, Settings settings) {
+void add_angle_settings(TableWriter& table, Settings settings, const FormatVersion& version) {
     std::optional<double> tick_s;
     if (const std::string* text = find_setting(settings, "tick_s")) {
         tick_s = number_in(*text);
         if (!tick_s) throw FormatError(fmt::format("the setting tick_s is '{}'; allowed is a number", *text));
     }
     std::erase_if(settings, [](const auto& setting) { return setting.first == "flags" || setting.first == "tick_s"; });
-    add_settings(table, settings, tick_s);
+    add_settings(table, settings, version, tick_s);
+}
+
+FormatVersion read_format_version(const Source& source) {
+    const auto version = source.real_attribute("format_version");
+    if (!version) return std::nullopt;
+    return checked_format_version(*version, source.path());
 }
 
 Settings read_settings(const Source& source, bool adds_tick) {
-    check_version(source);
     Settings settings;
     if (const auto text = source.text("/config")) settings = settings_from_toml(*text, source.path() + ", /config");
     require_shallow_keys(settings, source.path() + ", /config");

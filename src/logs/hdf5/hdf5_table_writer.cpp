@@ -11,10 +11,12 @@ constexpr std::size_t no_cache = 0;  // rows come in blocks already, so a cache 
 
 Handle scalar() { return {H5Screate(H5S_SCALAR), &H5Sclose}; }
 
-// Text of variable length is what readers in other languages hand out as text.
+// Text of variable length is what readers in other languages hand out as text. One of a fixed size has no zero at its
+// end, for the library puts it in the place of the last letter where a program writes the text anew.
 Handle text_type(std::size_t size) {
     Handle type{H5Tcopy(H5T_C_S1), &H5Tclose};
     H5Tset_size(type.get(), size);
+    if (size != H5T_VARIABLE) H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
     H5Tset_cset(type.get(), H5T_CSET_UTF8);
     return type;
 }

@@ -29,7 +29,7 @@ public:
     RawHdf5Sink(const std::string& path, bool force, const Settings& settings, const RawColumns& columns,
                 const RawWriterOptions& options)
         : TableSink{path, force, options, columns}, light_samples_{static_cast<std::size_t>(options.light_samples)} {
-        hdf5::add_settings(table_, settings);
+        hdf5::add_settings(table_, settings, options.format_version);
         if (columns.has_edge_offset) table_.set_real(timer_setting, columns.timer_hz);
         add_columns();
         if (light_samples_ > 0) light_ = add_light("light");
@@ -73,6 +73,7 @@ public:
         table_.open(logs::light, light_, core::max_light_samples);
         table_.open(logs::light_b, light_b_, core::max_light_samples);
         measure();
+        header_.format_version = hdf5::read_format_version(table_.source());
         header_.settings = hdf5::read_settings(table_.source());
         note_columns(table_, header_);
         if (header_.has_edge_offset) {

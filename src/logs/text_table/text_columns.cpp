@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string_view>
+#include <system_error>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
 #include <zlg/text/escape.hpp>
@@ -237,6 +240,13 @@ void check(const std::string& path, const TextLayout& layout) {
 }
 
 }  // namespace
+
+bool ends_with_a_line(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return true;
+    std::ifstream file{path, std::ios::binary};
+    return !file.seekg(-1, std::ios::end) || file.get() == '\n';
+}
 
 std::string described(const TextColumn& column) {
     return column.name.empty() ? fmt::format("column {}", column.number)

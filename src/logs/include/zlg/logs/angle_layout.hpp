@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
+#include <zlg/logs/format_version.hpp>
 #include <zlg/logs/row_rules.hpp>
 #include <zlg/logs/settings.hpp>
 #include <zlg/logs/table_column.hpp>
@@ -20,6 +21,7 @@ struct AngleHeader {
     bool has_truth = false;             // /truth/dtheta_arcsec
     bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
     std::string fingerprint;            // of the whole run, 16 hexadecimal digits; empty: not said, or not complete
+    FormatVersion format_version;       // empty: not said
 };
 
 // A row and the time at which its tick ends.
@@ -33,8 +35,9 @@ struct AngleWriterOptions {
     bool has_truth = false;  // HDF5: the column /truth/dtheta_arcsec; a CSV log has none
     // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
     bool keep_part = false;
-    bool keep_csv_part = false;    // the same of CSV, for what cannot be had again
-    bool has_fingerprint = false;  // room for one, which `set_fingerprint` fills
+    bool keep_csv_part = false;                           // the same of CSV, for what cannot be had again
+    bool has_fingerprint = false;                         // room for one, which `set_fingerprint` fills
+    FormatVersion format_version = logs::format_version;  // of a copy that of its source
 };
 
 // A member of the row of a tick, from a TimedAngle.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
+#include <zlg/logs/format_version.hpp>
 #include <zlg/logs/row_rules.hpp>
 #include <zlg/logs/settings.hpp>
 #include <zlg/logs/table_column.hpp>
@@ -44,6 +45,7 @@ struct RawHeader : RawColumns {
     bool has_light_b = false;           // /raw/light_b beside it
     bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
     std::string fingerprint;            // of the whole run, 16 hexadecimal digits; empty: not said, or not complete
+    FormatVersion format_version;       // empty: not said
 };
 
 struct RawWriterOptions {
@@ -51,7 +53,8 @@ struct RawWriterOptions {
     bool light_b = false;   // of beam B too
     // HDF5: destroyed before `close`, PATH.part stays, not complete, with all rows so far; without a row it goes.
     bool keep_part = false;
-    bool has_fingerprint = false;  // room for one, which `set_fingerprint` fills
+    bool has_fingerprint = false;                         // room for one, which `set_fingerprint` fills
+    FormatVersion format_version = logs::format_version;  // of a copy that of its source
 };
 
 // All columns of a raw log but the light, in the order of a CSV log.

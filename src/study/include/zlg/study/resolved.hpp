@@ -11,7 +11,7 @@ namespace zlg::study {
 struct Resolved {
     config::Config config;
     std::vector<std::string> notes;     // what was decided
-    std::vector<std::string> warnings;  // what contradicts itself, and was left as it is
+    std::vector<std::string> warnings;  // what contradicts itself and was left as it is; a motion file without its end
 };
 
 // With the constants that follow from [laser], as rig::agreed_with_laser, and a number in place of switching.interval_s =

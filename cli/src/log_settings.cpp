@@ -1,0 +1,52 @@
+#include "log_settings.hpp"
+
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace zlg::cli {
+namespace {
+
+using SomeSettings = std::span<const config::Settings::value_type>;
+
+struct Understanding {
+    const Options& options;
+    const std::string& log_path;
+    LogSettings found;
+
+    // Settings that can be understood together cost as much as one; where they cannot, each half is tried in turn.
+    void take(SomeSettings settings) {
+        std::string damage;
+        if (take_all(settings, damage)) return;
+        if (settings.size() == 1) {
+            if (found.damage.empty()) found.damage = damage;
+            return;
+        }
+        take(settings.first(settings.size() / 2));
+        take(settings.subspan(settings.size() / 2));
+    }
+
+    // Together with what was understood before, which they may contradict.
+    bool take_all(SomeSettings settings, std::string& damage) {
+        config::Settings together = found.good;
+        together.insert(together.end(), settings.begin(), settings.end());
+        try {
+            found.config = load_log_config(options, together, log_path, LogFacts::none);
+            found.good = std::move(together);
+            return true;
+        } catch (const std::runtime_error& error) {  // FormatError; ConfigError of two keys that do not agree
+            damage = error.what();
+            return false;
+        }
+    }
+};
+
+}  // namespace
+
+LogSettings understood(const Options& options, const config::Settings& settings, const std::string& log_path) {
+    Understanding understanding{options, log_path, {}};
+    understanding.take(settings);
+    return std::move(understanding.found);
+}
+
+}  // namespace zlg::cli
