@@ -100,7 +100,6 @@ void validate_quickest(const TwinConfig& c) {
 // errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
 void validate(const TwinConfig& config) {
     validate_perimeter(config);
-    validate_laser(config);
     validate_quickest(config);
     validate_warmed_bias(config.gyro);
     if (config.gyro.fidelity == Fidelity::laser) validate(config.laser);  // the section does nothing in the other
