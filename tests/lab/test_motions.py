@@ -61,6 +61,8 @@ class Motions(unittest.TestCase):
                 self.browser.press(f"#motions button:nth-child({k})")
                 file = f"{name.replace(' ', '_')}.csv"
                 self.browser.wait_until(lambda: self.browser.text("#motion-text").startswith(f"{file}: "))
+                # "done" may still be that of the motion before.
+                self.browser.wait_until(lambda: f", {float(self.browser.marked('time')):g} s" in self.browser.text("#motion-text"))
                 self.browser.wait_for_state("done")
         self.motion = self.saved(file, "motion-save")
         self.assertEqual(self.browser.marked("fingerprint"), self.fingerprint_of_the_program())
