@@ -15,7 +15,7 @@ set(CMAKE_RANLIB llvm-ranlib-14)
 string(JOIN " " CMAKE_CXX_FLAGS_INIT
     -nostdinc++ -nostdlibinc -isystem /usr/include/wasm32-wasi/c++/v1 -isystem /usr/include/wasm32-wasi
     -fwasm-exceptions -ffunction-sections -fdata-sections -flto)
-# The linker sees through all sources, which makes the module faster and smaller; it must be told of exceptions anew.
+# The linker sees through all sources, which makes the module faster and smaller; it needs the options for exceptions once more.
 # -O0 is for the link alone: with another level clang calls wasm-opt where one is installed, and Debian's refuses exceptions by default.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-O0 -Qunused-arguments -Wl,--gc-sections -Wl,--strip-all -Wl,--compress-relocations -Wl,--stack-first -Wl,-z,stack-size=1048576 -Wl,-mllvm,-wasm-enable-eh -Wl,-mllvm,-exception-model=wasm")
 

@@ -70,7 +70,7 @@ void Distributor::run_here() {
     try {
         while (const auto gyro = next()) take_(gyros_.run(*gyro, [this] { return stops_.load(); }));
     } catch (const sweep::Stopped&) {
-        // As it was told.
+        // What `stops_` asked for.
     } catch (...) {
         fail(std::current_exception());
     }
@@ -78,8 +78,8 @@ void Distributor::run_here() {
 }
 
 void Distributor::stop_all() {
-    if (are_told_to_stop_) return;
-    are_told_to_stop_ = true;
+    if (has_sent_stop_) return;
+    has_sent_stop_ = true;
     for (int rank = 1; rank < n_ranks(); ++rank) send(rank, Tag::stop);
 }
 

@@ -54,7 +54,7 @@ private:
     const std::function<void(sweep::Row)>& take_;
     cli::Interruptible interruptible_;
     std::vector<Other> others_;  // by rank; 0 is unused
-    bool are_told_to_stop_ = false;
+    bool has_sent_stop_ = false;
 
     std::mutex shared_;  // with the thread that runs gyros here: the two below
     std::size_t n_given_ = 0;

@@ -74,7 +74,6 @@ void LogRun::open_raw(std::span<const std::string> settings) {
     compared_.emplace_back(
         compared_compensation(config_, log, name_, core::RelockMethod::none, core::BridgeMethod::none));
     compared_.emplace_back(compared_compensation(config_, log, name_, relock, core::BridgeMethod::quadratic));
-    finder_ = study::SwitchFinder{config_.compensation.relock_ticks};
 }
 
 void LogRun::open_angles(std::span<const std::string> settings) {
@@ -100,7 +99,6 @@ bool LogRun::advance(std::int64_t rows) {
 void LogRun::take(const core::HalfRecord& half) {
     if (first_) {
         const std::int64_t tick = half.half / 2;
-        finder_.take(tick, *first_, half);
         seen(tick) = {config_.gyro.scale_arcsec * static_cast<double>(first_->counts + half.counts),
                       first_->loop_closed && half.loop_closed ? 1.0 : 0.0, half.detuning_lambda, half.piezo_v};
         first_.reset();
@@ -124,12 +122,8 @@ void LogRun::take(const logs::TimedAngle& angle) {
 
 void LogRun::note_switch(const core::GapReport& gap) {
     if (!gap.mode_changed) return;
-    double miss_lambda = unknown;
-    for (const study::SwitchWindow& window : finder_.windows())
-        if (window.first_tick == gap.first_tick) miss_lambda = window.miss_lambda;
-    switches_.insert(switches_.end(),
-                     {static_cast<double>(gap.first_tick), static_cast<double>(gap.n_ticks),
-                      static_cast<double>(gap.mode_after), miss_lambda, gap.dp_arcsec, gap.sigma_sum_arcsec});
+    switches_.insert(switches_.end(), {static_cast<double>(gap.first_tick), static_cast<double>(gap.n_ticks),
+                                       static_cast<double>(gap.mode_after), gap.dp_arcsec});
 }
 
 void LogRun::add_ticks() {

@@ -18,7 +18,6 @@
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
-#include <zlg/study/switch_window.hpp>
 
 namespace zlg::lab {
 
@@ -38,8 +37,7 @@ public:
     //   ticks     a row a tick, in their order: tick; increment as read, delivered, final, arcsec; sigma of the final one; flags; mode; 1
     //             where the loop is closed; detuning of the second half, lambda; piezo voltage, V; final angle since the start without
     //             corrections and by the paper, each less the configured one, arcsec. NaN: the log does not say.
-    //   switches  a row for each: first tick; ticks of the gap; mode after; miss, lambda; dP of eq (16), arcsec; sigma of the angle of
-    //             the gap
+    //   switches  a row for each: first tick; ticks of the gap; mode after; dP of eq (16), arcsec
     [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
     [[nodiscard]] const std::vector<double>& switches() const { return switches_; }
     void forget();
@@ -81,7 +79,6 @@ private:
     std::optional<rig::Replay> configured_;
     std::vector<Compared> compared_;  // as read, by the paper
     std::deque<core::AngleRow> final_;
-    study::SwitchFinder finder_{0};
     std::optional<core::HalfRecord> first_;  // of the tick that has begun
     std::array<SeenTick, core::history_ticks> seen_{};
     std::vector<double> ticks_;

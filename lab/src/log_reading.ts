@@ -12,7 +12,7 @@ const newest_ticks = 16384;
 // Columns of log_run.hpp.
 const tick_columns = 12;
 const tick_column = { tick: 0, read: 1, delivered: 2, final: 3, sigma: 4, flags: 5, mode: 6, closed: 7, detuning: 8, piezo: 9, read_less: 10, paper_less: 11 };
-const switch_columns = 6;
+const switch_columns = 4;
 const n_flags = 32;
 const in_gap = 0x300; // flag_loop_unlocked, flag_invalid
 const longest_relock_ticks = 20;
@@ -61,7 +61,7 @@ class LogRecorder {
         this.rows.add(ticks);
         for (let at = 0; at < ticks.length; at += tick_columns) this.take_tick(ticks.subarray(at, at + tick_columns));
         for (let at = 0; at < switches.length; at += switch_columns) {
-            const [first_tick, gap_ticks, mode_after, , dp_arcsec] = switches.subarray(at, at + switch_columns);
+            const [first_tick, gap_ticks, mode_after, dp_arcsec] = switches.subarray(at, at + switch_columns);
             ++this.n_switches;
             this.squares += dp_arcsec ** 2;
             this.pictures.expect({ first_tick, gap_ticks, last_tick: first_tick + gap_ticks + longest_relock_ticks, mode_after, cost_arcsec: dp_arcsec });
@@ -112,7 +112,7 @@ class LogRecorder {
     }
 }
 
-// The rows of an angle log, as the program writes them.
+// The rows of an angle log, as the program writes them; above them the settings that were asked for, not all that were in force.
 class AngleRows {
     private readonly parts: string[];
     n = 0;

@@ -7,18 +7,23 @@ export interface Motion {
 }
 
 const time_names = /^(t|time|seconds)(_s)?( ?\[s\])?$/i;
-// Rates by the ends of their names, arcsec/s for one of their unit.
+// Rates by the ends of their names, arcsec/s for one of their unit. A letter before the unit makes another one of it: mdeg_s, grad_s.
 const units: [RegExp, string, number][] = [
-    [/arcsec[_/]s\]?$|deg[_/]h\]?$/i, "arcsec/s", 1],
-    [/(deg[_/]s|dps)\]?$/i, "deg/s", 3600],
-    [/rad[_/]s\]?$/i, "rad/s", (180 * 3600) / Math.PI],
+    [/(^|[^a-z])(arcsec[_/]s|deg[_/]h)\]?$/i, "arcsec/s", 1],
+    [/(^|[^a-z])(deg[_/]s|dps)\]?$/i, "deg/s", 3600],
+    [/(^|[^a-z])rad[_/]s\]?$/i, "rad/s", (180 * 3600) / Math.PI],
 ];
+const decimal_number = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const most_bytes = 64 << 20;
 const shortest_rows = 2;
 
 // Throws an Error whose message names the file, and the line where it is of one.
-export function parse_motion(name: string, text: string): Motion {
-    if (text.length > most_bytes) throw new Error(`${name}: more than ${most_bytes} bytes, which is the most allowed for a motion`);
+export async function read_motion(file: File): Promise<Motion> {
+    if (file.size > most_bytes) throw new Error(`${file.name}: ${file.size} bytes; allowed for a motion are ${most_bytes}`);
+    return parse_motion(file.name, await file.text());
+}
+
+function parse_motion(name: string, text: string): Motion {
     const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/);
     let at = 0;
     while (at < lines.length && (lines[at].trim() === "" || lines[at].startsWith("#"))) ++at;
@@ -29,6 +34,7 @@ export function parse_motion(name: string, text: string): Motion {
     const found = names.map((each) => units.find(([ending]) => ending.test(each)));
     const column = found.findIndex((unit, k) => unit !== undefined && k !== time_column);
     if (column < 0) throw new Error(`${name}: has no column of rates; allowed is a name that ends with its unit: _arcsec_s, _deg_s, _dps, _deg_h or _rad_s`);
+    if (names.indexOf(names[column]) !== names.lastIndexOf(names[column])) throw new Error(`${name}: two columns are named '${names[column]}'; allowed is one`);
     const { times, values } = columns(name, lines, at + 1, split, names, time_column, column);
     const rate_hz = even_rate_hz(name, times);
     const [, unit, scale] = found[column]!;
@@ -53,7 +59,7 @@ function columns(name: string, lines: string[], from: number, split: (line: stri
         const row = values.length + 1;
         if (fields.length !== names.length) throw new Error(`${name}:${at + 1}, row ${row}: ${fields.length} fields, where the column names are ${names.length}`);
         for (const [k, place] of [[time_column, times], [column, values]] as const) {
-            const value = fields[k] === "" ? NaN : Number(fields[k]);
+            const value = decimal_number.test(fields[k]) ? Number(fields[k]) : NaN;
             if (!Number.isFinite(value)) throw new Error(`${name}:${at + 1}, row ${row}, column '${names[k]}': '${fields[k].slice(0, 40)}' is no finite number`);
             place.push(value);
         }
@@ -62,7 +68,7 @@ function columns(name: string, lines: string[], from: number, split: (line: stri
     return { times, values };
 }
 
-// Rows a second; no step of the times may be off the middle one by half of it.
+// Rows a second; no step of the times may be off the middle one by half of it, and no time off its place by half a step.
 function even_rate_hz(name: string, times: number[]): number {
     const steps = times.slice(1).map((time, row) => time - times[row]);
     const step = [...steps].sort((a, b) => a - b)[steps.length >> 1];
@@ -70,6 +76,8 @@ function even_rate_hz(name: string, times: number[]): number {
     const off = steps.findIndex((each) => !(Math.abs(each - step) < 0.5 * step));
     if (off >= 0) throw new Error(`${name}, row ${off + 2}: the time ${times[off + 1]} s comes ${Number(steps[off].toPrecision(6))} s after the one before, others ${Number(step.toPrecision(6))} s; a motion has no holes`);
     const exact_hz = steps.length / (times[steps.length] - times[0]);
+    const late = times.findIndex((time, row) => !(Math.abs(time - (times[0] + row / exact_hz)) < 0.5 * step));
+    if (late >= 0) throw new Error(`${name}, row ${late + 1}: the time ${times[late]} s is ${Number((times[late] - times[0] - late / exact_hz).toPrecision(3))} s off the even steps from the first row to the last; allowed is half a step`);
     const whole_hz = Math.round(exact_hz);
     return Math.abs(whole_hz - exact_hz) < 1e-6 * exact_hz ? whole_hz : Number(exact_hz.toPrecision(9));
 }

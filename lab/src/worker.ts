@@ -1,7 +1,7 @@
 // The worker: it has the gyro, keeps its pace, and sends a frame whenever the page has drawn the one before.
 import { read_log } from "./log_reading";
 import { LoopModule, Refusal, View } from "./loop_module";
-import { parse_motion } from "./motion_file";
+import { read_motion } from "./motion_file";
 import type { Frame, FromWorker, Gyro, State, ToWorker } from "./protocol";
 import { Recorder } from "./recorder";
 
@@ -83,7 +83,7 @@ class Pace {
                 return;
             case "read_motion":
                 try {
-                    const motion = parse_motion(message.file.name, await message.file.text());
+                    const motion = await read_motion(message.file);
                     this.module!.take_motion(message.file.name, motion.values);
                     scope.postMessage({ kind: "motion_read", name: message.file.name, settings: motion.settings, note: motion.note });
                 } catch (error) {

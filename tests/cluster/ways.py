@@ -10,7 +10,7 @@ PROGRAMS = Path(os.environ.get("ZLG", ROOT / "build" / "release" / "bin" / "zlg"
 ZLG = PROGRAMS / "zlg"
 ZLG_MPI = PROGRAMS / "zlg-mpi"
 
-# OpenMPI refuses root and more ranks than cores unless it is told.
+# OpenMPI refuses root, and more ranks than cores, unless these allow them.
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
                    "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 

@@ -2,6 +2,7 @@
 
 import sys
 import time
+import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -63,3 +64,29 @@ class LabBrowser(Browser):
         root = self.send("DOM.getDocument")["root"]["nodeId"]
         node = self.send("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
         self.send("DOM.setFileInputFiles", files=[str(path)], nodeId=node)
+
+
+@unittest.skipUnless(PROGRAM, "there is no chromium")
+@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
+class PageCase(unittest.TestCase):
+    """Claims of the page in one browser."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = LabBrowser()
+        cls.addClassCleanup(cls.browser.close)
+
+    def time_s(self):
+        return float(self.browser.marked("time"))
+
+
+class LivingPageCase(PageCase):
+    """Claims of a gyro that is switched every second; none may leave a complaint or a request behind."""
+
+    def setUp(self):
+        self.browser.open_lab("switching.interval_s=1")
+        self.browser.wait_for_state("running")
+
+    def tearDown(self):
+        self.assertEqual(self.browser.complaints(), [])
+        self.assertEqual(self.browser.requests(), [])

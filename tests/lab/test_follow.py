@@ -9,19 +9,17 @@ import time
 import unittest
 from pathlib import Path
 
-from lab_browser import PAGE, PROGRAM, ROOT, LabBrowser
-from test_lab import ZLG, setup_browser, zlg
+from lab_browser import ROOT, PageCase
+from test_lab import ZLG, zlg
 
 sys.path.insert(0, str(ROOT / "tests" / "cli"))
 from lab_server import LabServer, Line  # noqa: E402
 
 
-@unittest.skipUnless(PROGRAM, "there is no chromium")
-@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
-class Live(unittest.TestCase):
+class Live(PageCase):
     @classmethod
     def setUpClass(cls):
-        setup_browser(cls)
+        super().setUpClass()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.files = Path(folder.name)
@@ -52,9 +50,6 @@ class Live(unittest.TestCase):
         b.send("Page.navigate", url=server.address)
         while not any(e.get("method") == "Page.loadEventFired" for e in b.events):
             b.events.append(b.receive())
-
-    def time_s(self):
-        return float(self.browser.marked("time"))
 
     def wait_for_the_last(self):
         """Of the records that a line has given, when no more come."""

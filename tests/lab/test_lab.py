@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 from urllib.parse import quote
 
-from lab_browser import PAGE, PROGRAM, ROOT, LabBrowser
+from lab_browser import PAGE, PROGRAM, ROOT, LabBrowser, PageCase
 
 sys.path.insert(0, str(ROOT / "bench"))
 from random_gyros import random_gyros  # noqa: E402
@@ -28,18 +28,7 @@ def fragment_of(settings, until_s):
     return "&".join([*pairs, f"until={until_s}"])
 
 
-def setup_browser(case):
-    case.browser = LabBrowser()
-    case.addClassCleanup(case.browser.close)
-
-
-@unittest.skipUnless(PROGRAM, "there is no chromium")
-@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
-class Runs(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        setup_browser(cls)
-
+class Runs(PageCase):
     def fingerprint(self, fragment):
         """Of the page, which stops by itself."""
         self.browser.open_lab(fragment)

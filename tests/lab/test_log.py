@@ -6,8 +6,8 @@ import time
 import unittest
 from pathlib import Path
 
-from lab_browser import PAGE, PROGRAM
-from test_lab import setup_browser, zlg
+from lab_browser import LivingPageCase
+from test_lab import zlg
 
 
 def rows_of(path):
@@ -15,26 +15,16 @@ def rows_of(path):
     return lines[0], [tuple(float(field) for field in line.split(",")) for line in lines[1:]]
 
 
-@unittest.skipUnless(PROGRAM, "there is no chromium")
-@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
-class Logs(unittest.TestCase):
+class Logs(LivingPageCase):
     @classmethod
     def setUpClass(cls):
-        setup_browser(cls)
+        super().setUpClass()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
         cls.raw = cls.folder / "raw.csv"
         made = zlg("simulate", "--duration", 60, "--set", "switching.interval_s=5", "--out", cls.raw)
         assert made.returncode == 0, made.stderr
-
-    def setUp(self):
-        self.browser.open_lab("switching.interval_s=1")
-        self.browser.wait_for_state("running")
-
-    def tearDown(self):
-        self.assertEqual(self.browser.complaints(), [])
-        self.assertEqual(self.browser.requests(), [])
 
     def state(self):
         return self.browser.value("document.getElementById('card-log').dataset.state")

@@ -6,28 +6,17 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from lab_browser import PAGE, PROGRAM
-from test_lab import setup_browser, zlg
+from lab_browser import LivingPageCase
+from test_lab import zlg
 
 
-@unittest.skipUnless(PROGRAM, "there is no chromium")
-@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
-class Motions(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        setup_browser(cls)
-
+class Motions(LivingPageCase):
     def setUp(self):
-        self.browser.open_lab("switching.interval_s=1")
-        self.browser.wait_for_state("running")
+        super().setUp()
         self.browser.fill("#speed", "4")
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
-
-    def tearDown(self):
-        self.assertEqual(self.browser.complaints(), [])
-        self.assertEqual(self.browser.requests(), [])
 
     def saved(self, name, button):
         self.browser.send("Page.setDownloadBehavior", behavior="allow", downloadPath=str(self.folder))
@@ -71,6 +60,10 @@ class Motions(unittest.TestCase):
         files = {
             "no_times.csv": ("a,rate_deg_s\n1,2\n2,3\n", "has no column of times"),
             "no_unit.csv": ("t_s,rate\n1,2\n2,3\n", "has no column of rates"),
+            "other_unit.csv": ("t_s,x_mdps,x_mdeg_s,x_urad_s,x_grad_s\n1,2,2,2,2\n2,3,3,3,3\n", "has no column of rates"),
+            "twice.csv": ("t_s,rate_dps,rate_dps\n1,2,2\n2,3,3\n", "two columns are named 'rate_dps'"),
+            "hexadecimal.csv": ("t_s,rate_dps\n0,1\n1,0x10\n", "row 2, column 'rate_dps': '0x10' is no finite number"),
+            "slowing.csv": ("t_s,rate_dps\n" + "".join(f"{0.01 * k + 0.0045 * max(0, k - 150)},1\n" for k in range(300)), "off the even steps"),
             "word.csv": ("t_s,rate_dps\n0,1\n1,x\n", "word.csv:3, row 2, column 'rate_dps': 'x' is no finite number"),
             "hole.csv": ("t_s,rate_dps\n0,1\n1,1\n2,1\n4,1\n5,1\n", "a motion has no holes"),
             "short.csv": ("t_s,rate_dps\n0,1,2\n", "short.csv:2, row 1: 3 fields, where the column names are 2"),

@@ -7,28 +7,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from lab_browser import PAGE, PROGRAM, LabBrowser
-from test_lab import setup_browser, zlg
+from lab_browser import LivingPageCase
+from test_lab import zlg
 
 
-@unittest.skipUnless(PROGRAM, "there is no chromium")
-@unittest.skipUnless(PAGE.exists(), "this build holds no lab page")
-class Views(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        setup_browser(cls)
-
-    def setUp(self):
-        self.browser.open_lab("switching.interval_s=1")
-        self.browser.wait_for_state("running")
-
-    def tearDown(self):
-        self.assertEqual(self.browser.complaints(), [])
-        self.assertEqual(self.browser.requests(), [])
-
-    def time_s(self):
-        return float(self.browser.marked("time"))
-
+class Views(LivingPageCase):
     def pause(self):
         self.browser.press("#run")
         self.browser.wait_for_state("paused")

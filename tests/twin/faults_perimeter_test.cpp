@@ -94,6 +94,21 @@ TEST(Faults, WhatIsTooQuickForTheTwinIsRefused) {
     EXPECT_NO_THROW((Twin{config, Motion::rest()}));
 }
 
+// The second shock turns the bias over, the first alone does not; one that takes back what the gyro warms by is allowed.
+TEST(Faults, AThermalShockThatTurnsTheBiasOverIsRefused) {
+    TwinConfig config = quiet_gyro();
+    config.gyro.temperature_rise_c = 0.0;
+    config.gyro.bias_temperature_coefficient_per_c = -0.02;
+    config.faults = {{FaultKind::thermal_shock, 1.0, 1.0, 30.0}};
+    EXPECT_NO_THROW((Twin{config, Motion::rest()}));
+    config.faults.push_back({FaultKind::thermal_shock, 5.0, 1.0, 30.0});
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+    config.faults.push_back({FaultKind::thermal_shock, 3.0, 1.0, -30.0});
+    EXPECT_NO_THROW((Twin{config, Motion::rest()}));
+    config.gyro.temperature_rise_c = 25.0;
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+}
+
 // int (A sin(pi t/T))^2 dt = A^2 T/2, however short the shock.
 TEST(Faults, AShockCostsItsSquareHoweverShort) {
     for (const double duration_s : {50e-6, 200e-6, 1e-3}) {

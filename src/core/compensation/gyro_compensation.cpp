@@ -4,6 +4,8 @@
 #include <zlg/core/common/maths.hpp>
 
 #include "gap/gap_estimate.hpp"
+#include "known_sum.hpp"
+#include "tick_allowance.hpp"
 
 namespace zlg::core {
 namespace {
@@ -25,12 +27,6 @@ void sanitise(const GyroCompensationConfig& config, GyroCompensationState& state
     half.mode = half.mode < 0 ? std::int8_t{-1} : std::int8_t{1};
     if (half.span < 1) half.span = 1;
 }
-
-// The readings at both ends of a tick.
-struct Borders {
-    Border start{};
-    Border end{};
-};
 
 EdgeShiftInput edge_input(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
                           const Borders& borders) noexcept {
@@ -103,69 +99,8 @@ void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, Tic
     tick.amend_flags = relock.first.known ? flag_relock_corrected : flag_relock_uncorrected;
 }
 
-// Square of the number of standard deviations from which on a false angle that no correction subtracts is taken to be real.
-constexpr double unsubtracted_gate_sq = 9.0;
-
-// Part of the variance of a tick up to which a false angle is not looked for.
-constexpr double hidden_part = 0.25;
-
-// Mean square of the detuning about its mean in a tick, over that of the light's noise, from which on the perimeter moves.
-constexpr double moving_ratio = 2.0;
-
-bool is_moving(const CompensationConstants& gyro, const RelockTick& read) noexcept {
-    const double mean_lambda = 0.5 * (read.detuning_first_lambda + read.detuning_second_lambda);
-    const double mean_sq_lambda2 = 0.5 * (read.detuning_sq_first_lambda2 + read.detuning_sq_second_lambda2);
-    const double noise = gyro.light_noise.value();
-    return mean_sq_lambda2 - mean_lambda * mean_lambda > moving_ratio * noise * noise;
-}
-
-// Before the first gap of a log, and later than `relock_ticks` after one, no false angle is subtracted. Where the light shows
-// one beyond its noise, because the loop still settled or the perimeter was pushed, the variance contains its square. It is
-// found by a trial step from the state just after a gap. Where the perimeter moves, the noise of what is found is contained, too.
-void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& relock,
-                    const RelockTick& read, TickInput& tick) noexcept {
-    if (relock.armed && relock.since_gap < config.ticks) return;
-    const double change_lambda2 = read.detuning_sq_second_lambda2 - read.detuning_sq_first_lambda2;
-    const double shown_arcsec =
-        0.5 * gyro.chi * gyro.bias.value() * gyro.scale.value() * gyro.tick.value() * change_lambda2;
-    const bool moves = is_moving(gyro, read);
-    if (!moves && shown_arcsec * shown_arcsec <= hidden_part * tick.variance_arcsec2) return;
-    if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return;
-    RelockDriftState closing{.armed = true};
-    const FalseAngle residual = step(gyro, config, closing, read).tick;
-    if (!residual.known) return;
-    const double sq = residual.value_arcsec * residual.value_arcsec;
-    double unsubtracted = 0.0;
-    if (moves)
-        unsubtracted = sq + residual.variance_arcsec2;
-    else if (sq > unsubtracted_gate_sq * residual.variance_arcsec2)
-        unsubtracted = sq;
-    tick.variance_arcsec2 += unsubtracted;
-}
-
 // A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later one.
 bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !half.valid && half.counts != 0; }
-
-// What a half may hold of a fault that begins or ends in it, over the bias: a change of the current is seen from 1.2 % of it
-// on, darkness from one sample's time.
-constexpr double unseen_part = 0.01;
-
-double unseen_arcsec2(const CompensationConstants& gyro) noexcept {
-    const double unseen = unseen_part * 0.5 * gyro.tick.value() * gyro.bias.value() * gyro.scale.value();
-    return unseen * unseen;
-}
-
-// A fault may have begun in the last half before the one in which a monitor saw it.
-void allow_for_onset(const CompensationConstants& gyro, TickInput& tick) noexcept {
-    tick.amend_previous = true;
-    tick.amend_variance_arcsec2 = unseen_arcsec2(gyro);
-}
-
-// It may end in the first half after those.
-void allow_for_end(const CompensationConstants& gyro, TickInput& tick) noexcept {
-    tick.variance_arcsec2 += unseen_arcsec2(gyro);
-    tick.relock_variance_arcsec2 += unseen_arcsec2(gyro);
-}
 
 // `frequency` corrects tick 1 with the help of tick 2. Where there is none, tick 1 stays uncorrected and is flagged.
 void give_up_first(TickInput& tick) noexcept {
@@ -189,54 +124,6 @@ void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& f
     tick.value_arcsec += scale * lost.value;
     tick.common_arcsec2 = scale * scale * lost.variance;
     tick.variance_arcsec2 += tick.common_arcsec2;
-}
-
-// The same of the known sum of a gap's ticks, at their mean rate.
-void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts, Hertz bias, TickInput& tick) noexcept {
-    const bool is_known = config.lock_in.threshold.value() > 0.0;
-    const LostCounts lost = is_known ? lost_to_lock_in(config.gyro, config.lock_in, turn_counts, bias)
-                                     : LostCounts{0.0, unknown_loss_counts2(config.gyro, config.lock_in, turn_counts)};
-    const double arcsec = config.gyro.scale.value() * as_double(tick.known_ticks);
-    const double scale = config.gyro.scale.value();
-    tick.variance_arcsec2 += scale * scale * lost.variance;
-    tick.known_arcsec += arcsec * lost.value;
-    tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
-}
-
-// Part of the false angle of a stretch, at its most, by which the constants err: the quartic term of the bias, chi f0 and
-// the reading of a large detuning (lit_halves.hpp).
-constexpr double law_part = 0.03;
-
-// The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
-// drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
-// exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any case the
-// sum is rough.
-void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
-                   const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
-                   TickInput& tick) noexcept {
-    const CompensationConstants& gyro = config.gyro;
-    const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
-    const CountedStretch known =
-        step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
-    if (known.n_ticks == 0) return;
-    const double arcsec_per_lambda2 = 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
-    const double drift_arcsec = arcsec_per_lambda2 * known.fall_lambda2;
-    const double rounding = rounding_arcsec2(gyro, known.start_border, borders.end);
-    double drift_variance = drift_arcsec * drift_arcsec;
-    tick.known_ticks = known.n_ticks;
-    tick.known_arcsec = known.angle_arcsec;
-    const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
-    if (settles && known.seen) {
-        tick.known_arcsec += arcsec_per_lambda2 * known.deficit_lambda2;
-        drift_variance = law_part * law_part * drift_variance +
-                         arcsec_per_lambda2 * arcsec_per_lambda2 * known.deficit_variance_lambda4;
-    }
-    tick.known_is_rough = settles;
-    tick.known_drift_arcsec2 = drift_variance;
-    tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
-    give_back_lock_in(config, state.edges.turn_counts, bias, tick);
-    // What `step` has concluded from the sum about the edges holds for an even bias.
-    if (settles) break_off(state.edges);
 }
 
 bool uses_halves(const GyroCompensationConfig& config) noexcept {

@@ -77,6 +77,10 @@ Settings read_settings(const Source& source, bool adds_tick) {
     Settings settings;
     if (const auto text = source.text("/config")) settings = settings_from_toml(*text, source.path() + ", /config");
     require_shallow_keys(settings, source.path() + ", /config");
+    // What a zlg before format_version 2 of CSV logs took for notes; the attributes say it.
+    std::erase_if(settings, [](const auto& setting) {
+        return setting.first == "format_version" || setting.first == "fingerprint";
+    });
     for (const char* name : root_reals) {
         merge_root(source, name, adds_tick || name != std::string_view{"tick_s"}, settings);
     }

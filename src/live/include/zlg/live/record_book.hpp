@@ -1,5 +1,5 @@
 #pragma once
-// What pages are told of a gyro: its newest records, and in bounded memory what came before.
+// What pages show of a gyro: its newest records, and in bounded memory what came before.
 //
 // One thread adds records, others ask for events: pieces of the stream of server-sent events (WHATWG HTML, section 9.2), each a name and one line of
 // JSON. A page that is not far behind gets every record; one that is, or that is new, gets a snapshot, from which it goes on.
