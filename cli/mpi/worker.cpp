@@ -1,10 +1,29 @@
 #include "worker.hpp"
 
 #include <exception>
+#include <stdexcept>
+#include <string>
 
+#include <fmt/format.h>
+#include <zlg/sweep/description.hpp>
 #include <zlg/sweep/row_text.hpp>
 
 namespace zlg::mpi {
+namespace {
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// Its first line names the version of the program, as that of a checkpoint does: another one could give other rows.
+sweep::Description same_program(const std::string& text) {
+    sweep::Description description = sweep::parse(text, "rank 0");
+    const std::string here = first_line(to_toml(description));
+    if (here != first_line(text))
+        throw std::runtime_error(
+            fmt::format("rank 0 is `{}`, this machine has `{}`; allowed is one version", first_line(text), here));
+    return description;
+}
+
+}  // namespace
 
 void Worker::work() {
     interruptible_.will_finish();
@@ -27,7 +46,7 @@ void Worker::obey(const Message& message) {
     switch (message.tag) {
         case Tag::description:
             try {
-                gyros_.emplace(sweep::parse(message.text, "rank 0"));
+                gyros_.emplace(same_program(message.text));
             } catch (const std::exception& error) {
                 stop(Tag::failed, error.what());
             }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include <zlg/live/record_book.hpp>
 #include <zlg/live/record_source.hpp>
 #include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/asked_compensation.hpp>
@@ -35,14 +37,34 @@ std::unique_ptr<RecordSource> raw_source(const LabFollowOptions& options) {
                             rig::angle_settings(asked.config));
 }
 
+std::unique_ptr<RecordSource> angle_source(const LabFollowOptions& options) {
+    if (!options.out.empty())
+        throw UsageError{fmt::format("--out: {} is an angle log already; `zlg convert` copies one", options.source)};
+    auto source = live::log_source(logs::AngleReader{options.source});
+    if (!source->tick_s())
+        throw logs::FormatError{fmt::format(
+            "{}: has no setting tick_s, so the times of its ticks are not known; allowed is a log that says it",
+            options.source)};
+    return source;
+}
+
+void refuse_settings(const LabFollowOptions& options, const char* kind) {
+    if (options.sets.empty() && options.config_path.empty()) return;
+    throw UsageError{
+        fmt::format("--set and --config are for the compensation of a raw log; {} is {}, which has its angles already",
+                    options.source, kind)};
+}
+
 // A log is known by its content; what is none, is a line, or was recorded from one.
 std::unique_ptr<RecordSource> opened(const LabFollowOptions& options) {
-    if (std::filesystem::is_regular_file(options.source)) {
+    std::error_code no_such_file;  // then the source is a device or an address
+    if (std::filesystem::is_regular_file(options.source, no_such_file)) {
         switch (logs::recognise(options.source)) {
             case logs::LogKind::raw_hdf5:
                 return raw_source(options);
             case logs::LogKind::angle_hdf5:
-                return live::log_source(logs::AngleReader{options.source});
+                refuse_settings(options, "an angle log");
+                return angle_source(options);
             case logs::LogKind::raw_csv:
             case logs::LogKind::angle_csv:
                 throw UsageError{fmt::format(
@@ -51,6 +73,7 @@ std::unique_ptr<RecordSource> opened(const LabFollowOptions& options) {
                 break;
         }
     }
+    refuse_settings(options, "a gyro's line");
     return live::line_source(options.source, options.baud);
 }
 
@@ -126,6 +149,8 @@ void follow_in_page(const LabFollowOptions& options) {
     const live::PageServer server{std::move(page), book, options.port};
     announce(server.port());
     receiver.receive(interruptible);
+    if (receiver.n_rows() == 0 && !interruptible.is_noted())
+        throw logs::IoError{fmt::format("{}: has ended without a tick of a gyro in it", printable(options.source))};
     book.end();
     // What has come is still there to be looked at.
     while (!interruptible.is_noted()) std::this_thread::sleep_for(std::chrono::milliseconds{50});

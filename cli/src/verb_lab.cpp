@@ -46,7 +46,8 @@ void add_lab(CLI::App& program) {
         verb->add_option("--follow", options->source,
                          "show what a gyro gives now: SOURCE of `zlg follow`, or an HDF5 log that is being written; "
                          "the page is then served to this machine alone, and --out names an angle log to record")
-            ->type_name("FILE|DEVICE|ADDRESS");
+            ->type_name("FILE|DEVICE|ADDRESS")
+            ->check(is_a_name());
     verb->add_option("--port", options->port, fmt::format("of 127.0.0.1, 0: any that is free ({})", default_port))
         ->needs(follow);
     verb->add_option("--baud", options->baud, "speed of a serial device (921600)")->needs(follow);

@@ -7,6 +7,7 @@ const newest_rows = 32768;
 const most_points = 1200;
 const most_history = 2048;
 const shortest_step_s = 0.25; // of the history
+const silent_from_s = 3;
 const again_ms = 2000;
 
 // Columns of the rows that are kept.
@@ -100,6 +101,8 @@ class LivePage {
     private allan: [number[], number[]] = [[], []];
     private since_start = { flags: 0, health: 0 };
     private is_to_be_drawn = false;
+    private is_live = false;
+    private record_ms = 0; // when the last one came
 
     private readonly values = made("dl", "", { class: "values" });
     private readonly health_place = made("ul", "", { class: "health" });
@@ -127,6 +130,7 @@ class LivePage {
             allan: new Chart(this.places.allan, { x: "averaging time, s", y: "deviation, deg/h", height: 220, log_x: true, log_y: true, lines: [{ label: "best value", colour: "--ours", unit: "deg/h", points: true }] }),
         };
         this.listen();
+        setInterval(() => this.watch(), 1000);
     }
 
     // The cards of the simulated gyro give way.
@@ -167,6 +171,7 @@ class LivePage {
         source.addEventListener("snapshot", take);
         source.addEventListener("rows", take);
         source.onerror = () => {
+            this.is_live = false;
             this.say("connection lost, trying again");
             // The browser tries again by itself, unless it was refused.
             if (source.readyState === EventSource.CLOSED) setTimeout(() => this.listen(), again_ms);
@@ -192,8 +197,16 @@ class LivePage {
         this.gap = news.gap ?? this.gap;
         this.allan = news.allan ?? this.allan;
         this.since_start = news.since_start;
-        this.say(news.ended ? "the source has ended" : this.newest === null ? "waiting" : "live");
+        if (news.rows.length > 0) this.record_ms = performance.now();
+        this.is_live = !news.ended && this.newest !== null;
+        this.say(news.ended ? "the source has ended" : this.is_live ? "live" : "waiting");
         this.draw_soon();
+    }
+
+    // A gyro that is silent, and a log that nobody writes any more, look the same to the server.
+    private watch(): void {
+        const silent_s = Math.floor((performance.now() - this.record_ms) / 1000);
+        if (this.is_live && silent_s >= silent_from_s) this.say(`no record for ${silent_s} s`);
     }
 
     private add(row: Row): void {

@@ -1,9 +1,11 @@
 #pragma once
 // The newest gap of the measurement, with the ticks around it, for a picture.
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <zlg/core/records.hpp>
@@ -11,29 +13,29 @@
 namespace zlg::live {
 
 struct GapView {
-    std::int64_t first_row = 0;  // of the gap
-    std::int64_t n_ticks = 0;    // of the gap
-    std::int64_t end_row = 0;    // the picture was whole with the row before
-    std::int64_t shown_row = 0;  // of the first of `rows`
-    std::vector<core::AngleRow> rows;
+    std::int64_t first_row = 0;        // of the gap
+    std::int64_t n_ticks = 0;          // of the gap
+    std::int64_t end_row = 0;          // the picture was whole with the row before
+    std::int64_t shown_row = 0;        // of the first of `rows`
+    std::vector<core::AngleRow> rows;  // of a long gap its beginning only
 };
 
-// Finds gaps, ticks in which the loop was open or a count invalid, as the rows come.
+// Finds gaps, ticks in which the loop was open or a count invalid, as the rows come. A picture is whole when enough measured
+// ticks have followed the gap, or the next one begins.
 class GapFinder {
 public:
     static constexpr std::int64_t before_ticks = 12;
     static constexpr std::int64_t after_ticks = 40;
-    static constexpr std::int64_t most_ticks = 400;  // of a gap that is shown
+    static constexpr std::int64_t most_rows = 460;  // of a picture
 
     void take(std::int64_t row, const core::AngleRow& angle) {
         const bool is_open = (angle.flags & (core::flag_loop_unlocked | core::flag_invalid)) != 0;
-        recent_.push_back(angle);
-        if (!first_ && std::int64_t(recent_.size()) > before_ticks + (is_open ? 1 : 0)) recent_.pop_front();
-        if (is_open && (!first_ || row == end_)) {
-            if (!first_) begin(row);
-            end_ = row + 1;
-        }
-        if (first_ && (row + 1 - end_ >= after_ticks || row - *first_ >= most_ticks)) complete(row + 1);
+        if (first_ && (is_open ? row > end_ : row - end_ >= after_ticks)) complete(row);
+        if (is_open && !first_) begin(row);
+        if (is_open) end_ = row + 1;
+        if (first_ && std::int64_t(shown_.size()) < most_rows) shown_.push_back(angle);
+        before_.push_back(angle);
+        if (std::int64_t(before_.size()) > before_ticks) before_.pop_front();
     }
 
     [[nodiscard]] const std::optional<GapView>& newest() const { return newest_; }
@@ -41,19 +43,22 @@ public:
 private:
     void begin(std::int64_t row) {
         first_ = row;
-        shown_ = row + 1 - std::int64_t(recent_.size());
+        shown_.assign(before_.begin(), before_.end());
     }
 
-    void complete(std::int64_t end_row) {
-        newest_ = GapView{*first_, end_ - *first_, end_row, shown_, {recent_.begin(), recent_.end()}};
-        recent_.clear();
+    void complete(std::int64_t row) {
+        const std::int64_t shown_row = *first_ - first_before_ticks();
+        newest_ = GapView{*first_, end_ - *first_, row, shown_row, std::move(shown_)};
         first_.reset();
     }
 
-    std::deque<core::AngleRow> recent_;
-    std::optional<std::int64_t> first_;  // of the gap that is being looked at
-    std::int64_t end_ = 0;               // of it
-    std::int64_t shown_ = 0;
+    // How many rows there were to show before the gap.
+    [[nodiscard]] std::int64_t first_before_ticks() const { return std::min(*first_, before_ticks); }
+
+    std::deque<core::AngleRow> before_;  // the last rows
+    std::vector<core::AngleRow> shown_;  // of the gap that is being looked at
+    std::optional<std::int64_t> first_;  // row of it
+    std::int64_t end_ = 0;
     std::optional<GapView> newest_;
 };
 

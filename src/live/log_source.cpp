@@ -23,8 +23,7 @@ RecordSource::Next next_row(Reader& log, Row& row, bool is_stopped) {
     if (is_stopped) return Next::end;
     if (log.next(row)) return Next::record;
     if (log.refresh()) return log.next(row) ? Next::record : Next::nothing;
-    // The last rows may have come, and the log been closed, between the look at the rows and that at its end.
-    if (log.header().complete) return log.refresh() && log.next(row) ? Next::record : Next::end;
+    if (log.header().complete) return Next::end;  // what `refresh` knew before it looked for rows
     std::this_thread::sleep_for(patience);
     return Next::nothing;
 }
@@ -49,8 +48,6 @@ public:
         const Next found = next_row(log_, angle, is_stopped_);
         if (found != Next::record) return found;
         record = {.angle = angle.row};
-        // The time of a row is the end of its tick.
-        if (!tick_s_ && angle.t_s > 0.0) tick_s_ = angle.t_s / static_cast<double>(angle.row.tick + 1);
         return Next::record;
     }
 

@@ -29,7 +29,7 @@ constexpr std::chrono::seconds request_within{5};
 constexpr std::chrono::seconds page_within{30};
 constexpr std::chrono::seconds event_within{60};
 constexpr std::chrono::seconds parting_within{1};
-constexpr int ticks_of_silence = 50;  // of event_every; then a page gets the news that the line stands
+constexpr int ticks_of_silence = 50;  // of event_every; then an empty line keeps the connection open
 constexpr int stream_buffer_bytes = 1 << 18;
 
 // One connection: a request, and its reply or the stream. All in the server's thread; it lives while an operation of it is under way.

@@ -115,12 +115,16 @@ int open_locked(const std::string& path) {
     struct stat ours {};
     struct stat named {};
     const bool is_locked = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
+    const int lock_error = is_locked ? 0 : errno;
     const bool is_regular = ::fstat(fd, &ours) == 0 && S_ISREG(ours.st_mode);
     const bool is_named =
         ::stat(path.c_str(), &named) == 0 && named.st_ino == ours.st_ino && named.st_dev == ours.st_dev;
     if (is_locked && is_regular && is_named) return fd;
     ::close(fd);
     if (!is_regular) throw logs::IoError(fmt::format("cannot create {}: it is no regular file", path));
+    if (lock_error != 0 && lock_error != EWOULDBLOCK)
+        throw logs::IoError(
+            fmt::format("cannot lock {}: {}; allowed is a file system with locks", path, std::strerror(lock_error)));
     throw logs::IoError(
         fmt::format("{}: another program writes it; let it end, or name another file with --out", path));
 }

@@ -1,6 +1,7 @@
 """`zlg lab --follow`: the stream holds the records of the source, a slow page costs nobody else anything, and what is asked wrongly is refused."""
 
 import math
+import shutil
 import signal
 import socket
 import tempfile
@@ -8,6 +9,7 @@ import time
 import unittest
 from pathlib import Path
 
+import h5py
 from lab_server import Events, LabServer, Line
 from support import ROOT, AngleLog, CliTest, run
 
@@ -277,6 +279,16 @@ class LabFollow(CliTest):
         self.refuse((2, 3), "lab", "--follow", self.files / "line.bin", "--out", self.folder / "x.txt")
         self.refuse(2, "lab", "--follow", self.files / "angles.h5", "--out", self.files / "angles.h5", "--force")
         self.refuse(3, "lab", "--follow", self.folder / "nothing", says=["nothing"])
+        self.refuse(2, "lab", "--follow", "", "--out", self.folder / "lab.html", says=["--follow"])
+        self.refuse(2, "lab", "--follow", self.files / "line.bin", "--set", "gyro.tick_s=0.01", says=["--set", "line"])
+        self.refuse(2, "lab", "--follow", self.files / "angles.h5", "--set", "gyro.tick_s=0.01", says=["--set", "angle log"])
+        self.refuse(2, "lab", "--follow", self.files / "angles.h5", "--out", self.folder / "copy.h5", says=["--out", "convert"])
+        self.refuse(3, "lab", "--follow", self.write("notes.txt", "no gyro\n"), "--port", 0, says=["notes.txt", "without a tick"])
+        timeless = self.folder / "timeless.h5"
+        shutil.copy(self.files / "angles.h5", timeless)
+        with h5py.File(timeless, "r+") as file:
+            del file.attrs["tick_s"]
+        self.refuse(3, "lab", "--follow", timeless, says=["timeless.h5", "tick_s"])
         self.refuse(3, "lab", "--follow", self.files / "line.bin", "--out", self.files / "angles.csv", says=["--force"])
 
 

@@ -1,6 +1,7 @@
 """The lab page as `zlg lab --follow` serves it: the live picture, loaded again, and after a lost connection."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -113,6 +114,12 @@ class Live(PageCase):
         self.browser.wait_until(lambda: self.browser.marked("time") == "60.0000")
         self.assertIsNone(self.shown("Piezo"))
         self.assertIn("other.h5", self.browser.text(".what"))
+
+    def test_a_gyro_that_falls_silent_is_not_called_live(self):
+        server = self.serve(self.line(1.0).source)
+        self.open_served(server)
+        self.wait_for_the_last()
+        self.browser.wait_until(lambda: re.fullmatch(r"no record for \d+ s", self.browser.marked("state")))
 
     def test_a_program_that_was_stopped_for_a_while_is_followed_on(self):
         server = self.serve(self.line(8.0).source)

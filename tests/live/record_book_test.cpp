@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -147,9 +148,15 @@ TEST(RecordBooks, GiveAGapOnceWhenWhatFollowsItIsKnown) {
 
 TEST(Gaps, AtTheStartAndWithoutEndAreShownInBoundedMemory) {
     GapFinder gaps;
-    for (std::int64_t row = 0; row < 100'000; ++row) gaps.take(row, {.tick = row, .flags = core::flag_invalid});
+    for (std::int64_t row = 0; row < 100'000; ++row)
+        gaps.take(row, {.tick = row, .flags = row < 20 ? 0u : static_cast<std::uint32_t>(core::flag_invalid)});
+    EXPECT_FALSE(gaps.newest());
+    for (std::int64_t row = 100'000; row < 100'041; ++row) gaps.take(row, {.tick = row});
     ASSERT_TRUE(gaps.newest());
-    EXPECT_LE(std::ssize(gaps.newest()->rows), GapFinder::before_ticks + GapFinder::most_ticks + 1);
+    EXPECT_EQ(gaps.newest()->first_row, 20);
+    EXPECT_EQ(gaps.newest()->n_ticks, 99'980);
+    EXPECT_EQ(gaps.newest()->shown_row, 8);
+    EXPECT_EQ(std::ssize(gaps.newest()->rows), GapFinder::most_rows);
     GapFinder first;
     for (std::int64_t row = 0; row < 60; ++row)
         first.take(row, {.tick = row, .flags = row < 2 ? static_cast<std::uint32_t>(core::flag_invalid) : 0u});
@@ -157,6 +164,27 @@ TEST(Gaps, AtTheStartAndWithoutEndAreShownInBoundedMemory) {
     EXPECT_EQ(first.newest()->shown_row, 0);
     EXPECT_EQ(first.newest()->n_ticks, 2);
     EXPECT_EQ(first.newest()->rows.size(), 42u);
+}
+
+// Gaps of three ticks, the next one before and after the picture of the last is whole.
+TEST(Gaps, ThatFollowEachOtherAreEachSeen) {
+    for (const std::int64_t every : {20, 42, 43, 44, 90}) {
+        GapFinder gaps;
+        std::int64_t seen = 0;
+        for (std::int64_t row = 0; row < 20 * every + 5; ++row) {
+            gaps.take(row,
+                      {.tick = row, .flags = row % every < 3 ? static_cast<std::uint32_t>(core::flag_invalid) : 0u});
+            if (!gaps.newest() || gaps.newest()->first_row < seen * every) continue;
+            EXPECT_EQ(gaps.newest()->first_row, seen * every) << every;
+            EXPECT_EQ(gaps.newest()->n_ticks, 3) << every;
+            const std::int64_t before = std::min(seen * every, GapFinder::before_ticks);
+            EXPECT_EQ(gaps.newest()->shown_row, seen * every - before) << every;
+            for (std::size_t k = 0; k < gaps.newest()->rows.size(); ++k)
+                ASSERT_EQ(gaps.newest()->rows[k].tick, gaps.newest()->shown_row + static_cast<std::int64_t>(k));
+            ++seen;
+        }
+        EXPECT_EQ(seen, 20) << every;
+    }
 }
 
 TEST(ThinnedRecords, KeepEveryStrideThOfAll) {

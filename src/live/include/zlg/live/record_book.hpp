@@ -3,7 +3,8 @@
 //
 // One thread adds records, others ask for events: pieces of the stream of server-sent events (WHATWG HTML, section 9.2), each a name and one line of
 // JSON. A page that is not far behind gets every record; one that is, or that is new, gets a snapshot, from which it goes on.
-// Whoever asks holds the book only while the records are copied, so no page can keep the adding thread waiting.
+// Whoever asks holds the book while the records are copied and, once a second, while the Allan deviation is computed: some
+// milliseconds, and no page can make it longer.
 
 #include <cstdint>
 #include <memory>
