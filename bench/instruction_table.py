@@ -27,6 +27,8 @@ PART_OF = {
     "bridge_scores": "motion_learning",
     "ellipse_correction": "fringe_readout",
     "border": "gyro_compensation",
+    "known_sum": "gyro_compensation",
+    "tick_allowance": "gyro_compensation",
     "motion_moments": "motion_learning",
     "cholesky": "optimal_bridge",
     "compensation_constants": "relock_drift",
