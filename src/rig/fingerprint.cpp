@@ -15,10 +15,11 @@
 namespace zlg::rig {
 namespace {
 
-// Numbers as bytes, the lowest first, whatever the order of the machine.
-template <std::size_t capacity>
+// Writes numbers as bytes, the lowest first, whatever the order of the machine.
 class Bytes {
 public:
+    explicit Bytes(std::span<unsigned char> room) : byte_{room.data()} {}
+
     template <class Word>
     void word(Word value) {
         if constexpr (is_in_order)
@@ -34,9 +35,10 @@ public:
     void real(float value) { word(value != value ? 0x7fc0'0000u : std::bit_cast<std::uint32_t>(value)); }
     // All at once where that gives the same bytes: a half has 16 samples of each beam and more.
     void reals(std::span<const float> values) {
-        bool has_none = false;
-        for (const float value : values) has_none |= value != value;
-        if (is_in_order && !has_none) {
+        // As whole numbers, which the processor compares many at once: behind infinity there are only those that are none.
+        std::uint32_t n_none = 0;
+        for (const float value : values) n_none += (std::bit_cast<std::uint32_t>(value) & 0x7fff'ffffu) > 0x7f80'0000u;
+        if (is_in_order && n_none == 0) {
             std::memcpy(&byte_[size_], values.data(), values.size_bytes());
             size_ += values.size_bytes();
             return;
@@ -44,19 +46,16 @@ public:
         for (const float value : values) real(value);
     }
 
-    [[nodiscard]] std::uint64_t hashed(std::uint64_t seed) const { return XXH64(byte_.data(), size_, seed); }
+    [[nodiscard]] std::size_t size() const { return size_; }
 
 private:
     static constexpr bool is_in_order = std::endian::native == std::endian::little;
 
-    std::array<unsigned char, capacity> byte_;
+    unsigned char* byte_;
     std::size_t size_ = 0;
 };
 
-// More than a half can hold: 64 samples of both beams, 16 set-points and fewer than 50 other numbers.
-using HalfBytes = Bytes<4 * 2 * core::max_light_samples + 8 * core::max_set_points + 8 * 50>;
-
-void put(HalfBytes& bytes, const core::SensorFrame& s) {
+void put(Bytes& bytes, const core::SensorFrame& s) {
     bytes.whole(s.sequence);
     bytes.word(s.timer_ticks);
     bytes.word(s.counter);
@@ -77,7 +76,7 @@ void put(HalfBytes& bytes, const core::SensorFrame& s) {
     bytes.real(s.fringe_s);
 }
 
-void put(HalfBytes& bytes, const core::ActuatorFrame& a) {
+void put(Bytes& bytes, const core::ActuatorFrame& a) {
     bytes.whole(a.loop_closed);
     bytes.whole(a.polarity);
     bytes.whole(a.n_set_points);
@@ -85,7 +84,7 @@ void put(HalfBytes& bytes, const core::ActuatorFrame& a) {
     bytes.whole(a.edge_offset_ticks);
 }
 
-void put(HalfBytes& bytes, const core::HalfRecord& r) {
+void put(Bytes& bytes, const core::HalfRecord& r) {
     bytes.whole(r.half);
     bytes.whole(r.counts);
     bytes.real(r.detuning_lambda);
@@ -103,7 +102,7 @@ void put(HalfBytes& bytes, const core::HalfRecord& r) {
     bytes.whole(r.coil_ua);
 }
 
-void put(HalfBytes& bytes, const twin::TwinTruth& t) {
+void put(Bytes& bytes, const twin::TwinTruth& t) {
     bytes.real(t.dtheta_arcsec);
     bytes.real(t.false_relock_arcsec);
     bytes.real(t.detuning_end_lambda);
@@ -116,30 +115,37 @@ void put(HalfBytes& bytes, const twin::TwinTruth& t) {
 }  // namespace
 
 void Fingerprint::take(const LoopHalf& half, const core::SensorFrame& sensor) {
-    HalfBytes bytes;
+    before_last_ = halves();
+    Bytes bytes{last_half_};
     put(bytes, sensor);
     put(bytes, half.control.actuator);
     put(bytes, half.record);
     put(bytes, half.truth);
-    halves_ = bytes.hashed(halves_);
+    n_last_half_ = bytes.size();
 }
 
 void Fingerprint::take(const core::AngleRow& row) {
-    Bytes<48> bytes;
+    std::array<unsigned char, 48> room;
+    Bytes bytes{room};
     bytes.whole(row.tick);
     bytes.real(row.dtheta_arcsec);
     bytes.real(row.dtheta_final_arcsec);
     bytes.real(row.sigma_arcsec);
     bytes.whole(row.mode);
     bytes.whole(row.flags);
-    rows_ = bytes.hashed(rows_);
+    rows_ = XXH64(room.data(), bytes.size(), rows_);
+}
+
+std::uint64_t Fingerprint::halves() const {
+    return n_last_half_ == 0 ? before_last_ : XXH64(last_half_.data(), n_last_half_, before_last_);
 }
 
 std::uint64_t Fingerprint::value() const {
-    Bytes<16> bytes;
-    bytes.word(halves_);
+    std::array<unsigned char, 16> room;
+    Bytes bytes{room};
+    bytes.word(halves());
     bytes.word(rows_);
-    return bytes.hashed(0);
+    return XXH64(room.data(), bytes.size(), 0);
 }
 
 std::string Fingerprint::text() const { return fmt::format("{:016x}", value()); }

@@ -39,10 +39,13 @@ const TwinHalf& AveragedGyro::advance(const core::ActuatorFrame& actuator) {
 }
 
 bool AveragedGyro::is_lit_in_one_mode() const {
-    const Mode least = lasing_mode(course_.least_lambda());
-    const Mode most = lasing_mode(course_.most_lambda());
-    return least.centre_half_lambda == most.centre_half_lambda && least.two_way() && most.two_way() &&
-           !housing_.light_is_faulty();
+    if (housing_.light_is_faulty()) return false;
+    // The loop is linear only where light of both directions lases.
+    if (course_.was_linear()) return true;
+    const PerimeterCourse::Ends ends = course_.ends();
+    const Mode least = lasing_mode(ends.least_lambda);
+    const Mode most = lasing_mode(ends.most_lambda);
+    return least.centre_half_lambda == most.centre_half_lambda && least.two_way() && most.two_way();
 }
 
 // Each sample at the middle of its interval.

@@ -182,10 +182,11 @@ void LaserGyro::live_plateau(const BiasHalf& bias, TwinTruth& truth) {
     const double plateau_s = bias.plateau_end_s() - start_s;
     if (!(plateau_s > 0.0)) return;
     const double drive_hz = common_hz(start_s, bias.plateau_end_s());
+    const PerimeterCourse::Ends ends = course_.ends();
+    const double spread_lambda = ends.most_lambda - ends.least_lambda;
     int n = 1;
-    if (course_.spread_lambda() > steady_lambda) n = n_calm_stretches;
-    if (course_.spread_lambda() > calm_lambda || housing_.light_is_faulty())
-        n = housing_.n_pieces() * config_.gyro.light_samples;
+    if (spread_lambda > steady_lambda) n = n_calm_stretches;
+    if (spread_lambda > calm_lambda || housing_.light_is_faulty()) n = housing_.n_pieces() * config_.gyro.light_samples;
     const double piece_s = plateau_s / n;
     for (int k = 0; k < n; ++k) {
         Stretch s = stretch(start_s + k * piece_s, piece_s, drive_hz);

@@ -78,13 +78,14 @@ void Perimeter::begin_half(const core::ActuatorFrame& frame, double drift_start_
     mode_ = lasing_mode(length_lambda());
 }
 
-void Perimeter::live(std::span<double> length) {
-    if (live_linear(length)) return;
+bool Perimeter::live(std::span<double> length) {
+    if (live_linear(length)) return true;
     length.front() = length_lambda();
     for (double& after : length.subspan(1)) {
         step();
         after = length_lambda();
     }
+    return false;
 }
 
 void Perimeter::step() {

@@ -35,7 +35,8 @@ public:
     // Live through the half that was begun.
     //
     // length_lambda  written: the length at its start and after each of its steps, n_steps + 1 numbers.
-    void live(std::span<double> length_lambda);
+    // return         whether the loop was linear throughout: closed, and within the straight part of its error signal.
+    bool live(std::span<double> length_lambda);
 
     // The mode that lases now: the nearest.
     [[nodiscard]] const Mode& mode() const { return mode_; }

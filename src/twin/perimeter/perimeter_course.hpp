@@ -17,30 +17,22 @@ public:
         : node_(static_cast<std::size_t>(n_steps) + 1), steps_per_s_{n_steps / half_s} {}
 
     // Live through the half that the perimeter has begun.
-    void live(Perimeter& perimeter) {
-        perimeter.live(node_);
-        find_ends();
-    }
+    void live(Perimeter& perimeter) { was_linear_ = perimeter.live(node_); }
+    // As Perimeter::live says.
+    [[nodiscard]] bool was_linear() const { return was_linear_; }
 
     // Length after each step; the first is that before them.
     [[nodiscard]] std::span<const double> nodes() const { return node_; }
     [[nodiscard]] double after_step(std::size_t k) const { return node_[k]; }
-    [[nodiscard]] double least_lambda() const { return least_lambda_; }
-    [[nodiscard]] double most_lambda() const { return most_lambda_; }
-    [[nodiscard]] double spread_lambda() const { return most_lambda_ - least_lambda_; }
 
-    // Straight between the steps; beyond the half, what it begins or ends with.
-    [[nodiscard]] double at(double time_s) const {
-        const double place = time_s * steps_per_s_;
-        if (!(place > 0.0)) return node_.front();
-        const auto k = static_cast<std::size_t>(place);
-        if (k + 1 >= node_.size()) return node_.back();
-        return node_[k] + (place - static_cast<double>(k)) * (node_[k + 1] - node_[k]);
-    }
+    // The shortest and the longest length.
+    struct Ends {
+        double least_lambda;
+        double most_lambda;
+    };
 
-private:
-    // In lanes, which the compiler makes vectors of.
-    void find_ends() {
+    // In lanes, which the processor compares side by side.
+    [[nodiscard]] Ends ends() const {
         constexpr std::size_t n_lanes = 4;
         std::array<double, n_lanes> least;
         least.fill(node_.front());
@@ -57,14 +49,22 @@ private:
             least[0] = std::min(least[0], node_[k]);
             most[0] = std::max(most[0], node_[k]);
         }
-        least_lambda_ = *std::min_element(least.begin(), least.end());
-        most_lambda_ = *std::max_element(most.begin(), most.end());
+        return {*std::min_element(least.begin(), least.end()), *std::max_element(most.begin(), most.end())};
     }
 
+    // Straight between the steps; beyond the half, what it begins or ends with.
+    [[nodiscard]] double at(double time_s) const {
+        const double place = time_s * steps_per_s_;
+        if (!(place > 0.0)) return node_.front();
+        const auto k = static_cast<std::size_t>(place);
+        if (k + 1 >= node_.size()) return node_.back();
+        return node_[k] + (place - static_cast<double>(k)) * (node_[k + 1] - node_[k]);
+    }
+
+private:
     std::vector<double> node_;
     double steps_per_s_;
-    double least_lambda_ = 0.0;
-    double most_lambda_ = 0.0;
+    bool was_linear_ = false;
 };
 
 }  // namespace zlg::twin

@@ -4,6 +4,8 @@
 // A configuration and a seed name one run, on every machine. Two runs with the same fingerprint agree to the last bit in every
 // sensor frame, actuator frame, half record, truth and angle; docs/logs.md says how the bits are made.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -25,7 +27,16 @@ public:
     [[nodiscard]] std::string text() const;
 
 private:
-    std::uint64_t halves_ = 0;
+    // More than a half can hold: 64 samples of both beams, 16 set-points and fewer than 50 other numbers.
+    static constexpr std::size_t max_half_bytes = 4 * 2 * core::max_light_samples + 8 * core::max_set_points + 8 * 50;
+
+    [[nodiscard]] std::uint64_t halves() const;
+
+    // The bytes of a half are hashed when the next half comes. Just written, numbers of different sizes cannot be read as whole
+    // words yet; and a hash mostly waits for its own products, beside which the processor lays out the next half.
+    std::array<unsigned char, max_half_bytes> last_half_;
+    std::size_t n_last_half_ = 0;
+    std::uint64_t before_last_ = 0;  // hash of the halves before it
     std::uint64_t rows_ = 0;
 };
 
