@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <zlg/sweep/description.hpp>
+#include <zlg/sweep/motion_files.hpp>
 #include <zlg/sweep/row_text.hpp>
 
 namespace zlg::mpi {
@@ -46,7 +47,7 @@ void Worker::obey(const Message& message) {
     switch (message.tag) {
         case Tag::description:
             try {
-                gyros_.emplace(same_program(message.text));
+                gyros_.emplace(sweep::with_motion_checksums(same_program(message.text)));
             } catch (const std::exception& error) {
                 stop(Tag::failed, error.what());
             }

@@ -72,6 +72,9 @@ std::string to_toml(const Description& d) {
     if (d.duration_s) text += fmt::format("duration_s = {}\n", text::toml_real(*d.duration_s));
     text += fmt::format("sobol_shift = {}\nsensitivity = {}\n[base]\n", d.sobol_shift, d.sensitivity);
     for (const auto& [key, value] : d.base) text += fmt::format("{} = {}\n", key, value);
+    if (!d.motion_checksums.empty()) text += "[motion_checksums]\n";
+    for (const auto& [path, checksum] : d.motion_checksums)
+        text += fmt::format("{} = {}\n", text::toml_string(path), text::toml_string(checksum));
     for (const Parameter& p : d.parameters) text += text_of(p);
     for (const Metric& metric : d.metrics) text += text_of(metric);
     return text;

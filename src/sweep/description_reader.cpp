@@ -175,6 +175,17 @@ void read_base(const Table& root, std::string_view source_name, Description& d) 
     std::ranges::sort(d.base);
 }
 
+void read_motion_checksums(const Table& root, std::string_view source_name, Description& d) {
+    if (!root.has("motion_checksums")) return;
+    const toml::node& node = root.node("motion_checksums");
+    if (!node.is_table()) root.fail(node, "motion_checksums is a section: write [motion_checksums] once");
+    const Table table{source_name, "motion_checksums", *node.as_table()};
+    for (const auto& [path, checksum] : table.table()) {
+        const std::string name{path.str()};
+        d.motion_checksums[name] = table.text(name);
+    }
+}
+
 void read_parameters(const Table& root, std::string_view source_name, Description& d) {
     const config::Config base = base_config(d, source_name);
     std::map<std::string, config::ValueKind> kinds;
@@ -241,7 +252,7 @@ Description parse(std::string_view text, std::string_view source_name) {
     constexpr std::int64_t int64_max = std::numeric_limits<std::int64_t>::max();
     const toml::table document = parse_document(text, source_name);
     const Table root{source_name, "description", document};
-    root.allow_only({"sweep", "base", "parameter", "metric"});
+    root.allow_only({"sweep", "base", "motion_checksums", "parameter", "metric"});
     if (!root.node("sweep").is_table()) root.fail(root.node("sweep"), "sweep is a section: write [sweep] once");
     const Table sweep{source_name, "sweep", *root.node("sweep").as_table()};
     sweep.allow_only({"gyros", "seed", "duration_s", "sobol_shift", "sensitivity"});
@@ -251,6 +262,7 @@ Description parse(std::string_view text, std::string_view source_name) {
     d.sobol_shift = sweep.boolean("sobol_shift", d.sobol_shift);
     d.sensitivity = sweep.boolean("sensitivity", d.sensitivity);
     read_base(root, source_name, d);
+    read_motion_checksums(root, source_name, d);
     read_parameters(root, source_name, d);
     read_metrics(root, source_name, d);
     read_gyros(sweep, d);

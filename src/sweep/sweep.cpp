@@ -11,6 +11,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/numeric/parallel.hpp>
 #include <zlg/sweep/checkpoint.hpp>
+#include <zlg/sweep/motion_files.hpp>
 #include <zlg/text/inputs.hpp>
 
 namespace zlg::sweep {
@@ -95,11 +96,9 @@ Crew threads_of(const Task& task) {
 }  // namespace
 
 Outcome run(const Task& task) {
-    const Gyros gyros{task.description};
-    const std::string description = to_toml(task.description);
+    const Gyros gyros{with_motion_checksums(task.description)};
+    const std::string description = to_toml(gyros.description());
     const std::string part = part_of(task.out);
-    const config::Motion motion = base_config(task.description).motion;
-    if (motion.kind == config::MotionKind::file) text::note_input(motion.path);
     for (const std::string& path : {task.out, part}) {
         require_regular(path);
         text::refuse_input(path);

@@ -1,6 +1,7 @@
 """`zlg sweep`: the same bytes by any way, rows that `zlg run` repeats, one line for what is wrong."""
 
 import json
+import os
 import random
 import shlex
 import signal
@@ -275,6 +276,27 @@ class BadInput(SweepTest):
         fewer = self.description(SWEEP.replace("gyros = 12", "gyros = 11"), "fewer.toml")
         self.refused(2, fewer, "--out", self.folder / "r.h5", says="sweep.gyros = 11")
         self.assertEqual((self.folder / "r.h5").read_bytes(), before)
+
+    def test_results_of_another_motion_file_stay(self):
+        motion = self.folder / "motion.csv"
+        rows = [str(k % 7) for k in range(1000)]
+        motion.write_text("\n".join(rows) + "\n")
+        of_file = SWEEP.replace("[base.switching]", f"[base.motion]\nkind = 'file'\npath = '{motion}'\n[base.switching]")
+        self.assertNotEqual(of_file, SWEEP)
+        self.swept("1.h5", "--part", "1/2", text=of_file)
+        whole = self.swept("r.h5", text=of_file)
+        self.assertEqual(self.swept("r.h5", text=of_file), whole, "held every gyro")
+        rows[-1] = "0.5"
+        motion.write_text("\n".join(rows) + "\n")
+        more = self.description(of_file.replace("gyros = 12", "gyros = 13"), "more.toml")
+        self.refused(3, more, "--out", self.folder / "r.h5", says=f'is of another sweep: it has `"{motion}" = "')
+        self.assertEqual((self.folder / "r.h5").read_bytes(), whole)
+        self.swept("2.h5", "--part", "2/2", text=of_file)
+        self.refused(3, "--merge", self.folder / "1.h5", self.folder / "2.h5", "--out", self.folder / "m.h5", says="is of another sweep than")
+        motion.unlink()
+        self.refused(3, more, "--out", self.folder / "new.h5", says=f"cannot read the motion file {motion}: No such file")
+        os.mkfifo(motion)
+        self.refused(3, more, "--out", self.folder / "new.h5", says="allowed is a regular file")
 
     def test_a_part_that_is_not_its_own_stays(self):
         part = self.folder / "r.h5.part"

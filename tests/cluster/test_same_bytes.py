@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ways import SWEEP, ZLG, environment, has_ranks, on_ranks, on_threads, run
+from ways import SWEEP, ZLG, ZLG_MPI, environment, has_ranks, on_ranks, on_threads, run
 
 needs_ranks = pytest.mark.skipif(not has_ranks(), reason="no OpenMPI, or zlg-mpi is not built")
 
@@ -219,3 +219,24 @@ class TestBadInput:
 
 if __name__ == "__main__":
     pytest.main([__file__])
+
+
+@needs_ranks
+def test_ranks_that_see_another_motion_file_are_refused(tmp_path):
+    """As two machines do whose files differ: each rank starts in a folder of its own."""
+    text = SWEEP.format(gyros=8, duration_s=10).replace("[base.switching]", "[base.motion]\nkind = 'file'\npath = 'm.csv'\n[base.switching]")
+    (tmp_path / "sweep.toml").write_text(text)
+    for name, last in (("here", 1), ("same", 1), ("there", 2)):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "m.csv").write_text("\n".join(str(k % 7) for k in range(2000)) + f"\n{last}\n")
+
+    def on_folders(other, out):
+        rank = ["-np", "1", "-wdir"]
+        program = [ZLG_MPI, "sweep", tmp_path / "sweep.toml", "--out", tmp_path / out]
+        return run(["mpirun", "-q", *rank, tmp_path / "here", *program, ":", *rank, tmp_path / other, *program])
+
+    assert on_folders("same", "same.h5").returncode == 0
+    result = on_folders("there", "other.h5")
+    assert result.returncode == 3
+    assert "the motion file m.csv has the checksum" in result.stderr
+    assert not (tmp_path / "other.h5").exists()

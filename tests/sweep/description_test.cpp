@@ -33,6 +33,18 @@ TEST(Description, what_is_written_reads_back) {
     EXPECT_EQ(to_toml(d), to_toml(parse(to_toml(d), "again")));
 }
 
+TEST(Description, checksums_of_motion_files_read_back_and_decide) {
+    Description d = parse(every_draw, "s.toml");
+    d.motion_checksums = {{"a \"b\".csv", "0123456789abcdef"}, {"c.csv", "fedcba9876543210"}};
+    EXPECT_EQ(d, parse(to_toml(d), "again"));
+    Description other = d;
+    other.motion_checksums["c.csv"] = "0000000000000000";
+    EXPECT_EQ(difference(to_toml(d), to_toml(d)), "");
+    EXPECT_EQ(difference(to_toml(d), to_toml(other)),
+              "has `\"c.csv\" = \"fedcba9876543210\"`, this one `\"c.csv\" = \"0000000000000000\"`");
+    EXPECT_NE(refusal("[motion_checksums]\n\"a\" = 1\n[sweep]\ngyros = 4\n" + std::string{testing_metric}), "");
+}
+
 TEST(Description, of_a_grid_the_number_of_gyros_follows) {
     const std::string grid =
         "[[parameter]]\nkeys = [\"piezo.half_wave_v\"]\ndraw = \"grid\"\nmin = 30\nmax = 50\nn = 3\n"

@@ -2,6 +2,7 @@
 // What a sweep is: how many gyros, what they have in common, what is drawn for each, what is recorded of each.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +51,7 @@ struct Description {
     bool sobol_shift = true;           // whether Sobol's points get a random digital shift
     bool sensitivity = false;          // the gyros are the points of Saltelli's design, for Sobol's indices
     std::vector<std::pair<std::string, std::string>> base;  // dotted keys with their TOML
+    std::map<std::string, std::string> motion_checksums;    // by path; see motion_files.hpp
     std::vector<Parameter> parameters;
     std::vector<Metric> metrics;
 

@@ -42,7 +42,7 @@ struct Outcome {
 // RESULTS depend neither on threads nor on how often that happened. A gyro that fails is a row; see gyros.hpp.
 //
 // errors  config::ConfigError: the file has more gyros than the description; logs::IoError: of another sweep, the disk is
-//         full, and so on; logs::FormatError: damaged; those of a motion file.
+//         full, and so on; logs::FormatError: damaged; those of a motion file, which must not change between calls.
 [[nodiscard]] Outcome run(const Task& task);
 
 // Results and checkpoints of one sweep in any order, with gyros in common or not, as one file.

@@ -1,0 +1,81 @@
+#include <zlg/sweep/motion_files.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+// The hash is part of this source alone: no library has to be there where the program runs.
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <zlg/logs/error.hpp>
+#include <zlg/text/inputs.hpp>
+
+namespace zlg::sweep {
+namespace {
+
+// XXH64 of the bytes, of whatever length.
+std::string checksum(const std::string& path) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+        throw logs::IoError(fmt::format("cannot read the motion file {} of a sweep: allowed is a regular file", path));
+    const auto fail = [&] {
+        throw logs::IoError(fmt::format("cannot read the motion file {}: {}", path, std::strerror(errno)));
+    };
+    std::ifstream in{path, std::ios::binary};
+    if (!in) fail();
+    const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> hash{XXH64_createState(), XXH64_freeState};
+    XXH64_reset(hash.get(), 0);
+    std::vector<char> block(std::size_t{1} << 16);
+    while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
+        XXH64_update(hash.get(), block.data(), static_cast<std::size_t>(in.gcount()));
+    if (in.bad()) fail();
+    return fmt::format("{:016x}", XXH64_digest(hash.get()));
+}
+
+// Of the base and of all values that a parameter may give; none where no gyro moves by a file.
+std::set<std::string> motion_files(const Description& description) {
+    const config::Config base = base_config(description);
+    bool moves_by_file = base.motion.kind == config::MotionKind::file;
+    std::set<std::string> paths = {base.motion.path};
+    for (const Parameter& p : description.parameters) {
+        for (const std::string& key : p.keys) {
+            if (key != "motion.kind" && key != "motion.path") continue;
+            for (const Value& value : p.values) {
+                config::Config drawn = base;
+                config::apply_pair(drawn, key, toml_of(value), "[[parameter]]");
+                moves_by_file = moves_by_file || drawn.motion.kind == config::MotionKind::file;
+                paths.insert(drawn.motion.path);
+            }
+        }
+    }
+    paths.erase("");
+    return moves_by_file ? paths : std::set<std::string>{};
+}
+
+}  // namespace
+
+Description with_motion_checksums(Description description) {
+    std::map<std::string, std::string> now;
+    for (const std::string& path : motion_files(description)) {
+        text::note_input(path);
+        now[path] = checksum(path);
+        const auto before = description.motion_checksums.find(path);
+        if (before != description.motion_checksums.end() && before->second != now[path])
+            throw logs::IoError(
+                fmt::format("the motion file {} has the checksum {} here; allowed is {}, that of the sweep", path,
+                            now[path], before->second));
+    }
+    description.motion_checksums = std::move(now);
+    return description;
+}
+
+}  // namespace zlg::sweep
