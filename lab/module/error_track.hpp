@@ -13,6 +13,8 @@
 #include <zlg/study/gyro_drift.hpp>
 #include <zlg/study/variant.hpp>
 
+#include "queue.hpp"
+
 namespace zlg::lab {
 
 class ErrorTrack {
@@ -35,7 +37,7 @@ public:
     }
 
     // The error of the angle after each tick, until it is taken from the front.
-    [[nodiscard]] std::deque<double>& waiting_arcsec() { return waiting_arcsec_; }
+    [[nodiscard]] Queue<double>& waiting_arcsec() { return waiting_arcsec_; }
 
     // The next switch whose error is known since this was asked last; null where there is none.
     [[nodiscard]] const study::SwitchError* next_switch() {
@@ -53,7 +55,7 @@ private:
     study::ErrorMeter meter_;
     std::array<double, core::history_ticks> taken_out_arcsec_{};
     double taken_out_sum_arcsec_ = 0.0;
-    std::deque<double> waiting_arcsec_;
+    Queue<double> waiting_arcsec_;
     std::size_t n_reported_ = 0;
 };
 

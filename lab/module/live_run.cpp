@@ -26,12 +26,6 @@ rig::Replay replay_of(const config::Config& config, core::RelockMethod relock, c
     return rig::Replay{rig::compensation_config(with_points_of_paper(config), relock, bridge)};
 }
 
-double take_front(std::deque<double>& waiting) {
-    const double value = waiting.front();
-    waiting.pop_front();
-    return value;
-}
-
 }  // namespace
 
 LiveRun::LiveRun(const config::Config& config, const std::optional<config::Config>& other,
@@ -65,7 +59,7 @@ void LiveRun::advance() {
     }
     if (ends_tick) configured_.end_tick(half.record.half / 2, run_.replay());
     take_rows(configured_, rows);
-    final_.insert(final_.end(), rows.begin(), rows.end());
+    for (const core::AngleRow& row : rows) final_.push_back(row);
     if (other_) {
         other_->advance([this](const core::AngleRow& row) {
             other_sum_.add(row.dtheta_final_arcsec - waiting(row.tick).true_arcsec);
@@ -140,12 +134,12 @@ void LiveRun::take_rows(ErrorTrack& track, const std::vector<core::AngleRow>& ro
 }
 
 void LiveRun::add_angles() {
-    std::deque<double>& read = compared_[0].track.waiting_arcsec();
-    std::deque<double>& paper = compared_[1].track.waiting_arcsec();
-    std::deque<double>& configured = configured_.waiting_arcsec();
+    Queue<double>& read = compared_[0].track.waiting_arcsec();
+    Queue<double>& paper = compared_[1].track.waiting_arcsec();
+    Queue<double>& configured = configured_.waiting_arcsec();
     std::vector<double>& rows = rows_[static_cast<std::size_t>(View::angles)];
     while (!read.empty() && !paper.empty() && !configured.empty() && !(other_ && other_error_arcsec_.empty())) {
-        const core::AngleRow& row = final_.front();
+        const core::AngleRow row = final_.take_front();
         const WaitingTick& seen = waiting(row.tick);
         const std::array<double, 11> numbers{static_cast<double>(row.tick),
                                              seen.true_arcsec,
@@ -154,12 +148,11 @@ void LiveRun::add_angles() {
                                              row.dtheta_final_arcsec,
                                              row.sigma_arcsec,
                                              static_cast<double>(row.flags),
-                                             take_front(read),
-                                             take_front(paper),
-                                             take_front(configured),
-                                             other_ ? take_front(other_error_arcsec_) : unknown};
+                                             read.take_front(),
+                                             paper.take_front(),
+                                             configured.take_front(),
+                                             other_ ? other_error_arcsec_.take_front() : unknown};
         rows.insert(rows.end(), numbers.begin(), numbers.end());
-        final_.pop_front();
     }
 }
 

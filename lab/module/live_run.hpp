@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +17,7 @@
 
 #include "error_track.hpp"
 #include "loop_run.hpp"
+#include "queue.hpp"
 
 namespace zlg::lab {
 
@@ -87,12 +87,12 @@ private:
     ErrorTrack configured_;
     std::array<Compared, 2> compared_;  // as read, by the paper
     std::optional<LoopRun> other_;
-    std::deque<double> other_error_arcsec_;
+    Queue<double> other_error_arcsec_;
     core::ExactSum other_sum_;
     study::SwitchFinder switches_;
     std::optional<rig::LoopHalf> first_;  // of the tick that has begun
     std::array<WaitingTick, core::history_ticks> waiting_{};
-    std::deque<core::AngleRow> final_;  // of the configured compensation, whose errors are not all known
+    Queue<core::AngleRow> final_;  // of the configured compensation, whose errors are not all known
     std::array<std::vector<double>, 3> rows_;
     std::array<double, 12> now_{};
 };

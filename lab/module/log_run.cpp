@@ -133,15 +133,13 @@ void LogRun::add_ticks() {
         return false;
     };
     while (!final_.empty() && !waits()) {
-        const core::AngleRow row = final_.front();
-        final_.pop_front();
+        const core::AngleRow row = final_.take_front();
         const SeenTick& at = seen(row.tick);
         ticks_.insert(ticks_.end(), {static_cast<double>(row.tick), at.read_arcsec, row.dtheta_arcsec,
                                      row.dtheta_final_arcsec, row.sigma_arcsec, static_cast<double>(row.flags),
                                      static_cast<double>(row.mode), at.closed, at.detuning_lambda, at.piezo_v});
         for (Compared& each : compared_) {
-            each.less_configured.add(each.final_arcsec.front() - row.dtheta_final_arcsec);
-            each.final_arcsec.pop_front();
+            each.less_configured.add(each.final_arcsec.take_front() - row.dtheta_final_arcsec);
             ticks_.push_back(each.less_configured.value());
         }
         if (compared_.empty()) ticks_.insert(ticks_.end(), {unknown, unknown});

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +17,8 @@
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
+
+#include "queue.hpp"
 
 namespace zlg::lab {
 
@@ -52,7 +53,7 @@ private:
     struct Compared {
         explicit Compared(const core::GyroCompensationConfig& config) : replay{config} {}
         rig::Replay replay;
-        std::deque<double> final_arcsec;  // of ticks that another compensation has not settled yet
+        Queue<double> final_arcsec;  // of ticks that another compensation has not settled yet
         core::ExactSum less_configured;
     };
     struct SeenTick {
@@ -78,7 +79,7 @@ private:
     bool lacks_detuning_ = false;
     std::optional<rig::Replay> configured_;
     std::vector<Compared> compared_;  // as read, by the paper
-    std::deque<core::AngleRow> final_;
+    Queue<core::AngleRow> final_;
     std::optional<core::HalfRecord> first_;  // of the tick that has begun
     std::array<SeenTick, core::history_ticks> seen_{};
     std::vector<double> ticks_;

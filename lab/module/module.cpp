@@ -19,7 +19,7 @@
 
 #include <fmt/format.h>
 
-#include "design_curve.hpp"
+#include "design_formulas.hpp"
 #include "live_run.hpp"
 #include "log_run.hpp"
 #include "loop_run.hpp"
@@ -40,7 +40,7 @@ struct Page {
     config::Config asked;
     std::shared_ptr<lab::HandTurns> hand = std::make_shared<lab::HandTurns>();
     lab::MotionColumn column;
-    std::vector<double> design;
+    std::vector<double> weights;  // of a gap
     std::unique_ptr<lab::LiveRun> run;
     std::unique_ptr<lab::LogRun> log;
 };
@@ -122,12 +122,18 @@ ZLG_EXPORT(zlg_motion) double* zlg_motion(std::size_t values) {
     return page().column.values.data();
 }
 
-// What the theory says of the gyro that runs, as rows of design_curve.hpp, whose place and number of numbers follow.
-ZLG_EXPORT(zlg_design) int zlg_design(double switch_error_arcsec, double run_s) {
-    return done([=] { page().design = lab::design_curve(page().asked, switch_error_arcsec, run_s); });
+// What the theory says of the gyro that was configured (design_formulas.hpp), with the numbers of its enumerators: the drift of a budget,
+// the best interval by a law, the weights with which a gap is bridged.
+ZLG_EXPORT(zlg_drift) double zlg_drift(std::uint32_t budget, double interval_s, double run_s, double error_arcsec) {
+    return lab::drift_arcsec_s(page().asked, static_cast<lab::Budget>(budget), interval_s, run_s, error_arcsec);
 }
-ZLG_EXPORT(zlg_design_rows) const double* zlg_design_rows() { return page().design.data(); }
-ZLG_EXPORT(zlg_design_numbers) std::size_t zlg_design_numbers() { return page().design.size(); }
+ZLG_EXPORT(zlg_interval) double zlg_interval(std::uint32_t law, double run_s, double error_arcsec) {
+    return lab::interval_s(page().asked, static_cast<lab::IntervalLaw>(law), run_s, error_arcsec);
+}
+ZLG_EXPORT(zlg_gap_weights) const double* zlg_gap_weights(int extrapolates, int order, int gap_ticks) {
+    page().weights = lab::gap_weights(page().asked.compensation, extrapolates != 0, order, gap_ticks);
+    return page().weights.data();
+}
 
 // So many half-periods of bias, also beyond run.duration_s.
 ZLG_EXPORT(zlg_advance) int zlg_advance(std::uint32_t halves) {

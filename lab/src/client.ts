@@ -1,12 +1,12 @@
 // The gyro as the page sees it: the worker behind one interface.
-import type { Columns, Frame, FromWorker, Gyro, LogPicture, Schema, ToWorker } from "./protocol";
+import type { Design, Frame, FromWorker, Gyro, LogPicture, Schema, ToWorker } from "./protocol";
 
 export interface Listener {
     loaded(schema: Schema): void;
     configured(changed: string[]): void;
     refused(message: string, whole: boolean): void;
     frame(frame: Frame): void;
-    designed(columns: Columns): void;
+    designed(design: Design): void;
     motion_read(name: string, settings: string[], note: string): void;
     motion_refused(message: string): void;
     log_progress(fraction: number, ticks: number): void;
@@ -52,7 +52,7 @@ export class GyroClient {
             case "refused":
                 return listener.refused?.(message.message, message.whole);
             case "designed":
-                return listener.designed?.(message.columns);
+                return listener.designed?.(message.design);
             case "motion_read":
                 return listener.motion_read?.(message.name, message.settings, message.note);
             case "motion_refused":

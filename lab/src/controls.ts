@@ -1,4 +1,5 @@
 // Controls for the settings, made from the table of keys: the important ones first, all others by search.
+import { made } from "./elements";
 import type { Key } from "./protocol";
 
 // In the order in which a newcomer meets them.
@@ -79,35 +80,23 @@ export class Controls {
 
     private control(key: Key): HTMLElement {
         const name = `${key.section}.${key.name}`;
-        const box = made("div");
-        box.className = "control";
-        box.dataset.key = name;
-        const label = made("label", name);
+        const box = made("div", "", { class: "control", "data-key": name });
         const id = `control-${name.replace(".", "-")}`;
-        (label as HTMLLabelElement).htmlFor = id;
-        if (key.unit) {
-            const unit = made("span", ` ${key.unit}`);
-            unit.className = "unit";
-            label.append(unit);
-        }
+        const label = made("label", name, { for: id });
+        if (key.unit) label.append(made("span", ` ${key.unit}`, { class: "unit" }));
         const value = this.settings.get(name) ?? key.default;
         const field = key.choices.length > 0 && key.kind !== "choices" ? choice(key, value) : text_field(value);
         field.id = id;
         field.setAttribute("aria-describedby", `${id}-help`);
         field.addEventListener("change", () => this.change(key, field.value));
         if (field instanceof HTMLInputElement) field.addEventListener("input", () => this.change_soon(key, field.value));
-        const reset = made("button", "↺") as HTMLButtonElement;
-        reset.type = "button";
-        reset.setAttribute("aria-label", `${name} back to its default`);
+        const reset = made("button", "↺", { type: "button", "aria-label": `${name} back to its default` });
         reset.addEventListener("click", () => {
             field.value = bare(key, key.default);
             this.change(key, field.value);
         });
-        const help = made("small", `${key.meaning}. Allowed: ${key.allowed}`);
-        help.id = `${id}-help`;
-        const wrong = made("small");
-        wrong.className = "wrong";
-        box.append(label, field, reset, help, wrong);
+        const help = made("small", `${key.meaning}. Allowed: ${key.allowed}`, { id: `${id}-help` });
+        box.append(label, field, reset, help, made("small", "", { class: "wrong" }));
         return box;
     }
 
@@ -138,12 +127,6 @@ export class Controls {
             box.querySelector(".wrong")!.textContent = message;
         }
     }
-}
-
-function made(name: string, text = ""): HTMLElement {
-    const element = document.createElement(name);
-    element.textContent = text;
-    return element;
 }
 
 // A text without its quotes.

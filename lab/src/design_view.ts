@@ -1,61 +1,90 @@
-// The theory beside the gyro that runs: its drift over the switching interval, with the interval at which it stands.
-import { Chart, short } from "./plots";
-import type { Columns } from "./protocol";
+// The theory beside the gyro that runs: what it costs to switch often or seldom, and to bridge a gap.
+import { element, finite, positive } from "./elements";
+import { Chart, type Line, short } from "./plots";
+import type { Columns, Design } from "./protocol";
 
-const run_s = 3600;
-const default_error_arcsec = 10;
-const fewest_switches = 5;
-const default_interval_s = 90;
+const fewest_switches = 5; // whose rms is taken for what a switch leaves
 
-function element(id: string): HTMLElement {
-    return document.getElementById(id)!;
+const this_gyro = { label: "this gyro", colour: "--true", only_points: true };
+
+// "10 min", "1.5 h"
+function duration(seconds: number): string {
+    const [length, unit] = seconds >= 2 * 86400 ? [86400, "d"] : seconds >= 3600 ? [3600, "h"] : seconds >= 60 ? [60, "min"] : [1, "s"];
+    return `${short(seconds / length, 3)} ${unit}`;
 }
 
-// The column with one more row before `after`, on the straight line between its neighbours.
-function with_point(x: Float64Array, column: Float64Array, after: number, at: number): number[] {
-    const share = (at - x[after - 1]) / (x[after] - x[after - 1]);
-    const value = column[after - 1] + share * (column[after] - column[after - 1]);
-    return [...column.slice(0, after), value, ...column.slice(after)];
+function gap_lines(): Line[] {
+    const unit = "arcsec";
+    const kinds: [string, number[] | undefined][] = [["interpolated", undefined], ["extrapolated", [5, 4]]];
+    const orders: [string, string][] = [["constant", "--read"], ["line", "--paper"], ["parabola", "--ours"]];
+    return [...kinds.flatMap(([kind, dash]) => orders.map(([order, colour]) => ({ label: `${kind}, ${order}`, colour, unit, dash }))), { ...this_gyro, unit }];
+}
+
+function drift_lines(run_s: number): Line[] {
+    const unit = "deg/h";
+    const [sixth, whole, ten] = [run_s / 6, run_s, 10 * run_s].map(duration);
+    return [{ label: sixth, colour: "--other", unit }, { label: whole, colour: "--ours", unit }, { label: ten, colour: "--paper", unit }, { label: `${whole}, eq (7)`, colour: "--ours", unit, dash: [2, 3] }, { label: `${whole}, worst end`, colour: "--read", unit, dash: [5, 4] }, { ...this_gyro, unit }];
 }
 
 export class DesignView {
-    private readonly chart: Chart;
-    private interval_s = default_interval_s;
-    private error_arcsec = 0; // that was asked for last
+    private readonly drift = new Chart(element("plot-design"), { x: "switching interval, s", y: "drift, deg/h", height: 250, log_x: true, log_y: true, lines: drift_lines(3600) });
+    private readonly interval = new Chart(element("plot-best"), { x: "length of the run, s", y: "best interval, s", height: 250, log_x: true, log_y: true, lines: [{ label: "least expected drift", colour: "--ours", unit: "s" }, { label: "√(dP t/Ω)", colour: "--paper", unit: "s", dash: [5, 4] }, { ...this_gyro, unit: "s" }] });
+    private readonly by_frequency = new Chart(element("plot-gap-frequency"), { x: "frequency of the motion, Hz", y: "error, arcsec", height: 250, lines: gap_lines() });
+    private readonly by_amplitude = new Chart(element("plot-gap-amplitude"), { x: "amplitude of the rate, arcsec/s", y: "error, arcsec", height: 250, lines: gap_lines() });
+    private readonly noise = new Chart(element("plot-gap-noise"), { x: "ticks of the gap", y: "3 sigma, arcsec", height: 250, log_y: true, lines: gap_lines() });
+    private error_arcsec: number | null = null; // that was asked for last
 
-    constructor(private readonly ask: (switch_error_arcsec: number, run_s: number) => void) {
-        const unit = "deg/h";
-        this.chart = new Chart(element("plot-design"), {
-            x: "switching interval, s", y: "drift, deg/h", height: 230, log_x: true, log_y: true,
-            lines: [{ label: "eq (7)", colour: "--paper", unit }, { label: "at the worst end", colour: "--read", unit }, { label: "expected", colour: "--ours", unit }, { label: "this gyro", colour: "--true", unit, points: true }],
-        });
+    constructor(private readonly ask: (switch_error_arcsec: number | null, passes_zero: boolean) => void) {
+        element("gap-phase").addEventListener("change", () => this.ask_again());
     }
 
-    begin(settings: string[]): void {
-        const interval = settings.find((setting) => setting.startsWith("switching.interval_s="));
-        this.interval_s = interval === undefined ? default_interval_s : Number(interval.split("=")[1]);
-        this.error_arcsec = 0;
-        this.follow(0, 0);
+    // Of a new gyro nothing is measured.
+    begin(): void {
+        this.error_arcsec = null;
+        this.ask_again();
     }
 
     // The rms error of the switches so far.
     follow(n_switches: number, rms_arcsec: number): void {
-        const error_arcsec = n_switches >= fewest_switches && rms_arcsec > 0 ? rms_arcsec : default_error_arcsec;
-        if (Math.abs(error_arcsec - this.error_arcsec) < 0.05 * this.error_arcsec) return;
-        this.error_arcsec = error_arcsec;
-        this.ask(error_arcsec, run_s);
+        if (n_switches < fewest_switches || !(rms_arcsec > 0)) return;
+        if (this.error_arcsec !== null && Math.abs(rms_arcsec - this.error_arcsec) < 0.05 * this.error_arcsec) return;
+        this.error_arcsec = rms_arcsec;
+        this.ask_again();
     }
 
-    show(columns: Columns): void {
-        element("card-design").hidden = columns.length === 0;
-        if (columns.length === 0) return;
-        const [interval, , , expected] = columns;
-        const best = expected.reduce((least, value, at) => (value < expected[least] ? at : least), 0);
-        const after = interval.findIndex((each) => each > this.interval_s);
-        const drawn = after > 0 ? columns.map((column) => with_point(interval, column, after, this.interval_s)) : columns.map((column) => Array.from(column));
-        const here = after > 0 ? drawn[3][after] : null;
-        this.chart.show([...drawn, drawn[0].map((_, at) => (at === after ? here : null))]);
-        const stands = here === null ? "" : ` This gyro switches every ${short(this.interval_s)} s: ${short(here, 3)} deg/h.`;
-        element("design-text").textContent = `A run of an hour; a switch leaves ${short(this.error_arcsec, 3)} arcsec. Least drift to be expected: ${short(expected[best], 3)} deg/h, with a switch every ${short(interval[best], 2)} s.${stands}`;
+    private ask_again(): void {
+        this.ask(this.error_arcsec, element<HTMLSelectElement>("gap-phase").value === "zero");
     }
+
+    show(design: Design): void {
+        this.drift.name_lines(drift_lines(design.run_s));
+        draw(this.drift, design.drift, positive);
+        draw(this.interval, design.interval, positive);
+        draw(this.by_frequency, design.by_frequency, finite);
+        draw(this.by_amplitude, design.by_amplitude, finite);
+        draw(this.noise, design.noise, positive);
+        element("design-text").textContent = interval_text(design);
+        element("gap-text").textContent = gap_text(design);
+    }
+}
+
+function draw(chart: Chart, [x, ...columns]: Columns, drawn: (value: number) => number | null): void {
+    chart.show([x, ...columns.map((column) => Array.from(column, drawn))]);
+}
+
+function interval_text(design: Design): string {
+    const run = duration(design.run_s);
+    if (!Number.isFinite(design.best_s)) return "The theory does not cover a gyro with these settings.";
+    const cost = `A switch leaves ${short(design.switch_error_arcsec, 3)} arcsec${design.is_measured ? "" : " (presumed)"}.`;
+    const drift = `${short(design.best_drift_arcsec_s, 3)} deg/h`;
+    const best = design.best_s < design.run_s ? `In a run of ${run} it is best to switch every ${short(design.best_s, 3)} s: ${drift} are to be expected.` : `In a run of ${run} no switch pays: ${drift} are to be expected without.`;
+    const here = Number.isFinite(design.interval_s) ? `This gyro switches every ${short(design.interval_s)} s: ${short(design.drift_arcsec_s, 3)} deg/h.` : "This gyro chooses its intervals itself.";
+    return `${cost} ${best} ${here}`;
+}
+
+function gap_text(design: Design): string {
+    const motion = `${short(design.amplitude_arcsec_s)} arcsec/s at ${short(design.frequency_hz)} Hz`;
+    const [constant, , parabola, constant_ahead, , parabola_ahead] = design.error_arcsec.map((error) => short(error, 3));
+    const [noise, , parabola_noise] = design.noise_arcsec.map((sigmas) => short(sigmas, 3));
+    return `A gap of ${design.gap_ticks} ticks, bridged by the polynomials of the paper; ${design.oscillates ? `this case oscillates with ${motion}` : `this case does not oscillate: drawn for ${motion}`}. Interpolated, which stays in the angle, a constant misses by ${constant} arcsec, a parabola by ${parabola}; extrapolated, which is taken back, by ${constant_ahead} and ${parabola_ahead}. The rounding of the counter adds 3 sigma of ${noise} and ${parabola_noise} arcsec.`;
 }

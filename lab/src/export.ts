@@ -1,5 +1,10 @@
 // What can be taken along: configuration, numbers, a picture.
-import type { Columns } from "./protocol";
+import { element } from "./elements";
+import type { Columns, Frame } from "./protocol";
+
+const signal_names = ["t_s", "true_arcsec_s", "measured_arcsec_s", "detuning_lambda", "piezo_v", "light_a", "light_b", "mode", "loop_closed", "valid", "bias_hz", "health"];
+const error_names = ["t_s", "as_read_arcsec", "paper_arcsec", "configured_arcsec", "second_gyro_arcsec"];
+const error_curves = [["as read", "#b42318"], ["the paper's", "#b26a00"], ["as configured", "#0b5cad"], ["second gyro", "#5d6672"]];
 
 export function save(name: string, type: string, text: string | Blob): void {
     const link = document.createElement("a");
@@ -10,7 +15,7 @@ export function save(name: string, type: string, text: string | Blob): void {
 }
 
 // A file for `zlg run`: what differs from the defaults, section by section.
-export function toml(settings: string[]): string {
+function toml(settings: string[]): string {
     const sections = new Map<string, string[]>();
     for (const setting of settings) {
         const at = setting.indexOf("=");
@@ -20,7 +25,7 @@ export function toml(settings: string[]): string {
     return [...sections].map(([section, lines]) => `[${section}]\n${lines.join("\n")}\n`).join("\n");
 }
 
-export function csv(names: string[], columns: Columns): string {
+function csv(names: string[], columns: Columns): string {
     const rows = Array.from(columns[0] ?? [], (_, row) => columns.map((column) => column[row]).join(","));
     return `${[names.join(","), ...rows].join("\n")}\n`;
 }
@@ -32,7 +37,7 @@ interface Drawn {
 }
 
 // Curves over one axis, with their legend, on white.
-export function svg(x_name: string, y_name: string, x: ArrayLike<number>, curves: Drawn[]): string {
+function svg(x_name: string, y_name: string, x: ArrayLike<number>, curves: Drawn[]): string {
     const [width, height, left, bottom, top] = [760, 420, 80, 50, 40];
     const drawn = curves.filter((curve) => Array.from(curve.values).some(Number.isFinite));
     const all = drawn.flatMap((curve) => Array.from(curve.values).filter(Number.isFinite));
@@ -51,4 +56,25 @@ export function svg(x_name: string, y_name: string, x: ArrayLike<number>, curves
     });
     parts.push(`<text x="${(width + left) / 2}" y="${height - 10}" text-anchor="middle">${x_name}</text>`, `<text x="16" y="${height / 2}" text-anchor="middle" transform="rotate(-90 16 ${height / 2})">${y_name}</text>`);
     return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="#fff"/>${parts.join("")}</svg>\n`;
+}
+
+interface Shown {
+    settings: string[];
+    frame: Frame | null;
+}
+
+export function listen_to_exports(shown: () => Shown): void {
+    const on_click = (id: string, take: (frame: Frame) => void) =>
+        element(id).addEventListener("click", () => {
+            const { frame } = shown();
+            if (frame !== null) take(frame);
+        });
+    element("export-toml").addEventListener("click", () => save("gyro.toml", "application/toml", toml(shown().settings)));
+    on_click("export-csv", (frame) => save("signals.csv", "text/csv", csv(signal_names, frame.signals)));
+    on_click("export-error-csv", (frame) => save("error.csv", "text/csv", csv(error_names, frame.error)));
+    on_click("export-svg", (frame) => {
+        const [time, ...errors] = frame.error;
+        const curves = errors.map((values, at) => ({ name: error_curves[at][0], colour: error_curves[at][1], values }));
+        save("error.svg", "image/svg+xml", svg("time, s", "error of the angle, arcsec", time, curves));
+    });
 }

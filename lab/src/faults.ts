@@ -1,15 +1,9 @@
 // A button for every fault: it is added to the configuration, so that the gyro until then is the same and a link repeats it.
+import { made } from "./elements";
 import type { Fault } from "./protocol";
+import { given } from "./settings";
 
 const delay_s = 0.1;
-
-// One number or text, or a list of them, as TOML writes them.
-function values(settings: string[], key: string): unknown[] {
-    const setting = settings.find((each) => each.startsWith(`${key}=`));
-    if (setting === undefined) return [];
-    const value: unknown = JSON.parse(setting.slice(key.length + 1));
-    return Array.isArray(value) ? value : [value];
-}
 
 // The settings with one more fault.
 export function with_fault(settings: string[], fault: Fault, now_s: number): string[] {
@@ -20,16 +14,13 @@ export function with_fault(settings: string[], fault: Fault, now_s: number): str
         duration_s: fault.duration_s,
         size: fault.name === "counter_bit_stuck" || fault.name === "light_stuck" ? Math.round(middle) : middle,
     };
-    const lists = Object.entries(more).map(([name, value]) => `faults.${name}=${JSON.stringify([...values(settings, `faults.${name}`), value])}`);
+    const lists = Object.entries(more).map(([name, value]) => `faults.${name}=${JSON.stringify([...given(settings, `faults.${name}`), value])}`);
     return [...settings.filter((setting) => !Object.keys(more).some((name) => setting.startsWith(`faults.${name}=`))), ...lists];
 }
 
 export function fault_buttons(place: HTMLElement, faults: Fault[], on_fault: (fault: Fault) => void): void {
     for (const fault of faults) {
-        const button = document.createElement("button");
-        button.type = "button";
-        button.textContent = fault.name.replaceAll("_", " ");
-        button.title = `for ${fault.duration_s} s`;
+        const button = made("button", fault.name.replaceAll("_", " "), { type: "button", title: `for ${fault.duration_s} s` });
         button.addEventListener("click", () => on_fault(fault));
         place.append(button);
     }

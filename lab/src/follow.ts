@@ -1,4 +1,5 @@
 // The page of `zlg lab --follow`: what a gyro gives now, in place of the simulated one.
+import { finite, made, marked } from "./elements";
 import { HealthList } from "./health";
 import { Chart, short } from "./plots";
 import { Ring } from "./series";
@@ -62,13 +63,6 @@ class History {
     }
 }
 
-function made<Name extends keyof HTMLElementTagNameMap>(name: Name, text = "", known: Record<string, string> = {}): HTMLElementTagNameMap[Name] {
-    const element = document.createElement(name);
-    element.textContent = text;
-    for (const [key, value] of Object.entries(known)) element.setAttribute(key, value);
-    return element;
-}
-
 function card(title: string, ...content: HTMLElement[]): HTMLElement {
     const section = made("section", "", { class: "card", "aria-label": title });
     section.append(made("h2", title), ...content);
@@ -82,14 +76,6 @@ function column(wide: boolean, ...cards: HTMLElement[]): HTMLElement {
 }
 
 const plot = () => made("div", "", { class: "plot" });
-
-function marked(name: string): HTMLElement {
-    return document.querySelector<HTMLElement>(`[data-zlg="${name}"]`)!;
-}
-
-function finite(values: Float64Array): (number | null)[] {
-    return Array.from(values, (value) => (Number.isFinite(value) ? value : null));
-}
 
 class LivePage {
     private readonly rows = new Ring(n_columns, newest_rows);
@@ -246,7 +232,7 @@ class LivePage {
         const { times, angles } = this.history;
         const before = times.findIndex((time_s) => time_s >= (shown[at.time][0] ?? Infinity));
         const n = before < 0 ? times.length : before;
-        this.charts.angle.show([[...times.slice(0, n), ...shown[at.time]], [...angles.slice(0, n), ...finite(shown[at.angle])]]);
+        this.charts.angle.show([[...times.slice(0, n), ...shown[at.time]], [...angles.slice(0, n), ...Array.from(shown[at.angle], finite)]]);
     }
 
     private draw_signals(): void {
@@ -254,7 +240,7 @@ class LivePage {
         const ticks = this.tick_s > 0 ? Math.round(Number(this.window_s.value) / this.tick_s) : 0;
         const shown = this.rows.slice(end - ticks, end, most_points, at.rate);
         for (const name of ["rate", "detuning", "piezo", "mode"] as const) {
-            const values = finite(shown[at[name]]);
+            const values = Array.from(shown[at[name]], finite);
             this.places[name].hidden = values.every((value) => value === null) && values.length > 0;
             this.charts[name].show([shown[at.time], values]);
         }

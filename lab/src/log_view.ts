@@ -1,17 +1,10 @@
 // A log of the reader's own: a worker of its own reads it, so that it can be ended at any time, and its charts stand above those of the gyro.
 import { GyroClient } from "./client";
+import { element, finite, lines_of, made, positive } from "./elements";
 import { save } from "./export";
 import { MagnifiedSwitches } from "./magnified";
 import { Chart, short } from "./plots";
 import type { LogPicture } from "./protocol";
-
-function element<T extends HTMLElement = HTMLElement>(id: string): T {
-    return document.getElementById(id) as T;
-}
-
-function finite(value: number): number | null {
-    return Number.isFinite(value) ? value : null;
-}
 
 export class LogView {
     private charts: { angle: Chart; rate: Chart; difference: Chart; detuning: Chart; piezo: Chart; allan: Chart; switches: MagnifiedSwitches } | null = null;
@@ -56,7 +49,7 @@ export class LogView {
             element("log-notes").replaceChildren();
         }
         element<HTMLProgressElement>("log-progress").value = 0;
-        const settings = element<HTMLTextAreaElement>("log-settings").value.split("\n").map((line) => line.trim()).filter((line) => line !== "");
+        const settings = lines_of("log-settings");
         this.worker = this.make_worker({
             loaded: () => this.worker?.send({ kind: "read_log", file, settings, save: for_saving }),
             refused: (message) => this.finish(message, "refused"),
@@ -119,7 +112,7 @@ export class LogView {
         charts.difference.show(drawn(log.difference, 1, 2));
         charts.detuning.show(drawn(log.light, 1));
         charts.piezo.show(drawn(log.light, 2));
-        charts.allan.show(log.allan.map((column) => Array.from(column, (value) => (value > 0 ? value : null))));
+        charts.allan.show(log.allan.map((column) => Array.from(column, positive)));
         const empty = (columns: Float64Array[], at: number) => !columns[at].some(Number.isFinite);
         element("plot-log-detuning").hidden = empty(log.light, 1);
         element("plot-log-piezo").hidden = empty(log.light, 2);
@@ -128,15 +121,15 @@ export class LogView {
         charts.switches.begin("");
         charts.switches.add(log.pictures);
         this.show_flags(log.flags);
-        element("log-notes").replaceChildren(...[...log.notes, ...settings_note(log.settings)].map((note) => Object.assign(document.createElement("li"), { textContent: note })));
+        element("log-notes").replaceChildren(...[...log.notes, ...settings_note(log.settings)].map((note) => made("li", note)));
         const switches = log.n_switches > 0 ? `, ${log.n_switches} switches (rms dP ${short(log.rms_dp_arcsec, 3)} arcsec)` : "";
         this.finish(`${log.name}: ${log.kind === "raw" ? "a raw log, compensated here" : "an angle log"}; ${log.ticks} ticks of ${short(log.tick_s * 1000)} ms, ${short(log.ticks * log.tick_s, 6)} s; ${log.gaps} gaps${switches}; accumulated angle ${short(log.angle_arcsec, 12)} arcsec.`, "shown");
     }
 
     private show_flags(flags: number[]): void {
         const names = this.flag_names();
-        const items = flags.flatMap((n, bit) => (n > 0 ? [Object.assign(document.createElement("li"), { textContent: `${(names[bit] ?? `bit ${bit}`).replaceAll("_", " ")}: ${n}` })] : []));
-        element("log-flags").replaceChildren(...(items.length > 0 ? items : [Object.assign(document.createElement("li"), { textContent: "nothing to report", className: "good" })]));
+        const items = flags.flatMap((n, bit) => (n > 0 ? [made("li", `${(names[bit] ?? `bit ${bit}`).replaceAll("_", " ")}: ${n}`)] : []));
+        element("log-flags").replaceChildren(...(items.length > 0 ? items : [made("li", "nothing to report", { class: "good" })]));
     }
 }
 

@@ -11,6 +11,17 @@ export const enum View {
     log_switches,
 }
 
+// Of design_formulas.hpp.
+export const enum Budget {
+    as_printed,
+    worst_case,
+    expected,
+}
+export const enum IntervalLaw {
+    expected,
+    closed_form,
+}
+
 const now_numbers = 12;
 
 interface Exports {
@@ -19,9 +30,9 @@ interface Exports {
     zlg_text(bytes: number): number;
     zlg_configure(): number;
     zlg_other(wanted: number): void;
-    zlg_design(switch_error_arcsec: number, run_s: number): number;
-    zlg_design_rows(): number;
-    zlg_design_numbers(): number;
+    zlg_drift(budget: number, interval_s: number, run_s: number, switch_error_arcsec: number): number;
+    zlg_interval(law: number, run_s: number, switch_error_arcsec: number): number;
+    zlg_gap_weights(extrapolates: number, order: number, gap_ticks: number): number;
     zlg_motion(values: number): number;
     zlg_advance(halves: number): number;
     zlg_turn(rate_arcsec_s: number): number;
@@ -80,11 +91,19 @@ export class LoopModule {
         this.done(this.exports.zlg_configure());
     }
 
-    // Drift over the switching interval, in the columns of design_curve.hpp.
-    design(switch_error_arcsec: number, run_s: number): Float64Array[] {
-        this.done(this.exports.zlg_design(switch_error_arcsec, run_s));
-        const rows = new Float64Array(this.exports.memory.buffer, this.exports.zlg_design_rows(), this.exports.zlg_design_numbers());
-        return [0, 1, 2, 3].map((column) => rows.filter((_, at) => at % 4 === column));
+    // What design_formulas.hpp has; arcsec/s, NaN where the theory has no answer.
+    drift(budget: Budget, interval_s: number, run_s: number, switch_error_arcsec: number): number {
+        return this.exports.zlg_drift(budget, interval_s, run_s, switch_error_arcsec);
+    }
+
+    best_interval_s(law: IntervalLaw, run_s: number, switch_error_arcsec: number): number {
+        return this.exports.zlg_interval(law, run_s, switch_error_arcsec);
+    }
+
+    // points  their number.
+    gap_weights(extrapolates: boolean, order: number, gap_ticks: number, points: number): number[] {
+        const place = this.exports.zlg_gap_weights(extrapolates ? 1 : 0, order, gap_ticks);
+        return Array.from(new Float64Array(this.exports.memory.buffer, place, points));
     }
 
     // The column of a motion file, for gyros that are configured later with this path.

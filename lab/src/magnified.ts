@@ -1,17 +1,10 @@
 // Switches, magnified: one large, and the last few small beside each other, of which a click brings one up.
+import { element, finite, made } from "./elements";
 import { Chart, short } from "./plots";
 import type { SwitchPicture } from "./protocol";
 
 const kept = 8;
 const [width, height] = [116, 56]; // of a small one
-
-function element(id: string): HTMLElement {
-    return document.getElementById(id)!;
-}
-
-function finite(value: number): number | null {
-    return Number.isFinite(value) ? value : null;
-}
 
 export class MagnifiedSwitches {
     private readonly chart: Chart;
@@ -63,12 +56,9 @@ export class MagnifiedSwitches {
 
     // The chosen one stays until it has left the strip; the last one goes on to be the last.
     private small(picture: SwitchPicture, shown: boolean): HTMLElement {
-        const button = document.createElement("button");
-        button.type = "button";
-        button.dataset.tick = String(picture.first_tick);
-        button.setAttribute("aria-pressed", String(shown));
-        button.setAttribute("aria-label", `Switch at ${short(picture.at_s, 6)} s, ${short(picture.cost_arcsec, 2)} arcsec`);
-        button.append(drawing(picture, this.has_truth), caption(`${short(picture.at_s, 6)} s`), caption(`${short(picture.cost_arcsec, 2)}″`));
+        const name = `Switch at ${short(picture.at_s, 6)} s, ${short(picture.cost_arcsec, 2)} arcsec`;
+        const button = made("button", "", { type: "button", "data-tick": String(picture.first_tick), "aria-pressed": String(shown), "aria-label": name });
+        button.append(drawing(picture, this.has_truth), made("span", `${short(picture.at_s, 6)} s`), made("span", `${short(picture.cost_arcsec, 2)}″`));
         button.addEventListener("click", () => {
             this.chosen = picture === this.pictures.at(-1) ? null : picture.first_tick;
             this.draw();
@@ -77,14 +67,10 @@ export class MagnifiedSwitches {
     }
 }
 
-function caption(text: string): HTMLElement {
-    return Object.assign(document.createElement("span"), { textContent: text });
-}
-
 function svg(name: string, attributes: Record<string, string>): SVGElement {
-    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    return made;
+    const drawn = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) drawn.setAttribute(key, value);
+    return drawn;
 }
 
 // The gap shaded; the true and the interpolated rate where there are both, what was read clipped to the height.
@@ -99,8 +85,8 @@ function drawing(picture: SwitchPicture, has_truth: boolean): SVGElement {
         const points = Array.from(values, (rate, row) => (Number.isFinite(rate) ? `${x(ticks[row]).toFixed(1)},${y(rate).toFixed(1)}` : "")).filter((point) => point !== "");
         return svg("polyline", { points: points.join(" "), class: colour });
     };
-    const made = svg("svg", { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true" });
-    made.append(svg("rect", { x: x(0).toFixed(1), y: "0", width: Math.max(x(picture.gap_ticks) - x(0), 2).toFixed(1), height: String(height), class: "gap" }));
-    made.append(line(read, "read"), ...(has_truth ? [line(truth, "true")] : []), line(final, "ours"));
-    return made;
+    const whole = svg("svg", { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true" });
+    whole.append(svg("rect", { x: x(0).toFixed(1), y: "0", width: Math.max(x(picture.gap_ticks) - x(0), 2).toFixed(1), height: String(height), class: "gap" }));
+    whole.append(line(read, "read"), ...(has_truth ? [line(truth, "true")] : []), line(final, "ours"));
+    return whole;
 }

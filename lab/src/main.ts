@@ -1,34 +1,27 @@
 // The lab page: puts the parts together.
 import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
-import { csv, save, svg, toml } from "./export";
+import { element, marked } from "./elements";
+import { listen_to_exports } from "./export";
 import { fault_buttons, with_fault } from "./faults";
 import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
 import { follows_records } from "./follow";
 import { parse_fragment } from "./fragment";
+import { turn_by_hand } from "./hand";
 import { HealthList } from "./health";
 import { LogView } from "./log_view";
 import { Motions, with_motion } from "./motions";
 import { keep_charts, short } from "./plots";
 import type { Fault, Frame, Schema, State } from "./protocol";
 import { RingDrawing } from "./ring";
+import { choose_second_gyro, leave_out_second_gyro, listen_to_second_gyro, second_gyro } from "./second_gyro";
 import { share_dialog } from "./share";
 import { type Step, Tour } from "./tour";
 import { Views } from "./views";
 
 const longest_repeat_s = 120; // of a gyro that is changed while it runs: later it begins again
 const hidden_ms = 200; // between two looks at a page that does not show
-const signal_names = ["t_s", "true_arcsec_s", "measured_arcsec_s", "detuning_lambda", "piezo_v", "light_a", "light_b", "mode", "loop_closed", "valid", "bias_hz", "health"];
-const error_names = ["t_s", "as_read_arcsec", "paper_arcsec", "configured_arcsec", "second_gyro_arcsec"];
-
-function element<T extends HTMLElement = HTMLElement>(id: string): T {
-    return document.getElementById(id) as T;
-}
-
-function marked(name: string): HTMLElement {
-    return document.querySelector<HTMLElement>(`[data-zlg="${name}"]`)!;
-}
 
 class Lab {
     private readonly views = new Views();
@@ -36,7 +29,7 @@ class Lab {
     private readonly client: GyroClient;
     private readonly tour: Tour;
     private readonly log: LogView;
-    private readonly design = new DesignView((switch_error_arcsec, run_s) => this.client.send({ kind: "design", switch_error_arcsec, run_s }));
+    private readonly design = new DesignView((switch_error_arcsec, passes_zero) => this.client.send({ kind: "design", switch_error_arcsec, passes_zero }));
     private readonly motions = new Motions(() => this.client);
     private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
@@ -58,7 +51,7 @@ class Lab {
             loaded: (schema) => this.loaded(schema),
             configured: (changed) => this.configured(changed),
             refused: (message, whole) => this.refuse(message, whole),
-            designed: (columns) => this.design.show(columns),
+            designed: (design) => this.design.show(design),
             motion_read: (_, settings, note) => {
                 this.motions.say(note, false);
                 this.wants_to_run = true;
@@ -94,14 +87,7 @@ class Lab {
     private begin(settings: string[], from_s = 0, until_s: string | null = null): void {
         this.until_s = until_s;
         this.asked = { settings, from_s };
-        this.client.configure({ settings, other: until_s === null ? this.other() : null, until_s, from_s }, this.wants_to_run);
-    }
-
-    private other(): string[] | null {
-        const kind = element<HTMLSelectElement>("other").value;
-        if (kind === "none") return null;
-        if (kind === "one_mode") return ["switching.schedule=fixed", "switching.interval_s=1000000"];
-        return element<HTMLTextAreaElement>("other-settings").value.split("\n").map((line) => line.trim()).filter((line) => line !== "");
+        this.client.configure({ settings, other: until_s === null ? second_gyro() : null, until_s, from_s }, this.wants_to_run);
     }
 
     private configured(changed: string[]): void {
@@ -112,14 +98,12 @@ class Lab {
         this.show_message("");
         this.controls?.set(this.settings);
         this.views.begin();
-        this.design.begin(this.settings);
+        this.design.begin();
     }
 
     private refuse(message: string, whole: boolean): void {
         // The gyro itself may be good: it goes on alone.
-        const other = element<HTMLSelectElement>("other");
-        if (message.startsWith("the second gyro: ") && other.value === "one_mode") {
-            other.value = "none";
+        if (leave_out_second_gyro(message)) {
             this.begin(this.asked.settings, this.asked.from_s);
             return;
         }
@@ -191,7 +175,7 @@ class Lab {
     }
 
     private take_step(step: Step): void {
-        element<HTMLSelectElement>("other").value = step.other;
+        choose_second_gyro(step.other);
         element<HTMLSelectElement>("window").value = step.window_s;
         this.client.send({ kind: "window", window_s: Number(step.window_s) });
         element<HTMLInputElement>("speed").value = String(Math.log10(step.speed));
@@ -252,48 +236,10 @@ class Lab {
         choose_file(element("open-log"), element<HTMLInputElement>("log-file"), (file) => this.log.open(file));
         on_drop((file) => this.log.open(file));
         element("log-as-motion").addEventListener("click", () => this.log.hand_over((file) => this.motions.read(file)));
-        this.listen_to_pad();
-        this.listen_to_other();
-        this.listen_to_exports(on_click);
+        turn_by_hand((rate_arcsec_s) => this.client.send({ kind: "turn", rate_arcsec_s }));
+        listen_to_second_gyro(() => this.begin(this.settings, this.repeat_s()));
+        listen_to_exports(() => ({ settings: this.settings, frame: this.frame }));
         share_dialog(() => ({ settings: this.settings, time_s: this.frame?.time_s ?? 0 }));
-    }
-
-    // The slider springs back when it is let go, by pointer or by key.
-    private listen_to_pad(): void {
-        const pad = element<HTMLInputElement>("pad");
-        const turn = () => {
-            element("pad-text").textContent = `${short(Number(pad.value))} deg/s`;
-            this.client.send({ kind: "turn", rate_arcsec_s: Number(pad.value) * 3600 });
-        };
-        const let_go = () => {
-            if (Number(pad.value) === 0) return;
-            pad.value = "0";
-            turn();
-        };
-        pad.addEventListener("input", turn);
-        for (const event of ["pointerup", "pointercancel", "keyup", "blur"]) pad.addEventListener(event, let_go);
-    }
-
-    private listen_to_other(): void {
-        const kind = element<HTMLSelectElement>("other");
-        kind.addEventListener("change", () => {
-            element("other-settings-label").hidden = kind.value !== "own";
-            this.begin(this.settings, this.repeat_s());
-        });
-        element("other-settings").addEventListener("change", () => this.begin(this.settings, this.repeat_s()));
-    }
-
-    private listen_to_exports(on_click: (id: string, action: () => void) => void): void {
-        on_click("export-toml", () => save("gyro.toml", "application/toml", toml(this.settings)));
-        on_click("export-csv", () => this.frame && save("signals.csv", "text/csv", csv(signal_names, this.frame.signals)));
-        on_click("export-error-csv", () => this.frame && save("error.csv", "text/csv", csv(error_names, this.frame.error)));
-        on_click("export-svg", () => {
-            if (this.frame === null) return;
-            const [time, ...errors] = this.frame.error;
-            const names = ["as read", "the paper's", "as configured", "second gyro"];
-            const colours = ["#b42318", "#b26a00", "#0b5cad", "#5d6672"];
-            save("error.svg", "image/svg+xml", svg("time, s", "error of the angle, arcsec", time, errors.map((values, at) => ({ name: names[at], colour: colours[at], values }))));
-        });
     }
 }
 

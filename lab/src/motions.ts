@@ -1,19 +1,16 @@
 // The card of recorded motions: those that the page makes, and files of the reader's own.
 import type { GyroClient } from "./client";
+import { element, made } from "./elements";
 import { save } from "./export";
 import { choose_file } from "./files";
 import { made_motion, made_motion_names } from "./made_motions";
-
-function element<T extends HTMLElement = HTMLElement>(id: string): T {
-    return document.getElementById(id) as T;
-}
 
 export class Motions {
     private file: File | null = null;
 
     constructor(private readonly client: () => GyroClient) {
         for (const name of made_motion_names) {
-            const button = Object.assign(document.createElement("button"), { type: "button", textContent: name.replaceAll("_", " ") });
+            const button = made("button", name.replaceAll("_", " "), { type: "button" });
             button.addEventListener("click", () => this.read(made_motion(name)));
             element("motions").append(button);
         }

@@ -10,6 +10,7 @@ export interface Line {
     bars?: boolean;
     steps?: boolean;
     points?: boolean;
+    only_points?: boolean;
 }
 
 export interface ChartOptions {
@@ -68,6 +69,13 @@ export class Chart {
         this.plot?.setData(this.data);
     }
 
+    // Other names of the same lines.
+    name_lines(lines: Line[]): void {
+        if (lines.every((line, at) => line.label === this.options.lines[at].label)) return;
+        this.options.lines = lines;
+        this.make();
+    }
+
     make(): void {
         this.plot?.destroy();
         this.plot = new uPlot(this.uplot_options(), this.data, this.place);
@@ -107,7 +115,8 @@ export class Chart {
                         dash: line.dash,
                         spanGaps: false,
                         value: (_, value) => (value === null || value === undefined ? "" : `${short(value, line.digits ?? 4)} ${line.unit}`),
-                        points: { show: line.points ?? false, size: 5 },
+                        points: { show: line.points ?? line.only_points ?? false, size: line.only_points ? 7 : 5 },
+                        ...(line.only_points ? { paths: () => null } : {}),
                         ...(line.steps ? { paths: uPlot.paths.stepped!({ align: -1 }) } : {}),
                         ...(line.bars ? { paths: uPlot.paths.bars!({ size: [0.85, 40] }), fill: `${colour}55` } : {}),
                     };

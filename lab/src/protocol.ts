@@ -46,7 +46,7 @@ export type ToWorker =
     | { kind: "turn"; rate_arcsec_s: number } // by hand, from now on
     | { kind: "window"; window_s: number } // of the signals that are shown
     | { kind: "read_log"; file: File; settings: string[]; save: boolean } // save: its angles as a file, in place of a picture
-    | { kind: "design"; switch_error_arcsec: number; run_s: number }
+    | { kind: "design"; switch_error_arcsec: number | null; passes_zero: boolean } // null: not measured; the rate in the middle of a gap: else it has an extremum there
     | { kind: "read_motion"; file: File }
     | { kind: "seen" }; // a frame: the next may come
 
@@ -95,6 +95,30 @@ export interface LogPicture {
     pictures: SwitchPicture[];
 }
 
+// What the theory says of the gyro, for charts. The last column of each has the gyro itself, the others nothing to do with it: NaN
+// where there is nothing.
+export interface Design {
+    run_s: number;
+    switch_error_arcsec: number;
+    is_measured: boolean;
+    interval_s: number; // of the gyro; NaN where its schedule chooses it
+    drift_arcsec_s: number; // expected, of that interval
+    best_s: number; // NaN where the theory does not cover the gyro
+    best_drift_arcsec_s: number;
+    drift: Columns; // interval, s; expected in a sixth of the run, in the run, in ten times the run; in the run by (7), at its worst end
+    interval: Columns; // length of the run, s; best interval, sqrt(dP t/Om), s
+    // Error of a gap, arcsec: interpolated by constant, line, parabola, extrapolated by constant, line, parabola.
+    gap_ticks: number;
+    amplitude_arcsec_s: number;
+    frequency_hz: number;
+    oscillates: boolean; // else these are only examples
+    error_arcsec: number[]; // of the strongest oscillation
+    noise_arcsec: number[]; // three sigma
+    by_frequency: Columns; // Hz
+    by_amplitude: Columns; // arcsec/s
+    noise: Columns; // ticks of the gap
+}
+
 export interface Frame {
     kind: "frame";
     number: number; // of the gyro: grows with each that is configured
@@ -118,7 +142,7 @@ export type FromWorker =
     | { kind: "loaded"; schema: Schema }
     | { kind: "configured"; number: number; changed: string[] }
     | { kind: "refused"; message: string; whole: boolean } // whole: there is no gyro any more that could go on
-    | { kind: "designed"; columns: Columns } // interval, s; drift by eq (7), of the worst end, expected, arcsec/s
+    | { kind: "designed"; design: Design }
     | { kind: "motion_read"; name: string; settings: string[]; note: string } // the settings with which it moves a gyro
     | { kind: "motion_refused"; message: string }
     | { kind: "log_progress"; fraction: number; ticks: number }

@@ -1,13 +1,10 @@
 // The dialogue with the link to this gyro.
+import { element } from "./elements";
 import { make_fragment } from "./fragment";
 
 export interface Shared {
     settings: string[];
     time_s: number;
-}
-
-function element<T extends HTMLElement>(id: string): T {
-    return document.getElementById(id) as T;
 }
 
 // A word of a POSIX shell.

@@ -1,4 +1,5 @@
 // The views of the gyro: each frame is drawn into them.
+import { element, finite, positive } from "./elements";
 import { MagnifiedSwitches } from "./magnified";
 import { Chart, short } from "./plots";
 import type { Frame, SwitchRow } from "./protocol";
@@ -10,10 +11,6 @@ const signal = { time: 0, true_rate: 1, rate: 2, detuning: 3, piezo: 4, light_a:
 
 // Decades of the size of an error, arcsec.
 const decades = ["0.01", "0.1", "1", "10", "100", ">"];
-
-function element(id: string): HTMLElement {
-    return document.getElementById(id)!;
-}
 
 function compared_lines(unit: string) {
     return [
@@ -55,7 +52,7 @@ export class Views {
         this.error.show(frame.error.map((column) => Array.from(column, finite)));
         this.magnified.add(frame.pictures);
         if (frame.switches.length > 0) this.count(frame.switches);
-        this.allan.show(frame.allan.map((column) => Array.from(column, (value) => (value > 0 ? value : null))));
+        this.allan.show(frame.allan.map((column) => Array.from(column, positive)));
     }
 
     private show_signals(frame: Frame): void {
@@ -86,8 +83,4 @@ function side_by_side(counts: number[][]): (number | null)[][] {
     const places = decades.flatMap((_, decade) => counts.map((_, which) => decade + 0.28 * (which - 1)));
     const columns = counts.map((of, which) => decades.flatMap((_, decade) => counts.map((_, place) => (place === which && of[decade] > 0 ? of[decade] : null))));
     return [places, ...columns];
-}
-
-function finite(value: number): number | null {
-    return Number.isFinite(value) ? value : null;
 }

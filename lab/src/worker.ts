@@ -1,9 +1,11 @@
 // The worker: it has the gyro, keeps its pace, and sends a frame whenever the page has drawn the one before.
+import { design_of } from "./design_charts";
 import { read_log } from "./log_reading";
 import { LoopModule, Refusal, View } from "./loop_module";
 import { read_motion } from "./motion_file";
-import type { Frame, FromWorker, Gyro, State, ToWorker } from "./protocol";
+import type { Frame, FromWorker, Gyro, Key, State, ToWorker } from "./protocol";
 import { Recorder } from "./recorder";
+import { Settings } from "./settings";
 
 interface Scope {
     postMessage(message: FromWorker, transfer?: Transferable[]): void;
@@ -21,6 +23,7 @@ const halves_a_call = 32;
 class Pace {
     private module: LoopModule | null = null;
     private recorder: Recorder | null = null;
+    private keys: Key[] = [];
     private gyro: Gyro | null = null;
     private state: State = "paused";
     private speed = 1;
@@ -46,10 +49,13 @@ class Pace {
 
     async take(message: ToWorker): Promise<void> {
         switch (message.kind) {
-            case "load":
+            case "load": {
                 this.module = await LoopModule.load(await unpacked(message.code));
-                scope.postMessage({ kind: "loaded", schema: this.module.schema() });
+                const schema = this.module.schema();
+                this.keys = schema.keys;
+                scope.postMessage({ kind: "loaded", schema });
                 return;
+            }
             case "configure":
                 this.configure(message.gyro, message.running);
                 break;
@@ -79,7 +85,7 @@ class Pace {
                 }
                 break;
             case "design":
-                this.design(message.switch_error_arcsec, message.run_s);
+                if (this.gyro !== null) scope.postMessage({ kind: "designed", design: design_of(this.module!, this.settings(), message.switch_error_arcsec, message.passes_zero) });
                 return;
             case "read_motion":
                 try {
@@ -127,10 +133,10 @@ class Pace {
         this.gyro = gyro;
         ++this.number;
         const changed = module.changed();
-        this.tick_s = Number(changed.find((line) => line.startsWith("gyro.tick_s="))?.slice("gyro.tick_s=".length) ?? 0.005);
+        this.tick_s = this.settings().number("gyro.tick_s");
         this.recorder = new Recorder(this.tick_s);
         // A recorded motion ends.
-        const ends = gyro.until_s !== null || changed.includes('motion.kind="file"');
+        const ends = gyro.until_s !== null || this.settings().text("motion.kind") === "file";
         this.end_halves = ends ? module.run_halves() : Infinity;
         this.catch_up_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : module.run_halves();
         this.state = running || gyro.until_s !== null ? "running" : "paused";
@@ -146,14 +152,8 @@ class Pace {
         scope.postMessage({ kind: "refused", message: error.message, whole: this.gyro === null });
     }
 
-    // A gyro that the theory does not cover has no chart.
-    private design(switch_error_arcsec: number, run_s: number): void {
-        try {
-            scope.postMessage({ kind: "designed", columns: this.module!.design(switch_error_arcsec, run_s) });
-        } catch (error) {
-            if (!(error instanceof Refusal)) throw error;
-            scope.postMessage({ kind: "designed", columns: [] });
-        }
+    private settings(): Settings {
+        return new Settings(this.keys, this.module!.changed());
     }
 
     private restart_pace(): void {

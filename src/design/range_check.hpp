@@ -10,9 +10,14 @@
 
 namespace zlg::design {
 
+[[noreturn, gnu::noinline]] inline void refuse(std::string_view where, std::string_view name, double value,
+                                               std::string_view allowed) {
+    throw DesignError(fmt::format("{}: {} is {}, allowed is {}", where, name, value, allowed));
+}
+
 // Written so that NaN fails.
 inline void require(bool good, std::string_view where, std::string_view name, double value, std::string_view allowed) {
-    if (!good) throw DesignError(fmt::format("{}: {} is {}, allowed is {}", where, name, value, allowed));
+    if (!good) refuse(where, name, value, allowed);
 }
 
 inline void require_positive(std::string_view where, std::string_view name, double value) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/math/policies/policy.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/design/interval_formula.hpp>
@@ -23,9 +24,13 @@ constexpr double scan_step_ratio = 0.02;
 // kink.
 template <class Slope>
 double rising_zero(const Slope& slope, double low, double high) {
+    // The bracket is one. What the library would say of another needs streams, and they are half of the lab page's module.
+    using Policy =
+        boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
+                                      boost::math::policies::evaluation_error<boost::math::policies::ignore_error>>;
     std::uintmax_t iterations = 200;
-    const auto bracket =
-        boost::math::tools::toms748_solve(slope, low, high, boost::math::tools::eps_tolerance<double>(), iterations);
+    const auto bracket = boost::math::tools::toms748_solve(
+        slope, low, high, boost::math::tools::eps_tolerance<double>(), iterations, Policy{});
     return bracket.first + (bracket.second - bracket.first) / 2.0;
 }
 

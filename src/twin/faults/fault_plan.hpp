@@ -11,7 +11,7 @@ namespace zlg::twin {
 
 class FaultPlan {
 public:
-    explicit FaultPlan(std::vector<Fault> faults);
+    explicit FaultPlan(const std::vector<Fault>& faults);
 
     [[nodiscard]] bool is_empty() const { return faults_.empty(); }
 

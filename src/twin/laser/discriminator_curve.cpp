@@ -33,8 +33,11 @@ std::vector<double> places(const FourWave& laser, double field_g, double side) {
     for (int k = 0; k <= n; ++k) result.push_back(side * last_lambda * k / n);
     const auto zones =
         laser_zones(laser, field_g, std::min(0.0, side * last_lambda), std::max(0.0, side * last_lambda));
-    for (std::size_t k = 1; k < zones.size(); ++k) result.push_back(zones[k].from_lambda);
-    std::sort(result.begin(), result.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto nearer = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    for (std::size_t k = 1; k < zones.size(); ++k) {
+        const double kink = zones[k].from_lambda;
+        result.insert(std::upper_bound(result.begin(), result.end(), kink, nearer), kink);
+    }
     return result;
 }
 

@@ -1,0 +1,38 @@
+// Settings of a gyro as text, `section.key=value` each, the value as TOML writes it.
+import type { Key } from "./protocol";
+
+// One number or text, or a list of them; empty where it is not given.
+export function given(settings: string[], key: string): unknown[] {
+    const setting = settings.find((each) => each.startsWith(`${key}=`));
+    return setting === undefined ? [] : values(setting.slice(key.length + 1));
+}
+
+function values(toml: string): unknown[] {
+    const value: unknown = JSON.parse(toml);
+    return Array.isArray(value) ? value : [value];
+}
+
+// Of one gyro: what was given, over the defaults of the table of keys.
+export class Settings {
+    constructor(
+        private readonly keys: Key[],
+        private readonly changed: string[],
+    ) {}
+
+    numbers(key: string): number[] {
+        return this.values(key).map(Number);
+    }
+
+    number(key: string): number {
+        return this.numbers(key)[0];
+    }
+
+    text(key: string): string {
+        return String(this.values(key)[0]);
+    }
+
+    private values(key: string): unknown[] {
+        const found = given(this.changed, key);
+        return found.length > 0 ? found : values(this.keys.find((each) => `${each.section}.${each.name}` === key)!.default);
+    }
+}
