@@ -1,8 +1,6 @@
 #pragma once
 // The perimeter through one half, remembered: light and phases look at it at times of their own.
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -31,25 +29,13 @@ public:
         double most_lambda;
     };
 
-    // In lanes, which the processor compares side by side.
     [[nodiscard]] Ends ends() const {
-        constexpr std::size_t n_lanes = 4;
-        std::array<double, n_lanes> least;
-        least.fill(node_.front());
-        std::array<double, n_lanes> most = least;
-        std::size_t k = 1;
-        for (; k + n_lanes <= node_.size(); k += n_lanes) {
-            for (std::size_t lane = 0; lane < n_lanes; ++lane) {
-                const double x = node_[k + lane];
-                least[lane] = x < least[lane] ? x : least[lane];
-                most[lane] = x > most[lane] ? x : most[lane];
-            }
+        Ends ends{node_.front(), node_.front()};
+        for (const double x : node_) {
+            ends.least_lambda = x < ends.least_lambda ? x : ends.least_lambda;
+            ends.most_lambda = x > ends.most_lambda ? x : ends.most_lambda;
         }
-        for (; k < node_.size(); ++k) {
-            least[0] = std::min(least[0], node_[k]);
-            most[0] = std::max(most[0], node_[k]);
-        }
-        return {*std::min_element(least.begin(), least.end()), *std::max_element(most.begin(), most.end())};
+        return ends;
     }
 
     // Straight between the steps; beyond the half, what it begins or ends with.
