@@ -1,10 +1,11 @@
 // What can be taken along: configuration, numbers, a picture.
+import { compensations } from "./compensations";
 import { element } from "./elements";
 import type { Columns, Frame } from "./protocol";
 
 const signal_names = ["t_s", "true_arcsec_s", "measured_arcsec_s", "detuning_lambda", "piezo_v", "light_a", "light_b", "mode", "loop_closed", "valid", "bias_hz", "health"];
 const error_names = ["t_s", "as_read_arcsec", "paper_arcsec", "configured_arcsec", "second_gyro_arcsec"];
-const error_curves = [["as read", "#b42318"], ["the paper's", "#b26a00"], ["as configured", "#0b5cad"], ["second gyro", "#5d6672"]];
+const error_curves = [...compensations.map(({ label, print }) => [label, print]), ["second gyro", "#5d6672"]];
 
 export function save(name: string, type: string, text: string | Blob): void {
     const link = document.createElement("a");

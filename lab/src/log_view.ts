@@ -1,4 +1,5 @@
 // A log of the reader's own: a worker of its own reads it, so that it can be ended at any time, and its charts stand above those of the gyro.
+import { compared_lines } from "./compensations";
 import { GyroClient } from "./client";
 import { element, finite, lines_of, made, positive } from "./elements";
 import { save } from "./export";
@@ -91,14 +92,13 @@ export class LogView {
     private make_charts() {
         element("log-result").hidden = false;
         const chart = (name: string, y: string, lines: ConstructorParameters<typeof Chart>[1]["lines"], more = {}) => new Chart(element(`plot-log-${name}`), { x: "time, s", y, height: 190, sync: "log", lines, ...more });
-        const compared = [{ label: "as read", colour: "--read" }, { label: "the paper's", colour: "--paper" }, { label: "as configured", colour: "--ours" }];
         this.charts ??= {
             angle: chart("angle", "angle, arcsec", [{ label: "angle, as configured", colour: "--ours", unit: "arcsec" }]),
             rate: chart("rate", "rate, arcsec/s", [{ label: "as configured", colour: "--ours", unit: "arcsec/s" }, { label: "as read", colour: "--read", unit: "arcsec/s", dash: [4, 3] }]),
-            difference: chart("difference", "difference, arcsec", compared.slice(0, 2).map((line) => ({ ...line, unit: "arcsec" }))),
+            difference: chart("difference", "difference, arcsec", compared_lines("arcsec").slice(0, 2)),
             detuning: chart("detuning", "detuning, λ", [{ label: "detuning of the perimeter", colour: "--ours", unit: "λ" }]),
             piezo: chart("piezo", "piezo, V", [{ label: "voltage at the piezo mirrors", colour: "--paper", unit: "V" }]),
-            allan: chart("allan", "deviation, deg/h", compared.map((line) => ({ ...line, unit: "deg/h" })), { x: "averaging time, s", log_x: true, log_y: true, sync: "" }),
+            allan: chart("allan", "deviation, deg/h", compared_lines("deg/h"), { x: "averaging time, s", log_x: true, log_y: true, sync: "" }),
             switches: new MagnifiedSwitches("log-switch", "Extrapolated less interpolated, dP", false),
         };
         return this.charts;

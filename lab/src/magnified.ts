@@ -20,9 +20,10 @@ export class MagnifiedSwitches {
         has_truth: boolean,
     ) {
         const points = { unit: "arcsec/s", points: true };
-        const lines = [{ label: "true", colour: "--true", unit: "arcsec/s" }, { label: "read from the counter", colour: "--read", ...points }, { label: "extrapolated", colour: "--paper", dash: [4, 3], ...points }, { label: "interpolated", colour: "--ours", ...points }];
+        // In this order none is hidden: what is read leaves the others in the gap alone.
+        const lines = [{ label: "read from the counter", colour: "--read", ...points }, { label: "interpolated", colour: "--ours", ...points }, { label: "extrapolated", colour: "--paper", dash: [4, 3], ...points }, { label: "true", colour: "--true", unit: "arcsec/s" }];
         this.has_truth = has_truth;
-        this.chart = new Chart(element(`plot-${name}`), { x: "ticks since the loop was opened", y: "rate, arcsec/s", height: 240, lines: has_truth ? lines : lines.slice(1) });
+        this.chart = new Chart(element(`plot-${name}`), { x: "ticks since the loop was opened", y: "rate, arcsec/s", height: 240, lines: has_truth ? lines : lines.slice(0, 3) });
         this.strip = element(`${name}-strip`);
     }
 
@@ -46,8 +47,8 @@ export class MagnifiedSwitches {
 
     private draw(): void {
         const shown = this.pictures.find((picture) => picture.first_tick === this.chosen) ?? this.pictures.at(-1)!;
-        const [ticks, truth, ...others] = shown.columns;
-        this.chart.show([ticks, ...(this.has_truth ? [truth] : []), ...others].map((column, at) => (at === 0 ? Array.from(column) : Array.from(column, finite))));
+        const [ticks, truth, read, extrapolated, interpolated] = shown.columns;
+        this.chart.show([ticks, read, interpolated, extrapolated, ...(this.has_truth ? [truth] : [])].map((column, at) => (at === 0 ? Array.from(column) : Array.from(column, finite))));
         element(`${this.name}-text`).textContent = `At ${short(shown.at_s, 6)} s the loop was open for ${shown.gap_ticks} ticks (${short(shown.gap_s * 1000)} ms) and caught mode ${shown.mode_after > 0 ? "+1" : "−1"}. ${this.cost}: ${short(shown.cost_arcsec, 3)} arcsec.`;
         const focused = this.strip.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.tick : undefined;
         this.strip.replaceChildren(...this.pictures.map((picture) => this.small(picture, picture === shown)));

@@ -171,6 +171,7 @@ class Lab {
 
     private break_it(fault: Fault): void {
         const from_s = this.repeat_s();
+        this.health?.expect_fault();
         this.begin(with_fault(this.settings, fault, from_s), from_s);
     }
 

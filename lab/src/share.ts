@@ -26,12 +26,16 @@ export function share_dialog(shared: () => Shared): void {
     until.addEventListener("change", write);
     element("share").addEventListener("click", () => {
         write();
+        element("share-copied").textContent = "";
         dialog.showModal();
         link.select();
     });
     element("share-copy").addEventListener("click", () => {
         link.select();
         // From a file the clipboard may be closed to scripts; the text is then selected, to be copied by hand.
-        void navigator.clipboard?.writeText(link.value).catch(() => undefined);
+        const say = (text: string) => (element("share-copied").textContent = text);
+        const by_hand = () => say("It is selected: copy it by the keyboard.");
+        if (navigator.clipboard === undefined) by_hand();
+        else navigator.clipboard.writeText(link.value).then(() => say("Copied."), by_hand);
     });
 }

@@ -1,24 +1,15 @@
 // The views of the gyro: each frame is drawn into them.
+import { compared_lines, compensations } from "./compensations";
 import { element, finite, positive } from "./elements";
 import { MagnifiedSwitches } from "./magnified";
 import { Chart, short } from "./plots";
 import type { Frame, SwitchRow } from "./protocol";
-
-const compensations = ["as read", "the paper's", "as configured"];
 
 // Columns of Frame.signals (live_run.hpp).
 const signal = { time: 0, true_rate: 1, rate: 2, detuning: 3, piezo: 4, light_a: 5, light_b: 6, mode: 7, closed: 8 };
 
 // Decades of the size of an error, arcsec.
 const decades = ["0.01", "0.1", "1", "10", "100", ">"];
-
-function compared_lines(unit: string) {
-    return [
-        { label: "as read", colour: "--read", unit },
-        { label: "the paper's", colour: "--paper", unit },
-        { label: "as configured", colour: "--ours", unit },
-    ];
-}
 
 export class Views {
     private readonly rate = new Chart(element("plot-rate"), { x: "time, s", y: "rate, arcsec/s", least_span: 200, height: 190, sync: "signals", lines: [{ label: "true", colour: "--true", unit: "arcsec/s" }, { label: "measured", colour: "--ours", unit: "arcsec/s", dash: [4, 3] }] });
@@ -74,7 +65,7 @@ export class Views {
         this.histogram.show(side_by_side(this.counts));
         const rms = this.counts.map((counts, at) => Math.sqrt(this.squares[at] / Math.max(1, counts.reduce((sum, n) => sum + n, 0))));
         const n = this.counts[2].reduce((sum, count) => sum + count, 0);
-        element("histogram-text").textContent = `${n} ${n === 1 ? "switch" : "switches"}; rms error ${compensations.map((name, at) => `${name} ${short(rms[at], 3)}`).join(", ")} arcsec.`;
+        element("histogram-text").textContent = `${n} ${n === 1 ? "switch" : "switches"}; rms error ${compensations.map(({ label }, at) => `${label} ${short(rms[at], 3)}`).join(", ")} arcsec.`;
     }
 }
 

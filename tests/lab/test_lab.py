@@ -65,7 +65,7 @@ class Runs(PageCase):
                 variants = {variant["name"]: variant for variant in summary["variants"]}
                 self.assertEqual([variants[name]["switches_unrepaired"] for name in ("switching", "bridge_quadratic", "configured")], [0, 0, 0])
                 self.assertTrue(text.startswith(f"{summary['switches']} switches;"), text)
-                shown = re.search(r"as read ([\d.]+), the paper's ([\d.]+), as configured ([\d.]+) arcsec", text).groups()
+                shown = re.search(r"as read ([\d.]+), as in the paper ([\d.]+), as configured ([\d.]+) arcsec", text).groups()
                 for value, name in zip(shown, ("switching", "bridge_quadratic", "configured")):
                     expected = variants[name]["switch_error_rms_arcsec"]
                     self.assertAlmostEqual(float(value) / expected, 1.0, delta=0.006)  # three digits are shown
