@@ -64,9 +64,8 @@ export class GyroClient {
             case "log_angles":
                 return listener.log_angles?.(message.name, message.text);
             case "frame":
-                // The next comes when this one is drawn: a slow page gets fewer.
                 if (message.number === this.number) listener.frame?.(message);
-                this.send({ kind: "seen" });
+                else this.send({ kind: "seen" });
         }
     }
 }

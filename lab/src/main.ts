@@ -8,6 +8,7 @@ import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
 import { follows_records } from "./follow";
 import { parse_fragment } from "./fragment";
+import { Frames } from "./frames";
 import { turn_by_hand } from "./hand";
 import { HealthList } from "./health";
 import { LogView } from "./log_view";
@@ -21,7 +22,6 @@ import { type Step, Tour } from "./tour";
 import { Views } from "./views";
 
 const longest_repeat_s = 120; // of a gyro that is changed while it runs: later it begins again
-const hidden_ms = 200; // between two looks at a page that does not show
 
 class Lab {
     private readonly views = new Views();
@@ -41,7 +41,7 @@ class Lab {
     private refused = false; // by a link, or in the run: there is nothing to show
     private from_link = false;
     private frame: Frame | null = null;
-    private waiting: Frame | null = null; // to be drawn
+    private readonly frames = new Frames((frame) => this.draw(frame), () => this.client.send({ kind: "seen" }));
 
     constructor() {
         this.tour = new Tour(element("tour"), (step) => this.take_step(step), () => undefined);
@@ -58,7 +58,7 @@ class Lab {
                 this.begin(with_motion(this.settings, settings));
             },
             motion_refused: (message) => this.motions.say(message, true),
-            frame: (frame) => this.take_frame(frame),
+            frame: (frame) => this.frames.take(frame),
         });
         this.listen();
         keep_charts();
@@ -94,7 +94,7 @@ class Lab {
         this.settings = changed.filter((setting) => this.until_s === null || !setting.startsWith("run.duration_s="));
         this.refused = false;
         this.from_link = false;
-        this.waiting = null;
+        this.frames.forget();
         this.show_message("");
         this.controls?.set(this.settings);
         this.views.begin();
@@ -115,7 +115,7 @@ class Lab {
         this.client.send({ kind: "run", running: false });
         this.refused = true;
         this.from_link = false;
-        this.waiting = null;
+        this.frames.forget();
         this.show_message(message);
         this.show_state("refused");
         marked("fingerprint").textContent = "";
@@ -132,31 +132,17 @@ class Lab {
         for (const id of ["run", "step-half", "step-tick", "jump"]) element<HTMLButtonElement>(id).disabled = state === "refused";
     }
 
-    private take_frame(frame: Frame): void {
+    private draw(frame: Frame): void {
         if (this.refused) return;
-        const switches = this.waiting?.switches ?? [];
-        const first = this.waiting === null;
-        const pictures = this.waiting?.pictures ?? [];
-        this.waiting = { ...frame, switches: [...switches, ...frame.switches], pictures: [...pictures, ...frame.pictures] };
-        if (!first) return;
-        // A hidden page draws nothing of itself.
-        if (document.hidden) setTimeout(() => this.draw(), hidden_ms);
-        else requestAnimationFrame(() => this.draw());
-    }
-
-    private draw(): void {
-        const frame = this.waiting;
-        this.waiting = null;
-        if (frame === null || this.refused) return;
         this.frame = frame;
+        marked("time").textContent = frame.time_s.toFixed(4);
+        marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
+        document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
+        this.show_state(frame.state);
         this.views.show(frame);
         this.design.follow(...this.views.switch_errors());
         this.ring.show(frame);
         this.health?.show(frame.now[11], frame.health);
-        marked("time").textContent = frame.time_s.toFixed(4);
-        document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
-        marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
-        this.show_state(frame.state);
     }
 
     // Settings that were changed while the gyro runs: as if it had always been so.

@@ -27,7 +27,12 @@ export interface ChartOptions {
     sync?: string;
 }
 
-const charts: Chart[] = [];
+const charts = new Map<Element, Chart>();
+
+// Most charts are above or below what is seen.
+const views = new IntersectionObserver((entries) => {
+    for (const entry of entries) charts.get(entry.target)?.see(entry.isIntersecting);
+}, { rootMargin: "200px" });
 
 function style_value(name: string): string {
     return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -52,6 +57,8 @@ function wide_enough(least_span: number): (_: uPlot, min: number | null, max: nu
 export class Chart {
     private plot: uPlot | null = null;
     private data: uPlot.AlignedData;
+    private is_in_view = false;
+    private is_drawn = false;
 
     constructor(
         private readonly place: HTMLElement,
@@ -61,11 +68,25 @@ export class Chart {
         this.place.setAttribute("role", "img");
         this.place.setAttribute("aria-label", `Chart: ${options.lines.map((line) => line.label).join(", ")} over ${options.x}`);
         this.make();
-        charts.push(this);
+        charts.set(this.place, this);
+        views.observe(this.place);
     }
 
+    // Drawn when it is in view.
     show(columns: ArrayLike<number | null>[]): void {
         this.data = columns as unknown as uPlot.AlignedData;
+        this.is_drawn = false;
+        this.draw();
+    }
+
+    see(is_in_view: boolean): void {
+        this.is_in_view = is_in_view;
+        this.draw();
+    }
+
+    private draw(): void {
+        if (this.is_drawn || !this.is_in_view) return;
+        this.is_drawn = true;
         this.plot?.setData(this.data);
     }
 
@@ -79,6 +100,7 @@ export class Chart {
     make(): void {
         this.plot?.destroy();
         this.plot = new uPlot(this.uplot_options(), this.data, this.place);
+        this.is_drawn = true;
     }
 
     resize(): void {

@@ -14,7 +14,7 @@ interface Scope {
 
 const scope = self as unknown as Scope;
 
-const slice_ms = 20; // of work, between two looks at what the page wants
+const slice_ms = 10; // of work, between two looks at what the page wants
 const frame_ms = 33;
 const fingerprint_ms = 500;
 const longest_debt_s = 0.2; // that a gyro which cannot keep the pace tries to catch up
@@ -40,6 +40,7 @@ class Pace {
     private frame_is_seen = true;
     private last_frame_ms = 0;
     private changed = true; // since the last frame
+    private answers_reader = false; // what the reader has done is shown at once
     private awake = false;
     private readonly wake_up = new MessageChannel();
 
@@ -107,6 +108,7 @@ class Pace {
                 break;
         }
         this.changed ||= message.kind !== "seen";
+        this.answers_reader ||= message.kind !== "seen";
         this.wake();
     }
 
@@ -228,9 +230,10 @@ class Pace {
 
     private show(): void {
         const now_ms = performance.now();
-        if (!this.changed || !this.frame_is_seen) return;
+        if (!this.changed || !(this.frame_is_seen || this.answers_reader)) return;
         const stands = this.state !== "running" && this.module!.halves() >= this.catch_up_halves;
-        if (!stands && now_ms - this.last_frame_ms < frame_ms) return;
+        if (!stands && !this.answers_reader && now_ms - this.last_frame_ms < frame_ms) return;
+        this.answers_reader = false;
         this.last_frame_ms = now_ms;
         this.frame_is_seen = false;
         this.changed = false;
