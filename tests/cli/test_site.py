@@ -101,12 +101,20 @@ class Site(unittest.TestCase):
         for path, page in self.pages.items():
             for address in page.loads:
                 self.assertFalse(outside(address), f"{path}: {address}")
-                if path.name != "404.html":  # which a server shows in place of any page: from its root
+                # A server shows 404.html in place of any page: its addresses are from the root.
+                if path.name != "404.html" and not address.startswith("data:"):
                     self.assertTrue((path.parent / unquote(urlsplit(address).path)).exists(), f"{path}: {address}")
         for path in [*self.site.rglob("*.css"), *self.site.rglob("*.svg")]:
             text = path.read_text(errors="replace")
             for address in re.findall(r"url\(\s*['\"]?([^)'\"]+)|@import\s+['\"]([^'\"]+)|xlink:href=\"([^\"#]+)", text):
                 self.assertFalse(outside("".join(address)), f"{path}: {address}")
+
+    def test_it_holds_the_lab_page_of_the_build(self):
+        lab = ROOT / "build" / "release" / "share" / "zlg" / "lab.html"
+        if not lab.exists():
+            self.skipTest("the build holds no lab page: scripts/install lab")
+        self.assertEqual((self.site / "docs" / "lab_page.html").read_bytes(), lab.read_bytes())
+        self.assertIn("lab_page.html", self.pages[self.site / "docs" / "lab.html"].leads)
 
     def test_every_link_between_pages_and_every_anchor_exists(self):
         for path, page in self.pages.items():
