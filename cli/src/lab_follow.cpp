@@ -33,7 +33,7 @@ using live::RecordSource;
 std::unique_ptr<RecordSource> raw_source(const LabFollowOptions& options) {
     logs::RawReader raw{options.source};
     const recorded::LogCompensation asked = log_compensation(options, raw.header(), options.source);
-    return live::log_source(std::move(raw), asked.compensation, asked.config.gyro.tick_s,
+    return live::log_source(std::move(raw), options.source, asked.compensation, asked.config.gyro.tick_s,
                             rig::angle_settings(asked.config));
 }
 
@@ -151,6 +151,7 @@ void follow_in_page(const LabFollowOptions& options) {
     receiver.receive(interruptible);
     if (receiver.n_rows() == 0 && !interruptible.is_noted())
         throw logs::IoError{fmt::format("{}: has ended without a tick of a gyro in it", printable(options.source))};
+    for (const std::string& warning : source->warnings()) complain("warning: " + warning);
     book.end();
     // What has come is still there to be looked at.
     while (!interruptible.is_noted()) std::this_thread::sleep_for(std::chrono::milliseconds{50});

@@ -63,9 +63,13 @@ private:
 
 class RawSource final : public RecordSource {
 public:
-    RawSource(logs::RawReader log, const core::GyroCompensationConfig& compensation, double tick_s,
+    RawSource(logs::RawReader log, std::string name, const core::GyroCompensationConfig& compensation, double tick_s,
               logs::Settings settings)
-        : log_{std::move(log)}, replay_{compensation}, tick_s_{tick_s}, settings_{std::move(settings)} {}
+        : log_{std::move(log)},
+          name_{std::move(name)},
+          replay_{compensation},
+          tick_s_{tick_s},
+          settings_{std::move(settings)} {}
 
     Next next(Record& record) override {
         const auto settle = [this](const core::AngleRow& row) { settled_.push_back(row); };
@@ -86,6 +90,11 @@ public:
     void stop() override { is_stopped_ = true; }
     [[nodiscard]] std::optional<double> tick_s() const override { return tick_s_; }
     [[nodiscard]] logs::Settings settings() const override { return settings_; }
+    [[nodiscard]] std::vector<std::string> warnings() const override {
+        std::vector<std::string> all = log_.header().warnings;
+        for (std::string& wrong : replay_.contradictions(name_)) all.push_back(std::move(wrong));
+        return all;
+    }
 
 private:
     template <class Settle>
@@ -109,6 +118,7 @@ private:
     }
 
     logs::RawReader log_;
+    std::string name_;
     rig::Replay replay_;
     double tick_s_;
     logs::Settings settings_;
@@ -125,9 +135,10 @@ std::unique_ptr<RecordSource> log_source(logs::AngleReader log) {
     return std::make_unique<AngleSource>(std::move(log));
 }
 
-std::unique_ptr<RecordSource> log_source(logs::RawReader log, const core::GyroCompensationConfig& compensation,
-                                         double tick_s, logs::Settings settings) {
-    return std::make_unique<RawSource>(std::move(log), compensation, tick_s, std::move(settings));
+std::unique_ptr<RecordSource> log_source(logs::RawReader log, std::string name,
+                                         const core::GyroCompensationConfig& compensation, double tick_s,
+                                         logs::Settings settings) {
+    return std::make_unique<RawSource>(std::move(log), std::move(name), compensation, tick_s, std::move(settings));
 }
 
 }  // namespace zlg::live

@@ -81,6 +81,22 @@ class LabFollow(CliTest):
                 self.assert_rows_of_the_log(rows)
                 self.assertEqual({row[6] is None for row in rows.values()}, {log == "angles.h5"})
 
+    def test_what_process_warns_of_is_said(self):
+        wrong = self.folder / "wrong.h5"
+        shutil.copy(self.files / "raw.h5", wrong)
+        with h5py.File(wrong, "r+") as file:
+            file["/raw/mode"][...] = -file["/raw/mode"][...]
+        said = []
+        for log in (wrong, self.files / "raw.h5"):
+            server = self.serve(log)
+            self.rows_until_the_end(self.events(server))
+            said.append(server.end()[2])
+        in_process = run("process", wrong, "--out", self.folder / "angles.h5").stderr
+        warning = [line for line in in_process.splitlines() if "contradict the counts" in line]
+        self.assertEqual(len(warning), 1)
+        self.assertIn(warning[0], said[0].splitlines())
+        self.assertNotIn("warning", said[1])
+
     def test_a_log_is_followed_while_it_is_written(self):
         # An angle log that a second program of ours records from a line.
         out = self.folder / "growing.h5"

@@ -92,7 +92,7 @@ TEST_F(Sources, OfARawLogAreItsRowsAndTheSignalsOfTheirTicks) {
     }
     replay.end(keep);
     writer.flush();
-    const auto source = log_source(logs::RawReader{writer.part_path()}, compensation, 0.005, {});
+    const auto source = log_source(logs::RawReader{writer.part_path()}, "raw.h5", compensation, 0.005, {});
     std::vector<Record> records = records_of(*source);
     EXPECT_LE(records.size(), 50u);
     writer.close();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/records.hpp>
@@ -44,6 +45,9 @@ public:
     // Whether `health` is reported; what else stands above such rows in an angle log.
     [[nodiscard]] virtual bool tells_health() const { return false; }
     [[nodiscard]] virtual logs::Settings settings() const = 0;
+
+    // What a reader must know of the records until now, one line each.
+    [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 // A gyro's line. Detuning, voltage, temperature and health are those of the last status message.
@@ -57,9 +61,10 @@ public:
 // A raw log that grows (HDF5), through this compensation; detuning is the mean of a tick's halves, voltage and temperature those of
 // the second half.
 //
+// name          of the log, in warnings.
 // compensation  passed `check`.
 // tick_s        of the gyro whose log it is.
-[[nodiscard]] std::unique_ptr<RecordSource> log_source(logs::RawReader log,
+[[nodiscard]] std::unique_ptr<RecordSource> log_source(logs::RawReader log, std::string name,
                                                        const core::GyroCompensationConfig& compensation, double tick_s,
                                                        logs::Settings settings);
 
