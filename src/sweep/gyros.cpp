@@ -64,7 +64,7 @@ bool are_equal(const Row& a, const Row& b) {
 }
 
 Gyros::Gyros(const Description& description)
-    : description_{description}, base_{base_config(description)}, draws_{description} {
+    : description_{description}, base_{base_config(description)}, draws_{description}, motion_files_{description} {
     for (const Metric& metric : description.metrics) {
         const auto variant = variant_of(metric.name);
         if (variant && std::ranges::find(variants_, *variant) == variants_.end()) variants_.push_back(*variant);
@@ -107,6 +107,7 @@ Row Gyros::run(std::int64_t gyro, const std::function<bool()>& is_stopped) const
     } catch (const design::DesignError& error) {
         refuse(error);
     }
+    motion_files_.require_unchanged();
     return row;
 }
 

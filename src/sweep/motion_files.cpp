@@ -1,5 +1,7 @@
 #include <zlg/sweep/motion_files.hpp>
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -76,6 +78,26 @@ Description with_motion_checksums(Description description) {
     }
     description.motion_checksums = std::move(now);
     return description;
+}
+
+MotionWatch::MotionWatch(const Description& description) {
+    for (const auto& [path, checksum] : description.motion_checksums) files_.push_back({path, stamp_of(path)});
+}
+
+void MotionWatch::require_unchanged() const {
+    for (const auto& [path, stamp] : files_)
+        if (stamp_of(path) != stamp)
+            throw logs::IoError(fmt::format("the motion file {} has changed while the sweep ran", path));
+}
+
+MotionWatch::Stamp MotionWatch::stamp_of(const std::string& path) {
+    struct stat found {};
+    if (::stat(path.c_str(), &found) != 0) return {};
+    return {.device = found.st_dev,
+            .inode = found.st_ino,
+            .size = found.st_size,
+            .seconds = found.st_mtim.tv_sec,
+            .nanoseconds = found.st_mtim.tv_nsec};
 }
 
 }  // namespace zlg::sweep

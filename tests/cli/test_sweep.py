@@ -298,6 +298,22 @@ class BadInput(SweepTest):
         os.mkfifo(motion)
         self.refused(3, more, "--out", self.folder / "new.h5", says="allowed is a regular file")
 
+    def test_a_motion_file_that_changes_meanwhile_ends_the_sweep_and_leaves_good_rows(self):
+        motion, out, part = (self.folder / name for name in ("motion.csv", "r.h5", "r.h5.part"))
+        bytes_before = "".join(f"{k % 7}\n" for k in range(1000)).encode()
+        motion.write_bytes(bytes_before)
+        text = SWEEP.replace("[base.switching]", f"[base.motion]\nkind = 'file'\npath = '{motion}'\n[base.switching]").replace("gyros = 12", "gyros = 2000")
+        description = self.description(text)
+        sweep = subprocess.Popen([ZLG, "sweep", description, "--out", out], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while sweep.poll() is None and (not part.exists() or part.stat().st_size < 5000):
+            time.sleep(0.005)
+        motion.write_bytes(b"3\n" * 1000)
+        _, said = sweep.communicate(timeout=60)
+        self.assertEqual((sweep.returncode, said), (3, f"zlg: the motion file {motion} has changed while the sweep ran\n"))
+        motion.write_bytes(bytes_before)
+        self.succeed("sweep", description, "--out", out)
+        self.assertEqual(out.read_bytes(), self.swept("whole.h5", text=text))
+
     def test_a_part_that_is_not_its_own_stays(self):
         part = self.folder / "r.h5.part"
         part.write_bytes(b"\x89HDF\r\n\x1a\n of something else")

@@ -1,6 +1,8 @@
 // Claims about the motion files of a sweep: those that its gyros may read are known by their bytes, and no others are looked at.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -64,6 +66,24 @@ TEST_F(MotionFiles, that_have_changed_or_are_none_are_refused) {
     EXPECT_THROW((void)with_motion_checksums(before), zlg::logs::IoError);
     EXPECT_THROW((void)with_motion_checksums(moved_by("file", folder_ / "nothing")), zlg::logs::IoError);
     EXPECT_THROW((void)with_motion_checksums(moved_by("file", folder_ / "")), zlg::logs::IoError);
+}
+
+TEST_F(MotionFiles, that_are_written_or_replaced_are_seen) {
+    const std::string path = written("a", "a");
+    const Description description = with_motion_checksums(moved_by("file", path));
+    const MotionWatch watch{description};
+    EXPECT_NO_THROW(watch.require_unchanged());
+    std::ofstream{path, std::ios::app} << "b";
+    EXPECT_THROW(watch.require_unchanged(), zlg::logs::IoError);
+    const MotionWatch again{description};
+    const std::string other = written("other", "ab");
+    std::filesystem::rename(other, path);
+    EXPECT_THROW(again.require_unchanged(), zlg::logs::IoError);
+    const MotionWatch at_last{description};
+    std::filesystem::remove(path);
+    EXPECT_THROW(at_last.require_unchanged(), zlg::logs::IoError);
+    const Description unmoved = moved_by("rest", path);
+    EXPECT_NO_THROW(MotionWatch{unmoved}.require_unchanged());
 }
 
 }  // namespace

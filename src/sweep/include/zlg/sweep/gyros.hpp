@@ -9,6 +9,7 @@
 #include <zlg/config/config.hpp>
 #include <zlg/sweep/description.hpp>
 #include <zlg/sweep/draws.hpp>
+#include <zlg/sweep/motion_files.hpp>
 
 namespace zlg::sweep {
 
@@ -52,7 +53,7 @@ public:
     // Runs twin and core of a gyro, by itself: from any thread, the same bits. Nothing is computed that no metric asks for.
     //
     // is_stopped  looked at some hundred times in a run.
-    // errors      Stopped; logs::IoError, logs::FormatError of a motion file. What is wrong with the gyro is in its row.
+    // errors      Stopped; logs::IoError, logs::FormatError of a motion file, which must stay as it is. What is wrong with the gyro is in its row.
     [[nodiscard]] Row run(std::int64_t gyro, const std::function<bool()>& is_stopped = {}) const;
 
     // The line of a shell that runs this gyro alone, with the same fingerprint.
@@ -62,6 +63,7 @@ private:
     Description description_;
     config::Config base_;
     Draws draws_;
+    MotionWatch motion_files_;
     std::vector<std::string> variants_;  // that the metrics need
 };
 
