@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <cmath>
 #include <limits>
@@ -8,20 +9,12 @@
 #include <zlg/design/error.hpp>
 
 #include "magnetic_segments.hpp"
+#include "paper_case.hpp"
 
 namespace zlg::design {
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-
-DriftCase paper(double thermal_arcsec_s, double run_s) {
-    return {.gyro = {.nonmagnetic_arcsec_s = 0.05,
-                     .magnetic_arcsec_s = 0.7,
-                     .magnetic_thermal_arcsec_s = thermal_arcsec_s,
-                     .thermal_time_s = 3000.0},
-            .switch_error_arcsec = 10.0,
-            .run_s = run_s};
-}
+using core::not_a_number;
 
 double uniform(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution(low, high)(random);
@@ -47,7 +40,7 @@ TEST(DriftBudget, ACaseThatCannotBeIsRefusedByEveryBudget) {
         EXPECT_THROW((void)random_sign_drift_arcsec_s(c, interval_s), DesignError);
     };
     const DriftCase good = paper(0.7, 600.0);
-    for (const double bad : {0.0, -1.0, nan_value, std::numeric_limits<double>::infinity()}) {
+    for (const double bad : {0.0, -1.0, not_a_number, std::numeric_limits<double>::infinity()}) {
         refused(good, bad);
         DriftCase c = good;
         c.switch_error_arcsec = bad;

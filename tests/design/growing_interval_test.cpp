@@ -11,21 +11,13 @@
 #include <zlg/design/switching_interval.hpp>
 
 #include "magnetic_segments.hpp"
+#include "paper_case.hpp"
 
 namespace zlg::design {
 namespace {
 
 // With this growth L(t) is the best fixed interval of a run of length t whose first segment is half, for every t.
 constexpr double growth_half_first = std::numbers::sqrt2;
-
-DriftCase paper(double thermal_arcsec_s, double at_s) {
-    return {.gyro = {.nonmagnetic_arcsec_s = 0.05,
-                     .magnetic_arcsec_s = 0.7,
-                     .magnetic_thermal_arcsec_s = thermal_arcsec_s,
-                     .thermal_time_s = 3000.0},
-            .switch_error_arcsec = 10.0,
-            .run_s = at_s};
-}
 
 // Excess of a drift over nm, as a multiple of the least that a fixed interval chosen for this very run has in the worst
 // case, first segment full.

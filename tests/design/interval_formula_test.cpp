@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <array>
 #include <cmath>
@@ -9,20 +10,13 @@
 #include <zlg/design/interval_formula.hpp>
 #include <zlg/design/switching_interval.hpp>
 
+#include "paper_case.hpp"
+
 namespace zlg::design {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+using core::infinity;
 constexpr std::array run_lengths_s{600.0, 900.0, 3600.0, 36000.0};
-
-DriftCase paper(double thermal_arcsec_s, double run_s) {
-    return {.gyro = {.nonmagnetic_arcsec_s = 0.05,
-                     .magnetic_arcsec_s = 0.7,
-                     .magnetic_thermal_arcsec_s = thermal_arcsec_s,
-                     .thermal_time_s = 3000.0},
-            .switch_error_arcsec = 10.0,
-            .run_s = run_s};
-}
 
 TEST(IntervalFormula, TheClosedFormOfThePapersGyro) {
     constexpr std::array expected_s{92.6, 113.4, 226.8};
@@ -61,7 +55,7 @@ TEST(IntervalFormula, CorrectedEquation9OfThePapersGyro) {
 TEST(IntervalFormula, PrintedEquation9HasARootJustUpToItsLongestRun) {
     EXPECT_NEAR(longest_run_as_printed_s(paper(14.0, 600.0).gyro, 10.0), 2033.0, 0.5);
     EXPECT_NEAR(longest_run_as_printed_s(paper(0.7, 600.0).gyro, 10.0), 14978.0, 0.5);
-    EXPECT_EQ(longest_run_as_printed_s(paper(0.0, 600.0).gyro, 10.0), infinite);
+    EXPECT_EQ(longest_run_as_printed_s(paper(0.0, 600.0).gyro, 10.0), infinity);
     for (const double thermal_arcsec_s : {0.7, -14.0}) {
         const double longest_s = longest_run_as_printed_s(paper(thermal_arcsec_s, 600.0).gyro, 10.0);
         EXPECT_EQ(roots_as_printed(paper(thermal_arcsec_s, longest_s * (1.0 - 1e-9))).status, RootStatus::found);
@@ -116,7 +110,7 @@ TEST(IntervalFormula, WithoutThermalChangeBothEquationsAreTheClosedForm) {
     for (const Roots& roots : {corrected_roots(cold), roots_as_printed(cold)}) {
         EXPECT_EQ(roots.status, RootStatus::found);
         EXPECT_NEAR(roots.smaller_s, std::sqrt(10.0 * 3600.0 / 0.7), 1e-10);
-        EXPECT_EQ(roots.larger_s, infinite);
+        EXPECT_EQ(roots.larger_s, infinity);
     }
     // A thermal change lost in rounding makes no difference.
     EXPECT_NEAR(corrected_roots(paper(1e-300, 3600.0)).smaller_s, std::sqrt(10.0 * 3600.0 / 0.7), 1e-10);
@@ -172,8 +166,8 @@ TEST(IntervalFormula, ThePapersRuleCosts2_9To5_6TimesWhereSwitchErrorsAreIndepen
 TEST(IntervalFormula, WithoutDriftTheFormulasAreInfinite) {
     DriftCase still = paper(0.0, 3600.0);
     still.gyro.magnetic_arcsec_s = 0.0;
-    EXPECT_EQ(closed_form_interval_s(still), infinite);
-    EXPECT_EQ(random_sign_interval_s(still), infinite);
+    EXPECT_EQ(closed_form_interval_s(still), infinity);
+    EXPECT_EQ(random_sign_interval_s(still), infinity);
 }
 
 TEST(IntervalFormula, ACaseThatCannotBeIsRefused) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,8 @@ namespace zlg::design {
 namespace {
 
 constexpr GyroDrift warm{.magnetic_arcsec_s = 0.7, .magnetic_thermal_arcsec_s = 14.0, .thermal_time_s = 3000.0};
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
+using core::infinity;
+using core::not_a_number;
 
 GyroDrift random_gyro(std::mt19937_64& random) {
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
@@ -44,7 +45,7 @@ TEST(MagneticAngle, AGyroThatCannotBeIsRefused) {
     };
     EXPECT_NO_THROW(check(warm));
     EXPECT_NO_THROW(check({.magnetic_arcsec_s = -0.7, .magnetic_thermal_arcsec_s = -14.0}));
-    for (const double bad : {nan_value, infinite, -infinite}) {
+    for (const double bad : {not_a_number, infinity, -infinity}) {
         refused([=](auto& g) { g.nonmagnetic_arcsec_s = bad; });
         refused([=](auto& g) { g.magnetic_arcsec_s = bad; });
         refused([=](auto& g) { g.magnetic_thermal_arcsec_s = bad; });

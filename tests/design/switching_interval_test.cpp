@@ -12,18 +12,10 @@
 #include <zlg/design/switching_interval.hpp>
 
 #include "magnetic_segments.hpp"
+#include "paper_case.hpp"
 
 namespace zlg::design {
 namespace {
-
-DriftCase paper(double thermal_arcsec_s, double run_s) {
-    return {.gyro = {.nonmagnetic_arcsec_s = 0.05,
-                     .magnetic_arcsec_s = 0.7,
-                     .magnetic_thermal_arcsec_s = thermal_arcsec_s,
-                     .thermal_time_s = 3000.0},
-            .switch_error_arcsec = 10.0,
-            .run_s = run_s};
-}
 
 // --- the paper's figures 4 and 5 -----------------------------------------------------------------------------------
 

@@ -5,15 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include "records.hpp"
+
 using namespace zlg::deviations;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr SeriesKind rates{DataKind::rate, Unit::one, 1.0};
 
 TEST(AngleRecord, sums_what_is_known_less_its_mean) {
-    const std::vector<double> values{1.0, 4.0, nan, 7.0};
+    const std::vector<double> values{1.0, 4.0, not_a_number, 7.0};
     const AngleRecord record(Series{.what = rates, .values = values});
     const std::vector<double> expected{0.0, -3.0, -3.0, -3.0, 0.0};
     ASSERT_EQ(record.angle().size(), 5U);
@@ -37,7 +38,7 @@ TEST(AngleRecord, takes_infinity_and_flagged_samples_for_missing) {
 }
 
 TEST(AngleRecord, keeps_phase_as_it_is) {
-    const std::vector<double> values{1.0, nan, 5.0};
+    const std::vector<double> values{1.0, not_a_number, 5.0};
     const AngleRecord record(Series{.what = {DataKind::phase, Unit::one, 1.0}, .values = values});
     EXPECT_EQ(record.n_intervals(), 2);
     EXPECT_EQ(record.angle()[2], 5.0);
@@ -64,7 +65,7 @@ TEST(AngleRecord, sums_in_place_what_it_is_given) {
 }
 
 TEST(AngleRecord, refuses_what_has_nothing_to_say) {
-    const std::vector<double> none{nan, nan}, constant{2.0, nan, 2.0};
+    const std::vector<double> none{not_a_number, not_a_number}, constant{2.0, not_a_number, 2.0};
     EXPECT_THROW(AngleRecord(Series{.what = rates, .values = none}), SeriesError);
     EXPECT_THROW(AngleRecord(Series{.what = rates, .values = constant}), SeriesError);
     EXPECT_THROW(AngleRecord(rates, std::vector<double>{}), SeriesError);

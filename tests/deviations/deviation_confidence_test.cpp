@@ -16,6 +16,8 @@
 #include <zlg/deviations/deviation.hpp>
 #include <zlg/deviations/series.hpp>
 
+#include "records.hpp"
+
 using namespace zlg::deviations;
 
 namespace {
@@ -217,10 +219,6 @@ TEST(DeviationConfidence, is_near_the_published_numbers_of_the_total_deviations)
     EXPECT_EQ(total_variance_bias(DeviationKind::oadev, -1, 10, 100), 1.0);
     EXPECT_EQ(published_total_variance_bias(DeviationKind::mtotdev, 0, 10, 100), 0.73);
 }
-
-constexpr std::array all_kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
-                               DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
-                               DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev};
 
 RC_GTEST_PROP(DeviationConfidence, an_interval_holds_the_deviation_and_grows_with_the_confidence, ()) {
     const auto kind = *rc::gen::elementOf(all_kinds);

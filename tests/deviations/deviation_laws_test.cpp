@@ -16,7 +16,7 @@ namespace {
 constexpr int records = 200;
 constexpr int n = 420;
 
-std::vector<double> rates(int noise, std::mt19937_64& engine) {
+std::vector<double> rates_of_law(int noise, std::mt19937_64& engine) {
     std::normal_distribution<double> normal;
     std::vector<double> values(n);
     for (auto& value : values) value = normal(engine);
@@ -57,7 +57,7 @@ TEST(DeviationLaws, modified_total_variance_of_white_noise_is_less_than_that_of_
     std::mt19937_64 engine(43);
     double sum = 0.0;
     for (int r = 0; r < many; ++r) {
-        const auto values = rates(0, engine);
+        const auto values = rates_of_law(0, engine);
         const AngleRecord record(Series{.what = {DataKind::rate, Unit::one, 1.0}, .values = values});
         const double d =
             deviation(record, DeviationKind::mtotdev, factors, {.noise = 0, .total_bias = TotalBias::as_computed})
@@ -75,7 +75,7 @@ TEST(DeviationLaws, have_the_expectations_that_each_noise_has_in_closed_form) {
             std::mt19937_64 engine(41);
             double sum = 0.0, edf = 0.0;
             for (int r = 0; r < records; ++r) {
-                const auto values = rates(law.noise, engine);
+                const auto values = rates_of_law(law.noise, engine);
                 const std::array factors{m};
                 const auto point =
                     deviation(AngleRecord(Series{.what = {DataKind::rate, Unit::one, 1.0}, .values = values}), law.kind,
@@ -107,7 +107,7 @@ TEST(DeviationLaws, of_total_deviations_are_those_of_the_plain_ones) {
         std::mt19937_64 engine(42);
         double total = 0.0, plain = 0.0;
         for (int r = 0; r < 300; ++r) {
-            const auto values = rates(pair.noise, engine);
+            const auto values = rates_of_law(pair.noise, engine);
             const AngleRecord record(Series{.what = {DataKind::rate, Unit::one, 1.0}, .values = values});
             const std::array<std::int64_t, 1> factors{20};
             const double a = deviation(record, pair.total, factors, {.noise = pair.noise}).points[0].deviation;
@@ -138,7 +138,7 @@ TEST(DeviationLaws, of_white_noise_hold_with_gaps) {
         double sum = 0.0;
         const std::array<std::int64_t, 1> factors{10};
         for (int r = 0; r < 1000; ++r) {
-            auto values = rates(0, engine);
+            auto values = rates_of_law(0, engine);
             for (auto& value : values)
                 if (missing(engine)) value = std::nan("");
             const auto point =

@@ -9,15 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "nbs14.hpp"
+#include "records.hpp"
 
 namespace zlg::deviations {
 namespace {
 
-AngleRecord record_of(const std::vector<double>& values) {
-    return AngleRecord(Series{.what = {DataKind::rate, Unit::one, 1.0}, .values = values});
-}
-
-double at(const AngleRecord& record, DeviationKind kind, std::int64_t m, TotalBias bias = TotalBias::published) {
+double deviation_of(const AngleRecord& record, DeviationKind kind, std::int64_t m,
+                    TotalBias bias = TotalBias::published) {
     const std::array factors{m};
     return deviation(record, kind, factors, {.noise = 0, .total_bias = bias}).points.at(0).deviation;
 }
@@ -43,7 +41,7 @@ TEST(DeviationPublished, gives_the_published_values_of_the_nine_point_set) {
     for (const auto& row : table)
         for (std::size_t k = 0; k < 2; ++k) {
             const auto m = static_cast<std::int64_t>(k + 1);
-            EXPECT_NEAR(at(record, row.kind, m), row.value[k], last_digit(row.value[k], 7))
+            EXPECT_NEAR(deviation_of(record, row.kind, m), row.value[k], last_digit(row.value[k], 7))
                 << name_of(row.kind) << " m " << m;
         }
 }
@@ -63,7 +61,7 @@ TEST(DeviationPublished, gives_the_published_values_of_the_thousand_point_set) {
     for (const auto& row : table)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int64_t m = k == 0 ? 1 : k == 1 ? 10 : 100;
-            EXPECT_NEAR(at(record, row.kind, m), row.value[k], last_digit(row.value[k], 7))
+            EXPECT_NEAR(deviation_of(record, row.kind, m), row.value[k], last_digit(row.value[k], 7))
                 << name_of(row.kind) << " m " << m;
         }
 }
@@ -71,17 +69,18 @@ TEST(DeviationPublished, gives_the_published_values_of_the_thousand_point_set) {
 // Stable32 1.60 leaves the bias in: its numbers of the nine-point set, as AllanTools' tests have them.
 TEST(DeviationPublished, gives_the_values_of_stable32_as_computed) {
     const auto record = record_of(nbs14_small());
-    EXPECT_NEAR(at(record, DeviationKind::mtotdev, 1, TotalBias::as_computed), 64.509, 1e-3);
-    EXPECT_NEAR(at(record, DeviationKind::mtotdev, 2, TotalBias::as_computed), 64.794, 1e-3);
+    EXPECT_NEAR(deviation_of(record, DeviationKind::mtotdev, 1, TotalBias::as_computed), 64.509, 1e-3);
+    EXPECT_NEAR(deviation_of(record, DeviationKind::mtotdev, 2, TotalBias::as_computed), 64.794, 1e-3);
 }
 
 // Of one sample mdev and mtotdev see the same differences: the bias as it is makes them equal, the published one does not.
 TEST(DeviationPublished, removes_the_bias_as_it_is) {
     const auto record = record_of(nbs14_large());
-    EXPECT_NEAR(at(record, DeviationKind::mtotdev, 1, TotalBias::removed), at(record, DeviationKind::mdev, 1), 1e-12);
+    EXPECT_NEAR(deviation_of(record, DeviationKind::mtotdev, 1, TotalBias::removed),
+                deviation_of(record, DeviationKind::mdev, 1), 1e-12);
     const std::array factors{std::int64_t{10}};
     const auto point = deviation(record, DeviationKind::mtotdev, factors, {.noise = 0}).points.at(0);
-    EXPECT_EQ(point.as_computed, at(record, DeviationKind::mtotdev, 10, TotalBias::as_computed));
+    EXPECT_EQ(point.as_computed, deviation_of(record, DeviationKind::mtotdev, 10, TotalBias::as_computed));
     EXPECT_NEAR(point.as_computed / std::sqrt(0.73), 6.499161e-02, 1e-8);
 }
 
@@ -98,7 +97,7 @@ TEST(DeviationPublished, agrees_with_an_independent_implementation_to_all_digits
     for (const auto& row : table)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int64_t m = k == 0 ? 1 : k == 1 ? 10 : 100;
-            EXPECT_NEAR(at(record, row.kind, m), row.value[k], last_digit(row.value[k], 12))
+            EXPECT_NEAR(deviation_of(record, row.kind, m), row.value[k], last_digit(row.value[k], 12))
                 << name_of(row.kind) << " m " << m;
         }
 }

@@ -8,26 +8,26 @@
 #include <zlg/deviations/averaging.hpp>
 
 #include "direct_deviation.hpp"
+#include "records.hpp"
 
 namespace zlg::deviations {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-const std::vector<DeviationKind> all_kinds{DeviationKind::oadev, DeviationKind::mdev, DeviationKind::tdev,
-                                           DeviationKind::ohdev};
+const std::vector<DeviationKind> streamed_kinds{DeviationKind::oadev, DeviationKind::mdev, DeviationKind::tdev,
+                                                DeviationKind::ohdev};
 
-std::vector<double> random_record(int n, bool with_gaps, unsigned seed) {
+std::vector<double> random_rates(int n, bool with_gaps, unsigned seed) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> noise(3.0, 1.0);
     std::bernoulli_distribution missing(with_gaps ? 0.02 : 0.0);
     std::vector<double> values;
-    for (int k = 0; k < n; ++k) values.push_back(missing(engine) ? nan : noise(engine));
+    for (int k = 0; k < n; ++k) values.push_back(missing(engine) ? not_a_number : noise(engine));
     return values;
 }
 
 StreamConfig config_of(std::vector<std::int64_t> factors, DataKind kind = DataKind::rate, std::int64_t window = 64) {
     return {.what = {kind, Unit::one, 1.0},
-            .kinds = all_kinds,
+            .kinds = streamed_kinds,
             .factors = std::move(factors),
             .window = window,
             .least_known_ratio = 0.7};
@@ -36,10 +36,10 @@ StreamConfig config_of(std::vector<std::int64_t> factors, DataKind kind = DataKi
 // Up to the window it is the deviation of the whole record; beyond, that of every s-th start, in both cases by definition.
 TEST(DeviationStream, agrees_with_the_definition) {
     for (const bool with_gaps : {false, true}) {
-        const auto values = random_record(3000, with_gaps, 11);
+        const auto values = random_rates(3000, with_gaps, 11);
         DeviationStream stream(config_of({1, 3, 64, 65, 100, 200, 333, 700}));
         stream.add(values);
-        for (const auto kind : all_kinds)
+        for (const auto kind : streamed_kinds)
             for (const auto& point : stream.curve(kind, {.noise = 0}).points) {
                 std::int64_t stride = 1;
                 while (64 * stride < point.m) stride *= 2;
@@ -54,7 +54,7 @@ TEST(DeviationStream, agrees_with_the_definition) {
 
 TEST(DeviationStream, rounds_a_long_averaging_to_its_stride) {
     DeviationStream stream(config_of({1, 65, 333}));
-    stream.add(random_record(2000, false, 12));
+    stream.add(random_rates(2000, false, 12));
     const auto points = stream.curve(DeviationKind::oadev).points;
     ASSERT_EQ(points.size(), 3U);
     EXPECT_EQ(points[1].m, 66);
@@ -63,7 +63,7 @@ TEST(DeviationStream, rounds_a_long_averaging_to_its_stride) {
 }
 
 TEST(DeviationStream, does_not_depend_on_how_the_samples_are_handed_over) {
-    const auto values = random_record(2500, true, 13);
+    const auto values = random_rates(2500, true, 13);
     const auto config = config_of(octave_factors(600));
     DeviationStream whole(config), pieces(config);
     whole.add(values);
@@ -83,7 +83,7 @@ TEST(DeviationStream, does_not_depend_on_how_the_samples_are_handed_over) {
 }
 
 TEST(DeviationStream, can_be_asked_at_any_time_and_goes_on) {
-    const auto values = random_record(1500, false, 14);
+    const auto values = random_rates(1500, false, 14);
     const auto config = config_of(octave_factors(256));
     DeviationStream asked(config), silent(config);
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -99,8 +99,8 @@ TEST(DeviationStream, can_be_asked_at_any_time_and_goes_on) {
 TEST(DeviationStream, takes_phase_with_missing_angles) {
     std::vector<double> phase;
     double angle = 0.0;
-    for (const double d : random_record(2000, false, 15)) phase.push_back(angle += d);
-    for (std::size_t k = 5; k < phase.size(); k += 40) phase[k] = nan;
+    for (const double d : random_rates(2000, false, 15)) phase.push_back(angle += d);
+    for (std::size_t k = 5; k < phase.size(); k += 40) phase[k] = not_a_number;
     DeviationStream stream(config_of({1, 10, 60, 128, 256}, DataKind::phase));
     stream.add(phase);
     const AngleRecord record(Series{.what = {DataKind::phase, Unit::one, 1.0}, .values = phase});
@@ -117,14 +117,14 @@ TEST(DeviationStream, takes_phase_with_missing_angles) {
 TEST(DeviationStream, needs_memory_that_does_not_grow_with_the_stream) {
     DeviationStream stream(config_of(octave_factors(1 << 12)));
     const auto before = stream.memory_bytes();
-    for (int k = 0; k < 20; ++k) stream.add(random_record(5000, true, 16));
+    for (int k = 0; k < 20; ++k) stream.add(random_rates(5000, true, 16));
     EXPECT_EQ(stream.memory_bytes(), before);
     EXPECT_LT(before, 200U * 64U * 7U);
     EXPECT_EQ(stream.n_samples(), 100000);
 }
 
 TEST(DeviationStream, reads_a_source_to_its_end) {
-    const auto values = random_record(200000, false, 17);
+    const auto values = random_rates(200000, false, 17);
     std::size_t at = 0;
     DeviationStream stream(config_of({1, 10}, DataKind::rate, 1024)), whole(config_of({1, 10}, DataKind::rate, 1024));
     read_into(stream, [&](std::span<double> to, std::span<std::uint8_t> valid) {
@@ -153,7 +153,7 @@ TEST(DeviationStream, refuses_what_it_cannot_do) {
     EXPECT_THROW(DeviationStream(with([](auto& c) { c.kinds = {DeviationKind::totdev}; })), SeriesError);
     EXPECT_THROW(DeviationStream(with([](auto& c) { c.kinds = {}; })), SeriesError);
     EXPECT_THROW(DeviationStream(with([](auto& c) { c.what.rate_hz = 0.0; })), SeriesError);
-    EXPECT_THROW(DeviationStream(with([](auto& c) { c.least_known_ratio = nan; })), SeriesError);
+    EXPECT_THROW(DeviationStream(with([](auto& c) { c.least_known_ratio = not_a_number; })), SeriesError);
     DeviationStream stream(with([](auto& c) { c.kinds = {DeviationKind::oadev}; }));
     EXPECT_THROW((void)stream.curve(DeviationKind::oadev), SeriesError);  // nothing yet
     EXPECT_THROW((void)stream.curve(DeviationKind::mdev), SeriesError);

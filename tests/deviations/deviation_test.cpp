@@ -9,20 +9,12 @@
 #include <zlg/deviations/averaging.hpp>
 
 #include "direct_deviation.hpp"
+#include "records.hpp"
 #include "sums/difference_sums.hpp"
 #include "sums/lane_sum.hpp"
 
 namespace zlg::deviations {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array all_kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
-                               DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
-                               DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev};
-
-AngleRecord record_of(const std::vector<double>& values, DataKind kind = DataKind::rate, double rate_hz = 1.0) {
-    return AngleRecord(Series{.what = {kind, Unit::one, rate_hz}, .values = values});
-}
 
 double at(const AngleRecord& record, DeviationKind kind, std::int64_t m,
           const DeviationOptions& options = {.noise = 0}) {
@@ -39,7 +31,7 @@ std::vector<double> random_record(std::mt19937_64& engine, int n, bool with_gaps
     std::uniform_int_distribution<std::size_t> place(0, values.size() - 1), length(1, 9);
     for (int gap = 0; gap < n / 60; ++gap) {
         const auto begin = place(engine);
-        for (auto k = begin; k < std::min(values.size(), begin + length(engine)); ++k) values[k] = nan;
+        for (auto k = begin; k < std::min(values.size(), begin + length(engine)); ++k) values[k] = not_a_number;
     }
     return values;
 }
@@ -82,7 +74,8 @@ TEST(Deviation, uses_single_known_angles_of_a_phase_record) {
         double angle = 0.0;
         for (auto& x : phase) x = angle += x;
         if (trial > 0)
-            for (std::size_t k = 3; k < phase.size(); k += static_cast<std::size_t>(7 + 5 * trial)) phase[k] = nan;
+            for (std::size_t k = 3; k < phase.size(); k += static_cast<std::size_t>(7 + 5 * trial))
+                phase[k] = not_a_number;
         const auto record = record_of(phase, DataKind::phase, 1.0);
         for (const auto kind : {DeviationKind::adev, DeviationKind::oadev, DeviationKind::mdev, DeviationKind::hdev,
                                 DeviationKind::ohdev, DeviationKind::totdev})
@@ -203,7 +196,7 @@ TEST(Deviation, does_not_see_what_its_differences_remove) {
     for (std::size_t k = 0; k < values.size(); ++k) {
         turned[k] += 1000.0;
         drifting[k] += 1000.0 + 0.5 * static_cast<double>(k);
-        if (k % 50 == 7) values[k] = turned[k] = nan;
+        if (k % 50 == 7) values[k] = turned[k] = not_a_number;
     }
     for (const auto kind : {DeviationKind::oadev, DeviationKind::mdev, DeviationKind::ohdev, DeviationKind::totdev}) {
         const double a = at(record_of(values), kind, 20);
@@ -223,7 +216,7 @@ TEST(Deviation, leaves_out_samples_that_are_flagged_as_it_leaves_out_nan) {
     std::vector<std::uint8_t> valid(flagged.size(), 1);
     for (std::size_t k = 10; k < flagged.size(); k += 45) {
         flagged[k] = 1e6;
-        nans[k] = nan;
+        nans[k] = not_a_number;
         valid[k] = 0;
     }
     const AngleRecord by_flag(Series{.what = {DataKind::rate, Unit::one, 1.0}, .values = flagged, .valid = valid});
@@ -241,7 +234,8 @@ TEST(Deviation, says_in_one_line_why_it_has_no_answer) {
         }
         return "no error";
     };
-    const std::vector<double> one{1.0}, two{1.0, 2.0}, constant(50, 3.0), none(50, nan), good{1.0, 2.0, 0.5, 3.0, 2.0};
+    const std::vector<double> one{1.0}, two{1.0, 2.0}, constant(50, 3.0), none(50, not_a_number),
+        good{1.0, 2.0, 0.5, 3.0, 2.0};
     const std::array<std::int64_t, 1> m1{1}, m0{0}, m9{9};
     EXPECT_NE(message([&] { (void)deviation(record_of(one), DeviationKind::oadev, m1); }).find("1 intervals"),
               std::string::npos);
@@ -254,16 +248,17 @@ TEST(Deviation, says_in_one_line_why_it_has_no_answer) {
               std::string::npos);
     EXPECT_NE(message([&] { (void)record_of({}); }).find("0 samples"), std::string::npos);
     EXPECT_NE(message([&] { (void)record_of(good, DataKind::rate, 0.0); }).find("0 Hz"), std::string::npos);
-    EXPECT_NE(message([&] { (void)record_of(good, DataKind::rate, nan); }).find("nan Hz"), std::string::npos);
+    EXPECT_NE(message([&] { (void)record_of(good, DataKind::rate, not_a_number); }).find("nan Hz"), std::string::npos);
     EXPECT_NE(message([&] { (void)deviation(record_of(two), DeviationKind::ohdev, m1); }).find("no difference"),
               std::string::npos);
     EXPECT_NE(message([&] { (void)deviation(record_of(good), DeviationKind::oadev, m0); }).find("0 intervals"),
               std::string::npos);
     EXPECT_NE(message([&] { (void)deviation(record_of(good), DeviationKind::oadev, m9); }).find("no difference"),
               std::string::npos);
-    EXPECT_NE(
-        message([&] { (void)deviation(record_of(good), DeviationKind::oadev, m1, {.confidence = nan}); }).find("nan"),
-        std::string::npos);
+    EXPECT_NE(message([&] {
+                  (void)deviation(record_of(good), DeviationKind::oadev, m1, {.confidence = not_a_number});
+              }).find("nan"),
+              std::string::npos);
     EXPECT_NE(message([&] {
                   (void)deviation(record_of(good), DeviationKind::oadev, m1, {.least_known_ratio = 0.0});
               }).find("least known ratio: 0"),

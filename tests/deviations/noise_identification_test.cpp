@@ -22,7 +22,7 @@ std::vector<double> white(int n, unsigned seed) {
 }
 
 // Rates of spectrum f^noise, noise even: white noise differenced or summed.
-std::vector<double> rates(int noise, int n, unsigned seed) {
+std::vector<double> identified_rates(int noise, int n, unsigned seed) {
     auto values = white(n, seed);
     if (noise == 2) std::adjacent_difference(values.begin(), values.end(), values.begin());
     for (int k = noise; k < 0; k += 2) std::partial_sum(values.begin(), values.end(), values.begin());
@@ -36,7 +36,7 @@ AngleRecord record_of(const std::vector<double>& values) {
 TEST(NoiseIdentification, tells_the_laws_apart_at_every_averaging) {
     for (const int noise : {2, 0, -2, -4})
         for (unsigned seed = 1; seed <= 5; ++seed) {
-            const auto steps = noise_steps(record_of(rates(noise, 8192, seed)), 0.9);
+            const auto steps = noise_steps(record_of(identified_rates(noise, 8192, seed)), 0.9);
             ASSERT_EQ(steps.size(), 9U);  // 1 ... 256: 30 means or more
             for (const auto& step : steps) {
                 if (step.means < 100) continue;
@@ -48,8 +48,8 @@ TEST(NoiseIdentification, tells_the_laws_apart_at_every_averaging) {
 }
 
 TEST(NoiseIdentification, sees_one_law_give_way_to_another) {
-    auto values = rates(0, 1 << 17, 3);
-    const auto walk = rates(-2, 1 << 17, 4);
+    auto values = identified_rates(0, 1 << 17, 3);
+    const auto walk = identified_rates(-2, 1 << 17, 4);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += 0.02 * walk[k];
     const auto steps = noise_steps(record_of(values), 0.9);
     EXPECT_EQ(std::lround(*noise_exponent(steps, 1)), 0);
@@ -57,7 +57,7 @@ TEST(NoiseIdentification, sees_one_law_give_way_to_another) {
 }
 
 TEST(NoiseIdentification, is_not_misled_by_gaps_or_a_constant_rate) {
-    auto values = rates(0, 8192, 5);
+    auto values = identified_rates(0, 8192, 5);
     for (std::size_t k = 0; k < values.size(); ++k) {
         values[k] += 1e6;
         if (k % 100 < 3) values[k] = std::numeric_limits<double>::quiet_NaN();

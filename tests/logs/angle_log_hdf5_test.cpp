@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <stdlib.h>
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 
+#include "any_rows.hpp"
 #include "hdf5_file.hpp"
 #include "temporary_folder.hpp"
 
@@ -22,17 +21,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 namespace {
 
-// Properties are tried on the same cases in every run.
-const int fixed_seed = ::setenv("RC_PARAMS", "seed=1", 0);
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-rc::Gen<double> any_finite_double() {
-    return rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [](std::uint64_t bits) {
-        const auto value = std::bit_cast<double>(bits);
-        return std::isfinite(value) ? value : 0.1;
-    });
-}
 
 std::vector<TimedAngle> any_angles() {
     std::vector<TimedAngle> angles(*rc::gen::inRange<std::size_t>(1, 40));
@@ -86,7 +75,7 @@ std::string config_of(const std::string& path) {
 
 // What the reader says of three good rows that `change` has altered.
 template <class Change>
-std::string complaint(Change change) {
+std::string complaint_about_angles(Change change) {
     const TemporaryFolder folder;
     const std::string path = folder.file("angles.h5");
     {
@@ -109,7 +98,8 @@ std::string complaint(Change change) {
 
 template <class T>
 std::string complaint_of(const std::string& column, const std::vector<T>& values) {
-    return complaint([&](Hdf5File& file) { file.remove("/angles/" + column).column("/angles/" + column, values); });
+    return complaint_about_angles(
+        [&](Hdf5File& file) { file.remove("/angles/" + column).column("/angles/" + column, values); });
 }
 
 }  // namespace
@@ -264,8 +254,9 @@ TEST(AngleReader, refuses_rows_of_an_hdf5_log_that_no_compensation_writes) {
     expect_contains(complaint_of<int>("mode", {1, 1, 2}), "'2' is out of range; allowed is +1 or -1");
     expect_contains(complaint_of<int>("flags", {0, 1, -1}), "'-1' is out of range; allowed is 0..4294967295");
     expect_contains(complaint_of<double>("flags", {0, 1, 2}), "/angles/flags: holds another type");
-    expect_contains(complaint([](Hdf5File& f) { f.remove("/angles/t_s"); }), "the column 't_s' is missing");
-    expect_contains(complaint([](Hdf5File& f) {
+    expect_contains(complaint_about_angles([](Hdf5File& f) { f.remove("/angles/t_s"); }),
+                    "the column 't_s' is missing");
+    expect_contains(complaint_about_angles([](Hdf5File& f) {
                         f.group("/truth").column<double>("/truth/dtheta_arcsec", {1, 2});
                     }),
                     "/truth/dtheta_arcsec has 2 rows, /angles/flags has 3");

@@ -1,14 +1,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <stdlib.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 
+#include "any_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
@@ -16,9 +15,6 @@ using namespace zlg::test;
 using zlg::core::AngleRow;
 
 namespace {
-
-// Properties are tried on the same cases in every run.
-const int fixed_seed = ::setenv("RC_PARAMS", "seed=1", 0);
 
 const std::string names = "tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags\n";
 
@@ -28,13 +24,6 @@ std::string complaint(const std::string& rows) {
     return message_of<FormatError>([&] {
         AngleReader reader{path};
         for (TimedAngle angle; reader.next(angle);) continue;
-    });
-}
-
-rc::Gen<double> any_finite_double() {
-    return rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [](std::uint64_t bits) {
-        const auto value = std::bit_cast<double>(bits);
-        return std::isfinite(value) ? value : 0.1;
     });
 }
 

@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr RawWriterOptions keep{.light_samples = 4, .keep_part = true};
+constexpr RawWriterOptions keep_unfinished{.light_samples = 4, .keep_part = true};
 
 // No column of it is ever zero, but for the first index.
-HalfRecord row_of(std::int64_t half) {
+HalfRecord row_without_zero(std::int64_t half) {
     const auto x = static_cast<double>(half);
     return {.half = half,
             .counts = 151 - 302 * (half % 2),
@@ -40,13 +40,13 @@ HalfRecord row_of(std::int64_t half) {
             .valid = true};
 }
 
-std::array<float, 4> light_of(std::int64_t half) {
+std::array<float, 4> light_without_zero(std::int64_t half) {
     const auto x = static_cast<float>(half % 1000) + 0.25f;
     return {x, x, x, x};
 }
 
 void write_rows(RawWriter& writer, std::int64_t n) {
-    for (std::int64_t half = 0; half < n; ++half) writer.write(row_of(half), {light_of(half)});
+    for (std::int64_t half = 0; half < n; ++half) writer.write(row_without_zero(half), {light_without_zero(half)});
 }
 
 struct Found {
@@ -62,8 +62,8 @@ Found read_all(const std::string& path) {
         RawReader reader{path};
         found.complete = reader.header().complete;
         for (HalfRecord row; reader.next(row); ++found.rows) {
-            const auto light = light_of(found.rows);
-            if (row == row_of(found.rows) && std::ranges::equal(reader.light().a, light)) continue;
+            const auto light = light_without_zero(found.rows);
+            if (row == row_without_zero(found.rows) && std::ranges::equal(reader.light().a, light)) continue;
             ADD_FAILURE() << path << ": row " << found.rows << " is another";
             return found;
         }
@@ -118,7 +118,7 @@ haddr_t address_of_counts(const Hdf5File& file, hsize_t chunk) {
 TEST(InterruptedLog, a_part_that_was_cut_off_yields_true_rows_only) {
     const TemporaryFolder folder;
     constexpr std::int64_t n = 40'000;
-    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep};
+    RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep_unfinished};
     write_rows(writer, n);
     writer.flush();
     const std::string whole = content_of(writer.part_path());
@@ -213,11 +213,11 @@ TEST(InterruptedLog, the_rows_before_a_damaged_chunk_are_read) {
 TEST(InterruptedLog, a_recording_that_was_given_up_is_not_complete_and_has_all_rows) {
     const TemporaryFolder folder;
     try {
-        RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep};
+        RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep_unfinished};
         write_rows(writer, 20'000);
-        HalfRecord bad = row_of(20'000);
+        HalfRecord bad = row_without_zero(20'000);
         bad.piezo_v = std::numeric_limits<double>::quiet_NaN();
-        writer.write(bad, {light_of(20'000)});
+        writer.write(bad, {light_without_zero(20'000)});
         FAIL() << "such a row cannot be logged";
     } catch (const FormatError&) {
     }
@@ -238,11 +238,11 @@ TEST(InterruptedLog, a_recording_that_was_given_up_is_not_complete_and_has_all_r
 
 TEST(InterruptedLog, a_recording_without_a_row_leaves_nothing) {
     const TemporaryFolder folder;
-    { RawWriter(folder.file("raw.h5"), {}, false, all_raw_columns, keep); }
+    { RawWriter(folder.file("raw.h5"), {}, false, all_raw_columns, keep_unfinished); }
     { AngleWriter(folder.file("a.h5"), 0.005, {}, false, {.keep_part = true}); }
     EXPECT_TRUE(fs::is_empty(folder.file("")));
     {
-        RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep};
+        RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep_unfinished};
         write_rows(writer, 1);
     }
     EXPECT_EQ(read_all(folder.file("raw.h5.part")).rows, 1);

@@ -19,7 +19,7 @@ using zlg::core::HalfRecord;
 
 namespace {
 
-std::vector<HalfRecord> halves(const std::vector<std::int32_t>& currents_ua) {
+std::vector<HalfRecord> halves_with_coil(const std::vector<std::int32_t>& currents_ua) {
     std::vector<HalfRecord> all(currents_ua.size());
     for (std::size_t h = 0; h < all.size(); ++h) {
         all[h].half = static_cast<std::int64_t>(h);
@@ -30,7 +30,7 @@ std::vector<HalfRecord> halves(const std::vector<std::int32_t>& currents_ua) {
     return all;
 }
 
-void write(const std::string& path, const std::vector<HalfRecord>& rows, bool has_coil) {
+void write_coil_log(const std::string& path, const std::vector<HalfRecord>& rows, bool has_coil) {
     RawColumns columns = all_raw_columns;
     columns.has_coil = has_coil;
     RawWriter writer{path, {}, false, columns};
@@ -43,16 +43,16 @@ INSTANTIATE_TEST_SUITE_P(RawLog, RawCoil, testing::Values("raw.csv", "raw.h5"));
 
 TEST_P(RawCoil, comes_back_as_it_was_written) {
     const TemporaryFolder folder;
-    const auto rows = halves({1'000'976, -999'512, 0, 7, std::numeric_limits<std::int32_t>::max(),
-                              std::numeric_limits<std::int32_t>::min()});
-    write(folder.file(GetParam()), rows, true);
+    const auto rows = halves_with_coil({1'000'976, -999'512, 0, 7, std::numeric_limits<std::int32_t>::max(),
+                                        std::numeric_limits<std::int32_t>::min()});
+    write_coil_log(folder.file(GetParam()), rows, true);
     EXPECT_TRUE(RawReader{folder.file(GetParam())}.header().has_coil);
     EXPECT_EQ(rows_of(folder.file(GetParam())), rows);
 }
 
 TEST_P(RawCoil, is_0_in_a_log_without_the_column_and_our_own_have_it_where_it_is_asked_for) {
     const TemporaryFolder folder;
-    write(folder.file(GetParam()), halves({1'000'000, -1'000'000}), false);
+    write_coil_log(folder.file(GetParam()), halves_with_coil({1'000'000, -1'000'000}), false);
     EXPECT_FALSE(RawReader{folder.file(GetParam())}.header().has_coil);
     for (const HalfRecord& row : rows_of(folder.file(GetParam()))) EXPECT_EQ(row.coil_ua, 0);
     EXPECT_FALSE(all_raw_columns.has_coil);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-std::vector<HalfRecord> halves(const std::vector<float>& fringes) {
+std::vector<HalfRecord> halves_with_fringe(const std::vector<float>& fringes) {
     std::vector<HalfRecord> all(fringes.size());
     for (std::size_t h = 0; h < all.size(); ++h) {
         all[h].half = static_cast<std::int64_t>(h);
@@ -31,7 +31,7 @@ std::vector<HalfRecord> halves(const std::vector<float>& fringes) {
     return all;
 }
 
-void write(const std::string& path, const std::vector<HalfRecord>& rows, bool has_fringe = true) {
+void write_fringe_log(const std::string& path, const std::vector<HalfRecord>& rows, bool has_fringe = true) {
     RawColumns columns = all_raw_columns;
     columns.has_fringe = has_fringe;
     RawWriter writer{path, {}, false, columns};
@@ -44,15 +44,15 @@ INSTANTIATE_TEST_SUITE_P(RawLog, RawFringe, testing::Values("raw.csv", "raw.h5")
 
 TEST_P(RawFringe, comes_back_as_it_was_written) {
     const TemporaryFolder folder;
-    const auto rows = halves({0.0f, 1.0f, unknown, 65535.0f, 32768.0f, unknown});
-    write(folder.file(GetParam()), rows);
+    const auto rows = halves_with_fringe({0.0f, 1.0f, unknown, 65535.0f, 32768.0f, unknown});
+    write_fringe_log(folder.file(GetParam()), rows);
     EXPECT_TRUE(RawReader{folder.file(GetParam())}.header().has_fringe);
     EXPECT_EQ(rows_of(folder.file(GetParam())), rows);
 }
 
 TEST_P(RawFringe, is_not_known_in_a_log_without_the_column) {
     const TemporaryFolder folder;
-    write(folder.file(GetParam()), halves({1.0f, 2.0f}), false);
+    write_fringe_log(folder.file(GetParam()), halves_with_fringe({1.0f, 2.0f}), false);
     EXPECT_FALSE(RawReader{folder.file(GetParam())}.header().has_fringe);
     for (const HalfRecord& row : rows_of(folder.file(GetParam()))) EXPECT_TRUE(std::isnan(row.fringe));
 }
@@ -60,7 +60,7 @@ TEST_P(RawFringe, is_not_known_in_a_log_without_the_column) {
 TEST_P(RawFringe, our_own_logs_have_it_where_it_is_asked_for) {
     const TemporaryFolder folder;
     RawWriter writer{folder.file(GetParam()), {}, false};
-    writer.write(halves({7.0f})[0]);
+    writer.write(halves_with_fringe({7.0f})[0]);
     writer.close();
     EXPECT_FALSE(RawReader{folder.file(GetParam())}.header().has_fringe);
 }
@@ -69,7 +69,7 @@ TEST_P(RawFringe, out_of_range_is_refused_by_a_writer) {
     const TemporaryFolder folder;
     for (const float bad : {-1.0f, 65536.0f, 0.5f}) {
         const std::string file = folder.file(std::to_string(bad) + GetParam());
-        const auto message = message_of<FormatError>([&] { write(file, halves({3.0f, bad})); });
+        const auto message = message_of<FormatError>([&] { write_fringe_log(file, halves_with_fringe({3.0f, bad})); });
         EXPECT_NE(message.find("half 1 cannot be logged: fringe = "), std::string::npos) << message;
         EXPECT_NE(message.find("is out of range; allowed is 0..65535, or nan where it is not known"),
                   std::string::npos);

@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <stdlib.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -11,7 +9,9 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
+#include "any_rows.hpp"
 #include "hdf5_file.hpp"
+#include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
@@ -20,20 +20,6 @@ using zlg::core::HalfRecord;
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 namespace {
-
-// Properties are tried on the same cases in every run.
-const int fixed_seed = ::setenv("RC_PARAMS", "seed=1", 0);
-
-std::vector<HalfRecord> rows_of(RawReader& reader) {
-    std::vector<HalfRecord> rows;
-    for (HalfRecord row; reader.next(row);) rows.push_back(row);
-    return rows;
-}
-
-std::vector<HalfRecord> rows_in(const std::string& path) {
-    RawReader reader{path};
-    return rows_of(reader);
-}
 
 // Recognisable in every column.
 HalfRecord row_of(std::int64_t half) {
@@ -55,34 +41,6 @@ void copy(const std::string& from, const std::string& to) {
     RawWriter writer{to, reader.header().settings, false, reader.header()};
     for (HalfRecord row; reader.next(row);) writer.write(row);
     writer.close();
-}
-
-rc::Gen<double> any_finite_double() {
-    return rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [](std::uint64_t bits) {
-        const auto value = std::bit_cast<double>(bits);
-        return std::isfinite(value) ? value : 0.1;
-    });
-}
-
-std::vector<HalfRecord> any_records(bool with_edges = false) {
-    constexpr std::int64_t limit = std::int64_t{1} << 52;
-    std::vector<HalfRecord> rows(*rc::gen::inRange<std::size_t>(1, 40));
-    const bool first_positive = *rc::gen::arbitrary<bool>();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        HalfRecord& r = rows[i];
-        r.half = static_cast<std::int64_t>(i);
-        r.bias_sign = ((i % 2 == 0) == first_positive) ? 1 : -1;
-        r.mode = *rc::gen::element<std::int8_t>(-1, 1);
-        r.counts = *rc::gen::inRange<std::int64_t>(-limit, limit + 1);
-        r.loop_closed = *rc::gen::arbitrary<bool>();
-        r.valid = *rc::gen::arbitrary<bool>();
-        r.detuning_lambda = std::fmod(*any_finite_double(), 30.0);
-        r.detuning_sq_lambda2 = *rc::gen::arbitrary<bool>() ? r.detuning_lambda * r.detuning_lambda : 0.0;
-        r.piezo_v = *any_finite_double();
-        r.temperature_c = *any_finite_double();
-        if (with_edges) r.edge_offset_ticks = *rc::gen::arbitrary<std::int32_t>();
-    }
-    return rows;
 }
 
 // Lines as they stand in CSV logs: words, numbers, strings, lists, nonsense.
@@ -125,7 +83,7 @@ RC_GTEST_PROP(RawLogHdf5, hdf5_reads_back_the_same_bits, ()) {
     RawWriter writer{folder.file("raw.h5"), {}, false};
     for (const HalfRecord& row : rows) writer.write(row);
     writer.close();
-    RC_ASSERT(rows_in(folder.file("raw.h5")) == rows);
+    RC_ASSERT(rows_of(folder.file("raw.h5")) == rows);
 }
 
 RC_GTEST_PROP(RawLogHdf5, shifts_of_edges_read_back_the_same_in_both_formats, ()) {
@@ -155,7 +113,7 @@ RC_GTEST_PROP(RawLogHdf5, a_cut_file_is_an_error, ()) {
     writer.close();
     std::filesystem::resize_file(path, *rc::gen::inRange<std::uintmax_t>(0, std::filesystem::file_size(path)));
     try {
-        static_cast<void>(rows_in(path));
+        static_cast<void>(rows_of(path));
         RC_FAIL("a cut file was read");
     } catch (const FormatError& error) {
         RC_ASSERT(std::string{error.what()}.find('\n') == std::string::npos);
@@ -192,7 +150,7 @@ TEST(RawLogHdf5, flushing_at_any_row_changes_no_bit) {
         if (half % 4999 == 0 || half == 16'383) writer.flush();
     }
     writer.close();
-    const auto rows = rows_in(folder.file("raw.h5"));
+    const auto rows = rows_of(folder.file("raw.h5"));
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(n));
     for (int half = 0; half < n; ++half) ASSERT_EQ(rows[static_cast<std::size_t>(half)], row_of(half));
 }
@@ -334,6 +292,6 @@ TEST(RawLogHdf5, is_left_as_it_is_by_its_readers) {
     for (int half = 0; half < 100; ++half) writer.write(row_of(half));
     writer.flush();
     const std::string before = content_of(writer.part_path());
-    EXPECT_EQ(rows_in(writer.part_path()).size(), 100u);
+    EXPECT_EQ(rows_of(writer.part_path()).size(), 100u);
     EXPECT_TRUE(content_of(writer.part_path()) == before);
 }

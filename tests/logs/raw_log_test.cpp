@@ -1,14 +1,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <stdlib.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
+#include "any_rows.hpp"
+#include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
@@ -17,16 +17,7 @@ using zlg::core::HalfRecord;
 
 namespace {
 
-// Properties are tried on the same cases in every run.
-const int fixed_seed = ::setenv("RC_PARAMS", "seed=1", 0);
-
 const std::string names = "half,bias_sign,mode,counts,loop_closed\n";
-
-std::vector<HalfRecord> rows_of(RawReader& reader) {
-    std::vector<HalfRecord> rows;
-    for (HalfRecord row; reader.next(row);) rows.push_back(row);
-    return rows;
-}
 
 std::vector<HalfRecord> read_text(const std::string& text) {
     const TemporaryFolder folder;
@@ -44,33 +35,6 @@ std::string complaint(const std::string& text) {
     const std::string message = message_of<FormatError>([&] { static_cast<void>(read_text(text)); });
     EXPECT_NE(message.find("raw.csv"), std::string::npos) << message;
     return message.substr(std::min(message.find("raw.csv"), message.size()));
-}
-
-rc::Gen<double> any_finite_double() {
-    return rc::gen::map(rc::gen::arbitrary<std::uint64_t>(), [](std::uint64_t bits) {
-        const auto value = std::bit_cast<double>(bits);
-        return std::isfinite(value) ? value : 0.1;
-    });
-}
-
-std::vector<HalfRecord> any_records() {
-    constexpr std::int64_t limit = std::int64_t{1} << 52;
-    std::vector<HalfRecord> rows(*rc::gen::inRange<std::size_t>(1, 40));
-    const bool first_positive = *rc::gen::arbitrary<bool>();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        HalfRecord& r = rows[i];
-        r.half = static_cast<std::int64_t>(i);
-        r.bias_sign = ((i % 2 == 0) == first_positive) ? 1 : -1;
-        r.mode = *rc::gen::element<std::int8_t>(-1, 1);
-        r.counts = *rc::gen::inRange<std::int64_t>(-limit, limit + 1);
-        r.loop_closed = *rc::gen::arbitrary<bool>();
-        r.valid = *rc::gen::arbitrary<bool>();
-        r.detuning_lambda = std::fmod(*any_finite_double(), 30.0);
-        r.detuning_sq_lambda2 = *rc::gen::arbitrary<bool>() ? r.detuning_lambda * r.detuning_lambda : 0.0;
-        r.piezo_v = *any_finite_double();
-        r.temperature_c = *any_finite_double();
-    }
-    return rows;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <zlg/logs/raw_log.hpp>
 
 #include "hdf5_file.hpp"
+#include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
@@ -16,17 +17,6 @@ using zlg::core::HalfRecord;
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 namespace {
-
-std::vector<HalfRecord> rows_of(RawReader& reader) {
-    std::vector<HalfRecord> rows;
-    for (HalfRecord row; reader.next(row);) rows.push_back(row);
-    return rows;
-}
-
-std::vector<HalfRecord> rows_in(const std::string& path) {
-    RawReader reader{path};
-    return rows_of(reader);
-}
 
 // What a laboratory would write with a few lines of its own: the required columns, three rows.
 Hdf5File& three_rows(Hdf5File& file) {
@@ -40,21 +30,22 @@ Hdf5File& three_rows(Hdf5File& file) {
 
 // What the reader says of three good rows that `change` has altered.
 template <class Change>
-std::string complaint(Change change) {
+std::string complaint_about_rows(Change change) {
     const TemporaryFolder folder;
     const std::string path = folder.file("raw.h5");
     {
         Hdf5File file{path};
         change(three_rows(file));
     }
-    const std::string message = message_of<FormatError>([&] { static_cast<void>(rows_in(path)); });
+    const std::string message = message_of<FormatError>([&] { static_cast<void>(rows_of(path)); });
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message.substr(std::min(message.find("raw.h5"), message.size()));
 }
 
 template <class T>
 std::string complaint_of(const std::string& column, const std::vector<T>& values) {
-    return complaint([&](Hdf5File& file) { file.remove("/raw/" + column).column("/raw/" + column, values); });
+    return complaint_about_rows(
+        [&](Hdf5File& file) { file.remove("/raw/" + column).column("/raw/" + column, values); });
 }
 
 }  // namespace
@@ -108,7 +99,7 @@ TEST(RawReader, a_packed_column_of_large_chunks_is_read) {
         .column("/raw/mode", one, H5T_STD_I32BE)
         .column("/raw/counts", counts, H5T_STD_I64BE, 1000, 1)
         .column("/raw/loop_closed", one, H5T_STD_U8LE, n, 9);
-    const auto rows = rows_in(folder.file("raw.h5"));
+    const auto rows = rows_of(folder.file("raw.h5"));
     ASSERT_EQ(rows.size(), n);
     for (std::size_t i = 0; i < n; ++i) {
         ASSERT_EQ(rows[i].counts, 7 * static_cast<std::int64_t>(i));
@@ -136,7 +127,7 @@ TEST(RawReader, refuses_values_of_an_hdf5_log_that_no_gyro_can_have_recorded) {
                     "row 2, column '/raw/piezo_v': 'nan' is not finite");
     expect_contains(complaint_of<double>("temperature_c", {-HUGE_VAL, 1.0, 1.0}), "'-inf' is not finite");
     expect_contains(
-        complaint([](Hdf5File& file) {
+        complaint_about_rows([](Hdf5File& file) {
             file.table<float>("/raw/light", {1, 2, 3, 4, std::numeric_limits<float>::infinity(), 6}, {3, 2});
         }),
         "row 3, column '/raw/light': 'inf' is out of range; allowed is a finite number, or nan");
@@ -169,34 +160,40 @@ TEST(RawReader, hands_out_the_rows_of_an_hdf5_log_before_the_first_bad_one) {
 
 TEST(RawReader, refuses_data_sets_that_are_no_columns) {
     expect_contains(complaint_of<double>("counts", {1, 2, 3}), "/raw/counts: holds another type; allowed are integers");
-    expect_contains(complaint([](Hdf5File& f) { f.text("/raw/piezo_v", "x"); }), "/raw/piezo_v: holds another type");
-    expect_contains(complaint([](Hdf5File& f) { f.group("/raw/piezo_v"); }), "/raw/piezo_v: is no data set");
-    expect_contains(complaint([](Hdf5File& f) {
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text("/raw/piezo_v", "x"); }),
+                    "/raw/piezo_v: holds another type");
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.group("/raw/piezo_v"); }), "/raw/piezo_v: is no data set");
+    expect_contains(complaint_about_rows([](Hdf5File& f) {
                         f.column<double>("/raw/piezo_v", {1, 2, 3}, H5T_NATIVE_LDOUBLE);
                     }),
                     "numbers of at most 8 bytes");
-    expect_contains(complaint([](Hdf5File& f) {
+    expect_contains(complaint_about_rows([](Hdf5File& f) {
                         f.table<double>("/raw/piezo_v", {1, 2, 3}, {3, 1});
                     }),
                     "/raw/piezo_v: has 2 dimensions; allowed is 1");
-    expect_contains(complaint([](Hdf5File& f) { f.column<float>("/raw/light", {1, 2, 3}); }), "allowed is 2");
-    expect_contains(complaint([](Hdf5File& f) {
+    expect_contains(complaint_about_rows([](Hdf5File& f) {
+                        f.column<float>("/raw/light", {1, 2, 3});
+                    }),
+                    "allowed is 2");
+    expect_contains(complaint_about_rows([](Hdf5File& f) {
                         f.table<float>("/raw/light", std::vector<float>(195), {3, 65});
                     }),
                     "has 65 values in a row; allowed is 1..64");
-    expect_contains(complaint([](Hdf5File& f) {
+    expect_contains(complaint_about_rows([](Hdf5File& f) {
                         f.table<float>("/raw/light_b", {1, 2, 3, 4, 5, 6}, {3, 2});
                     }),
                     "/raw/light_b has 2 samples in a half; allowed are the 0 of /raw/light");
     expect_contains(complaint_of<int>("mode", {1, 1}),
                     "/raw/mode has 2 rows, /raw/loop_closed has 3; allowed is one length");
-    expect_contains(complaint([](Hdf5File& f) { f.remove("/raw/counts"); }), "/raw: the column 'counts' is missing");
-    expect_contains(complaint([](Hdf5File& f) {
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.remove("/raw/counts"); }),
+                    "/raw: the column 'counts' is missing");
+    expect_contains(complaint_about_rows([](Hdf5File& f) {
                         f.column<int>("/raw/valld", {1, 1, 1});
                     }),
                     "unknown column 'valld'; did you mean 'valid'?");
-    expect_contains(complaint([](Hdf5File& f) { f.remove("/raw"); }), "the group /raw is missing");
-    expect_contains(complaint([](Hdf5File& f) { f.remove("/raw").column<int>("/raw", {1}); }), "/raw: is no group");
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.remove("/raw"); }), "the group /raw is missing");
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.remove("/raw").column<int>("/raw", {1}); }),
+                    "/raw: is no group");
 }
 
 TEST(RawReader, ignores_an_unknown_data_set_with_a_warning) {
@@ -214,7 +211,7 @@ TEST(RawReader, reads_nothing_that_lies_outside_the_file) {
     const TemporaryFolder folder;
     const std::string secret = folder.write("secret", std::string(24, 'x'));
     expect_contains(
-        complaint([&](Hdf5File& f) {
+        complaint_about_rows([&](Hdf5File& f) {
             const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
             const hsize_t size = 3;
             H5Pset_external(creation, secret.c_str(), 0, 24);
@@ -224,12 +221,12 @@ TEST(RawReader, reads_nothing_that_lies_outside_the_file) {
             H5Pclose(creation);
         }),
         "/raw/piezo_v: is stored in another file");
-    expect_contains(complaint([&](Hdf5File& f) {
+    expect_contains(complaint_about_rows([&](Hdf5File& f) {
                         H5Lcreate_external("other.h5", "/x", f.id(), "/raw/piezo_v", H5P_DEFAULT, H5P_DEFAULT);
                     }),
                     "/raw/piezo_v: a link that leads elsewhere");
     expect_contains(
-        complaint([&](Hdf5File& f) {
+        complaint_about_rows([&](Hdf5File& f) {
             const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
             const hsize_t size = 3;
             const hid_t space = H5Screate_simple(1, &size, nullptr);
@@ -243,7 +240,7 @@ TEST(RawReader, reads_nothing_that_lies_outside_the_file) {
 
 TEST(RawReader, refuses_chunks_that_only_a_hostile_file_has) {
     expect_contains(
-        complaint([](Hdf5File& f) {
+        complaint_about_rows([](Hdf5File& f) {
             const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
             const hsize_t size = 3, chunk = 9'000'000, limit = H5S_UNLIMITED;
             H5Pset_chunk(creation, 1, &chunk);
@@ -257,19 +254,20 @@ TEST(RawReader, refuses_chunks_that_only_a_hostile_file_has) {
 
 TEST(RawReader, refuses_a_configuration_that_contradicts_or_is_none) {
     expect_contains(
-        complaint([](Hdf5File& f) { f.text("/config", "gyro.tick_s = 0.005\n").attribute("tick_s", 0.01); }),
+        complaint_about_rows([](Hdf5File& f) { f.text("/config", "gyro.tick_s = 0.005\n").attribute("tick_s", 0.01); }),
         "the attribute tick_s is 0.01, but /config says 0.005");
-    expect_contains(complaint([](Hdf5File& f) { f.text("/config", "a = 1\nb =\n"); }), "/config:2:");
-    expect_contains(complaint([](Hdf5File& f) { f.column<int>("/config", {1}); }), "/config: allowed is one text");
-    expect_contains(complaint([](Hdf5File& f) { f.attribute("format_version", 3); }),
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text("/config", "a = 1\nb =\n"); }), "/config:2:");
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.column<int>("/config", {1}); }),
+                    "/config: allowed is one text");
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.attribute("format_version", 3); }),
                     "format_version is 3; allowed are 1 and 2");
-    expect_contains(complaint([](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); }),
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); }),
                     "the attribute tick_s is inf; allowed is a finite number");
-    expect_contains(complaint([](Hdf5File& f) { f.text_attribute("tick_s", "0.005"); }),
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text_attribute("tick_s", "0.005"); }),
                     "the attribute tick_s is the text '0.005'; allowed is a finite number");
-    expect_contains(complaint([](Hdf5File& f) { f.text_attribute("format_version", "1"); }),
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text_attribute("format_version", "1"); }),
                     "the attribute format_version is the text '1'; allowed is a finite number");
-    expect_contains(complaint([](Hdf5File& f) {
+    expect_contains(complaint_about_rows([](Hdf5File& f) {
                         f.attributes("scale_arcsec", {3.2, 3.3});
                     }),
                     "the attribute scale_arcsec is a list of 2 numbers; allowed is a finite number");

@@ -14,7 +14,7 @@ namespace {
 using namespace zlg;
 using namespace zlg::noise;
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 double mean_density(const Spectrum& s, double from_hz, double to_hz) {
     double sum = 0.0;
@@ -39,7 +39,7 @@ TEST(Spectrum, gaps_change_neither_its_level_nor_a_line) {
     gyro.add_white(0.7);
     gyro.add_sine(10.0, 50.0 * 128.0 / 1024.0);
     for (std::size_t k = 0; k < gyro.rates.size(); ++k)
-        if ((k / 37) % 5 == 0) gyro.rates[k] = missing;
+        if ((k / 37) % 5 == 0) gyro.rates[k] = not_known;
     const Spectrum s = welch_spectrum(gyro.rates, 50.0, 1024);
     std::size_t peak = 0;
     for (std::size_t k = 0; k < s.density.size(); ++k)
@@ -53,7 +53,7 @@ TEST(Spectrum, of_pieces_in_time) {
     SimulatedNoise gyro(4096, 10.0, 3);
     gyro.add_white(1.0);
     for (std::size_t k = 2048; k < 4096; ++k) gyro.rates[k] *= 10.0;
-    for (std::size_t k = 1024; k < 1536; ++k) gyro.rates[k] = missing;
+    for (std::size_t k = 1024; k < 1536; ++k) gyro.rates[k] = not_known;
     const Spectrogram g = spectrogram(gyro.rates, 10.0, 256);
     ASSERT_EQ(g.time_s.size(), 31u);
     EXPECT_DOUBLE_EQ(g.time_s.front(), 12.8);
@@ -66,7 +66,7 @@ TEST(Spectrum, of_pieces_in_time) {
 }
 
 TEST(Spectrum, refuses_what_has_none) {
-    const std::vector<double> few(7, 1.0), unknown(100, missing);
+    const std::vector<double> few(7, 1.0), unknown(100, not_known);
     EXPECT_THROW((void)welch_spectrum(few, 1.0, 8), deviations::SeriesError);
     EXPECT_THROW((void)welch_spectrum(unknown, 1.0, 16), deviations::SeriesError);
     EXPECT_THROW((void)welch_spectrum(std::vector<double>(100, 1.0), 0.0, 16), deviations::SeriesError);

@@ -9,33 +9,21 @@
 #include <zlg/report/figure.hpp>
 
 #include "paper_parts.hpp"
+#include "read_section.hpp"
 
 namespace {
 
 using namespace zlg;
+using namespace zlg::test;
 using paper::paper_figure_3;
 using paper::paper_figure_4;
 using paper::paper_figure_5;
-
-const report::Series* series(const report::Figure& figure, const std::string& name) {
-    for (const auto& s : figure.series)
-        if (s.name == name) return &s;
-    return nullptr;
-}
 
 double at(const report::Series& s, double x) {
     for (std::size_t i = 0; i < s.x.size(); ++i)
         if (s.x[i] == x) return s.y[i];
     return std::nan("");
 }
-
-std::string text_of(const report::Section& section) {
-    std::string all;
-    for (const auto& p : section.paragraphs) all += p + "\n";
-    return all;
-}
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const std::vector<double> runs_s{600.0, 900.0, 3600.0, 36000.0};
 

@@ -5,26 +5,14 @@
 #include <vector>
 
 #include "paper_parts.hpp"
+#include "read_section.hpp"
 
 namespace {
 
 using namespace zlg;
+using namespace zlg::test;
 using paper::paper_table_1;
 using paper::paper_table_2;
-
-const report::Series* series(const report::Figure& figure, const std::string& name) {
-    for (const auto& s : figure.series)
-        if (s.name == name) return &s;
-    return nullptr;
-}
-
-std::string text_of(const report::Section& section) {
-    std::string all;
-    for (const auto& p : section.paragraphs) all += p + "\n";
-    return all;
-}
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 study::RunResult relock_run() {
     study::RunResult run;

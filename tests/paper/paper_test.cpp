@@ -45,7 +45,7 @@ const report::Series& series(const std::string& id, const std::string& name) {
     throw std::out_of_range{id + ": " + name};
 }
 
-double at(const report::Series& s, double x) {
+double value_at(const report::Series& s, double x) {
     for (std::size_t i = 0; i < s.x.size(); ++i)
         if (std::abs(s.x[i] - x) < 1e-9 * std::abs(x)) return s.y[i];
     throw std::out_of_range{s.name};
@@ -133,21 +133,22 @@ TEST(Paper, series_as_printed_is_short_of_a_quarter_of_its_cubic_term) {
     EXPECT_NEAR(printed.y.at(4) / right.y.at(4), 0.75, 0.001) << "at small times the cubic term is all there is";
     // A (pi nu x)^3 - (4/15) A (pi nu x)^5 over three ticks, x = 10 ms, 20 Hz.
     const double u = 0.2 * 3.14159265358979;
-    EXPECT_NEAR(at(printed, 0.2), 12000.0 * (u * u * u - 4.0 / 15.0 * std::pow(u, 5)) * 0.015, 1e-6);
+    EXPECT_NEAR(value_at(printed, 0.2), 12000.0 * (u * u * u - 4.0 / 15.0 * std::pow(u, 5)) * 0.015, 1e-6);
 }
 
 TEST(Paper, noise_has_the_gain_of_the_sum) {
     // A tick of a count of 3.263 arcsec is off by 3.263/sqrt 6. Constant from 2 + 2 ticks for three: white, 3/4 of each
     // of four ticks, 1.5; roundings at four edges with 3/4 each, sqrt(4 (3/4)^2/2) of the tick's own.
     const double three_sigma = 3.0 * 3.263 / std::sqrt(6.0);
-    EXPECT_NEAR(at(series("figure-11", "constant = linear, white noise"), 3.0), 1.5 * three_sigma, 1e-9);
-    EXPECT_NEAR(at(series("figure-11", "constant = linear, counter"), 3.0), std::sqrt(9.0 / 8.0) * three_sigma, 1e-9);
-    EXPECT_NEAR(at(series("figure-11", "constant as printed, A\u221An/2"), 3.0), three_sigma * std::sqrt(3.0) / 2.0,
+    EXPECT_NEAR(value_at(series("figure-11", "constant = linear, white noise"), 3.0), 1.5 * three_sigma, 1e-9);
+    EXPECT_NEAR(value_at(series("figure-11", "constant = linear, counter"), 3.0), std::sqrt(9.0 / 8.0) * three_sigma,
                 1e-9);
+    EXPECT_NEAR(value_at(series("figure-11", "constant as printed, A\u221An/2"), 3.0),
+                three_sigma * std::sqrt(3.0) / 2.0, 1e-9);
     // Quadratic: -1, 5/2, 5/2, -1.
-    EXPECT_NEAR(at(series("figure-11", "quadratic, white noise"), 3.0), std::sqrt(14.5) * three_sigma, 1e-9);
+    EXPECT_NEAR(value_at(series("figure-11", "quadratic, white noise"), 3.0), std::sqrt(14.5) * three_sigma, 1e-9);
     // The twin's further noise is small.
-    EXPECT_NEAR(at(series("figure-11", "constant = linear, twin"), 3.0), std::sqrt(9.0 / 8.0) * three_sigma, 0.8);
+    EXPECT_NEAR(value_at(series("figure-11", "constant = linear, twin"), 3.0), std::sqrt(9.0 / 8.0) * three_sigma, 0.8);
 }
 
 TEST(Paper, figure_6_shows_the_gap_and_takes_back_what_was_extrapolated) {

@@ -22,7 +22,7 @@ using paper::SubstitutionPoint;
 using paper::SubstitutionResult;
 
 constexpr double count_arcsec = 3.263;
-constexpr double tick_s = 0.005;
+constexpr double paper_tick_s = 0.005;
 
 SubstitutionExperiment experiment(int n, double frequency_hz, double amplitude_arcsec_s, std::uint64_t seed) {
     return {.gap_ticks = n, .frequency_hz = frequency_hz, .amplitude_arcsec_s = amplitude_arcsec_s, .seed = seed};
@@ -30,8 +30,10 @@ SubstitutionExperiment experiment(int n, double frequency_hz, double amplitude_a
 
 // The highest rate turns by ten whole counts a tick: then the roundings of any two ticks are exactly uncorrelated.
 SubstitutionExperiment at_slow_rate(int n, std::uint64_t seed) {
-    return {
-        .gap_ticks = n, .amplitude_arcsec_s = 0.0, .slow_rate_arcsec_s = 10.0 * count_arcsec / tick_s, .seed = seed};
+    return {.gap_ticks = n,
+            .amplitude_arcsec_s = 0.0,
+            .slow_rate_arcsec_s = 10.0 * count_arcsec / paper_tick_s,
+            .seed = seed};
 }
 
 SubstitutionResult result_of(const SubstitutionExperiment& e) {
@@ -174,7 +176,7 @@ TEST(SubstitutionExperiment, light_noise_comes_in_through_the_re_lock_correction
     e.base.gyro.light_noise_lambda = 0.05;
     const auto r = result_of(e);
     // Variance of a correction (K T chi f0/2)^2 4 s^4/16, in two of four ticks of weight 3/4.
-    const double correction = count_arcsec * tick_s * 0.5 * 3.6 * 60e3 * 0.05 * 0.05 / 2.0;
+    const double correction = count_arcsec * paper_tick_s * 0.5 * 3.6 * 60e3 * 0.05 * 0.05 / 2.0;
     const double noise = std::hypot(3.0 * count_arcsec / std::sqrt(48.0), std::sqrt(2.0) * 0.75 * correction);
     EXPECT_NEAR(r.interpolation[0].noise.theory, noise, 1e-3 * noise);
     EXPECT_NEAR(r.interpolation[0].rms.arcsec, noise, 4.0 * r.interpolation[0].rms.error);
@@ -186,8 +188,8 @@ TEST(SubstitutionExperiment, takes_other_points) {
     const auto p = result_of(e).extrapolation[2];
     // A quadratic goes exactly through three points: the error is the third difference of the ticks -2..1, whose size for
     // an oscillation is 8 sin^3(w T/2) times that of a tick.
-    const double half = std::numbers::pi * 20.0 * tick_s;
-    const double size = 12000.0 * tick_s * std::sin(half) / half * 8.0 * std::pow(std::sin(half), 3);
+    const double half = std::numbers::pi * 20.0 * paper_tick_s;
+    const double size = 12000.0 * paper_tick_s * std::sin(half) / half * 8.0 * std::pow(std::sin(half), 3);
     EXPECT_NEAR(std::hypot(p.extremum.arcsec, p.crossing.arcsec), size, 4.0 * p.extremum.error);
 }
 
@@ -230,11 +232,12 @@ TEST(SubstitutionExperiment, the_longest_gap_is_measured) {
     auto e = experiment(16, 2.0, 12000.0, 11);
     e.switches = 200;
     // Of a constant: n times the mean of the points, less the sum of the gap, each tick a cosine about the middle.
-    const double w = 2.0 * std::numbers::pi * 2.0 * tick_s;
+    const double w = 2.0 * std::numbers::pi * 2.0 * paper_tick_s;
     double sum = 16.0 * (std::cos(8.5 * w) + std::cos(9.5 * w)) / 2.0;
     for (int j = 1; j <= 16; ++j) sum -= std::cos((j - 8.5) * w);
     const auto p = result_of(e).interpolation[0];
-    EXPECT_NEAR(p.extremum.arcsec, 12000.0 * tick_s * std::sin(0.5 * w) / (0.5 * w) * sum, 4.0 * p.extremum.error);
+    EXPECT_NEAR(p.extremum.arcsec, 12000.0 * paper_tick_s * std::sin(0.5 * w) / (0.5 * w) * sum,
+                4.0 * p.extremum.error);
 }
 
 TEST(SubstitutionExperiment, a_failure_in_a_thread_reaches_the_caller) {
@@ -302,8 +305,9 @@ TEST(RandomPhaseMotion, increments_are_differences_of_the_angle) {
     };
     const auto middle = static_cast<std::size_t>(2 * 5 * grid.interval_ticks + grid.n);
     for (const int half : {-67, -3, 0, 2, 66}) {
-        const double t_s = 0.5 * tick_s * half;
-        EXPECT_NEAR(increments[middle + static_cast<std::size_t>(half)], angle(t_s + 0.5 * tick_s) - angle(t_s), 1e-9);
+        const double t_s = 0.5 * paper_tick_s * half;
+        EXPECT_NEAR(increments[middle + static_cast<std::size_t>(half)], angle(t_s + 0.5 * paper_tick_s) - angle(t_s),
+                    1e-9);
     }
 }
 

@@ -20,20 +20,13 @@
 #include <zlg/wire/command.hpp>
 #include <zlg/wire/telemetry.hpp>
 
+#include "built_image.hpp"
+
 namespace {
 
 using namespace zlg;
 using processor::QemuProcessor;
 namespace fs = std::filesystem;
-
-std::optional<std::string> built_image() {
-    if (std::system("command -v qemu-system-arm >/dev/null") != 0) return {};
-    try {
-        return processor::image_beside(fs::read_symlink("/proc/self/exe").parent_path());
-    } catch (const processor::QemuError&) {
-        return {};
-    }
-}
 
 struct Heard {
     std::vector<wire::Telemetry> ticks;
@@ -112,7 +105,7 @@ std::vector<wire::Telemetry> told_by_this_program(int halves) {
 }
 
 TEST(QemuLine, tells_bit_by_bit_what_this_program_tells) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     constexpr int halves = 4000;
     Line line;
@@ -190,13 +183,13 @@ private:
 };
 
 TEST(QemuLine, the_parameters_are_those_that_the_gyro_was_started_with) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     EXPECT_EQ(Driven{*image}.value_of(interval_ticks), 200.0) << "of 1 s";
 }
 
 TEST(QemuLine, what_is_set_is_what_the_gyro_runs_by) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     Driven gyro{*image};
     const int slow = gyro.switches_after({.code = wire::CommandCode::read_state}, 5 * second);
@@ -208,7 +201,7 @@ TEST(QemuLine, what_is_set_is_what_the_gyro_runs_by) {
 }
 
 TEST(QemuLine, switching_stops_is_forced_and_starts_again) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     Driven gyro{*image};
     (void)gyro.switches_after({.code = wire::CommandCode::stop_switching}, second);

@@ -17,21 +17,14 @@
 #include <zlg/rig/wiring.hpp>
 #include <zlg/trials/compared.hpp>
 
+#include "built_image.hpp"
+
 namespace {
 
 using namespace zlg;
 using processor::QemuError;
 using processor::QemuProcessor;
 namespace fs = std::filesystem;
-
-std::optional<std::string> built_image() {
-    if (std::system("command -v qemu-system-arm >/dev/null") != 0) return {};
-    try {
-        return processor::image_beside(fs::read_symlink("/proc/self/exe").parent_path());
-    } catch (const QemuError&) {
-        return {};
-    }
-}
 
 // A program that stands in for the emulator.
 std::string script(const std::string& name, const std::string& text) {
@@ -113,7 +106,7 @@ TEST(QemuProcessor, finds_no_image_where_there_is_none) {
 }
 
 TEST(QemuProcessor, gives_the_bits_of_this_program_switch_by_switch) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     QemuProcessor qemu{{.image = *image}};
     for (const auto relock : {core::RelockMethod::mean_square, core::RelockMethod::joint}) {
@@ -132,7 +125,7 @@ TEST(QemuProcessor, gives_the_bits_of_this_program_switch_by_switch) {
 }
 
 TEST(QemuProcessor, refuses_settings_that_the_core_refuses) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     QemuProcessor qemu{{.image = *image}};
     rig::ProcessorSettings settings;
@@ -142,7 +135,7 @@ TEST(QemuProcessor, refuses_settings_that_the_core_refuses) {
 }
 
 TEST(QemuProcessor, ends_with_its_object) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     {
         const QemuProcessor qemu{{.image = *image}};
@@ -153,7 +146,7 @@ TEST(QemuProcessor, ends_with_its_object) {
 
 // Who looks for the other all the time takes the processor from it where others want it too.
 TEST(QemuProcessor, whoever_waits_sleeps) {
-    const auto image = built_image();
+    const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image or no emulator";
     QemuProcessor processor{{.image = *image}};
     (void)processor.state();

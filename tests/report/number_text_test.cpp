@@ -1,13 +1,13 @@
-#include <limits>
-
 #include <gtest/gtest.h>
 #include <zlg/report/number_text.hpp>
+
+#include "example_figures.hpp"
 
 namespace {
 
 using namespace zlg::report;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using example::infinity;
 
 TEST(NumberText, has_the_decimals_that_are_asked_for) {
     EXPECT_EQ(fixed_number(1.25, 3), "1.250");

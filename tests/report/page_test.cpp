@@ -42,7 +42,7 @@ Page page(std::size_t n_sections) {
 }
 
 // The body is XML; the head has elements that HTML leaves open. The script stands behind it.
-std::vector<markup::Element> body_of(const std::string& text) {
+std::vector<markup::Element> page_body(const std::string& text) {
     const std::size_t from = text.find("<body>");
     return markup::read(text.substr(from, text.find("</body>") + 7 - from));
 }
@@ -99,7 +99,7 @@ TEST(Html, every_colour_of_a_drawing_has_another_in_the_dark) {
     const std::string dark =
         text.substr(text.find("prefers-color-scheme"), text.find("</style>") - text.find("prefers-color-scheme"));
     std::set<std::string> seen;
-    for (const auto& e : body_of(text))
+    for (const auto& e : page_body(text))
         for (const char* key : {"fill", "stroke"})
             if (e.attributes.count(key) != 0 && e.attributes.at(key).front() == '#')
                 seen.insert(std::string{"["} + key + "=\"" + e.attributes.at(key) + "\"]");
@@ -110,7 +110,7 @@ TEST(Html, every_colour_of_a_drawing_has_another_in_the_dark) {
 TEST(Html, the_verdict_is_read_first) {
     Page p = page(1);
     p.verdict = "It drifts by -1.5e-3 deg/h.";
-    const auto paragraphs = markup::all(body_of(html(p)), "p");
+    const auto paragraphs = markup::all(page_body(html(p)), "p");
     EXPECT_EQ(paragraphs.at(0).attributes.at("class"), "verdict");
     EXPECT_EQ(paragraphs.at(0).text, "It drifts by \u22121.5\u00D710\u207B\u00B3 deg/h.");
 }
@@ -123,7 +123,7 @@ TEST(Html, columns_of_numbers_are_told_from_columns_of_text) {
                      {"a", "b", "c"},
                      {{"x", "-1.5e+03", "words enough to fill a line"}, {"y", "-", "4"}, {"z", "2 +- 1", "5"}}}},
                    {}}};
-    const auto body = body_of(html(p));
+    const auto body = page_body(html(p));
     const auto cells = markup::all(body, "td");
     EXPECT_EQ(cells.at(0).attributes.at("class"), "n");
     EXPECT_EQ(cells.at(0).text, "\u22121.5\u00D710\u00B3");
@@ -143,7 +143,7 @@ TEST(Html, the_values_of_a_figure_stand_beside_it_thinned_to_two_hundred_rows) {
         longer.y.push_back(i % 7);
     }
     f.series.push_back(longer);
-    const auto body = body_of(html(p));
+    const auto body = page_body(html(p));
     std::size_t n_rows = 0;
     for (const auto& e : body)
         if (e.name == "tr")
@@ -165,7 +165,7 @@ TEST(Html, the_script_is_told_the_axes_as_they_are_drawn) {
     f.log_y = false;
     f.x_label = "x, m";
     f.y_label = "y";
-    for (const auto& e : body_of(html(p)))
+    for (const auto& e : page_body(html(p)))
         if (e.attributes.count("data-figure") != 0)
             EXPECT_EQ(e.attributes.at("data-figure"),
                       "{\"x\":[-56.42,157.42,0,\"x, m\"],\"y\":[0,1.04,0,\"y\"],\"series\":[{\"name\":\"a "
@@ -189,24 +189,24 @@ TEST(Html, links_stand_after_the_lead_with_their_addresses_escaped) {
 }
 
 TEST(Html, body_is_well_formed_and_text_is_escaped) {
-    const auto body = body_of(html(page(2)));
+    const auto body = page_body(html(page(2)));
     EXPECT_EQ(markup::all(body, "h1").at(0).text, "A run <1>");
     EXPECT_EQ(markup::all(body, "p").at(0).text, "Lead & more.");
     EXPECT_EQ(markup::all(body, "p").at(2).text, "One < two.") << "behind the lead and the hint of the figures";
-    EXPECT_NO_THROW(body_of(html(Page{})));
+    EXPECT_NO_THROW(page_body(html(Page{})));
 }
 
 TEST(Html, lists_contents_only_beyond_three_sections) {
-    EXPECT_TRUE(markup::all(body_of(html(page(3))), "nav").empty());
-    EXPECT_EQ(markup::all(body_of(html(page(3))), "li").size(), 0U);
-    EXPECT_EQ(markup::all(body_of(html(page(4))), "li").size(), 4U);
+    EXPECT_TRUE(markup::all(page_body(html(page(3))), "nav").empty());
+    EXPECT_EQ(markup::all(page_body(html(page(3))), "li").size(), 0U);
+    EXPECT_EQ(markup::all(page_body(html(page(4))), "li").size(), 4U);
 }
 
 TEST(Html, ids_are_unique_and_every_reference_resolves) {
     Page p = page(4);
     p.sections[1].figures = {figure(""), figure("section-1"), figure("a b\"c"), figure("figure-4")};
     std::set<std::string> ids;
-    const auto body = body_of(html(p));
+    const auto body = page_body(html(p));
     for (const auto& e : body) {
         if (e.attributes.count("id") == 0) continue;
         EXPECT_TRUE(ids.insert(e.attributes.at("id")).second) << e.attributes.at("id");
@@ -224,7 +224,7 @@ TEST(Html, ids_are_unique_and_every_reference_resolves) {
 TEST(Html, a_table_scrolls_in_its_own_box_and_ragged_rows_are_filled) {
     Page p = page(0);
     p.sections = {{"S", {}, {{"Caption.", {"a", "b"}, {{"1"}, {"1", "2", "3"}, {}}}}, {}}};
-    const auto body = body_of(html(p));
+    const auto body = page_body(html(p));
     EXPECT_EQ(markup::all(body, "table", "scroll").size(), 1U);
     EXPECT_EQ(markup::all(body, "tr").size(), 4U);
     EXPECT_EQ(markup::all(body, "td").size(), 3U * 2U);
@@ -232,7 +232,7 @@ TEST(Html, a_table_scrolls_in_its_own_box_and_ragged_rows_are_filled) {
 }
 
 TEST(Html, captions_are_numbered_and_stand_with_their_table_or_figure) {
-    const auto body = body_of(html(page(2)));
+    const auto body = page_body(html(page(2)));
     const auto captions = markup::all(body, "figcaption");
     ASSERT_EQ(captions.size(), 4U);
     const auto bold = markup::all(body, "b");
@@ -244,7 +244,7 @@ TEST(Html, captions_are_numbered_and_stand_with_their_table_or_figure) {
 TEST(Html, an_empty_table_is_left_out) {
     Page p = page(0);
     p.sections = {{"S", {}, {Table{}}, {}}};
-    EXPECT_TRUE(markup::all(body_of(html(p)), "figure").empty());
+    EXPECT_TRUE(markup::all(page_body(html(p)), "figure").empty());
 }
 
 TEST(Html, diagrams_stand_before_the_figures_and_share_their_numbers_and_ids) {
@@ -254,7 +254,7 @@ TEST(Html, diagrams_stand_before_the_figures_and_share_their_numbers_and_ids) {
     diagram.title = "Blocks";
     diagram.boxes.emplace_back();
     p.sections[0].diagrams = {diagram};
-    const auto body = body_of(html(p));
+    const auto body = page_body(html(p));
     const auto drawings = markup::all(body, "svg");
     ASSERT_EQ(drawings.size(), 2U);
     EXPECT_NE(drawings[0].attributes.at("id"), drawings[1].attributes.at("id"));
@@ -266,7 +266,7 @@ TEST(Html, diagrams_stand_before_the_figures_and_share_their_numbers_and_ids) {
 TEST(Html, leaves_the_numbers_to_titles_that_bring_their_own) {
     Page p = page(1);
     p.numbered = false;
-    const auto body = body_of(html(p));
+    const auto body = page_body(html(p));
     EXPECT_EQ(markup::all(body, "b").at(0).text, "Drift.");
     EXPECT_EQ(markup::all(body, "figcaption").at(0).text, "Drift per mode.");
 }

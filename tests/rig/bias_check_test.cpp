@@ -12,14 +12,14 @@ using namespace zlg;
 
 constexpr core::CompensationConstants paper{};  // 60 kHz, 5 ms: 150 counts in a half
 
-struct Gyro {
+struct CheckedGyro {
     double bias_counts = 150.0;
     std::function<double(int)> rotation = [](int) { return 0.1; };  // counts in a half
     // The bias sign alternates; the mode changes at every 1000th half, behind three open ticks.
     std::function<void(int, core::HalfRecord&)> column = [](int, core::HalfRecord&) {};
 };
 
-std::string complaint(const Gyro& gyro, int n_halves = 4000, core::CompensationConstants constants = paper) {
+std::string complaint(const CheckedGyro& gyro, int n_halves = 4000, core::CompensationConstants constants = paper) {
     rig::BiasCheck check{constants};
     for (int t = 0; t < n_halves; ++t) {
         core::HalfRecord half{.half = t};
@@ -38,13 +38,13 @@ const std::function<double(int)> vibration = [](int t) { return 120.0 * std::sin
 const std::function<double(int)> fast = [](int t) { return 300.0 * std::sin(0.003 * t); };
 
 TEST(BiasCheck, right_columns_agree_whatever_the_rotation_and_the_gyro) {
-    for (const auto& rotation : {Gyro{}.rotation, vibration, fast})
+    for (const auto& rotation : {CheckedGyro{}.rotation, vibration, fast})
         for (const double bias_counts : {0.0, 3.0, 40.0, 150.0, 1000.0})
             EXPECT_EQ(complaint({.bias_counts = bias_counts, .rotation = rotation}), "");
 }
 
 TEST(BiasCheck, a_constant_mode_is_found_with_its_place) {
-    const Gyro gyro{.rotation = [](int) { return 0.0; }, .column = [](int, core::HalfRecord& h) { h.mode = 1; }};
+    const CheckedGyro gyro{.rotation = [](int) { return 0.0; }, .column = [](int, core::HalfRecord& h) { h.mode = 1; }};
     const std::string said = complaint(gyro);
     EXPECT_NE(said.find("raw.csv: the columns mode and bias_sign contradict the counts in 1986 of 3978 half-periods"),
               std::string::npos)
@@ -57,7 +57,7 @@ TEST(BiasCheck, a_constant_mode_is_found_with_its_place) {
 }
 
 TEST(BiasCheck, an_inverted_column_is_found_in_any_motion) {
-    for (const auto& rotation : {Gyro{}.rotation, vibration, fast}) {
+    for (const auto& rotation : {CheckedGyro{}.rotation, vibration, fast}) {
         EXPECT_NE(complaint({.rotation = rotation, .column = [](int, core::HalfRecord& h) { h.mode *= -1; }}), "");
         EXPECT_NE(complaint({.rotation = rotation, .column = [](int, core::HalfRecord& h) { h.bias_sign *= -1; }}), "");
         EXPECT_EQ(complaint({.rotation = rotation,
@@ -92,7 +92,7 @@ TEST(BiasCheck, faults_are_no_contradiction) {
 }
 
 TEST(BiasCheck, judges_nothing_by_few_halves_or_by_halves_that_were_not_measured) {
-    const Gyro inverted{.column = [](int, core::HalfRecord& h) { h.mode *= -1; }};
+    const CheckedGyro inverted{.column = [](int, core::HalfRecord& h) { h.mode *= -1; }};
     EXPECT_EQ(complaint(inverted, 32), "");
     EXPECT_NE(complaint(inverted, 33), "");
     for (const std::function<void(core::HalfRecord&)>& lose :
@@ -116,8 +116,8 @@ TEST(BiasCheck, takes_any_count) {
 }
 
 TEST(BiasCheck, counts_without_their_direction_are_found_with_the_first_pair) {
-    const Gyro gyro{.rotation = [](int) { return 0.0; },
-                    .column = [](int, core::HalfRecord& h) { h.counts = std::abs(h.counts); }};
+    const CheckedGyro gyro{.rotation = [](int) { return 0.0; },
+                           .column = [](int, core::HalfRecord& h) { h.counts = std::abs(h.counts); }};
     const std::string said = complaint(gyro);
     EXPECT_NE(said.find("the bias of 150 counts in a half-period does not show: in 3978 of 3978 pairs"),
               std::string::npos)

@@ -36,12 +36,12 @@ std::string complaint(const std::function<double(int)>& angle, const std::functi
 double right(int, double p) { return p; }
 double stuck(int, double) { return 0.4; }
 
-std::function<double(int, double)> noise() {
+std::function<double(int, double)> random_place() {
     return [random = std::mt19937_64{7}](int, double) mutable { return std::uniform_real_distribution<>{}(random); };
 }
 
 // 18 counts a tick at most, 20 Hz of a gyro with ticks of 5 ms.
-double vibration(int t) { return 29.0 * std::sin(2.0 * M_PI * 0.05 * t) + 0.0057 * t; }
+double shaking(int t) { return 29.0 * std::sin(2.0 * M_PI * 0.05 * t) + 0.0057 * t; }
 double earth(int t) { return 0.0115 * t; }
 // A tenth of a count every half, so that counts move in one tick of five.
 double slow(int t) { return 0.1003 * t; }
@@ -52,14 +52,14 @@ TEST(PlaceCheck, right_places_agree_with_the_counts_whatever_the_motion) {
     const auto shaken = [&](int t) { return slow(t) + gauss(random); };
     // A quarter of the rate of the ticks: four places, again and again.
     const auto quarter = [](int t) { return 2.9 * std::sin(0.25 * M_PI * t) + 0.0011 * t; };
-    for (const auto& motion :
-         std::initializer_list<std::function<double(int)>>{vibration, earth, slow, shaken, quarter})
+    for (const auto& motion : std::initializer_list<std::function<double(int)>>{shaking, earth, slow, shaken, quarter})
         EXPECT_EQ(complaint(motion, right), "");
 }
 
 TEST(PlaceCheck, noise_is_found_moving_or_at_rest) {
-    for (const auto& motion : {vibration, earth, slow})
-        EXPECT_NE(complaint(motion, noise()).find("contradicts the counts in 2 of 2 stretches"), std::string::npos);
+    for (const auto& motion : {shaking, earth, slow})
+        EXPECT_NE(complaint(motion, random_place()).find("contradicts the counts in 2 of 2 stretches"),
+                  std::string::npos);
 }
 
 double halved(int, double p) { return 0.5 * p; }
@@ -105,7 +105,7 @@ TEST(PlaceCheck, right_places_agree_in_every_fast_vibration) {
 }
 
 TEST(PlaceCheck, places_that_stand_still_are_found_where_the_counts_move) {
-    EXPECT_NE(complaint(vibration, stuck), "");
+    EXPECT_NE(complaint(shaking, stuck), "");
     EXPECT_NE(complaint(slow, stuck), "");
     const auto rest = [](int) { return 0.2; };
     EXPECT_EQ(complaint(rest, stuck), "");
@@ -115,7 +115,7 @@ TEST(PlaceCheck, places_that_stand_still_are_found_where_the_counts_move) {
 // fifth, and nothing is decided there.
 TEST(PlaceCheck, says_where_it_begins_and_in_how_much_of_the_log) {
     const auto from_there = [](int t, double p) { return t >= 9000 ? 0.4 : p; };
-    const std::string said = complaint(vibration, from_there, 16 + 4 * 4096);
+    const std::string said = complaint(shaking, from_there, 16 + 4 * 4096);
     EXPECT_NE(said.find("raw.csv: the column fringe contradicts the counts in 1 of 3"), std::string::npos) << said;
     EXPECT_NE(said.find("first before half-period 16399"), std::string::npos) << said;
 }
@@ -128,12 +128,12 @@ TEST(PlaceCheck, a_jerk_decides_nothing) {
 }
 
 TEST(PlaceCheck, nothing_is_decided_by_few_halves_without_places_or_in_a_rough_motion) {
-    EXPECT_EQ(complaint(vibration, noise(), 16 + 511), "");
-    EXPECT_NE(complaint(vibration, noise(), 16 + 512), "");
-    EXPECT_EQ(complaint(vibration, [](int, double) { return nan; }), "");
+    EXPECT_EQ(complaint(shaking, random_place(), 16 + 511), "");
+    EXPECT_NE(complaint(shaking, random_place(), 16 + 512), "");
+    EXPECT_EQ(complaint(shaking, [](int, double) { return nan; }), "");
     std::mt19937_64 random{3};
     std::normal_distribution<> gauss{0.0, 20.0};
-    EXPECT_EQ(complaint([&](int t) { return vibration(t) + gauss(random); }, noise()), "");
+    EXPECT_EQ(complaint([&](int t) { return shaking(t) + gauss(random); }, random_place()), "");
 }
 
 // Every 16 halves something is missing: no difference is whole.
@@ -142,12 +142,12 @@ TEST(PlaceCheck, differences_reach_over_measured_halves_alone) {
         [](auto& h) { h.loop_closed = false; }, [](auto& h) { h.valid = false; }, [](auto& h) { h.span = 2; },
         [](auto& h) { h.fringe = std::nanf(""); }};
     for (const auto& change : lacking) {
-        EXPECT_EQ(complaint(vibration, noise(), 6000,
+        EXPECT_EQ(complaint(shaking, random_place(), 6000,
                             [&](int t, auto& h) {
                                 if (t % 16 == 0) change(h);
                             }),
                   "");
-        EXPECT_NE(complaint(vibration, noise(), 6000,
+        EXPECT_NE(complaint(shaking, random_place(), 6000,
                             [&](int t, auto& h) {
                                 if (t % 100 == 0) change(h);
                             }),

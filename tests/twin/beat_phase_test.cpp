@@ -11,21 +11,17 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include "adler_reference.hpp"
+#include "turns_from.hpp"
 
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using core::not_a_number;
+using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Turns turns(double t) {
-    Turns result;
-    result.add(t);
-    return result;
-}
 
 double as_number(const Turns& t) { return t.minus(Turns{}); }
 
@@ -259,7 +255,7 @@ TEST(BeatPhase, IsTheSameHoweverManyTurnsWentBefore) {
 }
 
 TEST(BeatPhase, RefusesDrivesThatCannotBeTold) {
-    for (const double bad : {nan, infinity, -infinity, 1e30}) {
+    for (const double bad : {not_a_number, infinity, -infinity, 1e30}) {
         BeatPhase beat;
         EXPECT_THROW(beat.plateau(bad, 300.0, 1.0), std::overflow_error);
         EXPECT_THROW(beat.plateau(60e3, bad, 1.0), std::overflow_error);

@@ -1,4 +1,4 @@
-// The laser at the edges of its parameters: a right result or a clean refusal, never a hang or a number that is none.
+// The laser at the edges of its parameters: a right result or a clean refusal_of_twin, never a hang or a number that is none.
 
 #include <chrono>
 #include <cmath>
@@ -22,7 +22,7 @@ LaserConfig one_line(double gain_loss_ratio, double opposite_sigma_coupling) {
             .opposite_sigma_coupling = opposite_sigma_coupling};
 }
 
-std::string refusal(const LaserConfig& laser) {
+std::string refusal_of_twin(const LaserConfig& laser) {
     TwinConfig config = as_laser(quiet_gyro());
     config.laser = laser;
     try {
@@ -70,17 +70,18 @@ TEST(LaserEdges, OneIsotopeAndFullCouplingLeaveOneWaveAtTheCentre) {
 }
 
 TEST(LaserEdges, AGyroWithoutLightBothWaysIsRefused) {
-    EXPECT_NE(refusal(one_line(1.1, 1.0)), "");
+    EXPECT_NE(refusal_of_twin(one_line(1.1, 1.0)), "");
     // The field takes what little gain there is.
-    EXPECT_NE(refusal({.gain_loss_ratio = 1.0001}).find("not lit both ways"), std::string::npos);
+    EXPECT_NE(refusal_of_twin({.gain_loss_ratio = 1.0001}).find("not lit both ways"), std::string::npos);
     // The only line is a quarter of a wavelength off the zero of detuning.
-    EXPECT_NE(refusal({.gain_loss_ratio = 1.04, .upper_isotope_ratio = 1.0}).find("no equal beams"), std::string::npos);
+    EXPECT_NE(refusal_of_twin({.gain_loss_ratio = 1.04, .upper_isotope_ratio = 1.0}).find("no equal beams"),
+              std::string::npos);
 }
 
 TEST(LaserEdges, AGyroWithoutFieldIsRefused) {
-    EXPECT_NE(refusal({.bias_field_g = 0.0}).find("bias_field_g is 0"), std::string::npos);
-    EXPECT_NE(refusal({.zeeman_hz_per_g = 0.0}).find("zeeman_hz_per_g is 0"), std::string::npos);
-    EXPECT_NE(refusal({.bias_field_g = 1e4}), "");
+    EXPECT_NE(refusal_of_twin({.bias_field_g = 0.0}).find("bias_field_g is 0"), std::string::npos);
+    EXPECT_NE(refusal_of_twin({.zeeman_hz_per_g = 0.0}).find("zeeman_hz_per_g is 0"), std::string::npos);
+    EXPECT_NE(refusal_of_twin({.bias_field_g = 1e4}), "");
 }
 
 // Little above threshold light is lost a few hundredths of a wavelength off the centre; within them it is a gyro, with
@@ -94,7 +95,7 @@ TEST(LaserEdges, LittleGainMakesAGyroOfAShortRange) {
         EXPECT_GT(a.discriminator_per_lambda, last_slope);
         EXPECT_NEAR(a.discriminator_per_lambda * excess, 0.067, 0.005) << excess;
         EXPECT_LT(a.two_way_lambda, last_range);
-        EXPECT_EQ(refusal({.gain_loss_ratio = 1.0 + excess}), "");
+        EXPECT_EQ(refusal_of_twin({.gain_loss_ratio = 1.0 + excess}), "");
         last_slope = a.discriminator_per_lambda;
         last_range = a.two_way_lambda;
     }

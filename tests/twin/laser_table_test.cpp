@@ -37,13 +37,13 @@ double worst_at_random(const LaserTable& table, int n) {
     return worst;
 }
 
-struct Case {
+struct TabledLaser {
     const char* name;
     LaserConfig config;
     double max_field_g;
 };
 
-const Case cases[] = {
+const TabledLaser cases[] = {
     {"default", {}, 16.5},
     {"20 G", {}, 22.0},
     {"full cross-saturation", {.opposite_sigma_coupling = 1.0}, 16.5},
@@ -55,7 +55,7 @@ const Case cases[] = {
 };
 
 TEST(LaserTable, ErrsByLessThanOneTenThousandthAnywhereAndSaysByHowMuch) {
-    for (const Case& c : cases) {
+    for (const TabledLaser& c : cases) {
         const LaserTable table{c.config, c.max_field_g};
         EXPECT_LE(table.error(), LaserTable::aimed_error) << c.name;
         // The points of its own check are not all points.

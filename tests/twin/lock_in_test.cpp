@@ -13,7 +13,7 @@
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Slip of one reversal, rad.
 double slip_rad(const LockInGyro& g) { return 2.0 * pi * g.lock_hz * std::sqrt(g.edge_s / (2.0 * g.bias_hz)); }

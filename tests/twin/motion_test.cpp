@@ -8,12 +8,13 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using std::numbers::pi;
+using zlg::core::not_a_number;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Motion, ARestingCaseDoesNotTurn) {
@@ -120,12 +121,12 @@ TEST(Motion, BeforeItsFirstStepAMotionIsItsBaseToTheLastBit) {
 }
 
 TEST(Motion, NumbersThatAreNotFiniteAreRefused) {
-    EXPECT_THROW((void)Motion::sines(nan, {}), std::invalid_argument);
+    EXPECT_THROW((void)Motion::sines(not_a_number, {}), std::invalid_argument);
     EXPECT_THROW((void)Motion::sines(0.0, {{1.0, infinity, 0.0}}), std::invalid_argument);
-    EXPECT_THROW((void)Motion::from_increments({1.0, nan}, 100.0), std::invalid_argument);
+    EXPECT_THROW((void)Motion::from_increments({1.0, not_a_number}, 100.0), std::invalid_argument);
     EXPECT_THROW((void)Motion::from_increments({}, 100.0), std::invalid_argument);
     EXPECT_THROW((void)Motion::from_increments({1.0}, 0.0), std::invalid_argument);
-    EXPECT_THROW((void)Motion::from_increments({1.0}, nan), std::invalid_argument);
+    EXPECT_THROW((void)Motion::from_increments({1.0}, not_a_number), std::invalid_argument);
 }
 
 }  // namespace

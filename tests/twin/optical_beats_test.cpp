@@ -8,16 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "turns_from.hpp"
+
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-Turns turns(double t) {
-    Turns result;
-    result.add(t);
-    return result;
-}
+using std::numbers::pi;
 
 Beat steady(double drive_hz, double amplitude) { return {drive_hz, drive_hz, {}, amplitude}; }
 const Beat dark{};

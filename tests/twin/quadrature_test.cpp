@@ -7,14 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "turns_from.hpp"
+
 namespace zlg::twin {
 namespace {
-
-Turns turns(double t) {
-    Turns result;
-    result.add(t);
-    return result;
-}
 
 Signals phasor(double turns_now, double amplitude = 1.0) {
     const double angle = 2.0 * std::numbers::pi * turns_now;

@@ -9,16 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include "turns_from.hpp"
+
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-Turns turns(double t) {
-    Turns result;
-    result.add(t);
-    return result;
-}
+using std::numbers::pi;
 
 // psi of the exact stepper and the smoothed phase differ by (f_L/f) cos(psi + phi)/(2 pi) turns.
 double ripple(double psi_turns, double drive_hz, Coupling c) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <zlg/twin/averaged_laser.hpp>
 
@@ -17,7 +18,7 @@
 namespace zlg::twin {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using core::not_a_number;
 
 struct BadMember {
     const char* key;
@@ -33,10 +34,10 @@ struct BadMember {
 // What no range of a single key can express.
 TEST(Twin, MembersThatDoNotMakeAGyroTogetherAreRefusedByKey) {
     const std::vector<BadMember> members = {
-        ZLG_MEMBER(perimeter.expansion_lambda_per_c, nan, -1e6, 1e6),
-        ZLG_MEMBER(piezo.half_wave_v, nan, 0.0, -40.0, 151.0),
-        ZLG_MEMBER(piezo.half_wave_temperature_coefficient_per_c, nan, -0.06, 0.15),
-        ZLG_MEMBER(piezo.hysteresis_stroke_v, nan, 0.03, 41e3),
+        ZLG_MEMBER(perimeter.expansion_lambda_per_c, not_a_number, -1e6, 1e6),
+        ZLG_MEMBER(piezo.half_wave_v, not_a_number, 0.0, -40.0, 151.0),
+        ZLG_MEMBER(piezo.half_wave_temperature_coefficient_per_c, not_a_number, -0.06, 0.15),
+        ZLG_MEMBER(piezo.hysteresis_stroke_v, not_a_number, 0.03, 41e3),
     };
     for (const BadMember& member : members) {
         for (const double bad : member.bad) {
@@ -57,7 +58,7 @@ TEST(Twin, ABiasThatWarmingTurnsOverIsRefused) {
     for (const Fidelity fidelity : {Fidelity::averaged, Fidelity::laser}) {
         TwinConfig config;
         config.gyro.fidelity = fidelity;
-        for (const double bad : {-0.1, -0.05, -0.06, nan}) {
+        for (const double bad : {-0.1, -0.05, -0.06, not_a_number}) {
             config.gyro.bias_temperature_coefficient_per_c = bad;
             try {
                 Twin twin{config, Motion::rest()};
@@ -99,7 +100,7 @@ TEST(Twin, MoreFringesThanTheCounterCanTellAreAnError) {
 TEST(Twin, AFrameThatHardwareCannotObeyIsRefused) {
     Twin twin{quiet_gyro(), Motion::rest()};
     EXPECT_THROW(twin.advance(frame(true, 0)), std::invalid_argument);
-    EXPECT_THROW(twin.advance(frame(false, 1, nan)), std::invalid_argument);
+    EXPECT_THROW(twin.advance(frame(false, 1, not_a_number)), std::invalid_argument);
     core::ActuatorFrame none = frame(false, 1);
     none.n_set_points = 0;
     EXPECT_THROW(twin.advance(none), std::invalid_argument);

@@ -16,7 +16,7 @@ constexpr double bias_followed = 1.0 / 256.0;
 constexpr std::int32_t reversed_debounce = 4;
 
 // Differences of larger counts could overflow, and no gyro has them.
-constexpr std::int64_t max_counts = std::int64_t{1} << 53;
+constexpr std::int64_t max_exact_counts = std::int64_t{1} << 53;
 
 // The static lock-in zone of a gyro whose threshold is half a hundredth of its bias, several times over.
 constexpr double near_rate_ratio = 0.03;
@@ -99,7 +99,7 @@ BiasMonitorOutput step(const BiasMonitorConfig& config, BiasMonitorState& state,
                        const BiasMonitorInput& input) noexcept {
     BiasMonitorOutput out;
     if (!(config.presumed_counts >= min_bias_counts)) return out;
-    if (!input.counted || input.counts > max_counts || input.counts < -max_counts) {
+    if (!input.counted || input.counts > max_exact_counts || input.counts < -max_exact_counts) {
         state.n_known = 0;
         state.n_reversed = 0;
         return out;

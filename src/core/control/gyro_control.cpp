@@ -140,7 +140,7 @@ ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const
 // Returns whether the half-wave voltage that the switch measured was rejected.
 bool learn_half_wave(const GyroControlConfig& c, GyroControlState& s, const ModeSwitchOutput& sequenced) noexcept {
     if (!sequenced.event || sequenced.event->outcome != SwitchOutcome::switched) return false;
-    const double measured_v = sequenced.event->has_half_wave ? sequenced.event->half_wave_v : __builtin_nan("");
+    const double measured_v = sequenced.event->has_half_wave ? sequenced.event->half_wave_v : not_a_number;
     return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
 }
 

@@ -39,7 +39,7 @@ struct Observation {
     LightMonitorOutput monitored;
     bool detuning_usable = false;
     bool has_mean_square = false;  // to be recorded
-    Volts piezo{__builtin_nan("")};
+    Volts piezo{not_a_number};
 };
 
 // Read the frame that is latched now: all states but those of what decides and commands.

@@ -18,7 +18,7 @@ constexpr double scatter_limit = 6.0;
 constexpr std::int32_t lasting_blocks = 2;
 
 // No gyro has more counts in a half; the sum of a block stays exact.
-constexpr std::int64_t max_counts = std::int64_t{1} << 32;
+constexpr std::int64_t max_rate_counts = std::int64_t{1} << 32;
 
 void include(double x, std::int32_t& n, double& mean) noexcept {
     if (n < memory_blocks) ++n;
@@ -77,7 +77,7 @@ bool step(const RateStepConfig& config, RateStepState& state, const RateStepInpu
         return false;
     }
     const bool begins_late = state.n_halves == 0 && in.is_second;
-    const bool countable = in.good && in.counts <= max_counts && in.counts >= -max_counts;
+    const bool countable = in.good && in.counts <= max_rate_counts && in.counts >= -max_rate_counts;
     if (!countable || begins_late) {
         state.n_halves = 0;
         state.counts = 0;

@@ -12,7 +12,7 @@
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // cos(sqrt x) and sin(sqrt x)/sqrt x, also for x < 0, where they are hyperbolic. accuracy 3e-13 for |x| < 0.6
 struct Wave {

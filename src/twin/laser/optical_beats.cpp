@@ -10,7 +10,7 @@
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Sixteen a turn for 4096 turns, 1.6 MHz over a whole half of 2.5 ms: faster than that, comparators do not follow.
 constexpr double max_samples = 65536.0;

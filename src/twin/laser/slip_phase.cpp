@@ -9,7 +9,7 @@
 namespace zlg::twin {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double free_ratio = 8.0;  // |f|/f_L from which the ripple is small and regular
 constexpr double max_turns = 1e17;  // the exact stepper refuses what is beyond
 

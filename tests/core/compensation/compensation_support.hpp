@@ -6,12 +6,14 @@
 #include <limits>
 #include <random>
 
+#include <zlg/core/common/maths.hpp>
+
 namespace compensation_test {
 
 __extension__ typedef __int128 Integer128;
 __extension__ typedef __float128 Quad;  // 113 bits
 
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using zlg::core::not_a_number;
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 inline Quad magnitude(Quad x) { return x < 0 ? -x : x; }

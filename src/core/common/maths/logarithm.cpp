@@ -7,8 +7,6 @@
 namespace zlg::core::maths {
 namespace {
 
-constexpr double not_a_number = __builtin_nan("");
-
 // Where there is no usual path: x is zero, negative, infinite or NaN.
 double special_log(double x) noexcept {
     if (x == 0.0) return -infinity;

@@ -11,8 +11,6 @@
 namespace zlg::core::maths {
 namespace {
 
-constexpr double not_a_number = __builtin_nan("");
-
 // ln x of a positive finite x: k ln 2 + 2 s + s z (2/3 + z P(z)), s = (m - 1)/(m + 1), z = s^2, where only z P(z), 0.02 of
 // what it is added to, is computed in single doubles. polynomial error 2^-54 of it
 Sum precise_log(double x) noexcept {

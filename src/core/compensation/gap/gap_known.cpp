@@ -10,9 +10,6 @@
 namespace zlg::core {
 namespace {
 
-// Variances beyond which a rate does not belong to the learnt motion, or a sum to the bridge: three standard deviations.
-constexpr double outlier_sq = 9.0;
-
 // A stretch of known sum, and its rows that are not delivered yet: `n` of them, from `first` on.
 struct Stretch {
     std::int64_t first = 0, last = 0;

@@ -28,6 +28,9 @@
 
 namespace zlg::core {
 
+// Variances beyond which a rate, a sum or the points around a gap do not belong to the learnt motion: three standard deviations.
+inline constexpr double outlier_sq = 9.0;
+
 // The tick that was added last ends a stretch of its gap with a known sum.
 //
 // rounding_arcsec2  of a tick, by both of its readings. A rough sum counts as known only once it is used.

@@ -17,9 +17,6 @@ using FewColumn = ColumnOf<few_unknowns>;
 
 constexpr int points_a_side_of_known = 3;
 
-// Variances beyond which the sum, or the points, do not belong to the learnt motion: three standard deviations.
-constexpr double outlier_sq = 9.0;
-
 struct Problem {
     int n_gap = 0, n_side = 0;
     int n = 0;  // points, the sum among them

@@ -8,6 +8,7 @@ namespace zlg::core {
 [[nodiscard]] constexpr bool is_finite(double x) noexcept { return __builtin_isfinite(x); }
 
 inline constexpr double infinity = __builtin_huge_val();
+inline constexpr double not_a_number = __builtin_nan("");
 
 // Correctly rounded on every machine with IEEE arithmetic.
 [[nodiscard]] inline double square_root(double x) noexcept { return __builtin_sqrt(x); }
