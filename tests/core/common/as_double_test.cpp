@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace as_double_test {
 
 using namespace zlg::core;
 
@@ -12,4 +12,4 @@ TEST(AsDouble, IsRoundedOnceLikeTheConversion) {
         EXPECT_EQ(as_double(x), static_cast<double>(x)) << x;
 }
 
-}  // namespace
+}  // namespace as_double_test

@@ -10,7 +10,7 @@
 #include <zlg/core/control/sync_detector.hpp>
 
 namespace zlg::core {
-namespace {
+namespace discriminator_curve_test {
 
 static_assert(check(DiscriminatorCurve{}) == CurveFault::none);
 
@@ -297,5 +297,5 @@ TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
     EXPECT_NEAR(variance() / linear, 1.0 / 16.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace discriminator_curve_test
 }  // namespace zlg::core

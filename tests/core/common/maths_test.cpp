@@ -11,7 +11,7 @@
 
 // Errors of ordinary arguments are held in maths_accuracy.cpp.
 
-namespace {
+namespace maths_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -219,4 +219,4 @@ TEST(TurnsOf, IsBelowOneTurn) {
     }
 }
 
-}  // namespace
+}  // namespace maths_test

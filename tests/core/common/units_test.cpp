@@ -5,7 +5,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace {
+namespace units_test {
 
 using namespace zlg::core;
 
@@ -75,4 +75,4 @@ TEST(Units, NothingIsOrderedWithNotANumber) {
     EXPECT_FALSE(nan >= Volts{0.0});
 }
 
-}  // namespace
+}  // namespace units_test

@@ -10,7 +10,7 @@
 
 #include "compensation_support.hpp"
 
-namespace {
+namespace angle_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -150,4 +150,4 @@ TEST(Angle, WildCountsWrapAndComeBack) {
     EXPECT_EQ(angle, Angle{});
 }
 
-}  // namespace
+}  // namespace angle_test

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace zlg::core {
-namespace {
+namespace border_test {
 
 HalfRecord ended_at(float fringe) {
     HalfRecord half;
@@ -65,5 +65,5 @@ TEST(Border, NeighboursShareNoMoreThanEitherHas) {
     EXPECT_EQ(shared_rounding(1.5, 2.0, infinity), 1.5);
 }
 
-}  // namespace
+}  // namespace border_test
 }  // namespace zlg::core

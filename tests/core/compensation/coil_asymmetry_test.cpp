@@ -9,7 +9,7 @@
 
 #include "compensation_support.hpp"
 
-namespace {
+namespace coil_asymmetry_test {
 
 using namespace zlg::core;
 using compensation_test::Random;
@@ -311,4 +311,4 @@ TEST(CoilAsymmetry, WhatIsKnownStaysForTwoSecondsWithoutReadings) {
     EXPECT_EQ(step(coil.state, unread, unread, {}).variance, 0.0);
 }
 
-}  // namespace
+}  // namespace coil_asymmetry_test

@@ -8,7 +8,7 @@
 
 #include "compensation_support.hpp"
 
-namespace {
+namespace compensation_constants_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -88,4 +88,4 @@ TEST(CompensationConstants, VariancesOfATick) {
     EXPECT_EQ(walk_arcsec2(gyro), 1.0);
 }
 
-}  // namespace
+}  // namespace compensation_constants_test

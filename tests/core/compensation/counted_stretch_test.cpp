@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace zlg::core {
-namespace {
+namespace counted_stretch_test {
 
 constexpr CompensationConstants config{};
 
@@ -112,5 +112,5 @@ TEST(CountedStretch, ShiftedEdgesTakeTheirArea) {
     EXPECT_NEAR(out.angle_arcsec, 3.263 * (100 - 2 * 0.15), 1e-9);
 }
 
-}  // namespace
+}  // namespace counted_stretch_test
 }  // namespace zlg::core

@@ -9,7 +9,7 @@
 
 #include "compensation_support.hpp"
 
-namespace {
+namespace edge_shift_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -192,4 +192,4 @@ TEST(EdgeShift, NothingThatComesOutIsNotANumber) {
     }
 }
 
-}  // namespace
+}  // namespace edge_shift_test

@@ -11,7 +11,7 @@
 #include <zlg/core/compensation/magnetic_drift.hpp>
 
 namespace zlg::core {
-namespace {
+namespace field_step_test {
 
 constexpr double tick_s = 0.005;
 constexpr double count_arcsec = 3.263;
@@ -221,5 +221,5 @@ TEST(FieldStep, EveryTickIsInOneBlock) {
     EXPECT_LT(blocks.n, field_blocks);
 }
 
-}  // namespace
+}  // namespace field_step_test
 }  // namespace zlg::core

@@ -9,7 +9,7 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace {
+namespace gyro_compensation_coil_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -65,4 +65,4 @@ TEST(GyroCompensation, AnUnevenCurrentThatIsNotReadIsARotation) {
     EXPECT_NEAR(got.rows[n_ticks - 1].dtheta_final_arcsec, 6 * 3.263, 1e-12);
 }
 
-}  // namespace
+}  // namespace gyro_compensation_coil_test

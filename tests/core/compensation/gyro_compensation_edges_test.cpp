@@ -12,7 +12,7 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace {
+namespace gyro_compensation_edges_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -160,4 +160,4 @@ TEST(GyroCompensationEdges, ChecksTheTimer) {
     EXPECT_EQ(check(config), GyroCompensationFault::edges);
 }
 
-}  // namespace
+}  // namespace gyro_compensation_edges_test

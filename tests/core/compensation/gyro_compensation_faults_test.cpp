@@ -10,7 +10,7 @@
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core {
-namespace {
+namespace gyro_compensation_faults_test {
 
 using namespace gyro_compensation_support;
 
@@ -198,5 +198,5 @@ TEST(Uncorrected, AMissedHalfMovesNoPerimeter) {
     for (const AngleRow& row : run(config, halves).rows) EXPECT_EQ(row.flags & flag_relock_uncorrected, 0u) << row.tick;
 }
 
-}  // namespace
+}  // namespace gyro_compensation_faults_test
 }  // namespace zlg::core

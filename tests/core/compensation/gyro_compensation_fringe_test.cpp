@@ -11,7 +11,7 @@
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core {
-namespace {
+namespace gyro_compensation_fringe_test {
 
 using namespace gyro_compensation_support;
 using compensation_test::Random;
@@ -182,5 +182,5 @@ TEST(GyroCompensationFringe, AGapOfASteadyRateIsKnownToThePhase) {
     }
 }
 
-}  // namespace
+}  // namespace gyro_compensation_fringe_test
 }  // namespace zlg::core

@@ -10,7 +10,7 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace {
+namespace gyro_compensation_law_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -286,4 +286,4 @@ TEST(GyroCompensationLaw, OneImpossibleDetuningDoesNotSpoilTheRest) {
     }
 }
 
-}  // namespace
+}  // namespace gyro_compensation_law_test

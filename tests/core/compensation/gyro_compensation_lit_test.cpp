@@ -10,7 +10,7 @@
 
 #include "gyro_compensation_support.hpp"
 
-namespace {
+namespace gyro_compensation_lit_test {
 
 using namespace zlg::core;
 using namespace gyro_compensation_support;
@@ -214,4 +214,4 @@ TEST(GyroCompensationLit, NonsenseThatIsCalledLitIsRefused) {
     }
 }
 
-}  // namespace
+}  // namespace gyro_compensation_lit_test

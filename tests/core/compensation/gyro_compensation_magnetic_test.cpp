@@ -9,7 +9,7 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace {
+namespace gyro_compensation_magnetic_test {
 
 using namespace zlg::core;
 using namespace gyro_compensation_support;
@@ -97,4 +97,4 @@ TEST(GyroCompensationMagnetic, ARefusedEstimatorIsAFault) {
     EXPECT_EQ(check(config), GyroCompensationFault::magnetic);
 }
 
-}  // namespace
+}  // namespace gyro_compensation_magnetic_test

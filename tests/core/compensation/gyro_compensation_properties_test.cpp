@@ -14,7 +14,7 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace {
+namespace gyro_compensation_properties_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -328,4 +328,4 @@ RC_GTEST_PROP(GyroCompensationProperty, NothingThatComesOutIsNotANumberWhateverG
     for (const GapReport& gap : got.gaps) RC_ASSERT(std::isfinite(gap.dp_arcsec) && gap.sigma_sum_arcsec >= 0.0);
 }
 
-}  // namespace
+}  // namespace gyro_compensation_properties_test

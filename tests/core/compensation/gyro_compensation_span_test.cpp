@@ -10,7 +10,7 @@
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core {
-namespace {
+namespace gyro_compensation_span_test {
 
 using namespace gyro_compensation_support;
 using compensation_test::Random;
@@ -317,5 +317,5 @@ TEST(GyroCompensationSpan, WithoutABridgeTheCountsAreTheAngle) {
     EXPECT_NEAR(s.final, count_sum(halves), 1e-6);
 }
 
-}  // namespace
+}  // namespace gyro_compensation_span_test
 }  // namespace zlg::core

@@ -9,7 +9,7 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace {
+namespace gyro_compensation_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -274,4 +274,4 @@ TEST(GyroCompensation, CheckPassesOnWhatItsPartsRefuse) {
     EXPECT_EQ(check(config), GyroCompensationFault::none);
 }
 
-}  // namespace
+}  // namespace gyro_compensation_test

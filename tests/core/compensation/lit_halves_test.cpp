@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace {
+namespace lit_halves_test {
 
 using namespace zlg::core;
 
@@ -161,4 +161,4 @@ TEST(LitHalves, TheSecondDifferenceOfAWhiteMotionHasSixTimesItsVariance) {
     EXPECT_NEAR(second_difference_arcsec2(MotionCovariance{gyro, config, none, fast_memory}), 30.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace lit_halves_test

@@ -12,7 +12,7 @@
 
 #include "compensation_support.hpp"
 
-namespace {
+namespace lock_in_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -174,4 +174,4 @@ TEST(LostToLockIn, AThresholdThatIsNoneIsRefused) {
     }
 }
 
-}  // namespace
+}  // namespace lock_in_test

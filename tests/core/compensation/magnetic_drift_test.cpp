@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,8 @@
 #include <zlg/core/compensation/magnetic_drift.hpp>
 
 namespace zlg::core {
-namespace {
+namespace magnetic_drift_test {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double tick_s = 0.05;  // long ticks: fewer of them
 
 MagneticDriftConfig config_of(MagneticMethod method = MagneticMethod::estimate) { return {.method = method}; }
@@ -31,7 +31,7 @@ constexpr CompensationConstants constants{
 TEST(MagneticDrift, WhatIsNoNumberIsRefused) {
     EXPECT_EQ(check(config_of()), MagneticDriftFault::none);
     MagneticDriftConfig c = config_of();
-    c.presumed_sigma_arcsec_s = nan_value;
+    c.presumed_sigma_arcsec_s = not_a_number;
     EXPECT_EQ(check(c), MagneticDriftFault::presumed);
     c.method = MagneticMethod::none;
     EXPECT_EQ(check(c), MagneticDriftFault::presumed);
@@ -273,7 +273,8 @@ TEST(MagneticDrift, ItsSigmaIsTrue) {
 
 TEST(MagneticDrift, NothingThatIsReadMakesTheStateNotFinite) {
     std::mt19937_64 random{5};
-    const double values[] = {0.0, nan_value, std::numeric_limits<double>::infinity(), -1e300, 1e6, -4e5, 3.0, 1e-300};
+    const double values[] = {0.0, not_a_number, std::numeric_limits<double>::infinity(), -1e300, 1e6, -4e5,
+                             3.0, 1e-300};
     MagneticDriftState s;
     for (int k = 0; k < 400000; ++k) {
         const auto kind = random();
@@ -292,5 +293,5 @@ TEST(MagneticDrift, NothingThatIsReadMakesTheStateNotFinite) {
     }
 }
 
-}  // namespace
+}  // namespace magnetic_drift_test
 }  // namespace zlg::core

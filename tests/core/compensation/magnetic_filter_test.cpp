@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace {
+namespace magnetic_filter_test {
 
 using namespace zlg::core;
 
@@ -52,4 +52,4 @@ TEST(MagneticFilter, TheFirstSegmentShowsTheBaseAndTheNextOnesTheDrift) {
     EXPECT_NEAR(state.estimate[of_base], base, 0.05);
 }
 
-}  // namespace
+}  // namespace magnetic_filter_test

@@ -7,7 +7,7 @@
 
 #include <zlg/core/compensation/segment_rate.hpp>
 
-namespace {
+namespace motion_in_step_test {
 
 using namespace zlg::core;
 
@@ -104,4 +104,4 @@ TEST(MotionInStep, SwitchesThatWanderLeaveLessUnseen) {
     EXPECT_GE(least, 16.0 / 63.0 * 0.5);
 }
 
-}  // namespace
+}  // namespace motion_in_step_test

@@ -9,7 +9,7 @@
 #include <zlg/core/compensation/segment_rate.hpp>
 
 namespace zlg::core {
-namespace {
+namespace segment_rate_test {
 
 constexpr double tick_s = 0.005;
 
@@ -99,5 +99,5 @@ TEST(SegmentRate, AnEmptySegmentKnowsNothing) {
     EXPECT_EQ(mean_rate_variance({}, tick_s, 0.14, 3.0), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
+}  // namespace segment_rate_test
 }  // namespace zlg::core

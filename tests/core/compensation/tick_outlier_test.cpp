@@ -6,7 +6,7 @@
 #include <zlg/core/compensation/tick_outlier.hpp>
 
 namespace zlg::core {
-namespace {
+namespace tick_outlier_test {
 
 constexpr double rounding = 1.0 / 6.0;  // variance of a tick, counts^2
 
@@ -90,5 +90,5 @@ TEST(TickOutlier, WhatIsNotLearntLeavesTheState) {
     EXPECT_EQ(state, TickOutlierState{});
 }
 
-}  // namespace
+}  // namespace tick_outlier_test
 }  // namespace zlg::core

@@ -4,7 +4,7 @@
 #include <zlg/core/control/bias_commutator.hpp>
 
 namespace zlg::core {
-namespace {
+namespace bias_commutator_test {
 
 constexpr BiasCommutatorConfig config{.half_ticks = 25000, .tolerance_ticks = 2};
 static_assert(check(config) == BiasCommutatorFault::none);
@@ -179,5 +179,5 @@ TEST(BiasCommutator, AStampThatIsFarOffIsALatchAtAnotherTime) {
     }
 }
 
-}  // namespace
+}  // namespace bias_commutator_test
 }  // namespace zlg::core

@@ -6,7 +6,7 @@
 #include <zlg/core/control/bias_monitor.hpp>
 
 namespace zlg::core {
-namespace {
+namespace bias_monitor_test {
 
 constexpr BiasMonitorConfig config{.presumed_counts = 150.0};
 static_assert(check(config) == BiasMonitorFault::none);
@@ -201,5 +201,5 @@ TEST(BiasMonitor, HalvesThatWereNotCountedBreakTheRow) {
     EXPECT_FALSE(step(config, counter.state, {.counted = true, .counts = most}).judged);
 }
 
-}  // namespace
+}  // namespace bias_monitor_test
 }  // namespace zlg::core

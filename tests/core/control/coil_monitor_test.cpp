@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <cmath>
 #include <limits>
@@ -6,12 +7,11 @@
 #include <zlg/core/control/coil_monitor.hpp>
 
 namespace zlg::core {
-namespace {
+namespace coil_monitor_test {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr CoilMonitorConfig config{.tolerance_ratio = 0.0033};
 static_assert(check(config) == CoilMonitorFault::none);
-static_assert(check(CoilMonitorConfig{.tolerance_ratio = nan_value}) == CoilMonitorFault::tolerance);
+static_assert(check(CoilMonitorConfig{.tolerance_ratio = not_a_number}) == CoilMonitorFault::tolerance);
 static_assert(check(CoilMonitorConfig{.tolerance_ratio = 1.1}) == CoilMonitorFault::tolerance);
 
 // 1 A with the noise of a converter, by default 0.1 %.
@@ -56,7 +56,7 @@ TEST(CoilMonitor, AnOrdinaryCurrentIsNeverOff) {
 TEST(CoilMonitor, ACurrentThatIsNotMeasuredSaysNothing) {
     CoilMonitorState s;
     for (int k = 0; k < 1000; ++k) {
-        const CoilMonitorOutput out = step(config, s, k % 2 == 0 ? 1 : -1, k % 3 == 0 ? nan_value : 0.0);
+        const CoilMonitorOutput out = step(config, s, k % 2 == 0 ? 1 : -1, k % 3 == 0 ? not_a_number : 0.0);
         ASSERT_FALSE(out.off || out.unbalanced);
     }
     Coil coil;
@@ -176,12 +176,12 @@ TEST(CoilMonitor, ACurrentThatWasReadTooHighIsTheOldOneAgain) {
 TEST(CoilMonitor, NoNumberThatCanArriveIsKept) {
     Coil coil;
     for (int k = 0; k < 2000; ++k) {
-        (void)step(config, coil.state, 1, k % 7 == 0 ? 1e308 : nan_value);
+        (void)step(config, coil.state, 1, k % 7 == 0 ? 1e308 : not_a_number);
         (void)step(config, coil.state, -1, -std::numeric_limits<double>::infinity());
         (void)coil.half();
     }
     EXPECT_TRUE(std::isfinite(coil.state.spread) && std::isfinite(coil.state.odd) && std::isfinite(coil.state.even));
 }
 
-}  // namespace
+}  // namespace coil_monitor_test
 }  // namespace zlg::core

@@ -7,7 +7,7 @@
 #include <zlg/core/control/counter_monitor.hpp>
 
 namespace zlg::core {
-namespace {
+namespace counter_monitor_test {
 
 constexpr CounterMonitorConfig config{.watches = true};
 constexpr double pi = 3.14159265358979;
@@ -203,5 +203,5 @@ TEST(CounterMonitor, ACounterThatWrapsIsFollowed) {
     }
 }
 
-}  // namespace
+}  // namespace counter_monitor_test
 }  // namespace zlg::core

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace zlg::core {
-namespace {
+namespace edge_dither_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const EdgeDitherConfig config;
@@ -264,5 +264,5 @@ TEST(EdgeDither, NoMethodMovesNoEdge) {
     EXPECT_EQ(s, EdgeDitherState{});
 }
 
-}  // namespace
+}  // namespace edge_dither_test
 }  // namespace zlg::core

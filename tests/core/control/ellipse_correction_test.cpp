@@ -6,7 +6,7 @@
 #include <zlg/core/control/ellipse_correction.hpp>
 
 namespace zlg::core {
-namespace {
+namespace ellipse_correction_test {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 
@@ -102,5 +102,5 @@ TEST(EllipseCorrection, WhatWasLearntIsForgotten) {
     EXPECT_EQ(state, EllipseCorrectionState{});
 }
 
-}  // namespace
+}  // namespace ellipse_correction_test
 }  // namespace zlg::core

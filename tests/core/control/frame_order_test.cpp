@@ -4,7 +4,7 @@
 #include <zlg/core/control/frame_order.hpp>
 
 namespace zlg::core {
-namespace {
+namespace frame_order_test {
 
 // Frames of halves 0, 1, 2, ... up to here, in order.
 FrameOrderState after(std::uint32_t n, std::uint32_t first = 0) {
@@ -101,5 +101,5 @@ TEST(FrameOrder, OneDamagedNumberDoesNotLeadAway) {
     EXPECT_TRUE(step(s, true, 11).follows);
 }
 
-}  // namespace
+}  // namespace frame_order_test
 }  // namespace zlg::core

@@ -8,7 +8,7 @@
 #include <zlg/core/control/fringe_readout.hpp>
 
 namespace zlg::core {
-namespace {
+namespace fringe_readout_test {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 constexpr FringeReadoutConfig config{.reads = true, .limit = 1.9};
@@ -262,5 +262,5 @@ TEST(FringeReadout, ARotationThatTurnsTheBeatBackIsNoSkew) {
     }
 }
 
-}  // namespace
+}  // namespace fringe_readout_test
 }  // namespace zlg::core

@@ -9,7 +9,7 @@
 #include <zlg/core/gyro_control.hpp>
 
 namespace zlg::core {
-namespace {
+namespace gyro_control_faults_test {
 
 using test::SmallPlant;
 
@@ -355,5 +355,5 @@ TEST_P(Faults, MoreCountsThanAnyRateAreNotValid) {
     EXPECT_EQ(gyro.invalid(), 0);
 }
 
-}  // namespace
+}  // namespace gyro_control_faults_test
 }  // namespace zlg::core

@@ -15,7 +15,7 @@ TEST_P(EitherLoop, AMissedFrameCostsOneHalfAndNoCounts) {
     const HalfRecord missed = loop.half([](SensorFrame& f) {
                                       f = SensorFrame{};
                                       f.status = frame_missed;
-                                      f.piezo_v = nan_value;
+                                      f.piezo_v = not_a_number;
                                       f.bias_sign = 0;
                                   })
                                   .record;
@@ -59,7 +59,7 @@ TEST_P(EitherLoop, RecordsTheCurrentOfTheCoilInMicroamperesWhereItIsAsked) {
     EXPECT_EQ(recorded(false, 1.0), 0);
     EXPECT_EQ(recorded(true, 1.0009765625), 1'000'977);  // a code of a converter of 12 bits
     EXPECT_EQ(recorded(true, -0.9990234375), -999'023);
-    for (const double unread : {0.0, nan_value, 1.0 / 0.0, 2001.0, -1e300}) EXPECT_EQ(recorded(true, unread), 0);
+    for (const double unread : {0.0, not_a_number, 1.0 / 0.0, 2001.0, -1e300}) EXPECT_EQ(recorded(true, unread), 0);
 }
 
 TEST_P(EitherLoop, FlagsNameWhatIsWrongWithAFrame) {
@@ -79,7 +79,7 @@ TEST_P(EitherLoop, FlagsNameWhatIsWrongWithAFrame) {
     EXPECT_EQ(bits([](SensorFrame& f) { f.n_light = 255; }), (Seen{health_light_unusable, false}));
     EXPECT_EQ(bits([](SensorFrame& f) { f.light_b[3] = std::nanf(""); }), (Seen{health_light_unusable, false}));
     EXPECT_EQ(bits([](SensorFrame& f) { f.light_b.fill(0.0f); }), (Seen{health_light_lost, false}));
-    EXPECT_EQ(bits([](SensorFrame& f) { f.piezo_v = nan_value; }), (Seen{health_piezo_not_finite, true}));
+    EXPECT_EQ(bits([](SensorFrame& f) { f.piezo_v = not_a_number; }), (Seen{health_piezo_not_finite, true}));
     EXPECT_EQ(bits([](SensorFrame& f) { f.piezo_v = 299.0; }), (Seen{health_piezo_near_range_end, true}));
     EXPECT_EQ(bits([](SensorFrame& f) { f.temperature_c = -1.0 / 0.0; }), (Seen{health_temperature_not_finite, true}));
     EXPECT_EQ(bits([](SensorFrame& f) { f.counter += 1u << 20; }), (Seen{health_counter_jump, false}));
@@ -99,7 +99,7 @@ TEST_P(EitherLoop, SpoiltFramesInAndAroundASwitchDoNotMoveTheGrid) {
     const auto missed = [](SensorFrame& f) { f.status = frame_missed; };
     const auto not_finite = [](SensorFrame& f) {
         f.light_a.fill(std::nanf(""));
-        f.piezo_v = f.temperature_c = nan_value;
+        f.piezo_v = f.temperature_c = not_a_number;
     };
     for (const bool all_missed : {true, false}) {
         Loop loop{config_of(GetParam())};

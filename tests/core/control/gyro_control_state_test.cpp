@@ -1,13 +1,10 @@
 #include <zlg/core/control/gyro_control_state.hpp>
 
 #include <gtest/gtest.h>
-
-#include <limits>
+#include <zlg/core/common/maths.hpp>
 
 namespace zlg::core {
-namespace {
-
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+namespace gyro_control_state_test {
 
 constexpr GyroControlConfig config_with(auto change) {
     GyroControlConfig c;
@@ -18,14 +15,14 @@ constexpr GyroControlConfig config_with(auto change) {
 static_assert(check(GyroControlConfig{}) == GyroControlFault::none);
 static_assert(check(config_with([](auto& c) { c.loop.kind = LoopKind::digital; })) == GyroControlFault::none);
 constexpr GyroControlFault fault(auto change) { return check(config_with(change)); }
-static_assert(fault([](auto& c) { c.detector.dark_fraction = nan_value; }) == GyroControlFault::detector);
-static_assert(fault([](auto& c) { c.loop.slew_v_s = nan_value; }) == GyroControlFault::loop);
+static_assert(fault([](auto& c) { c.detector.dark_fraction = not_a_number; }) == GyroControlFault::detector);
+static_assert(fault([](auto& c) { c.loop.slew_v_s = not_a_number; }) == GyroControlFault::loop);
 static_assert(fault([](auto& c) { c.half_wave.gate = 0.0; }) == GyroControlFault::half_wave);
 static_assert(fault([](auto& c) { c.schedule.interval_ticks = 0; }) == GyroControlFault::schedule);
 static_assert(fault([](auto& c) { c.mode_switch.gap_ticks = 0; }) == GyroControlFault::mode_switch);
 static_assert(fault([](auto& c) { c.commutator.half_ticks = 0; }) == GyroControlFault::commutator);
 static_assert(fault([](auto& c) { c.health.counts_limit = -1; }) == GyroControlFault::health);
-static_assert(fault([](auto& c) { c.presumed_temperature = Celsius{nan_value}; }) == GyroControlFault::temperature);
+static_assert(fault([](auto& c) { c.presumed_temperature = Celsius{not_a_number}; }) == GyroControlFault::temperature);
 static_assert(fault([](auto& c) { c.loop.range.max = Volts{290.0}; }) == GyroControlFault::ranges_differ);
 
 TEST(GyroControlState, AnImpossibleDitherIsRefused) {
@@ -49,5 +46,5 @@ TEST(GyroControlState, StartsAtTheSetPointTheCounterAndTheTemperatureThatArePres
     EXPECT_EQ(state.up.move_v, -state.down.move_v);
 }
 
-}  // namespace
+}  // namespace gyro_control_state_test
 }  // namespace zlg::core

@@ -7,14 +7,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/gyro_control.hpp>
 
 namespace zlg::core::test {
-
-inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 constexpr GyroControlConfig config_with(auto change) {
     GyroControlConfig c;

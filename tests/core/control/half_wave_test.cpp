@@ -6,7 +6,7 @@
 #include <zlg/core/control/half_wave.hpp>
 
 namespace zlg::core {
-namespace {
+namespace half_wave_test {
 
 constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
 constexpr HalfWaveConfig config{};
@@ -124,5 +124,5 @@ TEST(HalfWave, WhenNeitherNeighbourKeepsTheMarginTheRoomierIsTakenAndSaid) {
     EXPECT_FALSE(choose_direction(narrow, Volts{35.0}, Volts{40.0}).out_of_range);  // lands on the margin itself
 }
 
-}  // namespace
+}  // namespace half_wave_test
 }  // namespace zlg::core

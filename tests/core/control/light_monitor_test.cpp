@@ -6,15 +6,15 @@
 #include <random>
 #include <vector>
 #include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/control/light_monitor.hpp>
 
 namespace zlg::core {
-namespace {
+namespace light_monitor_test {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr LightMonitorConfig config{.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
 static_assert(check(config) == LightMonitorFault::none);
-static_assert(check(LightMonitorConfig{.noise = Wavelengths{nan_value}}) == LightMonitorFault::noise);
+static_assert(check(LightMonitorConfig{.noise = Wavelengths{not_a_number}}) == LightMonitorFault::noise);
 static_assert(check(LightMonitorConfig{.bias_chi = -1.0}) == LightMonitorFault::bias_chi);
 static_assert(check(LightMonitorConfig{.max_gain = 0.5}) == LightMonitorFault::max_gain);
 
@@ -386,5 +386,5 @@ TEST(LightMonitor, AFastWayToALockIsNoNoiseHoweverQuietTheLight) {
     }
 }
 
-}  // namespace
+}  // namespace light_monitor_test
 }  // namespace zlg::core

@@ -1,5 +1,6 @@
 // The counters and borders of the sequencer, each at the half where it decides.
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -8,9 +9,7 @@
 #include <zlg/core/control/mode_switch.hpp>
 
 namespace zlg::core {
-namespace {
-
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+namespace mode_switch_edges_test {
 
 // What one half shows. Light is in both directions unless it is dark or missed.
 struct Half {
@@ -23,8 +22,8 @@ struct Half {
 
 constexpr Half locked{};
 constexpr Half dark{.dark = true};
-constexpr Half missed{.piezo_v = nan_value, .missed = true};
-constexpr Half unread{.piezo_v = nan_value};  // locked, but the voltage was not read
+constexpr Half missed{.piezo_v = not_a_number, .missed = true};
+constexpr Half unread{.piezo_v = not_a_number};  // locked, but the voltage was not read
 constexpr Half detuned{.detuning_lambda = 1.0};
 
 // Ticks of 2 halves: a gap of 3, a lock of 4, a timeout of 12, darkness of 2.
@@ -171,7 +170,7 @@ TEST(ModeSwitchEdges, DarknessOfTheGapDoesNotCount) {
 }
 
 TEST(ModeSwitchEdges, ADetuningThatWasNotMeasuredIsNoLock) {
-    for (const Half& half : {Half{.usable = false}, Half{.detuning_lambda = nan_value},
+    for (const Half& half : {Half{.usable = false}, Half{.detuning_lambda = not_a_number},
                              Half{.detuning_lambda = std::numeric_limits<double>::infinity()}}) {
         Sequence s;
         s.feed(20, half);
@@ -324,5 +323,5 @@ TEST(ModeSwitchEdges, AWideModeHasOnePlaceAndANarrowOneAThousand) {
     EXPECT_DOUBLE_EQ(places(1e-9, 3)[2].set_point_v, 100.0 + 300.0 * 1.5 / 1000.0);
 }
 
-}  // namespace
+}  // namespace mode_switch_edges_test
 }  // namespace zlg::core

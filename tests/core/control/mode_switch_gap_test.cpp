@@ -6,7 +6,7 @@
 #include <zlg/core/control/mode_switch.hpp>
 
 namespace zlg::core {
-namespace {
+namespace mode_switch_gap_test {
 
 constexpr ModeSwitchConfig shortest(std::int32_t gap_min_ticks) {
     return {
@@ -86,5 +86,5 @@ TEST(ModeSwitchGap, JudgesWhereTheDetuningLeadsNotWhereItWas) {
     EXPECT_EQ(gap_halves(shortest(1), in), 6);
 }
 
-}  // namespace
+}  // namespace mode_switch_gap_test
 }  // namespace zlg::core

@@ -7,7 +7,7 @@
 #include <utility>
 
 namespace zlg::core::test {
-namespace {
+namespace mode_switch_phases_test {
 
 TEST(ModeSwitchTracking, DueOpensOnATickBorderOnly) {
     Sequence q;
@@ -236,5 +236,5 @@ TEST(ModeSwitchSearching, ASecondSearchBeginsAnew) {
     EXPECT_EQ(q.state.set_point_v, first_v);
 }
 
-}  // namespace
+}  // namespace mode_switch_phases_test
 }  // namespace zlg::core::test

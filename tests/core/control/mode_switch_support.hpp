@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <limits>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/control/mode_switch.hpp>
 
 namespace zlg::core::test {
 
-inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 inline constexpr ModeSwitchConfig config{.gap_ticks = 3, .settle_ticks = 4, .lock_timeout_ticks = 12, .dark_ticks = 2};
 
 enum class Seen { locked, detuned, dark, missed };
@@ -25,7 +24,7 @@ public:
         in.two_way = seen == Seen::locked || seen == Seen::detuned;
         in.usable = in.two_way;
         in.detuning = Wavelengths{seen == Seen::locked ? 0.001 : 0.2};
-        in.piezo = Volts{seen == Seen::missed ? nan_value : piezo_v};
+        in.piezo = Volts{seen == Seen::missed ? not_a_number : piezo_v};
         in.set_point = Volts{set_point_v};
         in.half_wave = Volts{40.0};
         ++half_;

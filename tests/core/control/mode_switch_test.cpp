@@ -2,21 +2,22 @@
 #include "mode_switch_support.hpp"
 
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <cmath>
 
 namespace zlg::core::test {
-namespace {
+namespace mode_switch_test {
 
 static_assert(check(config) == ModeSwitchFault::none);
 static_assert(check(ModeSwitchConfig{}) == ModeSwitchFault::none);
 static_assert(check(ModeSwitchConfig{.gap_ticks = 0}) == ModeSwitchFault::ticks);
 static_assert(check(ModeSwitchConfig{.dark_ticks = 1 << 25}) == ModeSwitchFault::ticks);
 static_assert(check(ModeSwitchConfig{.settle_ticks = 60}) == ModeSwitchFault::lock_timeout);
-static_assert(check(ModeSwitchConfig{.lock_tolerance = Wavelengths{nan_value}}) == ModeSwitchFault::tolerance);
+static_assert(check(ModeSwitchConfig{.lock_tolerance = Wavelengths{not_a_number}}) == ModeSwitchFault::tolerance);
 static_assert(check(ModeSwitchConfig{.start_set_point = Volts{301.0}}) == ModeSwitchFault::start);
 static_assert(check(ModeSwitchConfig{.start_polarity = 0}) == ModeSwitchFault::start);
-static_assert(check(ModeSwitchConfig{.range = {.max = Volts{nan_value}}}) == ModeSwitchFault::range);
+static_assert(check(ModeSwitchConfig{.range = {.max = Volts{not_a_number}}}) == ModeSwitchFault::range);
 
 TEST(ModeSwitch, StartsClosedAtTheStartPointAndTracksAfterTheFirstLock) {
     Sequence q;
@@ -70,7 +71,7 @@ TEST(ModeSwitch, UPlusIsTheMeanOfTheLastReadingsInLock) {
 
 TEST(ModeSwitch, WithoutReadingsTheCommandStandsInAndNothingIsMeasured) {
     Sequence q;
-    q.piezo_v = nan_value;
+    q.piezo_v = not_a_number;
     q.set_point_v = 130.0;
     q.to_open();
     EXPECT_EQ(q.state.set_point_v, 170.0);
@@ -97,7 +98,7 @@ TEST(ModeSwitch, StaleReadingsAreGoodEnoughToSteerNotToMeasure) {
 TEST(ModeSwitch, ReadingsFromBeforeTheSwitchAreNotOnesFromAfterIt) {
     Sequence q;
     q.to_settling();
-    q.piezo_v = nan_value;
+    q.piezo_v = not_a_number;
     q.halves(8, Seen::locked);
     EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
     EXPECT_FALSE(q.event.has_half_wave);
@@ -109,7 +110,7 @@ TEST(ModeSwitch, AStaleReadingAfterTheSwitchMeasuresNothing) {
     q.piezo_v = 120.0;
     (void)q.half(Seen::locked);
     q.halves(10, Seen::missed);
-    q.piezo_v = nan_value;
+    q.piezo_v = not_a_number;
     q.halves(7, Seen::locked);
     EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
     EXPECT_FALSE(q.event.has_half_wave);
@@ -157,5 +158,5 @@ TEST(ModeSwitch, OutOfRangeIsSaidAndTheSetPointStaysInside) {
     EXPECT_TRUE(s.out_of_range);
 }
 
-}  // namespace
+}  // namespace mode_switch_test
 }  // namespace zlg::core::test

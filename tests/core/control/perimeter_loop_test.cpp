@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <cmath>
-#include <limits>
 #include <zlg/core/control/perimeter_loop.hpp>
 
 namespace zlg::core {
-namespace {
+namespace perimeter_loop_test {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr PerimeterLoopConfig digital{.kind = LoopKind::digital};
 constexpr PerimeterLoopConfig analog{.kind = LoopKind::analog};
 
@@ -18,10 +17,10 @@ constexpr PerimeterLoopFault fault(auto change) {
     return check(c);
 }
 static_assert(fault([](auto& c) { c.range.max = Volts{-1.0}; }) == PerimeterLoopFault::range);
-static_assert(fault([](auto& c) { c.half_wave = Volts{nan_value}; }) == PerimeterLoopFault::half_wave);
+static_assert(fault([](auto& c) { c.half_wave = Volts{not_a_number}; }) == PerimeterLoopFault::half_wave);
 static_assert(fault([](auto& c) { c.half_period = Seconds{0.0}; }) == PerimeterLoopFault::half_period);
 static_assert(fault([](auto& c) { c.time_constant = Seconds{0.002}; }) == PerimeterLoopFault::time_constant);
-static_assert(fault([](auto& c) { c.error_limit = Wavelengths{nan_value}; }) == PerimeterLoopFault::error_limit);
+static_assert(fault([](auto& c) { c.error_limit = Wavelengths{not_a_number}; }) == PerimeterLoopFault::error_limit);
 static_assert(fault([](auto& c) { c.slew_v_s = 0.0; }) == PerimeterLoopFault::slew);
 static_assert(fault([](auto& c) { c.watch_limit = Wavelengths{0.0}; }) == PerimeterLoopFault::watch_limit);
 
@@ -79,7 +78,7 @@ TEST(PerimeterLoop, TheEndsHoldSayItAndLetGoAtOnce) {
 TEST(PerimeterLoop, WhatWasNotMeasuredHolds) {
     PerimeterLoopState s = at(digital, 150.0);
     const PerimeterLoopState before = s;
-    (void)step(digital, s, measured(nan_value));
+    (void)step(digital, s, measured(not_a_number));
     (void)step(digital, s, measured(1.0 / 0.0));
     PerimeterLoopInput unusable = measured(0.05);
     unusable.usable = false;
@@ -97,7 +96,7 @@ TEST(PerimeterLoop, TheSecondInputRulesWhileOpenAndPresetsTheLoop) {
         in.close = false;
         in.second_input = Volts{190.0};
         EXPECT_EQ(step(c, s, in).set_point, Volts{190.0});
-        in.second_input = Volts{nan_value};
+        in.second_input = Volts{not_a_number};
         EXPECT_EQ(step(c, s, in).set_point, Volts{190.0});
         in.second_input = Volts{500.0};
         const PerimeterLoopOutput beyond = step(c, s, in);
@@ -117,10 +116,10 @@ TEST(PerimeterLoop, AnAnalogLoopIsWatchedNotMoved) {
     PerimeterLoopInput high = measured(0.0);
     high.piezo = Volts{295.0};
     EXPECT_TRUE(step(analog, s, high).near_range_end);
-    high.piezo = Volts{nan_value};
+    high.piezo = Volts{not_a_number};
     EXPECT_FALSE(step(analog, s, high).near_range_end);  // the set-point stands in
     EXPECT_EQ(s.set_point_v, 150.0);
 }
 
-}  // namespace
+}  // namespace perimeter_loop_test
 }  // namespace zlg::core

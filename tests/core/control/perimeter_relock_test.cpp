@@ -7,7 +7,7 @@
 #include <zlg/core/control/perimeter_loop.hpp>
 
 namespace zlg::core {
-namespace {
+namespace perimeter_relock_test {
 
 constexpr PerimeterLoopConfig relocking{.kind = LoopKind::digital, .time_constant = Seconds{0.025}, .relock_halves = 4};
 
@@ -191,5 +191,5 @@ TEST(PerimeterRelock, NothingButFiniteSetPointsWithinTheRangeComesOut) {
     }
 }
 
-}  // namespace
+}  // namespace perimeter_relock_test
 }  // namespace zlg::core

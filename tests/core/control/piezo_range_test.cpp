@@ -4,7 +4,7 @@
 #include <zlg/core/control/piezo_range.hpp>
 
 namespace zlg::core {
-namespace {
+namespace piezo_range_test {
 
 constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
 constexpr PiezoRange range{.min = Volts{-150.0}, .max = Volts{150.0}, .margin = Volts{10.0}};
@@ -40,5 +40,5 @@ TEST(PiezoRange, AReadingMayLieOneRangeOutside) {
     EXPECT_FALSE(plausible(range, Volts{std::numeric_limits<double>::infinity()}));
 }
 
-}  // namespace
+}  // namespace piezo_range_test
 }  // namespace zlg::core

@@ -9,7 +9,7 @@
 #include <zlg/core/control/rate_step.hpp>
 
 namespace zlg::core {
-namespace {
+namespace rate_step_test {
 
 static_assert(check(RateStepConfig{}) == RateStepFault::none);
 static_assert(check(RateStepConfig{.block_halves = 200}) == RateStepFault::none);
@@ -114,5 +114,5 @@ TEST(RateStep, AnyCountsAreSurvivedAndOffNothingIsSeen) {
     EXPECT_EQ(s, before);
 }
 
-}  // namespace
+}  // namespace rate_step_test
 }  // namespace zlg::core

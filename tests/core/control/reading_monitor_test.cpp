@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace zlg::core {
-namespace {
+namespace reading_monitor_test {
 
 constexpr std::int64_t bias = 150;
 constexpr std::int64_t limit = 1253;
@@ -232,5 +232,5 @@ TEST(ReadingMonitor, TheCounterMayWrap) {
     EXPECT_EQ(out.counts, 10);
 }
 
-}  // namespace
+}  // namespace reading_monitor_test
 }  // namespace zlg::core

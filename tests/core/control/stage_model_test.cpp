@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace zlg::core {
-namespace {
+namespace stage_model_test {
 
 constexpr double half_s = 0.0025;
 constexpr PiezoRange range{};
@@ -63,5 +63,5 @@ TEST(StageModel, NoSetPointLeavesTheRange) {
     EXPECT_NEAR(move.end_v, 300.0, 3.0 * std::exp(-2.5) + 1e-9);
 }
 
-}  // namespace
+}  // namespace stage_model_test
 }  // namespace zlg::core

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <algorithm>
 #include <array>
@@ -7,20 +8,19 @@
 #include <zlg/core/control/stroke_model.hpp>
 
 namespace zlg::core {
-namespace {
+namespace stroke_model_test {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr StrokeModelConfig config{};
 
 static_assert(check(config) == StrokeModelFault::none);
 static_assert(check(StrokeModelConfig{.half_wave = Volts{0.0}}) == StrokeModelFault::half_wave);
-static_assert(check(StrokeModelConfig{.half_wave = Volts{nan_value}}) == StrokeModelFault::half_wave);
+static_assert(check(StrokeModelConfig{.half_wave = Volts{not_a_number}}) == StrokeModelFault::half_wave);
 static_assert(check(StrokeModelConfig{.half_wave_sigma_ratio = 1.0}) == StrokeModelFault::sigma);
 static_assert(check(StrokeModelConfig{.play_sigma_ratio = -0.1}) == StrokeModelFault::sigma);
-static_assert(check(StrokeModelConfig{.temperature_sigma_per_c = nan_value}) == StrokeModelFault::sigma);
+static_assert(check(StrokeModelConfig{.temperature_sigma_per_c = not_a_number}) == StrokeModelFault::sigma);
 static_assert(check(StrokeModelConfig{.measurement_sigma = Wavelengths{0.0}}) == StrokeModelFault::sigma);
 static_assert(check(StrokeModelConfig{.process_sigma = Wavelengths{0.6}}) == StrokeModelFault::sigma);
-static_assert(check(StrokeModelConfig{.reference = Celsius{nan_value}}) == StrokeModelFault::reference);
+static_assert(check(StrokeModelConfig{.reference = Celsius{not_a_number}}) == StrokeModelFault::reference);
 static_assert(check(StrokeModelConfig{.gate = 0.0}) == StrokeModelFault::gate);
 static_assert(check(StrokeModelConfig{.range = {.max = Volts{-1.0}}}) == StrokeModelFault::range);
 
@@ -181,9 +181,9 @@ TEST(StrokeModel, ACopiedStateGoesOnLikeTheOriginal) {
 }
 
 TEST(StrokeModel, NothingButFiniteNumbersStayWhateverComesIn) {
-    StrokeModelState s = initial_state(config, Volts{nan_value});
+    StrokeModelState s = initial_state(config, Volts{not_a_number});
     const double inf = std::numeric_limits<double>::infinity();
-    const std::array<double, 8> odd{nan_value, inf, -inf, 1e300, -1e300, 0.0, 150.0, 0.3};
+    const std::array<double, 8> odd{not_a_number, inf, -inf, 1e300, -1e300, 0.0, 150.0, 0.3};
     for (int k = 0; k < 512; ++k) {
         const double a = odd[static_cast<std::size_t>(k % 8)];
         const double b = odd[static_cast<std::size_t>(k / 8 % 8)];
@@ -200,5 +200,5 @@ TEST(StrokeModel, NothingButFiniteNumbersStayWhateverComesIn) {
     }
 }
 
-}  // namespace
+}  // namespace stroke_model_test
 }  // namespace zlg::core

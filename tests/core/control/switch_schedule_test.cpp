@@ -9,7 +9,7 @@
 #include <zlg/core/control/switch_schedule.hpp>
 
 namespace zlg::core {
-namespace {
+namespace switch_schedule_test {
 
 using Limits = std::numeric_limits<std::int64_t>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -355,5 +355,5 @@ TEST(SwitchSchedule, AStepOpensNothingThatIsHeld) {
     EXPECT_FALSE(step(c, s, {.tick = Limits::max(), .stepped = true}).open);
 }
 
-}  // namespace
+}  // namespace switch_schedule_test
 }  // namespace zlg::core

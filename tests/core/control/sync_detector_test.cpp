@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <zlg/core/common/maths.hpp>
 
 #include <cmath>
 #include <limits>
@@ -7,13 +8,12 @@
 #include <zlg/core/control/sync_detector.hpp>
 
 namespace zlg::core {
-namespace {
+namespace sync_detector_test {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr SyncDetectorConfig config{};
 static_assert(check(config) == SyncDetectorFault::none);
 static_assert(check(SyncDetectorConfig{.discriminator_per_lambda = 0.0}) == SyncDetectorFault::discriminator);
-static_assert(check(SyncDetectorConfig{.discriminator_per_lambda = nan_value}) == SyncDetectorFault::discriminator);
+static_assert(check(SyncDetectorConfig{.discriminator_per_lambda = not_a_number}) == SyncDetectorFault::discriminator);
 static_assert(check(SyncDetectorConfig{.discriminator_per_lambda = -0.3}) == SyncDetectorFault::none);
 static_assert(check(SyncDetectorConfig{.dark_fraction = 1.0}) == SyncDetectorFault::dark_fraction);
 static_assert(check(SyncDetectorConfig{.level_min = -1.0}) == SyncDetectorFault::level_min);
@@ -289,5 +289,5 @@ TEST(SyncDetector, ATenthOfTheLightIsDark) {
     EXPECT_TRUE(both(s, light_of(steady(0.0), 1, 90.0), 1).dark);
 }
 
-}  // namespace
+}  // namespace sync_detector_test
 }  // namespace zlg::core

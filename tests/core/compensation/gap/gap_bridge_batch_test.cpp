@@ -8,7 +8,7 @@
 #include <zlg/core/compensation/gap_bridge.hpp>
 
 namespace zlg::core {
-namespace {
+namespace gap_bridge_batch_test {
 
 // Numbers that look random and are the same everywhere.
 class Random {
@@ -102,5 +102,5 @@ INSTANTIATE_TEST_SUITE_P(
                     GapBridgeConfig{.extrapolation_points = 8, .points_before = 8, .points_after = 8},
                     GapBridgeConfig{.extrapolation_points = 8, .points_before = 5, .points_after = 1}));
 
-}  // namespace
+}  // namespace gap_bridge_batch_test
 }  // namespace zlg::core

@@ -4,7 +4,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace gap_bridge_config_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -52,4 +52,4 @@ TEST(GapBridgeCheck, TheEstimateIsJudgedWhereItIsUsed) {
     EXPECT_EQ(check(GapBridgeConfig{.method = BridgeMethod::quadratic, .optimal = bad}), GapBridgeFault::none);
 }
 
-}  // namespace
+}  // namespace gap_bridge_config_test

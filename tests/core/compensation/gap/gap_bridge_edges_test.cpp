@@ -12,7 +12,7 @@
 #include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace {
+namespace gap_bridge_edges_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -194,4 +194,4 @@ TEST(GapBridgeEdges, EqualGapsHaveEqualReportsHoweverManyCameBefore) {
     for (const GapReport& report : got.gaps) EXPECT_EQ(report.sigma_sum_arcsec, got.gaps[0].sigma_sum_arcsec);
 }
 
-}  // namespace
+}  // namespace gap_bridge_edges_test

@@ -9,7 +9,7 @@
 #include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace {
+namespace gap_bridge_interface_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -128,4 +128,4 @@ TEST(GapBridgeInterface, AnAmendmentReachesTheExtrapolationOfTheNextGap) {
     for (const unsigned k : {13u, 14u}) EXPECT_NEAR(got.rows[k].dtheta_arcsec, 5.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace gap_bridge_interface_test

@@ -12,7 +12,7 @@
 #include "gap_bridge_reference.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace {
+namespace gap_bridge_law_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -279,4 +279,4 @@ TEST(GapBridgeLaw, SumsDifferByTheRoundingResidualAlone) {
     }
 }
 
-}  // namespace
+}  // namespace gap_bridge_law_test

@@ -12,7 +12,7 @@
 #include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace {
+namespace gap_bridge_noise_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -240,4 +240,4 @@ TEST(GapBridgeNoise, AnUnknownSigmaSpreadsEvenWhereItsWeightIsZero) {
     EXPECT_TRUE(std::isinf(run({.method = BridgeMethod::linear}, log).rows[29].sigma_arcsec));
 }
 
-}  // namespace
+}  // namespace gap_bridge_noise_test

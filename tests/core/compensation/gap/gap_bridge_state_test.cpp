@@ -9,7 +9,7 @@
 #include "compensation/gap/gap_estimate.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace {
+namespace gap_bridge_state_test {
 
 using namespace gap_bridge_support;
 using compensation_test::Random;
@@ -329,4 +329,4 @@ TEST(LearningBridge, WeightsOfAMotionWaitUntilNoGapDoes) {
     EXPECT_FALSE(due());
 }
 
-}  // namespace
+}  // namespace gap_bridge_state_test

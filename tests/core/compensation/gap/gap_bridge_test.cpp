@@ -10,7 +10,7 @@
 #include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace {
+namespace gap_bridge_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -242,4 +242,4 @@ TEST(GapBridge, ALogWithoutAMeasuredTickIsZeroOfUnknownSigma) {
     }
 }
 
-}  // namespace
+}  // namespace gap_bridge_test

@@ -14,7 +14,7 @@
 #include <Eigen/Dense>
 
 namespace zlg::core {
-namespace {
+namespace gap_mixture_test {
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -346,5 +346,5 @@ TEST(GapMixture, AMatrixWithoutAFactorEndsIt) {
     }
 }
 
-}  // namespace
+}  // namespace gap_mixture_test
 }  // namespace zlg::core

@@ -12,7 +12,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace polynomial_fit_law_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -160,4 +160,4 @@ RC_GTEST_PROP(PolynomialFitLaw, TheOrderOfThePointsDoesNotMatter, ()) {
     for (std::size_t k = 0; k < n; ++k) RC_ASSERT(after[k] == before[n - 1 - k]);
 }
 
-}  // namespace
+}  // namespace polynomial_fit_law_test

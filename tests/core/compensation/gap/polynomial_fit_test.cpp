@@ -9,7 +9,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace polynomial_fit_test {
 
 using namespace zlg::core;
 
@@ -168,4 +168,4 @@ TEST(PolynomialFit, RemembersItsPoints) {
     EXPECT_EQ(PolynomialFit{}.n(), 0);
 }
 
-}  // namespace
+}  // namespace polynomial_fit_test

@@ -7,7 +7,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace bridge_scores_test {
 
 using compensation_test::Random;
 using namespace zlg::core;
@@ -117,4 +117,4 @@ TEST(BridgeScores, ScatterIsTheVariance) {
     EXPECT_FALSE(is_rough(8.0, 1.0));
 }
 
-}  // namespace
+}  // namespace bridge_scores_test

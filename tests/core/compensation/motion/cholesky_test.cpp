@@ -7,7 +7,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace cholesky_test {
 
 using compensation_test::Random;
 using zlg::core::add_row;
@@ -87,4 +87,4 @@ TEST(Cholesky, ARowThatSaysNothingNewIsRefusedAndLeavesNoTrace) {
     EXPECT_TRUE(add_row(factor, Column{2.0, 2.001}));
 }
 
-}  // namespace
+}  // namespace cholesky_test

@@ -7,7 +7,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace motion_learning_test {
 
 using compensation_test::Random;
 using namespace zlg::core;
@@ -205,4 +205,4 @@ TEST(MotionLearning, PlacesLeaveTheGapOut) {
     EXPECT_EQ(place_of(15, 8, 3), 18);
 }
 
-}  // namespace
+}  // namespace motion_learning_test

@@ -7,7 +7,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace motion_moments_test {
 
 using compensation_test::Random;
 using zlg::core::fast_memory;
@@ -100,4 +100,4 @@ TEST_P(MotionMoments, WhatIsNoAngleIsNotUsable) {
 
 INSTANTIATE_TEST_SUITE_P(TicksAndHalves, MotionMoments, testing::Bool());
 
-}  // namespace
+}  // namespace motion_moments_test

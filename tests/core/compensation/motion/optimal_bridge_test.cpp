@@ -8,7 +8,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace optimal_bridge_test {
 
 using compensation_test::Random;
 using namespace zlg::core;
@@ -216,4 +216,4 @@ TEST(OptimalBridge, AWindowHoldsAsManyPointsAsTheGapLeaves) {
     EXPECT_EQ(points_a_side(15), 2);
 }
 
-}  // namespace
+}  // namespace optimal_bridge_test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace zlg::core {
-namespace {
+namespace rounding_law_test {
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -138,5 +138,5 @@ TEST(RoundingLaw, WithoutCountsThereIsNone) {
     EXPECT_EQ(sums.broken_arcsec2, 0.0);
 }
 
-}  // namespace
+}  // namespace rounding_law_test
 }  // namespace zlg::core

@@ -6,7 +6,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace {
+namespace joint_relock_test {
 
 using compensation_test::not_a_number;
 using namespace zlg::core;
@@ -104,4 +104,4 @@ TEST(JointRelock, BeforeAnyGapNothingIsOwed) {
     EXPECT_EQ(state, JointRelockState{});
 }
 
-}  // namespace
+}  // namespace joint_relock_test

@@ -11,7 +11,7 @@
 #include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
 
-namespace {
+namespace relock_drift_edges_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -174,4 +174,4 @@ TEST(RelockDriftEdges, TheFalseAngleBeyondBeliefIsAboveTenToTheThirty) {
     }
 }
 
-}  // namespace
+}  // namespace relock_drift_edges_test

@@ -11,7 +11,7 @@
 #include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
 
-namespace {
+namespace relock_drift_law_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -343,4 +343,4 @@ TEST(RelockDriftLaw, CheckRefusesANegativeNumberOfTicks) {
     EXPECT_EQ(check(RelockDriftConfig{.ticks = -1}), RelockDriftFault::ticks);
 }
 
-}  // namespace
+}  // namespace relock_drift_law_test

@@ -9,7 +9,7 @@
 #include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
 
-namespace {
+namespace relock_drift_noise_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -186,4 +186,4 @@ TEST(RelockDriftNoise, FrequencyStatesItsVariance) {
     for (unsigned i = 1; i <= 5; ++i) EXPECT_NEAR(by_tick[i - 1].ratio(), 1.0, tolerance) << "tick " << i;
 }
 
-}  // namespace
+}  // namespace relock_drift_noise_test

@@ -8,7 +8,7 @@
 #include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
 
-namespace {
+namespace relock_drift_test {
 
 using namespace zlg::core;
 using namespace compensation_test;
@@ -243,4 +243,4 @@ TEST(RelockDrift, WithoutATemperatureTheReferenceIsTaken) {
     }
 }
 
-}  // namespace
+}  // namespace relock_drift_test

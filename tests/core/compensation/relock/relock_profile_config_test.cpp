@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace {
+namespace relock_profile_config_test {
 
 using namespace zlg::core;
 
@@ -22,4 +22,4 @@ TEST(RelockProfileConfig, check_refuses_what_is_meaningless) {
     EXPECT_EQ(fault([](auto& c) { c.curve.n_nodes = 1; }), RelockProfileFault::curve);
 }
 
-}  // namespace
+}  // namespace relock_profile_config_test

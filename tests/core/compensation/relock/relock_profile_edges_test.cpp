@@ -10,7 +10,7 @@
 
 #include "relock_profile_support.hpp"
 
-namespace {
+namespace relock_profile_edges_test {
 
 using namespace relock_test;
 
@@ -235,4 +235,4 @@ TEST(RelockProfileEdges, noise_beyond_a_thousand_wavelengths_is_taken_for_a_thou
 
 TEST(RelockProfileEdges, it_is_small) { EXPECT_LT(sizeof(RelockProfileState), 8000u); }
 
-}  // namespace
+}  // namespace relock_profile_edges_test

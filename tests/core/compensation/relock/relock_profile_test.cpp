@@ -9,7 +9,7 @@
 
 #include "relock_profile_support.hpp"
 
-namespace {
+namespace relock_profile_test {
 
 using namespace relock_test;
 
@@ -259,4 +259,4 @@ TEST(RelockProfile, noise_other_than_configured_is_seen_in_the_light) {
     }
 }
 
-}  // namespace
+}  // namespace relock_profile_test
