@@ -67,7 +67,12 @@ void check_options(const SweepOptions& options) {
     if (!options.page.empty() && !options.force && std::filesystem::exists(options.page))
         throw logs::IoError{
             fmt::format("{} exists; remove it or name another, for --force begins the sweep anew", options.page)};
+    const std::filesystem::path page_folder = std::filesystem::path{options.page}.parent_path();
+    if (!page_folder.empty() && !std::filesystem::is_directory(page_folder))
+        throw logs::IoError{fmt::format("cannot create {}: there is no folder {}", options.page, page_folder.string())};
     for (const std::string& path : options.merged) refuse_own_input(path, options.out);
+    if (!options.page.empty() && !options.description.empty())
+        refuse_own_input(options.description, options.page, "--page");
 }
 
 // A gyro that has failed is a result, and says no.

@@ -54,10 +54,18 @@ std::vector<std::string> deciding_lines(const std::string& toml) {
     return lines;
 }
 
+// The head of a table says nothing without the name in the line below it.
+std::string shown(const std::vector<std::string>& lines, std::size_t k) {
+    if (k >= lines.size()) return "nothing more";
+    return lines[k].starts_with("[[") && k + 1 < lines.size() ? fmt::format("`{} {}`", lines[k], lines[k + 1])
+                                                              : fmt::format("`{}`", lines[k]);
+}
+
 std::string difference_of(const std::vector<std::string>& a, const std::vector<std::string>& b) {
     const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
     if (x == a.end() && y == b.end()) return {};
-    return fmt::format("has `{}`, this one `{}`", x == a.end() ? "" : *x, y == b.end() ? "" : *y);
+    const auto k = static_cast<std::size_t>(x - a.begin());
+    return fmt::format("has {}, this one {}", shown(a, k), shown(b, k));
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // A description out of TOML, with every fault of it named by file and line.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -25,13 +27,27 @@ void refuse_run_keys(const Table& table, const std::string& key) {
     if (key == "run.duration_s") table.fail("run.duration_s: is sweep.duration_s here");
 }
 
+// An integer that no double holds stays a text, so that every digit arrives.
+bool is_exact(const toml::node& node) {
+    constexpr std::int64_t largest = std::int64_t{1} << 53;
+    const auto* integer = node.as_integer();
+    return integer == nullptr || (integer->get() <= largest && integer->get() >= -largest);
+}
+
 Value value_of(const Table& table, const toml::node& node) {
-    if (node.is_number()) {
-        const double number = *node.value<double>();
-        if (std::isfinite(number)) return number;
-    }
-    if (node.is_string() || node.is_boolean() || node.is_array()) return text_of(node);
+    const std::optional<double> number = number_of(node);
+    if (number && std::isfinite(*number) && is_exact(node)) return *number;
+    if (node.is_string() || node.is_boolean() || node.is_array() || node.is_integer()) return text_of(node);
     table.fail(node, fmt::format("values: {}: allowed are numbers, texts and arrays", text_of(node)));
+}
+
+constexpr double largest_number = std::numeric_limits<double>::max();
+
+// The width of a range is a number as well.
+void refuse_empty_range(const Table& table, double min, double max) {
+    if (!(min < max)) table.refuse("max", fmt::format("a number above min = {}", text::toml_real(min)));
+    if (!std::isfinite(max - min))
+        table.refuse("max", fmt::format("a number less than {} above min = {}", largest_number, text::toml_real(min)));
 }
 
 // From min to max in n - 1 equal steps.
@@ -39,7 +55,7 @@ std::vector<Value> spaced(const Table& table) {
     const double min = table.real("min");
     const double max = table.real("max");
     const auto n = static_cast<std::size_t>(table.integer("n", 2, max_grid_values));
-    if (!(min < max)) table.refuse("max", fmt::format("a number above min = {}", text::toml_real(min)));
+    refuse_empty_range(table, min, max);
     std::vector<Value> values;
     for (std::size_t k = 0; k < n; ++k) {
         const double place = static_cast<double>(k) / static_cast<double>(n - 1);
@@ -78,12 +94,17 @@ void read_law(const Table& table, Parameter& p) {
         p.min = table.real("min");
         p.max = table.real("max");
         if (p.draw == DrawKind::log_uniform && !(p.min > 0.0)) table.refuse("min", "a number above 0 for log_uniform");
-        if (!(p.min < p.max)) table.refuse("max", fmt::format("a number above min = {}", text::toml_real(p.min)));
+        refuse_empty_range(table, p.min, p.max);
+        if (p.draw == DrawKind::log_uniform && !std::isfinite(p.max / p.min))
+            table.refuse("max", fmt::format("less than {} times min = {}", largest_number, text::toml_real(p.min)));
     }
     if (!has_mean(p.draw)) return;
     p.mean = table.real("mean");
     p.sd = table.real("sd");
     if (!(p.sd > 0.0)) table.refuse("sd", "a number above 0");
+    constexpr double furthest_sd = 40.0;  // no deviate of a double is so far
+    if (!std::isfinite(std::abs(p.mean) + furthest_sd * p.sd))
+        table.refuse("sd", fmt::format("one of which mean +- {} sd are numbers", furthest_sd));
     if (p.draw == DrawKind::truncated && !(share_within(p) >= least_share))
         table.refuse("mean", fmt::format("one that leaves at least {} of the law within min and max", least_share));
 }
@@ -186,6 +207,13 @@ void read_motion_checksums(const Table& root, std::string_view source_name, Desc
     }
 }
 
+// Before any value is tried.
+void refuse_large_grid(const Table& table, const Description& d, const Parameter& p) {
+    if (p.draw == DrawKind::grid && grid_points(d) > max_gyros / static_cast<std::int64_t>(p.values.size()))
+        table.fail(
+            fmt::format("the grid has more than {} points with this parameter; allowed is that many", max_gyros));
+}
+
 void read_parameters(const Table& root, std::string_view source_name, Description& d) {
     const config::Config base = base_config(d, source_name);
     std::map<std::string, config::ValueKind> kinds;
@@ -193,12 +221,15 @@ void read_parameters(const Table& root, std::string_view source_name, Descriptio
     std::set<std::string> driven;
     for_each_table(root, source_name, "parameter", [&](const Table& table) {
         Parameter p = read_parameter(table);
-        try_values(table, p, base, kinds);
+        refuse_large_grid(table, d, p);
         for (const std::string& key : p.keys)
             if (!driven.insert(key).second)
                 table.fail(fmt::format("{} is driven twice; allowed is one parameter", key));
         d.parameters.push_back(std::move(p));
     });
+    std::size_t k = 0;
+    for_each_table(root, source_name, "parameter",
+                   [&](const Table& table) { try_values(table, d.parameters[k++], base, kinds); });
 }
 
 void read_metrics(const Table& root, std::string_view source_name, Description& d) {
@@ -215,8 +246,6 @@ void read_metrics(const Table& root, std::string_view source_name, Description& 
 // A grid tells how many gyros it has; each point may be run several times.
 void read_gyros(const Table& sweep, Description& d) {
     const std::int64_t points = grid_points(d);
-    if (points > max_gyros)
-        sweep.fail(fmt::format("the grid has more than {} points; allowed is that many", max_gyros));
     const bool has_grid =
         std::ranges::any_of(d.parameters, [](const Parameter& p) { return p.draw == DrawKind::grid; });
     d.n_gyros = has_grid && !sweep.has("gyros") ? points : sweep.integer("gyros", 1, max_gyros);
@@ -259,6 +288,12 @@ Description parse(std::string_view text, std::string_view source_name) {
     Description d;
     if (sweep.has("seed")) d.seed = static_cast<std::uint64_t>(sweep.integer("seed", 0, int64_max));
     d.duration_s = sweep.optional_real("duration_s");
+    if (d.duration_s) {
+        config::Config scratch;
+        config::apply_pair(
+            scratch, "run.duration_s", text::toml_real(*d.duration_s),
+            fmt::format("{}:{}: [sweep] duration_s", source_name, sweep.node("duration_s").source().begin.line));
+    }
     d.sobol_shift = sweep.boolean("sobol_shift", d.sobol_shift);
     d.sensitivity = sweep.boolean("sensitivity", d.sensitivity);
     read_base(root, source_name, d);

@@ -29,6 +29,13 @@ namespace zlg::sweep {
     return text;
 }
 
+// An integer beyond 2^53 is rounded to the nearest double. Nothing: no number.
+[[nodiscard]] inline std::optional<double> number_of(const toml::node& node) {
+    if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+    if (const auto* real = node.as_floating_point()) return real->get();
+    return std::nullopt;
+}
+
 // One table of the description, that it may name its place and what is allowed in it.
 class Table {
 public:
@@ -63,8 +70,7 @@ public:
     }
 
     [[nodiscard]] double real(std::string_view key) const {
-        const toml::node& found = node(key);
-        const auto value = found.is_number() ? found.value<double>() : std::nullopt;
+        const auto value = number_of(node(key));
         if (!value || !std::isfinite(*value)) refuse(key, "a finite number");
         return *value;
     }
@@ -73,9 +79,12 @@ public:
     }
     [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t min, std::int64_t max) const {
         const toml::node& found = node(key);
-        const auto value = found.is_integer() ? found.value<std::int64_t>() : std::nullopt;
-        if (!value || *value < min || *value > max) refuse(key, fmt::format("an integer {}..{}", min, max));
-        return *value;
+        const auto* value = found.as_integer();
+        if (value == nullptr || value->get() < min || value->get() > max)
+            refuse(key,
+                   fmt::format("an integer {}..{}{}", min, max,
+                               found.is_floating_point() ? ", written without a point and without an exponent" : ""));
+        return value->get();
     }
     [[nodiscard]] bool boolean(std::string_view key, bool by_default) const {
         if (!has(key)) return by_default;

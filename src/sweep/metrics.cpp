@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -90,9 +91,16 @@ const std::vector<std::string>& metric_names() {
     return names;
 }
 
+// Of the same variant, where it names one.
 std::string nearest_metric(std::string_view name) {
-    return *std::ranges::min_element(metric_names(), {},
-                                     [&](const std::string& known) { return text::letters_apart(known, name); });
+    const std::string_view variant = name.substr(0, name.find('.') + 1);
+    const bool has_variant = std::ranges::any_of(
+        metric_names(), [&](const std::string& known) { return !variant.empty() && known.starts_with(variant); });
+    const auto apart = [&](const std::string& known) {
+        const bool is_other = has_variant && !known.starts_with(variant);
+        return std::pair{is_other, text::letters_apart(known, name)};
+    };
+    return *std::ranges::min_element(metric_names(), {}, apart);
 }
 
 std::optional<std::string> variant_of(std::string_view metric) {

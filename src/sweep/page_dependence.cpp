@@ -60,13 +60,19 @@ std::vector<Figure> response_figures(const Description& d, const Columns& c) {
     return figures;
 }
 
+// Of Saltelli's design.
+std::size_t n_rows(const Description& d) { return static_cast<std::size_t>(d.n_gyros) / (d.parameters.size() + 2); }
+
 report::Table correlation_table(const Description& d, const Columns& c) {
     const std::size_t n = c.metrics.front().size();
+    // Of the design, each value of a parameter stands in many gyros, whose numbers the others may decide: as many are drawn
+    // independently as the rows of A and B have.
+    const std::size_t n_drawn = d.sensitivity ? std::min(n, 2 * n_rows(d)) : n;
     report::Table t{.caption = fmt::format("Spearman's rank correlation of {} good gyros; where limits stand on both "
                                            "sides, of the distance from their "
                                            "middle. Between independent numbers {} is passed once in twenty times. A "
                                            "dependence that rises and falls does not show.",
-                                           n, short_number(chance_correlation(n))),
+                                           n, short_number(chance_correlation(n_drawn))),
                     .header = {"parameter"}};
     for (const Metric& m : d.metrics) t.header.push_back(m.name);
     for (std::size_t p = 0; p < c.parameters.size(); ++p) {
@@ -86,7 +92,7 @@ SobolDesign design_of(const Description& d, const Rows& rows, std::size_t metric
     const std::size_t n_kinds = d.parameters.size() + 2;
     SobolDesign design;
     design.mixed.resize(d.parameters.size());
-    for (std::size_t row = 0; row < static_cast<std::size_t>(d.n_gyros) / n_kinds; ++row)
+    for (std::size_t row = 0; row < n_rows(d); ++row)
         for (std::size_t kind = 0; kind < n_kinds; ++kind) {
             const auto found = rows.find(static_cast<std::int64_t>(row * n_kinds + kind));
             const bool is_good = found != rows.end() && found->second.status == Status::good;
@@ -135,6 +141,7 @@ Columns columns_of(const Gyros& gyros, const Rows& rows) {
     for (const auto& [gyro, row] : rows) {
         if (row.status != Status::good) continue;
         const std::vector<Value> values = gyros.values(gyro);
+        c.gyros.push_back(gyro);
         for (std::size_t k = 0; k < drawn.size(); ++k)
             if (const double* number = std::get_if<double>(&values[k])) drawn[k].push_back(*number);
         for (std::size_t k = 0; k < c.metrics.size(); ++k) c.metrics[k].push_back(row.metrics[k]);

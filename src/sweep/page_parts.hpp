@@ -17,6 +17,7 @@ inline constexpr int points_shown = 1000;  // of a curve
 
 // The good gyros, as columns.
 struct Columns {
+    std::vector<std::int64_t> gyros;  // their numbers
     std::vector<std::vector<double>> metrics;
     std::vector<std::string> names;  // of the parameters that are numbers
     std::vector<std::vector<double>> parameters;

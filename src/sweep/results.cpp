@@ -9,11 +9,13 @@
 #include <zlg/logs/column_file.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/sweep/metrics.hpp>
+#include <zlg/sweep/row_text.hpp>
+#include <zlg/wire/crc.hpp>
 
 namespace zlg::sweep {
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 using logs::FileColumn;
 
@@ -65,12 +67,39 @@ struct Damage {
     }
 };
 
+// Of the description, and of each row as its line of text.
+std::int64_t checksum_of(const std::string& description, const Rows& rows) {
+    std::string all = description;
+    for (const auto& [gyro, row] : rows) all += text_checksum(text_of(row));
+    return wire::crc32c({reinterpret_cast<const std::uint8_t*>(all.data()), all.size()});
+}
+
+// The columns of what was drawn stand there for other programs; they must be what the description draws.
+void check_parameters(const logs::ColumnReader& file, const std::string& path, const Description& description,
+                      const Rows& rows) {
+    const Draws draws{description};
+    for (std::size_t k = 0; k < description.parameters.size(); ++k) {
+        std::vector<Value> drawn;
+        for (const auto& [gyro, row] : rows) drawn.push_back(draws.values(gyro)[k]);
+        for (const std::string& key : description.parameters[k].keys) {
+            const FileColumn ours = column_of(key, "", drawn);
+            const auto* numbers = std::get_if<std::vector<double>>(&ours.values);
+            const bool is_same = numbers != nullptr
+                                     ? file.reals(key) == *numbers
+                                     : file.texts(key) == std::get<std::vector<std::string>>(ours.values);
+            if (!is_same)
+                throw logs::FormatError(fmt::format("{}: the column {} is not what the description draws", path, key));
+        }
+    }
+}
+
 }  // namespace
 
 void write_results(const std::string& path, const Gyros& gyros, const Rows& rows) {
     logs::ColumnFile file{.group = "/gyros"};
-    file.texts = {{"/sweep", to_toml(gyros.description())}};
-    file.marks = {{"format_version", format_version}};
+    const std::string description = to_toml(gyros.description());
+    file.texts = {{"/sweep", description}};
+    file.marks = {{"format_version", format_version}, {"checksum", checksum_of(description, rows)}};
     file.columns.push_back({"gyro", "1", column(rows, [](const Row& r) { return r.gyro; })});
     file.columns.push_back({"seed", "1", column(rows, [&](const Row& r) { return gyros.seed(r.gyro); })});
     add_parameters(file, gyros, rows);
@@ -119,6 +148,10 @@ Results read_results(const std::string& path) {
         for (const std::vector<double>& values : metrics) row.metrics.push_back(values[k]);
         results.rows.emplace_hint(results.rows.end(), row.gyro, std::move(row));
     }
+    if (const std::int64_t checksum = checksum_of(results.description, results.rows); file.mark("checksum") != checksum)
+        throw logs::FormatError(fmt::format("{}: is damaged, its checksum is {} and that of its rows {}", path,
+                                            file.mark("checksum"), checksum));
+    check_parameters(file, path, description, results.rows);
     return results;
 }
 

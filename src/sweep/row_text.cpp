@@ -1,6 +1,7 @@
 #include <zlg/sweep/row_text.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,7 +36,8 @@ bool read_number(std::string_view text, T& value) {
 std::string text_of(const Row& row) {
     std::string line =
         fmt::format("{}\t{}\t{}\t{}", row.gyro, static_cast<std::int64_t>(row.status), row.fingerprint, row.reason);
-    for (const double value : row.metrics) line += fmt::format("\t{}", value);
+    // One text for what is no number.
+    for (const double value : row.metrics) line += std::isnan(value) ? "\tnan" : fmt::format("\t{}", value);
     return line + fmt::format("\t{}", text_checksum(line));
 }
 

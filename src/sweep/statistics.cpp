@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/math/distributions/students_t.hpp>
+
 namespace zlg::sweep {
 namespace {
 
+constexpr double presumed_rows = 8.0;
 constexpr double sigmas_of_95_percent = 1.959963984540054;  // the 97.5 % quantile of the normal law
 
 bool is_good(const Row& row) { return row.status == Status::good; }
@@ -31,12 +34,22 @@ void add_moments(MetricSummary& summary, const std::vector<double>& values) {
     if (values.size() > 1) summary.sd = std::sqrt(squares / (n - 1.0));
 }
 
-MetricSummary summary_of(const Metric& metric, const Rows& rows, std::size_t k) {
+template <class Passes>
+Yield yield_where(const Description& description, const Rows& rows, const Passes& is_passed) {
+    YieldCount count{description};
+    for (const auto& [gyro, row] : rows) {
+        count.add(gyro);
+        if (is_passed(row)) count.pass(gyro);
+    }
+    return count.yield();
+}
+
+MetricSummary summary_of(const Description& d, const Rows& rows, std::size_t k) {
+    const Metric& metric = d.metrics[k];
     MetricSummary summary{.metric = metric};
     std::vector<double> values = good_values(rows, k);
     if (has_limit(metric) && !rows.empty())
-        summary.yield = yield_of(std::ranges::count_if(values, [&](double v) { return passes(metric, v); }),
-                                 static_cast<std::int64_t>(rows.size()));
+        summary.yield = yield_where(d, rows, [&](const Row& r) { return is_good(r) && passes(metric, r.metrics[k]); });
     if (values.empty()) return summary;
     add_moments(summary, values);
     std::ranges::sort(values);
@@ -46,16 +59,56 @@ MetricSummary summary_of(const Metric& metric, const Rows& rows, std::size_t k) 
     return summary;
 }
 
-}  // namespace
-
-Yield yield_of(std::int64_t passed, std::int64_t gyros) {
-    const auto n = static_cast<double>(gyros);
-    const double p = static_cast<double>(passed) / n;
-    const double z = sigmas_of_95_percent;
+// Wilson's interval of as much knowledge as n independent gyros give, and z standard deviations on either side.
+Yield wilson(std::int64_t passed, std::int64_t gyros, double n, double z) {
+    const double p = static_cast<double>(passed) / static_cast<double>(gyros);
     const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
     const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / (1.0 + z * z / n);
     // At the ends the limit is exact, and is not left to rounding.
     return {passed, gyros, p, passed == 0 ? 0.0 : centre - half, passed == gyros ? 1.0 : centre + half};
+}
+
+}  // namespace
+
+Yield yield_of(std::int64_t passed, std::int64_t gyros) {
+    return wilson(passed, gyros, static_cast<double>(gyros), sigmas_of_95_percent);
+}
+
+YieldCount::YieldCount(const Description& description)
+    : gyros_a_row_{description.sensitivity ? static_cast<std::int64_t>(description.parameters.size()) + 2 : 1} {}
+
+void YieldCount::add(std::int64_t gyro) {
+    ++gyros_;
+    if (gyros_a_row_ == 1) return;
+    DesignRow& row = rows_[gyro / gyros_a_row_];
+    gyros_sq_ += 2.0 * row.gyros + 1.0;
+    gyros_passed_ += row.passed;
+    row.gyros += 1.0;
+}
+
+void YieldCount::pass(std::int64_t gyro) {
+    ++passed_;
+    if (gyros_a_row_ == 1) return;
+    DesignRow& row = rows_[gyro / gyros_a_row_];
+    passed_sq_ += 2.0 * row.passed + 1.0;
+    gyros_passed_ += row.gyros;
+    row.passed += 1.0;
+}
+
+Yield YieldCount::yield() const {
+    if (gyros_ == 0) return {};
+    const auto r = static_cast<double>(rows_.size());
+    if (gyros_a_row_ == 1 || r == static_cast<double>(gyros_)) return yield_of(passed_, gyros_);
+    if (rows_.size() < 2) return wilson(passed_, gyros_, 1.0, sigmas_of_95_percent);
+    const auto n = static_cast<double>(gyros_);
+    const double p = static_cast<double>(passed_) / n;
+    const double squares = passed_sq_ - 2.0 * p * gyros_passed_ + p * p * gyros_sq_;
+    const double variance = r / (r - 1.0) * squares / (n * n);
+    const bool is_decided = passed_ == 0 || passed_ == gyros_;
+    const double together = p * (1.0 - p) / r;  // the variance if the gyros of a row all did the same
+    const double cautious = ((r - 1.0) * variance + presumed_rows * together) / (r - 1.0 + presumed_rows);
+    const double worth = is_decided ? r : std::clamp(p * (1.0 - p) / cautious, r, n);
+    return wilson(passed_, gyros_, worth, boost::math::quantile(boost::math::students_t{r - 1.0}, 0.975));
 }
 
 double quantile(std::span<const double> sorted, double p) {
@@ -81,11 +134,9 @@ Summary summary_of(const Description& description, const Rows& rows) {
     for (const auto& [gyro, row] : rows)
         if (!is_good(row)) ++summary.failed;
     for (std::size_t k = 0; k < description.metrics.size(); ++k)
-        summary.metrics.push_back(summary_of(description.metrics[k], rows, k));
+        summary.metrics.push_back(summary_of(description, rows, k));
     if (!rows.empty() && std::ranges::any_of(description.metrics, has_limit))
-        summary.yield = yield_of(
-            std::ranges::count_if(rows, [&](const auto& entry) { return passes_all(description, entry.second); }),
-            summary.gyros);
+        summary.yield = yield_where(description, rows, [&](const Row& row) { return passes_all(description, row); });
     return summary;
 }
 

@@ -30,6 +30,14 @@ void require_regular(const std::string& path) {
         throw logs::IoError(fmt::format("cannot create {}: there is no folder {}", path, folder.string()));
 }
 
+// A link stays one, and what it names is written.
+std::string target_of(const std::string& path) {
+    std::error_code error;
+    if (!fs::is_symlink(path, error)) return path;
+    const fs::path target = fs::canonical(path, error);
+    return error ? path : target.string();
+}
+
 void require_same_sweep(const std::string& path, const std::string& theirs, const std::string& ours) {
     if (const std::string what = difference(theirs, ours); !what.empty())
         throw logs::IoError(
@@ -95,7 +103,9 @@ Crew threads_of(const Task& task) {
 
 }  // namespace
 
-Outcome run(const Task& task) {
+Outcome run(const Task& asked_task) {
+    Task task = asked_task;
+    task.out = target_of(asked_task.out);
     const Gyros gyros{with_motion_checksums(task.description)};
     const std::string description = to_toml(gyros.description());
     const std::string part = part_of(task.out);
@@ -124,7 +134,8 @@ Outcome run(const Task& task) {
     return outcome;
 }
 
-Merged merge(const std::vector<std::string>& paths, const std::string& out, bool force) {
+Merged merge(const std::vector<std::string>& paths, const std::string& name, bool force) {
+    const std::string out = target_of(name);
     require_regular(out);
     std::error_code ignored;
     if (!force && fs::exists(out, ignored))

@@ -12,6 +12,7 @@ constexpr double draw_in = 0.9;
 
 // A gyro as the ways of its parameters, and whether it passes.
 struct Placed {
+    std::int64_t gyro = 0;
     std::vector<double> ways;
     bool passes = false;
 };
@@ -20,7 +21,7 @@ std::vector<Placed> placed(const Gyros& gyros, const Rows& rows, const std::vect
     std::vector<Placed> all;
     for (const auto& [gyro, row] : rows) {
         const std::vector<Value> values = gyros.values(gyro);
-        Placed one{.ways = {}, .passes = passes_all(gyros.description(), row)};
+        Placed one{.gyro = gyro, .ways = {}, .passes = passes_all(gyros.description(), row)};
         for (const Range& range : ranges) one.ways.push_back(range.way(std::get<double>(values[range.parameter])));
         all.push_back(std::move(one));
     }
@@ -34,14 +35,28 @@ struct Count {
     [[nodiscard]] double yield() const { return static_cast<double>(passed) / static_cast<double>(gyros); }
 };
 
+bool is_within(const Placed& one, const std::vector<double>& ways) {
+    return std::ranges::equal(one.ways, ways, std::ranges::less_equal{});
+}
+
 Count count_within(const std::vector<Placed>& all, const std::vector<double>& ways) {
     Count count;
     for (const Placed& one : all) {
-        if (!std::ranges::equal(one.ways, ways, std::ranges::less_equal{})) continue;
+        if (!is_within(one, ways)) continue;
         ++count.gyros;
         if (one.passes) ++count.passed;
     }
     return count;
+}
+
+Yield yield_within(const std::vector<Placed>& all, const std::vector<double>& ways, const Description& description) {
+    YieldCount count{description};
+    for (const Placed& one : all) {
+        if (!is_within(one, ways)) continue;
+        count.add(one.gyro);
+        if (one.passes) count.pass(one.gyro);
+    }
+    return count.yield();
 }
 
 // The parameter to draw in next; ways.size(): none leaves enough gyros.
@@ -63,6 +78,15 @@ std::size_t next(const std::vector<Placed>& all, const std::vector<double>& ways
     return best;
 }
 
+void widen_to_rows(Range& range, const Gyros& gyros, const Rows& rows, double mean) {
+    range.min = range.max = mean;
+    for (const auto& [gyro, row] : rows) {
+        const double value = std::get<double>(gyros.values(gyro)[range.parameter]);
+        range.min = std::min(range.min, value);
+        range.max = std::max(range.max, value);
+    }
+}
+
 }  // namespace
 
 double Range::way(double value) const {
@@ -70,7 +94,7 @@ double Range::way(double value) const {
     return end == nominal ? std::abs(value - nominal) > 0.0 : (value - nominal) / (end - nominal);
 }
 
-std::vector<Range> ranges(const Gyros& gyros) {
+std::vector<Range> ranges(const Gyros& gyros, const Rows& rows) {
     const Description& description = gyros.description();
     const config::Settings base = config::to_settings(base_config(description));
     std::vector<Range> found;
@@ -78,7 +102,7 @@ std::vector<Range> ranges(const Gyros& gyros) {
         const Parameter& p = description.parameters[k];
         if (has_values(p.draw)) continue;
         Range range{.parameter = k, .min = p.min, .max = p.max};
-        if (!has_range(p.draw)) range = {.parameter = k, .min = p.mean - 2.0 * p.sd, .max = p.mean + 2.0 * p.sd};
+        if (!has_range(p.draw)) widen_to_rows(range, gyros, rows, p.mean);
         const auto at = std::ranges::find(base, p.keys.front(), &std::pair<std::string, std::string>::first);
         range.nominal = 0.5 * (range.min + range.max);
         if (at != base.end()) {
@@ -93,12 +117,12 @@ std::vector<Range> ranges(const Gyros& gyros) {
 
 std::optional<Yield> yield_within(const Gyros& gyros, const Rows& rows, const std::vector<Range>& ranges,
                                   const std::vector<double>& ways) {
-    const Count count = count_within(placed(gyros, rows, ranges), ways);
-    return count.gyros > 0 ? std::optional{yield_of(count.passed, count.gyros)} : std::nullopt;
+    const Yield yield = yield_within(placed(gyros, rows, ranges), ways, gyros.description());
+    return yield.gyros > 0 ? std::optional{yield} : std::nullopt;
 }
 
 Tolerances tolerances(const Gyros& gyros, const Rows& rows, double wanted_yield, std::int64_t least_gyros) {
-    Tolerances found{.ranges = ranges(gyros)};
+    Tolerances found{.ranges = ranges(gyros, rows)};
     found.ways.assign(found.ranges.size(), 1.0);
     const std::vector<Placed> all = placed(gyros, rows, found.ranges);
     Count count = count_within(all, found.ways);
@@ -108,7 +132,7 @@ Tolerances tolerances(const Gyros& gyros, const Rows& rows, double wanted_yield,
         found.ways[k] *= draw_in;
         count = count_within(all, found.ways);
     }
-    if (count.gyros > 0) found.yield = yield_of(count.passed, count.gyros);
+    if (count.gyros > 0) found.yield = yield_within(all, found.ways, gyros.description());
     found.is_reached = count.gyros >= least_gyros && count.yield() >= wanted_yield;
     return found;
 }

@@ -34,6 +34,21 @@ def cpu_s(pid):
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
+def catches(pid, number):
+    """Whether the process has asked for the signal."""
+    try:
+        with open(f"/proc/{pid}/status") as status:
+            return bool(int(re.search(r"^SigCgt:\s*(\w+)$", status.read(), re.M).group(1), 16) >> (number - 1) & 1)
+    except (FileNotFoundError, ProcessLookupError, AttributeError):
+        return False
+
+
+def with_default_signals():
+    """A shell that ran the tests in the background has SIGINT ignored."""
+    for number in ENDING:
+        signal.signal(number, signal.SIG_DFL)
+
+
 class Ended:
     """A call of the program that got `numbers` one after the other, `moment_s` of its own time after its start."""
 
@@ -41,11 +56,12 @@ class Ended:
         self.errors = folder / "errors.txt"
         with self.errors.open("wb") as errors:
             child = subprocess.Popen([ZLG, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                     stderr=errors, cwd=folder)
+                                     stderr=errors, cwd=folder, preexec_fn=with_default_signals)
         started = time.monotonic()
         while cpu_s(child.pid) < moment_s and time.monotonic() < started + 20 * moment_s and child.poll() is None:
             time.sleep(0.002)
         used_before_s, at = cpu_s(child.pid), time.monotonic()
+        self.is_early = not catches(child.pid, numbers[0])
         for number in numbers:
             if child.poll() is None:
                 child.send_signal(number)
@@ -111,8 +127,7 @@ class Signals(CliTest):
             n_ended += 1
             self.assertLess(ended.cpu_s, MOST_CPU_S, said)
             self.assertLess(ended.wall_s, MOST_WALL_S, said)
-            # It may be so early that the program has not yet asked for signals.
-            if ended.code == -number and moment_s < 0.05:
+            if ended.code == -number and ended.is_early:
                 self.clean(left)
                 continue
             self.assertEqual(ended.code, 3, said)
@@ -214,9 +229,7 @@ class Signals(CliTest):
 
     def test_without_a_thread_the_signals_end_it_in_their_own_way(self):
         def no_thread():
-            # A shell that ran the tests in the background has SIGINT ignored.
-            for number in ENDING:
-                signal.signal(number, signal.SIG_DFL)
+            with_default_signals()
             # A stack for it that does not fit.
             resource.setrlimit(resource.RLIMIT_STACK, (1 << 40, resource.getrlimit(resource.RLIMIT_STACK)[1]))
             resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))

@@ -256,6 +256,12 @@ class BadInput(SweepTest):
         self.refused(2, self.folder / "none.toml", "--out", out, says="none.toml")
         self.refused(2, "--merge", out, "--part", "1/2", "--out", self.folder / "m.h5", says="not for --merge")
         self.refused(2, description, "--out", self.folder / "r.h5", "--threads", 0, says="--threads")
+        # Before any gyro runs.
+        self.refused(3, description, "--out", out, "--page", self.folder / "none" / "p.html", says="there is no folder")
+        page = self.folder / "p.html"
+        page.write_text(SWEEP)
+        self.refused(2, page, "--out", out, "--page", page, "--force", says="--page")
+        self.assertFalse(out.exists())
 
     def test_of_the_description(self):
         out = self.folder / "r.h5"
@@ -268,6 +274,15 @@ class BadInput(SweepTest):
                                ("interval_s = 2", "interval_s = true", "switching.interval_s")):
             self.refused(2, self.description(SWEEP.replace(old, new)), "--out", out, says=says)
         self.assertFalse(out.exists() or (self.folder / "r.h5.part").exists())
+
+    def test_a_link_stays_one(self):
+        (self.folder / "elsewhere").mkdir()
+        (self.folder / "r.h5").symlink_to(self.folder / "elsewhere" / "real.h5")
+        (self.folder / "elsewhere" / "real.h5").write_bytes(self.swept("first.h5"))
+        more = self.description(SWEEP.replace("gyros = 12", "gyros = 13"), "more.toml")
+        self.assertEqual(run("sweep", more, "--out", self.folder / "r.h5").returncode, 0)
+        self.assertTrue((self.folder / "r.h5").is_symlink())
+        self.assertEqual((self.folder / "elsewhere" / "real.h5").read_bytes(), self.swept("whole.h5", text=more.read_text()))
 
     def test_results_of_another_sweep_stay(self):
         before = self.swept("r.h5")

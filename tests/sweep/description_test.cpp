@@ -113,6 +113,58 @@ TEST(Description, refuses_a_sweep_of_nothing_and_of_too_much) {
     EXPECT_NE(refusal("[sweep\n").find("s.toml:1:"), std::string::npos);
 }
 
+TEST(Description, an_integer_keeps_every_digit) {
+    const std::string largest = "9223372036854775807";
+    const Description d = parse("[sweep]\n[[parameter]]\nkeys = [\"faults.random_seed\"]\ndraw = \"grid\"\nvalues = [" +
+                                    largest + ", 9007199254740993, 9007199254740992, 1]\n" + testing_metric,
+                                "s.toml");
+    const std::vector<Value>& values = d.parameters[0].values;
+    EXPECT_EQ(toml_of(values[0]), largest);
+    EXPECT_EQ(toml_of(values[1]), "9007199254740993");
+    EXPECT_EQ(values[2], Value{9007199254740992.0});
+    EXPECT_EQ(d, parse(to_toml(d), "again"));
+    // A limit is a real number, which an integer is rounded to.
+    EXPECT_EQ(*parse("[sweep]\ngyros = 1\n" + testing_metric + "max = 9007199254740993\n", "s").metrics[0].max, 0x1p53);
+}
+
+TEST(Description, refuses_ranges_that_no_number_is_as_wide_as) {
+    const std::string key = "keys = [\"drift.magnetic_arcsec_s\"]\n";
+    for (const char* draw : {"uniform", "latin", "sobol"})
+        EXPECT_NE(refusal_of_parameter(key + "draw = \"" + draw + "\"\nmin = -1e308\nmax = 1e308\n")
+                      .find("max = 1e+308: allowed is"),
+                  std::string::npos)
+            << draw;
+    EXPECT_NE(refusal_of_parameter(key + "draw = \"grid\"\nmin = -1e308\nmax = 1e308\nn = 3\n")
+                  .find("max = 1e+308: allowed is"),
+              std::string::npos);
+    EXPECT_NE(
+        refusal_of_parameter(key + "draw = \"normal\"\nmean = 1e308\nsd = 1e307\n").find("sd = 1e+307: allowed is"),
+        std::string::npos);
+    EXPECT_NE(
+        refusal_of_parameter("keys = [\"gyro.counter_max_hz\"]\ndraw = \"log_uniform\"\nmin = 1e-300\nmax = 1e300\n")
+            .find("max = 1e+300: allowed is"),
+        std::string::npos);
+}
+
+TEST(Description, a_grid_is_counted_before_its_values_are_tried) {
+    std::string grid = "[sweep]\n";
+    for (const char* key : {"gyro.bias_chi", "piezo.half_wave_v"})
+        grid +=
+            std::string{"[[parameter]]\nkeys = [\""} + key + "\"]\ndraw = \"grid\"\nmin = 3.4\nmax = 3.8\nn = 4000\n";
+    EXPECT_EQ(refusal(grid + testing_metric),
+              "s.toml:8: [parameter] the grid has more than 10000000 points with this parameter; allowed is that many");
+}
+
+TEST(Description, says_what_a_number_must_be_written_like) {
+    EXPECT_EQ(refusal("[sweep]\ngyros = 1e1\n" + testing_metric),
+              "s.toml:2: [sweep] gyros = 10: allowed is an integer 1..10000000, written without a point and without an "
+              "exponent");
+    EXPECT_EQ(refusal("[sweep]\ngyros = 1\nduration_s = -1\n" + testing_metric).substr(0, 31),
+              "s.toml:3: [sweep] duration_s: r");
+    EXPECT_NE(refusal("[sweep]\ngyros = 3\n[[metric]]\nname = \"configured.foo\"\n").find("did you mean configured."),
+              std::string::npos);
+}
+
 TEST(Description, two_sweeps_go_together_but_for_limits_and_more_gyros) {
     const std::string head = "[sweep]\nseed = 3\ngyros = ";
     const std::string ours = to_toml(parse(head + "4\n" + testing_metric, "s"));
@@ -121,6 +173,8 @@ TEST(Description, two_sweeps_go_together_but_for_limits_and_more_gyros) {
     EXPECT_NE(first_difference(ours, more), "");
     const std::string other = to_toml(parse("[sweep]\nseed = 4\ngyros = 4\n" + testing_metric, "s"));
     EXPECT_EQ(difference(other, ours), "has `seed = 4`, this one `seed = 3`");
+    const std::string two = to_toml(parse(head + "4\n" + testing_metric + "[[metric]]\nname = \"switches\"\n", "s"));
+    EXPECT_EQ(difference(ours, two), "has nothing more, this one `[[metric]] name = \"switches\"`");
 }
 
 TEST(Description, a_grid_and_a_latin_hypercube_do_not_grow) {

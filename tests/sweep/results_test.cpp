@@ -90,6 +90,30 @@ TEST(Results, a_seed_that_is_not_the_gyros_is_damage) {
     }
 }
 
+// Reads a file of two rows of which one bit of a number was flipped.
+std::string complaint_about_flipped(double number) {
+    const Folder folder;
+    write_results(folder / "r.h5", Gyros{short_sweep()}, two_rows());
+    std::string bytes = bytes_of(folder / "r.h5");
+    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&number), sizeof number));
+    EXPECT_NE(at, std::string::npos);
+    bytes[at + 6] = static_cast<char>(bytes[at + 6] ^ 1);
+    write_bytes(folder / "r.h5", bytes);
+    try {
+        (void)read_results(folder / "r.h5");
+    } catch (const logs::FormatError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Results, a_number_that_was_changed_is_damage) {
+    EXPECT_NE(complaint_about_flipped(1.5).find("is damaged, its checksum is"), std::string::npos);
+    const double drawn = std::get<double>(Gyros{short_sweep()}.values(4)[0]);
+    EXPECT_NE(complaint_about_flipped(drawn).find("the column gyro.bias_chi is not what the description draws"),
+              std::string::npos);
+}
+
 TEST(Results, two_files_may_not_contradict_each_other) {
     Rows rows = two_rows();
     add_rows(rows, two_rows(), "again");

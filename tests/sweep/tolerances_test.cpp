@@ -26,7 +26,7 @@ Rows rows_of(const Gyros& gyros) {
 }
 
 TEST(Tolerances, ways_run_from_the_base_to_the_ends) {
-    const std::vector<Range> found = ranges(Gyros{parse(two, "s")});
+    const std::vector<Range> found = ranges(Gyros{parse(two, "s")}, {});
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(found[0].nominal, 0.0);
     EXPECT_EQ(found[1].nominal, 3.6) << "of the base";
@@ -40,11 +40,11 @@ TEST(Tolerances, ways_run_from_the_base_to_the_ends) {
 TEST(Tolerances, the_yield_within_half_the_way_is_one_by_the_rule) {
     const Gyros gyros{parse(two, "s")};
     const Rows rows = rows_of(gyros);
-    const auto whole = yield_within(gyros, rows, ranges(gyros), {1.0, 1.0});
+    const auto whole = yield_within(gyros, rows, ranges(gyros, rows), {1.0, 1.0});
     EXPECT_EQ(whole->gyros, 2000);
     EXPECT_NEAR(whole->value, 0.5, 0.05);
-    EXPECT_EQ(yield_within(gyros, rows, ranges(gyros), {0.5, 1.0})->value, 1.0);
-    EXPECT_FALSE(yield_within(gyros, rows, ranges(gyros), {0.0, 0.0}));
+    EXPECT_EQ(yield_within(gyros, rows, ranges(gyros, rows), {0.5, 1.0})->value, 1.0);
+    EXPECT_FALSE(yield_within(gyros, rows, ranges(gyros, rows), {0.0, 0.0}));
 }
 
 TEST(Tolerances, only_the_parameter_that_decides_is_drawn_in) {
@@ -56,6 +56,23 @@ TEST(Tolerances, only_the_parameter_that_decides_is_drawn_in) {
     EXPECT_LE(found.ways[0], 0.5 / 0.95 * 1.03);
     EXPECT_GE(found.ways[0], 0.9 * 0.5 / 0.95 * 0.97);
     EXPECT_EQ(found.ways[1], 1.0);
+}
+
+// What lies far out in the tails of a normal law is where gyros fail.
+TEST(Tolerances, the_full_range_of_a_normal_law_has_all_gyros) {
+    const Gyros gyros{
+        parse("[sweep]\ngyros = 2000\n[[parameter]]\nkeys = [\"piezo.half_wave_error\"]\n"
+              "draw = \"normal\"\nmean = 0\nsd = 0.05\n" +
+                  testing_metric + "max = 1\n",
+              "s")};
+    const Rows rows = rows_of(gyros);
+    const std::vector<Range> found = ranges(gyros, rows);
+    const auto whole = yield_within(gyros, rows, found, {1.0});
+    EXPECT_EQ(whole->gyros, 2000);
+    // Passes within two standard deviations.
+    EXPECT_NEAR(whole->value, std::erf(std::sqrt(2.0)), 0.015);
+    EXPECT_LT(found[0].min, -0.1);
+    EXPECT_GT(found[0].max, 0.1);
 }
 
 TEST(Tolerances, too_few_gyros_reach_nothing) {

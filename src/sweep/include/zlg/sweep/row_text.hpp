@@ -9,7 +9,7 @@
 
 namespace zlg::sweep {
 
-// Without the end of the line. row_of(text_of(row), row.metrics.size()) has the same bits.
+// Without the end of the line. row_of(text_of(row), row.metrics.size()) has the same bits, but for those of a NaN.
 [[nodiscard]] std::string text_of(const Row& row);
 
 // Nothing where a bit of it is wrong, or it has another number of metrics.

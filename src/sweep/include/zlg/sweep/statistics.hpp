@@ -2,6 +2,7 @@
 // What the gyros of a sweep say together. Those that failed are counted, and are in no mean.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace zlg::sweep {
 
-// Part of all gyros, the failed ones among them, that passes, with the 95 % interval of E. B. Wilson (J. Am. Stat. Assoc. 22, 1927, 209).
+// Part of all gyros, the failed ones among them, that passes, with an interval of 95 %.
 struct Yield {
     std::int64_t passed = 0;
     std::int64_t gyros = 0;
@@ -20,8 +21,43 @@ struct Yield {
     double high = 1.0;
 };
 
+// Of gyros that were drawn independently: the interval of E. B. Wilson (J. Am. Stat. Assoc. 22, 1927, 209).
+//
 // gyros  1 at least.
 [[nodiscard]] Yield yield_of(std::int64_t passed, std::int64_t gyros);
+
+// Counts a yield. With sensitivity, the gyros of one row of Saltelli's design share nearly all of their values: the rows are clusters of a
+// sample, and the ratio estimate for clusters (W. G. Cochran, Sampling Techniques, 3rd edition, 1977, section 3.12) says how much a
+// gyro is worth. With r rows, of which row i has m_i gyros and a_i that pass,
+//
+//   p = sum a_i/sum m_i,   var p = r/(r - 1) sum (a_i - p m_i)^2/(sum m_i)^2
+//
+// Wilson's interval is then that of p (1 - p)/var p gyros, as many as there are rows at least and as many as there are gyros at most, with the
+// quantile of Student's t for r - 1 degrees of freedom. Few rows show too little of var p, so eight more are presumed whose gyros pass or
+// fail together. Where all or none pass, each row counts once.
+class YieldCount {
+public:
+    explicit YieldCount(const Description& description);
+
+    // A gyro that does not pass; then, that it does. Each once.
+    void add(std::int64_t gyro);
+    void pass(std::int64_t gyro);
+
+    // gyros is 0 where none was added.
+    [[nodiscard]] Yield yield() const;
+
+private:
+    struct DesignRow {
+        double gyros = 0.0;
+        double passed = 0.0;
+    };
+
+    std::int64_t gyros_a_row_;  // 1: each is for itself, and no rows are kept
+    std::map<std::int64_t, DesignRow> rows_;
+    std::int64_t gyros_ = 0;
+    std::int64_t passed_ = 0;
+    double gyros_sq_ = 0.0, gyros_passed_ = 0.0, passed_sq_ = 0.0;  // sums over rows of m^2, m a, a^2
+};
 
 // The quantile p of sorted numbers, with straight lines between them: number (n - 1) p, from 0.
 //

@@ -25,8 +25,9 @@ struct Range {
     [[nodiscard]] double above(double way) const { return nominal + way * (max - nominal); }
 };
 
-// Of the parameters that are drawn from an interval; of a normal law, its mean +- 2 sd.
-[[nodiscard]] std::vector<Range> ranges(const Gyros& gyros);
+// Of the parameters that are drawn from an interval; of a normal law, from the least to the greatest value of the rows. So every
+// gyro lies within the full ranges.
+[[nodiscard]] std::vector<Range> ranges(const Gyros& gyros, const Rows& rows);
 
 // The gyros of which every parameter lies within its part of the way: how many there are, and how many of them pass.
 [[nodiscard]] std::optional<Yield> yield_within(const Gyros& gyros, const Rows& rows, const std::vector<Range>& ranges,
