@@ -46,17 +46,20 @@ auto column(const Rows& rows, const Get& get) {
     return values;
 }
 
-void add_parameters(logs::ColumnFile& file, const Gyros& gyros, const Rows& rows) {
-    const std::vector<Parameter>& parameters = gyros.description().parameters;
-    std::vector<std::vector<Value>> drawn(parameters.size());
+// What each key was given in each row.
+std::vector<FileColumn> drawn_columns(const Description& description, const Rows& rows) {
+    const Draws draws{description};
+    std::vector<std::vector<Value>> drawn(description.parameters.size());
     for (const auto& [gyro, row] : rows) {
-        std::vector<Value> values = gyros.values(gyro);
+        std::vector<Value> values = draws.values(gyro);
         for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k].push_back(std::move(values[k]));
     }
     const std::map<std::string, std::string> units = units_of_keys();
-    for (std::size_t k = 0; k < parameters.size(); ++k)
-        for (const std::string& key : parameters[k].keys)
-            file.columns.push_back(column_of(key, units.at(key), drawn[k]));
+    std::vector<FileColumn> columns;
+    for (std::size_t k = 0; k < drawn.size(); ++k)
+        for (const std::string& key : description.parameters[k].keys)
+            columns.push_back(column_of(key, units.at(key), drawn[k]));
+    return columns;
 }
 
 struct Damage {
@@ -75,21 +78,16 @@ std::int64_t checksum_of(const std::string& description, const Rows& rows) {
 }
 
 // The columns of what was drawn stand there for other programs; they must be what the description draws.
-void check_parameters(const logs::ColumnReader& file, const std::string& path, const Description& description,
-                      const Rows& rows) {
-    const Draws draws{description};
-    for (std::size_t k = 0; k < description.parameters.size(); ++k) {
-        std::vector<Value> drawn;
-        for (const auto& [gyro, row] : rows) drawn.push_back(draws.values(gyro)[k]);
-        for (const std::string& key : description.parameters[k].keys) {
-            const FileColumn ours = column_of(key, "", drawn);
-            const auto* numbers = std::get_if<std::vector<double>>(&ours.values);
-            const bool is_same = numbers != nullptr
-                                     ? file.reals(key) == *numbers
-                                     : file.texts(key) == std::get<std::vector<std::string>>(ours.values);
-            if (!is_same)
-                throw logs::FormatError(fmt::format("{}: the column {} is not what the description draws", path, key));
-        }
+void check_drawn(const logs::ColumnReader& file, const std::string& path, const Results& results,
+                 const Description& description) {
+    for (const FileColumn& ours : drawn_columns(description, results.rows)) {
+        const auto* numbers = std::get_if<std::vector<double>>(&ours.values);
+        const bool is_same = numbers != nullptr
+                                 ? file.reals(ours.name) == *numbers
+                                 : file.texts(ours.name) == std::get<std::vector<std::string>>(ours.values);
+        if (!is_same)
+            throw logs::FormatError(
+                fmt::format("{}: the column {} is not what the description draws", path, ours.name));
     }
 }
 
@@ -102,7 +100,7 @@ void write_results(const std::string& path, const Gyros& gyros, const Rows& rows
     file.marks = {{"format_version", format_version}, {"checksum", checksum_of(description, rows)}};
     file.columns.push_back({"gyro", "1", column(rows, [](const Row& r) { return r.gyro; })});
     file.columns.push_back({"seed", "1", column(rows, [&](const Row& r) { return gyros.seed(r.gyro); })});
-    add_parameters(file, gyros, rows);
+    for (FileColumn& column : drawn_columns(gyros.description(), rows)) file.columns.push_back(std::move(column));
     const std::vector<Metric>& metrics = gyros.description().metrics;
     for (std::size_t k = 0; k < metrics.size(); ++k)
         file.columns.push_back({metrics[k].name, unit_of(metrics[k].name), column(rows, [k](const Row& r) {
@@ -151,7 +149,7 @@ Results read_results(const std::string& path) {
     if (const std::int64_t checksum = checksum_of(results.description, results.rows); file.mark("checksum") != checksum)
         throw logs::FormatError(fmt::format("{}: is damaged, its checksum is {} and that of its rows {}", path,
                                             file.mark("checksum"), checksum));
-    check_parameters(file, path, description, results.rows);
+    check_drawn(file, path, results, description);
     return results;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "draw_names.hpp"
 
@@ -78,13 +79,31 @@ std::size_t next(const std::vector<Placed>& all, const std::vector<double>& ways
     return best;
 }
 
-void widen_to_rows(Range& range, const Gyros& gyros, const Rows& rows, double mean) {
-    range.min = range.max = mean;
+void widen(Range& range, double value) {
+    range.min = std::min(range.min, value);
+    range.max = std::max(range.max, value);
+}
+
+// From the middle of a normal law, which has no ends, to the values of the rows.
+void widen_to_rows(std::vector<Range>& ranges, const Gyros& gyros, const Rows& rows) {
+    const std::vector<Parameter>& parameters = gyros.description().parameters;
+    std::vector<Range*> without_ends;
+    for (Range& range : ranges)
+        if (!has_range(parameters[range.parameter].draw)) without_ends.push_back(&range);
+    if (without_ends.empty()) return;
     for (const auto& [gyro, row] : rows) {
-        const double value = std::get<double>(gyros.values(gyro)[range.parameter]);
-        range.min = std::min(range.min, value);
-        range.max = std::max(range.max, value);
+        const std::vector<Value> values = gyros.values(gyro);
+        for (Range* range : without_ends) widen(*range, std::get<double>(values[range->parameter]));
     }
+}
+
+// The value that a key has in the base, where that is a number.
+std::optional<double> number_in(const config::Settings& base, const std::string& key) {
+    const auto at = std::ranges::find(base, key, &std::pair<std::string, std::string>::first);
+    if (at == base.end()) return std::nullopt;
+    char* end = nullptr;
+    const double value = std::strtod(at->second.c_str(), &end);
+    return end != at->second.c_str() && *end == '\0' ? std::optional{value} : std::nullopt;
 }
 
 }  // namespace
@@ -96,21 +115,19 @@ double Range::way(double value) const {
 
 std::vector<Range> ranges(const Gyros& gyros, const Rows& rows) {
     const Description& description = gyros.description();
-    const config::Settings base = config::to_settings(base_config(description));
     std::vector<Range> found;
     for (std::size_t k = 0; k < description.parameters.size(); ++k) {
         const Parameter& p = description.parameters[k];
         if (has_values(p.draw)) continue;
-        Range range{.parameter = k, .min = p.min, .max = p.max};
-        if (!has_range(p.draw)) widen_to_rows(range, gyros, rows, p.mean);
-        const auto at = std::ranges::find(base, p.keys.front(), &std::pair<std::string, std::string>::first);
-        range.nominal = 0.5 * (range.min + range.max);
-        if (at != base.end()) {
-            char* end = nullptr;
-            const double value = std::strtod(at->second.c_str(), &end);
-            if (end != at->second.c_str() && *end == '\0') range.nominal = std::clamp(value, range.min, range.max);
-        }
-        found.push_back(range);
+        found.push_back(has_range(p.draw) ? Range{.parameter = k, .min = p.min, .max = p.max}
+                                          : Range{.parameter = k, .min = p.mean, .max = p.mean});
+    }
+    widen_to_rows(found, gyros, rows);
+    const config::Settings base = config::to_settings(base_config(description));
+    for (Range& range : found) {
+        const double middle = 0.5 * (range.min + range.max);
+        const std::string& key = description.parameters[range.parameter].keys.front();
+        range.nominal = std::clamp(number_in(base, key).value_or(middle), range.min, range.max);
     }
     return found;
 }
