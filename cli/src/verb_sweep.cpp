@@ -113,9 +113,8 @@ void sweep_gyros(const SweepOptions& options, const sweep::Crew& crew) {
     };
     const sweep::Outcome outcome = sweep::run(task);
     if (outcome.is_stopped)
-        throw logs::IoError{
-            fmt::format("interrupted by a signal; {} of {} gyros are in {}.part, and the same line goes on",
-                        outcome.rows.size(), task.description.n_gyros, options.out)};
+        throw logs::IoError{fmt::format("interrupted by a signal; {} of {} gyros are in {}, and the same line goes on",
+                                        outcome.rows.size(), task.description.n_gyros, outcome.checkpoint)};
     if (outcome.n_run == 0) complain(fmt::format("note: {} held every gyro that is asked for", options.out));
     show(options, sweep::Gyros{task.description}, outcome.rows);
 }

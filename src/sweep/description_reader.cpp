@@ -27,7 +27,7 @@ void refuse_run_keys(const Table& table, const std::string& key) {
     if (key == "run.duration_s") table.fail("run.duration_s: is sweep.duration_s here");
 }
 
-// An integer that no double holds stays a text, so that every digit arrives.
+// Beyond 2^53, where doubles skip integers, an integer stays a text, so that every digit arrives.
 bool is_exact(const toml::node& node) {
     constexpr std::int64_t largest = std::int64_t{1} << 53;
     const auto* integer = node.as_integer();
@@ -44,7 +44,7 @@ Value value_of(const Table& table, const toml::node& node) {
 constexpr double largest_number = std::numeric_limits<double>::max();
 
 // The width of a range is a number as well.
-void refuse_empty_range(const Table& table, double min, double max) {
+void check_range(const Table& table, double min, double max) {
     if (!(min < max)) table.refuse("max", fmt::format("a number above min = {}", text::toml_real(min)));
     if (!std::isfinite(max - min))
         table.refuse("max", fmt::format("a number less than {} above min = {}", largest_number, text::toml_real(min)));
@@ -55,7 +55,7 @@ std::vector<Value> spaced(const Table& table) {
     const double min = table.real("min");
     const double max = table.real("max");
     const auto n = static_cast<std::size_t>(table.integer("n", 2, max_grid_values));
-    refuse_empty_range(table, min, max);
+    check_range(table, min, max);
     std::vector<Value> values;
     for (std::size_t k = 0; k < n; ++k) {
         const double place = static_cast<double>(k) / static_cast<double>(n - 1);
@@ -94,7 +94,7 @@ void read_law(const Table& table, Parameter& p) {
         p.min = table.real("min");
         p.max = table.real("max");
         if (p.draw == DrawKind::log_uniform && !(p.min > 0.0)) table.refuse("min", "a number above 0 for log_uniform");
-        refuse_empty_range(table, p.min, p.max);
+        check_range(table, p.min, p.max);
         if (p.draw == DrawKind::log_uniform && !std::isfinite(p.max / p.min))
             table.refuse("max", fmt::format("less than {} times min = {}", largest_number, text::toml_real(p.min)));
     }
@@ -104,7 +104,7 @@ void read_law(const Table& table, Parameter& p) {
     if (!(p.sd > 0.0)) table.refuse("sd", "a number above 0");
     constexpr double furthest_sd = 40.0;  // no deviate of a double is so far
     if (!std::isfinite(std::abs(p.mean) + furthest_sd * p.sd))
-        table.refuse("sd", fmt::format("one of which mean +- {} sd are numbers", furthest_sd));
+        table.refuse("sd", fmt::format("one with mean +- {} sd below {}", furthest_sd, largest_number));
     if (p.draw == DrawKind::truncated && !(share_within(p) >= least_share))
         table.refuse("mean", fmt::format("one that leaves at least {} of the law within min and max", least_share));
 }

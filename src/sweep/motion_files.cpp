@@ -8,18 +8,15 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <set>
 #include <vector>
 
 #include <fmt/format.h>
 
-// The hash is part of this source alone: no library has to be there where the program runs.
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <zlg/logs/error.hpp>
 #include <zlg/text/inputs.hpp>
+
+#include "content_hash.hpp"
 
 namespace zlg::sweep {
 namespace {
@@ -34,13 +31,12 @@ std::string checksum(const std::string& path) {
     };
     std::ifstream in{path, std::ios::binary};
     if (!in) fail();
-    const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> hash{XXH64_createState(), XXH64_freeState};
-    XXH64_reset(hash.get(), 0);
+    ContentHash hash;
     std::vector<char> block(std::size_t{1} << 16);
     while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
-        XXH64_update(hash.get(), block.data(), static_cast<std::size_t>(in.gcount()));
+        hash.add({block.data(), static_cast<std::size_t>(in.gcount())});
     if (in.bad()) fail();
-    return fmt::format("{:016x}", XXH64_digest(hash.get()));
+    return fmt::format("{:016x}", hash.value());
 }
 
 // Of the base and of all values that a parameter may give; none where no gyro moves by a file.

@@ -1,6 +1,8 @@
 #include <zlg/sweep/results.hpp>
 
 #include <algorithm>
+#include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -10,7 +12,8 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/sweep/metrics.hpp>
 #include <zlg/sweep/row_text.hpp>
-#include <zlg/wire/crc.hpp>
+
+#include "content_hash.hpp"
 
 namespace zlg::sweep {
 namespace {
@@ -25,19 +28,6 @@ std::map<std::string, std::string> units_of_keys() {
     return units;
 }
 
-// Reals, or texts where any value is one.
-FileColumn column_of(const std::string& key, const std::string& unit, const std::vector<Value>& values) {
-    const bool are_numbers = std::ranges::all_of(values, [](const Value& v) { return v.index() == 0; });
-    if (are_numbers) {
-        std::vector<double> numbers;
-        for (const Value& value : values) numbers.push_back(std::get<double>(value));
-        return {key, unit.empty() ? "1" : unit, std::move(numbers)};
-    }
-    std::vector<std::string> texts;
-    for (const Value& value : values) texts.push_back(toml_of(value));
-    return {key, unit, std::move(texts)};
-}
-
 template <class Get>
 auto column(const Rows& rows, const Get& get) {
     std::vector<decltype(get(rows.begin()->second))> values;
@@ -46,19 +36,28 @@ auto column(const Rows& rows, const Get& get) {
     return values;
 }
 
-// What each key was given in each row.
-std::vector<FileColumn> drawn_columns(const Description& description, const Rows& rows) {
-    const Draws draws{description};
-    std::vector<std::vector<Value>> drawn(description.parameters.size());
+// What each key was given in each row: reals, or texts where any value that the parameter may give is one.
+std::vector<FileColumn> drawn_columns(const Description& description, const Rows& rows,
+                                      const std::function<std::vector<Value>(std::int64_t)>& values_of) {
+    const std::vector<Parameter>& parameters = description.parameters;
+    std::vector<std::vector<double>> reals(parameters.size());
+    std::vector<std::vector<std::string>> texts(parameters.size());
+    std::vector<bool> is_text;
+    for (const Parameter& p : parameters)
+        is_text.push_back(std::ranges::any_of(p.values, [](const Value& v) { return v.index() != 0; }));
     for (const auto& [gyro, row] : rows) {
-        std::vector<Value> values = draws.values(gyro);
-        for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k].push_back(std::move(values[k]));
+        const std::vector<Value> values = values_of(gyro);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            is_text[k] ? texts[k].push_back(toml_of(values[k])) : reals[k].push_back(std::get<double>(values[k]));
     }
     const std::map<std::string, std::string> units = units_of_keys();
     std::vector<FileColumn> columns;
-    for (std::size_t k = 0; k < drawn.size(); ++k)
-        for (const std::string& key : description.parameters[k].keys)
-            columns.push_back(column_of(key, units.at(key), drawn[k]));
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+        for (const std::string& key : parameters[k].keys) {
+            const std::string& unit = units.at(key);
+            is_text[k] ? columns.push_back({key, unit, texts[k]})
+                       : columns.push_back({key, unit.empty() ? "1" : unit, reals[k]});
+        }
     return columns;
 }
 
@@ -70,20 +69,27 @@ struct Damage {
     }
 };
 
-// Of the description, and of each row as its line of text.
+// Of the description, and of each row as its line of text: the first 52 bits of the hash, which any program holds as a number.
 std::int64_t checksum_of(const std::string& description, const Rows& rows) {
-    std::string all = description;
-    for (const auto& [gyro, row] : rows) all += text_checksum(text_of(row));
-    return wire::crc32c({reinterpret_cast<const std::uint8_t*>(all.data()), all.size()});
+    ContentHash hash;
+    hash.add(description);
+    for (const auto& [gyro, row] : rows) hash.add(fields_of(row));
+    return static_cast<std::int64_t>(hash.value() >> 12);
+}
+
+bool are_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 // The columns of what was drawn stand there for other programs; they must be what the description draws.
 void check_drawn(const logs::ColumnReader& file, const std::string& path, const Results& results,
                  const Description& description) {
-    for (const FileColumn& ours : drawn_columns(description, results.rows)) {
+    const Draws draws{description};
+    const auto values_of = [&](std::int64_t gyro) { return draws.values(gyro); };
+    for (const FileColumn& ours : drawn_columns(description, results.rows, values_of)) {
         const auto* numbers = std::get_if<std::vector<double>>(&ours.values);
         const bool is_same = numbers != nullptr
-                                 ? file.reals(ours.name) == *numbers
+                                 ? are_same_bits(file.reals(ours.name), *numbers)
                                  : file.texts(ours.name) == std::get<std::vector<std::string>>(ours.values);
         if (!is_same)
             throw logs::FormatError(
@@ -100,7 +106,9 @@ void write_results(const std::string& path, const Gyros& gyros, const Rows& rows
     file.marks = {{"format_version", format_version}, {"checksum", checksum_of(description, rows)}};
     file.columns.push_back({"gyro", "1", column(rows, [](const Row& r) { return r.gyro; })});
     file.columns.push_back({"seed", "1", column(rows, [&](const Row& r) { return gyros.seed(r.gyro); })});
-    for (FileColumn& column : drawn_columns(gyros.description(), rows)) file.columns.push_back(std::move(column));
+    const auto values_of = [&](std::int64_t gyro) { return gyros.values(gyro); };
+    for (FileColumn& drawn : drawn_columns(gyros.description(), rows, values_of))
+        file.columns.push_back(std::move(drawn));
     const std::vector<Metric>& metrics = gyros.description().metrics;
     for (std::size_t k = 0; k < metrics.size(); ++k)
         file.columns.push_back({metrics[k].name, unit_of(metrics[k].name), column(rows, [k](const Row& r) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t max_fields = 100'000;
 
-std::vector<std::string_view> fields_of(std::string_view line) {
+std::vector<std::string_view> split(std::string_view line) {
     std::vector<std::string_view> fields;
     for (std::size_t at = 0; fields.size() < max_fields;) {
         const std::size_t end = line.find('\t', at);
@@ -32,20 +32,25 @@ bool read_number(std::string_view text, T& value) {
 
 }  // namespace
 
-// gyro, status, fingerprint, reason, metrics, checksum. Control characters in a reason are escaped already.
-std::string text_of(const Row& row) {
+// gyro, status, fingerprint, reason, metrics. Control characters in a reason are escaped already.
+std::string fields_of(const Row& row) {
     std::string line =
         fmt::format("{}\t{}\t{}\t{}", row.gyro, static_cast<std::int64_t>(row.status), row.fingerprint, row.reason);
     // One text for what is no number.
     for (const double value : row.metrics) line += std::isnan(value) ? "\tnan" : fmt::format("\t{}", value);
-    return line + fmt::format("\t{}", text_checksum(line));
+    return line;
+}
+
+std::string text_of(const Row& row) {
+    const std::string fields = fields_of(row);
+    return fmt::format("{}\t{}", fields, text_checksum(fields));
 }
 
 std::optional<Row> row_of(std::string_view line, std::size_t n_metrics) {
     const std::size_t last_tab = line.rfind('\t');
     if (last_tab == std::string_view::npos || line.substr(last_tab + 1) != text_checksum(line.substr(0, last_tab)))
         return std::nullopt;
-    const std::vector<std::string_view> fields = fields_of(line.substr(0, last_tab));
+    const std::vector<std::string_view> fields = split(line.substr(0, last_tab));
     Row row;
     std::int64_t status = 0;
     if (fields.size() != 4 + n_metrics || !read_number(fields[0], row.gyro) || !read_number(fields[1], status))

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/students_t.hpp>
-
 namespace zlg::sweep {
 namespace {
 
@@ -59,57 +57,69 @@ MetricSummary summary_of(const Description& d, const Rows& rows, std::size_t k) 
     return summary;
 }
 
-// Wilson's interval of as much knowledge as n independent gyros give, and z standard deviations on either side.
-Yield wilson(std::int64_t passed, std::int64_t gyros, double n, double z) {
+// Wilson's interval of gyros that say as much as n independent ones.
+Yield wilson(std::int64_t passed, std::int64_t gyros, double n) {
     const double p = static_cast<double>(passed) / static_cast<double>(gyros);
+    const double z = sigmas_of_95_percent;
     const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
     const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / (1.0 + z * z / n);
     // At the ends the limit is exact, and is not left to rounding.
-    return {passed, gyros, p, passed == 0 ? 0.0 : centre - half, passed == gyros ? 1.0 : centre + half};
+    return {passed, gyros, p, passed == 0 ? 0.0 : centre - half, passed == gyros ? 1.0 : centre + half, n};
 }
 
 }  // namespace
 
-Yield yield_of(std::int64_t passed, std::int64_t gyros) {
-    return wilson(passed, gyros, static_cast<double>(gyros), sigmas_of_95_percent);
-}
+Yield yield_of(std::int64_t passed, std::int64_t gyros) { return wilson(passed, gyros, static_cast<double>(gyros)); }
 
 YieldCount::YieldCount(const Description& description)
     : gyros_a_row_{description.sensitivity ? static_cast<std::int64_t>(description.parameters.size()) + 2 : 1} {}
 
+YieldCount::DesignRow& YieldCount::row_of(std::int64_t gyro) {
+    const auto k = static_cast<std::size_t>(gyro / gyros_a_row_);
+    if (k >= rows_.size()) rows_.resize(k + 1);
+    return rows_[k];
+}
+
 void YieldCount::add(std::int64_t gyro) {
     ++gyros_;
     if (gyros_a_row_ == 1) return;
-    DesignRow& row = rows_[gyro / gyros_a_row_];
-    gyros_sq_ += 2.0 * row.gyros + 1.0;
+    DesignRow& row = row_of(gyro);
+    if (row.gyros == 0) ++n_rows_;
+    if (row.passed == row.gyros) ++n_rows_with_failed_;
+    gyros_sq_ += 2 * row.gyros + 1;
     gyros_passed_ += row.passed;
-    row.gyros += 1.0;
+    ++row.gyros;
 }
 
 void YieldCount::pass(std::int64_t gyro) {
     ++passed_;
     if (gyros_a_row_ == 1) return;
-    DesignRow& row = rows_[gyro / gyros_a_row_];
-    passed_sq_ += 2.0 * row.passed + 1.0;
+    DesignRow& row = row_of(gyro);
+    passed_sq_ += 2 * row.passed + 1;
     gyros_passed_ += row.gyros;
-    row.passed += 1.0;
+    ++row.passed;
+    if (row.passed == 1) ++n_rows_with_passed_;
+    if (row.passed == row.gyros) --n_rows_with_failed_;
 }
 
-Yield YieldCount::yield() const {
-    if (gyros_ == 0) return {};
-    const auto r = static_cast<double>(rows_.size());
-    if (gyros_a_row_ == 1 || r == static_cast<double>(gyros_)) return yield_of(passed_, gyros_);
-    if (rows_.size() < 2) return wilson(passed_, gyros_, 1.0, sigmas_of_95_percent);
+// (1) and (2).
+double YieldCount::worth() const {
     const auto n = static_cast<double>(gyros_);
+    if (gyros_a_row_ == 1) return n;
+    const double rows = n * n / static_cast<double>(gyros_sq_);
+    if (passed_ == 0 || passed_ == gyros_ || n_rows_ < 2) return rows;
     const double p = static_cast<double>(passed_) / n;
-    const double squares = passed_sq_ - 2.0 * p * gyros_passed_ + p * p * gyros_sq_;
-    const double variance = r / (r - 1.0) * squares / (n * n);
-    const bool is_decided = passed_ == 0 || passed_ == gyros_;
-    const double together = p * (1.0 - p) / r;  // the variance if the gyros of a row all did the same
-    const double cautious = ((r - 1.0) * variance + presumed_rows * together) / (r - 1.0 + presumed_rows);
-    const double worth = is_decided ? r : std::clamp(p * (1.0 - p) / cautious, r, n);
-    return wilson(passed_, gyros_, worth, boost::math::quantile(boost::math::students_t{r - 1.0}, 0.975));
+    const double squares = static_cast<double>(passed_sq_) - 2.0 * p * static_cast<double>(gyros_passed_) +
+                           p * p * static_cast<double>(gyros_sq_);
+    const auto r = static_cast<double>(n_rows_);
+    const double seen = r / (r - 1.0) * squares / (n * n);
+    const double together = p * (1.0 - p) / rows;
+    const auto k = static_cast<double>(std::min(n_rows_with_passed_, n_rows_with_failed_));
+    const double variance = (k * seen + presumed_rows * together) / (k + presumed_rows);
+    return std::clamp(p * (1.0 - p) / variance, rows, n);
 }
+
+Yield YieldCount::yield() const { return gyros_ == 0 ? Yield{} : wilson(passed_, gyros_, worth()); }
 
 double quantile(std::span<const double> sorted, double p) {
     const double place = p * static_cast<double>(sorted.size() - 1);

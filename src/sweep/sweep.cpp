@@ -30,12 +30,16 @@ void require_regular(const std::string& path) {
         throw logs::IoError(fmt::format("cannot create {}: there is no folder {}", path, folder.string()));
 }
 
-// A link stays one, and what it names is written.
+// A link stays one, and what it names is written, there already or not.
 std::string target_of(const std::string& path) {
+    constexpr int most_links = 40;
     std::error_code error;
-    if (!fs::is_symlink(path, error)) return path;
-    const fs::path target = fs::canonical(path, error);
-    return error ? path : target.string();
+    fs::path at = path;
+    for (int k = 0; fs::is_symlink(at, error); ++k) {
+        if (k == most_links) throw logs::IoError(fmt::format("cannot create {}: too many links", path));
+        at = at.parent_path() / fs::read_symlink(at, error);
+    }
+    return at.string();
 }
 
 void require_same_sweep(const std::string& path, const std::string& theirs, const std::string& ours) {
@@ -45,16 +49,16 @@ void require_same_sweep(const std::string& path, const std::string& theirs, cons
 }
 
 // What RESULTS holds already; nothing where there is none.
-std::optional<Results> results_until_now(const Task& task, const std::string& description) {
+std::optional<Results> results_until_now(const Task& task, const std::string& out, const std::string& description) {
     std::error_code ignored;
-    if (task.force || !fs::exists(task.out, ignored)) return std::nullopt;
-    Results results = read_results(task.out);
-    require_same_sweep(task.out, results.description, description);
+    if (task.force || !fs::exists(out, ignored)) return std::nullopt;
+    Results results = read_results(out);
+    require_same_sweep(out, results.description, description);
     const std::int64_t n = task.description.n_gyros;
     if (!results.rows.empty() && results.rows.rbegin()->first >= n)
         throw config::ConfigError(
-            fmt::format("sweep.gyros = {}: {} has gyro {} already; allowed are more, or another file by --out", n,
-                        task.out, results.rows.rbegin()->first));
+            fmt::format("sweep.gyros = {}: {} has gyro {} already; allowed are more, or another file by --out", n, out,
+                        results.rows.rbegin()->first));
     return results;
 }
 
@@ -103,19 +107,18 @@ Crew threads_of(const Task& task) {
 
 }  // namespace
 
-Outcome run(const Task& asked_task) {
-    Task task = asked_task;
-    task.out = target_of(asked_task.out);
+Outcome run(const Task& task) {
+    const std::string out = target_of(task.out);
     const Gyros gyros{with_motion_checksums(task.description)};
     const std::string description = to_toml(gyros.description());
-    const std::string part = part_of(task.out);
-    for (const std::string& path : {task.out, part}) {
+    const std::string part = part_of(out);
+    for (const std::string& path : {out, part}) {
         require_regular(path);
         text::refuse_input(path);
     }
     if (task.force) ::unlink(part.c_str());
-    Outcome outcome;
-    const std::optional<Results> before = results_until_now(task, description);
+    Outcome outcome{.checkpoint = part};
+    const std::optional<Results> before = results_until_now(task, out, description);
     if (before) outcome.rows = before->rows;
     const bool is_current = before && before->description == description;
     if (is_current && !fs::exists(part) && missing(task, outcome.rows).empty()) return outcome;
@@ -129,18 +132,18 @@ Outcome run(const Task& asked_task) {
     outcome.is_stopped = !crew(gyros, asked, [&](Row row) { record.take(std::move(row)); });
     outcome.n_run = static_cast<std::int64_t>(outcome.rows.size() - n_before);
     if (outcome.is_stopped) return outcome;
-    write_results(task.out, gyros, outcome.rows);
+    write_results(out, gyros, outcome.rows);
     checkpoint.remove();
     return outcome;
 }
 
-Merged merge(const std::vector<std::string>& paths, const std::string& name, bool force) {
-    const std::string out = target_of(name);
-    require_regular(out);
+Merged merge(const std::vector<std::string>& paths, const std::string& out, bool force) {
+    const std::string target = target_of(out);
+    require_regular(target);
     std::error_code ignored;
     if (!force && fs::exists(out, ignored))
         throw logs::IoError(fmt::format("{} exists; use --force to overwrite", out));
-    text::refuse_input(out);
+    text::refuse_input(target);
     std::string first;
     Merged merged;
     for (const std::string& path : paths) {
@@ -155,7 +158,7 @@ Merged merge(const std::vector<std::string>& paths, const std::string& name, boo
         }
         add_rows(merged.rows, results.rows, path);
     }
-    write_results(out, Gyros{merged.description}, merged.rows);
+    write_results(target, Gyros{merged.description}, merged.rows);
     return merged;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -90,7 +91,8 @@ Figure distribution_figure(const Metric& metric, const std::vector<double>& valu
 }
 
 // Yield where one parameter, or all, stay within a part of the way from the nominal value to the ends of the range.
-Figure tolerance_figure(const Gyros& gyros, const Rows& rows, const std::vector<Range>& all) {
+Figure tolerance_figure(const Description& d, const Placement& placement) {
+    const std::vector<Range>& all = placement.ranges();
     Figure f = blank_figure(
         "tolerances", "Yield against tolerance",
         "The yield of the gyros whose parameter lies within this part of the way from the value of the base "
@@ -98,11 +100,11 @@ Figure tolerance_figure(const Gyros& gyros, const Rows& rows, const std::vector<
         "part of the way", "yield");
     for (std::size_t p = 0; p <= all.size(); ++p) {
         const bool is_all = p == all.size();
-        Series s = blank_series(is_all ? "all" : gyros.description().parameters[all[p].parameter].keys.front());
+        Series s = blank_series(is_all ? "all" : d.parameters[all[p].parameter].keys.front());
         for (int k = 1; k <= 20; ++k) {
             std::vector<double> ways(all.size(), is_all ? 0.05 * k : 1.0);
             if (!is_all) ways[p] = 0.05 * k;
-            const auto y = yield_within(gyros, rows, all, ways);
+            const auto y = placement.yield_within(ways);
             if (y && y->gyros >= 10) add_point(s, 0.05 * k, y->value);
         }
         if (!s.x.empty()) f.series.push_back(std::move(s));
@@ -123,21 +125,23 @@ std::string tolerance_sentence(const Tolerances& t) {
            ". Chosen from the same gyros the yield is a little too good: verify it by a sweep over these tolerances.";
 }
 
-Section tolerance_section(const Gyros& gyros, const Rows& rows) {
-    const Tolerances t = tolerances(gyros, rows, wanted_yield);
+Section tolerance_section(const Description& d, const Placement& placement) {
+    const Tolerances t = tolerances(placement, wanted_yield);
     Section s{.heading = "Tolerances to be held"};
     report::Table table{
-        .caption = fmt::format("For a yield of {} within all limits; the ranges were drawn in one after the other.",
-                               percent(wanted_yield)),
+        .caption = fmt::format(
+            "For a yield of {} within all limits; the ranges were drawn in one after the other. The range of a normal "
+            "law goes from the least to the greatest value of these gyros.",
+            percent(wanted_yield)),
         .header = {"parameter", "from", "to", "drawn from", "drawn to", "part of the range"}};
-    for (std::size_t k = 0; k < t.ranges.size(); ++k) {
-        const Range& r = t.ranges[k];
-        table.rows.push_back(row(gyros.description().parameters[r.parameter].keys.front(), r.below(t.ways[k]),
-                                 r.above(t.ways[k]), r.min, r.max, percent(t.ways[k])));
+    for (std::size_t k = 0; k < t.ways.size(); ++k) {
+        const Range& r = placement.ranges()[k];
+        table.rows.push_back(row(d.parameters[r.parameter].keys.front(), r.below(t.ways[k]), r.above(t.ways[k]), r.min,
+                                 r.max, percent(t.ways[k])));
     }
     s.paragraphs = {tolerance_sentence(t)};
     s.tables = {std::move(table)};
-    s.figures = {tolerance_figure(gyros, rows, t.ranges)};
+    s.figures = {tolerance_figure(d, placement)};
     return s;
 }
 
@@ -188,7 +192,10 @@ report::Page sweep_page(const Gyros& gyros, const Rows& rows) {
         numbers.figures.push_back(yield_figure(d, columns, rows, k));
     }
     page.sections.push_back(std::move(numbers));
-    if (summary.yield && !ranges(gyros, rows).empty()) page.sections.push_back(tolerance_section(gyros, rows));
+    if (summary.yield) {
+        const Placement placement{gyros, rows};
+        if (!placement.ranges().empty()) page.sections.push_back(tolerance_section(d, placement));
+    }
     if (!columns.parameters.empty() && summary.failed < summary.gyros)
         page.sections.push_back(dependence(gyros, rows, columns));
     page.sections.push_back(worst_section(gyros, rows));

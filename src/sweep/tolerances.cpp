@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <utility>
 
 #include "draw_names.hpp"
 
@@ -11,67 +13,17 @@ namespace {
 
 constexpr double draw_in = 0.9;
 
-// A gyro as the ways of its parameters, and whether it passes.
-struct Placed {
-    std::int64_t gyro = 0;
-    std::vector<double> ways;
-    bool passes = false;
-};
-
-std::vector<Placed> placed(const Gyros& gyros, const Rows& rows, const std::vector<Range>& ranges) {
-    std::vector<Placed> all;
-    for (const auto& [gyro, row] : rows) {
-        const std::vector<Value> values = gyros.values(gyro);
-        Placed one{.gyro = gyro, .ways = {}, .passes = passes_all(gyros.description(), row)};
-        for (const Range& range : ranges) one.ways.push_back(range.way(std::get<double>(values[range.parameter])));
-        all.push_back(std::move(one));
-    }
-    return all;
-}
-
-struct Count {
-    std::int64_t passed = 0;
-    std::int64_t gyros = 0;
-
-    [[nodiscard]] double yield() const { return static_cast<double>(passed) / static_cast<double>(gyros); }
-};
-
-bool is_within(const Placed& one, const std::vector<double>& ways) {
-    return std::ranges::equal(one.ways, ways, std::ranges::less_equal{});
-}
-
-Count count_within(const std::vector<Placed>& all, const std::vector<double>& ways) {
-    Count count;
-    for (const Placed& one : all) {
-        if (!is_within(one, ways)) continue;
-        ++count.gyros;
-        if (one.passes) ++count.passed;
-    }
-    return count;
-}
-
-Yield yield_within(const std::vector<Placed>& all, const std::vector<double>& ways, const Description& description) {
-    YieldCount count{description};
-    for (const Placed& one : all) {
-        if (!is_within(one, ways)) continue;
-        count.add(one.gyro);
-        if (one.passes) count.pass(one.gyro);
-    }
-    return count.yield();
-}
-
 // The parameter to draw in next; ways.size(): none leaves enough gyros.
-std::size_t next(const std::vector<Placed>& all, const std::vector<double>& ways, std::int64_t least_gyros) {
-    const Count before = count_within(all, ways);
+std::size_t next(const Placement& placement, const std::vector<double>& ways, const Yield& before, double least_worth) {
     std::size_t best = ways.size();
     double best_gain = 0.0;
     for (std::size_t k = 0; k < ways.size(); ++k) {
         std::vector<double> tried = ways;
         tried[k] *= draw_in;
-        const Count after = count_within(all, tried);
-        if (after.gyros < least_gyros) continue;
-        const auto lost = static_cast<double>(before.gyros - after.gyros);
-        const double gain = (after.yield() - before.yield()) / (lost + 1.0);
+        const std::optional<Yield> after = placement.yield_within(tried);
+        if (!after || after->worth < least_worth) continue;
+        const auto lost = static_cast<double>(before.gyros - after->gyros);
+        const double gain = (after->value - before.value) / (lost + 1.0);
         if (best < ways.size() && gain <= best_gain) continue;
         best = k;
         best_gain = gain;
@@ -106,14 +58,7 @@ std::optional<double> number_in(const config::Settings& base, const std::string&
     return end != at->second.c_str() && *end == '\0' ? std::optional{value} : std::nullopt;
 }
 
-}  // namespace
-
-double Range::way(double value) const {
-    const double end = value < nominal ? min : max;
-    return end == nominal ? std::abs(value - nominal) > 0.0 : (value - nominal) / (end - nominal);
-}
-
-std::vector<Range> ranges(const Gyros& gyros, const Rows& rows) {
+std::vector<Range> ranges_of(const Gyros& gyros, const Rows& rows) {
     const Description& description = gyros.description();
     std::vector<Range> found;
     for (std::size_t k = 0; k < description.parameters.size(); ++k) {
@@ -132,25 +77,45 @@ std::vector<Range> ranges(const Gyros& gyros, const Rows& rows) {
     return found;
 }
 
-std::optional<Yield> yield_within(const Gyros& gyros, const Rows& rows, const std::vector<Range>& ranges,
-                                  const std::vector<double>& ways) {
-    const Yield yield = yield_within(placed(gyros, rows, ranges), ways, gyros.description());
+}  // namespace
+
+double Range::way(double value) const {
+    const double end = value < nominal ? min : max;
+    return end == nominal ? std::abs(value - nominal) > 0.0 : (value - nominal) / (end - nominal);
+}
+
+Placement::Placement(const Gyros& gyros, const Rows& rows)
+    : description_{gyros.description()}, ranges_{ranges_of(gyros, rows)} {
+    for (const auto& [gyro, row] : rows) {
+        const std::vector<Value> values = gyros.values(gyro);
+        Placed one{.gyro = gyro, .ways = {}, .passes = passes_all(description_, row)};
+        for (const Range& range : ranges_) one.ways.push_back(range.way(std::get<double>(values[range.parameter])));
+        all_.push_back(std::move(one));
+    }
+}
+
+std::optional<Yield> Placement::yield_within(const std::vector<double>& ways) const {
+    YieldCount count{description_};
+    for (const Placed& one : all_) {
+        if (!std::ranges::equal(one.ways, ways, std::ranges::less_equal{})) continue;
+        count.add(one.gyro);
+        if (one.passes) count.pass(one.gyro);
+    }
+    const Yield yield = count.yield();
     return yield.gyros > 0 ? std::optional{yield} : std::nullopt;
 }
 
-Tolerances tolerances(const Gyros& gyros, const Rows& rows, double wanted_yield, std::int64_t least_gyros) {
-    Tolerances found{.ranges = ranges(gyros, rows)};
-    found.ways.assign(found.ranges.size(), 1.0);
-    const std::vector<Placed> all = placed(gyros, rows, found.ranges);
-    Count count = count_within(all, found.ways);
-    while (count.gyros >= least_gyros && count.yield() < wanted_yield) {
-        const std::size_t k = next(all, found.ways, least_gyros);
+Tolerances tolerances(const Placement& placement, double wanted_yield, double least_worth) {
+    Tolerances found{.ways = std::vector<double>(placement.ranges().size(), 1.0)};
+    found.yield = placement.yield_within(found.ways);
+    const auto is_enough = [&] { return found.yield && found.yield->worth >= least_worth; };
+    while (is_enough() && found.yield->value < wanted_yield) {
+        const std::size_t k = next(placement, found.ways, *found.yield, least_worth);
         if (k == found.ways.size()) break;
         found.ways[k] *= draw_in;
-        count = count_within(all, found.ways);
+        found.yield = placement.yield_within(found.ways);
     }
-    if (count.gyros > 0) found.yield = yield_within(all, found.ways, gyros.description());
-    found.is_reached = count.gyros >= least_gyros && count.yield() >= wanted_yield;
+    found.is_reached = is_enough() && found.yield->value >= wanted_yield;
     return found;
 }
 

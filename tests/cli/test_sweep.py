@@ -282,7 +282,14 @@ class BadInput(SweepTest):
         more = self.description(SWEEP.replace("gyros = 12", "gyros = 13"), "more.toml")
         self.assertEqual(run("sweep", more, "--out", self.folder / "r.h5").returncode, 0)
         self.assertTrue((self.folder / "r.h5").is_symlink())
-        self.assertEqual((self.folder / "elsewhere" / "real.h5").read_bytes(), self.swept("whole.h5", text=more.read_text()))
+        whole = self.swept("whole.h5", text=more.read_text())
+        self.assertEqual((self.folder / "elsewhere" / "real.h5").read_bytes(), whole)
+        (self.folder / "new.h5").symlink_to("elsewhere/new.h5")
+        self.assertEqual(run("sweep", more, "--out", self.folder / "new.h5").returncode, 0)
+        self.assertEqual((self.folder / "elsewhere" / "new.h5").read_bytes(), whole, "not there before")
+        for a, b in (("x.h5", "y.h5"), ("y.h5", "x.h5")):
+            (self.folder / a).symlink_to(b)
+        self.refused(3, more, "--out", self.folder / "x.h5", says="too many links")
 
     def test_results_of_another_sweep_stay(self):
         before = self.swept("r.h5")

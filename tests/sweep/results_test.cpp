@@ -1,6 +1,7 @@
 // Claims about result files: bytes follow from rows, what is written reads back, and damage is found.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -112,6 +113,30 @@ TEST(Results, a_number_that_was_changed_is_damage) {
     const double drawn = std::get<double>(Gyros{short_sweep()}.values(4)[0]);
     EXPECT_NE(complaint_about_flipped(drawn).find("the column gyro.bias_chi is not what the description draws"),
               std::string::npos);
+}
+
+TEST(Results, a_text_of_any_length_and_a_zero_of_either_sign_are_told_apart) {
+    const Folder folder;
+    const std::string array = "[600.0" + std::string(1500, ' ') + ", 900.0]";
+    std::string many = "[600.0";
+    for (int k = 0; k < 900; ++k) many += ", 900.0";
+    const Gyros gyros{
+        parse("[sweep]\ngyros = 5\n[[parameter]]\nkeys = [\"design.run_lengths_s\"]\ndraw = \"list\"\nvalues = [" +
+                  array + ", " + many +
+                  "]]\n[[parameter]]\nkeys = [\"drift.magnetic_arcsec_s\"]\ndraw = \"list\"\nvalues = [0, 1]\n" +
+                  testing_metric,
+              "s")};
+    write_results(folder / "r.h5", gyros, two_rows());
+    EXPECT_EQ(read_results(folder / "r.h5").rows.size(), 2u);
+    const logs::ColumnReader file{folder / "r.h5", "/gyros"};
+    EXPECT_GT(file.texts("design.run_lengths_s")[0].size(), 4096u);
+    std::string bytes = bytes_of(folder / "r.h5");
+    const std::array<double, 2> drawn{1.0, 0.0};  // gyros 1 and 4
+    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(drawn.data()), sizeof drawn));
+    ASSERT_NE(at, std::string::npos);
+    bytes[at + 15] = static_cast<char>(0x80);
+    write_bytes(folder / "r.h5", bytes);
+    EXPECT_THROW((void)read_results(folder / "r.h5"), logs::FormatError);
 }
 
 TEST(Results, two_files_may_not_contradict_each_other) {

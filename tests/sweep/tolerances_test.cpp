@@ -26,7 +26,8 @@ Rows rows_of(const Gyros& gyros) {
 }
 
 TEST(Tolerances, ways_run_from_the_base_to_the_ends) {
-    const std::vector<Range> found = ranges(Gyros{parse(two, "s")}, {});
+    const Placement placement{Gyros{parse(two, "s")}, {}};
+    const std::vector<Range>& found = placement.ranges();
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(found[0].nominal, 0.0);
     EXPECT_EQ(found[1].nominal, 3.6) << "of the base";
@@ -39,17 +40,17 @@ TEST(Tolerances, ways_run_from_the_base_to_the_ends) {
 
 TEST(Tolerances, the_yield_within_half_the_way_is_one_by_the_rule) {
     const Gyros gyros{parse(two, "s")};
-    const Rows rows = rows_of(gyros);
-    const auto whole = yield_within(gyros, rows, ranges(gyros, rows), {1.0, 1.0});
+    const Placement placement{gyros, rows_of(gyros)};
+    const auto whole = placement.yield_within({1.0, 1.0});
     EXPECT_EQ(whole->gyros, 2000);
     EXPECT_NEAR(whole->value, 0.5, 0.05);
-    EXPECT_EQ(yield_within(gyros, rows, ranges(gyros, rows), {0.5, 1.0})->value, 1.0);
-    EXPECT_FALSE(yield_within(gyros, rows, ranges(gyros, rows), {0.0, 0.0}));
+    EXPECT_EQ(placement.yield_within({0.5, 1.0})->value, 1.0);
+    EXPECT_FALSE(placement.yield_within({0.0, 0.0}));
 }
 
 TEST(Tolerances, only_the_parameter_that_decides_is_drawn_in) {
     const Gyros gyros{parse(two, "s")};
-    const Tolerances found = tolerances(gyros, rows_of(gyros), 0.95);
+    const Tolerances found = tolerances(Placement{gyros, rows_of(gyros)}, 0.95);
     EXPECT_TRUE(found.is_reached);
     EXPECT_GE(found.yield->value, 0.95);
     // 95 % pass within 0.1/0.95; a step of a tenth may go that much too far.
@@ -65,9 +66,9 @@ TEST(Tolerances, the_full_range_of_a_normal_law_has_all_gyros) {
               "draw = \"normal\"\nmean = 0\nsd = 0.05\n" +
                   testing_metric + "max = 1\n",
               "s")};
-    const Rows rows = rows_of(gyros);
-    const std::vector<Range> found = ranges(gyros, rows);
-    const auto whole = yield_within(gyros, rows, found, {1.0});
+    const Placement placement{gyros, rows_of(gyros)};
+    const std::vector<Range>& found = placement.ranges();
+    const auto whole = placement.yield_within({1.0});
     EXPECT_EQ(whole->gyros, 2000);
     // Passes within two standard deviations.
     EXPECT_NEAR(whole->value, std::erf(std::sqrt(2.0)), 0.015);
@@ -79,7 +80,7 @@ TEST(Tolerances, too_few_gyros_reach_nothing) {
     const Gyros gyros{parse(two, "s")};
     Rows rows = rows_of(gyros);
     for (auto& [gyro, row] : rows) row.metrics[0] = 2.0;
-    const Tolerances found = tolerances(gyros, rows, 0.95);
+    const Tolerances found = tolerances(Placement{gyros, rows}, 0.95);
     EXPECT_FALSE(found.is_reached);
     EXPECT_GE(found.yield->gyros, 30);
 }

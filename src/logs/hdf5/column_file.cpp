@@ -19,7 +19,6 @@ namespace {
 
 using hdf5::Handle;
 
-constexpr std::size_t max_letters = 4096;  // of one text in a column
 constexpr hsize_t max_rows = 100'000'000;
 
 // What must not fail but for want of memory.
@@ -195,8 +194,8 @@ std::vector<std::string> ColumnReader::texts(const std::string& name) const {
     const bool is_line = H5Sget_simple_extent_ndims(space.get()) == 1;
     const hssize_t n = H5Sget_simple_extent_npoints(space.get());
     const hsize_t stored_bytes = H5Dget_storage_size(set.get());
-    if (!is_letters || !is_line || n < 0 || !(width >= 1 && width <= max_letters))
-        source.fail(path, fmt::format("holds another type; allowed are texts of 1..{} bytes", max_letters));
+    if (!is_letters || !is_line || n < 0 || width < 1)
+        source.fail(path, "holds another type; allowed are texts of one length");
     if (stored_bytes != static_cast<hsize_t>(n) * width) source.fail(path, "is not stored in one piece");
     std::vector<char> letters(stored_bytes);
     if (n > 0 && H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data()) < 0)

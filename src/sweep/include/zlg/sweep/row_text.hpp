@@ -12,6 +12,9 @@ namespace zlg::sweep {
 // Without the end of the line. row_of(text_of(row), row.metrics.size()) has the same bits, but for those of a NaN.
 [[nodiscard]] std::string text_of(const Row& row);
 
+// The same without the checksum at its end.
+[[nodiscard]] std::string fields_of(const Row& row);
+
 // Nothing where a bit of it is wrong, or it has another number of metrics.
 [[nodiscard]] std::optional<Row> row_of(std::string_view line, std::size_t n_metrics);
 

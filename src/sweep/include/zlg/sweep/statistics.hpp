@@ -2,7 +2,6 @@
 // What the gyros of a sweep say together. Those that failed are counted, and are in no mean.
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +18,7 @@ struct Yield {
     double value = 0.0;
     double low = 0.0;
     double high = 1.0;
+    double worth = 0.0;  // as many independent gyros would say as much
 };
 
 // Of gyros that were drawn independently: the interval of E. B. Wilson (J. Am. Stat. Assoc. 22, 1927, 209).
@@ -30,17 +30,21 @@ struct Yield {
 // sample, and the ratio estimate for clusters (W. G. Cochran, Sampling Techniques, 3rd edition, 1977, section 3.12) says how much a
 // gyro is worth. With r rows, of which row i has m_i gyros and a_i that pass,
 //
-//   p = sum a_i/sum m_i,   var p = r/(r - 1) sum (a_i - p m_i)^2/(sum m_i)^2
+//   p = sum a_i/sum m_i,   v = r/(r - 1) sum (a_i - p m_i)^2/(sum m_i)^2                                  (1)
 //
-// Wilson's interval is then that of p (1 - p)/var p gyros, as many as there are rows at least and as many as there are gyros at most, with the
-// quantile of Student's t for r - 1 degrees of freedom. Few rows show too little of var p, so eight more are presumed whose gyros pass or
-// fail together. Where all or none pass, each row counts once.
+// Were all gyros of a row to do the same, it would be v1 = p (1 - p)/r', r' = (sum m_i)^2/sum m_i^2. What v says rests on the rows in which a
+// gyro does what most do not: with k of them, 8 more are presumed whose gyros pass or fail together,
+//
+//   var p = (k v + 8 v1)/(k + 8)                                                                         (2)
+//
+// and the interval is Wilson's of p (1 - p)/var p independent gyros, r' at least and all at most; r' where all or none pass.
 class YieldCount {
 public:
     explicit YieldCount(const Description& description);
 
-    // A gyro that does not pass; then, that it does. Each once.
+    // Counts a gyro, as one that does not pass.
     void add(std::int64_t gyro);
+    // A gyro that was added passes after all.
     void pass(std::int64_t gyro);
 
     // gyros is 0 where none was added.
@@ -48,15 +52,18 @@ public:
 
 private:
     struct DesignRow {
-        double gyros = 0.0;
-        double passed = 0.0;
+        std::int64_t gyros = 0;
+        std::int64_t passed = 0;
     };
 
+    [[nodiscard]] DesignRow& row_of(std::int64_t gyro);
+    [[nodiscard]] double worth() const;
+
     std::int64_t gyros_a_row_;  // 1: each is for itself, and no rows are kept
-    std::map<std::int64_t, DesignRow> rows_;
-    std::int64_t gyros_ = 0;
-    std::int64_t passed_ = 0;
-    double gyros_sq_ = 0.0, gyros_passed_ = 0.0, passed_sq_ = 0.0;  // sums over rows of m^2, m a, a^2
+    std::vector<DesignRow> rows_;
+    std::int64_t n_rows_ = 0, n_rows_with_passed_ = 0, n_rows_with_failed_ = 0;
+    std::int64_t gyros_ = 0, passed_ = 0;
+    std::int64_t gyros_sq_ = 0, gyros_passed_ = 0, passed_sq_ = 0;  // sums over rows of m^2, m a, a^2
 };
 
 // The quantile p of sorted numbers, with straight lines between them: number (n - 1) p, from 0.

@@ -35,7 +35,8 @@ struct Task {
 struct Outcome {
     Rows rows;                // all that the file holds
     std::int64_t n_run = 0;   // of them, in this call
-    bool is_stopped = false;  // before the end: RESULTS.part holds the rows until then
+    bool is_stopped = false;  // before the end: the checkpoint holds the rows until then
+    std::string checkpoint;   // its path: RESULTS.part, beside what RESULTS names where it is a link
 };
 
 // Interrupted or killed at any time, the same call goes on, and repeats at most the gyros that were in flight. The bytes of

@@ -25,25 +25,38 @@ struct Range {
     [[nodiscard]] double above(double way) const { return nominal + way * (max - nominal); }
 };
 
-// Of the parameters that are drawn from an interval; of a normal law, from the least to the greatest value of the rows. So every
-// gyro lies within the full ranges.
-[[nodiscard]] std::vector<Range> ranges(const Gyros& gyros, const Rows& rows);
+// The gyros of a sweep by how far each of their parameters is from its nominal value. The ranges are those of the parameters that are drawn from
+// an interval; of a normal law, from the least to the greatest value of the rows. So every gyro lies within the full ranges.
+class Placement {
+public:
+    Placement(const Gyros& gyros, const Rows& rows);
 
-// The gyros of which every parameter lies within its part of the way: how many there are, and how many of them pass.
-[[nodiscard]] std::optional<Yield> yield_within(const Gyros& gyros, const Rows& rows, const std::vector<Range>& ranges,
-                                                const std::vector<double>& ways);
+    [[nodiscard]] const std::vector<Range>& ranges() const { return ranges_; }
+
+    // Of the gyros of which every parameter lies within its part of the way, one for each range; nothing where there are none.
+    [[nodiscard]] std::optional<Yield> yield_within(const std::vector<double>& ways) const;
+
+private:
+    struct Placed {
+        std::int64_t gyro = 0;
+        std::vector<double> ways;
+        bool passes = false;
+    };
+
+    Description description_;
+    std::vector<Range> ranges_;
+    std::vector<Placed> all_;
+};
 
 struct Tolerances {
-    std::vector<Range> ranges;
     std::vector<double> ways;    // to be held, of each range; 1: all of it
     std::optional<Yield> yield;  // of the gyros within them
     bool is_reached = false;     // that yield is at least the wanted one
 };
 
 // From the full ranges the tolerance of one parameter after the other is drawn in by a tenth, each time that one by which the
-// yield grows most for each gyro that is lost, until it is reached or fewer than `least_gyros` are left. Chosen by
+// yield grows most for each gyro that is lost, until it is reached or what is left is worth fewer than `least_worth` independent gyros. Chosen by
 // the sample that it is read from, the yield is a little too good: a sweep over these tolerances verifies it.
-[[nodiscard]] Tolerances tolerances(const Gyros& gyros, const Rows& rows, double wanted_yield,
-                                    std::int64_t least_gyros = 30);
+[[nodiscard]] Tolerances tolerances(const Placement& placement, double wanted_yield, double least_worth = 30.0);
 
 }  // namespace zlg::sweep
