@@ -63,17 +63,9 @@ std::vector<Figure> response_figures(const Description& d, const Columns& c) {
 // Of Saltelli's design.
 std::size_t n_rows(const Description& d) { return static_cast<std::size_t>(d.n_gyros) / (d.parameters.size() + 2); }
 
-// In a row of the design, a parameter has its value of A in d gyros and that of B in two. The correlation with a number that the other
-// parameters decide by a sum varies by ((d - 1)^2 + 3)/((d + 2)^2 rows), as that of so many independent gyros.
-std::size_t independent_values(const Description& d) {
-    const auto n = static_cast<double>(d.parameters.size());
-    return static_cast<std::size_t>(static_cast<double>(n_rows(d)) * (n + 2.0) * (n + 2.0) /
-                                    ((n - 1.0) * (n - 1.0) + 3.0));
-}
-
 report::Table correlation_table(const Description& d, const Columns& c) {
     const std::size_t n = c.metrics.front().size();
-    const std::size_t n_drawn = d.sensitivity ? std::min(n, independent_values(d)) : n;
+    const std::size_t n_drawn = d.sensitivity ? std::min(n, independent_gyros(n_rows(d), d.parameters.size())) : n;
     report::Table t{.caption = fmt::format("Spearman's rank correlation of {} good gyros; where limits stand on both "
                                            "sides, of the distance from their "
                                            "middle. Between independent numbers {} is passed once in twenty times. A "

@@ -146,6 +146,12 @@ std::optional<double> rank_correlation(std::span<const double> x, std::span<cons
     return ab / std::sqrt(aa * bb);
 }
 
+std::size_t independent_gyros(std::size_t n_rows, std::size_t n_parameters) {
+    const auto d = static_cast<double>(n_parameters);
+    return static_cast<std::size_t>(static_cast<double>(n_rows) * (d + 2.0) * (d + 2.0) /
+                                    ((d - 1.0) * (d - 1.0) + 3.0));
+}
+
 double chance_correlation(std::size_t n) { return 1.96 / std::sqrt(static_cast<double>(n) - 1.0); }
 
 SobolIndices sobol_indices(const SobolDesign& design, int n_resamples, std::uint64_t seed) {

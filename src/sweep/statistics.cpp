@@ -69,8 +69,6 @@ Yield wilson(std::int64_t passed, std::int64_t gyros, double n) {
 
 }  // namespace
 
-Yield yield_of(std::int64_t passed, std::int64_t gyros) { return wilson(passed, gyros, static_cast<double>(gyros)); }
-
 YieldCount::YieldCount(const Description& description)
     : gyros_a_row_{description.sensitivity ? static_cast<std::int64_t>(description.parameters.size()) + 2 : 1} {}
 

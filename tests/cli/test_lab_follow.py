@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 import h5py
-from lab_server import Events, LabServer, Line
+from lab_server import MOST_WALL_S, Events, LabServer, Line
 from support import ROOT, AngleLog, CliTest, run
 
 PAGE = ROOT / "build" / "release" / "share" / "zlg" / "lab.html"
@@ -160,10 +160,10 @@ class LabFollow(CliTest):
             self.events(server, receive_buffer=2048)  # of which nothing is read
         rows, names = self.rows_until_the_end(self.events(server))
         self.assert_rows_of_the_log(rows)
-        self.assertLess(line.longest_wait_s, 0.5)
+        self.assertLess(line.longest_wait_s, MOST_WALL_S)
         status, _, err, took_s = server.end()
         self.assertEqual((status, err), (0, ""))
-        self.assertLess(took_s, 0.5)
+        self.assertLess(took_s, MOST_WALL_S)
         self.assertEqual(AngleLog(out).rows, self.log.rows)
 
     def test_a_page_that_slept_gets_the_newer_picture(self):
@@ -252,14 +252,14 @@ class LabFollow(CliTest):
             socket.create_connection(("127.0.0.1", server.port)).close()
         self.assertTrue(server.get().startswith(b"HTTP/1.1 200 "))
 
-    def test_a_signal_ends_it_within_half_a_second_with_pages_open(self):
+    def test_a_signal_ends_it_at_once_with_pages_open(self):
         for what, source in ((signal.SIGINT, self.files / "line.bin"), (signal.SIGTERM, self.files / "angles.h5"), (signal.SIGINT, self.line(5.0).source)):
             server = self.serve(source)
             pages = [self.events(server) for _ in range(5)]
             self.assertEqual(pages[0].next()[0], "snapshot")
             status, _, err, took_s = server.end(what)
             self.assertEqual((status, err), (0, ""))
-            self.assertLess(took_s, 0.5)
+            self.assertLess(took_s, MOST_WALL_S)
 
     def test_a_port_in_use_is_one_line(self):
         server = self.serve(self.files / "line.bin")

@@ -57,6 +57,15 @@ TEST_F(ColumnFiles, may_have_no_rows) {
     EXPECT_TRUE((ColumnReader{path(), "/things"}.texts("word").empty()));
 }
 
+TEST_F(ColumnFiles, refuse_a_mark_that_is_no_exact_number) {
+    ColumnFile large = three();
+    large.marks = {{"largest", std::int64_t{1} << 53}, {"beyond", std::numeric_limits<std::int64_t>::max()}};
+    write_columns(path(), large);
+    const ColumnReader file{path(), "/things"};
+    EXPECT_EQ(file.mark("largest"), std::int64_t{1} << 53);
+    EXPECT_THROW((void)file.mark("beyond"), FormatError);
+}
+
 TEST_F(ColumnFiles, refuse_a_column_of_another_type_or_none) {
     write_columns(path(), three());
     const ColumnReader file{path(), "/things"};

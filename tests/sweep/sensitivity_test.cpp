@@ -1,10 +1,13 @@
 // Claims about sensitivity: exact indices of known functions lie within the intervals, and a failed run breaks no estimate.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -135,6 +138,41 @@ TEST(Sensitivity, ranks_correlate_by_order_alone) {
     EXPECT_FALSE(rank_correlation(x, std::vector<double>{2, 2, 2, 2, 2}));
     EXPECT_FALSE(rank_correlation(std::vector<double>{1, 2}, std::vector<double>{1, 2}));
     EXPECT_NEAR(chance_correlation(101), 0.196, 1e-12);
+}
+
+// How often the correlation with a parameter that decides nothing is beyond what chance gives, in designs whose rows are drawn at random.
+// The others decide the number by their sum, or the largest of them does.
+double false_alarms(std::size_t d, std::size_t n_rows, bool is_sum, std::size_t n_independent) {
+    constexpr int trials = 1000;
+    std::mt19937_64 random{5};
+    std::uniform_real_distribution<double> uniform;
+    const double limit = chance_correlation(n_independent);
+    int alarms = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        std::vector<double> idle, decided;
+        for (std::size_t row = 0; row < n_rows; ++row) {
+            std::vector<double> a(d), b(d);
+            for (auto* x : {&a, &b}) std::ranges::generate(*x, [&] { return uniform(random); });
+            for (std::size_t kind = 0; kind < d + 2; ++kind) {
+                std::vector<double> x = kind == d + 1 ? b : a;
+                if (kind > 0 && kind <= d) x[kind - 1] = b[kind - 1];
+                idle.push_back(x[0]);
+                decided.push_back(is_sum ? std::accumulate(x.begin() + 1, x.end(), 0.0)
+                                         : *std::max_element(x.begin() + 1, x.end()));
+            }
+        }
+        if (std::abs(rank_correlation(idle, decided).value()) > limit) ++alarms;
+    }
+    return static_cast<double>(alarms) / trials;
+}
+
+// 5 % with a standard error of 0.7 %.
+TEST(Sensitivity, a_design_passes_chance_as_often_as_independent_gyros_do) {
+    for (const std::size_t d : {2u, 5u, 15u})
+        for (const bool is_sum : {true, false})
+            EXPECT_NEAR(false_alarms(d, 64, is_sum, independent_gyros(64, d)), 0.05, 0.02) << d << is_sum;
+    EXPECT_GT(false_alarms(15, 64, true, 64 * 17), 0.2) << "were all gyros independent";
+    EXPECT_EQ(independent_gyros(10, 2), 40u);
 }
 
 TEST(Sensitivity, a_design_needs_sobol_everywhere_and_whole_rows) {

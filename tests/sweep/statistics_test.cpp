@@ -29,15 +29,22 @@ Rows rows_of(const std::vector<double>& values) {
     return rows;
 }
 
+Yield independent(std::int64_t passed, std::int64_t gyros) {
+    YieldCount count{Description{}};
+    for (std::int64_t gyro = 0; gyro < gyros; ++gyro) count.add(gyro);
+    for (std::int64_t gyro = 0; gyro < passed; ++gyro) count.pass(gyro);
+    return count.yield();
+}
+
 // R. G. Newcombe, Stat. Med. 17, 1998, 857, table I: 81 of 263 and 0 of 20 by Wilson's method.
 TEST(Statistics, the_interval_of_a_yield_is_wilsons) {
-    const Yield common = yield_of(81, 263);
+    const Yield common = independent(81, 263);
     EXPECT_NEAR(common.low, 0.2553, 5e-5);
     EXPECT_NEAR(common.high, 0.3662, 5e-5);
-    const Yield none = yield_of(0, 20);
+    const Yield none = independent(0, 20);
     EXPECT_EQ(none.low, 0.0);
     EXPECT_NEAR(none.high, 0.1611, 5e-5);
-    EXPECT_EQ(yield_of(20, 20).high, 1.0);
+    EXPECT_EQ(independent(20, 20).high, 1.0);
 }
 
 // A design of d parameters, of which a gyro passes where its response is below the limit.
@@ -97,7 +104,7 @@ Coverage coverage(std::size_t d, int n_rows, Response response, double yield) {
         }
         const Yield found = count.yield();
         coverage.of_rows += holds(found);
-        coverage.as_if_independent += holds(yield_of(found.passed, found.gyros));
+        coverage.as_if_independent += holds(independent(found.passed, found.gyros));
     }
     return coverage;
 }
@@ -128,10 +135,7 @@ Yield yield_of_rows(const std::vector<std::pair<int, int>>& rows, std::size_t d)
 TEST(Statistics, rows_are_worth_what_their_gyros_differ) {
     EXPECT_EQ(YieldCount{Description{}}.yield().gyros, 0);
     // Without sensitivity, and with one gyro of each row, gyros are independent.
-    YieldCount alone{Description{}};
-    for (std::int64_t gyro = 0; gyro < 40; ++gyro) alone.add(gyro);
-    alone.pass(7);
-    EXPECT_EQ(alone.yield().high, yield_of(1, 40).high);
+    EXPECT_EQ(independent(1, 40).worth, 40.0);
     EXPECT_DOUBLE_EQ(yield_of_rows({{1, 1}, {1, 0}, {1, 1}, {1, 1}}, 2).worth, 4.0);
     // Whatever all the gyros of a row do, it is one; unequal rows are fewer than they are: 13^2/(10^2 + 3) of one row of 10 and three of 1.
     EXPECT_DOUBLE_EQ(yield_of_rows({{4, 4}, {4, 4}, {4, 4}}, 2).worth, 3.0);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <zlg/logs/column_file.hpp>
 #include <zlg/logs/error.hpp>
@@ -173,8 +174,13 @@ std::string ColumnReader::text(const std::string& name) const {
 }
 
 std::int64_t ColumnReader::mark(const char* name) const {
-    if (const auto value = state_->source.real_attribute(name)) return static_cast<std::int64_t>(*value);
-    throw FormatError(fmt::format("{}: the attribute {} is missing", state_->source.path(), name));
+    constexpr double most = 0x1p53;  // beyond, a real number skips integers
+    const auto value = state_->source.real_attribute(name);
+    if (!value) throw FormatError(fmt::format("{}: the attribute {} is missing", state_->source.path(), name));
+    if (!(std::abs(*value) <= most))
+        throw FormatError(fmt::format("{}: the attribute {} is {}; allowed is an integer of at most {} in size",
+                                      state_->source.path(), name, *value, most));
+    return static_cast<std::int64_t>(*value);
 }
 
 std::vector<std::int64_t> ColumnReader::integers(const std::string& name) const {
@@ -196,6 +202,7 @@ std::vector<std::string> ColumnReader::texts(const std::string& name) const {
     const hsize_t stored_bytes = H5Dget_storage_size(set.get());
     if (!is_letters || !is_line || n < 0 || width < 1)
         source.fail(path, "holds another type; allowed are texts of one length");
+    if (static_cast<hsize_t>(n) > max_rows) source.fail(path, fmt::format("has {} rows; allowed are {}", n, max_rows));
     if (stored_bytes != static_cast<hsize_t>(n) * width) source.fail(path, "is not stored in one piece");
     std::vector<char> letters(stored_bytes);
     if (n > 0 && H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data()) < 0)

@@ -22,7 +22,7 @@ struct ColumnFile {
     std::string group;                                        // as "/gyros", which holds the columns
     std::vector<FileColumn> columns;                          // all of one length
     std::vector<std::pair<std::string, std::string>> texts;   // data sets of one text each, as "/sweep"
-    std::vector<std::pair<std::string, std::int64_t>> marks;  // integers that are attributes of the root
+    std::vector<std::pair<std::string, std::int64_t>> marks;  // attributes of the root, up to 2^53 in size
 };
 
 // Writes PATH.new and renames it to PATH: the file is as before or whole, whatever happens. A PATH.new that is there is what a

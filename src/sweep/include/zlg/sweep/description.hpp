@@ -64,7 +64,7 @@ inline constexpr std::int64_t max_gyros = 10'000'000;
 //
 // errors  config::ConfigError: no TOML, an unknown key, a value or a range that a key does not take, parameters that
 //         contradict each other, no metric or an unknown one, no gyro or more than max_gyros.
-[[nodiscard]] Description parse(std::string_view toml, std::string_view source_name);
+[[nodiscard]] Description parse(std::string_view text, std::string_view source_name);
 [[nodiscard]] Description read_description(const std::string& path);
 
 // Every value written out, in a fixed order: parse(to_toml(d), ...) == d. The first line names the program's version.

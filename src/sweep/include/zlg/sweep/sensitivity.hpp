@@ -14,6 +14,11 @@ namespace zlg::sweep {
 // where a column does not vary.
 [[nodiscard]] std::optional<double> rank_correlation(std::span<const double> x, std::span<const double> y);
 
+// As many independent gyros as the rows of Saltelli's design are worth where the rank correlation with one parameter is sought. In a row
+// that parameter has its value of A in d gyros, and that of B in two; its correlation with the sum of a function of each other parameter
+// has a variance of ((d - 1)^2 + 3)/((d + 2)^2 n_rows).
+[[nodiscard]] std::size_t independent_gyros(std::size_t n_rows, std::size_t n_parameters);
+
 // |rank correlation| beyond which two independent columns of n rows lie with a probability of 5 %, by the normal law: 1.96/sqrt(n - 1).
 [[nodiscard]] double chance_correlation(std::size_t n);
 

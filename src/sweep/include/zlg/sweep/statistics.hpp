@@ -21,12 +21,9 @@ struct Yield {
     double worth = 0.0;  // as many independent gyros would say as much
 };
 
-// Of gyros that were drawn independently: the interval of E. B. Wilson (J. Am. Stat. Assoc. 22, 1927, 209).
+// Counts a yield, with the interval of E. B. Wilson (J. Am. Stat. Assoc. 22, 1927, 209).
 //
-// gyros  1 at least.
-[[nodiscard]] Yield yield_of(std::int64_t passed, std::int64_t gyros);
-
-// Counts a yield. With sensitivity, the gyros of one row of Saltelli's design share nearly all of their values: the rows are clusters of a
+// With sensitivity, the gyros of one row of Saltelli's design share nearly all of their values: the rows are clusters of a
 // sample, and the ratio estimate for clusters (W. G. Cochran, Sampling Techniques, 3rd edition, 1977, section 3.12) says how much a
 // gyro is worth. With r rows, of which row i has m_i gyros and a_i that pass,
 //
