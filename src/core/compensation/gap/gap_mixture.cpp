@@ -255,41 +255,41 @@ void conclude(const MotionCovariance& covariance, GapMixture& m) noexcept {
 
 }  // namespace
 
-void add_point(const MotionCovariance& covariance, GapMixture& m, int place, double value_arcsec,
+void add_point(const MotionCovariance& covariance, GapMixture& mixture, int place, double value_arcsec,
                const MixtureColumn& error) noexcept {
-    MixturePoints& p = m.points;
+    MixturePoints& p = mixture.points;
     const auto n = static_cast<unsigned>(p.n);
     if (n == mixture_unknowns) return;
     p.place[n] = static_cast<std::int8_t>(place);
     p.value[n] = value_arcsec;
     for (unsigned k = 0; k <= n; ++k)
-        m.covariance[n * (n + 1) / 2 + k] = covariance.of_ticks(p.place[k], place) + error[k];
+        mixture.covariance[n * (n + 1) / 2 + k] = covariance.of_ticks(p.place[k], place) + error[k];
     ++p.n;
 }
 
-bool is_done(const GapMixture& m) noexcept {
-    return m.failed || static_cast<std::size_t>(m.stage) >= stages_of(m).size();
+bool is_done(const GapMixture& mixture) noexcept {
+    return mixture.failed || static_cast<std::size_t>(mixture.stage) >= stages_of(mixture).size();
 }
 
-int cost_of_stage(const GapMixture& m) noexcept {
-    const Stage stage = stages_of(m)[static_cast<unsigned>(m.stage)];
+int cost_of_stage(const GapMixture& mixture) noexcept {
+    const Stage stage = stages_of(mixture)[static_cast<unsigned>(mixture.stage)];
     if (stage.work == Work::quiet) return cost_of_quiet[stage.shape];
     const auto work = static_cast<unsigned>(stage.work);
-    return m.points.n > few_points ? cost[work] : cost_of_few[work];
+    return mixture.points.n > few_points ? cost[work] : cost_of_few[work];
 }
 
-void advance(const MotionCovariance& covariance, GapMixture& m) noexcept {
-    const Stage stage = stages_of(m)[static_cast<unsigned>(m.stage++)];
+void advance(const MotionCovariance& covariance, GapMixture& mixture) noexcept {
+    const Stage stage = stages_of(mixture)[static_cast<unsigned>(mixture.stage++)];
     const unsigned k = stage.shape;
-    if (stage.work == Work::begin) return begin(covariance, m);
-    if (stage.work == Work::turn) return turn_round(covariance, m);
-    if (stage.work == Work::conclusion) return conclude(covariance, m);
+    if (stage.work == Work::begin) return begin(covariance, mixture);
+    if (stage.work == Work::turn) return turn_round(covariance, mixture);
+    if (stage.work == Work::conclusion) return conclude(covariance, mixture);
     const bool is_quiet = stage.work == Work::quiet;
-    const Shape& shape = is_quiet ? quiet_motion[k] : full_of(m)[k];
-    if (stage.work != Work::sizes) reduce(shape, m);
+    const Shape& shape = is_quiet ? quiet_motion[k] : full_of(mixture)[k];
+    if (stage.work != Work::sizes) reduce(shape, mixture);
     if (stage.work == Work::reduction) return;
-    prepare(shape, m);
-    add_shape(shape, is_quiet ? nullptr : &m.sums.added[k], m);
+    prepare(shape, mixture);
+    add_shape(shape, is_quiet ? nullptr : &mixture.sums.added[k], mixture);
 }
 
 }  // namespace zlg::core
