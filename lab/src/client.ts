@@ -16,7 +16,8 @@ export interface Listener {
 
 export class GyroClient {
     private readonly worker: Worker;
-    private number = 0; // of the gyro that was configured last
+    private asked = 0; // number of the gyro that was asked for last
+    private number = 0; // of the one that the worker has
 
     // worker_script, code  texts of the page: the worker's script, and the module, gzipped, in base64.
     // listener  of a gyro, or of a log; it hears of what it listens to.
@@ -34,7 +35,7 @@ export class GyroClient {
     }
 
     configure(gyro: Gyro, running: boolean): void {
-        this.send({ kind: "configure", gyro, running });
+        this.send({ kind: "configure", number: ++this.asked, gyro, running });
     }
 
     // Nothing more comes from it.
@@ -48,9 +49,10 @@ export class GyroClient {
                 return listener.loaded?.(message.schema);
             case "configured":
                 this.number = message.number;
-                return listener.configured?.(message.changed);
+                // Of one that another follows already nothing is said.
+                return message.number === this.asked ? listener.configured?.(message.changed) : undefined;
             case "refused":
-                return listener.refused?.(message.message, message.whole);
+                return message.number === null || message.number === this.asked ? listener.refused?.(message.message, message.whole) : undefined;
             case "designed":
                 return listener.designed?.(message.design);
             case "motion_read":

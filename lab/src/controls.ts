@@ -9,6 +9,9 @@ const important = [
     "compensation.relock", "compensation.bridge", "compensation.magnetic", "perimeter.miss_lambda", "perimeter.tau_s",
     "perimeter.loop", "gyro.readout", "gyro.light_noise_lambda", "piezo.half_wave_v", "run.seed",
 ];
+// A kind of motion that is chosen in the card of recorded motions.
+const recorded = '"file"';
+const is_motion_kind = (key: Key) => key.section === "motion" && key.name === "kind";
 // Of the laboratory's files and the designer's tables: they change nothing here.
 const elsewhere = new Set(["design", "analysis"]);
 
@@ -27,14 +30,19 @@ export class Controls {
         this.draw();
     }
 
-    // What the gyro has, `section.key=value` each.
-    set(settings: string[]): void {
+    // What the gyro will have, if it can: the next change is one of these.
+    expect(settings: string[]): void {
         this.settings.clear();
-        this.wrong = null;
         for (const setting of settings) {
             const at = setting.indexOf("=");
             this.settings.set(setting.slice(0, at), setting.slice(at + 1));
         }
+    }
+
+    // What the gyro has, `section.key=value` each.
+    set(settings: string[]): void {
+        this.expect(settings);
+        this.wrong = null;
         if (!this.place.contains(document.activeElement)) this.draw();
         else this.mark();
     }
@@ -88,14 +96,17 @@ export class Controls {
         const field = key.choices.length > 0 && key.kind !== "choices" ? choice(key, value) : text_field(value);
         field.id = id;
         field.setAttribute("aria-describedby", `${id}-help`);
-        field.addEventListener("change", () => this.change(key, field.value));
+        field.addEventListener("change", () => {
+            if (field.value === "") field.value = bare(key, key.default);
+            this.change(key, field.value);
+        });
         if (field instanceof HTMLInputElement) field.addEventListener("input", () => this.change_soon(key, field.value));
         const reset = made("button", "↺", { type: "button", "aria-label": `${name} back to its default` });
         reset.addEventListener("click", () => {
             field.value = bare(key, key.default);
             this.change(key, field.value);
         });
-        const help = made("small", `${key.meaning}. Allowed: ${key.allowed}`, { id: `${id}-help` });
+        const help = made("small", `${key.meaning}. Allowed: ${allowed_here(key)}`, { id: `${id}-help` });
         box.append(label, field, reset, help, made("small", "", { class: "wrong" }));
         return box;
     }
@@ -129,6 +140,12 @@ export class Controls {
     }
 }
 
+// The best interval is found by trials, which the page does not make.
+function allowed_here(key: Key): string {
+    if (key.kind === "interval") return `${key.allowed.replace(/, or "optimal"$/, "")}; the best one stands in “How often to switch”`;
+    return is_motion_kind(key) ? key.allowed.replace(`, ${recorded}`, "; for a file, “Recorded motions”") : key.allowed;
+}
+
 // A text without its quotes.
 function bare(key: Key, value: string): string {
     return key.kind === "choice" || key.kind === "optional_choice" || key.kind === "text" || key.kind === "interval" ? value.replace(/^"(.*)"$/, "$1") : value;
@@ -146,7 +163,8 @@ function text_field(value: string): HTMLInputElement {
 
 function choice(key: Key, value: string): HTMLSelectElement {
     const field = document.createElement("select");
-    const names = key.kind === "optional_choice" ? ["", ...key.choices] : key.choices;
+    const choices = is_motion_kind(key) && value !== recorded ? key.choices.filter((name) => `"${name}"` !== recorded) : key.choices;
+    const names = key.kind === "optional_choice" ? ["", ...choices] : choices;
     for (const name of names) field.add(new Option(name === "" ? "unset" : name, name));
     field.value = bare(key, value);
     return field;

@@ -23,12 +23,12 @@ function gap_lines(): Line[] {
 function drift_lines(run_s: number): Line[] {
     const unit = "deg/h";
     const [sixth, whole, ten] = [run_s / 6, run_s, 10 * run_s].map(duration);
-    return [{ label: sixth, colour: "--other", unit }, { label: whole, colour: "--ours", unit }, { label: ten, colour: "--paper", unit }, { label: `${whole}, eq (7)`, colour: "--ours", unit, dash: [2, 3] }, { label: `${whole}, worst end`, colour: "--read", unit, dash: [5, 4] }, { ...this_gyro, unit }];
+    return [{ label: sixth, colour: "--other", unit }, { label: whole, colour: "--ours", unit }, { label: ten, colour: "--paper", unit }, { label: `${whole}, the paper’s law (7)`, colour: "--ours", unit, dash: [2, 3] }, { label: `${whole}, at its worst end`, colour: "--read", unit, dash: [5, 4] }, { ...this_gyro, unit }];
 }
 
 export class DesignView {
     private readonly drift = new Chart(element("plot-design"), { x: "switching interval, s", y: "drift, deg/h", height: 250, log_x: true, log_y: true, lines: drift_lines(3600) });
-    private readonly interval = new Chart(element("plot-best"), { x: "length of the run, s", y: "best interval, s", height: 250, log_x: true, log_y: true, lines: [{ label: "least expected drift", colour: "--ours", unit: "s" }, { label: "√(dP t/Ω)", colour: "--paper", unit: "s", dash: [5, 4] }, { ...this_gyro, unit: "s" }] });
+    private readonly interval = new Chart(element("plot-best"), { x: "length of the run, s", y: "best interval, s", height: 250, log_x: true, log_y: true, lines: [{ label: "least expected drift", colour: "--ours", unit: "s" }, { label: "the paper’s √(dP t/Ω)", colour: "--paper", unit: "s", dash: [5, 4] }, { ...this_gyro, unit: "s" }] });
     private readonly by_frequency = new Chart(element("plot-gap-frequency"), { x: "frequency of the motion, Hz", y: "error, arcsec", height: 250, lines: gap_lines() });
     private readonly by_amplitude = new Chart(element("plot-gap-amplitude"), { x: "amplitude of the rate, arcsec/s", y: "error, arcsec", height: 250, lines: gap_lines() });
     private readonly noise = new Chart(element("plot-gap-noise"), { x: "ticks of the gap", y: "3 sigma, arcsec", height: 250, log_y: true, lines: gap_lines() });

@@ -18,6 +18,11 @@ export function with_fault(settings: string[], fault: Fault, now_s: number): str
     return [...settings.filter((setting) => !Object.keys(more).some((name) => setting.startsWith(`faults.${name}=`))), ...lists];
 }
 
+// What stands where the gyro has reported nothing yet.
+export function nothing_yet(fault: Fault): string {
+    return /^switch_|^half_wave_error/.test(fault.name) ? "nothing yet; it shows at the next switch" : "nothing yet";
+}
+
 export function fault_buttons(place: HTMLElement, faults: Fault[], on_fault: (fault: Fault) => void): void {
     for (const fault of faults) {
         const button = made("button", fault.name.replaceAll("_", " "), { type: "button", title: `for ${fault.duration_s} s` });

@@ -221,8 +221,8 @@ class LivePage {
         this.draw_gap();
         this.charts.allan.show(this.allan);
         if (this.newest === null) return;
-        this.flags?.show(this.newest[4] ?? 0, this.since_start.flags);
-        this.health?.show(this.newest[9] ?? 0, this.since_start.health);
+        this.flags?.show(this.newest[4] ?? 0, { settled: 0, switching: this.since_start.flags });
+        this.health?.show(this.newest[9] ?? 0, { settled: 0, switching: this.since_start.health });
         this.draw_values(this.newest);
     }
 

@@ -1,5 +1,6 @@
 // The bits of health by name: those that are raised now, those that were since the start, and what a fault has raised.
-import { element, made } from "./elements";
+import { made } from "./elements";
+import type { Raised } from "./protocol";
 
 // What every gyro in order says now and then, and what it says while it switches.
 const in_order = new Set(["switching", "warming_up", "edges_shifted", "recentring"]);
@@ -9,36 +10,33 @@ const readable = (name: string) => name.replaceAll("_", " ");
 
 export class HealthList {
     private shown = "";
-    private since_fault: Set<string> | null = null; // null: there was none
 
     constructor(
         private readonly place: HTMLElement,
         private readonly names: string[],
     ) {}
 
-    // From now on what is raised is told below the buttons, too.
-    expect_fault(): void {
-        this.since_fault = new Set();
-        this.tell_fault();
-    }
-
-    show(now: number, since_start: number): void {
-        const key = `${now} ${since_start}`;
+    show(now: number, since_start: Raised): void {
+        const key = `${now} ${since_start.settled} ${since_start.switching}`;
         if (key === this.shown) return;
         this.shown = key;
         const raised_now = new Set(this.names_in(now));
-        const is_usual = (name: string) => in_order.has(name) || (raised_now.has("switching") && in_a_switch.has(name));
-        const raised = this.names_in(since_start);
-        this.place.replaceChildren(...raised.map((name) => item(name, raised_now.has(name), is_usual(name))));
-        if (raised.length === 0) this.place.append(made("li", "nothing to report", { class: "good" }));
-        if (this.since_fault === null) return;
-        for (const name of raised_now) if (!is_usual(name)) this.since_fault.add(name);
-        this.tell_fault();
+        const in_trouble = new Set(this.unusual(since_start));
+        const switches = raised_now.has("switching");
+        const is_usual_now = (name: string) => in_order.has(name) || (switches && in_a_switch.has(name));
+        const items = this.names_in(since_start.settled | since_start.switching).map((name) => item(name, raised_now.has(name), raised_now.has(name) ? is_usual_now(name) : !in_trouble.has(name)));
+        this.place.replaceChildren(...items);
+        if (items.length === 0) this.place.append(made("li", "nothing to report", { class: "good" }));
     }
 
-    private tell_fault(): void {
-        const names = [...(this.since_fault ?? [])].map(readable);
-        element("fault-report").textContent = `Reported since the last fault: ${names.length > 0 ? names.join(", ") : "nothing yet"}.`;
+    // In words: what a gyro in order does not say.
+    report(raised: Raised): string {
+        return this.unusual(raised).map(readable).join(", ");
+    }
+
+    private unusual({ settled, switching }: Raised): string[] {
+        const in_no_switch = new Set(this.names_in(settled));
+        return this.names_in(settled | switching).filter((name) => !in_order.has(name) && (in_no_switch.has(name) || !in_a_switch.has(name)));
     }
 
     private names_in(bits: number): string[] {
@@ -47,6 +45,6 @@ export class HealthList {
 }
 
 function item(name: string, now: boolean, usual: boolean): HTMLElement {
-    const kind = now && !usual ? "now" : in_order.has(name) || in_a_switch.has(name) ? "usual" : "";
+    const kind = usual ? "usual" : now ? "now" : "";
     return made("li", now ? `${readable(name)}: now` : readable(name), { class: kind, title: now ? "raised now" : "was raised since the start" });
 }

@@ -37,6 +37,7 @@ export class LogView {
     hand_over(take: (file: File) => void): void {
         if (this.file === null) return;
         element("card-log").hidden = true;
+        element("card-motions").scrollIntoView({ block: "center" });
         take(this.file);
     }
 
@@ -86,7 +87,8 @@ export class LogView {
         element("log-as-motion").hidden = state !== "refused";
         element("log-work").hidden = state !== "reading";
         element("log-text").classList.toggle("wrong", state === "refused");
-        for (const id of ["log-again", "log-save"]) element<HTMLButtonElement>(id).disabled = state === "reading";
+        element<HTMLButtonElement>("log-again").disabled = state === "reading";
+        element<HTMLButtonElement>("log-save").disabled = state === "reading" || state === "refused";
     }
 
     private make_charts() {

@@ -3,7 +3,7 @@ import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { element, marked } from "./elements";
 import { listen_to_exports } from "./export";
-import { fault_buttons, with_fault } from "./faults";
+import { fault_buttons, nothing_yet, with_fault } from "./faults";
 import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
 import { follows_records } from "./follow";
@@ -15,7 +15,7 @@ import { LogView } from "./log_view";
 import { Motions, with_motion } from "./motions";
 import { keep_charts, short } from "./plots";
 import type { Fault, Frame, Schema, State } from "./protocol";
-import { RingDrawing } from "./ring";
+import { RingDrawing, switches_again } from "./ring";
 import { choose_second_gyro, leave_out_second_gyro, listen_to_second_gyro, second_gyro } from "./second_gyro";
 import { share_dialog } from "./share";
 import { type Step, Tour } from "./tour";
@@ -36,7 +36,9 @@ class Lab {
     private health: HealthList | null = null;
     private settings: string[] = []; // of the gyro that runs
     private until_s: string | null = null;
-    private asked = { settings: [] as string[], from_s: 0 }; // of the gyro that was begun last
+    private asked = { settings: [] as string[], from_s: 0, by_controls: false }; // of the gyro that was begun last; the worker may not have it yet
+    private time_s = 0; // of the gyro, as far as the page knows
+    private fault: { kind: Fault; at_s: number } | null = null; // that was made last
     private wants_to_run = true;
     private refused = false; // by a link, or in the run: there is nothing to show
     private from_link = false;
@@ -44,7 +46,7 @@ class Lab {
     private readonly frames = new Frames((frame) => this.draw(frame), () => this.client.send({ kind: "seen" }));
 
     constructor() {
-        this.tour = new Tour(element("tour"), (step) => this.take_step(step), () => undefined);
+        this.tour = new Tour(element("tour"), (step) => this.take_step(step), () => element("tour-start").focus({ preventScroll: true }));
         const worker = (listener: Partial<Listener>) => new GyroClient(element("worker").textContent!, element("module").textContent!, listener);
         this.log = new LogView(worker, () => this.flag_names);
         this.client = worker({
@@ -55,7 +57,7 @@ class Lab {
             motion_read: (_, settings, note) => {
                 this.motions.say(note, false);
                 this.wants_to_run = true;
-                this.begin(with_motion(this.settings, settings));
+                this.begin(with_motion(this.asked.settings, settings));
             },
             motion_refused: (message) => this.motions.say(message, true),
             frame: (frame) => this.frames.take(frame),
@@ -75,6 +77,7 @@ class Lab {
 
     private open_link(): void {
         this.from_link = true;
+        this.fault = null;
         try {
             const wanted = parse_fragment(location.hash);
             this.begin(wanted.settings, 0, wanted.until_s);
@@ -84,10 +87,12 @@ class Lab {
     }
 
     // A gyro of these settings, at this time at once.
-    private begin(settings: string[], from_s = 0, until_s: string | null = null): void {
+    private begin(settings: string[], from_s = 0, until_s: string | null = null, by_controls = false): void {
         this.until_s = until_s;
-        this.asked = { settings, from_s };
-        this.client.configure({ settings, other: until_s === null ? second_gyro() : null, until_s, from_s }, this.wants_to_run);
+        this.asked = { settings, from_s, by_controls };
+        if (!by_controls) this.controls?.expect(settings);
+        this.time_s = from_s;
+        this.client.configure({ settings, other: until_s === null ? second_gyro() : null, until_s, from_s, fault_s: this.fault?.at_s ?? null }, this.wants_to_run);
     }
 
     private configured(changed: string[]): void {
@@ -104,24 +109,28 @@ class Lab {
     private refuse(message: string, whole: boolean): void {
         // The gyro itself may be good: it goes on alone.
         if (leave_out_second_gyro(message)) {
-            this.begin(this.asked.settings, this.asked.from_s);
+            this.begin(this.asked.settings, this.asked.from_s, null, this.asked.by_controls);
             return;
         }
+        this.asked.settings = this.settings;
         if (!whole && !this.from_link) {
-            this.controls?.refuse(message);
+            if (this.asked.by_controls) this.controls?.refuse(message);
+            else this.controls?.set(this.settings);
             this.show_message(message);
             return;
         }
         this.client.send({ kind: "run", running: false });
+        this.show_message(message, this.from_link ? "The link names no gyro. “Restart” begins the one before, or the default one." : "");
         this.refused = true;
         this.from_link = false;
         this.frames.forget();
-        this.show_message(message);
         this.show_state("refused");
         marked("fingerprint").textContent = "";
     }
 
-    private show_message(message: string): void {
+    private show_message(message: string, note = ""): void {
+        element("note").textContent = note;
+        element("note").hidden = note === "";
         marked("message").textContent = message;
         marked("message").hidden = message === "";
     }
@@ -129,12 +138,14 @@ class Lab {
     private show_state(state: State): void {
         marked("state").textContent = state;
         element("run").textContent = state === "running" ? "Pause" : state === "done" ? "Go on" : "Run";
-        for (const id of ["run", "step-half", "step-tick", "jump"]) element<HTMLButtonElement>(id).disabled = state === "refused";
+        for (const id of ["run", "step-half", "step-tick"]) element<HTMLButtonElement>(id).disabled = state === "refused";
+        element<HTMLButtonElement>("jump").disabled = state === "refused" || (this.frame !== null && !switches_again(this.frame));
     }
 
     private draw(frame: Frame): void {
         if (this.refused) return;
         this.frame = frame;
+        this.time_s = frame.time_s;
         marked("time").textContent = frame.time_s.toFixed(4);
         marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
         document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
@@ -142,23 +153,29 @@ class Lab {
         this.views.show(frame);
         this.design.follow(...this.views.switch_errors());
         this.ring.show(frame);
-        this.health?.show(frame.now[11], frame.health);
+        this.health?.show(frame.now[11], frame.raised);
+        this.show_fault(frame);
+    }
+
+    private show_fault({ raised_by_fault }: Frame): void {
+        const found = this.fault === null || raised_by_fault === null ? "" : this.health!.report(raised_by_fault) || nothing_yet(this.fault.kind);
+        const text = found && `Reported since the last fault: ${found}.`;
+        if (element("fault-report").textContent !== text) element("fault-report").textContent = text;
     }
 
     // Settings that were changed while the gyro runs: as if it had always been so.
     private changed_by_hand(): void {
-        this.begin(this.controls!.list(), this.repeat_s());
+        this.begin(this.controls!.list(), this.repeat_s(), null, true);
     }
 
     private repeat_s(): number {
-        const time_s = this.frame?.time_s ?? 0;
-        return time_s <= longest_repeat_s ? time_s : 0;
+        return this.time_s <= longest_repeat_s ? this.time_s : 0;
     }
 
     private break_it(fault: Fault): void {
         const from_s = this.repeat_s();
-        this.health?.expect_fault();
-        this.begin(with_fault(this.settings, fault, from_s), from_s);
+        this.fault = { kind: fault, at_s: from_s };
+        this.begin(with_fault(this.asked.settings, fault, from_s), from_s);
     }
 
     private take_step(step: Step): void {
@@ -168,6 +185,7 @@ class Lab {
         element<HTMLInputElement>("speed").value = String(Math.log10(step.speed));
         this.send_speed();
         this.wants_to_run = true;
+        this.fault = null;
         this.begin(step.settings);
     }
 
@@ -186,7 +204,7 @@ class Lab {
         const state = this.frame?.state;
         if (state === "done") {
             this.wants_to_run = true;
-            this.begin(this.settings, this.frame!.time_s);
+            this.begin(this.asked.settings, this.time_s);
             return;
         }
         this.wants_to_run = state !== "running";
@@ -205,7 +223,7 @@ class Lab {
             ["step-half", "h", () => this.step(1)],
             ["step-tick", "t", () => this.step(2)],
             ["jump", "n", () => this.client.send({ kind: "jump" })],
-            ["restart", "0", () => this.begin(this.settings)],
+            ["restart", "0", () => this.begin(this.asked.settings)],
         ];
         for (const [id, , action] of buttons) on_click(id, action);
         document.addEventListener("keydown", (event) => {
@@ -224,9 +242,9 @@ class Lab {
         on_drop((file) => this.log.open(file));
         element("log-as-motion").addEventListener("click", () => this.log.hand_over((file) => this.motions.read(file)));
         turn_by_hand((rate_arcsec_s) => this.client.send({ kind: "turn", rate_arcsec_s }));
-        listen_to_second_gyro(() => this.begin(this.settings, this.repeat_s()));
+        listen_to_second_gyro(() => this.begin(this.asked.settings, this.repeat_s()));
         listen_to_exports(() => ({ settings: this.settings, frame: this.frame }));
-        share_dialog(() => ({ settings: this.settings, time_s: this.frame?.time_s ?? 0 }));
+        share_dialog(() => ({ settings: this.settings, time_s: this.time_s, turned: this.frame?.turned ?? false }));
     }
 }
 

@@ -45,6 +45,10 @@ export function short(value: number, digits = 4): string {
     return text.replace("-", "−");
 }
 
+function is_power_of_ten(value: number): boolean {
+    return Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+}
+
 function wide_enough(least_span: number): (_: uPlot, min: number | null, max: number | null) => uPlot.Range.MinMax {
     return (_, min, max) => {
         if (min === null || max === null) return [0, least_span];
@@ -57,6 +61,7 @@ function wide_enough(least_span: number): (_: uPlot, min: number | null, max: nu
 export class Chart {
     private plot: uPlot | null = null;
     private data: uPlot.AlignedData;
+    private is_empty = true;
     private is_in_view = false;
     private is_drawn = false;
 
@@ -87,7 +92,11 @@ export class Chart {
     private draw(): void {
         if (this.is_drawn || !this.is_in_view) return;
         this.is_drawn = true;
-        this.plot?.setData(this.data);
+        const was_empty = this.is_empty;
+        this.is_empty = this.data[0].length === 0;
+        // Without data the axes would stay those of the gyro before.
+        if (this.is_empty && !was_empty) this.make();
+        else this.plot?.setData(this.data);
     }
 
     // Other names of the same lines.
@@ -112,6 +121,9 @@ export class Chart {
         const axis = { stroke: style_value("--soft"), grid: { stroke: style_value("--grid"), width: 1 }, ticks: { stroke: style_value("--line"), width: 1 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 18, labelGap: 0 };
         const named = options.x_names;
         const plain = (_: uPlot, values: (number | null)[]) => values.map((value) => (value === null ? "" : short(value)));
+        // A long number would be cut off at the end of the axis.
+        const wide = (_: uPlot, values: (number | null)[]) => values.map((value) => (value === null ? "" : value >= 1e5 ? value.toExponential(0).replace("+", "") : short(value)));
+        const decades = (_: uPlot, values: (number | null)[]) => values.map((value) => (value !== null && is_power_of_ten(value) ? short(value) : ""));
         return {
             width: Math.max(this.place.clientWidth, 200),
             height: options.height,
@@ -123,8 +135,8 @@ export class Chart {
                 y: { distr: options.log_y ? 3 : 1, ...(options.y_range ? { range: options.y_range } : options.least_span ? { range: wide_enough(options.least_span) } : {}) },
             },
             axes: [
-                { ...axis, label: options.x, size: 34, ...(named ? { splits: () => named.map((_, at) => at), values: (_: uPlot, at: number[]) => at.map((k) => named[k] ?? "") } : { values: plain }) },
-                { ...axis, label: options.y, size: 70, ...(options.y_splits ? { splits: () => options.y_splits! } : {}), ...(options.log_y ? { values: (_: uPlot, at: (number | null)[]) => at.map((v) => (v !== null && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-9 ? short(v) : "")) } : { values: plain }) },
+                { ...axis, label: options.x, size: 34, ...(named ? { splits: () => named.map((_, at) => at), values: (_: uPlot, at: number[]) => at.map((k) => named[k] ?? "") } : { values: options.log_x ? wide : plain }) },
+                { ...axis, label: options.y, size: 70, ...(options.y_splits ? { splits: () => options.y_splits! } : {}), values: options.log_y ? decades : plain },
             ],
             series: [
                 { label: options.x.split(",")[0], value: (_, value) => (value === null ? "" : named ? (named[Math.round(value)] ?? "") : short(value, 6)) },

@@ -34,11 +34,12 @@ export interface Gyro {
     other: string[] | null; // of a second gyro, over these
     until_s: string | null; // run to this time at full speed and stop
     from_s: number; // be at this time at once; 0: begin
+    fault_s: number | null; // moment from which what a fault raises is watched
 }
 
 export type ToWorker =
     | { kind: "load"; code: string } // the module, gzipped, in base64
-    | { kind: "configure"; gyro: Gyro; running: boolean }
+    | { kind: "configure"; number: number; gyro: Gyro; running: boolean }
     | { kind: "speed"; speed: number } // gyro's seconds a second; Infinity: as fast as it goes
     | { kind: "run"; running: boolean }
     | { kind: "step"; halves: number }
@@ -119,9 +120,15 @@ export interface Design {
     noise: Columns; // ticks of the gap
 }
 
+// Bits of health that were raised, in switches and else.
+export interface Raised {
+    settled: number;
+    switching: number;
+}
+
 export interface Frame {
     kind: "frame";
-    number: number; // of the gyro: grows with each that is configured
+    number: number; // of the gyro, as it was configured
     state: State;
     tick_s: number;
     time_s: number;
@@ -135,13 +142,14 @@ export interface Frame {
     switches: SwitchRow[]; // that were added since the frame before
     allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
     module_bytes: number; // of its memory
-    health: number; // bits that were raised since the start
+    raised: Raised; // since the start
+    raised_by_fault: Raised | null; // since `fault_s`
 }
 
 export type FromWorker =
     | { kind: "loaded"; schema: Schema }
     | { kind: "configured"; number: number; changed: string[] }
-    | { kind: "refused"; message: string; whole: boolean } // whole: there is no gyro any more that could go on
+    | { kind: "refused"; number: number | null; message: string; whole: boolean } // number: of what was to be configured, null in a run; whole: there is no gyro any more that could go on
     | { kind: "designed"; design: Design }
     | { kind: "motion_read"; name: string; settings: string[]; note: string } // the settings with which it moves a gyro
     | { kind: "motion_refused"; message: string }

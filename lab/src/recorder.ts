@@ -1,5 +1,5 @@
 // What the worker remembers of the gyro's rows, to show it.
-import type { Columns, SwitchRow } from "./protocol";
+import type { Columns, Raised, SwitchRow } from "./protocol";
 import { AllanDeviation, allan_columns, Ring, Thinned } from "./series";
 import { SwitchPictures } from "./switch_pictures";
 
@@ -11,6 +11,7 @@ const most_points = 1200;
 const configured = 2; // among the compensations of a switch
 
 // Of signals: the column by whose peaks they are thinned, and others.
+const time_column = 0;
 const detuning_column = 3;
 const health_column = 11;
 // Of angles.
@@ -24,16 +25,24 @@ export class Recorder {
     private unsent: SwitchRow[] = [];
     private slice_has_switch = false;
     readonly pictures: SwitchPictures;
-    health = 0;
+    readonly raised: Raised = { settled: 0, switching: 0 };
+    readonly raised_by_fault: Raised | null;
 
-    constructor(private readonly tick_s: number) {
+    // switching_bit  of health: a switch is on.
+    // fault_s        moment from which what a fault raises is watched.
+    constructor(
+        private readonly tick_s: number,
+        private readonly switching_bit: number,
+        private readonly fault_s: number | null,
+    ) {
+        this.raised_by_fault = fault_s === null ? null : { settled: 0, switching: 0 };
         this.deviations = [0, 1, 2].map(() => new AllanDeviation(tick_s));
         this.pictures = new SwitchPictures(this.angle_rows, { true: 1, read: 2, delivered: 3, final: 4 }, tick_s);
     }
 
     take(signals: Float64Array, angles: Float64Array, switches: Float64Array): void {
         this.signal_rows.add(signals);
-        for (let at = health_column; at < signals.length; at += signal_columns) this.health = (this.health | signals[at]) >>> 0;
+        for (let at = 0; at < signals.length; at += signal_columns) this.take_health(signals[at + time_column], signals[at + health_column]);
         this.angle_rows.add(angles);
         for (let at = 0; at < angles.length; at += angle_columns) {
             const errors = error_columns.map((column) => angles[at + column]);
@@ -42,6 +51,12 @@ export class Recorder {
         }
         for (let at = 0; at < switches.length; at += switch_columns) this.take_switch(switches.subarray(at, at + switch_columns));
         this.pictures.settle();
+    }
+
+    private take_health(time_s: number, bits: number): void {
+        const where = ((bits >>> this.switching_bit) & 1) === 1 ? "switching" : "settled";
+        this.raised[where] = (this.raised[where] | bits) >>> 0;
+        if (this.raised_by_fault !== null && time_s >= this.fault_s!) this.raised_by_fault[where] = (this.raised_by_fault[where] | bits) >>> 0;
     }
 
     private take_switch(row: Float64Array): void {

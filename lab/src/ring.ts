@@ -36,6 +36,12 @@ function on_ring(part_of_way: number): [number, number] {
 const phases = ["tracking", "gap: loop open", "settling", "returning", "searching"];
 const waves = 16;
 
+const never_s = 1e5;
+
+export function switches_again(frame: Frame): boolean {
+    return frame.now[10] < never_s;
+}
+
 export class RingDrawing {
     private readonly turning: SVGElement;
     private readonly beams: { a: SVGElement[]; b: SVGElement[] };
@@ -72,7 +78,7 @@ export class RingDrawing {
         part(this.turning, "text", { x: 192, y: 262, "text-anchor": "middle", "font-size": 11, fill: "currentColor" }, "light B");
         this.mode_text = part(drawing, "text", { x: 160, y: 138, "text-anchor": "middle", "font-size": 19, "font-weight": 600, fill: "currentColor" });
         this.loop_text = part(drawing, "text", { x: 160, y: 160, "text-anchor": "middle", "font-size": 13, fill: "currentColor" });
-        for (const name of ["Rate of the case", "Detuning", "Piezo", "Next switch", "Speed"]) {
+        for (const name of ["Rate of the case", "Detuning", "Piezo", "Next switch", "Runs at"]) {
             const row = list;
             const term = document.createElement("dt");
             const value = document.createElement("dd");
@@ -108,13 +114,14 @@ export class RingDrawing {
         [light_a, light_b].forEach((light, at) => {
             (this.diodes[at] as SVGElement & ElementCSSInlineStyle).style.fill = `color-mix(in srgb, ${at === 0 ? "var(--ours)" : "var(--read)"} ${Math.round((100 * Math.max(0, light || 0)) / this.brightest)}%, transparent)`;
         });
-        this.mode_text.textContent = `mode ${mode > 0 ? "+1" : "−1"}`;
-        this.loop_text.textContent = phases[phase] ?? "";
+        const begun = frame.time_s > 0;
+        this.mode_text.textContent = begun ? `mode ${mode > 0 ? "+1" : "−1"}` : "at the start";
+        this.loop_text.textContent = begun ? (phases[phase] ?? "") : "";
         this.values["Rate of the case"].textContent = `${short(rate / 3600, 3)} deg/s`;
         this.values["Detuning"].textContent = `${short(detuning, 3)} λ`;
-        this.values["Piezo"].textContent = `${piezo.toFixed(2)} V`;
-        this.values["Next switch"].textContent = to_switch > 0 && to_switch < 1e5 ? `in ${to_switch.toFixed(2)} s` : to_switch >= 1e5 ? "never" : "now";
-        this.values["Speed"].textContent = frame.state === "running" && frame.speed > 0 ? `${short(frame.speed, 3)} × real time` : "stands";
+        this.values["Piezo"].textContent = begun ? `${piezo.toFixed(2)} V` : "–";
+        this.values["Next switch"].textContent = !begun ? "–" : !switches_again(frame) ? "never" : to_switch > 0 ? `in ${to_switch.toFixed(2)} s` : "now";
+        this.values["Runs at"].textContent = frame.state !== "running" ? "paused" : frame.speed > 0 ? `${short(frame.speed, 3)} × real time` : "–";
     }
 
     // Two waves round the ring; they run apart as bias and rotation part their frequencies.

@@ -5,6 +5,7 @@ import { make_fragment } from "./fragment";
 export interface Shared {
     settings: string[];
     time_s: number;
+    turned: boolean; // by hand
 }
 
 // A word of a POSIX shell.
@@ -17,8 +18,12 @@ export function share_dialog(shared: () => Shared): void {
     const link = element<HTMLTextAreaElement>("share-link");
     const until = element<HTMLInputElement>("share-until");
     const write = () => {
-        const { settings, time_s } = shared();
-        const fragment = make_fragment(settings, until.checked ? String(Number(time_s.toFixed(6))) : null);
+        const { settings, time_s, turned } = shared();
+        const is_recorded = settings.some((setting) => /^motion\.kind="?file"?$/.test(setting));
+        // Whoever opens the link has no file.
+        const linked = is_recorded ? settings.filter((setting) => !setting.startsWith("motion.")) : settings;
+        element("share-note").textContent = is_recorded ? "The recorded motion is not in the link, which has the motion of the default gyro; the command needs its file, which “Recorded motions” saves." : turned ? "What was turned by hand is not in the link." : "";
+        const fragment = make_fragment(linked, until.checked ? String(Number(time_s.toFixed(6))) : null);
         link.value = `${location.href.split("#")[0]}${fragment ? `#${fragment}` : ""}`;
         const duration = until.checked ? ["--duration", String(Number(time_s.toFixed(6)))] : [];
         element("share-command").textContent = ["zlg", "run", ...duration, ...settings.flatMap((each) => ["--set", quoted(each)])].join(" ");

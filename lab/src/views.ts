@@ -8,8 +8,9 @@ import type { Frame, SwitchRow } from "./protocol";
 // Columns of Frame.signals (live_run.hpp).
 const signal = { time: 0, true_rate: 1, rate: 2, detuning: 3, piezo: 4, light_a: 5, light_b: 6, mode: 7, closed: 8 };
 
-// Decades of the size of an error, arcsec.
-const decades = ["0.01", "0.1", "1", "10", "100", ">"];
+// Sizes of an error, arcsec, up to which switches are counted.
+const sizes = [0.1, 0.3, 1, 3, 10, 30, 100, 300, Infinity];
+const size_names = [...sizes.slice(0, -1).map(String), "more"];
 
 export class Views {
     private readonly rate = new Chart(element("plot-rate"), { x: "time, s", y: "rate, arcsec/s", least_span: 200, height: 190, sync: "signals", lines: [{ label: "true", colour: "--true", unit: "arcsec/s" }, { label: "measured", colour: "--ours", unit: "arcsec/s", dash: [4, 3] }] });
@@ -19,9 +20,9 @@ export class Views {
     private readonly mode = new Chart(element("plot-mode"), { x: "time, s", y: "mode", height: 130, sync: "signals", y_range: [-1.3, 1.3], y_splits: [-1, 0, 1], lines: [{ label: "mode (0: loop open)", colour: "--true", unit: "", steps: true }] });
     private readonly error = new Chart(element("plot-error"), { x: "time, s", y: "error, arcsec", least_span: 20, height: 260, lines: [...compared_lines("arcsec"), { label: "second gyro", colour: "--other", unit: "arcsec", dash: [5, 4] }] });
     private readonly magnified = new MagnifiedSwitches("switch", "Error left in the angle, as configured", true);
-    private readonly histogram = new Chart(element("plot-histogram"), { x: "error of a switch up to, arcsec", y: "switches", height: 220, x_names: decades, lines: compared_lines("").map((line) => ({ ...line, bars: true })) });
+    private readonly histogram = new Chart(element("plot-histogram"), { x: "error of a switch up to, arcsec", y: "switches", height: 220, x_names: size_names, lines: compared_lines("").map((line) => ({ ...line, bars: true })) });
     private readonly allan = new Chart(element("plot-allan"), { x: "averaging time, s", y: "deviation, deg/h", height: 220, log_x: true, log_y: true, lines: compared_lines("deg/h") });
-    private counts = compensations.map(() => decades.map(() => 0));
+    private counts = compensations.map(() => sizes.map(() => 0));
     private squares = [0, 0, 0];
 
     // Of the configured compensation: switches, and the rms error they left.
@@ -31,7 +32,7 @@ export class Views {
     }
 
     begin(): void {
-        this.counts = compensations.map(() => decades.map(() => 0));
+        this.counts = compensations.map(() => sizes.map(() => 0));
         this.squares = [0, 0, 0];
         this.magnified.begin("No switch yet. “Next switch” runs to the end of one.");
         this.histogram.show([[], [], [], []]);
@@ -58,8 +59,7 @@ export class Views {
 
     private count(switches: SwitchRow[]): void {
         for (const { compensation, error_arcsec } of switches) {
-            const decade = Math.min(Math.max(Math.floor(Math.log10(Math.abs(error_arcsec))) + 3, 0), decades.length - 1);
-            ++this.counts[compensation][decade];
+            ++this.counts[compensation][sizes.findIndex((size) => Math.abs(error_arcsec) <= size)];
             this.squares[compensation] += error_arcsec ** 2;
         }
         this.histogram.show(side_by_side(this.counts));
@@ -69,9 +69,9 @@ export class Views {
     }
 }
 
-// Bars of the compensations beside each other: each has places of its own in every decade.
+// Bars of the compensations beside each other: each has places of its own at every size.
 function side_by_side(counts: number[][]): (number | null)[][] {
-    const places = decades.flatMap((_, decade) => counts.map((_, which) => decade + 0.28 * (which - 1)));
-    const columns = counts.map((of, which) => decades.flatMap((_, decade) => counts.map((_, place) => (place === which && of[decade] > 0 ? of[decade] : null))));
+    const places = sizes.flatMap((_, size) => counts.map((_, which) => size + 0.28 * (which - 1)));
+    const columns = counts.map((of, which) => sizes.flatMap((_, size) => counts.map((_, place) => (place === which && of[size] > 0 ? of[size] : null))));
     return [places, ...columns];
 }

@@ -19,11 +19,13 @@ const frame_ms = 33;
 const fingerprint_ms = 500;
 const longest_debt_s = 0.2; // that a gyro which cannot keep the pace tries to catch up
 const halves_a_call = 32;
+const acceleration_arcsec_s2 = 100 * 3600; // of a case that is turned by hand
 
 class Pace {
     private module: LoopModule | null = null;
     private recorder: Recorder | null = null;
     private keys: Key[] = [];
+    private switching_bit = 0; // of health
     private gyro: Gyro | null = null;
     private state: State = "paused";
     private speed = 1;
@@ -37,6 +39,7 @@ class Pace {
     private measured = { ms: 0, time_s: 0, speed: 0 };
     private fingerprint = { ms: -Infinity, text: "" };
     private turned = false; // by hand
+    private hand = { wanted_arcsec_s: 0, now_arcsec_s: 0 };
     private frame_is_seen = true;
     private last_frame_ms = 0;
     private changed = true; // since the last frame
@@ -54,11 +57,12 @@ class Pace {
                 this.module = await LoopModule.load(await unpacked(message.code));
                 const schema = this.module.schema();
                 this.keys = schema.keys;
+                this.switching_bit = schema.health.indexOf("switching");
                 scope.postMessage({ kind: "loaded", schema });
                 return;
             }
             case "configure":
-                this.configure(message.gyro, message.running);
+                this.configure(message.number, message.gyro, message.running);
                 break;
             case "speed":
                 this.speed = message.speed;
@@ -81,7 +85,7 @@ class Pace {
                 break;
             case "turn":
                 if (this.state === "running" || this.state === "paused") {
-                    this.module!.turn(message.rate_arcsec_s);
+                    this.hand.wanted_arcsec_s = message.rate_arcsec_s;
                     this.turned = true;
                 }
                 break;
@@ -118,25 +122,26 @@ class Pace {
         this.catch_up_halves = 0;
     }
 
-    private configure(gyro: Gyro, running: boolean): void {
+    private configure(number: number, gyro: Gyro, running: boolean): void {
         const module = this.module!;
         // The later of two settings is in force.
         if (gyro.from_s === 0) {
             module.let_go();
             this.turned = false;
+            this.hand = { wanted_arcsec_s: 0, now_arcsec_s: 0 };
         }
         const settings = gyro.until_s === null ? gyro.settings : [...gyro.settings, `run.duration_s=${gyro.until_s}`];
         try {
             module.configure(settings, gyro.other);
         } catch (error) {
-            this.refuse(error);
+            this.refuse(number, error);
             return;
         }
         this.gyro = gyro;
-        ++this.number;
+        this.number = number;
         const changed = module.changed();
         this.tick_s = this.settings().number("gyro.tick_s");
-        this.recorder = new Recorder(this.tick_s);
+        this.recorder = new Recorder(this.tick_s, this.switching_bit, gyro.fault_s);
         // A recorded motion ends.
         const ends = gyro.until_s !== null || this.settings().text("motion.kind") === "file";
         this.end_halves = ends ? module.run_halves() : Infinity;
@@ -149,9 +154,9 @@ class Pace {
     }
 
     // The module keeps the gyro that it had.
-    private refuse(error: unknown): void {
+    private refuse(number: number, error: unknown): void {
         if (!(error instanceof Refusal)) throw error;
-        scope.postMessage({ kind: "refused", message: error.message, whole: this.gyro === null });
+        scope.postMessage({ kind: "refused", number, message: error.message, whole: this.gyro === null });
     }
 
     private settings(): Settings {
@@ -167,11 +172,11 @@ class Pace {
     private advance(halves: number): void {
         const module = this.module!;
         try {
-            module.advance(halves);
+            module.advance(halves - this.follow_hand(halves));
         } catch (error) {
             if (!(error instanceof Refusal)) throw error;
             this.state = "refused";
-            scope.postMessage({ kind: "refused", message: error.message, whole: true });
+            scope.postMessage({ kind: "refused", number: null, message: error.message, whole: true });
             return;
         }
         const recorder = this.recorder!;
@@ -183,6 +188,19 @@ class Pace {
             this.state = "paused";
         }
         if (module.halves() >= this.end_halves) this.state = "done";
+    }
+
+    // A hand changes the rate of the case steadily: so many of the halves are advanced one by one, until it has the rate that is wanted.
+    private follow_hand(halves: number): number {
+        const { hand } = this;
+        const most = (acceleration_arcsec_s2 * this.tick_s) / 2;
+        let n = 0;
+        for (; n < halves && hand.now_arcsec_s !== hand.wanted_arcsec_s; ++n) {
+            hand.now_arcsec_s += Math.max(-most, Math.min(most, hand.wanted_arcsec_s - hand.now_arcsec_s));
+            this.module!.turn(hand.now_arcsec_s);
+            this.module!.advance(1);
+        }
+        return n;
     }
 
     // Halves that are due now.
@@ -266,7 +284,8 @@ class Pace {
             switches: recorder.new_switches(),
             allan: recorder.allan(),
             module_bytes: module.memory_bytes(),
-            health: recorder.health,
+            raised: recorder.raised,
+            raised_by_fault: recorder.raised_by_fault,
         };
     }
 }

@@ -155,7 +155,7 @@ class Views(LivingPageCase):
             self.assertEqual(self.browser.marked("message"), "")
             self.assertIsNotNone(self.browser.value("document.querySelector('.card.shown h2').textContent"))
             self.browser.press("#tour .main")
-        self.assertTrue(self.browser.value("document.getElementById('tour').hidden"))
+        self.browser.wait_until(lambda: self.browser.value("document.getElementById('tour').hidden"))
 
     def test_a_click_is_answered_within_a_tenth_of_a_second_at_full_speed(self):
         """From the click to the picture after the changed state, by the page's own clock: nine of ten, so that a stall of the machine is no failure."""

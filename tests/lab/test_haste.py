@@ -1,0 +1,135 @@
+"""What a reader in haste meets, or one who has not followed the story: nothing is lost, nothing wrong is told."""
+
+import unittest
+from urllib.parse import unquote
+
+from lab_browser import LivingPageCase, PageCase
+
+FAULT = "[...document.querySelectorAll('#faults button')].find((button) => button.textContent === {!r}).click();"
+CHANGE = "(() => {{ const field = document.querySelector('[data-key=\"{}\"] input'); field.value = {!r}; field.dispatchEvent(new Event('change')); }})();"
+
+
+class Haste(LivingPageCase):
+    def link(self):
+        self.browser.value("document.getElementById('share').click()")
+        link = unquote(self.browser.value("document.getElementById('share-link').value"))
+        self.browser.value("document.getElementById('share-dialog').close()")
+        return link
+
+    def report(self):
+        return self.browser.text("#fault-report")
+
+    def test_a_setting_and_a_fault_in_one_breath(self):
+        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "3") + FAULT.format("light noisy") + CHANGE.format("run.seed", "7"))
+        self.browser.wait_until(lambda: "run.seed=7" in self.link())
+        link = self.link()
+        self.assertIn("drift.magnetic_arcsec_s=3", link)
+        self.assertIn("light_noisy", link)
+
+    def test_a_wrong_setting_and_a_fault_in_one_breath(self):
+        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "much") + FAULT.format("light noisy"))
+        self.browser.wait_until(lambda: self.browser.marked("message"))
+        self.browser.value(FAULT.format("frame missed"))
+        self.browser.wait_until(lambda: "frame_missed" in self.link())
+        self.assertNotIn("much", self.link())
+
+    def test_through_the_tour_to_a_fault_at_once(self):
+        self.browser.wait_until(lambda: self.time_s() > 3)
+        self.browser.value("document.getElementById('tour-start').click();" + 9 * "document.querySelector('#tour .main').click();" + FAULT.format("laser off"))
+        self.browser.wait_until(lambda: "laser_off" in self.link())
+        self.assertIn("switching.interval_s=4", self.link())
+        self.assertNotIn("motion.kind", self.link())
+        self.assertIn("faults.at_s=0.1&", self.link())
+
+    def test_clicks_behind_the_end_of_the_tour_hit_nothing(self):
+        self.browser.press("#tour-start")
+        self.browser.value(9 * "document.querySelector('#tour .main').click();")
+        self.browser.wait_until(lambda: "Step 10" in self.browser.text("#tour .step"))
+        place = self.browser.value("(() => { const r = document.querySelector('#tour .main').getBoundingClientRect(); return [r.x + 20, r.y + 10]; })()")
+        for _ in range(3):
+            self.browser.click(*place)
+        self.browser.wait_until(lambda: self.browser.value("document.getElementById('tour').hidden"))
+        self.assertEqual(self.browser.value("document.activeElement.id"), "tour-start")
+        self.assertEqual(self.report(), "")
+        self.assertNotIn("faults", self.link())
+
+    def test_what_a_fault_raised_is_told_however_short_it_was(self):
+        for fault, said in (("laser off", "light lost"), ("frame missed", "frame missed"), ("counter bit stuck", "bias lost"), ("temperature nan", "temperature not finite")):
+            with self.subTest(fault):
+                self.browser.open_lab("switching.interval_s=1")
+                self.browser.wait_for_state("running")
+                self.browser.wait_until(lambda: self.time_s() > 1)  # so that it knows its bias
+                self.browser.value(FAULT.format(fault))
+                self.browser.fill("#speed", "2")  # a hundredfold: between two pictures the gyro runs three seconds
+                self.browser.wait_until(lambda said=said: said in self.report(), 20)
+
+    def test_a_fault_of_a_switch_is_told_to_wait_for_it(self):
+        self.browser.value(CHANGE.format("switching.interval_s", "1000") + FAULT.format("switch no mode"))
+        self.browser.wait_until(lambda: self.report())
+        self.assertIn("nothing yet; it shows at the next switch", self.report())
+        self.browser.value("document.getElementById('tour-start').click()")
+        self.browser.wait_until(lambda: not self.report())
+
+    def test_a_hand_however_quick_raises_nothing(self):
+        self.browser.open_lab("switching.interval_s=100&motion.kind=rest")
+        self.browser.wait_for_state("running")
+        for rate in ("30", "-30", "30", "0"):
+            self.browser.value(f"(() => {{ const pad = document.getElementById('pad'); pad.value = {rate}; pad.dispatchEvent(new Event('input')); }})()")
+            # The case follows, with its inertia.
+            self.browser.wait_until(lambda rate=rate: self.browser.text("#now dd").startswith(rate.replace("-", "\u2212") + " "))
+        self.assertNotIn("bias", self.browser.text("#health"))
+
+    def test_a_gyro_that_has_not_begun_shows_nothing_of_the_one_before(self):
+        self.browser.wait_until(lambda: self.time_s() > 3)
+        self.browser.press("#run")
+        self.browser.wait_for_state("paused")
+        self.browser.press("#restart")
+        self.browser.wait_until(lambda: self.time_s() == 0)
+        self.assertRegex(self.browser.text("#now"), "Piezo\u2013Next switch\u2013")
+        self.assertIn("at the start", self.browser.text("#ring"))
+
+    def test_an_empty_field_is_its_default_and_shows_it(self):
+        self.browser.fill('[data-key="drift.magnetic_arcsec_s"] input', "3")
+        self.browser.wait_until(lambda: "magnetic" in self.link())
+        self.browser.fill('[data-key="drift.magnetic_arcsec_s"] input', "")
+        self.browser.wait_until(lambda: "magnetic" not in self.link())
+        self.assertEqual(self.browser.value("document.querySelector('[data-key=\"drift.magnetic_arcsec_s\"] input').value"), "0.7")
+
+    def test_a_gyro_that_never_switches_has_no_next_switch(self):
+        self.browser.fill('[data-key="switching.interval_s"] input', "1e9")
+        self.browser.wait_until(lambda: "never" in self.browser.text("#now"))
+        self.assertTrue(self.browser.value("document.getElementById('jump').disabled"))
+
+    def test_a_link_to_a_recorded_motion_says_what_it_lacks_and_opens(self):
+        self.browser.value("document.querySelector('#motions button').click()")
+        self.browser.wait_until(lambda: "motion.kind" in self.browser.value("(document.getElementById('share').click(), document.getElementById('share-command').textContent)"))
+        self.assertIn("not in the link", self.browser.text("#share-note"))
+        self.browser.value("document.getElementById('share-dialog').close()")
+        link = self.link()
+        self.assertNotIn("motion", link)
+        self.browser.open_lab(link.split("#")[1])
+        self.browser.wait_for_state("running")
+
+    def test_a_motion_that_was_turned_by_hand_is_not_in_the_link(self):
+        self.browser.value("(() => { const pad = document.getElementById('pad'); pad.value = 5; pad.dispatchEvent(new Event('input')); })()")
+        self.browser.wait_until(lambda: self.browser.marked("fingerprint") == "turned by hand")
+        self.link()
+        self.assertIn("turned by hand is not in the link", self.browser.text("#share-note"))
+
+
+class BrokenLinks(PageCase):
+    def test_each_says_so_and_the_default_gyro_is_a_click_away(self):
+        for fragment, said in (("garbage", "section.key=value"), ("foo=1", "foo"), ("switching.interval_s=optimal", "seconds")):
+            with self.subTest(fragment):
+                self.browser.open_lab(fragment)
+                self.browser.wait_for_state("refused")
+                self.assertIn(said, self.browser.marked("message"))
+                self.assertIn("names no gyro", self.browser.text("#note"))
+                self.browser.press("#restart")
+                self.browser.wait_for_state("running")
+                self.assertEqual(self.browser.marked("message"), "")
+                self.assertEqual(self.browser.text("#note"), "")
+
+
+if __name__ == "__main__":
+    unittest.main()
