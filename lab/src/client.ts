@@ -3,7 +3,7 @@ import type { Design, Frame, FromWorker, Gyro, LogPicture, Schema, ToWorker } fr
 
 export interface Listener {
     loaded(schema: Schema): void;
-    configured(changed: string[]): void;
+    configured(changed: string[], is_newest: boolean): void; // is_newest: nothing else was asked for meanwhile
     refused(message: string, whole: boolean): void;
     frame(frame: Frame): void;
     designed(design: Design): void;
@@ -17,6 +17,7 @@ export interface Listener {
 export class GyroClient {
     private readonly worker: Worker;
     private asked = 0; // number of the gyro that was asked for last
+    private answered = 0; // of the one that was taken or refused last
     private number = 0; // of the one that the worker has
 
     // worker_script, code  texts of the page: the worker's script, and the module, gzipped, in base64.
@@ -34,6 +35,11 @@ export class GyroClient {
         this.worker.postMessage(message);
     }
 
+    // Whether the gyro that was asked for last is neither taken nor refused yet.
+    waits(): boolean {
+        return this.answered !== this.asked;
+    }
+
     configure(gyro: Gyro, running: boolean): void {
         this.send({ kind: "configure", number: ++this.asked, gyro, running });
     }
@@ -48,11 +54,12 @@ export class GyroClient {
             case "loaded":
                 return listener.loaded?.(message.schema);
             case "configured":
-                this.number = message.number;
-                // Of one that another follows already nothing is said.
-                return message.number === this.asked ? listener.configured?.(message.changed) : undefined;
+                this.number = this.answered = message.number;
+                return listener.configured?.(message.changed, !this.waits());
             case "refused":
-                return message.number === null || message.number === this.asked ? listener.refused?.(message.message, message.whole) : undefined;
+                this.answered = message.number;
+                // Of one that another follows already nothing is said.
+                return this.waits() ? undefined : listener.refused?.(message.message, message.whole);
             case "designed":
                 return listener.designed?.(message.design);
             case "motion_read":

@@ -30,7 +30,7 @@ export class Controls {
         this.draw();
     }
 
-    // What the gyro will have, if it can: the next change is one of these.
+    // What the gyro will have, if it can: the next change is made to these.
     expect(settings: string[]): void {
         this.settings.clear();
         for (const setting of settings) {
@@ -53,7 +53,8 @@ export class Controls {
 
     // The last change was refused: it is taken back once the reader changes something else.
     refuse(message: string): void {
-        if (this.wrong === null) this.wrong = { key: this.last_key, message };
+        const named = [...this.settings.keys()].find((key) => message.includes(key));
+        if (this.wrong === null) this.wrong = { key: named ?? this.last_key, message };
         else this.wrong.message = message;
         this.mark();
     }

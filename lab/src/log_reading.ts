@@ -159,7 +159,7 @@ export function read_log(module: LoopModule, wanted: Wanted, answer: (message: F
         else answer({ kind: "log_read", log: { name: wanted.file.name, ...module.log_facts(), ...recorder.picture() } });
     } catch (error) {
         if (!(error instanceof Refusal)) throw error;
-        answer({ kind: "refused", number: null, message: error.message, whole: true });
+        answer({ kind: "refused", number: 0, message: error.message, whole: true });
     }
 }
 

@@ -3,7 +3,7 @@ import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { element, marked } from "./elements";
 import { listen_to_exports } from "./export";
-import { fault_buttons, nothing_yet, with_fault } from "./faults";
+import { fault_buttons, type MadeFault, made_fault, nothing, with_fault } from "./faults";
 import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
 import { follows_records } from "./follow";
@@ -14,14 +14,23 @@ import { HealthList } from "./health";
 import { LogView } from "./log_view";
 import { Motions, with_motion } from "./motions";
 import { keep_charts, short } from "./plots";
-import type { Fault, Frame, Schema, State } from "./protocol";
-import { RingDrawing, switches_again } from "./ring";
-import { choose_second_gyro, leave_out_second_gyro, listen_to_second_gyro, second_gyro } from "./second_gyro";
+import type { Fault, Frame, Key, Schema, State } from "./protocol";
+import { never_s, RingDrawing, switches_again } from "./ring";
+import { choose_second_gyro, has_own_second, leave_out_second_gyro, listen_to_second_gyro, second_gyro } from "./second_gyro";
+import { Settings } from "./settings";
 import { share_dialog } from "./share";
 import { type Step, Tour } from "./tour";
 import { Views } from "./views";
 
 const longest_repeat_s = 120; // of a gyro that is changed while it runs: later it begins again
+
+interface Asked {
+    settings: string[];
+    from_s: number; // be at this time at once
+    until_s: string | null;
+    by_controls: boolean;
+    fault: MadeFault | null; // that was made last
+}
 
 class Lab {
     private readonly views = new Views();
@@ -31,14 +40,14 @@ class Lab {
     private readonly log: LogView;
     private readonly design = new DesignView((switch_error_arcsec, passes_zero) => this.client.send({ kind: "design", switch_error_arcsec, passes_zero }));
     private readonly motions = new Motions(() => this.client);
+    private keys: Key[] = [];
     private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
     private health: HealthList | null = null;
     private settings: string[] = []; // of the gyro that runs
-    private until_s: string | null = null;
-    private asked = { settings: [] as string[], from_s: 0, by_controls: false }; // of the gyro that was begun last; the worker may not have it yet
-    private time_s = 0; // of the gyro, as far as the page knows
-    private fault: { kind: Fault; at_s: number } | null = null; // that was made last
+    private asked: Asked = { settings: [], from_s: 0, until_s: null, by_controls: false, fault: null }; // for last; the worker may not have it yet
+    private time_s = 0; // of the gyro that was asked for, once it is there
+    private fault: MadeFault | null = null; // of the gyro that runs
     private wants_to_run = true;
     private refused = false; // by a link, or in the run: there is nothing to show
     private from_link = false;
@@ -51,7 +60,7 @@ class Lab {
         this.log = new LogView(worker, () => this.flag_names);
         this.client = worker({
             loaded: (schema) => this.loaded(schema),
-            configured: (changed) => this.configured(changed),
+            configured: (changed, is_newest) => this.configured(changed, is_newest),
             refused: (message, whole) => this.refuse(message, whole),
             designed: (design) => this.design.show(design),
             motion_read: (_, settings, note) => {
@@ -71,51 +80,53 @@ class Lab {
         this.health = new HealthList(element("health"), schema.health);
         fault_buttons(element("faults"), schema.faults, (fault) => this.break_it(fault));
         this.flag_names = schema.angle_flags;
+        this.keys = schema.keys;
         this.send_speed();
         this.open_link();
     }
 
     private open_link(): void {
         this.from_link = true;
-        this.fault = null;
         try {
             const wanted = parse_fragment(location.hash);
-            this.begin(wanted.settings, 0, wanted.until_s);
+            this.begin(wanted.settings, { until_s: wanted.until_s, fault: null });
         } catch (error) {
             this.refuse((error as Error).message, true);
         }
     }
 
-    // A gyro of these settings, at this time at once.
-    private begin(settings: string[], from_s = 0, until_s: string | null = null, by_controls = false): void {
-        this.until_s = until_s;
-        this.asked = { settings, from_s, by_controls };
+    // A gyro of these settings.
+    private begin(settings: string[], { from_s = 0, until_s = null, by_controls = false, fault = this.asked.fault }: Partial<Asked> = {}): void {
+        this.asked = { settings, from_s, until_s, by_controls, fault };
         if (!by_controls) this.controls?.expect(settings);
         this.time_s = from_s;
-        this.client.configure({ settings, other: until_s === null ? second_gyro() : null, until_s, from_s, fault_s: this.fault?.at_s ?? null }, this.wants_to_run);
+        this.client.configure({ settings, other: until_s === null ? second_gyro() : null, until_s, from_s, fault_s: fault?.at_s ?? null }, this.wants_to_run);
     }
 
-    private configured(changed: string[]): void {
-        this.settings = changed.filter((setting) => this.until_s === null || !setting.startsWith("run.duration_s="));
-        this.refused = false;
-        this.from_link = false;
+    private configured(changed: string[], is_newest: boolean): void {
+        this.settings = changed;
         this.frames.forget();
-        this.show_message("");
-        this.controls?.set(this.settings);
         this.views.begin();
         this.design.begin();
+        if (!is_newest) return;
+        this.asked.settings = this.settings;
+        this.fault = this.asked.fault;
+        this.refused = false;
+        this.from_link = false;
+        this.show_message("");
+        this.controls?.set(this.settings);
     }
 
     private refuse(message: string, whole: boolean): void {
         // The gyro itself may be good: it goes on alone.
         if (leave_out_second_gyro(message)) {
-            this.begin(this.asked.settings, this.asked.from_s, null, this.asked.by_controls);
+            this.begin(this.asked.settings, this.asked);
             return;
         }
-        this.asked.settings = this.settings;
+        this.asked = { ...this.asked, settings: this.settings, fault: this.fault };
+        if (!this.asked.by_controls) this.controls?.set(this.settings);
         if (!whole && !this.from_link) {
             if (this.asked.by_controls) this.controls?.refuse(message);
-            else this.controls?.set(this.settings);
             this.show_message(message);
             return;
         }
@@ -137,7 +148,7 @@ class Lab {
 
     private show_state(state: State): void {
         marked("state").textContent = state;
-        element("run").textContent = state === "running" ? "Pause" : state === "done" ? "Go on" : "Run";
+        element("run").textContent = state === "running" ? "Pause" : state === "done" ? (this.asked.until_s === null ? "Again" : "Go on") : "Run";
         for (const id of ["run", "step-half", "step-tick"]) element<HTMLButtonElement>(id).disabled = state === "refused";
         element<HTMLButtonElement>("jump").disabled = state === "refused" || (this.frame !== null && !switches_again(this.frame));
     }
@@ -145,7 +156,8 @@ class Lab {
     private draw(frame: Frame): void {
         if (this.refused) return;
         this.frame = frame;
-        this.time_s = frame.time_s;
+        // While a change is caught up with, the gyro is where it will be.
+        if (!this.client.waits()) this.time_s = Math.max(frame.time_s, this.asked.from_s);
         marked("time").textContent = frame.time_s.toFixed(4);
         marked("fingerprint").textContent = frame.turned ? "turned by hand" : frame.fingerprint;
         document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
@@ -157,25 +169,32 @@ class Lab {
         this.show_fault(frame);
     }
 
-    private show_fault({ raised_by_fault }: Frame): void {
-        const found = this.fault === null || raised_by_fault === null ? "" : this.health!.report(raised_by_fault) || nothing_yet(this.fault.kind);
+    private show_fault({ raised_since_fault, time_s }: Frame): void {
+        const has_come = this.fault !== null && raised_since_fault !== null && time_s >= this.fault.at_s;
+        const found = has_come ? this.health!.report(raised_since_fault!) || nothing(this.fault!, time_s) : "";
         const text = found && `Reported since the last fault: ${found}.`;
         if (element("fault-report").textContent !== text) element("fault-report").textContent = text;
     }
 
     // Settings that were changed while the gyro runs: as if it had always been so.
     private changed_by_hand(): void {
-        this.begin(this.controls!.list(), this.repeat_s(), null, true);
+        this.begin(this.controls!.list(), { from_s: this.repeat_s(), by_controls: true });
     }
 
     private repeat_s(): number {
         return this.time_s <= longest_repeat_s ? this.time_s : 0;
     }
 
+    private to_switch_s(at_s: number): number {
+        // One that begins anew switches after an interval; 0 where it never switches, or its schedule is not known ahead.
+        const wait_s = at_s > 0 ? this.frame?.now[10] : new Settings(this.keys, this.asked.settings).number("switching.interval_s");
+        return wait_s !== undefined && wait_s > 0 && wait_s < never_s ? wait_s : 0;
+    }
+
     private break_it(fault: Fault): void {
         const from_s = this.repeat_s();
-        this.fault = { kind: fault, at_s: from_s };
-        this.begin(with_fault(this.asked.settings, fault, from_s), from_s);
+        const to_switch_s = this.to_switch_s(from_s);
+        this.begin(with_fault(this.asked.settings, fault, from_s, to_switch_s), { from_s, fault: made_fault(fault, from_s, to_switch_s) });
     }
 
     private take_step(step: Step): void {
@@ -185,8 +204,7 @@ class Lab {
         element<HTMLInputElement>("speed").value = String(Math.log10(step.speed));
         this.send_speed();
         this.wants_to_run = true;
-        this.fault = null;
-        this.begin(step.settings);
+        this.begin(step.settings, { fault: null });
     }
 
     private send_speed(): void {
@@ -204,7 +222,8 @@ class Lab {
         const state = this.frame?.state;
         if (state === "done") {
             this.wants_to_run = true;
-            this.begin(this.asked.settings, this.time_s);
+            // Beyond the end of a link it goes on; a recorded motion begins again.
+            this.begin(this.asked.settings, { from_s: this.asked.until_s === null ? 0 : this.time_s });
             return;
         }
         this.wants_to_run = state !== "running";
@@ -216,13 +235,18 @@ class Lab {
         this.client.send({ kind: "step", halves });
     }
 
+    private jump(): void {
+        this.wants_to_run = false;
+        this.client.send({ kind: "jump" });
+    }
+
     private listen(): void {
         const on_click = (id: string, action: () => void) => element(id).addEventListener("click", action);
         const buttons: [string, string, () => void][] = [
             ["run", " ", () => this.run_or_pause()],
             ["step-half", "h", () => this.step(1)],
             ["step-tick", "t", () => this.step(2)],
-            ["jump", "n", () => this.client.send({ kind: "jump" })],
+            ["jump", "n", () => this.jump()],
             ["restart", "0", () => this.begin(this.asked.settings)],
         ];
         for (const [id, , action] of buttons) on_click(id, action);
@@ -230,9 +254,9 @@ class Lab {
             const place = event.target as HTMLElement;
             if (event.ctrlKey || event.metaKey || event.altKey || place.closest("input, select, textarea, button, summary, dialog") !== null) return;
             const button = buttons.find(([, key]) => key === event.key);
-            if (button === undefined || this.refused) return;
+            if (button === undefined) return;
             event.preventDefault();
-            button[2]();
+            element(button[0]).click();
         });
         element("speed").addEventListener("input", () => this.send_speed());
         element("window").addEventListener("change", () => this.client.send({ kind: "window", window_s: Number(element<HTMLSelectElement>("window").value) }));
@@ -242,9 +266,9 @@ class Lab {
         on_drop((file) => this.log.open(file));
         element("log-as-motion").addEventListener("click", () => this.log.hand_over((file) => this.motions.read(file)));
         turn_by_hand((rate_arcsec_s) => this.client.send({ kind: "turn", rate_arcsec_s }));
-        listen_to_second_gyro(() => this.begin(this.asked.settings, this.repeat_s()));
+        listen_to_second_gyro(() => this.begin(this.asked.settings, { from_s: this.repeat_s() }));
         listen_to_exports(() => ({ settings: this.settings, frame: this.frame }));
-        share_dialog(() => ({ settings: this.settings, time_s: this.time_s, turned: this.frame?.turned ?? false }));
+        share_dialog(() => ({ settings: this.settings, time_s: this.time_s, turned: this.frame?.turned ?? false, has_own_second: has_own_second() }));
     }
 }
 

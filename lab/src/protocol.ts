@@ -143,13 +143,13 @@ export interface Frame {
     allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
     module_bytes: number; // of its memory
     raised: Raised; // since the start
-    raised_by_fault: Raised | null; // since `fault_s`
+    raised_since_fault: Raised | null; // since `fault_s`
 }
 
 export type FromWorker =
     | { kind: "loaded"; schema: Schema }
     | { kind: "configured"; number: number; changed: string[] }
-    | { kind: "refused"; number: number | null; message: string; whole: boolean } // number: of what was to be configured, null in a run; whole: there is no gyro any more that could go on
+    | { kind: "refused"; number: number; message: string; whole: boolean } // what was to be configured, or the gyro in its run; whole: there is none any more that could go on
     | { kind: "designed"; design: Design }
     | { kind: "motion_read"; name: string; settings: string[]; note: string } // the settings with which it moves a gyro
     | { kind: "motion_refused"; message: string }

@@ -26,7 +26,7 @@ export class Recorder {
     private slice_has_switch = false;
     readonly pictures: SwitchPictures;
     readonly raised: Raised = { settled: 0, switching: 0 };
-    readonly raised_by_fault: Raised | null;
+    readonly raised_since_fault: Raised | null;
 
     // switching_bit  of health: a switch is on.
     // fault_s        moment from which what a fault raises is watched.
@@ -35,7 +35,7 @@ export class Recorder {
         private readonly switching_bit: number,
         private readonly fault_s: number | null,
     ) {
-        this.raised_by_fault = fault_s === null ? null : { settled: 0, switching: 0 };
+        this.raised_since_fault = fault_s === null ? null : { settled: 0, switching: 0 };
         this.deviations = [0, 1, 2].map(() => new AllanDeviation(tick_s));
         this.pictures = new SwitchPictures(this.angle_rows, { true: 1, read: 2, delivered: 3, final: 4 }, tick_s);
     }
@@ -56,7 +56,7 @@ export class Recorder {
     private take_health(time_s: number, bits: number): void {
         const where = ((bits >>> this.switching_bit) & 1) === 1 ? "switching" : "settled";
         this.raised[where] = (this.raised[where] | bits) >>> 0;
-        if (this.raised_by_fault !== null && time_s >= this.fault_s!) this.raised_by_fault[where] = (this.raised_by_fault[where] | bits) >>> 0;
+        if (this.raised_since_fault !== null && time_s >= this.fault_s!) this.raised_since_fault[where] = (this.raised_since_fault[where] | bits) >>> 0;
     }
 
     private take_switch(row: Float64Array): void {

@@ -36,7 +36,7 @@ function on_ring(part_of_way: number): [number, number] {
 const phases = ["tracking", "gap: loop open", "settling", "returning", "searching"];
 const waves = 16;
 
-const never_s = 1e5;
+export const never_s = 1e5; // nobody waits so long
 
 export function switches_again(frame: Frame): boolean {
     return frame.now[10] < never_s;
@@ -121,7 +121,7 @@ export class RingDrawing {
         this.values["Detuning"].textContent = `${short(detuning, 3)} λ`;
         this.values["Piezo"].textContent = begun ? `${piezo.toFixed(2)} V` : "–";
         this.values["Next switch"].textContent = !begun ? "–" : !switches_again(frame) ? "never" : to_switch > 0 ? `in ${to_switch.toFixed(2)} s` : "now";
-        this.values["Runs at"].textContent = frame.state !== "running" ? "paused" : frame.speed > 0 ? `${short(frame.speed, 3)} × real time` : "–";
+        this.values["Runs at"].textContent = frame.state !== "running" ? frame.state : frame.speed > 0 ? `${short(frame.speed, 3)} × real time` : "–";
     }
 
     // Two waves round the ring; they run apart as bias and rotation part their frequencies.

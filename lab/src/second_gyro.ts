@@ -5,6 +5,8 @@ const never_switched = ["switching.schedule=fixed", "switching.interval_s=100000
 
 const kind = () => element<HTMLSelectElement>("other");
 
+export const has_own_second = () => kind().value === "own";
+
 // Null: there is none.
 export function second_gyro(): string[] | null {
     if (kind().value === "none") return null;

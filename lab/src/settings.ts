@@ -8,8 +8,17 @@ export function given(settings: string[], key: string): unknown[] {
 }
 
 function values(toml: string): unknown[] {
-    const value: unknown = JSON.parse(toml);
+    const value = parsed(toml);
     return Array.isArray(value) ? value : [value];
+}
+
+// In a link a text may stand without quotes.
+function parsed(toml: string): unknown {
+    try {
+        return JSON.parse(toml);
+    } catch {
+        return toml;
+    }
 }
 
 // Of one gyro: what was given, over the defaults of the table of keys.

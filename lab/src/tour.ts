@@ -16,7 +16,7 @@ const steady_drift = ["drift.magnetic_thermal_arcsec_s=0", "drift.nonmagnetic_ar
 export const steps: Step[] = [
     { title: "Light that runs round", look: "card-ring", settings: ["motion.kind=rest"], other: "none", speed: 1, window_s: "5", text: "A laser gyro is a ring in which two beams of light run in opposite directions. When the case turns, one way round becomes longer than the other, and the two beams differ in frequency. Counting their beat gives the angle: one count is 3.263 arcsec here. The case is at rest. Turn it: drag the slider under the drawing and hold it, or focus it and use the arrow keys. The number “Rate of the case” says how fast it turns, and the drawing leans the more, the faster it turns. Let go, and it rests again." },
     { title: "Why there is a magnet", look: "card-ring", settings: slow_motion, other: "none", speed: 0.01, window_s: "0.25", text: "At small rates the two beams would lock together and the gyro would be blind. The magnet splits their frequencies by 60 kHz, a “bias” that keeps them apart. Its sign changes every 2.5 ms, so that it cancels in the sum of two half-periods: a tick of 5 ms. Time runs a hundred times slower now. Watch the frame labelled “magnet”: it is solid for + and dashed for −." },
-    { title: "What the magnet spoils", look: "card-error", settings: ["switching.interval_s=1000000", ...steady_drift], other: "none", speed: 64, window_s: "5", text: "But the gyro takes a constant magnetic field for a turn: here 0.7 arcsec every second, which is 0.7 degrees in an hour. The error of the angle only grows. Nothing in the counts tells it from a true rotation. (The three lines lie on each other: as long as nothing is switched, nothing can be corrected.)" },
+    { title: "What the magnet spoils", look: "card-error", settings: ["switching.interval_s=1000000", ...steady_drift], other: "none", speed: 64, window_s: "5", text: "But the gyro takes a constant magnetic field for a turn: here 0.7 arcsec every second, which is 0.7 degrees in an hour. The error of the angle only grows. Nothing in the counts tells it from a true rotation. (The three lines lie on top of each other: as long as nothing is switched, nothing can be corrected.)" },
     { title: "The trick: the other mode", look: "card-error", settings: ["switching.interval_s=20", ...steady_drift], other: "one_mode", speed: 64, window_s: "30", text: "The ring can carry light of two kinds, called modes +1 and −1 (green and brown in the drawing). In the one the field of the light turns like a right-hand screw, in the other like a left-hand one, and a magnetic field fakes turns of opposite sign. So the gyro switches every 20 s, and what the one mode adds the other takes away. Look at the blue line: the error makes a saw and comes back. The grey line is the same gyro on the same motion that never switches. The red line jumps at every switch: it holds what a switch costs, of which the next steps speak." },
     { title: "How a switch is made", look: "card-switch", settings: ["switching.interval_s=1"], other: "none", speed: 1, window_s: "5", text: "Piezo mirrors make the ring half a wavelength longer or shorter; there the other mode lases. A control loop holds the length of the ring; for the way to the other mode it is opened, for 3 ticks, 15 ms. In this gap the counter’s numbers mean nothing: in the chart the red points leave the green line of the true rate. They come back a few ticks after the gap; step 7 tells why. Here a switch comes every second; the small pictures are the last ones." },
     { title: "Bridging the gap", look: "card-switch", settings: ["switching.interval_s=1"], other: "none", speed: 1, window_s: "1", text: "What the case did in these 15 ms must be guessed: at once from the ticks before (extrapolated, for whoever steers by it), and a little later from both sides (interpolated, and better). The more the case shakes, the harder the guess. At 7 oscillations a second, as here, the paper’s way leaves 7 arcsec in the angle (root mean square of 249 switches), this program 2.2, once it has learnt how the case moves. At 15 oscillations a second it is 11 and 2.8." },
@@ -36,7 +36,10 @@ export class Tour {
         private readonly place: HTMLElement,
         private readonly on_step: (step: Step) => void,
         private readonly on_end: () => void, // where the keyboard was in it
-    ) {}
+    ) {
+        // Who has scrolled himself is left where he is.
+        for (const event of ["wheel", "touchmove"]) window.addEventListener(event, () => clearTimeout(this.bringing), { passive: true });
+    }
 
     go(at: number): void {
         document.querySelector(".card.shown")?.classList.remove("shown");
@@ -89,6 +92,7 @@ export class Tour {
         const chart = card.querySelector<HTMLElement>(".plot");
         const is_high = card.offsetHeight > room;
         const is_low = chart !== null && chart.getBoundingClientRect().bottom - card.getBoundingClientRect().top > room;
-        (is_low ? chart : card).scrollIntoView({ block: is_high ? "start" : "nearest", behavior: "smooth" });
+        const is_still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+        (is_low ? chart : card).scrollIntoView({ block: is_high ? "start" : "nearest", behavior: is_still ? "auto" : "smooth" });
     }
 }

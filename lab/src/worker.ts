@@ -33,6 +33,7 @@ class Pace {
     private number = 0;
     private window_s = 5;
     private catch_up_halves = 0; // run at full speed until there are so many
+    private repeated_halves = 0; // of these, those that the reader has seen before a change
     private end_halves = Infinity;
     private jump_to_switch = false;
     private pace_from = { ms: 0, halves: 0 };
@@ -74,8 +75,7 @@ class Pace {
                 this.restart_pace();
                 break;
             case "step":
-                this.pause();
-                if (this.state === "paused") this.advance(message.halves);
+                this.step(message.halves);
                 break;
             case "jump":
                 if (this.state === "running" || this.state === "paused") {
@@ -84,10 +84,7 @@ class Pace {
                 }
                 break;
             case "turn":
-                if (this.state === "running" || this.state === "paused") {
-                    this.hand.wanted_arcsec_s = message.rate_arcsec_s;
-                    this.turned = true;
-                }
+                this.hand.wanted_arcsec_s = message.rate_arcsec_s;
                 break;
             case "design":
                 if (this.gyro !== null) scope.postMessage({ kind: "designed", design: design_of(this.module!, this.settings(), message.switch_error_arcsec, message.passes_zero) });
@@ -116,20 +113,16 @@ class Pace {
         this.wake();
     }
 
-    private pause(): void {
+    // On from where it is, or from where a change of the settings brings it first; not from the end of what a link asks for.
+    private step(halves: number): void {
         if (this.state === "running") this.state = "paused";
         this.jump_to_switch = false;
-        this.catch_up_halves = 0;
+        if (this.state === "paused") this.catch_up_halves = Math.max(this.module!.halves(), this.repeated_halves) + halves;
     }
 
     private configure(number: number, gyro: Gyro, running: boolean): void {
         const module = this.module!;
         // The later of two settings is in force.
-        if (gyro.from_s === 0) {
-            module.let_go();
-            this.turned = false;
-            this.hand = { wanted_arcsec_s: 0, now_arcsec_s: 0 };
-        }
         const settings = gyro.until_s === null ? gyro.settings : [...gyro.settings, `run.duration_s=${gyro.until_s}`];
         try {
             module.configure(settings, gyro.other);
@@ -137,15 +130,21 @@ class Pace {
             this.refuse(number, error);
             return;
         }
+        if (gyro.from_s === 0) {
+            module.let_go();
+            this.turned = false;
+            this.hand = { wanted_arcsec_s: 0, now_arcsec_s: 0 };
+        }
         this.gyro = gyro;
         this.number = number;
-        const changed = module.changed();
+        const changed = module.changed().filter((setting) => gyro.until_s === null || !setting.startsWith("run.duration_s="));
         this.tick_s = this.settings().number("gyro.tick_s");
         this.recorder = new Recorder(this.tick_s, this.switching_bit, gyro.fault_s);
         // A recorded motion ends.
         const ends = gyro.until_s !== null || this.settings().text("motion.kind") === "file";
         this.end_halves = ends ? module.run_halves() : Infinity;
-        this.catch_up_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : module.run_halves();
+        this.repeated_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : 0;
+        this.catch_up_halves = gyro.until_s === null ? this.repeated_halves : module.run_halves();
         this.state = running || gyro.until_s !== null ? "running" : "paused";
         this.jump_to_switch = false;
         this.fingerprint = { ms: -Infinity, text: "" };
@@ -176,7 +175,7 @@ class Pace {
         } catch (error) {
             if (!(error instanceof Refusal)) throw error;
             this.state = "refused";
-            scope.postMessage({ kind: "refused", number: null, message: error.message, whole: true });
+            scope.postMessage({ kind: "refused", number: this.number, message: error.message, whole: true });
             return;
         }
         const recorder = this.recorder!;
@@ -193,12 +192,14 @@ class Pace {
     // A hand changes the rate of the case steadily: so many of the halves are advanced one by one, until it has the rate that is wanted.
     private follow_hand(halves: number): number {
         const { hand } = this;
+        if (this.module!.halves() < this.repeated_halves) return 0; // its turns are known
         const most = (acceleration_arcsec_s2 * this.tick_s) / 2;
         let n = 0;
         for (; n < halves && hand.now_arcsec_s !== hand.wanted_arcsec_s; ++n) {
             hand.now_arcsec_s += Math.max(-most, Math.min(most, hand.wanted_arcsec_s - hand.now_arcsec_s));
             this.module!.turn(hand.now_arcsec_s);
             this.module!.advance(1);
+            this.turned = true;
         }
         return n;
     }
@@ -285,7 +286,7 @@ class Pace {
             allan: recorder.allan(),
             module_bytes: module.memory_bytes(),
             raised: recorder.raised,
-            raised_by_fault: recorder.raised_by_fault,
+            raised_since_fault: recorder.raised_since_fault,
         };
     }
 }
