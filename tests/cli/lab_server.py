@@ -10,9 +10,6 @@ import time
 
 from support import ZLG
 
-# What takes milliseconds, where other programs want the processor too.
-MOST_WALL_S = 2.0
-
 
 class Line:
     """A gyro's line at a socket of its own: the bytes in so many seconds, then silence until `close`, or the end."""

@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 import h5py
-from lab_server import MOST_WALL_S, Events, LabServer, Line
+from lab_server import Events, LabServer, Line
 from support import ROOT, AngleLog, CliTest, run
 
 PAGE = ROOT / "build" / "release" / "share" / "zlg" / "lab.html"
@@ -37,8 +37,11 @@ class LabFollow(CliTest):
         self.addCleanup(server.close)
         return server
 
+    n_lines = 0
+
     def line(self, lasts_s, data=None, **options):
-        line = Line(self.folder / "line", self.bytes if data is None else data, lasts_s, **options)
+        self.n_lines += 1
+        line = Line(self.folder / f"line{self.n_lines}", self.bytes if data is None else data, lasts_s, **options)
         self.addCleanup(line.close)
         return line
 
@@ -153,18 +156,23 @@ class LabFollow(CliTest):
             self.assertAlmostEqual(deviations[taus.index(m * 0.005)] / expected, 1.0, delta=1e-9)
 
     def test_slow_pages_cost_the_reader_and_other_pages_nothing(self):
-        line = self.line(3.0, then_ends=True)
-        out = self.folder / "angles.csv"
-        server = self.serve(line.source, "--out", out)
-        for _ in range(10):
-            self.events(server, receive_buffer=2048)  # of which nothing is read
-        rows, names = self.rows_until_the_end(self.events(server))
-        self.assert_rows_of_the_log(rows)
-        self.assertLess(line.longest_wait_s, MOST_WALL_S)
-        status, _, err, took_s = server.end()
-        self.assertEqual((status, err), (0, ""))
-        self.assertLess(took_s, MOST_WALL_S)
-        self.assertEqual(AngleLog(out).rows, self.log.rows)
+        waits_s, ends_s = [], []
+        for k in range(3):
+            line = self.line(3.0, then_ends=True)
+            out = self.folder / f"angles{k}.csv"
+            server = self.serve(line.source, "--out", out)
+            for _ in range(10):
+                self.events(server, receive_buffer=2048)  # of which nothing is read
+            rows, names = self.rows_until_the_end(self.events(server))
+            self.assert_rows_of_the_log(rows)
+            waits_s.append(line.longest_wait_s)
+            status, _, err, took_s = server.end()
+            self.assertEqual((status, err), (0, ""))
+            ends_s.append(took_s)
+            self.assertEqual(AngleLog(out).rows, self.log.rows)
+        # The least of three: other programs may want the processor.
+        self.assertLess(min(waits_s), 0.5)
+        self.assertLess(min(ends_s), 0.5)
 
     def test_a_page_that_slept_gets_the_newer_picture(self):
         # Ten times the length of the ring: more than the system keeps for a reader who sleeps.
@@ -252,14 +260,18 @@ class LabFollow(CliTest):
             socket.create_connection(("127.0.0.1", server.port)).close()
         self.assertTrue(server.get().startswith(b"HTTP/1.1 200 "))
 
-    def test_a_signal_ends_it_at_once_with_pages_open(self):
-        for what, source in ((signal.SIGINT, self.files / "line.bin"), (signal.SIGTERM, self.files / "angles.h5"), (signal.SIGINT, self.line(5.0).source)):
-            server = self.serve(source)
-            pages = [self.events(server) for _ in range(5)]
-            self.assertEqual(pages[0].next()[0], "snapshot")
-            status, _, err, took_s = server.end(what)
-            self.assertEqual((status, err), (0, ""))
-            self.assertLess(took_s, MOST_WALL_S)
+    def test_a_signal_ends_it_within_half_a_second_with_pages_open(self):
+        for what, source in ((signal.SIGINT, self.files / "line.bin"), (signal.SIGTERM, self.files / "angles.h5"), (signal.SIGINT, lambda: self.line(5.0).source)):
+            ends_s = []
+            for _ in range(3):
+                server = self.serve(source() if callable(source) else source)
+                pages = [self.events(server) for _ in range(5)]
+                self.assertEqual(pages[0].next()[0], "snapshot")
+                status, _, err, took_s = server.end(what)
+                self.assertEqual((status, err), (0, ""))
+                ends_s.append(took_s)
+            # The least of three: other programs may want the processor.
+            self.assertLess(min(ends_s), 0.5)
 
     def test_a_port_in_use_is_one_line(self):
         server = self.serve(self.files / "line.bin")

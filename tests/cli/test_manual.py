@@ -46,7 +46,6 @@ class Manual(unittest.TestCase):
         self.assertEqual(self.completed("zlg", "run", "--set", "gyro.tick"), ["gyro.tick_s="])
         self.assertEqual(self.completed("zlg", "process", "raw"), [])
 
-    @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_no_page_has_a_wrong_request(self):
         for page in sorted((self.folder / "man1").iterdir()):
             done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z", page], capture_output=True, text=True, check=True)

@@ -142,8 +142,10 @@ class Signals(CliTest):
                 self.assertGreater((self.folder / name).stat().st_size, 0, said)
             self.assertEqual(left - files, {os.path.dirname(name) for name in files} - {""}, said)
             self.clean(left)
+        # Of a quick work, the signal came too late each time.
         if n_ended == 0:
-            self.skipTest("the work was done before any signal came")
+            self.assertGreater(max_s, 0.02, "the work was done before any signal came")
+            self.check(arguments, max_s / 2, may_stay)
 
     def named(self, after, complaint):
         found = re.search(re.escape(after) + "([^;]*)", complaint)

@@ -1,4 +1,4 @@
-"""What a reader in haste meets, or one who has not followed the story: nothing is lost, nothing wrong is told."""
+"""What a reader in haste meets, or one who has not followed the story: nothing is lost, nothing wrong is shown."""
 
 import re
 import unittest
@@ -80,7 +80,7 @@ class Haste(LivingPageCase):
         self.assertEqual(self.report(), "")
         self.assertNotIn("faults", self.link())
 
-    def test_what_a_fault_raised_is_told_however_short_it_was(self):
+    def test_what_a_fault_raised_is_reported_however_short_it_was(self):
         for fault, said in (("laser off", "light lost"), ("frame missed", "frame missed"), ("counter bit stuck", "bias lost"), ("temperature nan", "temperature not finite")):
             with self.subTest(fault):
                 self.browser.open_lab("switching.interval_s=1")

@@ -5,6 +5,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -84,20 +85,24 @@ TEST(PageServers, SayWhichPortIsInUse) {
 TEST(PageServers, EndAtOnceWithConnectionsOfEveryKindOpen) {
     RecordBook book{"", false};
     book.add({}, 0.005);
-    auto server = std::make_unique<PageServer>("page", book, std::uint16_t{0});
-    const Peer silent{server->port()};
-    const Peer stream{server->port()};
-    stream.say(request(*server, "/records"));
-    stream.hear("snapshot");
-    const std::uint16_t port = server->port();
-    const auto begun = std::chrono::steady_clock::now();
-    server.reset();
-    // It takes milliseconds, but other programs may want the processor; a peer who says nothing is waited for longer.
-    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{2});
-    EXPECT_FALSE(Peer{port}.is_open);
-    // The port is free again.
-    const PageServer second{"page", book, port};
-    EXPECT_EQ(second.port(), port);
+    // The least of three: other programs may want the processor.
+    auto least = std::chrono::steady_clock::duration::max();
+    for (int k = 0; k < 3; ++k) {
+        auto server = std::make_unique<PageServer>("page", book, std::uint16_t{0});
+        const Peer silent{server->port()};
+        const Peer stream{server->port()};
+        stream.say(request(*server, "/records"));
+        stream.hear("snapshot");
+        const std::uint16_t port = server->port();
+        const auto begun = std::chrono::steady_clock::now();
+        server.reset();
+        least = std::min(least, std::chrono::steady_clock::now() - begun);
+        EXPECT_FALSE(Peer{port}.is_open);
+        // The port is free again.
+        const PageServer second{"page", book, port};
+        EXPECT_EQ(second.port(), port);
+    }
+    EXPECT_LT(least, std::chrono::milliseconds{300});
 }
 
 TEST(PageServers, TakeRecordsWhilePagesComeAndGo) {

@@ -96,23 +96,26 @@ def test_a_socket_gives_batches_while_it_is_open(line, tmp_path):
 def test_ctrl_c_ends_the_waiting_and_loses_nothing(line, tmp_path):
     _, theirs = followed_by_program(line, tmp_path)
     data = line.read_bytes()
-    pipe = tmp_path / "pipe"
-    os.mkfifo(pipe)
-    following = zlg.follow(pipe, batch_s=1e6)
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    with open(pipe, "wb", buffering=0) as gyro:
-        gyro.write(data[:30_000])
-        threading.Timer(0.3, _thread.interrupt_main).start()
-        start = time.monotonic()
-        with pytest.raises(KeyboardInterrupt):
-            next(following)
-        assert time.monotonic() - start < 0.3 + 2.0  # others may want the processor; the batch takes longer
-        signal.signal(signal.SIGINT, before)
-        writer = threading.Thread(target=lambda: (gyro.write(data[30_000:]), gyro.close()))
-        writer.start()
-        ours = following.read()
-        writer.join()
-    assert_equal(ours, theirs)
+    ends_s = []
+    for k in range(3):
+        pipe = tmp_path / f"pipe{k}"
+        os.mkfifo(pipe)
+        following = zlg.follow(pipe, batch_s=1e6)
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        with open(pipe, "wb", buffering=0) as gyro:
+            gyro.write(data[:30_000])
+            threading.Timer(0.3, _thread.interrupt_main).start()
+            start = time.monotonic()
+            with pytest.raises(KeyboardInterrupt):
+                next(following)
+            ends_s.append(time.monotonic() - start - 0.3)
+            signal.signal(signal.SIGINT, before)
+            writer = threading.Thread(target=lambda: (gyro.write(data[30_000:]), gyro.close()))
+            writer.start()
+            ours = following.read()
+            writer.join()
+        assert_equal(ours, theirs)
+    assert min(ends_s) < 0.5  # the least of three: other programs may want the processor
 
 
 def test_one_thread_at_a_time(tmp_path):
