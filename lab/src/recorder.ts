@@ -23,7 +23,7 @@ export class Recorder {
     private readonly errors = new Thinned(1024);
     private readonly deviations: AllanDeviation[];
     private unsent: SwitchRow[] = [];
-    private slice_has_switch = false;
+    has_new_switch = false; // among the rows taken last
     readonly pictures: SwitchPictures;
     readonly raised: Raised = { settled: 0, switching: 0 };
     readonly raised_since_fault: Raised | null;
@@ -41,6 +41,7 @@ export class Recorder {
     }
 
     take(signals: Float64Array, angles: Float64Array, switches: Float64Array): void {
+        this.has_new_switch = false;
         this.signal_rows.add(signals);
         for (let at = 0; at < signals.length; at += signal_columns) this.take_health(signals[at + time_column], signals[at + health_column]);
         this.angle_rows.add(angles);
@@ -65,15 +66,7 @@ export class Recorder {
         this.unsent.push(found);
         if (compensation !== configured) return;
         this.pictures.expect({ first_tick, gap_ticks, last_tick, mode_after, cost_arcsec: error_arcsec });
-        this.slice_has_switch = true;
-    }
-
-    begin_slice(): void {
-        this.slice_has_switch = false;
-    }
-
-    has_new_switch(): boolean {
-        return this.slice_has_switch;
+        this.has_new_switch = true;
     }
 
     new_switches(): SwitchRow[] {

@@ -70,15 +70,16 @@ class Pace {
                 this.restart_pace();
                 break;
             case "run":
-                if (this.state === "running" || this.state === "paused") this.state = message.running ? "running" : "paused";
-                this.jump_to_switch = false;
+                this.stop();
+                if (message.running && this.state === "paused") this.state = "running";
                 this.restart_pace();
                 break;
             case "step":
                 this.step(message.halves);
                 break;
             case "jump":
-                if (this.state === "running" || this.state === "paused") {
+                this.stop();
+                if (this.state === "paused") {
                     this.jump_to_switch = true;
                     this.state = "running";
                 }
@@ -113,11 +114,18 @@ class Pace {
         this.wake();
     }
 
-    // On from where it is, or from where a change of the settings brings it first; not from the end of what a link asks for.
-    private step(halves: number): void {
-        if (this.state === "running") this.state = "paused";
+    // Where it is, or where a change of the settings brings it first; not at the end of what a link asks for.
+    private stop(): void {
         this.jump_to_switch = false;
-        if (this.state === "paused") this.catch_up_halves = Math.max(this.module!.halves(), this.repeated_halves) + halves;
+        if (this.state !== "running") return;
+        this.state = "paused";
+        this.catch_up_halves = this.repeated_halves;
+    }
+
+    // On from where it stops, with the steps that were asked for before.
+    private step(halves: number): void {
+        this.stop();
+        if (this.state === "paused") this.catch_up_halves = Math.min(Math.max(this.module!.halves(), this.catch_up_halves) + halves, this.end_halves);
     }
 
     private configure(number: number, gyro: Gyro, running: boolean): void {
@@ -182,7 +190,7 @@ class Pace {
         recorder.take(module.rows(View.signals), module.rows(View.angles), module.rows(View.switches));
         module.forget();
         this.changed = true;
-        if (this.jump_to_switch && recorder.has_new_switch()) {
+        if (this.jump_to_switch && recorder.has_new_switch && module.halves() > this.repeated_halves) {
             this.jump_to_switch = false;
             this.state = "paused";
         }
@@ -223,7 +231,6 @@ class Pace {
     private work(): void {
         this.awake = false;
         if (this.gyro === null || this.recorder === null || this.state === "refused") return;
-        this.recorder.begin_slice();
         const was_catching_up = this.module!.halves() < this.catch_up_halves;
         const end_ms = performance.now() + slice_ms;
         let due = this.due();

@@ -53,6 +53,30 @@ class Haste(LivingPageCase):
         times_s = [float(time) for time in re.search(r"faults.at_s=\[([^]]*)]", self.link())[1].split(",")]
         self.assertEqual([round(time - before_s, 1) for time in times_s], [0.1, 0.1])
 
+    def test_steps_in_one_breath_are_all_taken(self):
+        self.browser.press("#run")
+        self.browser.wait_for_state("paused")
+        before_s = self.time_s()
+        self.browser.value(3 * "document.getElementById('step-tick').click();")
+        self.browser.wait_until(lambda: self.time_s() > before_s + 0.0149)
+        self.browser.value(3 * "document.getElementById('step-half').click();")
+        self.browser.wait_until(lambda: self.time_s() > before_s + 0.0224)
+        self.assertAlmostEqual(self.time_s(), before_s + 0.0225, delta=1e-9)
+
+    def test_a_link_to_a_late_time_can_be_stopped_stepped_and_jumped_on_the_way(self):
+        self.browser.open_lab("switching.interval_s=1&gyro.fidelity=laser&until=7200")
+        self.browser.wait_until(lambda: self.time_s() > 3)
+        self.browser.press("#run")
+        self.browser.wait_for_state("paused")
+        stands_s = self.time_s()
+        self.assertLess(stands_s, 7200)
+        self.browser.press("#step-tick")
+        self.browser.wait_until(lambda: self.time_s() != stands_s)
+        self.assertAlmostEqual(self.time_s(), stands_s + 0.005, delta=1e-9)
+        self.browser.press("#jump")
+        self.browser.wait_until(lambda: self.browser.marked("state") == "paused" and self.time_s() > stands_s + 0.1)
+        self.assertLess(self.time_s(), stands_s + 1.2)
+
     def test_a_fault_beside_one_of_a_link_without_quotes(self):
         self.browser.open_lab("faults.kind=laser_off&faults.at_s=5&faults.duration_s=1&faults.size=0")
         self.browser.wait_for_state("running")
