@@ -16,8 +16,10 @@ const is_motion_kind = (key: Key) => key.section === "motion" && key.name === "k
 const elsewhere = new Set(["design", "analysis"]);
 
 export class Controls {
-    private readonly settings = new Map<string, string>(); // that differ from the defaults, as TOML
-    private wrong: { key: string; message: string } | null = null;
+    private settings = new Map<string, string>(); // that differ from the defaults, as TOML; with what is asked for
+    private taken = new Map<string, string>(); // those of the gyro
+    private wrong: { key: string; message: string } | null = null; // among what is asked for
+    private last_key = ""; // that was changed
     private timer = 0;
 
     constructor(
@@ -32,16 +34,16 @@ export class Controls {
 
     // What the gyro will have, if it can: the next change is made to these.
     expect(settings: string[]): void {
-        this.settings.clear();
-        for (const setting of settings) {
+        this.settings = new Map(settings.map((setting) => {
             const at = setting.indexOf("=");
-            this.settings.set(setting.slice(0, at), setting.slice(at + 1));
-        }
+            return [setting.slice(0, at), setting.slice(at + 1)];
+        }));
     }
 
     // What the gyro has, `section.key=value` each.
     set(settings: string[]): void {
         this.expect(settings);
+        this.taken = new Map(this.settings);
         this.wrong = null;
         if (!this.place.contains(document.activeElement)) this.draw();
         else this.mark();
@@ -51,15 +53,28 @@ export class Controls {
         return [...this.settings].map(([key, value]) => `${key}=${value}`);
     }
 
-    // The last change was refused: it is taken back once the reader changes something else.
+    // What was asked for was refused. Some settings fit together only: what is wrong is taken back when it does not fit the next change either.
     refuse(message: string): void {
-        const named = [...this.settings.keys()].find((key) => message.includes(key));
-        if (this.wrong === null) this.wrong = { key: named ?? this.last_key, message };
-        else this.wrong.message = message;
+        const before = this.wrong;
+        if (before !== null && before.key !== this.last_key) {
+            this.wrong = null;
+            this.take_back(before.key);
+            this.on_change();
+            return;
+        }
+        const changed = [...new Set([...this.settings.keys(), ...this.taken.keys()])].filter((key) => this.settings.get(key) !== this.taken.get(key));
+        this.wrong = { key: changed.find((key) => message.includes(key)) ?? this.last_key, message };
         this.mark();
     }
 
-    private last_key = "";
+    private take_back(name: string): void {
+        const value = this.taken.get(name);
+        if (value === undefined) this.settings.delete(name);
+        else this.settings.set(name, value);
+        const field = this.place.querySelector<HTMLInputElement | HTMLSelectElement>(`[data-key="${name}"] :is(input, select)`);
+        const key = this.keys.find((each) => `${each.section}.${each.name}` === name);
+        if (field !== null && key !== undefined) field.value = bare(key, value ?? key.default);
+    }
 
     private chosen(): [string, Key[]][] {
         const words = this.search.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
@@ -121,10 +136,8 @@ export class Controls {
     private change(key: Key, text: string): void {
         clearTimeout(this.timer);
         const name = `${key.section}.${key.name}`;
-        if (this.wrong !== null && this.wrong.key !== name) this.settings.delete(this.wrong.key);
         const before = this.settings.get(name) ?? bare(key, key.default);
         if (text === before && this.wrong === null) return;
-        this.wrong = null;
         this.last_key = name;
         if (text === "" || text === bare(key, key.default)) this.settings.delete(name);
         else this.settings.set(name, text);

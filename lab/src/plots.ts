@@ -107,8 +107,11 @@ export class Chart {
     }
 
     make(): void {
+        const options = this.uplot_options();
+        // What the reader has hidden stays hidden.
+        this.plot?.series.forEach((line, at) => (options.series[at].show = line.show));
         this.plot?.destroy();
-        this.plot = new uPlot(this.uplot_options(), this.data, this.place);
+        this.plot = new uPlot(options, this.data, this.place);
         this.is_drawn = true;
     }
 

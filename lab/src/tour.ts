@@ -57,8 +57,8 @@ export class Tour {
         card.classList.add("shown");
         const box = document.createElement("div");
         const number = Object.assign(document.createElement("p"), { className: "step", textContent: `Step ${at + 1} of ${steps.length}` });
-        const title = Object.assign(document.createElement("h2"), { textContent: step.title });
-        const text = Object.assign(document.createElement("p"), { textContent: step.text });
+        const title = Object.assign(document.createElement("h2"), { textContent: step.title, id: "tour-title" });
+        const text = Object.assign(document.createElement("p"), { textContent: step.text, id: "tour-text" });
         const row = Object.assign(document.createElement("div"), { className: "row" });
         const button = (name: string, to: number, main = false) => {
             const made = Object.assign(document.createElement("button"), { type: "button", textContent: name, className: main ? "main" : "" });
@@ -73,6 +73,8 @@ export class Tour {
         if (at + 1 < steps.length) button("End the tour", -1);
         box.append(number, title, text, row);
         this.place.replaceChildren(box);
+        // Read out with the button that has the focus.
+        next.setAttribute("aria-describedby", "tour-title tour-text");
         next.focus({ preventScroll: true });
         this.on_step(step);
         this.bring(card);

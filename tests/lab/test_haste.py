@@ -42,6 +42,47 @@ class Haste(LivingPageCase):
         self.browser.wait_until(lambda: "frame_missed" in self.link())
         self.assertIn("drift.magnetic_arcsec_s=3", self.link())
 
+    def field(self, key):
+        return self.browser.value(f"document.querySelector('[data-key=\"{key}\"] input').value")
+
+    def test_what_was_refused_goes_back_to_what_it_was(self):
+        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "3"))
+        self.browser.wait_until(lambda: "magnetic_arcsec_s=3" in self.link())
+        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "much"))
+        self.browser.wait_until(lambda: self.browser.marked("message"))
+        self.browser.value(CHANGE.format("run.seed", "7"))
+        self.browser.wait_until(lambda: "run.seed=7" in self.link())
+        self.assertIn("magnetic_arcsec_s=3", self.link())
+        self.assertEqual(self.field("drift.magnetic_arcsec_s"), "3")
+        self.assertEqual(self.browser.marked("message"), "")
+
+    def test_settings_that_fit_only_together_can_be_changed_one_by_one(self):
+        self.browser.fill("#search", "gyro.")
+        self.browser.value(CHANGE.format("gyro.bias_edge_s", "0.004"))
+        self.browser.wait_until(lambda: "half of gyro.tick_s" in self.browser.marked("message"))
+        self.browser.value(CHANGE.format("gyro.tick_s", "0.01"))
+        self.browser.wait_until(lambda: not self.browser.marked("message"))
+        self.assertIn("gyro.bias_edge_s=0.004", self.link())
+        self.assertIn("gyro.tick_s=0.01", self.link())
+        # The message names both; it is the one that was changed now that does not fit.
+        self.browser.value(CHANGE.format("gyro.tick_s", "0.005"))
+        self.browser.wait_until(lambda: self.browser.marked("message"))
+        self.assertIn("gyro.bias_edge_s", self.browser.text('[data-key="gyro.tick_s"] .wrong'))
+        self.browser.value(CHANGE.format("gyro.light_noise_lambda", "0.002"))
+        self.browser.wait_until(lambda: "light_noise_lambda=0.002" in self.link())
+        self.assertIn("gyro.tick_s=0.01", self.link())
+        self.assertEqual(self.field("gyro.tick_s"), "0.01")
+
+    def test_two_wrong_settings_one_after_the_other(self):
+        self.browser.value(CHANGE.format("gyro.light_noise_lambda", "much"))
+        self.browser.wait_until(lambda: "light_noise_lambda" in self.browser.marked("message"))
+        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "more"))
+        self.browser.wait_until(lambda: "magnetic_arcsec_s" in self.browser.text('[data-key="drift.magnetic_arcsec_s"] .wrong'))
+        self.assertEqual(self.browser.text('[data-key="gyro.light_noise_lambda"] .wrong'), "")
+        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "1"))
+        self.browser.wait_until(lambda: "magnetic_arcsec_s=1" in self.link())
+        self.assertNotIn("light_noise", self.link())
+
     def test_a_fault_while_a_change_is_caught_up_with_is_at_its_time(self):
         self.browser.open_lab("switching.interval_s=1&gyro.fidelity=laser")
         self.browser.wait_until(lambda: self.time_s() > 40)

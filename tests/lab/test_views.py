@@ -40,6 +40,17 @@ class Views(LivingPageCase):
         self.assertGreater(at_s, self.time_s() - 1.0)
         self.assertRegex(self.browser.text("#histogram-text"), r"^\d+ switch")
 
+    def test_a_line_that_was_hidden_stays_hidden(self):
+        shown = "[...document.querySelectorAll('#plot-error .u-series')].map((line) => !line.classList.contains('u-off'))"
+        self.browser.value("document.querySelectorAll('#plot-error .u-series')[2].querySelector('th').click()")
+        before = self.browser.value(shown)
+        self.assertEqual([at for at, is_shown in enumerate(before) if not is_shown], [2])
+        self.addCleanup(self.browser.send, "Emulation.setEmulatedMedia", media="screen", features=[])
+        self.browser.value("document.querySelector('#plot-error canvas').dataset.old = 'yes'")
+        self.browser.send("Emulation.setEmulatedMedia", media="screen", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.browser.wait_until(lambda: self.browser.value("document.querySelector('#plot-error canvas').dataset.old") is None)
+        self.assertEqual(self.browser.value(shown), before)
+
     def test_keys_step_and_pause(self):
         self.browser.value("document.activeElement.blur()")
         self.browser.key(" ")
