@@ -16,9 +16,8 @@ const is_motion_kind = (key: Key) => key.section === "motion" && key.name === "k
 const elsewhere = new Set(["design", "analysis"]);
 
 export class Controls {
-    private settings = new Map<string, string>(); // that differ from the defaults, as TOML; with what is asked for
-    private taken = new Map<string, string>(); // those of the gyro
-    private wrong: { key: string; message: string } | null = null; // among what is asked for
+    private settings = new Map<string, string>(); // that differ from the defaults, as TOML: as the reader has asked for them
+    private wrong: { key: string; message: string; of_gyro: string | undefined } | null = null; // the one that was refused
     private last_key = ""; // that was changed
     private timer = 0;
 
@@ -34,17 +33,13 @@ export class Controls {
 
     // What the gyro will have, if it can: the next change is made to these.
     expect(settings: string[]): void {
-        this.settings = new Map(settings.map((setting) => {
-            const at = setting.indexOf("=");
-            return [setting.slice(0, at), setting.slice(at + 1)];
-        }));
+        this.settings = by_key(settings);
+        this.wrong = null;
     }
 
     // What the gyro has, `section.key=value` each.
     set(settings: string[]): void {
         this.expect(settings);
-        this.taken = new Map(this.settings);
-        this.wrong = null;
         if (!this.place.contains(document.activeElement)) this.draw();
         else this.mark();
     }
@@ -53,22 +48,16 @@ export class Controls {
         return [...this.settings].map(([key, value]) => `${key}=${value}`);
     }
 
-    // What was asked for was refused. Some settings fit together only: what is wrong is taken back when it does not fit the next change either.
-    refuse(message: string): void {
-        const before = this.wrong;
-        if (before !== null && before.key !== this.last_key) {
-            this.wrong = null;
-            this.take_back(before.key);
-            this.on_change();
-            return;
-        }
-        const changed = [...new Set([...this.settings.keys(), ...this.taken.keys()])].filter((key) => this.settings.get(key) !== this.taken.get(key));
-        this.wrong = { key: changed.find((key) => message.includes(key)) ?? this.last_key, message };
+    // What was asked for was refused, and the gyro keeps what it has. The wrong setting is taken back once the reader changes another one.
+    refuse(message: string, of_gyro: string[]): void {
+        const kept = by_key(of_gyro);
+        const changed = [...new Set([...this.settings.keys(), ...kept.keys()])].filter((key) => this.settings.get(key) !== kept.get(key));
+        const key = changed.find((name) => message.includes(name)) ?? this.last_key;
+        this.wrong = { key, message, of_gyro: kept.get(key) };
         this.mark();
     }
 
-    private take_back(name: string): void {
-        const value = this.taken.get(name);
+    private take_back(name: string, value: string | undefined): void {
         if (value === undefined) this.settings.delete(name);
         else this.settings.set(name, value);
         const field = this.place.querySelector<HTMLInputElement | HTMLSelectElement>(`[data-key="${name}"] :is(input, select)`);
@@ -137,7 +126,10 @@ export class Controls {
         clearTimeout(this.timer);
         const name = `${key.section}.${key.name}`;
         const before = this.settings.get(name) ?? bare(key, key.default);
-        if (text === before && this.wrong === null) return;
+        const is_other = this.wrong !== null && this.wrong.key !== name;
+        if (text === before && !is_other) return;
+        if (is_other) this.take_back(this.wrong!.key, this.wrong!.of_gyro);
+        this.wrong = null;
         this.last_key = name;
         if (text === "" || text === bare(key, key.default)) this.settings.delete(name);
         else this.settings.set(name, text);
@@ -158,6 +150,13 @@ export class Controls {
 function allowed_here(key: Key): string {
     if (key.kind === "interval") return `${key.allowed.replace(/, or "optimal"$/, "")}; the best one stands in “How often to switch”`;
     return is_motion_kind(key) ? key.allowed.replace(`, ${recorded}`, "; for a file, “Recorded motions”") : key.allowed;
+}
+
+function by_key(settings: string[]): Map<string, string> {
+    return new Map(settings.map((setting) => {
+        const at = setting.indexOf("=");
+        return [setting.slice(0, at), setting.slice(at + 1)];
+    }));
 }
 
 // A text without its quotes.

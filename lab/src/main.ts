@@ -124,9 +124,9 @@ class Lab {
             return;
         }
         this.asked = { ...this.asked, settings: this.settings, fault: this.fault };
-        if (!this.asked.by_controls) this.controls?.set(this.settings);
+        if (whole || !this.asked.by_controls) this.controls?.set(this.settings);
         if (!whole && !this.from_link) {
-            if (this.asked.by_controls) this.controls?.refuse(message);
+            if (this.asked.by_controls) this.controls?.refuse(message, this.settings);
             this.show_message(message);
             return;
         }

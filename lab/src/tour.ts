@@ -56,7 +56,7 @@ export class Tour {
         const card = document.getElementById(step.look)!;
         card.classList.add("shown");
         const box = document.createElement("div");
-        const number = Object.assign(document.createElement("p"), { className: "step", textContent: `Step ${at + 1} of ${steps.length}` });
+        const number = Object.assign(document.createElement("p"), { className: "step", id: "tour-step", textContent: `Step ${at + 1} of ${steps.length}` });
         const title = Object.assign(document.createElement("h2"), { textContent: step.title, id: "tour-title" });
         const text = Object.assign(document.createElement("p"), { textContent: step.text, id: "tour-text" });
         const row = Object.assign(document.createElement("div"), { className: "row" });
@@ -74,7 +74,7 @@ export class Tour {
         box.append(number, title, text, row);
         this.place.replaceChildren(box);
         // Read out with the button that has the focus.
-        next.setAttribute("aria-describedby", "tour-title tour-text");
+        next.setAttribute("aria-describedby", "tour-step tour-title tour-text");
         next.focus({ preventScroll: true });
         this.on_step(step);
         this.bring(card);

@@ -70,8 +70,9 @@ class Pace {
                 this.restart_pace();
                 break;
             case "run":
-                this.stop();
-                if (message.running && this.state === "paused") this.state = "running";
+                if (!message.running) this.stop();
+                else if (this.state === "paused") this.state = "running";
+                this.jump_to_switch = false;
                 this.restart_pace();
                 break;
             case "step":
@@ -114,7 +115,7 @@ class Pace {
         this.wake();
     }
 
-    // Where it is, or where a change of the settings brings it first; not at the end of what a link asks for.
+    // It stops where it is, or where a change of the settings brings it first; not at the end of what a link asks for.
     private stop(): void {
         this.jump_to_switch = false;
         if (this.state !== "running") return;
@@ -122,7 +123,7 @@ class Pace {
         this.catch_up_halves = this.repeated_halves;
     }
 
-    // On from where it stops, with the steps that were asked for before.
+    // It goes on from where it stops and makes the steps that were asked for before as well.
     private step(halves: number): void {
         this.stop();
         if (this.state === "paused") this.catch_up_halves = Math.min(Math.max(this.module!.halves(), this.catch_up_halves) + halves, this.end_halves);
