@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/mount.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -85,10 +86,12 @@ private:
     std::atomic<std::int64_t>* count_;
 };
 
+// The child ends with its parent, whatever it waits for.
 template <class Action>
 pid_t in_a_child(Action action) {
     const pid_t child = ::fork();
     if (child == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         action();
         ::_exit(0);
     }
@@ -248,30 +251,35 @@ TEST(GrowingLog, angles_flushed_survive_a_kill) {
     }
 }
 
+// The writer is never more than ten flushes ahead of its reader, so that both are at work together on any machine.
 TEST(GrowingLog, can_be_followed_to_its_end_from_another_process) {
     const TemporaryFolder folder;
     constexpr std::int64_t n = 150'000;
+    constexpr std::int64_t rows_per_flush = 997;
+    constexpr std::int64_t most_ahead = 10 * rows_per_flush;
     const std::string part = folder.file("raw.h5.part");
+    SharedCount rows;  // that the reader has
     const pid_t child = in_a_child([&] {
         RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep};
         for (std::int64_t half = 0; half < n; ++half) {
             write_row(writer, half);
-            if (half % 997 != 0) continue;
+            if (half % rows_per_flush != 0) continue;
             writer.flush();
-            std::this_thread::sleep_for(200us);
+            do std::this_thread::sleep_for(200us);
+            while (half > rows.get() + most_ahead);
         }
         writer.close();
     });
     while (!fs::exists(part) || !begins_as_hdf5(part)) std::this_thread::sleep_for(100us);
     RawReader reader{part};
     EXPECT_FALSE(reader.header().complete);
-    std::int64_t rows = good_rows(reader);
+    rows.set(good_rows(reader));
     int times_grown = 0;
     while (!reader.header().complete) {
         if (reader.refresh()) ++times_grown;
-        rows = good_rows(reader, rows);
+        rows.set(good_rows(reader, rows.get()));
     }
-    EXPECT_EQ(rows, n);
+    EXPECT_EQ(rows.get(), n);
     EXPECT_GT(times_grown, 10);
     EXPECT_EQ(status_of(child), 0);
     EXPECT_FALSE(fs::exists(part));

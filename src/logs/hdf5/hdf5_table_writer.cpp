@@ -51,8 +51,8 @@ TableWriter::TableWriter(const std::string& path, bool force, bool keep_part)
     keep_quiet();
     const Handle access = access_to(storage_);
     const Handle creation = creation_of(H5P_FILE_CREATE);
-    // A killed process ends a write of the system between two pages of memory, so what describes the columns must not cross a page: the
-    // library's paged aggregation keeps each object within one.
+    // A killed process ends a write of the system between two pages of memory, so what describes the columns must not
+    // cross a page: the library's paged aggregation keeps each object within one.
     constexpr hsize_t page_bytes = 4096;
     H5Pset_file_space_strategy(creation.get(), H5F_FSPACE_STRATEGY_PAGE, false, 1);
     H5Pset_file_space_page_size(creation.get(), page_bytes);
