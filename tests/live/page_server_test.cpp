@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -39,6 +40,7 @@ public:
         char piece[4096];
         while (mark.empty() || heard.find(mark) == std::string::npos) {
             const ssize_t n = ::recv(fd_, piece, sizeof piece, 0);
+            if (n < 0 && errno == EINTR) continue;
             if (n <= 0) break;
             heard.append(piece, static_cast<std::size_t>(n));
         }
