@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,6 +27,19 @@ def run(*arguments, **options):
     options.setdefault("stdout", subprocess.PIPE)
     options.setdefault("stdin", subprocess.DEVNULL)
     return subprocess.run([str(ZLG), *map(str, arguments)], stderr=subprocess.PIPE, text=True, errors="replace", **options)
+
+
+def wait_until(is_so, child=None, most_s=60):
+    """Until `is_so()`; an error where it is not within that time, or not before the child has ended."""
+    end = time.monotonic() + most_s
+    while not is_so():
+        assert child is None or child.poll() is None or is_so(), f"the program has ended, {child.returncode}"
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.001)
+
+
+def is_larger(path, n_bytes=0):
+    return path.exists() and path.stat().st_size > n_bytes
 
 
 def complaints(result):

@@ -14,7 +14,7 @@ import tty
 import unittest
 
 from line_of import Gyro
-from support import AngleLog, CliTest, ZLG, run
+from support import AngleLog, CliTest, ZLG, run, wait_until
 
 
 def rows_of(path):
@@ -265,10 +265,8 @@ class Follow(CliTest):
             for at in range(0, len(data), 512):
                 os.write(master, data[at:at + 512])
                 time.sleep(0.001)
-            until = time.monotonic() + 20
-            while not part.exists() and time.monotonic() < until:
-                time.sleep(0.02)
-            time.sleep(0.3)
+            wait_until(part.exists, process)
+            time.sleep(1.0)
             process.send_signal(signal.SIGINT)
             said = json.loads(process.communicate(timeout=20)[0])
         finally:

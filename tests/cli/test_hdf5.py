@@ -7,11 +7,12 @@ import signal
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 import h5py
 import numpy
 
-from support import ZLG, CliTest, body_of, csv_text, quiet_log, run
+from support import ZLG, CliTest, body_of, csv_text, is_larger, quiet_log, run, wait_until
 
 INPUT, USAGE = 3, 2
 UNITS = {"half": "1", "bias_sign": "1", "mode": "1", "counts": "count", "loop_closed": "1", "valid": "1", "span": "1", "lit": "1",
@@ -148,7 +149,7 @@ class SameBits(CliTest):
 class Interrupted(CliTest):
     def kill_at_random(self, out):
         """The recording, killed after a random time; its rows so far."""
-        writer = subprocess.Popen([ZLG, "simulate", "--duration", "3000", "--set", "switching.interval_s=4", "--out", out],
+        writer = subprocess.Popen([ZLG, "simulate", "--duration", "30000", "--set", "switching.interval_s=4", "--out", out],
                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(self.random.uniform(0.0, 0.4))
         writer.send_signal(signal.SIGKILL)
@@ -221,13 +222,16 @@ class Followed(CliTest):
         raw, live = self.folder / "raw.h5", self.folder / "live.h5"
         writer = subprocess.Popen([ZLG, "simulate", "--duration", "1500", "--out", raw], stdout=subprocess.DEVNULL)
         part = self.folder / "raw.h5.part"
-        while not part.exists() and writer.poll() is None:
-            time.sleep(0.001)
-        time.sleep(0.1)
-        follower = run("process", part, "--follow", "--out", live)
+        wait_until(lambda: is_larger(part, 1_000_000), writer)
+        # It stands still until the follower has come, or the log might be complete by then.
+        writer.send_signal(signal.SIGSTOP)
+        follower = subprocess.Popen([ZLG, "process", part, "--follow", "--out", live], stderr=subprocess.PIPE, text=True)
+        wait_until((self.folder / "live.h5.part").exists, follower)
+        self.assertTrue(part.exists())
+        writer.send_signal(signal.SIGCONT)
         self.assertEqual(writer.wait(), 0)
-        self.assertEqual(follower.returncode, 0, follower.stderr)
-        self.assertEqual(follower.stderr, "")
+        stderr = follower.communicate(timeout=60)[1]
+        self.assertEqual((follower.returncode, stderr), (0, ""))
         self.succeed("process", raw, "--out", self.folder / "after.h5")
         ours, theirs = columns(live, "angles"), columns(self.folder / "after.h5", "angles")
         for name in ours:
@@ -236,7 +240,7 @@ class Followed(CliTest):
     def test_it_gives_up_where_nothing_comes(self):
         raw = self.folder / "raw.h5"
         writer = subprocess.Popen([ZLG, "simulate", "--duration", "30000", "--out", raw], stdout=subprocess.DEVNULL)
-        time.sleep(0.7)
+        wait_until(lambda: is_larger(Path(f"{raw}.part"), 1_000_000), writer)
         writer.kill()
         writer.wait()
         result = run("process", f"{raw}.part", "--follow", "--give-up", "0.2", "--out", self.folder / "a.h5")
@@ -269,8 +273,7 @@ class Failing(CliTest):
         (self.folder / "run").mkdir()
         writer = subprocess.Popen([ZLG, "run", "--duration", "900", "--out", self.folder / "run"], stderr=subprocess.PIPE, text=True)
         part = self.folder / "run" / "raw.h5.part"
-        while not (self.folder / "run" / "report.html.part").exists() and writer.poll() is None:
-            time.sleep(0.001)
+        wait_until((self.folder / "run" / "report.html.part").exists, writer)
         (self.folder / "run" / "summary.json").write_text("foreign")
         message = writer.communicate()[1]
         self.assertEqual(writer.returncode, INPUT, message)
@@ -290,12 +293,10 @@ class Failing(CliTest):
     def test_a_signal_ends_a_recording_as_an_error_does(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             out = self.folder / f"signal-{int(number)}"
-            writer = subprocess.Popen([ZLG, "run", "--duration", "9000", "--out", out, "--threads", "1"], stderr=subprocess.PIPE, text=True)
-            while not (out / "raw.h5.part").exists():
-                time.sleep(0.001)
-            time.sleep(0.3)
+            parts = [out / "angles.h5.part", out / "raw.h5.part"]
+            writer = subprocess.Popen([ZLG, "run", "--duration", "90000", "--out", out, "--threads", "1"], stderr=subprocess.PIPE, text=True)
+            wait_until(lambda: all(is_larger(part, 200_000) for part in parts), writer)
             writer.send_signal(number)
-            # What follows is at most one second of the twin's own work; the second signal would end it at once.
             message = writer.communicate(timeout=60)[1]
             self.assertEqual(writer.returncode, INPUT, message)
             self.assertIn("interrupted", message)
@@ -304,8 +305,7 @@ class Failing(CliTest):
     def test_a_signal_ends_process_without_a_trace(self):
         self.succeed("simulate", "--duration", "3000", "--out", self.folder / "raw.csv")
         writer = subprocess.Popen([ZLG, "process", self.folder / "raw.csv", "--out", self.folder / "a.h5"], stderr=subprocess.PIPE)
-        while not (self.folder / "a.h5.part").exists():
-            time.sleep(0.0005)
+        wait_until((self.folder / "a.h5.part").exists, writer)
         writer.send_signal(signal.SIGINT)
         writer.communicate(timeout=60)
         self.assertEqual(writer.returncode, INPUT)
@@ -326,8 +326,7 @@ class Failing(CliTest):
         part, whole = self.folder / "raw.h5.part", self.folder / "whole.h5"
         self.succeed("simulate", "--duration", "300", "--out", whole)
         writer = subprocess.Popen([ZLG, "simulate", "--duration", "30000", "--out", self.folder / "raw.h5"], stdout=subprocess.DEVNULL)
-        while not part.exists() or part.stat().st_size < 4_000_000:
-            time.sleep(0.001)
+        wait_until(lambda: is_larger(part, 4_000_000), writer)
         writer.kill()
         writer.wait()
         expected, recorded = columns(whole, "raw"), part.read_bytes()

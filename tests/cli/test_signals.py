@@ -11,7 +11,7 @@ import time
 import unittest
 
 from line_of import Gyro
-from support import CliTest, ROOT, ZLG, run
+from support import CliTest, ROOT, ZLG, run, wait_until
 
 IMAGE = ROOT / "build" / "release" / "firmware" / "zlg_gyro.elf"
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -208,9 +208,7 @@ class Signals(CliTest):
                 connection, _ = server.accept()
                 with connection:
                     connection.sendall(b"".join(Gyro().ticks(200)))
-                    until = time.monotonic() + 20
-                    while not (self.folder / "f.csv.part").exists() and time.monotonic() < until:
-                        time.sleep(0.01)
+                    wait_until((self.folder / "f.csv.part").exists, child)
                     at = time.monotonic()
                     child.send_signal(number)
                     self.assertEqual(child.wait(20), 0)
@@ -242,16 +240,14 @@ class Signals(CliTest):
             child = subprocess.Popen([ZLG, "simulate", "--duration", "40000", "--out", self.folder / "r.csv", "--force"],
                                      preexec_fn=no_thread, stderr=subprocess.PIPE)
             with child.stderr:
-                until = time.monotonic() + 20
-                while not (self.folder / "r.csv.part").exists() and time.monotonic() < until:
-                    time.sleep(0.01)
+                wait_until((self.folder / "r.csv.part").exists, child)
                 child.send_signal(number)
                 self.assertEqual(child.wait(20), -number)
 
     def test_who_is_to_outlive_the_terminal_does(self):
-        started = subprocess.Popen(["nohup", ZLG, "simulate", "--duration", "400", "--out", "r.h5"], cwd=self.folder,
+        started = subprocess.Popen(["nohup", ZLG, "simulate", "--duration", "4000", "--out", "r.h5"], cwd=self.folder,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(0.1)
+        wait_until((self.folder / "r.h5.part").exists, started)
         started.send_signal(signal.SIGHUP)
         self.assertEqual(started.wait(60), 0)
 

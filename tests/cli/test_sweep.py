@@ -12,7 +12,7 @@ import unittest
 import h5py
 import numpy
 
-from support import ZLG, CliTest, complaints, run
+from support import ZLG, CliTest, complaints, is_larger, run, wait_until
 
 SWEEP = """[sweep]
 gyros = 12
@@ -124,18 +124,18 @@ class SameBytes(SweepTest):
         self.assertEqual(self.swept("grown.h5"), whole)
 
     def test_from_a_checkpoint_that_was_merged(self):
-        whole = self.swept("whole.h5")
-        description, out = self.description(), self.folder / "cut.h5"
+        longer = SWEEP.replace("duration_s = 6", "duration_s = 60")
+        whole = self.swept("whole.h5", text=longer)
+        description, out = self.description(longer), self.folder / "cut.h5"
         part = self.folder / "cut.h5.part"
         call = subprocess.Popen([ZLG, "sweep", description, "--out", out, "--threads", "1"], stdout=subprocess.DEVNULL)
-        while not part.exists() or b"\n0\t" not in part.read_bytes():
-            time.sleep(0.001)
+        wait_until(lambda: part.exists() and b"\n0\t" in part.read_bytes(), call)
         call.kill()
         call.wait()
         merged = self.folder / "merged.h5"
         result = run("sweep", "--merge", part, "--out", merged)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(self.swept("merged.h5"), whole)
+        self.assertEqual(self.swept("merged.h5", text=longer), whole)
 
 
 class Interrupted(SweepTest):
@@ -145,10 +145,9 @@ class Interrupted(SweepTest):
         part = self.folder / "r.h5.part"
         call = subprocess.Popen([ZLG, "sweep", self.description(text), "--out", out], stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True)
-        while not part.exists() or b"rows\t" not in part.read_bytes():
-            time.sleep(0.001)
+        wait_until(lambda: part.exists() and b"rows\t" in part.read_bytes(), call)
         call.send_signal(signal.SIGINT)
-        stdout, stderr = call.communicate(timeout=10)
+        stdout, stderr = call.communicate(timeout=60)
         self.assertEqual((call.returncode, stdout), (3, ""))
         self.assertRegex(stderr, r"^zlg: interrupted by a signal; \d+ of 12 gyros are in .*r\.h5\.part, and the same line goes on\n$")
         self.assertFalse(out.exists())
@@ -327,8 +326,7 @@ class BadInput(SweepTest):
         text = SWEEP.replace("[base.switching]", f"[base.motion]\nkind = 'file'\npath = '{motion}'\n[base.switching]").replace("gyros = 12", "gyros = 2000")
         description = self.description(text)
         sweep = subprocess.Popen([ZLG, "sweep", description, "--out", out], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        while sweep.poll() is None and (not part.exists() or part.stat().st_size < 5000):
-            time.sleep(0.005)
+        wait_until(lambda: is_larger(part, 5000), sweep)
         motion.write_bytes(b"3\n" * 1000)
         _, said = sweep.communicate(timeout=60)
         self.assertEqual((sweep.returncode, said), (3, f"zlg: the motion file {motion} has changed while the sweep ran\n"))
