@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 
@@ -17,8 +18,10 @@ ZLG = Path(os.environ.get("ZLG", ROOT / "build" / "release" / "bin" / "zlg"))
 REQUIRED = ["half", "bias_sign", "mode", "counts", "loop_closed"]
 OPTIONAL = ["valid", "detuning_lambda", "detuning_sq_lambda2", "piezo_v", "temperature_c"]
 
-# Under nohup the programs that a test starts would ignore it.
-signal.signal(signal.SIGHUP, signal.SIG_DFL)
+# Under nohup the programs that a test starts would ignore it. On a busy machine xdist may run the tests in another thread
+# than the main one, which alone may change that.
+if threading.current_thread() is threading.main_thread():
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def run(*arguments, **options):

@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import PACKAGE_DIR
+from conftest import PACKAGE_DIR, hears_signals
 
 import zlg
 
@@ -93,6 +93,7 @@ def test_a_socket_gives_batches_while_it_is_open(line, tmp_path):
     assert [first, *rest][-1].tick[-1] == got - 1
 
 
+@hears_signals
 def test_ctrl_c_ends_the_waiting_and_loses_nothing(line, tmp_path):
     _, theirs = followed_by_program(line, tmp_path)
     data = line.read_bytes()

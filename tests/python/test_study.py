@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import PACKAGE_DIR
+from conftest import PACKAGE_DIR, hears_signals
 
 import zlg
 
@@ -155,6 +155,7 @@ def test_an_exception_of_progress_ends_the_run():
         zlg.study.analyze([zlg.study.Axis("x", 1.0, np.arange(100.0))], progress=refuse)
 
 
+@hears_signals
 def test_ctrl_c_ends_a_long_call():
     # A script in the background ignores it, and so does what it starts.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
