@@ -65,14 +65,23 @@ class Browser:
                 return reply["result"]
             self.events.append(reply)
 
-    def open(self, path, width=1200, height=900, dark=False, script=True, print_media=False):
-        """Load a page of this machine; what it complains of is collected from here on."""
-        self.events.clear()
+    def open(self, path, **options):
+        """Load a page of this machine."""
+        self.visit(f"file://{path}", **options)
+
+    def visit(self, address, width=1200, height=900, dark=False, script=True, print_media=False):
+        """Load a page; what it complains of is collected from here on."""
+        # The page of before must have gone, for it complains as long as it lives.
+        self.go("about:blank")
         self.send("Emulation.setScriptExecutionDisabled", value=not script)
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
         self.send("Emulation.setEmulatedMedia", media="print" if print_media else "screen",
                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        self.send("Page.navigate", url=f"file://{path}")
+        self.go(address)
+
+    def go(self, address):
+        self.events.clear()
+        self.send("Page.navigate", url=address)
         while not any(e.get("method") == "Page.loadEventFired" for e in self.events):
             self.events.append(self.receive())
 

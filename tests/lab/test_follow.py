@@ -43,15 +43,6 @@ class Live(PageCase):
         self.addCleanup(line.close)
         return line
 
-    def open_served(self, server, width=1200, dark=False):
-        b = self.browser
-        b.events.clear()
-        b.send("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600)
-        b.send("Emulation.setEmulatedMedia", media="screen", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        b.send("Page.navigate", url=server.address)
-        while not any(e.get("method") == "Page.loadEventFired" for e in b.events):
-            b.events.append(b.receive())
-
     def wait_for_the_last(self):
         """Of the records that a line has given, when no more come."""
         shown_s = [-1.0, 0.0]
@@ -69,7 +60,7 @@ class Live(PageCase):
 
     def test_the_picture_lives_and_is_that_of_the_log_at_the_end(self):
         server = self.serve(self.line(4.0, then_ends=True).source)
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.browser.wait_for_state("live")
         before_s = self.time_s()
         self.browser.wait_until(lambda: self.time_s() > before_s + 5.0)
@@ -88,10 +79,10 @@ class Live(PageCase):
 
     def test_loaded_again_it_shows_all_that_was(self):
         server = self.serve(self.line(1.0).source)
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.wait_for_the_last()
         before = self.shown("Angle"), self.browser.marked("time"), self.browser.text("main")
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.wait_for_the_last()
         self.assertEqual((self.shown("Angle"), self.browser.marked("time"), self.browser.text("main")), before)
         # The chart of the angle begins at the start, though most of the rows are no longer kept one by one.
@@ -99,7 +90,7 @@ class Live(PageCase):
 
     def test_after_a_lost_connection_it_shows_what_there_is_then(self):
         server = self.serve(self.line(20.0).source)
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.browser.wait_for_state("live")
         # The program is killed, and another one has its port later.
         port = server.port
@@ -117,13 +108,13 @@ class Live(PageCase):
 
     def test_a_gyro_that_falls_silent_is_not_called_live(self):
         server = self.serve(self.line(1.0).source)
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.wait_for_the_last()
         self.browser.wait_until(lambda: re.fullmatch(r"no record for \d+ s", self.browser.marked("state")))
 
     def test_a_program_that_was_stopped_for_a_while_is_followed_on(self):
         server = self.serve(self.line(8.0).source)
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.browser.wait_for_state("live")
         server.process.send_signal(signal.SIGSTOP)
         time.sleep(2.0)
@@ -133,7 +124,7 @@ class Live(PageCase):
 
     def test_a_page_that_sleeps_gets_the_right_picture_when_it_wakes(self):
         server = self.serve(self.line(3.0).source)
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.browser.wait_for_state("live")
         renderers = self.renderers()
         self.assertTrue(renderers)
@@ -144,7 +135,7 @@ class Live(PageCase):
             os.kill(pid, signal.SIGCONT)
         self.browser.wait_until(lambda: self.time_s() > 59.9)
         angle = self.shown("Angle")
-        self.open_served(server)
+        self.browser.visit(server.address)
         self.browser.wait_until(lambda: self.time_s() > 59.9)
         self.assertEqual(self.shown("Angle"), angle)
 
@@ -170,7 +161,7 @@ class Live(PageCase):
         for width in (390, 760, 1200):
             for dark in (False, True):
                 with self.subTest(width=width, dark=dark):
-                    self.open_served(server, width, dark)
+                    self.browser.visit(server.address, width=width, dark=dark)
                     self.browser.wait_until(lambda: self.time_s() > 59.9)
                     self.assertEqual(self.browser.value("document.documentElement.scrollWidth"), width)
         self.assertEqual(self.browser.complaints(), [])
