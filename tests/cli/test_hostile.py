@@ -243,11 +243,11 @@ class Messages(Hostile):
 
     def test_who_lost_a_race_names_no_recording_of_the_winner(self):
         out = self.folder / "a.h5"
-        arguments = [str(ZLG), "simulate", "--duration", "2000", "--out", str(out), "--force"]
-        first = subprocess.Popen(arguments, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+        arguments = [str(ZLG), "simulate", "--out", str(out), "--force", "--duration"]
+        first = subprocess.Popen([*arguments, "20000"], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
         part = self.folder / "a.h5.part"
         wait_until(part.exists, first)
-        second = subprocess.run(arguments, capture_output=True, text=True)
+        second = subprocess.run([*arguments, "100"], capture_output=True, text=True)
         lost = first.communicate()[1]
         self.assertEqual((first.returncode, second.returncode), (3, 0), lost + second.stderr)
         self.assertIn("another program", lost)
