@@ -277,23 +277,28 @@ class LabFollow(CliTest):
     def test_killed_while_it_records_what_was_flushed_is_there(self):
         for out in ("angles.csv", "angles.h5"):
             with self.subTest(out):
-                line = Line(self.folder / f"line-{out}", self.bytes, 2.0)
-                self.addCleanup(line.close)
-                server = self.serve(line.source, "--out", self.folder / out)
-                events = self.events(server)
-                n = 0
-                while n < 1500:
-                    _, news = events.next()
-                    n = news["first"] + len(news["rows"])
-                time.sleep(2.0)  # a flush is due every half second, on a busy machine later
-                server.end(signal.SIGKILL)
-                part = self.folder / f"{out}.part"
-                self.assertFalse((self.folder / out).exists())
-                if out.endswith("h5"):
-                    part = self.converted(part)
-                rows = AngleLog(part).rows
-                self.assertGreater(len(rows), n)
-                self.assertEqual(rows, self.log.rows[:len(rows)])
+                # A flush is due every half second: in one of three, for other programs may want the processor.
+                self.assertTrue(any(self.is_flushed_when_killed(f"{k}-{out}") for k in range(3)))
+
+    def is_flushed_when_killed(self, out):
+        """What was recorded is right; does it hold all that a page had 0.7 s before?"""
+        line = Line(self.folder / f"line-{out}", self.bytes, 2.0)
+        self.addCleanup(line.close)
+        server = self.serve(line.source, "--out", self.folder / out)
+        events = self.events(server)
+        n = 0
+        while n < 1500:
+            _, news = events.next()
+            n = news["first"] + len(news["rows"])
+        time.sleep(0.7)
+        server.end(signal.SIGKILL)
+        part = self.folder / f"{out}.part"
+        self.assertFalse((self.folder / out).exists())
+        if out.endswith("h5"):
+            part = self.converted(part)
+        rows = AngleLog(part).rows
+        self.assertEqual(rows, self.log.rows[:len(rows)])
+        return len(rows) > n
 
     def test_wrong_usage(self):
         log = self.write("raw.csv", "half,bias_sign,mode,counts,loop_closed\n0,1,1,5,1\n")
