@@ -107,7 +107,7 @@ class Killer:
             for pid in victims:
                 kill(pid)
             self.kills[kind] += 1
-        call.wait(60)
+        wait_for_the_end(call, was_killed=bool(victims))
         # Who is left holds the checkpoint.
         for pid in ranks.values():
             while is_alive(pid):
@@ -127,6 +127,18 @@ def kill(pid):
         os.kill(pid, signal.SIGKILL)
     except ProcessLookupError:
         pass
+
+
+def wait_for_the_end(call, was_killed):
+    """Of a call from which a process was taken, or not."""
+    try:
+        call.wait(20 if was_killed else 120)
+    except subprocess.TimeoutExpired:
+        # After a kill within MPI_Init, mpirun of OpenMPI 4.1.4 can end all ranks and then wait for ever for a lock of its own,
+        # in PMIx_server_finalize; a program that calls MPI_Init and sleeps is enough for it (docs/cluster.md).
+        assert was_killed and not ranks_of(call)
+        kill(call.pid)
+        call.wait()
 
 
 @needs_ranks
