@@ -44,10 +44,10 @@ export class DesignView {
         this.ask_again();
     }
 
-    // The rms error of the switches so far.
-    follow(n_switches: number, rms_arcsec: number): void {
+    // The rms error of the switches so far; of a gyro that runs, where it has changed enough to be seen in the charts.
+    follow(n_switches: number, rms_arcsec: number, runs: boolean): void {
         if (n_switches < fewest_switches || !(rms_arcsec > 0)) return;
-        if (this.error_arcsec !== null && Math.abs(rms_arcsec - this.error_arcsec) < 0.05 * this.error_arcsec) return;
+        if (this.error_arcsec !== null && Math.abs(rms_arcsec - this.error_arcsec) <= (runs ? 0.05 * this.error_arcsec : 0)) return;
         this.error_arcsec = rms_arcsec;
         this.ask_again();
     }

@@ -163,7 +163,7 @@ class Lab {
         document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
         this.show_state(frame.state);
         this.views.show(frame);
-        this.design.follow(...this.views.switch_errors());
+        this.design.follow(...this.views.switch_errors(), frame.state === "running");
         this.ring.show(frame);
         this.health?.show(frame.now[11], frame.raised);
         this.show_fault(frame);

@@ -10,7 +10,7 @@ const signal = { time: 0, true_rate: 1, rate: 2, detuning: 3, piezo: 4, light_a:
 
 // Sizes of an error, arcsec, up to which switches are counted.
 const sizes = [0.1, 0.3, 1, 3, 10, 30, 100, 300, Infinity];
-const size_names = [...sizes.slice(0, -1).map(String), "more"];
+const size_names = [...sizes.slice(0, -1).map(String), "∞"];
 
 export class Views {
     private readonly rate = new Chart(element("plot-rate"), { x: "time, s", y: "rate, arcsec/s", least_span: 200, height: 190, sync: "signals", lines: [{ label: "true", colour: "--true", unit: "arcsec/s" }, { label: "measured", colour: "--ours", unit: "arcsec/s", dash: [4, 3] }] });

@@ -79,6 +79,14 @@ class DesignCharts(PageCase):
         self.browser.fill("#speed", "2")
         self.browser.wait_until(lambda: re.match(r"A switch leaves [\d.]+ arcsec\.", self.browser.text("#design-text")))
 
+    def test_a_gyro_that_stands_has_one_error_of_its_switches(self):
+        for until_s in (400, 430):
+            self.browser.open_lab(f"switching.interval_s=30&until={until_s}")
+            self.browser.wait_for_state("done")
+            in_histogram = r"rms error .*, as configured ([\d.]+) arcsec"
+            self.browser.wait_until(lambda: re.match(r"A switch leaves ([\d.]+) arcsec\.", self.browser.text("#design-text")))
+            self.browser.wait_until(lambda: shown(self.browser.text("#design-text"), r"A switch leaves ([\d.]+)") == shown(self.browser.text("#histogram-text"), in_histogram), timeout_s=5)
+
 
 if __name__ == "__main__":
     unittest.main()
