@@ -2,7 +2,7 @@
 
 set(CMAKE_CXX_EXTENSIONS OFF)
 
-option(ZLG_WERROR "a warning is an error; on in the project's own presets, for another compiler may warn of more" OFF)
+option(ZLG_WERROR "a warning is an error; on in the preset dev and in continuous integration, for another compiler may warn of more" OFF)
 option(ZLG_COVERAGE "instrument for line coverage" OFF)
 
 # -Wno-missing-field-initializers: a designated initialiser names what differs from the members' own defaults.
@@ -58,8 +58,19 @@ endfunction()
 function(zlg_seen_through target)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
         target_compile_options(${target} PRIVATE -flto -ffat-lto-objects)
-        target_link_options(${target} INTERFACE $<BUILD_INTERFACE:$<IF:$<BOOL:$<TARGET_PROPERTY:ZLG_PLAIN_LINK>>,-fno-lto,-flto>>)
+        target_link_options(${target} INTERFACE $<BUILD_INTERFACE:$<IF:$<BOOL:$<TARGET_PROPERTY:ZLG_PLAIN_LINK>>,-fno-lto,-flto=auto>>)
     endif()
+endfunction()
+
+# zlg_hardened(target): for what reads the bytes of others or serves. A write beyond an array whose size is known, a smashed stack and an
+# index or iterator that the library knows to be wrong end the program, and what the loader has resolved is read-only. A sanitizer, and the
+# other machines' closed loop, know nothing of that.
+function(zlg_hardened target)
+    if(ZLG_LOOP_ONLY OR NOT CMAKE_SYSTEM_NAME STREQUAL "Linux" OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+        return()
+    endif()
+    target_compile_options(${target} PRIVATE -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -D_GLIBCXX_ASSERTIONS)
+    target_link_options(${target} INTERFACE $<BUILD_INTERFACE:LINKER:-z,relro> $<BUILD_INTERFACE:LINKER:-z,now>)
 endfunction()
 
 # zlg_small_records(target): records of a few hundred bytes are cleared and copied by a loop over vectors. GCC's own choice for x86-64 is

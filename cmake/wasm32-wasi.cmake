@@ -1,15 +1,15 @@
-# WebAssembly with the system interface WASI, by clang 14 and Debian's wasi-libc and libc++ for wasm32.
+# WebAssembly with the system interface WASI, by clang and Debian's wasi-libc and libc++ for wasm32.
 #
 # Debian's C++ run time for it is made without exceptions; lab/module/wasm_exceptions.cpp gives what a throw and a catch need.
 
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
-set(CMAKE_CXX_COMPILER clang++-14)
+set(CMAKE_CXX_COMPILER clang++)
 set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
 set(CMAKE_EXECUTABLE_SUFFIX .wasm)
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .wasm)
-set(CMAKE_AR llvm-ar-14)
-set(CMAKE_RANLIB llvm-ranlib-14)
+set(CMAKE_AR llvm-ar)
+set(CMAKE_RANLIB llvm-ranlib)
 
 # The standard headers are named, so that those of the host are none of them.
 string(JOIN " " CMAKE_CXX_FLAGS_INIT

@@ -95,7 +95,7 @@ private:
 
     // Prior and rounding, by the distance of two samples.
     [[nodiscard]] double by_lag(int lag) const noexcept {
-        if (lag < 2) return near_[static_cast<unsigned>(lag)];
+        if (static_cast<unsigned>(lag) < near_.size()) return near_[static_cast<unsigned>(lag)];
         return prior_ * shape_[lag];
     }
 
