@@ -83,6 +83,12 @@ class Installed(unittest.TestCase):
         self.assertIn(".text", sections)
         self.assertNotIn(".gnu.lto", sections)
 
+    def test_the_program_looks_for_libraries_in_the_system_alone(self):
+        run("cmake", "--install", BUILD, "--prefix", self.prefix, "--component", "program")
+        said = run("readelf", "-d", "-W", self.prefix / "bin" / "zlg")
+        self.assertIn("(NEEDED)", said)
+        self.assertNotRegex(said, r"\((RPATH|RUNPATH)\)")
+
     def test_a_component_that_is_none_is_refused(self):
         source = self.folder / "wrong"
         source.mkdir()

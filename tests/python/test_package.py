@@ -6,6 +6,7 @@ import importlib.util
 import inspect
 import os
 import pkgutil
+import re
 import subprocess
 import shutil
 import sys
@@ -82,6 +83,8 @@ def test_the_wheel_holds_all_that_is_needed(tmp_path):
     (wheel,) = tmp_path.glob("zlg-*.whl")
     zipfile.ZipFile(wheel).extractall(tmp_path / "site")
     environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site")}
+    (module,) = (tmp_path / "site" / "zlg").glob("_zlg*.so")
+    assert not re.search(r"\((RPATH|RUNPATH)\)", subprocess.run(["readelf", "-d", module], capture_output=True, text=True, check=True).stdout)
     program = "import zlg, sys; print(zlg.__file__, len(zlg.simulate(zlg.Config.of('run.duration_s=1')).raw))"
     result = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
     assert result.stdout.split() == [str(tmp_path / "site" / "zlg" / "__init__.py"), "400"]

@@ -1,7 +1,11 @@
-"""Claims about the build and its scripts on a machine that lacks packages."""
+"""Claims about the build and its scripts: on a machine that lacks packages, and on others than the one they were written on."""
 
+import json
+import os
 import re
+import shutil
 import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -32,9 +36,119 @@ class Version(unittest.TestCase):
 
 class Workflows(unittest.TestCase):
     def test_they_call_scripts_that_are_there(self):
-        called = [re.findall(r"^ *- run: (scripts/\w+)", path.read_text(encoding="utf-8"), re.M)
-                  for path in sorted((ROOT / ".github" / "workflows").iterdir())]
-        self.assertEqual(called, [["scripts/test"], ["scripts/test"]])
+        called = [re.findall(r"^ *- run: (scripts/\w+(?: \w+)?)", text, re.M) for text in self.texts()]
+        self.assertEqual(called, [["scripts/test deep"], ["scripts/run", "scripts/test"]])
+
+    def texts(self):
+        return [path.read_text(encoding="utf-8") for path in sorted((ROOT / ".github" / "workflows").iterdir())]
+
+    def test_they_may_only_read_and_end_in_time(self):
+        for text in self.texts():
+            self.assertIn("\npermissions:\n  contents: read\n", text)
+            self.assertEqual(len(re.findall(r"^    runs-on:", text, re.M)), len(re.findall(r"^    timeout-minutes: \d+$", text, re.M)))
+
+    def test_they_run_on_every_system_that_the_readme_names(self):
+        systems = [set(re.findall(r'"(\w+):[0-9.]+"', text)) for text in self.texts()]
+        self.assertEqual(systems, [{"debian"}, {"debian", "ubuntu"}])
+        for text in self.texts():
+            self.assertLessEqual({"debian:12", "debian:13"}, set(re.findall(r'"(\w+:[0-9.]+)"', text)))
+
+
+class Warnings(unittest.TestCase):
+    def test_they_are_errors_in_the_preset_dev_alone(self):
+        presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
+        given = {preset["name"]: preset.get("cacheVariables", {}).get("ZLG_WERROR") for preset in presets}
+        self.assertEqual({name: value for name, value in given.items() if value}, {"base": "$env{ZLG_WERROR}", "dev": "ON"})
+
+
+class Tools(unittest.TestCase):
+    """One name serves on every system: that of the package without a version."""
+
+    def test_none_is_named_with_its_version(self):
+        versioned = re.compile(r"\b(?:clang(?:\+\+)?|clang-format|(?:run-)?clang-tidy|lld|wasm-ld|llvm(?:-ar|-ranlib)?|libc\+\+(?:abi)?|libclang-rt|"
+                               r"g\+\+|gcc|python3)[-.](?:\d\d?)\b")
+        files = [ROOT / "CMakePresets.json", *files_of_cmake()]
+        files += [path for folder in ("scripts", "bench", "tools", "tests/targets", "tests/lab", "tests/browser") for path in sorted((ROOT / folder).iterdir())
+                  if path.is_file()]
+        self.assertGreater(len(files), 60)
+        for path in files:
+            with self.subTest(str(path.relative_to(ROOT))):
+                named = set(versioned.findall(path.read_text(encoding="utf-8", errors="replace")))
+                # One version decides on the format.
+                self.assertLessEqual(named, {"clang-format-14"} if path.name == "test" else set())
+
+
+def packages():
+    """Every package that scripts/install may ask for, whatever the system, by the sets' names."""
+    text = (ROOT / "scripts" / "install").read_text(encoding="utf-8")
+    return {name: [word for word in words.split() if not word.startswith("$")]
+            for name, words in re.findall(r'^(\w+)_packages="([^"]*)"$', text, re.M)}
+
+
+class Packages(unittest.TestCase):
+    def policy(self, *names):
+        command = ["apt-cache", "policy", *names]
+        return subprocess.run(command, capture_output=True, text=True, check=True, env={**os.environ, "LC_ALL": "C.UTF-8"}).stdout
+
+    @unittest.skipUnless(shutil.which("apt-cache"), "the index of packages is not on this machine")
+    def test_the_system_has_them_all(self):
+        self.assertLessEqual({"build", "test", "deep", "wasm", "tidy"}, set(packages()))
+        wanted = sorted({name for names in packages().values() for name in names})
+        if "Packages" not in self.policy():
+            self.skipTest("the index of packages is not on this machine")
+        said = self.policy(*wanted)
+        known = set(re.findall(r"^(\S+):\n  Installed: .*\n  Candidate: (?!\(none\))", said, re.M))
+        self.assertEqual(set(wanted) - known, set())
+
+
+class OldBash(unittest.TestCase):
+    """macOS has bash 3.2: there scripts/install and scripts/run say at least what is needed."""
+
+    # What it does not know, or ends a script for: `set -u` takes an empty array for a variable that was never set.
+    UNKNOWN = [r"\b(?:declare|local|typeset) -\w*[nAg]", r"\b(?:mapfile|readarray|coproc)\b", r"\bEPOCH\w+", r"\$\{\w+(?:\^|,|@)", r"\[[@*]\]",
+               r"\bwait -n", r"&>>", r"\|&", r";;?&", r"\[\[? -v ", r"\+=\(", r"=\(", r"\bprintf '%\(", r"\bglobstar\b", r"\bnproc\)"]
+
+    def test_they_need_nothing_newer(self):
+        for name in ("install", "run", "compiler_cache"):
+            text = (ROOT / "scripts" / name).read_text(encoding="utf-8")
+            for unknown in self.UNKNOWN:
+                self.assertIsNone(re.search(unknown, text), f"scripts/{name}: {unknown}")
+
+    def test_the_constructs_are_found_where_they_are(self):
+        text = "declare -n a=b\nmapfile -t lines\n$EPOCHREALTIME ${a^^} ${a[@]}\nwait -n\nx &>>y |& z\na+=(b)\nb=()\n-j $(nproc)\n"
+        found = [unknown for unknown in self.UNKNOWN if re.search(unknown, text)]
+        self.assertEqual(len(found), 11)
+
+
+class WithoutApt(unittest.TestCase):
+    """The list in plain words, and exit 1 where a tool is missing."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = Path(folder.name)
+        for tool in ("bash", "env", "dirname", "sed", "paste", "grep", "id"):
+            (self.path / tool).symlink_to(shutil.which(tool))
+
+    def said(self, script, *arguments):
+        done = subprocess.run([ROOT / "scripts" / script, *arguments], capture_output=True, text=True, check=False, env={"PATH": str(self.path)})
+        self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
+        needed, absent = done.stderr.splitlines()
+        self.assertRegex(needed, r"^scripts/install: there is no apt here; needed are, with their headers: [a-z0-9+ .-]+$")
+        return needed.split(": ")[-1].split(), absent
+
+    def test_what_a_build_needs(self):
+        needed, absent = self.said("install", "build")
+        self.assertEqual(needed, "g++ cmake ninja fmt cli11 tomlplusplus nlohmann-json3 fast-float boost hdf5 eigen3 yaml-cpp matio zlib1g xxhash".split())
+        self.assertEqual(absent, "scripts/install: not found: g++ cmake ninja")
+        self.assertEqual(self.said("run"), (needed, absent))
+
+    def test_every_set_is_said(self):
+        for name in ("python", "test", "deep", "tidy", "wasm", "arm64", "lab", "package", "bench"):
+            with self.subTest(name):
+                needed, _ = self.said("install", name)
+                self.assertLessEqual({"g++", "fmt"}, set(needed))
+        self.assertEqual(self.said("install", "site"), (["mkdocs"], "scripts/install: not found: mkdocs"))
 
 
 class Scripts(unittest.TestCase):
