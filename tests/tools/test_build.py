@@ -151,6 +151,35 @@ class WithoutApt(unittest.TestCase):
         self.assertEqual(self.said("install", "site"), (["mkdocs"], "scripts/install: not found: mkdocs"))
 
 
+class LeftOut(unittest.TestCase):
+    """In continuous integration no test is left out for want of what scripts/install brings."""
+
+    def wanting(self, runner, log, folder):
+        (folder / "log").write_text(log, encoding="utf-8")
+        functions = (ROOT / "scripts" / "test").read_text(encoding="utf-8").partition('mkdir -p "$logs"')[0].partition("set -euo pipefail")[2]
+        functions = functions.replace('cd "$(dirname "${BASH_SOURCE[0]}")/.."\n', "", 1)
+        done = subprocess.run(["bash", "-c", f'{functions}\nleft_out_for_want "$wanted_runner" "$wanted_log"'], cwd=ROOT, capture_output=True,
+                              text=True, check=False, env={**os.environ, "wanted_runner": runner, "wanted_log": str(folder / "log")})
+        self.assertEqual(done.stderr, "")
+        return done.stdout.splitlines()
+
+    def test_a_tool_or_an_image_is_wanting_and_data_are_not(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            tool, page = "SKIPPED [2] tests/x.py:3: there is no node", "SKIPPED [1] tests/y.py:4: this build holds no lab page"
+            self.assertEqual(self.wanting("pytest", f"{tool}\n{page}\n1 passed, 3 skipped\n", folder), [tool])
+            self.assertEqual(self.wanting("pytest", f"{page}\n1 passed, 1 skipped\n", folder), [])
+            self.assertEqual(self.wanting("pytest", "4 passed\n", folder), [])
+            last = folder / "Testing" / "Temporary" / "LastTest.log"
+            last.parent.mkdir(parents=True)
+            log = f"Internal ctest changing into directory: {folder}\n"
+            last.write_text("a_test.cpp:5: Skipped\nthe recorded log a is not on this machine\n\n[  SKIPPED ] A.b\n", encoding="utf-8")
+            self.assertEqual(self.wanting("ctest", log, folder), [])
+            last.write_text("b_test.cpp:5: Skipped\nno image of the processor, or no emulator\n\n[  SKIPPED ] B.c\n", encoding="utf-8")
+            self.assertEqual(self.wanting("ctest", log, folder), ["no image of the processor, or no emulator"])
+            self.assertEqual(self.wanting("none", log, folder), [])
+
+
 class Scripts(unittest.TestCase):
     def refused(self, *command):
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
