@@ -394,7 +394,7 @@ const Key table[] = {
     {"analysis", "scale_arcsec", "arcsec", "angle (or rate in arcsec/s) per unit of the columns",
      Real{at<&C::analysis, &Analysis::scale_arcsec>, non_zero}},
     {"analysis", "rate_hz", "Hz", "rows of the text file per second",
-     OptionalReal{at<&C::analysis, &Analysis::rate_hz>, positive}},
+     OptionalReal{at<&C::analysis, &Analysis::rate_hz>, {.min = 1e-12, .max = 1e12}}},
     {"analysis", "comment", "", "lines of a text file that begin with this are skipped",
      Text{at<&C::analysis, &Analysis::comment>}},
     {"analysis", "skip_lines", "", "lines of numbers to skip at the head of a text file",
