@@ -319,7 +319,7 @@ const Key table[] = {
     {"motion", "amplitude_arcsec_s", "arcsec/s", "amplitudes of the rate; one for sine, one or more for sum",
      RealList{at<&C::motion, &Motion::amplitude_arcsec_s>, any_finite}},
     {"motion", "frequency_hz", "Hz", "frequencies, as many as amplitudes",
-     RealList{at<&C::motion, &Motion::frequency_hz>, non_negative}},
+     RealList{at<&C::motion, &Motion::frequency_hz>, {.min = 0.0, .max = 1e9}}},
     {"motion", "phase_deg", "deg", "phases at the start, as many as amplitudes",
      RealList{at<&C::motion, &Motion::phase_deg>, any_finite}},
     {"motion", "path", "", "the motion file, for kind file", Text{at<&C::motion, &Motion::path>}},
