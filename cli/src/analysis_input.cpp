@@ -159,25 +159,31 @@ config::Config read_one(const Options& options, const std::string& path, Analysi
     return read_text(options, path, input.axes, input.tables);
 }
 
-// Deviations are sums of squares, which a double must hold.
+// Deviations are sums of squares, and their fit squares them again: a double must hold the fourth power, with that of the rate.
 void check_sizes(const study::AxisRecord& axis) {
-    constexpr double most = 1e100, least = 1e-100;  // arcsec/s
+    constexpr double most = 1e30, least = 1e-30;               // arcsec/s
+    constexpr double fewest_per_s = 1e-12, most_per_s = 1e12;  // samples
+    const std::string name =
+        axis.name.starts_with(axis.group) ? axis.name : fmt::format("{}: {}", axis.group, axis.name);
+    if (!(axis.rate_hz >= fewest_per_s && axis.rate_hz <= most_per_s))
+        throw logs::FormatError{fmt::format("{}: {:g} samples a second; allowed is {:g}..{:g}", name, axis.rate_hz,
+                                            fewest_per_s, most_per_s)};
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (std::size_t k = 0; k < axis.rates_arcsec_s.size(); ++k) {
         const double rate = axis.rates_arcsec_s[k];
         if (std::isnan(rate)) continue;
         if (!(std::fabs(rate) <= most))
             throw logs::FormatError{
-                fmt::format("{}: {}: sample {} is {:g} arcsec/s; allowed is -1e100..1e100, or its square overflows",
-                            axis.group, axis.name, k + 1, rate)};
+                fmt::format("{}: sample {} is {:g} arcsec/s; allowed is -1e30..1e30, or sums of its squares overflow",
+                            name, k + 1, rate)};
         lowest = std::min(lowest, rate);
         highest = std::max(highest, rate);
     }
     if (lowest < highest && highest - lowest < least)
         throw logs::FormatError{
-            fmt::format("{}: {}: samples differ by {:g} arcsec/s at most; allowed is 1e-100 or more, or their squares "
+            fmt::format("{}: samples differ by {:g} arcsec/s at most; allowed is 1e-30 or more, or their squares "
                         "are too small for a number",
-                        axis.group, axis.name, highest - lowest)};
+                        name, highest - lowest)};
 }
 
 // Of different files, that is.

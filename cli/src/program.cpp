@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include <fmt/format.h>
@@ -64,6 +65,9 @@ int guarded(CLI::App& program, int argc, char** argv) {
         return parsed(program, argc, argv);
     } catch (const std::bad_alloc&) {
         report_error("out of memory");
+        return bad_input_or_output;
+    } catch (const std::filesystem::filesystem_error& error) {
+        report_error(fmt::format("cannot look up {}: {}", error.path1().string(), error.code().message()));
         return bad_input_or_output;
     } catch (const std::exception& error) {
         report_error(error.what());

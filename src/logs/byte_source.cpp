@@ -7,8 +7,10 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -78,16 +80,31 @@ int open_path(const std::string& path, speed_t speed) {
     return fd;
 }
 
-int connect_tcp(const std::string& name) {
+struct TcpAddress {
+    std::string host;
+    std::string port;
+};
+
+// HOST may be an IPv6 address, in brackets or without.
+TcpAddress tcp_address(const std::string& name) {
     const std::string address = name.substr(4);
-    const std::size_t colon = address.rfind(':');
-    if (colon == std::string::npos || colon == 0 || colon + 1 == address.size())
-        throw SourceError{fmt::format("{}: allowed is tcp:HOST:PORT", name)};
+    const std::size_t colon = std::min(address.rfind(':'), address.size());
+    TcpAddress parts{.host = address.substr(0, colon), .port = address.substr(std::min(colon + 1, address.size()))};
+    if (parts.host.starts_with('[') && parts.host.ends_with(']')) parts.host = parts.host.substr(1, colon - 2);
+    int port = 0;
+    const char* const end = parts.port.data() + parts.port.size();
+    const auto [read_to, error] = std::from_chars(parts.port.data(), end, port);
+    if (parts.host.empty() || error != std::errc{} || read_to != end || port < 1 || port > 65535)
+        throw SourceError{fmt::format("{}: allowed is tcp:HOST:PORT, PORT in 1..65535", name)};
+    return parts;
+}
+
+int connect_tcp(const std::string& name) {
+    const TcpAddress address = tcp_address(name);
     addrinfo wanted{};
     wanted.ai_socktype = SOCK_STREAM;
     addrinfo* found = nullptr;
-    const int unresolved =
-        ::getaddrinfo(address.substr(0, colon).c_str(), address.substr(colon + 1).c_str(), &wanted, &found);
+    const int unresolved = ::getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &found);
     if (unresolved != 0) throw IoError{fmt::format("cannot connect to {}: {}", name, ::gai_strerror(unresolved))};
     const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses{found, ::freeaddrinfo};
     int error = 0;

@@ -16,15 +16,6 @@ namespace zlg::logs {
 
 namespace {
 
-void refuse_what_cannot_be_read_twice(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) {
-        throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
-    }
-    if (S_ISDIR(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is a folder", path));
-    if (!S_ISREG(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is no regular file", path));
-}
-
 LogKind kind_of_hdf5(const std::string& path) {
     const hdf5::Source source{path};
     if (source.has(RawTable::group)) return LogKind::raw_hdf5;
@@ -34,8 +25,17 @@ LogKind kind_of_hdf5(const std::string& path) {
 
 }  // namespace
 
+void require_regular_file(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) {
+        throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
+    }
+    if (S_ISDIR(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is a folder", path));
+    if (!S_ISREG(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is no regular file", path));
+}
+
 LogKind recognise(const std::string& path) {
-    refuse_what_cannot_be_read_twice(path);
+    require_regular_file(path);
     if (has_hdf5_signature(path)) return kind_of_hdf5(path);
     return recognise_text(path);
 }

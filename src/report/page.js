@@ -49,8 +49,9 @@ const axis = ([lo, hi, log, label], from, to) => {
   return a;
 };
 
+// The bar of a histogram has no path.
 const markerPlace = e => e.tagName == "circle" ? [number(e, "cx"), number(e, "cy")]
-  : /[a-y]/.test(path(e)) && path(e).match(/[\d.]+/g);
+  : /[a-y]/.test(path(e) || "") && path(e).match(/[\d.]+/g);
 
 // The points of a series, with the places of the ends of their error bars.
 const pointsOf = (group, zero) => {

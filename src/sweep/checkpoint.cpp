@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -23,6 +22,9 @@ namespace {
 
 constexpr std::string_view first_line = "zlg sweep checkpoint 1";
 
+// More than a line of a description of 1 MiB, or of a row, can have.
+constexpr std::size_t max_line_bytes = std::size_t{1} << 24;
+
 std::string head_of(const std::string& description) {
     std::string head = fmt::format("{}\n", first_line);
     for (std::size_t at = 0; at < description.size();) {
@@ -31,6 +33,10 @@ std::string head_of(const std::string& description) {
         at = end + 1;
     }
     return head + fmt::format("rows\t{}\n", text_checksum(head));
+}
+
+[[noreturn]] void fail(const char* what, const std::string& path) {
+    throw logs::IoError(fmt::format("cannot {} {}: {}", what, path, std::strerror(errno)));
 }
 
 // A checkpoint as far as it is whole.
@@ -42,71 +48,66 @@ struct Content {
 
 class Reader {
 public:
-    Reader(const std::string& path, std::string text) : path_{path}, text_{std::move(text)} {}
+    explicit Reader(const std::string& path) : path_{path}, in_{path, std::ios::binary} {
+        if (!in_) fail("open", path_);
+    }
 
     Content read() {
         Content content;
         if (!read_head(content.results.description)) return content;
         content.has_head = true;
         content.whole_bytes = at_;
-        const Description description = parse(content.results.description, path_);
-        for (std::string_view line; next(line); content.whole_bytes = at_) {
-            const std::optional<Row> row = row_of(line, description.metrics.size());
-            if (!row)
-                throw logs::FormatError(
-                    fmt::format("{}, line {}: is damaged; allowed is what zlg sweep wrote", path_, line_));
+        const Description description = recorded_description(content.results.description, path_);
+        for (; next(); content.whole_bytes = at_) {
+            const std::optional<Row> row = row_of(line_, description.metrics.size());
+            if (!row) fail_damaged();
             add_rows(content.results.rows, {{row->gyro, *row}}, path_);
         }
         return content;
     }
 
 private:
-    // False where there is no whole line any more.
-    bool next(std::string_view& line) {
-        const std::size_t end = text_.find('\n', at_);
-        if (end == std::string::npos) return false;
-        line = std::string_view{text_}.substr(at_, end - at_);
-        at_ = end + 1;
-        ++line_;
+    // The next line, with which `at_` goes on; false where there is no whole line any more, and `line_` is what is there.
+    bool next() {
+        ++n_lines_;
+        line_.clear();
+        constexpr int end = std::ifstream::traits_type::eof();
+        for (int c = in_.get(); c != '\n'; c = in_.get()) {
+            if (in_.bad()) fail("read", path_);
+            if (c == end) return false;
+            if (line_.size() == max_line_bytes) fail_damaged();
+            line_ += static_cast<char>(c);
+        }
+        at_ += line_.size() + 1;
         return true;
     }
 
     // False where it is torn: nothing but a beginning of it is there.
     bool read_head(std::string& description) {
-        std::string_view line;
-        const std::string expected = fmt::format("{}\n", first_line);
-        if (std::string_view{expected}.starts_with(text_)) return false;
-        if (!next(line) || line != first_line)
+        const bool is_whole = next();
+        if (!is_whole && first_line.starts_with(line_)) return false;
+        if (!is_whole || line_ != first_line)
             throw logs::FormatError(fmt::format("{}: is no checkpoint of a sweep", path_));
-        for (std::size_t before = at_; next(line); before = at_) {
-            if (line.starts_with("| ")) {
-                description += fmt::format("{}\n", line.substr(2));
-                continue;
-            }
-            if (line == fmt::format("rows\t{}", text_checksum(std::string_view{text_}.substr(0, before)))) return true;
-            throw logs::FormatError(
-                fmt::format("{}, line {}: is damaged; allowed is what zlg sweep wrote", path_, line_));
+        std::string head = line_ + '\n';
+        for (; next(); head += line_ + '\n') {
+            if (line_ == fmt::format("rows\t{}", text_checksum(head))) return true;
+            if (!line_.starts_with("| ") || head.size() > max_line_bytes) fail_damaged();
+            description += fmt::format("{}\n", std::string_view{line_}.substr(2));
         }
         return false;
     }
 
+    [[noreturn]] void fail_damaged() const {
+        throw logs::FormatError(
+            fmt::format("{}, line {}: is damaged; allowed is what zlg sweep wrote", path_, n_lines_));
+    }
+
     const std::string& path_;
-    std::string text_;
-    std::size_t at_ = 0;
-    std::size_t line_ = 0;
+    std::ifstream in_;
+    std::string line_;
+    std::size_t n_lines_ = 0;
+    std::size_t at_ = 0;  // behind the last whole line
 };
-
-[[noreturn]] void fail(const char* what, const std::string& path) {
-    throw logs::IoError(fmt::format("cannot {} {}: {}", what, path, std::strerror(errno)));
-}
-
-std::string whole_text(const std::string& path) {
-    std::ifstream in{path, std::ios::binary};
-    if (!in) fail("open", path);
-    std::string text{std::istreambuf_iterator<char>{in}, {}};
-    if (in.bad()) fail("read", path);
-    return text;
-}
 
 // Locked, and the file that has the name: between opening and locking another program may have completed it.
 int open_locked(const std::string& path) {
@@ -134,8 +135,10 @@ int open_locked(const std::string& path) {
 Checkpoint::Checkpoint(std::string path, const std::string& description) : path_{std::move(path)} {
     text::refuse_input(path_);
     fd_ = open_locked(path_);
+    struct stat before {};
+    const bool holds_nothing = ::fstat(fd_, &before) == 0 && before.st_size == 0;
     try {
-        Content content = Reader{path_, whole_text(path_)}.read();
+        Content content = Reader{path_}.read();
         if (!content.has_head) {
             begin(description);
             return;
@@ -146,6 +149,8 @@ Checkpoint::Checkpoint(std::string path, const std::string& description) : path_
         if (::ftruncate(fd_, static_cast<off_t>(content.whole_bytes)) != 0) fail("write", path_);
         rows_ = std::move(content.results.rows);
     } catch (...) {
+        // One that was made here, or begun by a program that did not get further.
+        if (holds_nothing) remove();
         ::close(fd_);
         throw;
     }
@@ -181,12 +186,12 @@ void Checkpoint::remove() { ::unlink(path_.c_str()); }
 
 bool is_checkpoint(const std::string& path) {
     std::ifstream in{path, std::ios::binary};
-    std::string line;
-    return std::getline(in, line) && line == first_line;
+    std::string line(first_line.size() + 1, '\0');
+    return in.read(line.data(), static_cast<std::streamsize>(line.size())) && line == fmt::format("{}\n", first_line);
 }
 
 Results read_checkpoint(const std::string& path) {
-    Content content = Reader{path, whole_text(path)}.read();
+    Content content = Reader{path}.read();
     if (!content.has_head) throw logs::FormatError(fmt::format("{}: its description is cut off", path));
     return std::move(content.results);
 }

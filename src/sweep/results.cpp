@@ -129,7 +129,7 @@ Results read_results(const std::string& path) {
         throw logs::FormatError(
             fmt::format("{}: format_version is {}; allowed is {}", path, file.mark("format_version"), format_version));
     Results results{.description = file.text("/sweep"), .rows = {}};
-    const Description description = parse(results.description, path);
+    const Description description = recorded_description(results.description, path);
     const auto gyros = file.integers("gyro");
     const auto seeds = file.integers("seed");
     const auto status = file.integers("status");
@@ -159,6 +159,15 @@ Results read_results(const std::string& path) {
                                             file.mark("checksum"), checksum));
     check_drawn(file, path, results, description);
     return results;
+}
+
+Description recorded_description(const std::string& text, const std::string& path) {
+    try {
+        return parse(text, path);
+    } catch (const config::ConfigError& error) {
+        throw logs::FormatError(
+            fmt::format("{}: is damaged, or of another version: its description has {}", path, error.what()));
+    }
 }
 
 void add_rows(Rows& rows, const Rows& more, const std::string& source) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/log_kind.hpp>
 #include <zlg/numeric/parallel.hpp>
 #include <zlg/sweep/checkpoint.hpp>
 #include <zlg/sweep/motion_files.hpp>
@@ -147,11 +148,12 @@ Merged merge(const std::vector<std::string>& paths, const std::string& out, bool
     std::string first;
     Merged merged;
     for (const std::string& path : paths) {
+        logs::require_regular_file(path);
         Results results = is_checkpoint(path) ? read_checkpoint(path) : read_results(path);
         // Also the numbers of gyros and the limits: the bytes must not depend on which file comes first.
         if (first.empty()) {
             first = results.description;
-            merged.description = parse(first, path);
+            merged.description = recorded_description(first, path);
         } else if (results.description != first) {
             throw logs::IoError(fmt::format("{} is of another sweep than {}: its description differs, {}", path,
                                             paths.front(), first_difference(results.description, first)));

@@ -7,6 +7,7 @@
 
 #include "averaged_gyro.hpp"
 #include "faults/fault_perimeter.hpp"
+#include "faults/fault_plan.hpp"
 #include "gyro.hpp"
 #include "housing.hpp"
 #include "laser_gyro.hpp"
@@ -70,16 +71,29 @@ void require_bias_sign(const GyroConfig& gyro, double warmed_c, const char* by) 
 
 // A field that warming turns over would turn the sign of the bias with it, which no sign of the commutator says. What thermal
 // shocks come to after each of them, stays; the gyro's own rise may not have begun then, or be over.
-void validate_warmed_bias(const TwinConfig& c) {
-    const double rise_c = c.gyro.temperature_rise_c;
-    require_bias_sign(c.gyro, rise_c, "gyro.temperature_rise_c");
-    for (const Fault& last : c.faults) {
-        if (last.kind != FaultKind::thermal_shock) continue;
-        double shocks_c = 0.0;
-        for (const Fault& fault : c.faults)
-            if (fault.kind == FaultKind::thermal_shock && fault.at_s <= last.at_s) shocks_c += fault.size;
-        require_bias_sign(c.gyro, shocks_c, "thermal shocks");
-        require_bias_sign(c.gyro, rise_c + shocks_c, "(gyro.temperature_rise_c + thermal shocks)");
+void validate_warmed_bias(const GyroConfig& gyro, std::span<const Fault> in_order) {
+    const double rise_c = gyro.temperature_rise_c;
+    require_bias_sign(gyro, rise_c, "gyro.temperature_rise_c");
+    double shocks_c = 0.0;
+    for (std::size_t k = 0; k < in_order.size(); ++k) {
+        if (in_order[k].kind == FaultKind::thermal_shock) shocks_c += in_order[k].size;
+        if (k + 1 < in_order.size() && in_order[k + 1].at_s == in_order[k].at_s) continue;
+        require_bias_sign(gyro, shocks_c, "thermal shocks");
+        require_bias_sign(gyro, rise_c + shocks_c, "(gyro.temperature_rise_c + thermal shocks)");
+    }
+}
+
+// Each that acts costs its part of every half.
+void validate_overlap(std::span<const Fault> in_order) {
+    std::vector<double> ends_s;
+    for (const Fault& fault : in_order) {
+        std::erase_if(ends_s, [&](double end_s) { return end_s <= fault.at_s; });
+        ends_s.push_back(fault.at_s + fault.duration_s);
+        if (ends_s.size() <= max_faults_at_once) continue;
+        throw std::invalid_argument(
+            fmt::format("faults: more than {0} act at once at {1:.6g} s; allowed are {0}, or fewer of "
+                        "faults.random_per_hour",
+                        max_faults_at_once, fault.at_s));
     }
 }
 
@@ -113,7 +127,9 @@ void validate_quickest(const TwinConfig& c) {
 void validate(const TwinConfig& config) {
     validate_perimeter(config);
     validate_quickest(config);
-    validate_warmed_bias(config);
+    const FaultPlan plan{config.faults};
+    validate_overlap(plan.all());
+    validate_warmed_bias(config.gyro, plan.all());
     if (config.gyro.fidelity == Fidelity::laser) validate(config.laser);  // the section does nothing in the other
     for (const Fault& fault : config.faults) validate_fault(fault, config.perimeter.loop);
 }

@@ -1,17 +1,18 @@
 #include "fault_plan.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "fault_perimeter.hpp"
 
 namespace zlg::twin {
 
-// There are few: they are put in their places, for a sort is three kilobytes of the lab page's module.
+// By a tree, for a sort is three kilobytes of the lab page's module.
 FaultPlan::FaultPlan(const std::vector<Fault>& faults) {
-    const auto earlier = [](const Fault& a, const Fault& b) { return a.at_s < b.at_s; };
-    for (const Fault& fault : faults)
-        faults_.insert(std::upper_bound(faults_.begin(), faults_.end(), fault, earlier), fault);
-    active_.reserve(faults_.size());
+    std::multimap<double, const Fault*> by_start;
+    for (const Fault& fault : faults) by_start.emplace(fault.at_s, &fault);
+    faults_.reserve(faults.size());
+    for (const auto& [at_s, fault] : by_start) faults_.push_back(*fault);
 }
 
 void FaultPlan::enter(double start_s, double end_s) {

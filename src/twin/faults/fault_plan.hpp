@@ -14,6 +14,8 @@ public:
     explicit FaultPlan(const std::vector<Fault>& faults);
 
     [[nodiscard]] bool is_empty() const { return faults_.empty(); }
+    // In the order of their start.
+    [[nodiscard]] std::span<const Fault> all() const { return faults_; }
 
     // Enter the half from start_s to end_s; never an earlier one than before.
     void enter(double start_s, double end_s);
@@ -31,7 +33,7 @@ public:
 private:
     void settle(const Fault& fault);
 
-    std::vector<Fault> faults_;  // in the order of their start
+    std::vector<Fault> faults_;
     std::size_t next_ = 0;       // the first that has not begun
     std::vector<Fault> active_;
     double settled_lambda_ = 0.0;

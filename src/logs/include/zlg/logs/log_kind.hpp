@@ -13,6 +13,11 @@ enum class LogKind {
     unknown,  // also an empty file
 };
 
+// What is read twice, or from its end, and is waited for by nobody.
+//
+// errors  IoError: no such file, a folder, a pipe or a device.
+void require_regular_file(const std::string& path);
+
 // A CSV log is recognised by two or more of its column names, so that a misspelt one still gets to the reader that
 // names it; an HDF5 log by its group /raw or /angles.
 //

@@ -28,6 +28,11 @@ void write_results(const std::string& path, const Gyros& gyros, const Rows& rows
 // errors  logs::IoError; logs::FormatError: no such file, damaged, or its rows are not those of its description.
 [[nodiscard]] Results read_results(const std::string& path);
 
+// Of a file that a sweep wrote, where nobody's words are to blame.
+//
+// errors  logs::FormatError.
+[[nodiscard]] Description recorded_description(const std::string& text, const std::string& path);
+
 // Adds the rows of one file to those of others.
 //
 // source  of them, for the message.

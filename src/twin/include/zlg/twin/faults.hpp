@@ -5,6 +5,7 @@
 // physical ones change light, perimeter, bias or motion and reach the processor only through what it measures; those of
 // converters, counter and frames change what is latched or delivered.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,6 +20,9 @@ struct Fault {
     double duration_s = 0.0;
     double size = 0.0;  // in the unit of its kind; nothing to those that have none
 };
+
+// The twin refuses more: each takes its part of every half in which it acts.
+inline constexpr std::size_t max_faults_at_once = 100;
 
 // Fault `number` of a seed, of this kind, with duration and size as its address draws them.
 [[nodiscard]] Fault random_fault(FaultKind kind, double at_s, std::uint64_t seed, std::uint64_t number = 0);
