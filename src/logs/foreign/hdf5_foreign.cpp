@@ -92,6 +92,7 @@ struct StoredSet {
     std::size_t columns = 1;
     int rank = 1;
     bool rows_follow = true;
+    hsize_t rows_at_once = 0;  // the library keeps some kB for each chunk of what it reads at once
 
     // The numbers are what they stand for.
     void check(const std::vector<double>& values) const {
@@ -109,14 +110,19 @@ struct StoredSet {
     }
 
     [[nodiscard]] std::vector<double> read(std::size_t n, bool is_used) const {
-        const hsize_t begin[2] = {0, 0};
-        const hsize_t count[2] = {rank == 1 || rows_follow ? n : columns, rows_follow ? columns : n};
-        const Handle space{H5Dget_space(set.get()), &H5Sclose};
-        const Handle memory{H5Screate_simple(rank, count, nullptr), &H5Sclose};
         std::vector<double> values(n * columns);
-        if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin, nullptr, count, nullptr) < 0 ||
-            H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
-            file->fail_to_read(path);
+        const std::size_t dimension = rows_follow ? 0 : 1;  // that of the rows
+        hsize_t begin[2] = {0, 0}, count[2] = {columns, columns}, in_memory[2] = {columns, columns};
+        in_memory[dimension] = n;
+        const Handle space{H5Dget_space(set.get()), &H5Sclose};
+        const Handle memory{H5Screate_simple(rank, in_memory, nullptr), &H5Sclose};
+        for (; begin[dimension] < n; begin[dimension] += count[dimension]) {
+            count[dimension] = std::min<hsize_t>(rows_at_once, n - begin[dimension]);
+            if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin, nullptr, count, nullptr) < 0 ||
+                H5Sselect_hyperslab(memory.get(), H5S_SELECT_SET, begin, nullptr, count, nullptr) < 0 ||
+                H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
+                file->fail_to_read(path);
+        }
         if (is_used) check(values);
         return rows_follow ? by_columns(std::move(values), columns) : values;
     }
@@ -132,6 +138,7 @@ public:
         if (!object.is_open())
             throw MappingError(
                 fmt::format("{}: table = '{}': there is no such group or data set", file_->path(), from));
+        (void)is_new(object.get(), from);
         if (H5Iget_type(object.get()) == H5I_DATASET)
             take(from, from.substr(from.rfind('/') + 1));
         else
@@ -190,7 +197,11 @@ private:
         if (std::min(size[0], size[1]) > max_matrix_columns)
             return leave_out(name, "neither of its sides is below 1000");
         budget_.take_values(size[0], size[1]);
-        hdf5::check_chunks(*file_, path, set.get(), sizeof(double) * budget_.max_values());
+        const auto chunk = hdf5::checked_chunk(*file_, path, set.get(), sizeof(double) * budget_.max_values());
+        const bool rows_follow = size[0] >= size[1];
+        constexpr hsize_t chunks_at_once = 1024;
+        const hsize_t across = rows_follow ? (size[1] + chunk[1] - 1) / chunk[1] : (size[0] + chunk[0] - 1) / chunk[0];
+        const hsize_t rows_at_once = std::max<hsize_t>(chunks_at_once / across, 1) * chunk[rows_follow ? 0 : 1];
         // Of a matrix the longer side are the rows, whichever way round its writer stores it.
         ForeignArray array{.name = name,
                            .unit = unit_of(*file_, path),
@@ -204,7 +215,8 @@ private:
                                                                            .rows = array.rows,
                                                                            .columns = array.columns,
                                                                            .rank = rank,
-                                                                           .rows_follow = size[0] >= size[1]})](
+                                                                           .rows_follow = rows_follow,
+                                                                           .rows_at_once = rows_at_once})](
                          std::size_t n, bool is_used) { return stored->read(n, is_used); };
         arrays_.push_back(std::move(array));
     }

@@ -82,8 +82,9 @@ public:
     Inflater(const Inflater&) = delete;
     Inflater& operator=(const Inflater&) = delete;
 
-    // Empty where the bytes are damaged, or make more than `most`.
-    std::optional<std::string> all(std::size_t most) {
+    // Empty where the bytes are damaged, or make more than `most` or than the tag says that they begin with.
+    template <class SizeInTag>
+    std::optional<std::string> all(std::size_t most, SizeInTag size_in_tag) {
         std::string bytes;
         std::string in(block, '\0'), out(block, '\0');
         int state = good_ ? Z_OK : Z_DATA_ERROR;
@@ -99,7 +100,14 @@ public:
             stream_.next_out = reinterpret_cast<Bytef*>(out.data());
             stream_.avail_out = static_cast<uInt>(block);
             state = inflate(&stream_, Z_NO_FLUSH);
+            const bool is_first = bytes.empty();
             bytes.append(out, 0, block - stream_.avail_out);
+            if (is_first && bytes.size() >= tag_bytes) {
+                const std::size_t whole = 2 * tag_bytes + size_in_tag(bytes);
+                if (whole > most) return std::nullopt;
+                most = whole;
+                bytes.reserve(whole + block);
+            }
             if (bytes.size() > most) return std::nullopt;
         }
         return state == Z_STREAM_END ? std::optional{std::move(bytes)} : std::nullopt;
@@ -171,7 +179,10 @@ private:
     }
 
     void take_compressed(const Piece& packed) {
-        std::optional<std::string> bytes = Inflater{packed}.all(left_to_inflate_);
+        std::optional<std::string> bytes =
+            Inflater{packed}.all(left_to_inflate_, [this](const std::string& tag) -> std::size_t {
+                return word(Piece::of_memory(tag.substr(0, tag_bytes)), 4);
+            });
         if (!bytes) refuse("has compressed bytes that do not end, or make more than may be read");
         left_to_inflate_ -= bytes->size();
         Rest rest{Piece::of_memory(*std::move(bytes))};

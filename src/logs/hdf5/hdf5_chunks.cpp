@@ -45,23 +45,11 @@ bool unpacks_to_more(std::vector<Bytef>& packed, std::size_t most) {
 
 }  // namespace
 
-void check_chunks(const Source& source, const std::string& path, hid_t set, std::size_t max_bytes) {
-    const Handle creation{H5Dget_create_plist(set), &H5Pclose};
-    if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return;
-    const Handle type{H5Dget_type(set), &H5Tclose};
-    const Handle space{H5Dget_space(set), &H5Sclose};
-    std::array<hsize_t, 2> chunk{1, 1}, size{1, 1};
-    const int rank = H5Sget_simple_extent_dims(space.get(), nullptr, nullptr);
-    if (rank < 1 || rank > 2 || H5Pget_chunk(creation.get(), rank, chunk.data()) != rank) source.fail_to_read(path);
-    H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
-    const hsize_t most = max_bytes / std::max<std::size_t>(H5Tget_size(type.get()), 1);
-    if (chunk[0] > most || chunk[1] > most / std::max<hsize_t>(chunk[0], 1))
-        source.fail(path, fmt::format("chunks of {} x {} values; allowed are {} of them in such a file", chunk[0],
-                                      chunk[1], most));
-    const int n_deflate = count_deflate(creation.get());
-    if (n_deflate > 1) source.fail(path, "is packed twice; allowed is once");
-    if (n_deflate == 0 || H5Dget_storage_size(set) <= harmless_bytes) return;
-    const hsize_t unpacked = chunk[0] * chunk[1] * H5Tget_size(type.get()) + 64;
+namespace {
+
+// The library unpacks a whole chunk however much that makes.
+void refuse_bombs(const Source& source, const std::string& path, hid_t set, const std::array<hsize_t, 2>& chunk,
+                  const std::array<hsize_t, 2>& size, hsize_t unpacked) {
     for (std::array<hsize_t, 2> at{0, 0}; at[0] < size[0]; at[0] += chunk[0]) {
         for (at[1] = 0; at[1] < size[1]; at[1] += chunk[1]) {
             hsize_t bytes = 0;
@@ -76,6 +64,28 @@ void check_chunks(const Source& source, const std::string& path, hid_t set, std:
                 source.fail(path, fmt::format("a chunk that unpacks to more than its {} bytes", unpacked));
         }
     }
+}
+
+}  // namespace
+
+std::array<hsize_t, 2> checked_chunk(const Source& source, const std::string& path, hid_t set, std::size_t max_bytes) {
+    const Handle creation{H5Dget_create_plist(set), &H5Pclose};
+    const Handle type{H5Dget_type(set), &H5Tclose};
+    const Handle space{H5Dget_space(set), &H5Sclose};
+    std::array<hsize_t, 2> chunk{1, 1}, size{1, 1};
+    const int rank = H5Sget_simple_extent_ndims(space.get());
+    if (rank < 1 || rank > 2) source.fail_to_read(path);
+    H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
+    if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return size;
+    if (H5Pget_chunk(creation.get(), rank, chunk.data()) != rank) source.fail_to_read(path);
+    const hsize_t value_bytes = std::max<std::size_t>(H5Tget_size(type.get()), 1), most = max_bytes / value_bytes;
+    if (chunk[0] > most || chunk[1] > most / std::max<hsize_t>(chunk[0], 1))
+        source.fail(path, fmt::format("chunks of {} x {} values; allowed are {}", chunk[0], chunk[1], most));
+    const int n_deflate = count_deflate(creation.get());
+    if (n_deflate > 1) source.fail(path, "is packed twice; allowed is once");
+    if (n_deflate > 0 && H5Dget_storage_size(set) > harmless_bytes)
+        refuse_bombs(source, path, set, chunk, size, chunk[0] * chunk[1] * value_bytes + 64);
+    return chunk;
 }
 
 }  // namespace zlg::logs::hdf5
