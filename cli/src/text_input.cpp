@@ -21,9 +21,6 @@
 namespace zlg::cli {
 namespace {
 
-// By the times of their rows: a month at 100 Hz is more than a record that anybody has.
-constexpr std::int64_t max_missing = std::int64_t{1} << 28;
-
 struct TextAxes {
     logs::TextLayout layout;
     config::TextHolds holds;
@@ -87,8 +84,8 @@ double checked_rate_hz(const TextAxes& what, logs::TextTable& table, const std::
     if (!check.presumption.empty()) complain("warning: " + check.presumption);
     if (!check.times || check.times->n_missing == 0) return *what.rate_hz;
     const std::string missing = logs::missing_in_words(table, path, *check.times);
-    if (check.times->n_missing > max_missing)
-        throw logs::FormatError{fmt::format("{}; allowed is {}", missing, max_missing)};
+    logs::refuse_many_missing(path, logs::described(*table.times), table.times->values, *check.times,
+                              fmt::format("; {}.time_column = 0 if none are missing", what.layout.section));
     complain(fmt::format("warning: {}; they count as missing samples", missing));
     for (logs::TextColumn& column : table.columns) logs::fill_holes(column.values, *check.times);
     return *what.rate_hz;

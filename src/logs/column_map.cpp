@@ -12,6 +12,9 @@ namespace {
 // A typing mistake in an optional column would otherwise drop it with no more than a warning.
 constexpr std::size_t misspelt_letters = 2;
 
+// Each that is not known is named in a warning.
+constexpr std::size_t max_names = 1000;
+
 void refuse_misspelt(std::span<const KnownColumn> columns, const std::string& name, const std::string& place) {
     const auto apart = [&](const KnownColumn& column) { return text::letters_apart(name, column.name); };
     const KnownColumn& nearest =
@@ -33,6 +36,8 @@ void refuse_missing(std::span<const KnownColumn> columns, const ColumnMap& map, 
 
 ColumnMap map_columns(std::span<const KnownColumn> columns, const std::vector<std::string>& names,
                       const std::string& place) {
+    if (names.size() > max_names)
+        throw FormatError(fmt::format("{}: {} columns; a log has {} at most", place, names.size(), max_names));
     ColumnMap map;
     map.field_of.resize(columns.size());
     for (std::size_t field = 0; field < names.size(); ++field) {

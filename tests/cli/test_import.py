@@ -178,7 +178,7 @@ class Angles(Foreign):
 
 
 class Cut(Foreign):
-    """MATLAB 5 files that do not hold what they say; libmatio would give memory that nobody wrote."""
+    """MATLAB 5 files that do not hold what they say."""
 
     def test_matlab_5_that_is_cut_or_claims_more_than_it_holds(self):
         said = ["--map", "rate_hz=100", "--map", "axis=w", "--map", "unit=deg/h"]

@@ -1,4 +1,4 @@
-"""`zlg convert LOG --out FILE.mat`: every value of the log, by a reader of the format alone and by libmatio in `zlg import`."""
+"""`zlg convert LOG --out FILE.mat`: every value of the log, by a reader of the format alone and by `zlg import`."""
 
 import json
 import os
@@ -75,7 +75,7 @@ class Matlab(CliTest):
         self.assertNotIn("light", variables)
 
     def test_there_and_back_by_another_reader(self):
-        """`zlg import` reads the file with libmatio."""
+        """`zlg import` reads the file."""
         self.converted(self.made / "run" / "raw.h5")
         columns = ("counts", "bias_sign", "mode", "loop_closed", "valid", "detuning_lambda", "detuning_sq_lambda2", "piezo_v")
         maps = [word for name in columns for word in ("--map", f"{name}={name}")]

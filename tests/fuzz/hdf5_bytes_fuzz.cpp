@@ -1,20 +1,13 @@
 // A good HDF5 log in which some bytes were changed: what the disk, the network or another program does to a file.
 
-#include <fstream>
-#include <iterator>
-
 #include "bytes.hpp"
 #include "hdf5_objects.hpp"
 #include "recognised.hpp"
+#include "spoilt.hpp"
 
 namespace {
 
 using namespace zlg;
-
-std::vector<std::uint8_t> content(const std::string& path) {
-    std::ifstream file{path, std::ios::binary};
-    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
-}
 
 constexpr int n_rows = 12;
 
@@ -37,7 +30,7 @@ std::vector<std::uint8_t> raw_file() {
                      {.a = light, .b = light});
     }
     writer.close();
-    return content(path);
+    return fuzz::content(path);
 }
 
 std::vector<std::uint8_t> angle_file() {
@@ -47,19 +40,7 @@ std::vector<std::uint8_t> angle_file() {
         writer.write({.tick = k, .dtheta_arcsec = 3.0 * k, .dtheta_final_arcsec = 3.1 * k, .sigma_arcsec = 1.3}, 3.0);
     }
     writer.close();
-    return content(path);
-}
-
-// Of a byte: another value, a few of its bits, a short run of the same value, or an end of the file.
-void spoil(fuzz::Bytes& bytes, std::vector<std::uint8_t>& file) {
-    const auto what = bytes.index(8);
-    const std::size_t at = bytes.take<std::uint32_t>() % file.size();
-    const auto value = bytes.take<std::uint8_t>();
-    if (what < 4) file[at] = value;
-    if (what == 4 || what == 5) file[at] = static_cast<std::uint8_t>(file[at] ^ value);
-    if (what == 6)
-        std::fill_n(file.begin() + static_cast<std::ptrdiff_t>(at), std::min<std::size_t>(8, file.size() - at), value);
-    if (what == 7 && at > 0) file.resize(at);
+    return fuzz::content(path);
 }
 
 }  // namespace
@@ -70,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::claim_nothing_is_open();
     fuzz::Bytes bytes{data, size};
     std::vector<std::uint8_t> file = bytes.flag() ? good_angles : good_raw;
-    while (!bytes.empty()) spoil(bytes, file);
+    while (!bytes.empty()) fuzz::spoil(bytes, file);
     fuzz::claim_log(fuzz::scratch().write("spoilt.h5", file.data(), file.size()));
     fuzz::claim_nothing_is_open();
     return 0;

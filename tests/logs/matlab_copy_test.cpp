@@ -12,7 +12,7 @@
 namespace zlg::logs {
 namespace {
 
-// As libmatio reads it.
+// As it is read again.
 std::vector<double> column(const std::string& path, const std::string& name) {
     const ForeignTable table = foreign_table(path, {});
     for (const auto& each : table.columns)

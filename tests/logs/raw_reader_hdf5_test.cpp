@@ -249,7 +249,7 @@ TEST(RawReader, refuses_chunks_that_only_a_hostile_file_has) {
             H5Sclose(space);
             H5Pclose(creation);
         }),
-        "/raw/piezo_v: chunks of 9000000 x 1 values; allowed are 64 MiB");
+        "/raw/piezo_v: chunks of 9000000 x 1 values; allowed are 8388608");
 }
 
 TEST(RawReader, refuses_a_configuration_that_contradicts_or_is_none) {

@@ -29,7 +29,7 @@ LineReader::LineReader(std::string path, std::int64_t max_bytes)
 void LineReader::refill() {
     std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
     end_ -= begin_;
-    begin_ = 0;
+    begin_ = next_lf_ = next_cr_ = 0;
     while (!end_of_file_ && end_ < max_line_bytes) {
         const ssize_t n = ::read(file_.get(), buffer_.get() + end_, max_line_bytes - end_);
         if (n < 0 && errno == EINTR) continue;
@@ -51,6 +51,24 @@ bool LineReader::at_end() {
     return begin_ == end_;
 }
 
+// Looked for once: the place of the next such letter, end_ where there is none.
+std::size_t LineReader::find(char letter, std::size_t& found) const {
+    if (begin_ == end_) return end_;
+    if (found > begin_) return found;
+    const void* at = std::memchr(buffer_.get() + begin_, letter, end_ - begin_);
+    found = at == nullptr ? end_ : static_cast<std::size_t>(static_cast<const char*>(at) - buffer_.get());
+    return found;
+}
+
+// Behind the line: LF, with up to two CRs before it that belong to it, or a CR.
+std::size_t LineReader::find_end() {
+    const std::size_t lf = find('\n', next_lf_), cr = find('\r', next_cr_);
+    if (cr >= lf) return lf;
+    if (cr + 2 >= end_ && !end_of_file_) return end_;  // what follows decides
+    const bool belongs = lf < end_ && lf - cr <= 2 && buffer_[lf - 1] == '\r';
+    return belongs ? lf : cr;
+}
+
 std::string_view LineReader::take(std::size_t length) {
     std::string_view line{buffer_.get() + begin_, length};
     begin_ += length + (terminated_ ? 1 : 0);
@@ -58,25 +76,23 @@ std::string_view LineReader::take(std::size_t length) {
     if (line.find('\0') != std::string_view::npos) {
         throw FormatError(fmt::format("{}:{}: a NUL byte; this is not a text file", path_, line_number_));
     }
-    if (line.ends_with('\r')) line.remove_suffix(1);
+    while (line.ends_with('\r')) line.remove_suffix(1);
     return line;
 }
 
 bool LineReader::next(std::string_view& line) {
-    const auto find_end = [this] { return std::memchr(buffer_.get() + begin_, '\n', end_ - begin_); };
-    const void* newline = find_end();
-    if (newline == nullptr && !end_of_file_) {
+    std::size_t stop = find_end();
+    if (stop == end_ && !end_of_file_) {
         refill();
-        newline = find_end();
+        stop = find_end();
     }
-    if (newline == nullptr && begin_ == end_) return false;
-    if (newline == nullptr && !end_of_file_) {
+    if (begin_ == end_) return false;
+    if (stop == end_ && !end_of_file_) {
         throw FormatError(fmt::format("{}:{}: a line of more than {} bytes; this is not a log", path_, line_number_ + 1,
                                       max_line_bytes));
     }
-    terminated_ = newline != nullptr;
-    const char* stop = terminated_ ? static_cast<const char*>(newline) : buffer_.get() + end_;
-    line = take(static_cast<std::size_t>(stop - (buffer_.get() + begin_)));
+    terminated_ = stop < end_;
+    line = take(stop - begin_);
     return true;
 }
 

@@ -193,6 +193,8 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
         refuse_mixed_rows(look);
         check_axes(look, times);
     }
+    if (std::string open = open_times(look.table, look.mapping); !open.empty())
+        look.missing.insert(look.missing.begin(), std::move(open));
     if (look.missing.empty()) refuse_unused_times(look.table, said);
     return look;
 }

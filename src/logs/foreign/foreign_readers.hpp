@@ -1,6 +1,8 @@
 #pragma once
 // One reader a kind of file. Each throws what foreign_table() throws.
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,27 +16,28 @@ namespace zlg::logs {
 [[nodiscard]] ForeignTable numpy_table_of(const std::string& path);
 [[nodiscard]] ForeignTable doubles_table_of(const std::string& path);
 
-// The whole file. errors  IoError; FormatError: more bytes than can be read.
-[[nodiscard]] std::string bytes_of(const std::string& path);
-
-// Arrays of a file that holds some, as they lie in memory.
+// An array of a file that holds some.
 struct ForeignArray {
     std::string name;
     std::string unit;      // empty: not said
     std::size_t rows = 0;  // of a matrix the longer side
     std::size_t columns = 1;
-    bool rows_follow = true;  // the values of a row lie side by side; else those of a column do
-    std::vector<double> values;
-    std::string not_plain;  // as in ForeignColumn
+    // The first rows, one column behind the other. `is_used`: numbers are made of them, and must be what they stand for.
+    //
+    // errors  IoError; FormatError: damaged, or, used, scaled by an attribute or rounded.
+    std::function<std::vector<double>(std::size_t n_rows, bool is_used)> read;
 };
+
+// Values row by row as ForeignArray::read gives them.
+[[nodiscard]] std::vector<double> by_columns(std::vector<double> by_rows, std::size_t columns);
+
+// A matrix whose shorter side is longer is none of a record.
+inline constexpr std::size_t max_matrix_columns = 1000;
 
 // The arrays of the commonest length as columns; the others are left out with a note.
 //
 // errors  MappingError: two lengths are equally common; FormatError: no array.
 [[nodiscard]] ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
                                            std::vector<ForeignArray> arrays);
-
-// More values than a file that one can wait for.
-inline constexpr std::size_t max_foreign_values = std::size_t{1} << 28;
 
 }  // namespace zlg::logs

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
+#include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
 #include <zlg/text/escape.hpp>
@@ -34,8 +34,40 @@ std::string all_columns(const ForeignTable& table) {
     return all;
 }
 
-TextColumn as_read(const ForeignColumn& column) {
-    return {.number = column.number, .name = column.name, .values = column.values, .holds_dates = column.holds_dates};
+void add_columns(ForeignTable& table, const ForeignArray& array, std::size_t n_rows) {
+    const std::vector<double> values = array.read(n_rows, false);
+    for (std::size_t c = 0; c < array.columns; ++c) {
+        ForeignColumn column{.number = std::ssize(table.columns) + 1, .name = array.name, .first = {}, .values = {}};
+        if (array.columns > 1) column.name += fmt::format("{}{}", array.name.empty() ? "" : "_", c + 1);
+        if (array.columns > 1 && array.name.empty()) column.name.clear();
+        if (!array.unit.empty()) column.name += fmt::format(" [{}]", array.unit);
+        const auto begin = values.begin() + static_cast<std::ptrdiff_t>(c * n_rows);
+        column.values.assign(begin, begin + static_cast<std::ptrdiff_t>(n_rows));
+        column.first = fmt::format("{}", column.values.front());
+        table.columns.push_back(std::move(column));
+    }
+}
+
+TextColumn empty_column(std::int64_t number, const std::vector<std::string>& names) {
+    return {.number = number, .name = names[static_cast<std::size_t>(number - 1)], .values = {}};
+}
+
+// Each array is read once, and given back before the next.
+void fill_columns(TextTable& table, const std::vector<ForeignArray>& arrays) {
+    std::size_t first = 0;  // column of the array, from 0
+    for (const ForeignArray& array : arrays) {
+        std::vector<double> values;
+        const auto fill = [&](TextColumn& column) {
+            const auto number = static_cast<std::size_t>(column.number - 1);
+            if (number < first || number >= first + array.columns) return;
+            if (values.empty()) values = array.read(array.rows, true);
+            const auto begin = values.begin() + static_cast<std::ptrdiff_t>((number - first) * array.rows);
+            column.values.assign(begin, begin + static_cast<std::ptrdiff_t>(array.rows));
+        };
+        for (TextColumn& column : table.columns) fill(column);
+        if (table.times) fill(*table.times);
+        first += array.columns;
+    }
 }
 
 std::string count_of(std::size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
@@ -99,47 +131,27 @@ ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
                        .notes = {},
                        .n_rows = static_cast<std::int64_t>(most->first),
                        .read = {}};
+    std::size_t n_columns = 0;
+    for (const ForeignArray& array : arrays) n_columns += array.rows == most->first ? array.columns : 0;
+    const std::size_t n_looked_at = std::min(most->first, std::max<std::size_t>(max_looked_at / n_columns, 16));
+    std::vector<ForeignArray> used;
     for (ForeignArray& array : arrays) {
-        if (array.rows != most->first) {
-            if (table.notes.size() < 10)
-                table.notes.push_back(fmt::format("'{}' is left out: it has {}, not {}",
-                                                  text::excerpt(array.name, 60, ' '), count_of(array.rows, "row"),
-                                                  most->first));
-            continue;
+        if (array.rows == most->first) {
+            add_columns(table, array, n_looked_at);
+            used.push_back(std::move(array));
+        } else if (table.notes.size() < 10) {
+            table.notes.push_back(fmt::format("'{}' is left out: it has {}, not {}", text::excerpt(array.name, 60, ' '),
+                                              count_of(array.rows, "row"), most->first));
         }
-        for (std::size_t c = 0; c < array.columns; ++c) {
-            ForeignColumn column{.number = std::ssize(table.columns) + 1,
-                                 .name = array.name,
-                                 .first = {},
-                                 .values = {},
-                                 .not_plain = {}};
-            if (array.columns > 1) column.name += fmt::format("{}{}", array.name.empty() ? "" : "_", c + 1);
-            if (array.columns > 1 && array.name.empty()) column.name.clear();
-            column.not_plain = array.not_plain;
-            if (!array.unit.empty()) column.name += fmt::format(" [{}]", array.unit);
-            column.values.resize(array.rows);
-            for (std::size_t r = 0; r < array.rows; ++r)
-                column.values[r] = array.values[array.rows_follow ? r * array.columns + c : c * array.rows + r];
-            column.first = fmt::format("{}", column.values.front());
-            table.columns.push_back(std::move(column));
-        }
-        std::vector<double>{}.swap(array.values);
     }
-    // Of a copy: the table outlives what it was made of.
-    table.read = [path, columns = std::make_shared<std::vector<ForeignColumn>>(table.columns)](
-                     const std::vector<std::int64_t>& wanted, std::int64_t times) {
-        std::vector<std::int64_t> used = wanted;
-        if (times > 0) used.push_back(times);
-        for (const std::int64_t number : used) {
-            const ForeignColumn& column = (*columns)[static_cast<std::size_t>(number - 1)];
-            if (!column.not_plain.empty())
-                throw FormatError(fmt::format("{}, {}: {}", path, described(column), column.not_plain));
-        }
-        TextTable read{.columns = {}, .times = {}, .names = {}, .n_columns = std::ssize(*columns)};
-        for (const ForeignColumn& column : *columns) read.names.push_back(column.name);
-        for (const std::int64_t number : wanted)
-            read.columns.push_back(as_read((*columns)[static_cast<std::size_t>(number - 1)]));
-        if (times > 0) read.times = as_read((*columns)[static_cast<std::size_t>(times - 1)]);
+    std::vector<std::string> names;
+    for (const ForeignColumn& column : table.columns) names.push_back(column.name);
+    table.read = [used = std::move(used), names = std::move(names)](const std::vector<std::int64_t>& wanted,
+                                                                    std::int64_t times) {
+        TextTable read{.columns = {}, .times = {}, .names = names, .n_columns = std::ssize(names)};
+        for (const std::int64_t number : wanted) read.columns.push_back(empty_column(number, names));
+        if (times > 0) read.times = empty_column(times, names);
+        fill_columns(read, used);
         return read;
     };
     return table;

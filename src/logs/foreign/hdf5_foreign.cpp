@@ -5,11 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <utility>
+#include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
+#include <zlg/text/escape.hpp>
 #include <zlg/text/spelling.hpp>
 
 #include "foreign_readers.hpp"
+#include "hdf5/hdf5_chunks.hpp"
 #include "hdf5/hdf5_source.hpp"
 
 namespace zlg::logs {
@@ -20,15 +27,12 @@ using hdf5::Handle;
 using hdf5::Source;
 
 constexpr int max_depth = 8;
+#if H5_VERSION_GE(1, 12, 0)
+using ObjectInfo = H5O_info1_t;
+#else
+using ObjectInfo = H5O_info_t;
+#endif
 constexpr double exact_whole = 9007199254740992.0;  // 2^53
-
-// Whole numbers beyond 2^53 would be rounded on the way.
-void check_exact(const Source& file, const std::string& path, hid_t type, const std::vector<double>& values) {
-    if (H5Tget_class(type) != H5T_INTEGER || H5Tget_size(type) < 8) return;
-    for (const double v : values)
-        if (std::fabs(v) >= exact_whole)
-            file.fail(path, fmt::format("holds {:.17g}; allowed are whole numbers below 2^53", v));
-}
 
 std::string unit_of(const Source& file, const std::string& path) {
     for (const char* name : {"unit", "units", "Unit", "Units"}) {
@@ -78,20 +82,63 @@ herr_t take_attribute(hid_t set, const char* name, const H5A_info_t*, void* clie
     return -1;
 }
 
-std::string not_plain(const Source& file, const std::string& path, hid_t set, const std::vector<double>& values) {
-    Attributes found{.values = values, .not_plain = {}};
-    if (H5Aiterate2(set, H5_INDEX_NAME, H5_ITER_INC, nullptr, &take_attribute, &found) < 0) file.fail_to_read(path);
-    return found.not_plain;
-}
+// A data set that is read when its numbers are asked for.
+struct StoredSet {
+    std::shared_ptr<Source> file;
+    std::string path;
+    std::string name;
+    Handle set;
+    std::size_t rows = 0;
+    std::size_t columns = 1;
+    int rank = 1;
+    bool rows_follow = true;
+    hsize_t rows_at_once = 0;  // the library keeps some kB for each chunk of what it reads at once
+
+    // The numbers are what they stand for.
+    void check(const std::vector<double>& values) const {
+        Attributes found{.values = values, .not_plain = {}};
+        if (H5Aiterate2(set.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, &take_attribute, &found) < 0)
+            file->fail_to_read(path);
+        if (!found.not_plain.empty())
+            throw FormatError(
+                fmt::format("{}, '{}': {}", file->path(), zlg::text::excerpt(name, 60, ' '), found.not_plain));
+        const Handle type{H5Dget_type(set.get()), &H5Tclose};
+        if (H5Tget_class(type.get()) != H5T_INTEGER || H5Tget_size(type.get()) < 8) return;
+        for (const double v : values)
+            if (std::fabs(v) >= exact_whole)
+                file->fail(path, fmt::format("holds {:.17g}; allowed are whole numbers below 2^53", v));
+    }
+
+    [[nodiscard]] std::vector<double> read(std::size_t n, bool is_used) const {
+        std::vector<double> values(n * columns);
+        const std::size_t dimension = rows_follow ? 0 : 1;  // that of the rows
+        hsize_t begin[2] = {0, 0}, count[2] = {columns, columns}, in_memory[2] = {columns, columns};
+        in_memory[dimension] = n;
+        const Handle space{H5Dget_space(set.get()), &H5Sclose};
+        const Handle memory{H5Screate_simple(rank, in_memory, nullptr), &H5Sclose};
+        for (; begin[dimension] < n; begin[dimension] += count[dimension]) {
+            count[dimension] = std::min<hsize_t>(rows_at_once, n - begin[dimension]);
+            if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin, nullptr, count, nullptr) < 0 ||
+                H5Sselect_hyperslab(memory.get(), H5S_SELECT_SET, begin, nullptr, count, nullptr) < 0 ||
+                H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
+                file->fail_to_read(path);
+        }
+        if (is_used) check(values);
+        return rows_follow ? by_columns(std::move(values), columns) : values;
+    }
+};
 
 class Reader {
 public:
-    explicit Reader(const std::string& path) : file_{path} {}
+    explicit Reader(const std::string& path)
+        : file_{std::make_shared<Source>(path)}, budget_{path, std::filesystem::file_size(path)} {}
 
     std::vector<ForeignArray> all(const std::string& from) {
-        const Handle object{H5Oopen(file_.id(), from.c_str(), H5P_DEFAULT), &H5Oclose};
+        const Handle object{H5Oopen(file_->id(), from.c_str(), H5P_DEFAULT), &H5Oclose};
         if (!object.is_open())
-            throw MappingError(fmt::format("{}: table = '{}': there is no such group or data set", file_.path(), from));
+            throw MappingError(
+                fmt::format("{}: table = '{}': there is no such group or data set", file_->path(), from));
+        (void)is_new(object.get(), from);
         if (H5Iget_type(object.get()) == H5I_DATASET)
             take(from, from.substr(from.rfind('/') + 1));
         else
@@ -101,13 +148,25 @@ public:
     std::vector<std::string> notes;
 
 private:
+    // Hard links may lead back: an object that was visited is not visited again.
+    bool is_new(hid_t object, const std::string& path) {
+        ObjectInfo info;
+        if (H5Oget_info1(object, &info) < 0) file_->fail_to_read(path);
+        return visited_.emplace(info.fileno, info.addr).second;
+    }
+
     void walk(const std::string& group, const std::string& prefix, int depth) {
-        if (depth > max_depth) return;
-        for (const std::string& name : file_.members(group.empty() ? "/" : group)) {
+        if (depth > max_depth) return leave_out(prefix, "it lies more than 8 groups deep");
+        for (const std::string& name : file_->members(group.empty() ? "/" : group)) {
             if (name.starts_with('#')) continue;  // what MATLAB keeps for itself
+            budget_.take_object();
             const std::string path = group + "/" + name;
-            const Handle object{H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), &H5Oclose};
-            if (!object.is_open()) file_.fail_to_read(path);
+            const Handle object{H5Oopen(file_->id(), path.c_str(), H5P_DEFAULT), &H5Oclose};
+            if (!object.is_open()) file_->fail_to_read(path);
+            if (!is_new(object.get(), path)) {
+                leave_out(prefix + name, "it is another name of what was read before");
+                continue;
+            }
             const H5I_type_t kind = H5Iget_type(object.get());
             if (kind == H5I_GROUP) walk(path, prefix + name + "/", depth + 1);
             if (kind == H5I_DATASET) take(path, prefix + name);
@@ -115,11 +174,13 @@ private:
     }
 
     void leave_out(const std::string& name, const char* why) {
-        if (notes.size() < 10) notes.push_back(fmt::format("'{}' is left out: {}", name, why));
+        if (notes.size() < 10)
+            notes.push_back(fmt::format("'{}' is left out: {}", zlg::text::excerpt(name, 60, ' '), why));
     }
 
     void take(const std::string& path, const std::string& name) {
-        const Handle set{H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), &H5Dclose};
+        Handle set{H5Dopen2(file_->id(), path.c_str(), H5P_DEFAULT), &H5Dclose};
+        if (!set.is_open()) file_->fail_to_read(path);
         const Handle type{H5Dget_type(set.get()), &H5Tclose};
         const Handle space{H5Dget_space(set.get()), &H5Sclose};
         const Handle creation{H5Dget_create_plist(set.get()), &H5Pclose};
@@ -131,25 +192,38 @@ private:
         if (rank < 1 || rank > 2) return leave_out(name, "it has neither one nor two dimensions");
         hsize_t size[2] = {0, 1};
         H5Sget_simple_extent_dims(space.get(), size, nullptr);
-        const std::size_t n = size[0] * size[1];
-        if (n < 2) return;
-        if (size[0] > max_foreign_values || size[1] > max_foreign_values || n > max_foreign_values)
-            file_.fail(path, fmt::format("{} values; allowed is {}", n, max_foreign_values));
-        ForeignArray array{.name = name, .unit = unit_of(file_, path), .values = {}, .not_plain = {}};
+        if (size[0] == 0 || size[1] == 0 || (size[0] == 1 && size[1] == 1)) return;
+        if (H5Dget_storage_size(set.get()) == 0) return leave_out(name, "nothing was ever written into it");
+        if (std::min(size[0], size[1]) > max_matrix_columns)
+            return leave_out(name, "neither of its sides is below 1000");
+        budget_.take_values(size[0], size[1]);
+        const auto chunk = hdf5::checked_chunk(*file_, path, set.get(), sizeof(double) * budget_.max_values());
+        const bool rows_follow = size[0] >= size[1];
+        constexpr hsize_t chunks_at_once = 1024;
+        const hsize_t across = rows_follow ? (size[1] + chunk[1] - 1) / chunk[1] : (size[0] + chunk[0] - 1) / chunk[0];
+        const hsize_t rows_at_once = std::max<hsize_t>(chunks_at_once / across, 1) * chunk[rows_follow ? 0 : 1];
         // Of a matrix the longer side are the rows, whichever way round its writer stores it.
-        array.rows = std::max(size[0], size[1]);
-        array.columns = std::min(size[0], size[1]);
-        array.rows_follow = size[0] >= size[1];
-        if (array.columns > 1000) return leave_out(name, "neither of its sides is below 1000");
-        array.values.resize(n);
-        if (H5Dread(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0)
-            file_.fail_to_read(path);
-        check_exact(file_, path, type.get(), array.values);
-        array.not_plain = not_plain(file_, path, set.get(), array.values);
+        ForeignArray array{.name = name,
+                           .unit = unit_of(*file_, path),
+                           .rows = std::max(size[0], size[1]),
+                           .columns = std::min(size[0], size[1]),
+                           .read = {}};
+        array.read = [stored = std::make_shared<const StoredSet>(StoredSet{.file = file_,
+                                                                           .path = path,
+                                                                           .name = name,
+                                                                           .set = std::move(set),
+                                                                           .rows = array.rows,
+                                                                           .columns = array.columns,
+                                                                           .rank = rank,
+                                                                           .rows_follow = rows_follow,
+                                                                           .rows_at_once = rows_at_once})](
+                         std::size_t n, bool is_used) { return stored->read(n, is_used); };
         arrays_.push_back(std::move(array));
     }
 
-    Source file_;
+    std::shared_ptr<Source> file_;
+    Budget budget_;
+    std::set<std::pair<unsigned long, haddr_t>> visited_;
     std::vector<ForeignArray> arrays_;
 };
 
@@ -160,6 +234,8 @@ ForeignTable hdf5_table_of(const std::string& path, const Mapping& mapping) {
     if (!from.starts_with('/')) from = "/" + from;
     Reader reader{path};
     std::vector<ForeignArray> arrays = reader.all(from);
+    if (arrays.empty() && !reader.notes.empty())
+        throw FormatError(fmt::format("{}: holds no array of numbers; {}", path, reader.notes.front()));
     ForeignTable table = table_of_arrays(path, foreign_nature(path), std::move(arrays));
     table.notes.insert(table.notes.end(), reader.notes.begin(), reader.notes.end());
     return table;

@@ -15,7 +15,6 @@ namespace zlg::logs {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t max_missing = std::int64_t{1} << 28;
 constexpr double largest = 1e90;  // whose square, and the sum of many, is a number
 
 std::string words_of(const Mapping& mapping) {
@@ -92,9 +91,6 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     TextTable read = look.table.read(wanted, times);
     take_out_missing(look.mapping, read);
     RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
-    if (clock.times && clock.times->n_missing > max_missing)
-        throw FormatError(fmt::format("{}: {} rows are missing by their times; allowed is {}", look.table.path,
-                                      clock.times->n_missing, max_missing));
     ImportedAxes imported{.axes = {}, .notes = std::move(clock.notes)};
     for (TextColumn& column : read.columns) imported.axes.push_back(axis_of(look, column, clock, imported.notes));
     return imported;

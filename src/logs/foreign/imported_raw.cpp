@@ -14,7 +14,6 @@ namespace zlg::logs {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t max_missing = std::int64_t{1} << 26;
 
 // How many rows make a half, and the row at which the first whole half begins.
 struct Halves {
@@ -95,6 +94,7 @@ private:
             times.holes.push_back({k - 1, static_cast<std::int64_t>(number[k] - number[k - 1]) - 1});
             times.n_missing += times.holes.back().n_missing;
         }
+        refuse_many_missing(path_, from_.find("half")->from, number, times, "");
         is_odd_ = std::fmod(number.front(), 2.0) != 0.0;
         if (number.front() != 0.0)
             made_.notes.push_back(fmt::format("the halves are numbered anew: the first was {}", number.front()));
@@ -132,9 +132,6 @@ private:
     }
 
     void fill(const RowTimes& times, const char* by) {
-        if (times.n_missing > max_missing)
-            throw FormatError(
-                fmt::format("{}: {} rows are missing by {}; allowed is {}", path_, times.n_missing, by, max_missing));
         if (times.n_missing > 0)
             made_.notes.push_back(
                 fmt::format("{} rows are missing by {}; they become halves with valid 0", times.n_missing, by));

@@ -91,6 +91,9 @@ bool is_listed(std::string_view allowed, std::string_view value) {
     return fmt::format("|{}|", allowed).find(fmt::format("|{}|", value)) != std::string::npos;
 }
 
+// Stands for a column that there is not.
+bool is_fixed(std::string_view value) { return value.starts_with("always:") || value.starts_with("alternating:"); }
+
 bool takes(const Key& key, const std::string& value) {
     const auto number = number_in(value);
     switch (key.takes) {
@@ -108,9 +111,8 @@ bool takes(const Key& key, const std::string& value) {
         case Takes::raw_column:
             break;
     }
-    for (const std::string_view fixed : {"always:", "alternating:"})
-        if (key.takes == Takes::raw_column && value.starts_with(fixed))
-            return number_in(std::string_view{value}.substr(fixed.size())).has_value();
+    if (key.takes == Takes::raw_column && is_fixed(value))
+        return number_in(std::string_view{value}.substr(value.find(':') + 1)).has_value();
     return !value.empty();
 }
 
@@ -160,6 +162,13 @@ std::string Mapping::text(std::string_view key) const {
 }
 
 std::optional<double> Mapping::real(std::string_view key) const { return number_in(text(key)); }
+
+std::vector<std::string> Mapping::raw_columns() const {
+    std::vector<std::string> columns;
+    for (const auto& [key, value] : values_)
+        if (is_raw_key(key) && !is_fixed(value)) columns.push_back(value);
+    return columns;
+}
 
 std::string Mapping::toml() const {
     std::string lines;

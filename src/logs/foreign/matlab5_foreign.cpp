@@ -1,120 +1,288 @@
-// MATLAB 5: real matrices, and those in structures.
+// MATLAB 5: real matrices, and those in structures. By MathWorks' description of the format, and not by libmatio, which takes the
+// memory that a file asks for and gives what nobody wrote where bytes are missing.
 
 #include <fmt/format.h>
-#include <matio.h>
+#include <zlib.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
-#include <memory>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/text/escape.hpp>
 
 #include "foreign_readers.hpp"
-#include "matlab5_extent.hpp"
+#include "stored_numbers.hpp"
 
 namespace zlg::logs {
 
 namespace {
 
-using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
+constexpr std::size_t header_bytes = 128, tag_bytes = 8;
+constexpr std::uint32_t matrix = 14, compressed = 15;
+constexpr int max_depth = 16, max_named_depth = 4;
 
-template <class Number>
-bool copy(const matvar_t& v, std::vector<double>& values) {
-    if (v.data_size != sizeof(Number)) return false;
-    const auto* from = static_cast<const Number*>(v.data);
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = static_cast<double>(from[k]);
-    return true;
-}
+enum Kind : std::uint32_t {
+    cells = 1,
+    structure = 2,
+    object = 3,
+    letters = 4,
+    sparse = 5,
+    first_of_numbers = 6,
+    last_of_numbers = 15
+};
 
-// As MATLAB gives the type of what is in memory.
-bool copy_numbers(const matvar_t& v, std::vector<double>& values) {
-    switch (v.class_type) {
-        case MAT_C_DOUBLE:
-            return copy<double>(v, values);
-        case MAT_C_SINGLE:
-            return copy<float>(v, values);
-        case MAT_C_INT8:
-            return copy<std::int8_t>(v, values);
-        case MAT_C_UINT8:
-            return copy<std::uint8_t>(v, values);
-        case MAT_C_INT16:
-            return copy<std::int16_t>(v, values);
-        case MAT_C_UINT16:
-            return copy<std::uint16_t>(v, values);
-        case MAT_C_INT32:
-            return copy<std::int32_t>(v, values);
-        case MAT_C_UINT32:
-            return copy<std::uint32_t>(v, values);
-        case MAT_C_INT64:
-            return copy<std::int64_t>(v, values);
-        case MAT_C_UINT64:
-            return copy<std::uint64_t>(v, values);
+// Of the types 1 to 13.
+std::optional<NumberType> type_of(std::uint32_t type) {
+    switch (type) {
+        case 1:
+            return NumberType::i1;
+        case 2:
+            return NumberType::u1;
+        case 3:
+            return NumberType::i2;
+        case 4:
+            return NumberType::u2;
+        case 5:
+            return NumberType::i4;
+        case 6:
+            return NumberType::u4;
+        case 7:
+            return NumberType::f4;
+        case 9:
+            return NumberType::f8;
+        case 12:
+            return NumberType::i8;
+        case 13:
+            return NumberType::u8;
         default:
-            return false;
+            return std::nullopt;
     }
 }
 
+struct Element {
+    std::uint32_t type = 0;
+    Piece data = {};
+};
+
+// Elements one behind the other.
+struct Rest {
+    Piece bytes = {};
+    std::size_t at = 0;
+    [[nodiscard]] bool is_empty() const { return at >= bytes.size(); }
+};
+
+class Inflater {
+public:
+    explicit Inflater(Piece packed) : packed_{std::move(packed)} { good_ = inflateInit(&stream_) == Z_OK; }
+    ~Inflater() { inflateEnd(&stream_); }
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
+
+    // Empty where the bytes are damaged, or make more than `most` or than the tag says that they begin with.
+    template <class SizeInTag>
+    std::optional<std::string> all(std::size_t most, SizeInTag size_in_tag) {
+        std::string bytes;
+        std::string in(block, '\0'), out(block, '\0');
+        int state = good_ ? Z_OK : Z_DATA_ERROR;
+        for (std::size_t at = 0; state == Z_OK;) {
+            if (stream_.avail_in == 0) {
+                const std::size_t n = std::min(block, packed_.size() - at);
+                if (n == 0) break;
+                packed_.read(at, n, in.data());
+                at += n;
+                stream_.next_in = reinterpret_cast<Bytef*>(in.data());
+                stream_.avail_in = static_cast<uInt>(n);
+            }
+            stream_.next_out = reinterpret_cast<Bytef*>(out.data());
+            stream_.avail_out = static_cast<uInt>(block);
+            state = inflate(&stream_, Z_NO_FLUSH);
+            const bool is_first = bytes.empty();
+            bytes.append(out, 0, block - stream_.avail_out);
+            if (is_first && bytes.size() >= tag_bytes) {
+                const std::size_t whole = 2 * tag_bytes + size_in_tag(bytes);
+                if (whole > most) return std::nullopt;
+                most = whole;
+                bytes.reserve(whole + block);
+            }
+            if (bytes.size() > most) return std::nullopt;
+        }
+        return state == Z_STREAM_END ? std::optional{std::move(bytes)} : std::nullopt;
+    }
+
+private:
+    static constexpr std::size_t block = std::size_t{1} << 16;
+    Piece packed_;
+    z_stream stream_{};
+    bool good_ = false;
+};
+
 class Reader {
 public:
-    explicit Reader(const std::string& path) : path_{path} {}
+    Reader(const std::string& path, std::string asked)
+        : path_{path}, asked_{std::move(asked)}, file_{Piece::of_file(path)}, budget_{path, file_.size()} {
+        if (file_.size() < header_bytes) throw FormatError(fmt::format("{}: a MATLAB 5 file that is cut off", path));
+        swapped_ = file_.text(126, 1) == "M";
+        left_to_inflate_ = sizeof(double) * budget_.max_values();
+    }
 
-    void take(const matvar_t& v, const std::string& name, int depth) {
-        if (v.class_type == MAT_C_STRUCT && depth < 4) return take_fields(v, name, depth);
-        if (v.rank != 2 || v.data == nullptr || v.isComplex != 0) return leave_out(name);
-        const std::size_t rows = v.dims[0], columns = v.dims[1];
-        if (rows * columns < 2) return;
-        if (std::min(rows, columns) > 1000 || rows > max_foreign_values || columns > max_foreign_values)
-            return leave_out(name);
-        ForeignArray array{.name = name, .unit = {}, .values = std::vector<double>(rows * columns), .not_plain = {}};
-        if (v.nbytes < array.values.size() * static_cast<std::size_t>(v.data_size) || !copy_numbers(v, array.values))
-            return leave_out(name);
-        const bool whole = v.class_type == MAT_C_INT64 || v.class_type == MAT_C_UINT64;
-        if (whole && std::ranges::any_of(array.values, [](double x) { return std::fabs(x) >= 9007199254740992.0; }))
-            throw FormatError(fmt::format("{}, {}: allowed are whole numbers below 2^53", path_, name));
-        // MATLAB stores column by column; the longer side are the rows.
-        array.rows = std::max(rows, columns);
-        array.columns = std::min(rows, columns);
-        array.rows_follow = rows < columns;
-        arrays.push_back(std::move(array));
+    void read() {
+        Rest rest{file_, header_bytes};
+        while (!rest.is_empty()) {
+            where_ = rest.at;
+            const Element element = next(rest, true);
+            if (element.type == compressed)
+                take_compressed(element.data);
+            else if (element.type == matrix)
+                take_matrix(element.data, {}, 0);
+        }
+        if (!asked_.empty() && !found_)
+            throw MappingError(fmt::format("{}: table = '{}': there is no such variable", path_, asked_));
     }
 
     std::vector<ForeignArray> arrays;
     std::vector<std::string> notes;
 
 private:
-    void leave_out(const std::string& name) {
-        if (notes.size() < 10) notes.push_back(fmt::format("'{}' is left out: it is no real matrix", name));
+    [[noreturn]] void refuse(const char* what) const {
+        throw FormatError(
+            fmt::format("{}: the variable at byte {} {}; the file is cut off or damaged, allowed is a whole one", path_,
+                        where_, what));
     }
 
-    void take_fields(const matvar_t& v, const std::string& name, int depth) {
-        const unsigned n = Mat_VarGetNumberOfFields(const_cast<matvar_t*>(&v));
-        char* const* names = Mat_VarGetStructFieldnames(&v);
-        for (unsigned f = 0; f < n && names != nullptr; ++f)
-            if (const matvar_t* field = Mat_VarGetStructFieldByName(const_cast<matvar_t*>(&v), names[f], 0))
-                take(*field, fmt::format("{}.{}", name, names[f]), depth + 1);
+    [[nodiscard]] std::uint32_t word(const Piece& bytes, std::size_t at) const {
+        std::uint32_t value = 0;
+        bytes.read(at, sizeof value, reinterpret_cast<char*>(&value));
+        return swapped_ ? __builtin_bswap32(value) : value;
+    }
+
+    // The next element. A compressed one has no padding.
+    Element next(Rest& rest, bool is_outer = false) const {
+        const std::size_t left = rest.bytes.size() - rest.at;
+        if (rest.is_empty() || left < tag_bytes) refuse("has no whole tag");
+        const std::uint32_t first = word(rest.bytes, rest.at);
+        if (!is_outer && first >> 16 != 0) {  // up to 4 bytes within the tag
+            if (first >> 16 > 4) refuse("has a short element of more than 4 bytes");
+            const Element element{first & 0xFFFFu, rest.bytes.part(rest.at + 4, first >> 16)};
+            rest.at += tag_bytes;
+            return element;
+        }
+        const std::size_t size = word(rest.bytes, rest.at + 4);
+        if (size > left - tag_bytes) refuse("has fewer bytes than it says");
+        const Element element{first, rest.bytes.part(rest.at + tag_bytes, size)};
+        const std::size_t padding = first == compressed ? 0 : (8 - size % 8) % 8;
+        rest.at = std::min(rest.at + tag_bytes + size + padding, rest.bytes.size());
+        return element;
+    }
+
+    void take_compressed(const Piece& packed) {
+        std::optional<std::string> bytes =
+            Inflater{packed}.all(left_to_inflate_, [this](const std::string& tag) -> std::size_t {
+                return word(Piece::of_memory(tag.substr(0, tag_bytes)), 4);
+            });
+        if (!bytes) refuse("has compressed bytes that do not end, or make more than may be read");
+        left_to_inflate_ -= bytes->size();
+        Rest rest{Piece::of_memory(*std::move(bytes))};
+        const Element element = next(rest, true);
+        if (element.type == matrix) take_matrix(element.data, {}, 0);
+    }
+
+    void leave_out(const std::string& name) {
+        if (notes.size() < 10)
+            notes.push_back(fmt::format("'{}' is left out: it is no real matrix", text::excerpt(name, 60, ' ')));
+    }
+
+    // Flags, dimensions, name, and the numbers or, of structures and cells, matrices. Of an inner one the name is given.
+    void take_matrix(const Piece& bytes, std::string name, int depth) {
+        budget_.take_object();
+        if (bytes.size() == 0) return;  // a field that holds nothing
+        if (depth > max_depth) refuse("has structures in structures without end");
+        Rest rest{bytes};
+        const Element flags = next(rest);
+        if (flags.data.size() != 8) refuse("has no flags");
+        const std::uint32_t flag_word = word(flags.data, 0), kind = flag_word & 0xFFu;
+        if (kind > last_of_numbers) return leave_out(name);  // functions, and objects without a description
+        const std::vector<std::size_t> size = dimensions(next(rest).data);
+        const Element own_name = next(rest);
+        if (depth == 0) {
+            name = own_name.data.text(0, own_name.data.size());
+            if (!asked_.empty() && name != asked_) return;
+            found_ = true;
+        }
+        if (kind >= first_of_numbers) return take_numbers(rest, name, size, (flag_word & 0x800u) != 0);
+        if (kind == structure) return take_fields(rest, name, depth);
+        leave_out(name);
+    }
+
+    [[nodiscard]] std::vector<std::size_t> dimensions(const Piece& bytes) const {
+        if (bytes.size() < 8 || bytes.size() > 4 * 32) refuse("has no dimensions");
+        std::vector<std::size_t> size;
+        for (std::size_t d = 0; d + 4 <= bytes.size(); d += 4) size.push_back(word(bytes, d));
+        return size;
+    }
+
+    void take_numbers(Rest rest, const std::string& name, const std::vector<std::size_t>& size, bool is_complex) {
+        std::size_t n = 1;
+        for (const std::size_t one : size) {
+            if (one > 0 && n > budget_.max_values() / one) refuse("has more numbers than can be read");
+            n *= one;
+        }
+        if (n == 0 && rest.is_empty()) return;
+        std::optional<Element> numbers;
+        std::optional<NumberType> type;
+        for (int part = 0; part < (is_complex ? 2 : 1); ++part) {
+            numbers = next(rest);
+            type = type_of(numbers->type);
+            if (!type || numbers->data.size() != n * size_of(*type)) refuse("has other dimensions than numbers");
+        }
+        if (size.size() != 2 || is_complex) return leave_out(name);
+        if (n < 2) return;
+        if (std::min(size[0], size[1]) > max_matrix_columns) return leave_out(name);
+        budget_.take_values(size[0], size[1]);
+        StoredMatrix stored{.bytes = numbers->data,
+                            .type = *type,
+                            .swapped = swapped_,
+                            .where = fmt::format("{}, {}", path_, text::excerpt(name, 60, ' '))};
+        stored.take_shape(size[0], size[1], false);  // column by column
+        arrays.push_back(array_of(name, stored));
+    }
+
+    // The fields of the first element.
+    void take_fields(Rest rest, const std::string& name, int depth) {
+        if (depth >= max_named_depth) return leave_out(name);
+        const Element length = next(rest);
+        const std::size_t bytes_of_name = length.data.size() == 4 ? word(length.data, 0) : 0;
+        const Element names = next(rest);
+        if (bytes_of_name == 0 || bytes_of_name > 4096) refuse("has fields without names");
+        const std::size_t n_fields = names.data.size() / bytes_of_name;
+        for (std::size_t f = 0; f < n_fields && !rest.is_empty(); ++f) {
+            const std::string padded = names.data.text(f * bytes_of_name, bytes_of_name);
+            const Element field = next(rest);
+            if (field.type != matrix) refuse("has a field that is no matrix");
+            take_matrix(field.data, fmt::format("{}.{}", name, padded.c_str()), depth + 1);
+        }
     }
 
     const std::string& path_;
+    std::string asked_;
+    Piece file_;
+    Budget budget_;
+    bool swapped_ = false;
+    bool found_ = false;
+    std::size_t left_to_inflate_ = 0;
+    std::size_t where_ = 0;
 };
 
 }  // namespace
 
 ForeignTable matlab5_table_of(const std::string& path, const Mapping& mapping) {
-    check_matlab5_extent(path);
-    const std::unique_ptr<mat_t, decltype(&Mat_Close)> file{Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close};
-    if (!file) throw FormatError(fmt::format("{}: cannot be read as a MATLAB 5 file", path));
-    Reader reader{path};
-    const std::string asked = mapping.text("table");
-    bool found = asked.empty();
-    while (true) {
-        const Variable v{Mat_VarReadNext(file.get()), &Mat_VarFree};
-        if (!v) break;
-        const std::string name = v->name == nullptr ? "" : v->name;
-        if (!asked.empty() && name != asked) continue;
-        found = true;
-        reader.take(*v, name, 0);
-    }
-    if (!found) throw MappingError(fmt::format("{}: table = '{}': there is no such variable", path, asked));
+    Reader reader{path, mapping.text("table")};
+    reader.read();
+    if (reader.arrays.empty() && !reader.notes.empty())
+        throw FormatError(fmt::format("{}: holds no array of numbers; {}", path, reader.notes.front()));
     ForeignTable table = table_of_arrays(path, "a MATLAB 5 file", std::move(reader.arrays));
     table.notes.insert(table.notes.end(), reader.notes.begin(), reader.notes.end());
     return table;

@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <regex>
+#include <optional>
+#include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/row_times.hpp>
-#include <zlg/text/inputs.hpp>
+#include <zlg/text/escape.hpp>
 
 #include "foreign_readers.hpp"
+#include "npy_head.hpp"
+#include "stored_numbers.hpp"
 
 namespace zlg::logs {
 
@@ -20,110 +21,109 @@ namespace {
 
 constexpr std::size_t max_width = 40;
 
-template <class Number>
-std::vector<double> numbers(std::string_view bytes, std::size_t n) {
-    std::vector<double> values(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        Number one;
-        std::memcpy(&one, bytes.data() + k * sizeof one, sizeof one);
-        values[k] = static_cast<double>(one);
-    }
-    return values;
-}
-
-std::vector<double> column(const std::vector<double>& values, std::size_t width, std::size_t c) {
-    std::vector<double> one;
-    for (std::size_t k = c; k < values.size() && one.size() < 1000; k += width) one.push_back(values[k]);
-    return one;
-}
-
 // The least width at which a column rises evenly by a step: a column of times. 0: none.
-std::size_t width_of(const std::vector<double>& values) {
-    for (std::size_t width = 2; width <= max_width && 4 * width <= values.size(); ++width) {
-        if (values.size() % width != 0) continue;
+std::size_t width_of(StoredMatrix all, std::size_t n) {
+    for (std::size_t width = 2; width <= max_width && 4 * width <= n; ++width) {
+        if (n % width != 0) continue;
+        const std::size_t rows = std::min<std::size_t>(n / width, 1000);
+        all.columns = width;
+        const std::vector<double> values = array_of({}, all).read(rows, false);
         for (const std::size_t c : {std::size_t{0}, width - 1})
-            if (rises_as_time(column(values, width, c))) return width;
+            if (rises_as_time(std::span{values}.subspan(c * rows, rows))) return width;
     }
     return 0;
 }
 
-}  // namespace
-
-std::string bytes_of(const std::string& path) {
-    zlg::text::note_input(path);
-    std::ifstream file{path, std::ios::binary};
-    file.seekg(0, std::ios::end);
-    const auto size = static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0));
-    if (size > max_foreign_values * sizeof(double))
-        throw FormatError(fmt::format("{}: {} bytes; allowed is {}", path, size, max_foreign_values * sizeof(double)));
-    std::string bytes(size, '\0');
-    file.seekg(0);
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
-        throw IoError(fmt::format("cannot read {}", path));
-    return bytes;
+std::optional<NumberType> type_of(std::string_view descr) {
+    struct Named {
+        std::string_view name;
+        NumberType type;
+    };
+    constexpr std::array<Named, 9> types{{{"f8", NumberType::f8},
+                                          {"f4", NumberType::f4},
+                                          {"i8", NumberType::i8},
+                                          {"i4", NumberType::i4},
+                                          {"i2", NumberType::i2},
+                                          {"i1", NumberType::i1},
+                                          {"u4", NumberType::u4},
+                                          {"u2", NumberType::u2},
+                                          {"u1", NumberType::u1}}};
+    if (descr.size() != 3 || (descr[0] != '<' && descr[0] != '|')) return std::nullopt;
+    const auto found = std::ranges::find(types, descr.substr(1), &Named::name);
+    return found == types.end() ? std::nullopt : std::optional{found->type};
 }
 
-ForeignTable numpy_table_of(const std::string& path) {
-    const std::string bytes = bytes_of(path);
-    const auto fail = [&](const std::string& what) {
+// Behind the signature: two bytes of a version, the length of the head in 2 or 4 bytes, the head.
+class NpyFile {
+public:
+    explicit NpyFile(const std::string& path) : path_{path}, bytes_{Piece::of_file(path)} {}
+
+    StoredMatrix matrix() {
+        const NpyHead head = read_head();
+        const auto type = type_of(head.descr);
+        if (!type) fail(fmt::format("of the type '{}'", text::excerpt(head.descr, 40, '?')));
+        if (head.shape.empty() || head.shape.size() > 2) fail(fmt::format("of {} dimensions", head.shape.size()));
+        const std::size_t n = head.shape[0], m = head.shape.size() > 1 ? head.shape[1] : 1;
+        Budget{path_, bytes_.size()}.take_values(n, m);
+        const std::size_t size = n * m * size_of(*type);
+        if (size == 0) fail("without numbers");
+        if (bytes_.size() - begin_ < size) fail("that is cut off");
+        if (std::min(n, m) > max_matrix_columns) fail(fmt::format("of more than {} columns", max_matrix_columns));
+        StoredMatrix stored{.bytes = bytes_.part(begin_, size), .type = *type, .where = path_};
+        stored.take_shape(n, m, !head.fortran_order);
+        return stored;
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& what) const {
         throw FormatError(
             fmt::format("{}: a NumPy array {}; allowed are plain numbers, little-endian, of one or two "
                         "dimensions",
-                        path, what));
-    };
-    if (bytes.size() < 12) fail("that is cut off");
-    const bool is_long = bytes[6] >= 2;
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 8, is_long ? 4 : 2);
-    const std::size_t begin = (is_long ? 12u : 10u) + std::size_t{length};
-    if (begin > bytes.size() || length > 65536) fail("that is cut off");
-    const std::string head = bytes.substr(0, begin);
-    std::smatch type, shape;
-    const bool good = std::regex_search(head, type, std::regex{"'descr': *'[<|]([fiu])([1248])'"}) &&
-                      std::regex_search(head, shape, std::regex{"'shape': *\\((\\d{1,10}),? ?(\\d{1,10})?,?\\)"});
-    if (!good) fail("of another type or shape");
-    const std::size_t n = std::stoul(shape[1]), m = shape[2].length() > 0 ? std::stoul(shape[2]) : 1;
-    const std::string kind = type[1].str() + type[2].str();
-    const std::size_t size = std::stoul(type[2]);
-    if (n > max_foreign_values || m > max_foreign_values || n * m > max_foreign_values ||
-        bytes.size() - begin < n * m * size)
-        fail("that is cut off");
-    const std::string_view data = std::string_view{bytes}.substr(begin);
-    ForeignArray array{.name = {}, .unit = {}, .values = {}, .not_plain = {}};
-    if (kind == "f8") array.values = numbers<double>(data, n * m);
-    if (kind == "f4") array.values = numbers<float>(data, n * m);
-    if (kind == "i8") array.values = numbers<std::int64_t>(data, n * m);
-    if (kind == "i4") array.values = numbers<std::int32_t>(data, n * m);
-    if (kind == "i2") array.values = numbers<std::int16_t>(data, n * m);
-    if (kind == "i1") array.values = numbers<std::int8_t>(data, n * m);
-    if (kind == "u4") array.values = numbers<std::uint32_t>(data, n * m);
-    if (kind == "u2") array.values = numbers<std::uint16_t>(data, n * m);
-    if (kind == "u1") array.values = numbers<std::uint8_t>(data, n * m);
-    if (array.values.empty()) fail("of another type");
-    if (kind == "i8" && std::ranges::any_of(array.values, [](double v) { return std::fabs(v) >= 9007199254740992.0; }))
-        fail("of whole numbers beyond 2^53");
-    const bool by_column = head.find("'fortran_order': True") != std::string::npos;
-    array.rows = std::max(n, m);
-    array.columns = std::min(n, m);
-    array.rows_follow = (n >= m) != by_column;
-    if (array.columns > 1000) fail("of more than 1000 columns");
-    return table_of_arrays(path, "a NumPy array", {std::move(array)});
+                        path_, what));
+    }
+
+    NpyHead read_head() {
+        constexpr std::size_t max_head = 10'000;  // as NumPy allows
+        if (bytes_.size() < 12) fail("that is cut off");
+        const std::string start = bytes_.text(6, 6);
+        const auto byte = [&start](std::size_t k) { return std::size_t{static_cast<unsigned char>(start[k])}; };
+        if (byte(0) < 1 || byte(0) > 3) fail(fmt::format("of version {}", byte(0)));
+        const bool is_long = byte(0) > 1;
+        const std::size_t length = byte(2) | byte(3) << 8 | (is_long ? byte(4) << 16 | byte(5) << 24 : 0);
+        if (length > max_head) fail(fmt::format("with a head of {} bytes, where {} is the most", length, max_head));
+        const std::size_t at = is_long ? 12 : 10;
+        begin_ = at + length;
+        if (begin_ > bytes_.size()) fail("that is cut off");
+        auto head = npy_head(bytes_.text(at, length));
+        if (!head) fail("of another type or shape");
+        return *std::move(head);
+    }
+
+    const std::string& path_;
+    Piece bytes_;
+    std::size_t begin_ = 0;
+};
+
+}  // namespace
+
+ForeignTable numpy_table_of(const std::string& path) {
+    return table_of_arrays(path, "a NumPy array", {array_of({}, NpyFile{path}.matrix())});
 }
 
 ForeignTable doubles_table_of(const std::string& path) {
-    const std::string bytes = bytes_of(path);
-    std::vector<double> values = numbers<double>(bytes, bytes.size() / sizeof(double));
-    const std::size_t width = width_of(values);
+    StoredMatrix all{.bytes = Piece::of_file(path), .where = path};
+    const std::size_t n = all.bytes.size() / sizeof(double);
+    const std::size_t width = width_of(all, n);
     if (width == 0)
         throw FormatError(fmt::format(
             "{}: doubles without a header, and no column of times shows how many make a row; allowed are rows of 2..{} "
             "numbers, the first or the last of which rises evenly",
             path, max_width));
-    ForeignArray array{
-        .name = {}, .unit = {}, .rows = values.size() / width, .columns = width, .values = {}, .not_plain = {}};
-    array.values = std::move(values);
+    Budget{path, all.bytes.size()}.take_values(n, 1);
+    all.rows = n / width;
+    all.columns = width;
     ForeignTable table =
-        table_of_arrays(path, fmt::format("doubles without a header, {} to a row", width), {std::move(array)});
+        table_of_arrays(path, fmt::format("doubles without a header, {} to a row", width), {array_of({}, all)});
     if (width == 7 && path.ends_with(".imu") && rises_as_time(table.columns.back().values))
         table.notes.push_back(
             "as PSINS writes it, columns 1..3 are increments of angle in rad, 4..6 of velocity, 7 the times in s");

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 #include <span>
 #include <string_view>
 #include <zlg/logs/error.hpp>
@@ -188,30 +190,60 @@ bool goes_on(std::span<const double> values) {
     return values.size() > 1 && values.front() < values.back() && std::ranges::is_sorted(values);
 }
 
-}  // namespace
+// Of these columns those that are not said to hold something else; all, where none is left.
+std::vector<std::int64_t> free_of(const std::vector<std::int64_t>& all, const ForeignTable& table,
+                                  const Mapping& mapping) {
+    std::set<std::int64_t> used;
+    for (const std::string& name : mapping.axes()) used.insert(column_named(table, name).number);
+    for (const std::string& name : mapping.raw_columns()) used.insert(column_named(table, name).number);
+    std::vector<std::int64_t> free;
+    std::ranges::copy_if(all, std::back_inserter(free), [&used](std::int64_t n) { return !used.contains(n); });
+    return free.empty() ? all : free;
+}
 
-std::int64_t time_column(const ForeignTable& table, const Mapping& mapping) {
+// By what is said, by names, by dates: the first that decides. More than one: it is open which.
+std::vector<std::int64_t> time_columns(const ForeignTable& table, const Mapping& mapping) {
     if (mapping.has("time")) {
         const std::string name = mapping.text("time");
-        return name == "none" || name == "0" ? 0 : column_named(table, name).number;
+        if (name == "none" || name == "0") return {};
+        return {column_named(table, name).number};
     }
-    const auto rises = [](const ForeignColumn& c) { return c.holds_dates || rises_as_time(c.values); };
     for (const ForeignColumn& column : table.columns)
-        if (names_time(column.name) && (column.holds_dates || goes_on(column.values))) return column.number;
-    for (const ForeignColumn& column : table.columns)
-        if (column.holds_dates) return column.number;
-    for (const ForeignColumn& column : table.columns)
-        if (column.name.empty() && column.is_number && rises(column)) return column.number;
+        if (names_time(column.name) && (column.holds_dates || goes_on(column.values))) return {column.number};
+    std::vector<std::int64_t> dates, nameless;
+    for (const ForeignColumn& column : table.columns) {
+        if (column.holds_dates) dates.push_back(column.number);
+        if (column.name.empty() && column.is_number && rises_as_time(column.values)) nameless.push_back(column.number);
+    }
+    if (!dates.empty()) return free_of(dates, table, mapping);
+    if (!nameless.empty()) return free_of(nameless, table, mapping);
     // Numbers of rows show those that are missing, and no rate.
     if (mapping.has("rate_hz"))
         for (const ForeignColumn& column : table.columns)
             if (names_row_numbers(column.name) && is_numbered(column.values) && goes_on(column.values))
-                return column.number;
-    return 0;
+                return {column.number};
+    return {};
+}
+
+}  // namespace
+
+std::int64_t time_column(const ForeignTable& table, const Mapping& mapping) {
+    const std::vector<std::int64_t> all = time_columns(table, mapping);
+    return all.size() == 1 ? all.front() : 0;
+}
+
+std::string open_times(const ForeignTable& table, const Mapping& mapping) {
+    const std::vector<std::int64_t> all = time_columns(table, mapping);
+    if (all.size() < 2) return {};
+    constexpr std::size_t most_named = 20;
+    const auto named = std::span{all}.first(std::min(all.size(), most_named));
+    const char* more = all.size() > most_named ? " and more" : "";
+    return fmt::format("time={} or none (columns {}{} rise as times do, and no name says which)", fmt::join(named, "|"),
+                       fmt::join(named, ", "), more);
 }
 
 void refuse_unused_times(const ForeignTable& table, const Mapping& mapping) {
-    if (mapping.has("time") || mapping.has("half") || time_column(table, mapping) != 0) return;
+    if (mapping.has("time") || mapping.has("half") || !time_columns(table, mapping).empty()) return;
     for (const ForeignColumn& column : table.columns)
         if (names_time(column.name) && column.is_number && column.values.size() > 1)
             throw MappingError(
@@ -220,7 +252,7 @@ void refuse_unused_times(const ForeignTable& table, const Mapping& mapping) {
 }
 
 std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) {
-    if (mapping.has("rate_hz")) return {};
+    if (mapping.has("rate_hz") || !open_times(table, mapping).empty()) return {};
     const std::int64_t number = time_column(table, mapping);
     if (number == 0) return "rate_hz=... (rows a second; no column of times was recognised, or time=COLUMN)";
     const ForeignColumn& column = table.columns[static_cast<std::size_t>(number - 1)];
@@ -257,6 +289,8 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     check_repetitions(times, path);
     check_coarse(times, *clock.times, path);
     check_holes(times, *clock.times, path);
+    refuse_many_missing(path, described(times), times.values, *clock.times,
+                        "; --map time=none with rate_hz if none are missing");
     check_local_time(times, *clock.times, path);
     check_one_rate(times, *clock.times, path);
     const double step = clock.times->step;

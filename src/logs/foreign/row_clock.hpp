@@ -16,8 +16,12 @@ struct RowClock {
     std::vector<std::string> notes;
 };
 
-// The column that holds the times of the rows, 0: none. By the mapping, by its name, or, without a name, as it rises.
+// The column that holds the times of the rows, 0: none, or it is open which. By the mapping, by its name, or, without a name, as it
+// rises.
 [[nodiscard]] std::int64_t time_column(const ForeignTable& table, const Mapping& mapping);
+
+// "time=1|2 or none (columns ...)" where more than one column may hold them, and no name decides; empty else.
+[[nodiscard]] std::string open_times(const ForeignTable& table, const Mapping& mapping);
 
 // errors  MappingError: a column is named as times are, is not taken for them, and nothing is said of it.
 void refuse_unused_times(const ForeignTable& table, const Mapping& mapping);

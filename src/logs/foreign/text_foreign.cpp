@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/text_columns.hpp>
 #include <zlg/text/escape.hpp>
@@ -24,7 +25,6 @@ namespace zlg::logs {
 namespace {
 
 constexpr std::int64_t max_preamble = 40;
-constexpr std::size_t max_columns_looked_at = 64;
 
 const std::map<std::string, TextSeparator> separators{{"tab", TextSeparator::tab},
                                                       {"semicolon", TextSeparator::semicolon},
@@ -52,57 +52,53 @@ std::string in_words_of_mapping(std::string message) {
     return message;
 }
 
-bool is_numeric(const FirstLines& sample, const Dialect& dialect, std::size_t field) {
-    std::vector<Field> fields;
+bool is_numeric(PartedLines& lines, const Dialect& dialect, std::size_t field) {
     bool has_number = false;
-    for (std::size_t k = dialect.has_header ? 1 : 0; k < sample.lines.size(); ++k) {
-        split_fields(sample.lines[k].text, dialect.separator, fields);
-        if (field >= fields.size()) continue;
-        const FieldKind kind = kind_of(fields[field], dialect.mark);
-        if (kind != FieldKind::number && kind != FieldKind::missing) return false;
-        has_number = has_number || kind == FieldKind::number;
+    for (const std::vector<FieldKind>& kinds :
+         lines.kinds(dialect.separator, dialect.mark).subspan(dialect.has_header ? 1 : 0)) {
+        if (field >= kinds.size()) continue;
+        if (kinds[field] != FieldKind::number && kinds[field] != FieldKind::missing) return false;
+        has_number = has_number || kinds[field] == FieldKind::number;
     }
     return has_number;
 }
 
 // Commas between names of our own, of which one is also a unit.
-bool names_our_columns(const FirstLines& sample) {
-    std::vector<Field> fields;
-    split_fields(sample.lines.front().text, ',', fields);
-    return std::ranges::count_if(fields, [](const Field& field) { return is_raw_key(field.text); }) > 1;
+bool names_our_columns(PartedLines& lines) {
+    return std::ranges::count_if(lines.rows(',').front(), [](const Field& field) { return is_raw_key(field.text); }) >
+           1;
+}
+
+// The columns of numbers that some way of reading shows; the first one where none does.
+std::vector<std::size_t> columns_of_numbers(const Recognition& recognition, PartedLines& lines) {
+    std::set<std::size_t> numeric;
+    for (const Reading& reading : recognition.readings()) {
+        if (reading.verdict != Verdict::good) continue;
+        for (std::size_t f = 0; f < reading.dialect.n_fields; ++f)
+            if (is_numeric(lines, reading.dialect, f)) numeric.insert(f);
+    }
+    if (numeric.empty()) return {0};
+    return {numeric.begin(), numeric.end()};
 }
 
 // Recognised by each column of numbers that some way of reading shows: two ways that differ in any of them are refused.
-Dialect dialect_of(const FirstLines& sample, const std::string& path, TextLayout layout) {
-    if (layout.separator == TextSeparator::automatic && names_our_columns(sample))
+Dialect dialect_of(PartedLines& lines, const std::string& path, TextLayout layout) {
+    if (layout.separator == TextSeparator::automatic && names_our_columns(lines))
         layout.separator = TextSeparator::comma;
-    TextLayout any = layout;
-    any.columns.clear();
-    std::vector<std::size_t> numeric;
-    for (const char separator : {'\t', ';', '|', ',', blanks_separator}) {
-        for (const Mark mark : {Mark::comma, Mark::point}) {
-            const Reading reading = read_as(separator, mark, sample, path, any);
-            if (reading.verdict != Verdict::good) continue;
-            for (std::size_t f = 0; f < std::min(reading.dialect.n_fields, max_columns_looked_at); ++f)
-                if (is_numeric(sample, reading.dialect, f)) numeric.push_back(f);
-        }
-    }
-    std::ranges::sort(numeric);
-    numeric.erase(std::unique(numeric.begin(), numeric.end()), numeric.end());
-    if (numeric.empty()) numeric = {0};
-    std::optional<Dialect> found;
+    Recognition recognition{lines, path, layout};
+    std::optional<Recognised> found;
     std::string reason;
-    for (const std::size_t f : numeric) {
-        layout.columns = {fmt::format("{}", f + 1)};
+    for (const std::size_t f : columns_of_numbers(recognition, lines)) {
         try {
-            const Dialect dialect = recognise_dialect(sample, path, layout);
-            if (found && found->separator != dialect.separator)
+            const Recognised one = recognition.of_columns({fmt::format("{}", f + 1)});
+            if (!found) found = one;
+            const char before = found->reading->dialect.separator, now = one.reading->dialect.separator;
+            if (before != now)
                 throw MappingError(
                     fmt::format("{}: its columns can be parted by {} or by {}; say which by --map "
                                 "separator=tab|semicolon|bar|comma|space",
-                                path, separator_words.at(found->separator), separator_words.at(dialect.separator)));
-            if (!found) found = dialect;
-            if (dialect.mark != Mark::none) found->mark = dialect.mark;
+                                path, separator_words.at(before), separator_words.at(now)));
+            if (one.mark != Mark::none) found->mark = one.mark;
         } catch (const FormatError& error) {
             const std::string message = in_words_of_mapping(error.what());
             if (message.find("say which") != std::string::npos) throw MappingError(message);
@@ -110,26 +106,32 @@ Dialect dialect_of(const FirstLines& sample, const std::string& path, TextLayout
         }
     }
     if (!found) throw FormatError(reason);
-    return *found;
+    return found->dialect();
 }
 
 // No row of numbers: a line that may stand above a table.
-bool may_be_preamble(const std::string& line) {
+bool may_be_preamble(PartedLines& lines) {
     for (const char separator : {'\t', ';', '|', ',', blanks_separator}) {
-        std::vector<Field> fields;
-        split_fields(line, separator, fields);
+        const std::vector<Field>& fields = lines.rows(separator).front();
         if (!fields.empty() && std::ranges::all_of(fields, [](const Field& field) {
                 return number_of(field.text, Mark::none).has_value() || says_missing(field.text) ||
                        date_time(field.text).has_value();
             }))
             return false;
     }
-    return std::ranges::any_of(line, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
+    return std::ranges::any_of(lines.lines().front().text,
+                               [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
 }
 
 struct Look {
+    Look(const std::string& path, const Mapping& mapping)
+        : layout{layout_of(mapping)}, sample{first_lines_of(path, layout)}, lines{sample} {}
+    Look(const Look&) = delete;
+    Look& operator=(const Look&) = delete;
+
     TextLayout layout;
     FirstLines sample;
+    PartedLines lines;
     Dialect dialect;
     std::vector<std::string> units;
     std::vector<std::string> preamble;
@@ -146,27 +148,31 @@ std::vector<std::string> words_of(const std::string& line, const Dialect& dialec
 }
 
 // Lines of words above the numbers: the last two may be names and units.
-Look look_at(const std::string& path, const Mapping& mapping) {
-    Look look{.layout = layout_of(mapping), .sample = {}, .dialect = {}, .units = {}, .preamble = {}};
+void find_table(Look& look, const std::string& path, const Mapping& mapping) {
     std::string reason;
-    for (std::int64_t skipped = 0; skipped <= max_preamble; ++skipped) {
-        look.sample = first_lines_of(path, look.layout);
-        if (look.sample.lines.empty()) break;
+    for (std::int64_t skipped = 0; skipped <= max_preamble && !look.lines.lines().empty(); ++skipped) {
         try {
-            look.dialect = dialect_of(look.sample, path, look.layout);
-            if (names_our_columns(look.sample)) look.layout.separator = TextSeparator::comma;
-            bool shows_numbers = false;
-            for (std::size_t f = 0; f < look.dialect.n_fields && !shows_numbers; ++f)
-                shows_numbers = is_numeric(look.sample, look.dialect, f);
-            if (shows_numbers) return look;
+            look.dialect = dialect_of(look.lines, path, look.layout);
+            if (names_our_columns(look.lines)) look.layout.separator = TextSeparator::comma;
+            for (std::size_t f = 0; f < look.dialect.n_fields; ++f)
+                if (is_numeric(look.lines, look.dialect, f)) return;
         } catch (const FormatError& error) {
             if (reason.empty()) reason = error.what();
         }
-        if (mapping.has("skip_lines") || !may_be_preamble(look.sample.lines.front().text)) break;
-        look.preamble.push_back(look.sample.lines.front().text);
+        if (mapping.has("skip_lines") || !may_be_preamble(look.lines)) break;
+        look.preamble.push_back(look.lines.lines().front().text);
+        look.lines.skip_line();
         ++look.layout.skip_lines;
     }
     throw FormatError(reason.empty() ? fmt::format("{}: holds no rows of numbers", path) : reason);
+}
+
+// One line of numbers may be a record that was written without ends of lines, and is none of rows.
+void refuse_one_row(const Look& look, const std::string& path) {
+    if (!look.sample.is_whole || look.lines.lines().size() != (look.dialect.has_header ? 2u : 1u)) return;
+    throw FormatError(fmt::format("{}:{}: holds one row, of {} field{}; allowed are rows, one below the other", path,
+                                  look.lines.lines().back().number, look.dialect.n_fields,
+                                  look.dialect.n_fields == 1 ? "" : "s"));
 }
 
 std::string without_brackets(std::string unit) {
@@ -218,29 +224,29 @@ void take_names_above(Look& look) {
         look.units.clear();
 }
 
-ForeignColumn column_of(const Look& look, std::size_t f) {
-    ForeignColumn column{
-        .number = static_cast<std::int64_t>(f) + 1, .name = {}, .first = {}, .values = {}, .not_plain = {}};
+ForeignColumn column_of(Look& look, std::size_t f) {
+    ForeignColumn column{.number = static_cast<std::int64_t>(f) + 1, .name = {}, .first = {}, .values = {}};
     if (f < look.dialect.names.size()) column.name = look.dialect.names[f];
     if (f < look.units.size() && !look.units[f].empty())
         column.name += fmt::format(" [{}]", without_brackets(look.units[f]));
-    column.is_number = is_numeric(look.sample, look.dialect, f);
+    column.is_number = is_numeric(look.lines, look.dialect, f);
     std::optional<DateTime> first_date;
-    std::vector<Field> fields;
-    for (std::size_t k = look.dialect.has_header ? 1 : 0; k < look.sample.lines.size(); ++k) {
-        split_fields(look.sample.lines[k].text, look.dialect.separator, fields);
+    for (const std::vector<Field>& fields :
+         look.lines.rows(look.dialect.separator).subspan(look.dialect.has_header ? 1 : 0)) {
         if (f >= fields.size()) break;
-        const std::string excerpt = text::excerpt(fields[f].text, 30, ' ');
-        if (column.values.empty()) column.first = excerpt;
-        if (!column.is_number && column.other.empty() && excerpt != column.first) column.other = excerpt;
+        if (column.values.empty()) column.first = text::excerpt(fields[f].text, 30, ' ');
         const auto number = number_of(fields[f].text, look.dialect.mark);
         double value = number ? number->value : std::numeric_limits<double>::quiet_NaN();
-        if (!column.is_number)
+        if (!column.is_number) {
+            if (column.other.empty())
+                if (std::string excerpt = text::excerpt(fields[f].text, 30, ' '); excerpt != column.first)
+                    column.other = std::move(excerpt);
             if (const auto date = date_time(fields[f].text)) {
                 if (!first_date) first_date = date;
                 value =
                     static_cast<double>(date->seconds - first_date->seconds) + date->fraction - first_date->fraction;
             }
+        }
         column.values.push_back(value);
     }
     column.holds_dates = first_date && std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
@@ -252,7 +258,7 @@ std::string nature_of(const Look& look) {
     if (look.dialect.n_fields > 1) nature += ", columns parted by " + separator_words.at(look.dialect.separator);
     if (look.dialect.mark != Mark::none)
         nature += look.dialect.mark == Mark::comma ? ", decimal comma" : ", decimal point";
-    const std::int64_t first_row = look.sample.lines[look.dialect.has_header ? 1 : 0].number;
+    const std::int64_t first_row = look.lines.lines()[look.dialect.has_header ? 1 : 0].number;
     nature += look.dialect.names.empty() ? ", no names of columns" : ", named columns";
     if (!look.units.empty()) nature += " with a line of units";
     return nature + fmt::format(", numbers from line {} on", first_row);
@@ -261,7 +267,9 @@ std::string nature_of(const Look& look) {
 }  // namespace
 
 ForeignTable text_table_of(const std::string& path, const Mapping& mapping) {
-    Look look = look_at(path, mapping);
+    Look look{path, mapping};
+    find_table(look, path, mapping);
+    refuse_one_row(look, path);
     take_names_above(look);
     ForeignTable table{.path = path, .nature = nature_of(look), .columns = {}, .notes = {}, .n_rows = {}, .read = {}};
     for (std::size_t f = 0; f < look.dialect.n_fields; ++f) table.columns.push_back(column_of(look, f));

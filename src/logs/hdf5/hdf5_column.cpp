@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "hdf5_chunks.hpp"
 
 namespace zlg::logs::hdf5 {
 
@@ -59,17 +59,8 @@ std::size_t DataSet::check_storage() {
         source_->fail(path_, "is stored in another file; allowed is a data set of this file");
     }
     if (layout != H5D_CHUNKED) return 0;
-    std::array<hsize_t, 2> chunk{1, 1};
-    if (H5Pget_chunk(creation.get(), rank_, chunk.data()) != rank_) source_->fail_to_read(path_);
-    const std::size_t value_bytes = H5Tget_size(type_.get());
-    const bool is_small = chunk[0] <= max_chunk_bytes && chunk[1] <= max_chunk_bytes / std::max<hsize_t>(chunk[0], 1) &&
-                          chunk[0] * chunk[1] <= max_chunk_bytes / value_bytes;
-    if (!is_small) {
-        source_->fail(path_, fmt::format("chunks of {} x {} values; allowed are {} MiB", chunk[0], chunk[1],
-                                         max_chunk_bytes >> 20));
-    }
-    chunk_ = chunk;
-    return H5Pget_nfilters(creation.get()) > 0 ? chunk[0] * chunk[1] * value_bytes : 0;
+    chunk_ = checked_chunk(*source_, path_, set_.get(), max_chunk_bytes);
+    return H5Pget_nfilters(creation.get()) > 0 ? chunk_[0] * chunk_[1] * H5Tget_size(type_.get()) : 0;
 }
 
 void DataSet::measure() {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
 
 #include "time_names.hpp"
@@ -36,6 +37,7 @@ double even_share(std::span<const double> values, const std::vector<double>& ste
 }
 
 constexpr std::size_t many_rows = 16;
+constexpr std::int64_t most_missing = 1'000'000'000'000'000;
 
 bool rises_evenly(std::span<const double> values) {
     if (values.size() < 3 || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return false;
@@ -129,9 +131,9 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
     times.tolerance = 1e-3 + 2.0 * (scatter + coarse) / counted;
     // By the mean step: stamps of 0, 2, 5, 7 ms have none that is the usual one.
     for (Hole& hole : times.holes) {
-        const double n = std::min(std::round(steps[hole.row] / times.step) - 1.0, 1e15);
+        const double n = std::min(std::round(steps[hole.row] / times.step) - 1.0, static_cast<double>(most_missing));
         hole.n_missing = std::max<std::int64_t>(static_cast<std::int64_t>(n), 1);
-        times.n_missing += hole.n_missing;
+        times.n_missing = std::min(times.n_missing + hole.n_missing, most_missing);
     }
     return times;
 }
@@ -153,6 +155,18 @@ std::string rate_in_words(const TextColumn& column, const RowTimes& times) {
     const std::optional<double> named = said_unit(column);
     return fmt::format("{} rises by {:.6g} a row, which is {:.6g} Hz{}", described(column), times.step,
                        named.value_or(1.0) / times.step, named ? "" : " in seconds");
+}
+
+void refuse_many_missing(const std::string& path, const std::string& column, std::span<const double> values,
+                         const RowTimes& times, const std::string& if_none) {
+    if (times.n_missing <= max_missing_rows(values.size())) return;
+    const std::size_t row = std::ranges::max_element(times.holes, {}, &Hole::n_missing)->row;
+    throw FormatError(
+        fmt::format("{}, {}: {} rows are missing, most of them after row {}, where it jumps from {} to {}; allowed are "
+                    "{} beside the "
+                    "{} that are there{}",
+                    path, column, times.n_missing, row + 1, values[row], values[row + 1],
+                    max_missing_rows(values.size()), values.size(), if_none));
 }
 
 void fill_holes(std::vector<double>& values, const RowTimes& times) {

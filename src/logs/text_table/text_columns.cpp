@@ -26,6 +26,9 @@ namespace {
 // The first of both ends the sample; a header and a row it has in any case.
 constexpr std::size_t sample_lines = 1000;
 constexpr std::size_t sample_bytes = std::size_t{1} << 20;
+// Of which the comment above may name the columns.
+constexpr std::size_t lines_with_comment = 64;
+constexpr std::size_t longest_comment = std::size_t{1} << 16;
 
 std::string_view without_leading_blanks(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r");
@@ -44,7 +47,8 @@ public:
         while (sample_.lines.size() < 2 || (sample_.lines.size() < sample_lines && n_bytes < sample_bytes)) {
             sample_.is_whole = !next_of_file(line);
             if (sample_.is_whole) break;
-            sample_.lines.push_back({lines_.line_number(), text::as_utf8(line)});
+            sample_.lines.push_back({lines_.line_number(), text::as_utf8(line), {}});
+            if (sample_.lines.size() <= lines_with_comment) sample_.lines.back().comment = comment_;
             n_bytes += line.size();
         }
         sample_.is_terminated = lines_.terminated();
@@ -72,7 +76,8 @@ private:
             const std::string_view text = without_leading_blanks(line);
             if (text.empty() || is_note_for_excel(text)) continue;
             if (!layout_.comment.empty() && text.starts_with(layout_.comment)) {
-                if (sample_.lines.empty()) sample_.comment = text.substr(layout_.comment.size());
+                if (sample_.lines.size() < lines_with_comment)
+                    comment_ = text.substr(layout_.comment.size(), longest_comment);
                 continue;
             }
             if (n_skipped_ == layout_.skip_lines) return true;
@@ -84,6 +89,7 @@ private:
     LineReader lines_;
     const TextLayout& layout_;
     FirstLines sample_;
+    std::string comment_;
     std::size_t n_handed_out_ = 0;
     std::int64_t n_skipped_ = 0;
     std::int64_t number_ = 0;
@@ -245,7 +251,9 @@ bool ends_with_a_line(const std::string& path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) return true;
     std::ifstream file{path, std::ios::binary};
-    return !file.seekg(-1, std::ios::end) || file.get() == '\n';
+    if (!file.seekg(-1, std::ios::end)) return true;
+    const int last = file.get();
+    return last == '\n' || last == '\r';
 }
 
 std::string described(const TextColumn& column) {

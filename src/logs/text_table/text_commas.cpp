@@ -121,11 +121,10 @@ bool is_unit(std::string_view name) {
 
 // The columns that the header names without leaving their number open: none where a unit stands for itself among the names,
 // or a comma among them may be one of prose.
-std::vector<bool> named_columns(const FirstLines& sample, const Dialect& dialect) {
+std::vector<bool> named_columns(PartedLines& lines, const Dialect& dialect) {
     std::vector<bool> named(dialect.n_fields, false);
     if (!dialect.has_header || dialect.names.size() != dialect.n_fields) return named;
-    std::vector<Field> names;
-    split_fields(sample.lines.front().text, dialect.separator, names);
+    const std::vector<Field>& names = lines.rows(dialect.separator).front();
     // Rows with one field more may end in a separator, or have an empty last field and a fraction between.
     if (names.size() != dialect.n_fields) return named;
     for (std::size_t f = 1; f < names.size(); ++f) {
@@ -149,13 +148,13 @@ bool may_be_thousands(const Field& before, const Field& field, char separator) {
 
 }  // namespace
 
-std::optional<std::size_t> likely_fraction(const FirstLines& sample, const Dialect& dialect) {
-    const std::vector<bool> named = named_columns(sample, dialect);
+std::optional<std::size_t> likely_fraction(PartedLines& lines, const Dialect& dialect) {
+    const std::vector<bool> named = named_columns(lines, dialect);
     std::vector<Suspect> suspects(dialect.n_fields);
     Points points{dialect.n_fields};
-    std::vector<Field> fields;
-    for (std::size_t k = dialect.has_header ? 1 : 0; k < sample.lines.size(); ++k) {
-        split_fields(sample.lines[k].text, dialect.separator, fields);
+    const auto rows = lines.rows(dialect.separator);
+    for (std::size_t k = dialect.has_header ? 1 : 0; k < rows.size(); ++k) {
+        const std::vector<Field>& fields = rows[k];
         for (std::size_t f = 0; f < fields.size() && f < dialect.n_fields; ++f) points.note(f, fields[f]);
         for (std::size_t f = 1; f < fields.size() && f < dialect.n_fields; ++f)
             if (suspects[f].is_open) suspects[f].note(fields[f - 1], fields[f]);
@@ -165,11 +164,11 @@ std::optional<std::size_t> likely_fraction(const FirstLines& sample, const Diale
     return std::nullopt;
 }
 
-std::optional<std::size_t> likely_thousands(const FirstLines& sample, const Dialect& dialect) {
+std::optional<std::size_t> likely_thousands(PartedLines& lines, const Dialect& dialect) {
     std::vector<bool> open(dialect.n_fields, true);
-    std::vector<Field> fields;
-    for (std::size_t k = dialect.has_header ? 1 : 0; k < sample.lines.size(); ++k) {
-        split_fields(sample.lines[k].text, dialect.separator, fields);
+    const auto rows = lines.rows(dialect.separator);
+    for (std::size_t k = dialect.has_header ? 1 : 0; k < rows.size(); ++k) {
+        const std::vector<Field>& fields = rows[k];
         for (std::size_t f = 0; f < dialect.n_fields; ++f)
             open[f] = open[f] && f + 1 < fields.size() && may_be_thousands(fields[f], fields[f + 1], dialect.separator);
     }
@@ -178,8 +177,8 @@ std::optional<std::size_t> likely_thousands(const FirstLines& sample, const Dial
     return static_cast<std::size_t>(found - open.begin());
 }
 
-bool header_counts_columns(const FirstLines& sample, const Dialect& dialect) {
-    const std::vector<bool> named = named_columns(sample, dialect);
+bool header_counts_columns(PartedLines& lines, const Dialect& dialect) {
+    const std::vector<bool> named = named_columns(lines, dialect);
     return named.size() > 1 && std::all_of(named.begin() + 1, named.end(), [](bool each) { return each; });
 }
 

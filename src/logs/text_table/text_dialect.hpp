@@ -12,12 +12,12 @@ namespace zlg::logs {
 struct Line {
     std::int64_t number = 0;
     std::string text;
+    std::string comment;  // the last one above it, without its mark; of the first lines alone
 };
 
 // What stands at the head of a file, comments and lines to skip left out.
 struct FirstLines {
     std::vector<Line> lines;
-    std::string comment;        // the last one above the first line, without its mark
     bool is_whole = false;      // the file has no more lines
     bool is_terminated = true;  // its last line has an end
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <span>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/escape.hpp>
 #include <zlg/text/spelling.hpp>
@@ -12,9 +13,6 @@
 namespace zlg::logs {
 
 namespace {
-
-// A row of more is no row of a table: what is held of the sample stays small.
-constexpr std::size_t max_fields = 100'000;
 
 // Said of a text that has both marks.
 const char* without_thousands(std::string_view text) {
@@ -64,45 +62,80 @@ bool commas_part_names(std::string_view header) {
 
 class Judge {
 public:
-    Judge(const FirstLines& sample, const std::string& path, const TextLayout& layout)
-        : sample_{sample}, path_{path}, layout_{layout} {}
+    Judge(PartedLines& lines, const std::string& path, const TextLayout& layout)
+        : parted_{lines}, lines_{lines.lines()}, path_{path}, layout_{layout} {}
 
     [[nodiscard]] Reading read(char separator, Mark mark) const {
         Reading reading;
         Dialect& dialect = reading.dialect;
         dialect.separator = separator;
         dialect.mark = mark;
-        std::vector<std::vector<Field>> rows(sample_.lines.size());
+        const Rows rows = parted_.rows(separator);
         for (std::size_t k = 0; k < rows.size(); ++k) {
-            split_fields(sample_.lines[k].text, separator, rows[k]);
             if (rows[k].size() <= max_fields) continue;
-            dialect.n_fields = rows[k].size();
-            refuse(reading, Verdict::ragged, k, fmt::format(": {} fields, allowed is {}", rows[k].size(), max_fields));
+            std::vector<Field> all;
+            split_fields(lines_[k].text, separator, all);
+            dialect.n_fields = all.size();
+            refuse(reading, Verdict::ragged, k, fmt::format(": {} fields, allowed is {}", all.size(), max_fields));
             return reading;
         }
         dialect.has_header = rows.size() > 1 && is_header(rows.front());
-        const bool good = counts_agree(rows, reading) && header_fits(rows, reading) &&
-                          fields_are_whole(rows, reading) && wanted_are_numbers(rows, reading);
-        if (good) reading.verdict = Verdict::good;
+        const bool good = counts_agree(rows, reading) && header_fits(rows, reading) && fields_are_whole(rows, reading);
+        if (!good) return reading;
+        reading.verdict = Verdict::good;
+        for (std::size_t k = first_row(dialect); k < rows.size() && !dialect.mark_is_sure; ++k)
+            for (const Field& field : rows[k]) note_mark(field, dialect);
         return reading;
     }
 
+    [[nodiscard]] AskedFor ask_for(const std::vector<std::string>& columns, const Reading& reading) const {
+        AskedFor asked;
+        const Dialect& dialect = reading.dialect;
+        try {
+            for (const std::string& column : columns) asked.fields.push_back(field_of(column, dialect, path_));
+        } catch (const FormatError& error) {
+            asked.verdict = Verdict::no_such_column;
+            asked.reason = error.what();
+            return asked;
+        }
+        const Rows rows = parted_.rows(dialect.separator);
+        for (std::size_t k = first_row(dialect); k < rows.size(); ++k) {
+            for (const std::size_t f : asked.fields) {
+                if (f >= rows[k].size()) continue;  // of the last line, which is cut
+                const std::string_view text = rows[k][f].text;
+                const auto number = number_of(text, dialect.mark);
+                if (!number && !says_missing(text)) {
+                    const char* hint = k == 0 ? "; a header has words alone, others are skipped by " : "";
+                    asked.verdict = Verdict::not_numbers;
+                    asked.reason = fmt::format(
+                        "{}:{}, column {}: '{}', allowed is a finite number, or nan where it is missing{}", path_,
+                        lines_[k].number, f + 1, shown(text), k == 0 ? hint + layout_.section + ".skip_lines" : "");
+                    return asked;
+                }
+                asked.values.push_back(number ? number->value : std::numeric_limits<double>::max());
+            }
+        }
+        return asked;
+    }
+
 private:
+    using Rows = std::span<const std::vector<Field>>;
+
     static std::size_t first_row(const Dialect& dialect) { return dialect.has_header ? 1 : 0; }
 
     bool refuse(Reading& reading, Verdict verdict, std::size_t line, const std::string& why) const {
         reading.verdict = verdict;
-        reading.reason = fmt::format("{}:{}{}", path_, sample_.lines[line].number, why);
+        reading.reason = fmt::format("{}:{}{}", path_, lines_[line].number, why);
         return false;
     }
 
-    bool counts_agree(const std::vector<std::vector<Field>>& rows, Reading& reading) const {
+    bool counts_agree(Rows rows, Reading& reading) const {
         Dialect& dialect = reading.dialect;
         const std::size_t first = first_row(dialect);
         dialect.n_fields = rows[first].size();
         for (std::size_t k = first; k < rows.size(); ++k) {
             if (rows[k].size() == dialect.n_fields) continue;
-            const bool last = sample_.is_whole && !sample_.is_terminated && k + 1 == rows.size();
+            const bool last = parted_.sample().is_whole && !parted_.sample().is_terminated && k + 1 == rows.size();
             if (last && k > first && rows[k].size() < dialect.n_fields) {
                 reading.is_cut = true;
                 continue;
@@ -113,7 +146,7 @@ private:
         return true;
     }
 
-    bool header_fits(const std::vector<std::vector<Field>>& rows, Reading& reading) const {
+    bool header_fits(Rows rows, Reading& reading) const {
         Dialect& dialect = reading.dialect;
         if (!dialect.has_header) {
             take_names_of_comment(dialect);
@@ -130,26 +163,27 @@ private:
             return refuse(
                 reading, Verdict::wrong_header, 0,
                 fmt::format(": the header '{}' names {} columns, and the rows have {}; {}.skip_lines = 1 skips it",
-                            shown(sample_.lines.front().text), names.size(), dialect.n_fields, layout_.section));
+                            shown(lines_.front().text), names.size(), dialect.n_fields, layout_.section));
         }
-        reading.names_hold_commas = dialect.separator != ',' && commas_part_names(sample_.lines.front().text);
+        reading.names_hold_commas = dialect.separator != ',' && commas_part_names(lines_.front().text);
         return true;
     }
 
     void take_names_of_comment(Dialect& dialect) const {
         std::vector<Field> names;
-        split_fields(sample_.comment, dialect.separator, names);
+        split_fields(lines_.front().comment, dialect.separator, names);
         if (names.size() != dialect.n_fields || !is_header(names)) return;
         for (const Field& name : names) dialect.names.emplace_back(name.text);
     }
 
     // What is said twice, separator and mark, needs no proof by columns that are not asked for.
-    bool fields_are_whole(const std::vector<std::vector<Field>>& rows, Reading& reading) const {
+    bool fields_are_whole(Rows rows, Reading& reading) const {
         if (layout_.separator != TextSeparator::automatic && layout_.mark != TextMark::automatic) return true;
+        const auto kinds = parted_.kinds(reading.dialect.separator, reading.dialect.mark);
         for (std::size_t k = first_row(reading.dialect); k < rows.size(); ++k) {
             for (std::size_t f = 0; f < rows[k].size(); ++f) {
                 const Field& field = rows[k][f];
-                const FieldKind kind = kind_of(field, reading.dialect.mark);
+                const FieldKind kind = kinds[k][f];
                 if (kind == FieldKind::broken ||
                     (kind == FieldKind::word && holds_a_separator(field, reading.dialect.separator)))
                     return refuse(
@@ -161,41 +195,13 @@ private:
         return true;
     }
 
-    bool wanted_are_numbers(const std::vector<std::vector<Field>>& rows, Reading& reading) const {
-        Dialect& dialect = reading.dialect;
-        try {
-            for (const std::string& column : layout_.columns)
-                dialect.wanted.push_back(field_of(column, dialect, path_));
-        } catch (const FormatError& error) {
-            reading.verdict = Verdict::no_such_column;
-            reading.reason = error.what();
-            return false;
-        }
-        for (std::size_t k = first_row(dialect); k < rows.size(); ++k) {
-            for (const std::size_t f : dialect.wanted) {
-                if (f >= rows[k].size()) continue;  // of the last line, which is cut
-                const std::string_view text = rows[k][f].text;
-                const auto number = number_of(text, dialect.mark);
-                if (!number && !says_missing(text)) {
-                    const char* hint = k == 0 ? "; a header has words alone, others are skipped by " : "";
-                    return refuse(
-                        reading, Verdict::not_numbers, k,
-                        fmt::format(", column {}: '{}', allowed is a finite number, or nan where it is missing{}",
-                                    f + 1, shown(text), k == 0 ? hint + layout_.section + ".skip_lines" : ""));
-                }
-                reading.wanted.push_back(number ? number->value : std::numeric_limits<double>::max());
-            }
-            for (const Field& field : rows[k]) note_mark(field, dialect);
-        }
-        return true;
-    }
-
     void note_mark(const Field& field, Dialect& dialect) const {
         const auto number = number_of(field.text, dialect.mark);
         if (number && number->mark != Mark::none && !number->is_grouped) dialect.mark_is_sure = true;
     }
 
-    const FirstLines& sample_;
+    PartedLines& parted_;
+    std::span<const Line> lines_;
     const std::string& path_;
     const TextLayout& layout_;
 };
@@ -242,9 +248,13 @@ std::size_t field_of(const std::string& column, const Dialect& dialect, const st
     return static_cast<std::size_t>(found - dialect.names.begin());
 }
 
-Reading read_as(char separator, Mark mark, const FirstLines& sample, const std::string& path,
-                const TextLayout& layout) {
-    return Judge{sample, path, layout}.read(separator, mark);
+Reading read_as(char separator, Mark mark, PartedLines& lines, const std::string& path, const TextLayout& layout) {
+    return Judge{lines, path, layout}.read(separator, mark);
+}
+
+AskedFor ask_for(const std::vector<std::string>& columns, const Reading& reading, PartedLines& lines,
+                 const std::string& path, const TextLayout& layout) {
+    return Judge{lines, path, layout}.ask_for(columns, reading);
 }
 
 }  // namespace zlg::logs

@@ -7,6 +7,7 @@
 
 #include <zlg/logs/text_columns.hpp>
 
+#include "parted_lines.hpp"
 #include "text_dialect.hpp"
 
 namespace zlg::logs {
@@ -18,14 +19,25 @@ struct Reading {
     Dialect dialect;
     Verdict verdict = Verdict::good;
     std::string reason;
-    std::vector<double> wanted;  // every number that is asked for, row by row
-    bool is_cut = false;         // but for the last line, which has no end
+    bool is_cut = false;  // but for the last line, which has no end
     bool names_hold_commas = false;
 };
 
 // The lines with that separator and that mark. It never fails: the verdict says how far it came, the reason what is wrong.
-[[nodiscard]] Reading read_as(char separator, Mark mark, const FirstLines& sample, const std::string& path,
+[[nodiscard]] Reading read_as(char separator, Mark mark, PartedLines& lines, const std::string& path,
                               const TextLayout& layout);
+
+// Columns of a good reading.
+struct AskedFor {
+    Verdict verdict = Verdict::good;
+    std::string reason;
+    std::vector<std::size_t> fields;  // from 0
+    std::vector<double> values;       // row by row
+};
+
+// Never fails either.
+[[nodiscard]] AskedFor ask_for(const std::vector<std::string>& columns, const Reading& reading, PartedLines& lines,
+                               const std::string& path, const TextLayout& layout);
 
 // The field of a column that is asked for by number or name.
 //

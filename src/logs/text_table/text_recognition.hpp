@@ -1,11 +1,15 @@
 #pragma once
 // What parts the columns of a text file and what the fraction, recognised together from its first lines.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <zlg/logs/text_columns.hpp>
 
+#include "parted_lines.hpp"
 #include "text_dialect.hpp"
+#include "text_reading.hpp"
 
 namespace zlg::logs {
 
@@ -13,6 +17,38 @@ namespace zlg::logs {
 //
 // errors  IoError, FormatError.
 [[nodiscard]] FirstLines first_lines_of(const std::string& path, const TextLayout& layout);
+
+// How columns are read.
+struct Recognised {
+    const Reading* reading = nullptr;  // of a Recognition
+    Mark mark = Mark::none;
+    bool mark_is_sure = false;
+    std::vector<std::size_t> wanted;  // fields that are asked for, from 0
+
+    [[nodiscard]] Dialect dialect() const;
+};
+
+// All ways to read the lines, from which each column that is asked for leaves one. All three must outlive it.
+class Recognition {
+public:
+    Recognition(PartedLines& lines, const std::string& path, const TextLayout& layout);
+
+    [[nodiscard]] const std::vector<Reading>& readings() const { return readings_; }
+
+    // errors  as recognise_dialect(). The time is that of reading these columns.
+    [[nodiscard]] Recognised of_columns(const std::vector<std::string>& columns);
+
+private:
+    [[noreturn]] void refuse_ambiguous(const Reading& reading, const std::string& one, const std::string& other) const;
+    [[nodiscard]] const std::string& suspicion(const Reading& reading);
+    [[nodiscard]] std::string suspicion_of(const Dialect& dialect);
+
+    PartedLines& lines_;
+    const std::string& path_;
+    const TextLayout& layout_;
+    std::vector<Reading> readings_;
+    std::vector<std::optional<std::string>> suspicions_;  // another way to read the same, in words; of each reading
+};
 
 // errors  FormatError: no way to read the lines as a table, or more than one; both are named, with the keys that decide.
 [[nodiscard]] Dialect recognise_dialect(const FirstLines& sample, const std::string& path, const TextLayout& layout);

@@ -13,15 +13,13 @@
 namespace zlg::logs {
 
 struct ForeignColumn {
-    std::int64_t number = 0;   // first is 1
-    std::string name;          // with the unit behind it in brackets, where the file says one; empty: it has none
-    bool is_number = true;     // or dates, or empty fields; else words
-    bool holds_dates = false;  // or times of the day: the values are seconds from the first one on
-    std::string first;         // value, as it stands in the file
-    std::string other;         // the first one that differs, of a column of words
-    // Of the first rows of a text file, of all rows of another one. NaN where a value is missing.
-    std::vector<double> values;
-    std::string not_plain;  // why its numbers are not what they stand for; empty: they are
+    std::int64_t number = 0;     // first is 1
+    std::string name;            // with the unit behind it in brackets, where the file says one; empty: it has none
+    bool is_number = true;       // or dates, or empty fields; else words
+    bool holds_dates = false;    // or times of the day: the values are seconds from the first one on
+    std::string first;           // value, as it stands in the file
+    std::string other;           // the first one that differs, of a column of words
+    std::vector<double> values;  // of the first rows; NaN where one is missing
 };
 
 struct ForeignTable {

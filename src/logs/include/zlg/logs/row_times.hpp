@@ -43,6 +43,11 @@ struct RowTimes {
 // "column 1, 'time', rises by 0.01 a row, which is 100 Hz in seconds".
 [[nodiscard]] std::string rate_in_words(const TextColumn& column, const RowTimes& times);
 
+// More rows are missing than may be filled in (budget.hpp): `column` for messages, `values` of it, `if_none` what to say if
+// none are missing. errors  FormatError: names the largest jump.
+void refuse_many_missing(const std::string& path, const std::string& column, std::span<const double> values,
+                         const RowTimes& times, const std::string& if_none);
+
 // Puts NaN where rows are missing.
 void fill_holes(std::vector<double>& values, const RowTimes& times);
 

@@ -51,7 +51,7 @@ struct TextTable {
 // The numbers of the columns asked for alone.
 [[nodiscard]] std::vector<std::vector<double>> read_text_columns(const std::string& path, const TextLayout& layout);
 
-// The last byte is a line feed, or the file is none that can be looked at twice. A file that was cut off in its last
+// The last byte ends a line, or the file is none that can be looked at twice. A file that was cut off in its last
 // number does not end so, and nothing else shows that the number is too short.
 [[nodiscard]] bool ends_with_a_line(const std::string& path);
 
