@@ -149,6 +149,8 @@ TEST_P(EitherLoop, AMissedFrameIsNoDarkness) {
     }
 }
 
+namespace {
+
 // Control and a plant whose light has the noise that its monitor presumes, times a factor.
 Loop noisy_loop(LoopKind kind) {
     return Loop{config_with([kind](GyroControlConfig& c) {
@@ -161,6 +163,8 @@ void add_noise(SensorFrame& f, std::mt19937& random, float factor) {
     for (float& x : f.light_a) x *= 1.0f + normal(random);
     for (float& x : f.light_b) x *= 1.0f + normal(random);
 }
+
+}  // namespace
 
 // The mean of two halves is free of a faded beam where the bias was reversed between them, not over a frame that was missed.
 TEST_P(EitherLoop, AMissedFrameLeavesTheNextHalfOfAFadedBeamWithoutADetuning) {
