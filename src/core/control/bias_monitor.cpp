@@ -101,7 +101,6 @@ BiasMonitorOutput step(const BiasMonitorConfig& config, BiasMonitorState& state,
     if (!(config.presumed_counts >= min_bias_counts)) return out;
     if (!input.counted || input.counts > max_exact_counts || input.counts < -max_exact_counts) {
         state.n_known = 0;
-        state.n_reversed = 0;
         return out;
     }
     const bool pair = follows(state, input);

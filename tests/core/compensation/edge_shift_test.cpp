@@ -169,6 +169,20 @@ TEST(EdgeShift, SaysWhatTheShiftsAddToTheDifferenceOfTheHalves) {
     }
 }
 
+// A tick that the edges leave no time has no rate; what it overflows is forgotten, and the next ones are corrected again.
+TEST(EdgeShift, ANumberThatOverflowsSpoilsNoLaterTick) {
+    EdgeShiftState s;
+    EXPECT_EQ(step(config, s, {.counts = 7, .offset_end_ticks = -50000}).value_arcsec, 3.263 * 7);
+    (void)step(config, s, {});
+    (void)step(config, s, {});
+    WholeGyro gyro;
+    Random random{7};
+    for (int k = 0; k < 100; ++k) {
+        const EdgeShiftInput in = gyro.tick(random.index(-12499, 12499), random.index(-12499, 12499));
+        EXPECT_NEAR(step(config, s, in).value_arcsec, 0.0, 1e-9);
+    }
+}
+
 TEST(EdgeShift, NothingThatComesOutIsNotANumber) {
     Random random{6};
     for (int k = 0; k < 2000; ++k) {

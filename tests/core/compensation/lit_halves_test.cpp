@@ -119,6 +119,41 @@ TEST(LitHalves, OnlyThoseThatReachTheEndOfTheGapAreUsed) {
     EXPECT_EQ(Scene{}.run(0.0, motion_arcsec2, true).n, 0);  // by phase, of which there is none
 }
 
+// Good halves of the other mode, whose bias has the other sign, are of the angle before the switch.
+TEST(LitHalves, ThoseOfAnotherModeAreNotUsed) {
+    Scene scene;
+    for (std::size_t h = 0; h < 6; ++h) {
+        HalfRecord& r = scene.halves[h];
+        r.mode = -1;
+        r.counts = 14 - r.counts;
+    }
+    EXPECT_EQ(scene.run().n, 4);
+}
+
+// By phase all from the fourth on are read to parts of a count, but the fourth begins in the dark: it is the first half of the
+// row until the end of the gap, and no point then.
+TEST(LitHalves, ByPhaseTheOneThatComesOutOfTheDarkIsNoPoint) {
+    Scene scene;
+    for (std::size_t h = 3; h < 20; ++h) scene.halves[h].fringe = 1000.0f;
+    LitHalvesState state;
+    Border start;
+    for (std::size_t t = 0; t <= 5; ++t) {
+        const LitTick tick{.first = scene.halves[2 * t],
+                           .second = scene.halves[2 * t + 1],
+                           .start = start,
+                           .tick = static_cast<std::int64_t>(t),
+                           .bias_arcsec = scale * bias_counts,
+                           .with_phase = true};
+        start = border_of(tick.second);
+        if (t < 5)
+            add_gap_tick(scene.gyro, state, tick, t == 0, motion_arcsec2);
+        else
+            end_gap(scene.gyro, state, tick, motion_arcsec2, 0.0);
+        EXPECT_EQ(state.n, t == 0 ? 0 : t < 5 ? static_cast<int>(2 * t - 1) : 6) << t;
+    }
+    EXPECT_EQ(state.half[0].value_arcsec, state.half[2].value_arcsec);
+}
+
 TEST(LitHalves, CountsThatContradictTheirNeighboursAreRefusedWithAllBefore) {
     for (std::size_t bad = 3; bad < 10; ++bad) {
         Scene scene;

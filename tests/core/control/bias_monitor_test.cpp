@@ -151,6 +151,17 @@ TEST(BiasMonitor, AChangeForGoodIsLearntAfterASecondAndNotBefore) {
     EXPECT_TRUE(counter.half().in_band) << "the way back is short";
 }
 
+// Each half is off by more than a twelfth of the one before: no level, however long it lasts.
+TEST(BiasMonitor, ABiasThatSwingsIsNoNewLevel) {
+    Counter counter;
+    counter.halves(500);
+    for (int k = 0; k < 1000; ++k) {
+        counter.bias = k % 2 == 0 ? 80.0 : 105.0;
+        counter.halves(2);
+        ASSERT_NEAR(counter.state.bias_counts, 150.0, 0.5) << k;
+    }
+}
+
 TEST(BiasMonitor, ABiasThatWasNeverThereIsLost) {
     Counter counter;
     counter.bias = 0.0;

@@ -169,6 +169,18 @@ TEST(FringeReadout, BothStuckAreSeenByTheComparators) {
     EXPECT_LE(n_read, 2);
 }
 
+// Once they were seen to be stuck they are, also while the comparators stand still.
+TEST(FringeReadout, BothStuckStayUnreadUntilTheyMove) {
+    Electronics e;
+    e.learn();
+    FringeReadoutInput in = e.input(70.1);
+    EXPECT_GE(e.read(in).fringe, 0);
+    in.quarter = (in.quarter + 1) & 3;
+    EXPECT_TRUE(std::isnan(e.read(in).fringe));
+    for (int k = 0; k < 5; ++k) EXPECT_TRUE(std::isnan(e.read(in).fringe)) << k;
+    EXPECT_GE(e.at(71.3).fringe, 0);
+}
+
 TEST(FringeReadout, NoiseFarBeyondThePresumedOneIsNotRead) {
     Electronics e;
     e.learn();

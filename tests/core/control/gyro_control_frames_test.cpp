@@ -2,6 +2,7 @@
 #include "gyro_control_support.hpp"
 
 #include <cmath>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -119,6 +120,80 @@ TEST_P(EitherLoop, SpoiltFramesInAndAroundASwitchDoNotMoveTheGrid) {
         EXPECT_EQ(loop.plant.helicity(), 1);
         for (const HalfRecord& r : loop.records) ASSERT_TRUE(all_finite(r));
     }
+}
+
+// The frame tells what was in force, and the record obeys it.
+TEST_P(EitherLoop, TheRecordHasTheModeThatTheFrameEchoes) {
+    Loop loop{config_of(GetParam())};
+    loop.ticks(50);
+    const HalfRecord r = loop.half([](SensorFrame& f) { f.polarity = -1; }).record;
+    EXPECT_EQ(r.mode, -1);
+    EXPECT_EQ(loop.health.back() & health_echo_error, health_echo_error);
+    EXPECT_EQ(loop.half().record.mode, 1);
+}
+
+// The stage stands still, so that the light of the open loop is that of the mode before; nothing but the missed frame is dark.
+TEST_P(EitherLoop, AMissedFrameIsNoDarkness) {
+    for (const bool missed : {false, true}) {
+        Loop loop{config_of(GetParam())};
+        loop.ticks(199);
+        loop.plant.stage_stuck = true;
+        for (int k = 0; k < 12; ++k) {
+            const HalfRecord& r = loop.half([&](SensorFrame& f) {
+                                          if (missed && k == 4) f.status |= frame_missed;
+                                      })
+                                      .record;
+            if (!r.loop_closed) EXPECT_FALSE(r.lit) << "half " << k << (missed ? ", a frame missed" : "");
+        }
+        EXPECT_FALSE(loop.open_runs().empty());
+    }
+}
+
+namespace {
+
+// Control and a plant whose light has the noise that its monitor presumes, times a factor.
+Loop noisy_loop(LoopKind kind) {
+    return Loop{config_with([kind](GyroControlConfig& c) {
+        c.loop.kind = kind;
+        c.light_monitor.noise = Wavelengths{0.0021};
+    })};
+}
+void add_noise(SensorFrame& f, std::mt19937& random, float factor) {
+    std::normal_distribution<float> normal{0.0f, 0.001f * factor};
+    for (float& x : f.light_a) x *= 1.0f + normal(random);
+    for (float& x : f.light_b) x *= 1.0f + normal(random);
+}
+
+}  // namespace
+
+// The mean of two halves is free of a faded beam where the bias was reversed between them, not over a frame that was missed.
+TEST_P(EitherLoop, AMissedFrameLeavesTheNextHalfOfAFadedBeamWithoutADetuning) {
+    Loop loop = noisy_loop(GetParam());
+    std::mt19937 random{5};
+    const auto faded = [&random](SensorFrame& f) {
+        add_noise(f, random, 1.0f);
+        for (float& x : f.light_a) x *= 0.95f;
+    };
+    loop.ticks(100, faded);
+    EXPECT_NE(loop.health.back() & health_light_unbalanced, 0u);
+    EXPECT_NE(loop.half(faded).record.detuning_lambda, 0.0);
+    (void)loop.half([](SensorFrame& f) { f.status = frame_missed; });
+    EXPECT_EQ(loop.half(faded).record.detuning_lambda, 0.0);
+    EXPECT_NEAR(loop.half(faded).record.detuning_lambda, 0.0, 0.01);
+    EXPECT_NE(loop.records.back().detuning_lambda, 0.0);
+}
+
+// Due at tick 200, where the light is noisy until tick 230.
+TEST_P(EitherLoop, NoSwitchBeginsWhileTheLightIsNoisy) {
+    Loop loop = noisy_loop(GetParam());
+    std::mt19937 random{6};
+    for (int tick = 0; tick < 260; ++tick) {
+        const float factor = tick >= 190 && tick < 230 ? 30.0f : 1.0f;
+        loop.ticks(1, [&](SensorFrame& f) { add_noise(f, random, factor); });
+    }
+    ASSERT_EQ(loop.open_runs().size(), 1u);
+    EXPECT_GE(loop.open_runs()[0].first, 460);
+    EXPECT_LE(loop.open_runs()[0].first, 464);
 }
 
 TEST_P(EitherLoop, ADetuningOfUncertainSignIsNotUsed) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 #include <zlg/core/common/discriminator_curve.hpp>
 #include <zlg/core/common/maths.hpp>
@@ -296,6 +297,19 @@ TEST(LightMonitor, NoDetuningIsBeyondTheNextMode) {
     light.detuning_lambda = 0.6;
     light.deficit_ratio = 10.0;
     EXPECT_FALSE(light.halves(3).usable);
+}
+
+// The next mode is half a wavelength away, read with the noise: four deviations of 0.0033 beyond it.
+TEST(LightMonitor, ADetuningUpToTheNextModeIsUsedWithItsNoise) {
+    for (const double sign : {1.0, -1.0}) {
+        for (const auto& [detuning_lambda, usable] : {std::pair{0.499, true}, {0.51, true}, {0.516, false}}) {
+            Light light;
+            light.noise_lambda = 0.0001;
+            light.detuning_lambda = sign * detuning_lambda;
+            light.deficit_ratio = 10.0;
+            EXPECT_EQ(light.halves(3).usable, usable) << sign * detuning_lambda;
+        }
+    }
 }
 
 TEST(LightMonitor, WhatItRemembersOfDamagedLightAreNumbers) {
