@@ -1,5 +1,6 @@
 // Estimates of switches whose windows come as numbers on the standard input, for the test that holds them against the reference in
-// NumPy (tests/reference). One case after the other; for each, one line: known, angle, variance, scale, its variance.
+// NumPy (tests/reference). One case after the other; for each, one line: known, angle, variance, scale, its variance, then
+// angle and variance of each row.
 
 #include <array>
 #include <cstdlib>
@@ -82,6 +83,7 @@ void read_light(SwitchWindow& window, int halves, int samples) {
 }
 
 void answer(EstimateRoom& room) {
+    const auto n_bank = static_cast<std::size_t>(whole());
     SwitchWindow window = window_of(whole());
     const int light_halves = whole();
     const int samples = whole();
@@ -95,9 +97,14 @@ void answer(EstimateRoom& room) {
     read_moments(motion);
     read_halves(window);
     read_light(window, light_halves, samples);
-    const SwitchEstimate e = estimate(gyro, window, motion, scale, room);
+    const SwitchEstimate e = estimate(gyro, window, motion, scale, room, std::span{motion_bank}.first(n_bank));
     std::cout << e.known << ' ' << e.angle_arcsec << ' ' << e.variance_arcsec2 << ' ' << e.scale.value << ' '
-              << e.scale.variance << '\n';
+              << e.scale.variance;
+    for (int r = 0; r < window.n_rows; ++r) {
+        const RowEstimate& row = e.row[static_cast<unsigned>(r)];
+        std::cout << ' ' << row.angle_arcsec << ' ' << row.variance_arcsec2;
+    }
+    std::cout << '\n';
 }
 
 }  // namespace

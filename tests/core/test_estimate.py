@@ -94,17 +94,18 @@ def drawn_case(draw, mixed):
     return gyro, window, *second_moments(y[:learnt], length), draw.choice([0.0, 0.02]), draw.choice([0.01, 1e-4])
 
 
-def text_of(gyro, window, moments, windows, scale, scale_var):
+def text_of(gyro, window, moments, windows, scale, scale_var, bank=len(reference.BANK)):
     """A case as the program reads it."""
-    numbers = [len(window.rows), *window.gap, len(window.y), *(window.light.shape if window.light.size else (0, 1)),
+    numbers = [bank, len(window.rows), *window.gap, len(window.y), *(window.light.shape if window.light.size else (0, 1)),
                gyro.scale, gyro.bias, gyro.chi, gyro.light_noise, gyro.tick_s, gyro.random_walk, gyro.fringe_noise or 0.0,
                gyro.fringe_noise is not None, scale, scale_var, window.magnetic_variance, windows]
     numbers += [x for row in window.rows for x in row]
     return " ".join(repr(float(x)) for x in [*numbers, *moments.ravel(), *window.y, *window.sign, *window.light.ravel()])
 
 
-def estimates(cases):
-    done = subprocess.run([PROGRAM], input="\n".join(text_of(*case) for case in cases) + "\n", capture_output=True, text=True, check=True)
+def estimates(cases, **more):
+    """For each case: known, angle, variance, scale, its variance, then angle and variance of each row."""
+    done = subprocess.run([PROGRAM], input="\n".join(text_of(*case, **more) for case in cases) + "\n", capture_output=True, text=True, check=True)
     return [[float(x) for x in line.split()] for line in done.stdout.splitlines()]
 
 
@@ -112,13 +113,41 @@ def estimates(cases):
 def test_the_core_and_the_reference_agree(mixed):
     draw = np.random.default_rng(20261127 + mixed)
     cases = [drawn_case(draw, mixed) for _ in range(120)]
-    for case, (known, angle, variance, scale, scale_var) in zip(cases, estimates(cases), strict=True):
+    for case, (known, angle, variance, scale, scale_var, *_) in zip(cases, estimates(cases), strict=True):
         want = reference.estimate(*case)
         assert known == 1
         assert abs(angle - want[0]) <= 1e-5 * np.sqrt(want[1])
         assert variance == pytest.approx(want[1], rel=1e-5, abs=1e-12)
         assert scale == pytest.approx(want[2], rel=1e-5, abs=1e-5 * np.sqrt(want[3]))
         assert scale_var == pytest.approx(want[3], rel=1e-5)
+
+
+def only(window, r):
+    """The same window with one row wanted."""
+    rows = [(*row[:3], k == r) for k, row in enumerate(window.rows)]
+    return reference.Window(rows, window.gap, window.y, window.sign, window.light, window.magnetic_variance)
+
+
+def test_each_row_is_estimated_as_if_it_alone_were_wanted():
+    draw = np.random.default_rng(6)
+    cases = [drawn_case(draw, mixed) for mixed in [False, True] * 6]
+    for case, (known, angle, variance, *rest) in zip(cases, estimates(cases, bank=0), strict=True):
+        gyro, window, moments, windows, scale, scale_var = case
+        rows = rest[2:]
+        for r in [k for k, row in enumerate(window.rows) if row[3]]:
+            want = reference.estimate(gyro, only(window, r), moments, windows, scale, scale_var, bank=[])
+            assert abs(rows[2 * r] - want[0]) < 1e-4 * np.sqrt(want[1])
+            assert rows[2 * r + 1] == pytest.approx(want[1], rel=1e-4)
+
+
+def test_the_rows_add_up_to_the_angle_of_the_mixture():
+    draw = np.random.default_rng(9)
+    cases = [drawn_case(draw, mixed) for mixed in [False, True] * 10]
+    for case, (known, angle, variance, *rest) in zip(cases, estimates(cases), strict=True):
+        wanted = [k for k, row in enumerate(case[1].rows) if row[3]]
+        assert sum(rest[2:][2 * r] for r in wanted) == pytest.approx(angle, abs=1e-6 * np.sqrt(variance) + 1e-9)
+        if len(wanted) == 1:
+            assert rest[2:][2 * wanted[0] + 1] == pytest.approx(variance, rel=1e-6)
 
 
 def test_what_lies_in_the_gap_is_never_read():

@@ -193,7 +193,7 @@ def estimate(gyro, window, moments, windows, scale=0.0, scale_var=0.01, bank=BAN
                       g[1, 3] - level * g[0, 3], scale_var - g[3, 3] + g[0, 3] ** 2 / g[0, 0]))
     evidence, angle, variance, shift, shift_var = np.array(found).T
     of_learnt = 0.5 if windows >= 25 else 0.05
-    weight = np.r_[of_learnt, np.full(len(found) - 1, (1 - of_learnt) / (len(bank) * len(SIZES)))] * np.exp(evidence - evidence.max())
+    weight = np.r_[of_learnt, np.full(len(found) - 1, (1 - of_learnt) / max(len(bank) * len(SIZES), 1))] * np.exp(evidence - evidence.max())
     weight /= weight.sum()
     mixed = lambda m, v: (weight @ m, weight @ (v + (m - weight @ m) ** 2))
     (mean, var), (moved, moved_var) = mixed(angle, variance), mixed(shift, shift_var)

@@ -81,7 +81,7 @@ private:
     [[nodiscard]] Half half_of(const LightBasis& basis, int h) const noexcept;
 
     bool known_ = false;
-    std::array<double, most_light_terms> term_{};                      // c
+    std::array<double, most_light_terms> term_{};                       // c
     std::array<double, triangle_size(most_light_terms)> covariance_{};  // cov c
     std::array<Half, most_light_halves> halves_;
 };

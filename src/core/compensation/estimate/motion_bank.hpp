@@ -30,8 +30,8 @@ inline constexpr std::array<BankMember, 6> motion_bank{{{2, WalkPlace::everywher
                                                         {2, WalkPlace::after, 8}}};
 
 // Variances of a member, in units of the variance of a half that its neighbours do not foretell: 10^-3.5 to 10^11.5.
-inline constexpr std::array<double, 11> motion_sizes{
-    3.1622776601683794e-4, 1e-2,  3.1622776601683794e-1, 1e1,  3.1622776601683794e2, 1e4, 3.1622776601683794e5, 1e7,
-    3.1622776601683794e8,  1e10, 3.1622776601683794e11};
+inline constexpr std::array<double, 11> motion_sizes{3.1622776601683794e-4, 1e-2, 3.1622776601683794e-1, 1e1,
+                                                     3.1622776601683794e2,  1e4,  3.1622776601683794e5,  1e7,
+                                                     3.1622776601683794e8,  1e10, 3.1622776601683794e11};
 
 }  // namespace zlg::core

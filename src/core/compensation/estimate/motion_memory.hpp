@@ -26,13 +26,13 @@ inline constexpr int part_halves = 16;
 inline constexpr int block_halves = 1024;
 
 struct MotionMemory {
-    MotionMoments moments{};  // of the runs that have ended
-    double level_arcsec = 0.0;  // first half of the run: what is subtracted from all
-    int n_run = 0;              // halves of the run in the products
-    int n_waiting = 0;          // and those that wait for the end of their part
-    double sum = 0.0;           // of the n_run halves
-    std::array<double, most_window_halves> product{};                // P_k
-    std::array<double, most_window_halves> head{};                   // the first L - 1 halves of the run
+    MotionMoments moments{};                           // of the runs that have ended
+    double level_arcsec = 0.0;                         // first half of the run: what is subtracted from all
+    int n_run = 0;                                     // halves of the run in the products
+    int n_waiting = 0;                                 // and those that wait for the end of their part
+    double sum = 0.0;                                  // of the n_run halves
+    std::array<double, most_window_halves> product{};  // P_k
+    std::array<double, most_window_halves> head{};     // the first L - 1 halves of the run
     std::array<double, most_window_halves + part_halves> recent{};  // its last L - 1 halves, then those that wait
 
     friend bool operator==(const MotionMemory&, const MotionMemory&) = default;

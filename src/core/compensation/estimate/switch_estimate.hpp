@@ -15,6 +15,9 @@
 // weighed by their restricted likelihood and a prior, and the estimate is the mean of the mixture (Searle, Casella and
 // McCulloch, Variance Components, 1992, ch. 6; kriging with an unknown mean: Stein, Interpolation of Spatial Data, 1999).
 //
+// The mixture decides the angle of all that is wanted. How it is spread over the rows follows from the mean covariance of the
+// members, given that sum: as of Gaussian variables whose sum is known.
+//
 // A pure function: no state, no stages. The scale of chi f0 goes in and out by value.
 
 #include <array>
@@ -28,22 +31,32 @@
 
 namespace zlg::core {
 
+// A row that is wanted: its angle, with the error of the re-lock taken off if it was read.
+struct RowEstimate {
+    double angle_arcsec = 0.0;
+    double variance_arcsec2 = 0.0;
+};
+
 struct SwitchEstimate {
-    bool known = false;  // false: the factor that gives the unit failed, or no member has finite evidence
-    double angle_arcsec = 0.0;  // of the rows that are wanted
+    bool known = false;         // false: the factor that gives the unit failed, or no member has finite evidence
+    double angle_arcsec = 0.0;  // of all rows that are wanted
     double variance_arcsec2 = 0.0;
     RelockScale scale{};
+    std::array<RowEstimate, most_window_rows> row{};
 };
 
 inline constexpr int estimate_rows = most_window_rows + 4;  // with the right-hand sides
 
 // Room to work in, of the caller: what it holds before and after is of no account.
 struct EstimateRoom {
-    std::array<double, triangle_size(estimate_rows)> motion{};
-    std::array<double, triangle_size(estimate_rows)> base{};
+    std::array<double, triangle_size(most_window_rows)> motion{};  // C + D R D^T of all rows
+    std::array<double, triangle_size(most_window_rows)> errors{};  // E
+    std::array<double, triangle_size(estimate_rows)> base{};       // V of the points, and its border
+    std::array<double, triangle_size(estimate_rows)> kernel{};
     std::array<double, triangle_size(estimate_rows)> factor{};
 };
 
+// bank  of at most as many members as `motion_bank`.
 [[nodiscard]] SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& window,
                                       const MotionMoments& motion, const RelockScale& scale, EstimateRoom& room,
                                       std::span<const BankMember> bank = motion_bank) noexcept;

@@ -11,8 +11,8 @@
 
 namespace zlg::core {
 
-inline constexpr int before_halves = 16;      // of the window, before the gap
-inline constexpr int after_halves = 40;       // and after it
+inline constexpr int before_halves = 16;  // of the window, before the gap
+inline constexpr int after_halves = 40;   // and after it
 inline constexpr int most_gap_halves = 80;
 inline constexpr int most_window_halves = before_halves + most_gap_halves + after_halves;
 inline constexpr int most_window_rows = 64;
@@ -20,10 +20,11 @@ inline constexpr int most_window_rows = 64;
 // A stretch of the window whose angle was read, or is wanted, as one number. The rows follow one another without a hole.
 struct WindowRow {
     Stretch halves{};
-    bool read = false;       // its angle was read: a point
-    bool wanted = false;     // its angle is part of what is asked for
-    bool after_gap = false;  // on that side of it
-    double y_arcsec = 0.0;   // as read, without the bias
+    bool read = false;           // its angle was read: a point
+    bool wanted = false;         // its angle is part of what is asked for
+    bool after_gap = false;      // on that side of it
+    double y_arcsec = 0.0;       // as read, without the bias
+    double error_arcsec2 = 0.0;  // variance of what else it may hold, which stays in the angle if it is wanted
 };
 
 struct SwitchWindow {

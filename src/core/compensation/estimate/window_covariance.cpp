@@ -42,9 +42,7 @@ double trace_of(const MotionMoments& motion, int shift, int halves) noexcept {
     return sum;
 }
 
-int sign_of(const SwitchWindow& window, int half) noexcept {
-    return window.bias_sign[static_cast<unsigned>(half)];
-}
+int sign_of(const SwitchWindow& window, int half) noexcept { return window.bias_sign[static_cast<unsigned>(half)]; }
 
 double bias_per_half_arcsec(const CompensationConstants& gyro) noexcept {
     return gyro.bias.value() * gyro.scale.value() * gyro.tick.value() / 2.0;
@@ -139,7 +137,7 @@ void error_covariance(const CompensationConstants& gyro, const SwitchWindow& win
                 if (row.after_gap == other.after_gap)
                     e += bias * bias * alternation(window, row) * alternation(window, other);
             }
-            into.row(r)[s] = e;
+            into.row(r)[s] = r == s && row.read ? e + row.error_arcsec2 : e;
         }
     }
     readings.rate_arcsec = halves > 0.0 ? sum / halves : 0.0;

@@ -12,9 +12,9 @@ namespace zlg::core {
 
 // What the readings of the rows are, beside their covariance.
 struct WindowReadings {
-    double rate_arcsec = 0.0;                              // mean of the points, a half
-    std::array<double, most_window_rows> false_arcsec{};   // d of each row, by the configured chi f0
-    std::array<double, most_window_rows> angle_arcsec{};   // y + (1 + scale) d
+    double rate_arcsec = 0.0;                             // mean of the points, a half
+    std::array<double, most_window_rows> false_arcsec{};  // d of each row, by the configured chi f0
+    std::array<double, most_window_rows> angle_arcsec{};  // y + (1 + scale) d
 };
 
 // C: the learnt covariance, of which the roundings that the moments hold are taken out, as large a share as leaves it positive.
