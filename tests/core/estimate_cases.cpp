@@ -40,7 +40,7 @@ CompensationConstants constants() {
 
 void read_moments(MotionMoments& motion) {
     for (int i = 0; i < motion.length; ++i)
-        for (int j = 0; j < motion.length; ++j) motion.sum[moment_index(motion.length, i, j)] = number();
+        for (int j = 0; j < motion.length; ++j) motion.sum[moment_place(motion.length, i, j)] = number();
 }
 
 SwitchWindow window_of(int n_rows) {

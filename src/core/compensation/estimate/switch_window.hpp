@@ -51,9 +51,9 @@ struct MotionMoments {
     friend bool operator==(const MotionMoments&, const MotionMoments&) = default;
 };
 
-[[nodiscard]] constexpr std::size_t moment_index(int length, int i, int j) noexcept {
-    if (i > j) return moment_index(length, j, i);
-    if (i + j > length - 1) return moment_index(length, length - 1 - j, length - 1 - i);
+[[nodiscard]] constexpr std::size_t moment_place(int length, int i, int j) noexcept {
+    if (i > j) return moment_place(length, j, i);
+    if (i + j > length - 1) return moment_place(length, length - 1 - j, length - 1 - i);
     return static_cast<std::size_t>(i * (length + 1 - i) + j - i);
 }
 

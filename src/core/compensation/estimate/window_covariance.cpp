@@ -32,7 +32,7 @@ double mean_product(const MotionMoments& motion, int shift, const Stretch& one, 
     double sum = 0.0;
     for (int i = one.first; i < one.last; ++i)
         for (int j = other.first; j < other.last; ++j)
-            sum += motion.sum[moment_index(motion.length, i + shift, j + shift)];
+            sum += motion.sum[moment_place(motion.length, i + shift, j + shift)];
     return sum / (motion.n_windows > 1.0 ? motion.n_windows : 1.0);
 }
 

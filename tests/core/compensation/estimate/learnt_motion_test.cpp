@@ -1,4 +1,4 @@
-#include "compensation/estimate/motion_memory.hpp"
+#include "compensation/estimate/learnt_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace motion_memory_test {
+namespace learnt_motion_test {
 
 using compensation_test::Random;
 using zlg::core::add;
 using zlg::core::block_halves;
-using zlg::core::moment_index;
-using zlg::core::MotionMemory;
+using zlg::core::moment_place;
+using zlg::core::LearntMotion;
 using zlg::core::part_halves;
 using zlg::core::start;
 
@@ -43,23 +43,23 @@ std::vector<std::vector<double>> direct(const std::vector<double>& x, std::size_
     return sum;
 }
 
-void expect_equal(const MotionMemory& memory, const std::vector<std::vector<double>>& sum) {
+void expect_equal(const LearntMotion& memory, const std::vector<std::vector<double>>& sum) {
     const int length = memory.moments.length;
     for (int i = 0; i < length; ++i)
         for (int j = 0; j < length; ++j)
-            ASSERT_NEAR(memory.moments.sum[moment_index(length, i, j)],
+            ASSERT_NEAR(memory.moments.sum[moment_place(length, i, j)],
                         sum[static_cast<unsigned>(i)][static_cast<unsigned>(j)], 1e-9 * sum[0][0])
                 << i << ' ' << j;
 }
 
-void add_all(MotionMemory& memory, const std::vector<double>& x, std::int64_t first_half) {
+void add_all(LearntMotion& memory, const std::vector<double>& x, std::int64_t first_half) {
     for (std::size_t s = 0; s < x.size(); ++s)
         add(memory, first_half + static_cast<std::int64_t>(s), true, x[s], forget_ticks);
 }
 
-TEST(MotionMemory, HoldsTheProductsOfAllWindowsOfARun) {
+TEST(LearntMotion, HoldsTheProductsOfAllWindowsOfARun) {
     for (const int length : {8, 20, 62}) {
-        MotionMemory memory;
+        LearntMotion memory;
         start(memory, length);
         const auto x = some_motion(10 * part_halves, 3);
         add_all(memory, x, 0);
@@ -69,9 +69,9 @@ TEST(MotionMemory, HoldsTheProductsOfAllWindowsOfARun) {
     }
 }
 
-TEST(MotionMemory, HalvesThatBeginAPartWithoutEndingItAreNotIn) {
-    MotionMemory whole;
-    MotionMemory more;
+TEST(LearntMotion, HalvesThatBeginAPartWithoutEndingItAreNotIn) {
+    LearntMotion whole;
+    LearntMotion more;
     start(whole, 20);
     start(more, 20);
     const auto x = some_motion(4 * part_halves + 9, 5);
@@ -82,8 +82,8 @@ TEST(MotionMemory, HalvesThatBeginAPartWithoutEndingItAreNotIn) {
     EXPECT_EQ(whole.moments, more.moments);
 }
 
-TEST(MotionMemory, ARunThatBeginsWithinAPartLosesNothingOfIt) {
-    MotionMemory memory;
+TEST(LearntMotion, ARunThatBeginsWithinAPartLosesNothingOfIt) {
+    LearntMotion memory;
     start(memory, 8);
     const auto x = some_motion(part_halves + 5, 6);
     add_all(memory, x, 3 * part_halves - 5);
@@ -91,8 +91,8 @@ TEST(MotionMemory, ARunThatBeginsWithinAPartLosesNothingOfIt) {
     expect_equal(memory, direct(x, 0, x.size(), 8));
 }
 
-TEST(MotionMemory, WindowsThatStraddleBlocksCount) {
-    MotionMemory memory;
+TEST(LearntMotion, WindowsThatStraddleBlocksCount) {
+    LearntMotion memory;
     start(memory, 20);
     const auto x = some_motion(2 * block_halves, 7);
     add_all(memory, x, 0);
@@ -106,14 +106,14 @@ TEST(MotionMemory, WindowsThatStraddleBlocksCount) {
     expect_equal(memory, sum);
 }
 
-TEST(MotionMemory, AShortRunTeachesNothing) {
-    MotionMemory memory;
+TEST(LearntMotion, AShortRunTeachesNothing) {
+    LearntMotion memory;
     start(memory, 62);
     add_all(memory, some_motion(3 * part_halves, 8), 0);
     add(memory, 3 * part_halves, false, 0.0, forget_ticks);
-    MotionMemory nothing;
+    LearntMotion nothing;
     start(nothing, 62);
     EXPECT_EQ(memory.moments, nothing.moments);
 }
 
-}  // namespace motion_memory_test
+}  // namespace learnt_motion_test

@@ -25,7 +25,7 @@ namespace zlg::core {
 inline constexpr int part_halves = 16;
 inline constexpr int block_halves = 1024;
 
-struct MotionMemory {
+struct LearntMotion {
     MotionMoments moments{};                           // of the runs that have ended
     double level_arcsec = 0.0;                         // first half of the run: what is subtracted from all
     int n_run = 0;                                     // halves of the run in the products
@@ -35,18 +35,18 @@ struct MotionMemory {
     std::array<double, most_window_halves> head{};     // the first L - 1 halves of the run
     std::array<double, most_window_halves + part_halves> recent{};  // its last L - 1 halves, then those that wait
 
-    friend bool operator==(const MotionMemory&, const MotionMemory&) = default;
+    friend bool operator==(const LearntMotion&, const LearntMotion&) = default;
 };
 
 // Begin with nothing learnt.
 //
 // length  L, even, up to most_window_halves.
-void start(MotionMemory& memory, int length) noexcept;
+void start(LearntMotion& memory, int length) noexcept;
 
 // A half; its index; its angle without the bias.
 //
 // settled       measured, and free of re-lock; another half ends the run.
 // forget_ticks  age at which a window counts 1/e.
-void add(MotionMemory& memory, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept;
+void add(LearntMotion& memory, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept;
 
 }  // namespace zlg::core

@@ -1,4 +1,4 @@
-#include "motion_memory.hpp"
+#include "learnt_motion.hpp"
 
 #include <zlg/core/common/maths.hpp>
 
@@ -8,7 +8,7 @@ namespace {
 double& of(auto& numbers, int i) noexcept { return numbers[static_cast<unsigned>(i)]; }
 
 // P_k of the halves that wait: each with the L - 1 before it that belong to the run.
-void take_part(MotionMemory& m) noexcept {
+void take_part(LearntMotion& m) noexcept {
     const int length = m.moments.length;
     const int kept = m.n_run < length - 1 ? m.n_run : length - 1;
     for (int w = 0; w < m.n_waiting; ++w) {
@@ -29,12 +29,12 @@ void take_part(MotionMemory& m) noexcept {
 // Sums over the windows of a run of x at place i, and of products at the places i and i + k, as they follow from those of the
 // whole run when its first and last halves are taken off.
 struct RunSums {
-    const MotionMemory& m;
+    const LearntMotion& m;
     double mean = 0.0;
     int n_windows = 0;
     std::array<double, most_window_halves> at{};  // of x at place i
 
-    explicit RunSums(const MotionMemory& memory) noexcept : m{memory} {
+    explicit RunSums(const LearntMotion& memory) noexcept : m{memory} {
         const int length = m.moments.length;
         n_windows = m.n_run - length + 1;
         mean = m.sum / m.n_run;
@@ -52,7 +52,7 @@ struct RunSums {
 };
 
 // Add the moments of a run that ends, for windows that lie in it.
-void fold(MotionMemory& m, double forget_ticks) noexcept {
+void fold(LearntMotion& m, double forget_ticks) noexcept {
     MotionMoments& moments = m.moments;
     const int length = moments.length;
     if (m.n_run < length) return;
@@ -66,22 +66,22 @@ void fold(MotionMemory& m, double forget_ticks) noexcept {
         for (int s = 0; s + k < length - 1; ++s) off += of(m.recent, s) * of(m.recent, s + k);
         for (int i = 0; i + k < length; ++i) {
             const int j = i + k;
-            moments.sum[moment_index(length, i, j)] += 0.5 * sums.less_mean(of(m.product, k) - off, i, j);
+            moments.sum[moment_place(length, i, j)] += 0.5 * sums.less_mean(of(m.product, k) - off, i, j);
             if (i + j == length - 1)  // its own mirror image
-                moments.sum[moment_index(length, i, j)] += 0.5 * sums.less_mean(of(m.product, k) - off, i, j);
+                moments.sum[moment_place(length, i, j)] += 0.5 * sums.less_mean(of(m.product, k) - off, i, j);
             if (j < length - 1) off += of(m.head, i) * of(m.head, j) - of(m.recent, i) * of(m.recent, j);
         }
     }
 }
 
-void end_run(MotionMemory& m) noexcept {
+void end_run(LearntMotion& m) noexcept {
     m.n_run = m.n_waiting = 0;
     m.sum = 0.0;
     m.product = {};
 }
 
 // A run that begins with the last L - 1 halves of the one before it.
-void go_on(MotionMemory& m) noexcept {
+void go_on(LearntMotion& m) noexcept {
     const int kept = m.moments.length - 1;
     end_run(m);
     for (int last = 0; last < kept; ++last) {
@@ -94,12 +94,12 @@ void go_on(MotionMemory& m) noexcept {
 
 }  // namespace
 
-void start(MotionMemory& memory, int length) noexcept {
+void start(LearntMotion& memory, int length) noexcept {
     memory = {};
     memory.moments.length = length;
 }
 
-void add(MotionMemory& m, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept {
+void add(LearntMotion& m, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept {
     if (!settled) {
         fold(m, forget_ticks);
         return end_run(m);
