@@ -59,6 +59,8 @@ void read_rows(SwitchWindow& window) {
         row.halves.last = whole();
         row.read = whole() != 0;
         row.wanted = whole() != 0;
+        row.error_arcsec2 = number();
+        row.common_arcsec = number();
         row.after_gap = row.halves.first >= window.gap.first;
     }
 }

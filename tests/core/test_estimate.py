@@ -1,5 +1,6 @@
 """The estimate of a switch in the core against the reference in NumPy, over drawn gyros, motions and windows."""
 
+from dataclasses import replace
 import subprocess
 import sys
 from pathlib import Path
@@ -89,8 +90,11 @@ def drawn_case(draw, mixed):
         bias = gyro.bias * gyro.scale * gyro.tick_s / 2
         false[-AFTER:] = 1.03 * gyro.chi * bias * 0.22**2 * (edges[:-1] - edges[1:]) * sign[-AFTER:]
     y = read_halves(draw, gyro, angle, sign, false)
+    errors = {}
+    if mixed:
+        errors = {"error_var": draw.choice([0.0, 1.0], len(rows)) * 1e-3, "common": draw.normal(0, 0.05, len(rows))}
     window = reference.Window(rows, (BEFORE, BEFORE + gap), y[-length:], sign[-length:], light,
-                              magnetic_variance=draw.choice([0.0, 1e-5]))
+                              magnetic_variance=draw.choice([0.0, 1e-5]), **errors)
     return gyro, window, *second_moments(y[:learnt], length), draw.choice([0.0, 0.02]), draw.choice([0.01, 1e-4])
 
 
@@ -99,7 +103,9 @@ def text_of(gyro, window, moments, windows, scale, scale_var, bank=len(reference
     numbers = [bank, len(window.rows), *window.gap, len(window.y), *(window.light.shape if window.light.size else (0, 1)),
                gyro.scale, gyro.bias, gyro.chi, gyro.light_noise, gyro.tick_s, gyro.random_walk, gyro.fringe_noise or 0.0,
                gyro.fringe_noise is not None, scale, scale_var, window.magnetic_variance, windows]
-    numbers += [x for row in window.rows for x in row]
+    zero = np.zeros(len(window.rows))
+    more = zip(window.rows, zero if window.error_var is None else window.error_var, zero if window.common is None else window.common)
+    numbers += [x for row, *errors in more for x in [*row, *errors]]
     return " ".join(repr(float(x)) for x in [*numbers, *moments.ravel(), *window.y, *window.sign, *window.light.ravel()])
 
 
@@ -125,7 +131,7 @@ def test_the_core_and_the_reference_agree(mixed):
 def only(window, r):
     """The same window with one row wanted."""
     rows = [(*row[:3], k == r) for k, row in enumerate(window.rows)]
-    return reference.Window(rows, window.gap, window.y, window.sign, window.light, window.magnetic_variance)
+    return replace(window, rows=rows)
 
 
 def test_each_row_is_estimated_as_if_it_alone_were_wanted():

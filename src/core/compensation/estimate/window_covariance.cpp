@@ -128,7 +128,8 @@ void error_covariance(const CompensationConstants& gyro, const SwitchWindow& win
             const WindowRow& other = window.row[static_cast<unsigned>(s)];
             double e = 0.0;
             if (row.read && other.read) {
-                e = d * readings.false_arcsec[static_cast<unsigned>(s)] * scale.variance;
+                e = row.common_arcsec * other.common_arcsec;
+                e += d * readings.false_arcsec[static_cast<unsigned>(s)] * scale.variance;
                 const Stretch other_lit = light.is_known() ? lit_part(window, other) : Stretch{};
                 for (int h = lit.first; h < lit.last; ++h)
                     for (int g = other_lit.first; g < other_lit.last; ++g)
