@@ -1,0 +1,169 @@
+#include "light_spline.hpp"
+
+#include <zlg/core/common/maths.hpp>
+
+#include "common/bounds.hpp"
+
+namespace zlg::core {
+namespace {
+
+constexpr int close_knots = 16;  // half-periods with knots of their own
+// Beyond them: each step a fifth to a quarter of the way from the closing.
+constexpr int far_knots[] = {20, 24, 28, 34, 40, 48, 58, 70, 84, 104, 128};
+
+// Gauss and Legendre's four points and weights on 0..1: exact for products of cubics.
+constexpr double gauss_point[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
+constexpr double gauss_weight[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+
+void add_knot(LightBasis& basis, int& n, int knot) noexcept {
+    basis.knot[static_cast<unsigned>(3 + n)] = knot;
+    ++n;
+}
+
+// The knot at or before half h, counted from the first.
+int interval_of(const LightBasis& basis, int h) noexcept {
+    int i = 0;
+    while (i + 4 < basis.n_terms && basis.knot[static_cast<unsigned>(i + 4)] <= h) ++i;
+    return i;
+}
+
+int entry(int i, int j) noexcept { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
+
+}  // namespace
+
+LightBasis light_basis(int halves, int samples) noexcept {
+    LightBasis basis;
+    basis.halves = halves;
+    int n = 0;
+    const int step = samples < 2 ? 2 : 1;
+    for (int knot = 0; knot <= close_knots && knot < halves; knot += step) add_knot(basis, n, knot);
+    for (const int knot : far_knots)
+        if (knot + 1 < halves) add_knot(basis, n, knot);
+    // Four knots in one place end the basis; those at the start are 0 already.
+    for (int k = 0; k < 4; ++k) basis.knot[static_cast<unsigned>(3 + n + k)] = halves;
+    basis.n_terms = n + 3;
+    return basis;
+}
+
+BasisValues values_at(const LightBasis& basis, int h, double time) noexcept {
+    BasisValues result;
+    result.first = interval_of(basis, h);
+    const double* const knot = basis.knot.data() + result.first + 3;  // at or before the time
+    auto& value = result.value;
+    value[0] = 1.0;
+    // From the constants to the cubics: de Boor's recurrence.
+    for (int order = 1; order <= 3; ++order) {
+        double carried = 0.0;
+        for (int r = 0; r < order; ++r) {
+            const double right = knot[r + 1];
+            const double left = knot[r + 1 - order];
+            const double part = value[static_cast<unsigned>(r)] / (right - left);
+            value[static_cast<unsigned>(r)] = carried + (right - time) * part;
+            carried = (time - left) * part;
+        }
+        value[static_cast<unsigned>(order)] = carried;
+    }
+    return result;
+}
+
+void add(LightSums& sums, int h, std::span<const double> detuning_lambda) noexcept {
+    const auto n = static_cast<double>(detuning_lambda.size());
+    double place = 0.5;
+    for (const double x : detuning_lambda) {
+        const BasisValues basis = values_at(sums.basis, h, h + place / n);
+        place += 1.0;
+        for (unsigned a = 0; a < 4; ++a) {
+            const unsigned i = static_cast<unsigned>(basis.first) + a;
+            sums.moment[i] += basis.value[a] * x;
+            for (unsigned b = 0; b <= a; ++b) sums.normal[4 * i + 3 + b - a] += basis.value[a] * basis.value[b];
+        }
+        sums.sum_sq += x * x;
+    }
+    sums.n_samples += static_cast<int>(detuning_lambda.size());
+}
+
+LightFit::LightFit(const LightSums& sums, double light_sd_lambda) noexcept {
+    const int n = sums.basis.n_terms;
+    std::array<double, triangle_size(most_light_terms)> factor_numbers{};
+    std::array<double, most_light_terms> reciprocal{};
+    const Triangle factor{factor_numbers.data()};
+    for (int i = 0; i < n; ++i)
+        for (int j = i < 3 ? 0 : i - 3; j <= i; ++j)
+            factor.row(i)[j] = sums.normal[static_cast<unsigned>(4 * i + 3 + j - i)];
+    if (!(sums.n_samples > n && factorise(factor, reciprocal.data(), n))) return;
+    known_ = true;
+
+    term_ = sums.moment;
+    eliminate(factor, reciprocal.data(), n, term_.data());
+    const double explained_sq = dot(term_.data(), term_.data(), n);
+    substitute_back(factor, reciprocal.data(), n, term_.data());
+    const double left_over = (sums.sum_sq - explained_sq) / (sums.n_samples - n);
+    const double configured = square(light_sd_lambda);
+    const double variance = left_over > configured ? left_over : configured;
+
+    // A column of the inverse at a time, of which the part from the diagonal on is kept.
+    for (int j = 0; j < n; ++j) {
+        std::array<double, most_light_terms> column{};
+        column[static_cast<unsigned>(j)] = 1.0;
+        eliminate(factor, reciprocal.data(), n, column.data());
+        substitute_back(factor, reciprocal.data(), n, column.data());
+        for (int i = j; i < n; ++i)
+            covariance_[row_start(i) + static_cast<unsigned>(j)] = variance * column[static_cast<unsigned>(i)];
+    }
+    for (int h = 0; h < sums.basis.halves; ++h) halves_[static_cast<unsigned>(h)] = half_of(sums.basis, h);
+}
+
+LightFit::Half LightFit::half_of(const LightBasis& basis, int h) const noexcept {
+    Half half;
+    for (int k = 0; k < 4; ++k) {
+        const BasisValues at = values_at(basis, h, h + gauss_point[k]);
+        half.first = at.first;
+        unsigned i = 0;
+        for (unsigned a = 0; a < 4; ++a)
+            for (unsigned b = 0; b <= a; ++b) half.product[i++] += gauss_weight[k] * at.value[a] * at.value[b];
+    }
+    for (int a = 0; a < 4; ++a)
+        for (int b = 0; b < 4; ++b)
+            half.slope[static_cast<unsigned>(a)] +=
+                half.product[static_cast<unsigned>(entry(a, b))] * term_[static_cast<unsigned>(half.first + b)];
+    return half;
+}
+
+double LightFit::angle(int h) const noexcept {
+    const Half& half = halves_[static_cast<unsigned>(h)];
+    double sum = 0.0;
+    for (int a = 0; a < 4; ++a) {
+        sum += half.slope[static_cast<unsigned>(a)] * term_[static_cast<unsigned>(half.first + a)];
+        for (int b = 0; b < 4; ++b)
+            sum -= half.product[static_cast<unsigned>(entry(a, b))] *
+                   covariance_[static_cast<unsigned>(entry(half.first + a, half.first + b))];
+    }
+    return sum;
+}
+
+double LightFit::covariance(int h, int g) const noexcept {
+    const Half& one = halves_[static_cast<unsigned>(h)];
+    const Half& other = halves_[static_cast<unsigned>(g)];
+    // S = block of cov c between both; then Q_h S and S Q_g, whose products summed are the trace.
+    double linear = 0.0;
+    double trace = 0.0;
+    double block[4][4];
+    for (int a = 0; a < 4; ++a)
+        for (int b = 0; b < 4; ++b)
+            block[a][b] = covariance_[static_cast<unsigned>(entry(one.first + a, other.first + b))];
+    for (int a = 0; a < 4; ++a) {
+        for (int b = 0; b < 4; ++b) {
+            double left = 0.0;
+            double right = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                left += one.product[static_cast<unsigned>(entry(a, k))] * block[k][b];
+                right += block[a][k] * other.product[static_cast<unsigned>(entry(k, b))];
+            }
+            trace += left * right;
+            linear += one.slope[static_cast<unsigned>(a)] * block[a][b] * other.slope[static_cast<unsigned>(b)];
+        }
+    }
+    return 4.0 * linear + 2.0 * trace;
+}
+
+}  // namespace zlg::core

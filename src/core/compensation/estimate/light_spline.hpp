@@ -1,0 +1,89 @@
+#pragma once
+// The detuning after the loop is closed, free-form from the light samples: a cubic spline by least squares, and the false angles
+// that follow from it, with the covariance of their errors.
+//
+//   dl(t) = sum of c_i B_i(t),   A^T A c = A^T x,   cov c = s^2 (A^T A)^-1                                   (1)
+//   d_h = k (c^T Q_h c - tr(Q_h cov c)),   Q_h = integral of B B^T over half h,   k = chi f0 K T/2           (2)
+//   cov(d_h, d_g) = 4 k^2 (Q_h c)^T cov c (Q_g c) + 2 k^2 tr(Q_h cov c Q_g cov c)                            (3)
+//
+// x are the samples, A the basis at their times, s^2 their variance: that of the residuals where it is larger than the configured
+// one. The trace of (2) takes off what the noise of the light adds to a mean square. (3) is the covariance of two quadratic
+// forms of a Gaussian vector (Searle, Linear Models, 1971, ch. 2.5). Basis: de Boor, A Practical Guide to Splines, ch. X.
+//
+// The knots are a half-period apart for eight ticks, in which a loop closes, and then wider and wider: a knot at every half to
+// the end lets the noise of late halves through. With a single sample a half the first knots are a tick apart.
+
+#include <array>
+#include <span>
+
+#include "common/triangle.hpp"
+
+namespace zlg::core {
+
+inline constexpr int most_light_halves = 160;
+inline constexpr int most_light_terms = 32;
+
+// The basis: its knots, three of them at either end, in half-periods.
+struct LightBasis {
+    int halves = 0;
+    int n_terms = 0;
+    std::array<double, most_light_terms + 4> knot{};
+
+    friend bool operator==(const LightBasis&, const LightBasis&) = default;
+};
+
+// halves  1..most_light_halves
+// samples of a half, 1..64
+[[nodiscard]] LightBasis light_basis(int halves, int samples) noexcept;
+
+// Four terms are not 0 between two knots: those from `first` on.
+struct BasisValues {
+    int first = 0;
+    std::array<double, 4> value{};
+};
+
+// At a time within half h.
+[[nodiscard]] BasisValues values_at(const LightBasis& basis, int h, double time) noexcept;
+
+// What the samples of a switch leave behind: the normal equations (1), as they grow from half to half.
+struct LightSums {
+    LightBasis basis{};
+    int n_samples = 0;
+    std::array<double, 4 * most_light_terms> normal{};  // A^T A: of term i with i - 3 .. i
+    std::array<double, most_light_terms> moment{};      // A^T x
+    double sum_sq = 0.0;
+
+    friend bool operator==(const LightSums&, const LightSums&) = default;
+};
+
+// The samples of half h, wavelengths, equally spaced over it.
+void add(LightSums& sums, int h, std::span<const double> detuning_lambda) noexcept;
+
+// The fit (1), in units of k: false angles over k.
+class LightFit {
+public:
+    // light_sd_lambda  configured noise of one sample.
+    LightFit(const LightSums& sums, double light_sd_lambda) noexcept;
+
+    // False where there are too few samples for the knots.
+    [[nodiscard]] bool is_known() const noexcept { return known_; }
+    // (2), without the sign of the bias.
+    [[nodiscard]] double angle(int h) const noexcept;
+    // (3).
+    [[nodiscard]] double covariance(int h, int g) const noexcept;
+
+private:
+    struct Half {
+        int first = 0;
+        std::array<double, 10> product{};  // Q_h, lower triangle
+        std::array<double, 4> slope{};     // Q_h c
+    };
+    [[nodiscard]] Half half_of(const LightBasis& basis, int h) const noexcept;
+
+    bool known_ = false;
+    std::array<double, most_light_terms> term_{};                       // c
+    std::array<double, triangle_size(most_light_terms)> covariance_{};  // cov c
+    std::array<Half, most_light_halves> halves_;
+};
+
+}  // namespace zlg::core

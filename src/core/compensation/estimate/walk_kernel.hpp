@@ -1,0 +1,52 @@
+#pragma once
+// Covariance of the motion where a derivative of the rate walks: a member of the bank.
+//
+// From `first` to `last` (half-ticks) white noise of intensity 1 drives the k-th derivative: k = 2 the slope of the rate walks,
+// k = 3 the slope of that. A stretch [s, e) turns by the integral of a(q) dW(q),
+//
+//   a(q) = ((e - q)+^k - (s - q)+^k)/k                                                                     (1)
+//
+// and two stretches have the covariance of the integral of the product of their a. Where the second begins behind the end
+// of the first, its a is a polynomial in q over all of the first, so that
+//
+//   cov = sum over m < k of c_m g_m,    c_m = integral of a_first(q) q^m,   g_m the coefficients of a_second   (2)
+//
+// and a matrix of n stretches costs n (8 points of Gauss) and n^2 k/2 products. Source of the kernels: integrated Wiener
+// processes, Wahba, Spline Models for Observational Data, 1990, ch. 1 (their constant, that is (k-1)!^2, is of no account here).
+
+namespace zlg::core {
+
+// A stretch of half-ticks of the window, [first, last).
+struct Stretch {
+    int first = 0;
+    int last = 0;
+
+    friend constexpr bool operator==(const Stretch&, const Stretch&) = default;
+};
+
+// Where a walk goes on, [first, last), and which derivative walks: 2 or 3.
+struct Walk {
+    int kind = 2;
+    int first = 0;
+    int last = 0;
+};
+
+inline constexpr int most_walk_terms = 3;
+
+// A stretch as (2) needs it, in time from the start of the walk.
+struct WalkedStretch {
+    double moment[most_walk_terms] = {};       // c_m
+    double coefficient[most_walk_terms] = {};  // g_m
+    double variance = 0.0;
+};
+
+[[nodiscard]] WalkedStretch walked(const Walk& walk, const Stretch& stretch) noexcept;
+
+// Of two stretches, of which the second begins where the first ends or later.
+[[nodiscard]] constexpr double covariance(const WalkedStretch& first, const WalkedStretch& second) noexcept {
+    double sum = first.moment[0] * second.coefficient[0];
+    for (int m = 1; m < most_walk_terms; ++m) sum += first.moment[m] * second.coefficient[m];
+    return sum;
+}
+
+}  // namespace zlg::core

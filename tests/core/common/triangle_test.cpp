@@ -1,0 +1,83 @@
+#include "common/triangle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "compensation/compensation_support.hpp"
+
+namespace triangle_test {
+
+using compensation_test::Random;
+using zlg::core::dot;
+using zlg::core::eliminate;
+using zlg::core::factorise;
+using zlg::core::row_start;
+using zlg::core::substitute_back;
+using zlg::core::Triangle;
+using zlg::core::triangle_size;
+
+// A A^T + 0.1 of a random A: positive definite.
+std::vector<double> random_covariance(Random& random, int n) {
+    std::vector<std::vector<double>> a(static_cast<unsigned>(n), std::vector<double>(static_cast<unsigned>(n)));
+    for (auto& row : a)
+        for (double& x : row) x = random.normal();
+    std::vector<double> c(triangle_size(n));
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j <= i; ++j) {
+            double sum = i == j ? 0.1 : 0.0;
+            for (unsigned k = 0; k < static_cast<unsigned>(n); ++k)
+                sum += a[static_cast<unsigned>(i)][k] * a[static_cast<unsigned>(j)][k];
+            c[row_start(i) + static_cast<unsigned>(j)] = sum;
+        }
+    return c;
+}
+
+TEST(Triangle, KnownFactorOfThreeByThree) {
+    // [4 12 -16; 12 37 -43; -16 -43 98] = L L^T with L = [2; 6 1; -8 5 3].
+    std::vector<double> a{4, 12, 37, -16, -43, 98};
+    std::vector<double> reciprocal(3);
+    ASSERT_TRUE(factorise(Triangle{a.data()}, reciprocal.data(), 3));
+    EXPECT_EQ(a, (std::vector<double>{2, 6, 1, -8, 5, 3}));
+    EXPECT_EQ(reciprocal, (std::vector<double>{0.5, 1.0, 1.0 / 3.0}));
+}
+
+TEST(Triangle, AFactorTimesItselfIsTheMatrixAndBothSystemsAreSolved) {
+    Random random{1};
+    for (const int n : {1, 2, 3, 4, 5, 7, 8, 9, 31, 64}) {
+        const auto c = random_covariance(random, n);
+        auto numbers = c;
+        const Triangle factor{numbers.data()};
+        std::vector<double> reciprocal(static_cast<unsigned>(n));
+        ASSERT_TRUE(factorise(factor, reciprocal.data(), n));
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j <= i; ++j)
+                EXPECT_NEAR(dot(factor.row(i), factor.row(j), j + 1), c[row_start(i) + static_cast<unsigned>(j)],
+                            1e-12 * n);
+        std::vector<double> x(static_cast<unsigned>(n));
+        for (double& value : x) value = random.normal();
+        std::vector<double> product(static_cast<unsigned>(n), 0.0);
+        auto matrix = c;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j)
+                product[static_cast<unsigned>(i)] += Triangle{matrix.data()}.at(i, j) * x[static_cast<unsigned>(j)];
+        eliminate(factor, reciprocal.data(), n, product.data());
+        substitute_back(factor, reciprocal.data(), n, product.data());
+        for (unsigned i = 0; i < static_cast<unsigned>(n); ++i) EXPECT_NEAR(product[i], x[i], 1e-9);
+    }
+}
+
+TEST(Triangle, WhatIsNotPositiveDefiniteHasNoFactor) {
+    std::vector<double> reciprocal(3);
+    std::vector<double> repeated{1, 1, 1};
+    EXPECT_FALSE(factorise(Triangle{repeated.data()}, reciprocal.data(), 2));
+    std::vector<double> negative{1, 2, 3};
+    EXPECT_FALSE(factorise(Triangle{negative.data()}, reciprocal.data(), 2));
+    std::vector<double> no_number{1, std::nan(""), 3};
+    EXPECT_FALSE(factorise(Triangle{no_number.data()}, reciprocal.data(), 2));
+    std::vector<double> endless{1, 0, compensation_test::infinite};
+    EXPECT_FALSE(factorise(Triangle{endless.data()}, reciprocal.data(), 2));
+}
+
+}  // namespace triangle_test

@@ -1,0 +1,119 @@
+#include "compensation/estimate/light_spline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "compensation/compensation_support.hpp"
+
+namespace light_spline_test {
+
+using compensation_test::Random;
+using zlg::core::add;
+using zlg::core::light_basis;
+using zlg::core::LightBasis;
+using zlg::core::LightFit;
+using zlg::core::LightSums;
+using zlg::core::values_at;
+
+// Samples of a course of the detuning over all halves.
+template <class Course>
+LightSums sums_of(int halves, int samples, Course course) {
+    LightSums sums;
+    sums.basis = light_basis(halves, samples);
+    std::vector<double> light(static_cast<unsigned>(samples));
+    for (int h = 0; h < halves; ++h) {
+        for (int i = 0; i < samples; ++i) light[static_cast<unsigned>(i)] = course(h + (i + 0.5) / samples);
+        add(sums, h, light);
+    }
+    return sums;
+}
+
+TEST(LightSpline, TheBasisAddsUpToOneEverywhere) {
+    for (const int halves : {1, 3, 16, 17, 40, 128, 160}) {
+        const LightBasis basis = light_basis(halves, 16);
+        for (int h = 0; h < halves; ++h)
+            for (const double part : {0.0, 0.3, 0.99}) {
+                const auto at = values_at(basis, h, h + part);
+                double sum = 0.0;
+                for (const double b : at.value) sum += b;
+                EXPECT_NEAR(sum, 1.0, 1e-14);
+                EXPECT_GE(at.first, 0);
+                EXPECT_LE(at.first + 4, basis.n_terms);
+            }
+    }
+}
+
+TEST(LightSpline, KnotsAreAHalfApartForEightTicksAndWiderThen) {
+    const LightBasis basis = light_basis(40, 16);
+    EXPECT_EQ(basis.n_terms, 24);
+    EXPECT_EQ(basis.knot[3 + 16], 16.0);
+    EXPECT_EQ(basis.knot[3 + 17], 20.0);
+    EXPECT_EQ(basis.knot[3 + 21], 40.0);
+    // One sample a half does not decide on a knot a half.
+    EXPECT_EQ(light_basis(40, 1).n_terms, 16);
+}
+
+TEST(LightSpline, ACubicCourseGivesItsMeanSquareInEveryHalf) {
+    const auto course = [](double t) { return 0.2 - 0.03 * t + 0.002 * t * t - 0.00003 * t * t * t; };
+    for (const int samples : {1, 4, 16, 64}) {
+        const LightFit fit{sums_of(40, samples, course), 0.0};
+        ASSERT_TRUE(fit.is_known());
+        for (int h = 0; h < 40; ++h) {
+            double mean_sq = 0.0;
+            for (int k = 0; k < 1000; ++k) mean_sq += std::pow(course(h + (k + 0.5) / 1000.0), 2) / 1000.0;
+            EXPECT_NEAR(fit.angle(h), mean_sq, 1e-8);
+        }
+    }
+}
+
+TEST(LightSpline, TheNoiseOfTheLightAddsNothingOnTheMeanAndScattersAsItSays) {
+    Random random{4};
+    const auto course = [](double t) { return 0.22 * std::exp(-t / 5.0); };
+    constexpr int trials = 1500;
+    constexpr double noise = 0.01;
+    const LightFit exact{sums_of(40, 16, course), 1e-9};
+    double sum[3] = {}, square[3][3] = {}, claimed[3][3] = {};
+    const int half[3] = {1, 2, 5};
+    for (int k = 0; k < trials; ++k) {
+        const LightFit fit{sums_of(40, 16, [&](double t) { return course(t) + noise * random.normal(); }), 0.0};
+        for (int a = 0; a < 3; ++a) {
+            const double off = fit.angle(half[a]) - exact.angle(half[a]);
+            sum[a] += off;
+            for (int b = 0; b < 3; ++b) {
+                square[a][b] += off * (fit.angle(half[b]) - exact.angle(half[b]));
+                claimed[a][b] += fit.covariance(half[a], half[b]);
+            }
+        }
+    }
+    for (int a = 0; a < 3; ++a) {
+        EXPECT_NEAR(sum[a] / trials, 0.0, 4.0 * std::sqrt(square[a][a]) / trials);
+        for (int b = 0; b < 3; ++b)
+            EXPECT_NEAR(square[a][b], claimed[a][b], 0.12 * std::sqrt(square[a][a] * square[b][b])) << a << b;
+    }
+}
+
+// (Q c)^T cov c (Q c) holds its own noise, twice the trace: where nothing is detuned, the variance is claimed three times.
+TEST(LightSpline, WhereNothingIsDetunedTheVarianceIsClaimedThreeTimes) {
+    Random random{5};
+    double square = 0.0, claimed = 0.0;
+    for (int k = 0; k < 1500; ++k) {
+        const LightFit fit{sums_of(40, 16, [&](double) { return 0.01 * random.normal(); }), 0.0};
+        square += fit.angle(30) * fit.angle(30);
+        claimed += fit.covariance(30, 30);
+    }
+    EXPECT_NEAR(claimed / square, 3.0, 0.4);
+}
+
+TEST(LightSpline, TooFewSamplesForTheKnotsAreNoFit) {
+    LightSums sums;
+    sums.basis = light_basis(40, 16);
+    EXPECT_FALSE(LightFit(sums, 0.0033).is_known());
+    const std::vector<double> half(16, 0.2);
+    for (int h = 0; h < 39; ++h)
+        if (h < 8 || h > 15) add(sums, h, half);
+    EXPECT_FALSE(LightFit(sums, 0.0033).is_known());
+}
+
+}  // namespace light_spline_test
