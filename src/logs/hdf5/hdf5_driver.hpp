@@ -29,6 +29,10 @@ template <class Subject>
 H5FD_class_t driver_of(const char* name, H5F_close_degree_t close_degree) {
     using File = DriverFile<Subject>;
     H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION  // since HDF5 1.14, which knows its own drivers by low numbers
+    driver.version = H5FD_CLASS_VERSION;
+    driver.value = H5_VFD_MAX;
+#endif
     driver.name = name;
     driver.maxaddr = max_address;
     driver.fc_degree = close_degree;
