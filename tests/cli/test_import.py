@@ -188,6 +188,10 @@ class Cut(Foreign):
         packed = zlib.compress(body)
         as_packed = whole[:128] + struct.pack("<II", 15, len(packed)) + packed
         self.angles(self.write("packed.mat", as_packed), *said, rows=200)
+        steps = numpy.floor(numpy.arange(300_000) / 1000)
+        long = zlib.compress(matlab5({"w": steps})[128:], 9)  # packed to a part of a block, unpacked to many
+        self.assert_turns(self.angles(self.write("long.mat", whole[:128] + struct.pack("<II", 15, len(long)) + long), *said, "--map", "holds=angle",
+                                      "--map", "unit=arcsec"), numpy.diff(steps))
         half = zlib.compress(body[:800])
         claims = whole.replace(struct.pack("<ii", 1, 200), struct.pack("<ii", 1, 20000))
         self.assertNotEqual(claims, whole)

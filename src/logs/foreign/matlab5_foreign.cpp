@@ -1,5 +1,5 @@
-// MATLAB 5: real matrices, and those in structures. By MathWorks' description of the format, and not by libmatio, which takes the
-// memory that a file asks for and gives what nobody wrote where bytes are missing.
+// MATLAB 5: real matrices, and those in structures. By MathWorks' description of the format, and not by libmatio, which takes
+// the memory that a file asks for and gives what nobody wrote where bytes are missing.
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -90,8 +90,7 @@ public:
         int state = good_ ? Z_OK : Z_DATA_ERROR;
         for (std::size_t at = 0; state == Z_OK;) {
             if (stream_.avail_in == 0) {
-                const std::size_t n = std::min(block, packed_.size() - at);
-                if (n == 0) break;
+                const std::size_t n = std::min(block, packed_.size() - at);  // 0: what is left comes of what was read
                 packed_.read(at, n, in.data());
                 at += n;
                 stream_.next_in = reinterpret_cast<Bytef*>(in.data());

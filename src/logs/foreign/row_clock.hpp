@@ -16,8 +16,8 @@ struct RowClock {
     std::vector<std::string> notes;
 };
 
-// The column that holds the times of the rows, 0: none, or it is open which. By the mapping, by its name, or, without a name, as it
-// rises.
+// The column that holds the times of the rows, 0: none, or it is open which. By the mapping, by its name, or, without a
+// name, as it rises.
 [[nodiscard]] std::int64_t time_column(const ForeignTable& table, const Mapping& mapping);
 
 // "time=1|2 or none (columns ...)" where more than one column may hold them, and no name decides; empty else.
@@ -28,6 +28,10 @@ void refuse_unused_times(const ForeignTable& table, const Mapping& mapping);
 
 // What must be given before the step is known, for the user; empty: nothing.
 [[nodiscard]] std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping);
+
+// How many of the column's unit make a second; empty: nobody says it. errors  MappingError: its name has two units.
+[[nodiscard]] std::optional<double> known_time_unit(const std::string& path, const std::string& name, bool holds_dates,
+                                                    const Mapping& mapping);
 
 // `read` is the whole table; presumed_step_s: what else is known of the step, in place of rate_hz.
 //
