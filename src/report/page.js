@@ -95,7 +95,7 @@ all(document, "figure[data-figure]").forEach(figure => {
     at = now;
     const p = point(), [x, y] = p ? placeOf(p) : [];
     if (!p || series[at[0]].off || !inPlot([x, y])) at = null;
-    set(ring, { visibility: at ? "visible" : "hidden", cx: x, cy: y });
+    set(ring, at ? { visibility: "visible", cx: x, cy: y } : { visibility: "hidden" });
     readout.textContent = "";
     if (!at) return;
     const [down, up] = (p.bar || []).map(b => abs(Y.value(b) - Y.value(p.y))).map(e => shown(e, e / 50));

@@ -10,6 +10,27 @@ from chromium import PROGRAM, Browser
 ROOT = Path(__file__).resolve().parents[2]
 ZLG = ROOT / "build" / "release" / "bin" / "zlg"
 
+SWEEP = """
+[sweep]
+gyros = 12
+seed = 1
+duration_s = 5
+[base.switching]
+interval_s = 1
+[[parameter]]
+keys = ["piezo.half_wave_v"]
+draw = "uniform"
+min = 39
+max = 41
+[[parameter]]
+keys = ["compensation.relock"]
+draw = "list"
+values = ["joint", "mean_square"]
+[[metric]]
+name = "configured.switch_error_rms_arcsec"
+max = 3
+"""
+
 # Of the figure with an error bar on each point.
 FIGURE = "document.querySelector('#errors-in-time')"
 
@@ -28,8 +49,14 @@ class Pages(unittest.TestCase):
         made("run", "--duration", "400", "--set", "switching.interval_s=10", "--out", out / "run")
         made("design", "--out", out / "design.html")
         made("analyze", out / "run" / "angles.h5", "--out", out / "analysis.html")
-        cls.run_page = out / "run" / "report.html"
+        made("analyze", out / "run" / "raw.h5", "--out", out / "raw.html")
+        made("run", "--duration", "1", "--out", out / "short")
+        made("paper", "--duration", "20", "--out", out / "paper")
+        (out / "sweep.toml").write_text(SWEEP)
+        made("sweep", out / "sweep.toml", "--out", out / "sweep.h5", "--page", out / "sweep.html")
+        cls.run_page, cls.sweep_page = out / "run" / "report.html", out / "sweep.html"
         cls.pages = [cls.run_page, out / "design.html", out / "analysis.html"]
+        cls.more_pages = [cls.sweep_page, out / "raw.html", out / "short" / "report.html", out / "paper" / "paper.html"]
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.close)
 
@@ -155,11 +182,58 @@ class Pages(unittest.TestCase):
             self.assertGreater(size, 10.0, "text of a plot, px")
 
     def test_no_page_complains_at_any_width(self):
-        for page in self.pages:
+        for page in self.pages + self.more_pages:
             for width in (390, 1200):
                 self.browser.open(page, width=width)
-                self.assertGreater(self.browser.value("document.querySelectorAll('.live').length"), 2)
+                self.assertGreater(self.browser.value("document.querySelectorAll('.live').length"), 1)
                 self.assertEqual(self.browser.complaints(), [])
+
+    def test_no_figure_of_any_page_complains_whatever_is_done_with_it(self):
+        for page in self.pages + self.more_pages:
+            with self.subTest(page=page.name):
+                self.browser.open(page)
+                n = self.browser.value("document.querySelectorAll('figure[data-figure]').length")
+                self.assertGreater(n, 1)
+                self.assertEqual(self.browser.value("document.querySelectorAll('figure[data-figure].live').length"), n)
+                for k in range(n):
+                    self.exercise(f"document.querySelectorAll('figure[data-figure]')[{k}]")
+                    self.assertEqual(self.browser.complaints(), [], k)
+
+    def exercise(self, figure):
+        """The pointer over all of a figure, a drag and back, the keys, and each name of its legend off and on."""
+        x, y, width, height = self.browser.value(f"""(() => {{ const e = {figure}.querySelector('.plot');
+            e.scrollIntoView({{block: 'center'}}); const r = e.getBoundingClientRect(); return [r.x, r.y, r.width, r.height]; }})()""")
+
+        def at(across, down):
+            return x + across * width, y + down * height
+
+        shown = set()
+        for across in range(1, 10):
+            for down in (0.1, 0.5, 0.9):
+                self.browser.mouse("mouseMoved", *at(across / 10, down))
+            shown.add(self.browser.value(f"{figure}.querySelector('.readout').textContent"))
+        self.assertTrue(shown - {""}, "no point of it is read")
+        self.assertNotRegex(" ".join(shown), r"NaN|undefined|Infinity")
+        self.browser.drag(at(0.3, 0.3), at(0.7, 0.7))
+        self.browser.mouse("mouseMoved", *at(0.5, 0.5))
+        self.browser.click(*at(0.5, 0.5), times=2)
+        self.browser.value(f"{figure}.querySelector('svg').focus()")
+        for key in ("ArrowRight", "ArrowRight", "ArrowDown", "+", "-", "Escape"):
+            self.browser.key(key)
+        names = f"[...{figure}.querySelectorAll('.legend > [role]')].forEach(e => e.dispatchEvent(new Event('click')))"
+        for _ in ("off", "on"):
+            self.browser.value(names)
+            self.browser.mouse("mouseMoved", *at(0.5, 0.5))
+        self.browser.mouse("mouseMoved", 1, 1)
+
+    def test_a_bar_of_a_histogram_is_read_at_its_end(self):
+        self.browser.open(self.sweep_page)
+        bars = "[...document.querySelectorAll('figure[data-figure]')].find(f => f.querySelector('.series rect'))"
+        x, y = self.place(f"[...{bars}.querySelectorAll('.series rect')].find(r => +r.getAttribute('height') > 9)")
+        self.browser.mouse("mouseMoved", x, y)
+        count = self.browser.value(f"{bars}.querySelector('.readout').textContent").split(": ")[-1]
+        self.assertEqual(float(count) % 1, 0.0)
+        self.assertGreater(float(count), 0.0)
 
     def test_without_script_the_page_is_whole_and_promises_nothing(self):
         self.browser.open(self.run_page, script=False)
