@@ -4,11 +4,19 @@ import shutil
 import subprocess
 import sys
 import unittest
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 
 from trees import TOOLS, TreeTest
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, str(TOOLS))
 from mutation_operators import mutants  # noqa: E402
+
+ROOT = TOOLS.parent
+loader = SourceFileLoader("mutate", str(TOOLS / "mutate"))
+mutate = module_from_spec(spec_from_loader(loader.name, loader))
+loader.exec_module(mutate)
 
 
 def changes(text):
@@ -116,11 +124,14 @@ why = "of two equal numbers either is the larger"
 """
 
 
+SURVIVOR = "src/core/compensation/relock/relock_drift.cpp\tlarger\t1\t`>` -> `>=`\treturn a > b ? a : b;\n"
+
+
 class Mutate(TreeTest):
     def setUp(self):
         super().setUp()
         (self.root / "tools").mkdir()
-        for name in ("mutate", "mutation_operators.py"):
+        for name in ("mutate", "mutation_operators.py", "mutation_programs.py"):
             shutil.copy(TOOLS / name, self.root / "tools" / name)
         (self.root / "src" / "core" / "include").mkdir(parents=True)
         self.write("src/core/compensation/relock/relock.hpp", "int larger(int a, int b) noexcept;\n")
@@ -130,6 +141,9 @@ class Mutate(TreeTest):
     def mutate(self, *arguments):
         command = [sys.executable, self.root / "tools" / "mutate", *arguments]
         return subprocess.run(command, capture_output=True, text=True, check=False)
+
+    def survivors(self):
+        return (self.root / "tests" / "mutants" / "survivors.txt").read_text(encoding="utf-8")
 
     def test_a_mutant_that_no_test_notices_is_named_unless_it_is_proved_equivalent(self):
         answer = self.mutate("relock_drift")
@@ -141,6 +155,26 @@ class Mutate(TreeTest):
     def test_a_weak_test_lets_more_survive(self):
         self.write("tests/core/relock_drift_test.cpp", TEST)
         self.assert_refused(self.mutate("relock_drift"), "`?` -> `|| true ?`")
+
+    def test_a_known_survivor_is_none_that_is_new(self):
+        self.write("tests/mutants/survivors.txt", SURVIVOR)
+        for arguments in (["relock_drift"], ["--sample", "40"]):
+            self.assert_good(self.mutate(*arguments))
+            self.assertEqual(self.survivors(), SURVIVOR)
+
+    def test_a_survivor_that_is_killed_or_gone_is_taken_out_of_the_list(self):
+        killed = SURVIVOR.replace("`>` -> `>=`", "`>` -> `<=`")
+        gone = SURVIVOR.replace("return a", "return  a")
+        for arguments in (["relock_drift"], ["--sample", "40"]):
+            self.write("tests/mutants/survivors.txt", SURVIVOR + killed + gone)
+            answer = self.mutate(*arguments)
+            self.assert_good(answer)
+            self.assertEqual(answer.stdout.count("taken out of tests/mutants/survivors.txt"), 2, answer.stdout)
+            self.assertEqual(self.survivors(), SURVIVOR)
+
+    def test_the_day_is_the_seed_and_is_printed(self):
+        self.write("tests/mutants/survivors.txt", SURVIVOR)
+        self.assertRegex(self.mutate("--sample", "1").stdout, r"drawn with --sample 1 --seed 20\d{6}\n")
 
     def test_a_list_that_is_wrong_is_refused(self):
         self.write("tests/mutants/equivalent.toml", EQUIVALENT + EQUIVALENT.replace("`>` -> `>=`", "`>` -> `<=`"))
@@ -157,6 +191,25 @@ class Mutate(TreeTest):
     def test_a_sample_is_the_same_for_the_same_seed(self):
         first, second = (self.mutate("--list", "--sample", "3", "--seed", "5").stdout for _ in range(2))
         self.assertEqual((first, first.count("\n")), (second, 3))
+
+
+class Lists(unittest.TestCase):
+    """Of the project itself."""
+
+    def test_what_is_left_out_exists(self):
+        stems = {path.stem for path in (ROOT / "src" / "core").rglob("*.?pp")}
+        self.assertEqual(mutate.LEFT_OUT - stems, set(), "take them out of LEFT_OUT in tools/mutate")
+
+    # A survivor more is a test less: raise this number for a module that is new to the mutants, and for nothing else.
+    def test_the_list_of_survivors_only_shrinks(self):
+        self.assertLessEqual(len(mutate.known_survivors()), 0)
+
+    def test_every_survivor_is_a_mutant_and_stands_once(self):
+        every = {mutant.key for paths in mutate.modules().values() for path in paths
+                 for mutant in mutants(path, (ROOT / path).read_text(encoding="utf-8"))}
+        self.assertEqual(mutate.known_survivors() - every, set())
+        lines = mutate.SURVIVORS.read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines, sorted(set(lines)))
 
 
 if __name__ == "__main__":
