@@ -1,9 +1,13 @@
 #include <zlg/twin/twin.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "averaged_gyro.hpp"
 #include "faults/fault_perimeter.hpp"
@@ -73,11 +77,14 @@ void require_bias_sign(const GyroConfig& gyro, double warmed_c, const char* by) 
 void validate_warmed_bias(const TwinConfig& c) {
     const double rise_c = c.gyro.temperature_rise_c;
     require_bias_sign(c.gyro, rise_c, "gyro.temperature_rise_c");
-    for (const Fault& last : c.faults) {
-        if (last.kind != FaultKind::thermal_shock) continue;
-        double shocks_c = 0.0;
-        for (const Fault& fault : c.faults)
-            if (fault.kind == FaultKind::thermal_shock && fault.at_s <= last.at_s) shocks_c += fault.size;
+    std::vector<Fault> shocks;
+    std::copy_if(c.faults.begin(), c.faults.end(), std::back_inserter(shocks),
+                 [](const Fault& fault) { return fault.kind == FaultKind::thermal_shock; });
+    std::stable_sort(shocks.begin(), shocks.end(), [](const Fault& a, const Fault& b) { return a.at_s < b.at_s; });
+    double shocks_c = 0.0;
+    for (std::size_t k = 0; k < shocks.size(); ++k) {
+        shocks_c += shocks[k].size;
+        if (k + 1 < shocks.size() && shocks[k + 1].at_s == shocks[k].at_s) continue;  // they come together
         require_bias_sign(c.gyro, shocks_c, "thermal shocks");
         require_bias_sign(c.gyro, rise_c + shocks_c, "(gyro.temperature_rise_c + thermal shocks)");
     }
