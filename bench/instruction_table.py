@@ -55,7 +55,6 @@ PART_OF = {
     "gap_tick": "gap_bridge",
     "polynomial_motion": "gap_bridge",
     "row_outlier": "gap_bridge",
-    "rate_step": "switch_schedule",
     "tick_outlier": "gap_bridge",
     "gyro_control_state": "gyro_control",
     "relock_chain": "relock_profile",
@@ -66,7 +65,7 @@ MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "stroke_model", "mode_switch", "switch_schedule", "bias_commutator",
     "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "fringe_readout", "health",
     "gyro_control", "relock_drift", "relock_profile", "edge_shift", "lock_in", "gap_bridge", "motion_moments",
-    "bridge_scores", "motion_learning", "optimal_bridge", "gap_mixture", "counted_stretch", "coil_asymmetry", "joint_relock", "angle", "gyro_compensation",
+    "bridge_scores", "motion_learning", "optimal_bridge", "gap_mixture", "counted_stretch", "joint_relock", "angle", "gyro_compensation",
 ]
 WHOLE = "whole half-period"
 USUAL = "steady, 16 samples"

@@ -89,6 +89,7 @@ config::Config read_angles(const Options& options, const std::string& path, std:
     logs::AngleReader reader{path};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
     const config::Config config = load_log_config(options, reader.header().settings, path, LogFacts::tick);
+    note_former_keys(reader.header().settings, path);
     TickRates ticks(path, config.gyro.tick_s, config.analysis.angles);
     logs::TimedAngle angle;
     Progress progress;

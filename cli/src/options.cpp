@@ -77,6 +77,10 @@ config::Config load_log_config(const Options& options, const config::Settings& l
     return config;
 }
 
+void note_former_keys(const config::Settings& log_settings, const std::string& log_path) {
+    if (const auto note = config::former_keys_note(log_settings, log_path)) complain("note: " + *note);
+}
+
 recorded::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log,
                                            const std::string& log_path) {
     recorded::LogCompensation made =
@@ -89,13 +93,6 @@ recorded::LogCompensation log_compensation(const Options& options, const logs::R
                         "angles come from {}",
                         log_path, by_phase ? "phase" : "count", log.has_fringe ? "has" : "lacks",
                         log.has_fringe ? "counts and fringe" : "whole counts"));
-    const bool by_coil = asked.gyro.coil_current == config::CoilCurrent::record;
-    if (config::is_given(asked, "gyro.coil_current") && by_coil != log.has_coil)
-        made.notes.push_back(fmt::format(
-            "{}: gyro.coil_current = \"{}\" is for a gyro that runs; this log {} the column coil_ua, and an asymmetry "
-            "of the current {}",
-            log_path, by_coil ? "record" : "monitor", log.has_coil ? "has" : "lacks",
-            log.has_coil ? "is subtracted" : "stays in its angles"));
     for (const std::string& note : made.notes) complain("note: " + note);
     for (const std::string& warning : made.warnings) complain("warning: " + warning);
     return made;
@@ -166,7 +163,6 @@ int logged_light_samples(const Options& options, const config::Config& config, l
 logs::RawColumns raw_columns(const config::Config& config) {
     logs::RawColumns columns = logs::all_raw_columns;
     columns.has_fringe = config.gyro.readout == config::Readout::phase;
-    columns.has_coil = config.gyro.coil_current == config::CoilCurrent::record;
     columns.has_edge_offset = config.gyro.dither != core::DitherMethod::none;
     columns.timer_hz = rig::timer_hz;
     return columns;

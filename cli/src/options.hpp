@@ -56,6 +56,9 @@ enum class LogFacts { none, tick, tick_and_scale };
 [[nodiscard]] config::Config load_log_config(const Options& options, const config::Settings& log_settings,
                                              const std::string& log_path, LogFacts used = LogFacts::tick_and_scale);
 
+// One line on standard error about the settings of a log that only a former version knew.
+void note_former_keys(const config::Settings& log_settings, const std::string& log_path);
+
 // The compensation of a raw log, with a line on standard error for each note and warning.
 //
 // errors  those of load_log_config and of recorded::log_compensation.

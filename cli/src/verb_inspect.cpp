@@ -231,6 +231,7 @@ json inspect_raw(const InspectOptions& options) {
     logs::RawReader reader{options.file};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
     const LogSettings log = understood(options, reader.header().settings, options.file);
+    note_former_keys(log.good, options.file);
     const std::string out = options.repair ? repaired_path(options) : "";
     RawFindings found;
     if (options.repair)
@@ -253,6 +254,7 @@ json inspect_angles(const InspectOptions& options) {
             options.file)};
     logs::AngleReader reader{options.file};
     const AngleFindings found = read_angles(reader, options.file);
+    note_former_keys(reader.header().settings, options.file);
     if (found.damage.empty())
         warn_of_missing(understood(options, reader.header().settings, options.file), found.ticks, options.file);
     return angle_json(options, reader.header(), found);

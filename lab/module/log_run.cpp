@@ -80,6 +80,7 @@ void LogRun::open_angles(std::span<const std::string> settings) {
     const logs::AngleHeader& log = angles_.emplace(name_).header();
     config_ = layered(log.settings, name_, settings, false);
     append(notes_, log.warnings);
+    if (const auto note = config::former_keys_note(log.settings, name_)) notes_.push_back(*note);
 }
 
 bool LogRun::advance(std::int64_t rows) {

@@ -13,7 +13,6 @@ bool has(const py::dict& columns, const char* name) { return columns.contains(na
 void RawCollector::add(const core::HalfRecord& record, const core::LightSamples& light) {
     Collector::add(record);
     has_fringe_ = has_fringe_ || core::has_fringe(record);
-    has_coil_ = has_coil_ || record.coil_ua != 0;
     light_a_.insert(light_a_.end(), light.a.begin(), light.a.end());
     light_b_.insert(light_b_.end(), light.b.begin(), light.b.end());
 }
@@ -27,7 +26,6 @@ py::dict RawCollector::take_out() {
     };
     py::dict columns = Collector::take_out();
     if (!has_fringe_) columns["fringe"] = py::none();
-    if (!has_coil_) columns["coil_ua"] = py::none();
     columns["light_a"] = light(std::move(light_a_));
     columns["light_b"] = light(std::move(light_b_));
     return columns;

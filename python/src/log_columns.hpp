@@ -68,7 +68,6 @@ public:
 private:
     std::vector<float> light_a_, light_b_;
     bool has_fringe_ = false;  // in one half at least
-    bool has_coil_ = false;    // the same
 };
 
 // Collects the rows of an angle log.

@@ -114,7 +114,6 @@ class HalfRecord:
     span: int
     fringe: float
     lit: bool
-    coil_ua: int
 
 class IoError(Error, OSError): ...
 

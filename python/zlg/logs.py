@@ -44,8 +44,6 @@ class RawLog(Columns):
     fringe: Optional[NDArray[np.float64]] = None
     #: both beams were lit and steady throughout the half: its counts are good, in an open loop too
     lit: Optional[NDArray[np.bool_]] = None
-    #: current of the bias coil as it was read in the half, microamperes; 0 where it was not
-    coil_ua: Optional[NDArray[np.int32]] = None
     #: photodiodes, shape (halves, samples)
     light_a: Optional[NDArray[np.float32]] = None
     light_b: Optional[NDArray[np.float32]] = None

@@ -12,7 +12,7 @@ namespace zlg::config {
 
 namespace {
 
-void check_bridge_and_prior(const Config& config) {
+void check_bridge(const Config& config) {
     const Compensation& c = config.compensation;
     // A polynomial of order m goes through m + 1 points.
     const int order = order_of(c.bridge);
@@ -24,12 +24,6 @@ void check_bridge_and_prior(const Config& config) {
     if (order > c.extrapolation_points - 1) complain("compensation.extrapolation_points", c.extrapolation_points);
     const std::int64_t both_sides = c.points_before + c.points_after;
     if (order > both_sides - 1) complain("compensation.points_before + points_after", both_sides);
-    if (c.prior_line_hz.empty() || c.prior_line_hz.size() != c.prior_line_arcsec_s.size()) {
-        throw ConfigError(
-            fmt::format("compensation.prior_line_hz: {} numbers, compensation.prior_line_arcsec_s: {}; allowed are as "
-                        "many of each, one at least",
-                        c.prior_line_hz.size(), c.prior_line_arcsec_s.size()));
-    }
 }
 
 void check_motion(const Motion& m) {
@@ -143,12 +137,12 @@ void check_compensation(const Config& config) {
     for (const Key& key : all_keys()) {
         if (key.section == "compensation" || key.section == "gyro") check_range(key, config);
     }
-    check_bridge_and_prior(config);
+    check_bridge(config);
 }
 
 void check(const Config& config) {
     for (const Key& key : all_keys()) check_range(key, config);
-    check_bridge_and_prior(config);
+    check_bridge(config);
     check_times(config.gyro, config.switching);
     check_interval_limits(config.gyro, config.switching);
     check_discriminator(config.perimeter);

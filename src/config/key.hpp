@@ -1,6 +1,8 @@
 #pragma once
 // One row of the table of keys: where its value lives in a Config, of which kind it is, and what is allowed.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -118,6 +120,21 @@ constexpr Choice choice(std::span<const std::string_view> names) {
     using Enum = TypeOf<Section, Member>;
     return {names, [](const Config& c) { return static_cast<int>(c.*Section.*Member); },
             [](Config& c, int index) { c.*Section.*Member = static_cast<Enum>(index); }};
+}
+
+// The same where the enumeration has more than these enumerators, or numbers that are not 0, 1, ...
+template <auto Section, auto Member, auto... Enumerators>
+constexpr Choice choice_of(std::span<const std::string_view> names) {
+    return {names,
+            [](const Config& c) {
+                int index = 0;
+                (void)((Enumerators == c.*Section.*Member || (++index, false)) || ...);
+                return index;
+            },
+            [](Config& c, int index) {
+                constexpr std::array all{Enumerators...};
+                c.*Section.*Member = all.at(static_cast<std::size_t>(index));
+            }};
 }
 
 template <auto Section, auto Member>

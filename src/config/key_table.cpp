@@ -18,15 +18,12 @@ constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "ran
 constexpr std::array<std::string_view, 2> fidelities{"averaged", "laser"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
 constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
-constexpr std::array<std::string_view, 2> coil_currents{"monitor", "record"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
 constexpr std::array<std::string_view, 2> last_segments{"any", "half"};
-constexpr std::array<std::string_view, 2> after_steps{"wait", "switch"};
-constexpr std::array<std::string_view, 3> schedules{"fixed", "growing", "measured"};
+constexpr std::array<std::string_view, 2> schedules{"fixed", "measured"};
 constexpr std::array<std::string_view, 3> magnetics{"none", "watch", "estimate"};
 constexpr std::array<std::string_view, 5> relocks{"none", "frequency", "detuning", "mean_square", "joint"};
-constexpr std::array<std::string_view, 6> bridges{"none", "constant", "linear", "quadratic", "optimal", "auto"};
-constexpr std::array<std::string_view, 3> priors{"learnt", "flat", "lines"};
+constexpr std::array<std::string_view, 5> bridges{"none", "constant", "linear", "quadratic", "auto"};
 constexpr std::array<std::string_view, 5> motions{"rest", "constant", "sine", "sum", "file"};
 constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 
@@ -48,8 +45,6 @@ constexpr Range fault_time{.min = 0.0, .max = 1e9};
 
 constexpr Range long_interval{.min = 0.0, .max = 1e9, .without_min = true};
 constexpr Range schedule_number{.min = 0.0, .max = 1e12, .without_min = true};
-
-constexpr Range prior_size{.min = 0.0, .max = 1e9, .without_min = true};
 
 constexpr Range drift_sigma{.min = 0.0, .max = 1e6};
 constexpr Range presumed_drift{.min = -1e6, .max = 1e6};
@@ -102,10 +97,6 @@ const Key table[] = {
     {"gyro", "readout", "",
      "what is latched of the beat: whole counts, or with both photodiodes the place within the fringe too",
      choice<&C::gyro, &Gyro::readout>(readouts)},
-
-    {"gyro", "coil_current", "",
-     "what the current of the bias coil is read for: monitors, or records too, by which an asymmetry is subtracted",
-     choice<&C::gyro, &Gyro::coil_current>(coil_currents)},
 
     {"laser", "perimeter_m", "m", "length of the ring",
      Real{at<&C::laser, &Laser::perimeter_m>, {.min = 1e-3, .max = 1e3}}},
@@ -242,11 +233,10 @@ const Key table[] = {
      "half: the last switch before the end of the run comes where the times in both modes are equal at the end",
      choice<&C::switching, &Switching::last_segment>(last_segments)},
     {"switching", "schedule", "",
-     "fixed: a grid of interval_s; growing: with the cube root of time; measured: by the errors of the switches and "
-     "the drift that compensation finds",
-     choice<&C::switching, &Switching::schedule>(schedules)},
-    {"switching", "interval_min_s", "s",
-     "shortest interval of a schedule that is not fixed, and before a switch after a step",
+     "fixed: a grid of interval_s; measured: with the cube root of time, by the errors of the switches and the drift "
+     "that compensation finds",
+     choice_of<&C::switching, &Switching::schedule, Schedule::fixed, Schedule::measured>(schedules)},
+    {"switching", "interval_min_s", "s", "shortest interval of a schedule that is not fixed",
      Real{at<&C::switching, &Switching::interval_min_s>, long_interval}},
     {"switching", "interval_max_s", "s", "longest interval of a schedule that is not fixed",
      Real{at<&C::switching, &Switching::interval_max_s>, long_interval}},
@@ -255,11 +245,6 @@ const Key table[] = {
      Real{at<&C::switching, &Switching::switch_error_arcsec>, schedule_number}},
     {"switching", "magnetic_arcsec_s", "arcsec/s", "drift that changes its sign with the mode, presumed likewise",
      Real{at<&C::switching, &Switching::magnetic_arcsec_s>, schedule_number}},
-    {"switching", "after_step", "",
-     "after a lasting step of a steady rate, which may be an outer field: wait for the next switch, which tells, or "
-     "switch "
-     "early",
-     choice<&C::switching, &Switching::after_step>(after_steps)},
     {"switching", "gap_ticks", "", "ticks for which the loop stays open at a switch",
      integer<&C::switching, &Switching::gap_ticks>(1, 16)},
     {"switching", "gap_min_ticks", "",
@@ -272,24 +257,14 @@ const Key table[] = {
     {"compensation", "relock_ticks", "", "ticks after closing that are corrected",
      integer<&C::compensation, &Compensation::relock_ticks>(0, 1000000)},
     {"compensation", "bridge", "", "what replaces the ticks of a gap",
-     choice<&C::compensation, &Compensation::bridge>(bridges)},
+     choice_of<&C::compensation, &Compensation::bridge, core::BridgeMethod::none, core::BridgeMethod::constant,
+               core::BridgeMethod::linear, core::BridgeMethod::quadratic, core::BridgeMethod::automatic>(bridges)},
     {"compensation", "extrapolation_points", "", "measured ticks before a gap from which it is extrapolated",
      integer<&C::compensation, &Compensation::extrapolation_points>(1, 8)},
     {"compensation", "points_before", "", "measured ticks before a gap from which it is interpolated",
      integer<&C::compensation, &Compensation::points_before>(1, 8)},
     {"compensation", "points_after", "", "measured ticks after a gap from which it is interpolated",
      integer<&C::compensation, &Compensation::points_after>(1, 8)},
-    {"compensation", "prior", "",
-     "what bridge = optimal presumes of the motion: what it learnt between gaps, a flat band of rates, or known lines",
-     choice<&C::compensation, &Compensation::prior>(priors)},
-    {"compensation", "prior_band_hz", "Hz", "upper edge of the flat band; a little above the motion's",
-     Real{at<&C::compensation, &Compensation::prior_band_hz>, prior_size}},
-    {"compensation", "prior_rate_arcsec_s", "arcsec/s", "rms rate in the flat band",
-     Real{at<&C::compensation, &Compensation::prior_rate_arcsec_s>, prior_size}},
-    {"compensation", "prior_line_hz", "Hz", "frequencies of the known lines",
-     RealList{at<&C::compensation, &Compensation::prior_line_hz>, prior_size}},
-    {"compensation", "prior_line_arcsec_s", "arcsec/s", "their amplitudes, as many as frequencies",
-     RealList{at<&C::compensation, &Compensation::prior_line_arcsec_s>, prior_size}},
     {"compensation", "magnetic", "",
      "drift that changes its sign with the mode: left in the angle, estimated only, or estimated and taken out",
      choice<&C::compensation, &Compensation::magnetic>(magnetics)},

@@ -5,15 +5,17 @@
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
 
+#include "former_keys.hpp"
 #include "key.hpp"
 
 namespace zlg::config {
 
 namespace {
 
-bool is_ours(std::string_view dotted_key) {
+bool is_ours(std::string_view dotted_key, std::string_view value) {
     const auto dot = dotted_key.find('.');
-    return dot != std::string_view::npos && is_known_section(dotted_key.substr(0, dot));
+    if (dot == std::string_view::npos || !is_known_section(dotted_key.substr(0, dot))) return false;
+    return find_former(dotted_key.substr(0, dot), dotted_key.substr(dot + 1), value) == nullptr;
 }
 
 // These say how the counts were recorded, so that another value would make wrong angles of them.
@@ -44,7 +46,7 @@ Settings checked_log_settings(Settings log_settings, std::string_view log_name) 
     for (auto& [key, value] : log_settings) {
         if (key == "tick_s" || key == "scale_arcsec") key.insert(0, "gyro.");
         refuse_nearly_ours(key, log_name);
-        if (!is_ours(key)) continue;
+        if (!is_ours(key, value)) continue;
         const auto [first, is_new] = seen.emplace(key, value);
         if (is_new || first->second == value) continue;
         if (read_value(key, first->second, log_name) != read_value(key, value, log_name))
@@ -57,7 +59,7 @@ Settings checked_log_settings(Settings log_settings, std::string_view log_name) 
 void apply_log(Config& config, const Settings& log_settings, std::string_view log_name) {
     Config result = config;
     for (const auto& [key, value] : log_settings) {
-        if (is_ours(key)) apply_pair(result, key, value, log_name);
+        if (is_ours(key, value)) apply_pair(result, key, value, log_name);
     }
     config = std::move(result);
 }

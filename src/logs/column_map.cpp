@@ -32,6 +32,9 @@ void refuse_missing(std::span<const KnownColumn> columns, const ColumnMap& map, 
     }
 }
 
+// The current of the coil, of raw logs up to format_version 2.
+constexpr std::string_view former_column = "coil_ua";
+
 }  // namespace
 
 ColumnMap map_columns(std::span<const KnownColumn> columns, const std::vector<std::string>& names,
@@ -52,7 +55,8 @@ ColumnMap map_columns(std::span<const KnownColumn> columns, const std::vector<st
             map.field_of[static_cast<std::size_t>(known - columns.begin())] = field;
         } else {
             refuse_misspelt(columns, name, place);
-            map.warnings.push_back(fmt::format("{}: the unknown column '{}' is ignored", place, name));
+            const char* kind = name == former_column ? "column of a former version" : "unknown column";
+            map.warnings.push_back(fmt::format("{}: the {} '{}' is ignored", place, kind, name));
         }
     }
     refuse_missing(columns, map, place);

@@ -7,9 +7,9 @@
 namespace zlg::logs {
 
 int checked_format_version(double value, const std::string& place) {
-    for (const int known : {first_format_version, format_version})
+    for (int known = first_format_version; known <= format_version; ++known)
         if (value == known) return known;
-    throw FormatError(fmt::format("{}: format_version is {}; allowed are {} and {}", place, value, first_format_version,
+    throw FormatError(fmt::format("{}: format_version is {}; allowed is {} to {}", place, value, first_format_version,
                                   format_version));
 }
 

@@ -71,6 +71,7 @@ LogCompensation log_compensation(const config::Config& config, const logs::RawHe
     made.lacks_detuning = !config.compensation.relock && relock == RelockMethod::none;
     made.compensation.relock.presumes = made.lacks_detuning;
     made.config.compensation.relock = relock;
+    if (const auto note = config::former_keys_note(log.settings, log_name)) made.notes.push_back(*note);
     if (relock == RelockMethod::joint && log.light_samples == 0)
         made.notes.push_back(
             fmt::format("{}: holds no light samples; compensation.relock = \"joint\" takes the mean "

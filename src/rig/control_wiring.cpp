@@ -35,17 +35,6 @@ core::SwitchScheduleConfig schedule_of(const config::Config& config) {
             .presumed = {.switch_error_arcsec = sw.switch_error_arcsec, .magnetic_arcsec_s = sw.magnetic_arcsec_s}};
 }
 
-// Of half a second: two of them say that a step lasts. Beside the roundings at both ends of a block the level and the random
-// walk have a part in a step.
-core::RateStepConfig rate_step_of(const config::Config& config) {
-    if (config.switching.after_step == config::AfterStep::wait) return {};
-    const std::int64_t block_ticks = std::min<std::int64_t>(ticks_of(0.5, config.gyro.tick_s), 1 << 19);
-    const double block_s = static_cast<double>(block_ticks) * config.gyro.tick_s;
-    const double walk_counts = config.drift.random_walk_arcsec_sqrt_s * std::sqrt(block_s) / config.gyro.scale_arcsec;
-    return {.block_halves = static_cast<std::int32_t>(2 * block_ticks),
-            .min_counts = std::min(2.0 + 6.0 * walk_counts, 1e9)};
-}
-
 // Most counts of a half: one less than the fastest the counter can follow.
 std::int64_t counts_limit(const config::Config& config) {
     const double most = 0.5 * config.gyro.tick_s * counter_max_hz(config.gyro);
@@ -59,7 +48,6 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     made.health.counts_limit = counts_limit(config);
     made.bias_monitor.presumed_counts = std::min(bias_counts, 1e15);
     if (bias_counts >= core::min_bias_counts) made.coil_monitor.tolerance_ratio = 0.5 / bias_counts;
-    made.records_coil = g.coil_current == config::CoilCurrent::record;
     made.counter_monitor.watches = true;
     made.light_monitor.noise = core::Wavelengths{g.light_noise_lambda};
     // A laser whose curve is not known reads several times its detuning: the bias cannot have lost what that would take.
@@ -203,7 +191,6 @@ core::GyroControlConfig control_config(const config::Config& config) {
     made.stroke.half_wave = presumed;
     made.stroke.reference = core::Celsius{config.gyro.reference_temperature_c};
     made.schedule = schedule_of(config);
-    made.rate_step = rate_step_of(config);
     made.mode_switch.range = range;
     made.mode_switch.gap_ticks = config.switching.gap_ticks;
     made.mode_switch.gap_min_ticks = config.switching.gap_min_ticks;

@@ -99,7 +99,7 @@ void put(Bytes& bytes, const core::HalfRecord& r) {
     bytes.whole(r.span);
     bytes.real(r.fringe);
     bytes.whole(r.lit);
-    bytes.whole(r.coil_ua);
+    bytes.whole(0);  // where records had the current of the coil: a run has the fingerprint that it ever had
 }
 
 void put(Bytes& bytes, const twin::TwinTruth& t) {

@@ -79,6 +79,7 @@ Lab read_all(const CalibrationTask& task) {
         logs::RawReader raw = task.open(path);
         const logs::RawHeader& header = raw.header();
         lab.warnings.insert(lab.warnings.end(), header.warnings.begin(), header.warnings.end());
+        if (const auto note = config::former_keys_note(header.settings, path)) lab.warnings.push_back(*note);
         if (header.has_edge_offset)
             lab.warnings.push_back(
                 fmt::format("{}: the shifts of the bias edges are left in its counts, as noise", path));

@@ -138,14 +138,14 @@ class Versions(FingerprintTest):
         self.assertEqual(lines, [] if found is None else [f"{'format_version':<18} {found}"])
         return found
 
-    def test_a_log_of_a_run_says_2_and_one_without_the_line_says_none(self):
+    def test_a_log_of_a_run_says_3_and_one_without_the_line_says_none(self):
         for form in ("csv", "h5"):
             for name in ("raw", "angles"):
-                self.assertEqual(self.version_of(SHARED[form] / f"{name}.{form}"), 2)
+                self.assertEqual(self.version_of(SHARED[form] / f"{name}.{form}"), 3)
         self.assertIsNone(self.version_of(self.write("raw.csv", csv_text(quiet_log()))))
 
     def test_a_copy_and_a_repaired_log_have_that_of_their_source(self):
-        for version in (1, 2):
+        for version in (1, 2, 3):
             log = self.copy_of_version(version)
             for form, back_to in (("csv", "h5"), ("h5", "csv")):
                 copy, back = self.folder / f"copy.{form}", self.folder / f"back.{back_to}"
@@ -171,16 +171,17 @@ class Versions(FingerprintTest):
         log = self.folder / "raw.h5"
         shutil.copy(SHARED["h5"] / "raw.h5", log)
         with h5py.File(log, "r+") as file:
-            self.assertEqual(file.attrs["format_version"], 2)
+            self.assertEqual(file.attrs["format_version"], 3)
             file.attrs["format_version"] = version
         return log
 
-    def test_logs_of_version_1_are_read_and_those_of_3_refused(self):
-        self.inspected(self.copy_of_version(1))
-        for version in (0, 3):
+    def test_logs_of_versions_before_are_read_and_those_of_4_refused(self):
+        for version in (1, 2):
+            self.inspected(self.copy_of_version(version))
+        for version in (0, 4):
             refused = run("inspect", self.copy_of_version(version))
             self.assertEqual(refused.returncode, 3)
-            self.assertIn(f"format_version is {version}; allowed are 1 and 2", refused.stderr)
+            self.assertIn(f"format_version is {version}; allowed is 1 to 3", refused.stderr)
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ class OtherPrograms(CliTest):
         import tomllib
         with h5py.File(self.out / "raw.h5") as raw:
             self.assertEqual({name: data.attrs["unit"] for name, data in raw["raw"].items() if not name.startswith("light")}, UNITS)
-            self.assertEqual((raw.attrs["tick_s"], raw.attrs["scale_arcsec"], raw.attrs["format_version"]), (0.005, 3.263, 2))
+            self.assertEqual((raw.attrs["tick_s"], raw.attrs["scale_arcsec"], raw.attrs["format_version"]), (0.005, 3.263, 3))
             self.assertEqual(raw["raw/light"].shape, (8000, 16))
             self.assertEqual(raw["raw/light_b"].shape, (8000, 16))
             text = raw["config"][()].decode()

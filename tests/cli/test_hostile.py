@@ -360,7 +360,7 @@ class Cost(Hostile):
 
     def test_a_design_with_a_tiny_limit(self):
         for more in ([], ["--set", "piezo.rc_s=1e-5", "--set", "perimeter.tau_s=1e-5"],
-                     ["--set", "perimeter.loop=digital", "--set", "switching.schedule=growing", "--set",
+                     ["--set", "perimeter.loop=digital", "--set", "switching.schedule=measured", "--set",
                       "switching.interval_min_s=1e6", "--set", "switching.interval_max_s=1e7"]):
             before = processor_seconds_of_children()
             self.succeed("design", "--json", "--set", "perimeter.limit_lambda=1e-5", *more)

@@ -8,7 +8,7 @@ import numpy
 from support import CliTest
 
 USAGE = 2
-JOINT = ["--set", "compensation.relock=joint", "--set", "compensation.bridge=optimal"]
+JOINT = ["--set", "compensation.relock=joint"]
 SHORT = ["--duration", 24, "--set", "switching.interval_s=4"]
 
 

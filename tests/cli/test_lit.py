@@ -7,8 +7,7 @@ from support import CliTest, body_of, csv_text, quiet_log
 
 INPUT = 3
 COLUMNS = ["half", "bias_sign", "mode", "counts", "loop_closed", "lit"]
-OPTIMAL = ["--set", "compensation.bridge=optimal"]
-RUN = ["--duration", 30, "--set", "switching.interval_s=4", *OPTIMAL]
+RUN = ["--duration", 30, "--set", "switching.interval_s=4", "--set", "compensation.relock=joint"]
 
 
 class Text(str):
@@ -66,7 +65,7 @@ class Lit(CliTest):
         for name, columns in (("with", COLUMNS), ("without", COLUMNS[:-1])):
             raw = self.write(f"{name}.csv", csv_text(self.rows(0), columns))
             out = self.folder / f"angles-{name}.csv"
-            self.succeed("process", raw, *OPTIMAL, "--out", out)
+            self.succeed("process", raw, "--out", out)
             bodies.append(body_of(out))
         self.assertEqual(bodies[0], bodies[1])
 
@@ -76,7 +75,7 @@ class Lit(CliTest):
         for lit in (0, 1):
             raw = self.write(f"lit{lit}.csv", csv_text(self.rows(lit), COLUMNS))
             out = self.folder / f"angles-lit{lit}.csv"
-            self.succeed("process", raw, *OPTIMAL, "--out", out)
+            self.succeed("process", raw, "--out", out)
             bodies.append(body_of(out))
         self.assertEqual(bodies[0], bodies[1])
 

@@ -4,7 +4,7 @@ import unittest
 
 from support import CliTest
 
-SETTINGS = ("gyro.readout=phase", "switching.interval_s=5", "motion.kind=rest", "drift.magnetic_arcsec_s=3", "compensation.bridge=optimal")
+SETTINGS = ("gyro.readout=phase", "switching.interval_s=5", "motion.kind=rest", "drift.magnetic_arcsec_s=3", "compensation.relock=joint")
 
 
 class MagneticStep(CliTest):

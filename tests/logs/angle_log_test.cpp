@@ -41,7 +41,7 @@ TEST(AngleWriter, writes_settings_legend_tick_names_and_shortest_numbers) {
                   .flags = zlg::core::flag_switching | zlg::core::flag_unrepaired});
     writer.close();
     EXPECT_EQ(content_of(folder.file("angles.csv")),
-              "# format_version = 2\n# run.seed = 1\n"
+              "# format_version = 3\n# run.seed = 1\n"
               "# flags = switching:1 extrapolated:2 interpolated:4 correction:8 relock_corrected:16 "
               "relock_uncorrected:32 lower_order:64 unrepaired:128 loop_unlocked:256 invalid:512 mode_mixed:1024\n"
               "# tick_s = 0.005\n"

@@ -47,12 +47,12 @@ INSTANTIATE_TEST_SUITE_P(Formats, LoggedVersion, testing::Values(".csv", ".h5"),
 TEST_P(LoggedVersion, is_the_present_one_where_nothing_else_is_asked) {
     write_raw(file("raw"), {});
     write_angles(file("angles"), {});
-    EXPECT_EQ(RawReader{file("raw")}.header().format_version, 2);
-    EXPECT_EQ(AngleReader{file("angles")}.header().format_version, 2);
+    EXPECT_EQ(RawReader{file("raw")}.header().format_version, 3);
+    EXPECT_EQ(AngleReader{file("angles")}.header().format_version, 3);
 }
 
 TEST_P(LoggedVersion, is_the_one_that_the_writer_was_given_and_no_setting) {
-    for (const FormatVersion version : {FormatVersion{1}, FormatVersion{2}, FormatVersion{}}) {
+    for (const FormatVersion version : {FormatVersion{1}, FormatVersion{2}, FormatVersion{3}, FormatVersion{}}) {
         write_raw(file("raw"), {.has_fingerprint = true, .format_version = version});
         write_angles(file("angles"), {.has_fingerprint = true, .format_version = version});
         const RawReader raw{file("raw")};
@@ -65,8 +65,8 @@ TEST_P(LoggedVersion, is_the_one_that_the_writer_was_given_and_no_setting) {
 }
 
 TEST_P(LoggedVersion, that_there_is_not_is_not_written) {
-    for (const int wrong : {0, 3}) {
-        const std::string says = "format_version is " + std::to_string(wrong) + "; allowed are 1 and 2";
+    for (const int wrong : {0, 4}) {
+        const std::string says = "format_version is " + std::to_string(wrong) + "; allowed is 1 to 3";
         EXPECT_NE(message_of<FormatError>([&] { write_raw(file("raw"), {.format_version = wrong}); }).find(says),
                   std::string::npos);
         EXPECT_NE(message_of<FormatError>([&] { write_angles(file("angles"), {.format_version = wrong}); }).find(says),
@@ -81,17 +81,16 @@ TEST(LoggedVersionCsv, is_refused_where_it_is_no_version_or_two) {
             folder.write("raw.csv", lines + "half,bias_sign,mode,counts,loop_closed\n0,1,1,5,1\n1,-1,1,-5,1\n");
         return message_of<FormatError>([&] { RawReader{path}; });
     };
-    EXPECT_NE(complaint("# format_version = 3\n").find("format_version is 3; allowed are 1 and 2"), std::string::npos);
+    EXPECT_NE(complaint("# format_version = 4\n").find("format_version is 4; allowed is 1 to 3"), std::string::npos);
     EXPECT_NE(complaint("# format_version = two\n").find("format_version is 'two'; allowed is a number"),
               std::string::npos);
     EXPECT_NE(complaint("# format_version = 1\n# format_version = 2\n").find("stands twice, as 1 and as 2"),
               std::string::npos);
 }
 
-TEST(FormatVersion, of_a_number_is_1_or_2) {
-    EXPECT_EQ(checked_format_version(1.0, "log"), 1);
-    EXPECT_EQ(checked_format_version(2.0, "log"), 2);
-    for (const double wrong : {0.0, 1.5, 3.0, -1.0, nan})
+TEST(FormatVersion, of_a_number_is_1_to_3) {
+    for (const int known : {1, 2, 3}) EXPECT_EQ(checked_format_version(known, "log"), known);
+    for (const double wrong : {0.0, 1.5, 4.0, -1.0, nan})
         EXPECT_NE(
             message_of<FormatError>([&] { (void)checked_format_version(wrong, "log"); }).find("log: format_version"),
             std::string::npos)

@@ -265,7 +265,7 @@ TEST(RawLogHdf5, has_units_and_the_facts_of_the_counts_in_its_root) {
     };
     EXPECT_EQ(real("tick_s"), 0.005);
     EXPECT_EQ(real("scale_arcsec"), 3.263);
-    EXPECT_EQ(real("format_version"), 2.0);
+    EXPECT_EQ(real("format_version"), 3.0);
     const auto unit = [&](const char* column) {
         const hid_t attribute = H5Aopen_by_name(file, column, "unit", H5P_DEFAULT, H5P_DEFAULT);
         const hid_t type = H5Aget_type(attribute);

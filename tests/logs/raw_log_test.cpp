@@ -259,7 +259,7 @@ TEST(RawWriter, writes_settings_names_and_shortest_numbers) {
                   .valid = false});
     writer.close();
     EXPECT_EQ(content_of(folder.file("raw.csv")),
-              "# format_version = 2\n# gyro.scale_arcsec = 3.263\n"
+              "# format_version = 3\n# gyro.scale_arcsec = 3.263\n"
               "half,bias_sign,mode,counts,loop_closed,valid,detuning_lambda,detuning_sq_lambda2,piezo_v,temperature_c,"
               "span,lit\n"
               "0,-1,1,-150,1,0,0.1,0.01,150,20.25,1,0\n");
@@ -361,7 +361,7 @@ TEST(RawLog, with_shifts_says_how_fast_the_timer_runs) {
     writer.write({.half = 1, .counts = -150, .bias_sign = -1, .edge_offset_ticks = 41});
     writer.close();
     EXPECT_EQ(content_of(folder.file("raw.csv")),
-              "# format_version = 2\n# note = x\n# timer_hz = "
+              "# format_version = 3\n# note = x\n# timer_hz = "
               "10000000\nhalf,bias_sign,mode,counts,loop_closed,edge_offset_ticks\n"
               "0,1,1,151,1,-83\n1,-1,1,-150,1,41\n");
 }

@@ -259,8 +259,8 @@ TEST(RawReader, refuses_a_configuration_that_contradicts_or_is_none) {
     expect_contains(complaint_about_rows([](Hdf5File& f) { f.text("/config", "a = 1\nb =\n"); }), "/config:2:");
     expect_contains(complaint_about_rows([](Hdf5File& f) { f.column<int>("/config", {1}); }),
                     "/config: allowed is one text");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.attribute("format_version", 3); }),
-                    "format_version is 3; allowed are 1 and 2");
+    expect_contains(complaint_about_rows([](Hdf5File& f) { f.attribute("format_version", 4); }),
+                    "format_version is 4; allowed is 1 to 3");
     expect_contains(complaint_about_rows([](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); }),
                     "the attribute tick_s is inf; allowed is a finite number");
     expect_contains(complaint_about_rows([](Hdf5File& f) { f.text_attribute("tick_s", "0.005"); }),

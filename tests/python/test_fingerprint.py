@@ -66,7 +66,7 @@ def halves_by_hand(config, n_halves):
         actuator = out.actuator
         yield (bytes_of("sensor frame", lambda name: frame_number(sensor, name))
                + bytes_of("actuator frame", lambda name: frame_number(actuator, name))
-               + bytes_of("half record", lambda name: getattr(out.record, name))
+               + bytes_of("half record", lambda name: 0 if name == "0" else getattr(out.record, name))
                + bytes_of("truth", lambda name: getattr(truth, name)))
 
 

@@ -98,13 +98,13 @@ def test_text_columns_have_names_and_decimal_commas(tmp_path):
         read_text_columns(tmp_path / "one.csv", [1], separator="dot")
 
 
-@pytest.mark.parametrize("version", [1, 2, None])
+@pytest.mark.parametrize("version", [1, 2, 3, None])
 def test_a_copy_has_the_version_of_its_source(version, tmp_path):
     raw = three_ticks()
-    assert raw.format_version == 2
+    assert raw.format_version == 3
     raw.format_version = version
     angles = zlg.compensate(raw)
-    assert angles.format_version == 2
+    assert angles.format_version == 3
     angles.format_version = version
     write_raw(tmp_path / "raw.h5", raw)
     write_angles(tmp_path / "angles.h5", angles)

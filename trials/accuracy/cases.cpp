@@ -18,7 +18,7 @@ std::vector<std::string> main_methods() {
 
 std::vector<std::string> all_methods() {
     std::vector<std::string> names = main_methods();
-    names.insert(names.end(), {method_name::flat, method_name::detuning_constant, method_name::detuning_quadratic,
+    names.insert(names.end(), {method_name::detuning_constant, method_name::detuning_quadratic,
                                method_name::frequency_quadratic, method_name::uncorrected});
     return names;
 }

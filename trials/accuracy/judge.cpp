@@ -45,13 +45,6 @@ void add_whole_switch(const Accuracy& accuracy, const std::string& method, std::
         1.15);
 }
 
-void add_flat(const Accuracy& accuracy, std::vector<Criterion>& out) {
-    const Worst x1 = worst_rms(accuracy, true, {CaseGroup::paper}, method_name::flat);
-    const Worst x4 = worst_rms(accuracy, false, {CaseGroup::paper}, method_name::flat);
-    out.push_back({"a", "fixed flat prior, x1: at most 5.5\"", x1.text(), x1.against(5.5)});
-    out.push_back({"a", "fixed flat prior, x4: at most 2.6\"", x4.text(), x4.against(2.6)});
-}
-
 void add_relock(const Accuracy& accuracy, std::vector<Criterion>& out) {
     Worst bias;
     Worst ratio;
@@ -173,7 +166,6 @@ std::vector<Criterion> judge(const Accuracy& accuracy) {
     constexpr std::array ours{method_name::optimal, method_name::automatic};
     std::vector<Criterion> criteria;
     for (const char* method : ours) add_whole_switch(accuracy, method, criteria);
-    add_flat(accuracy, criteria);
     add_relock(accuracy, criteria);
     for (const RecordingFigures& r : accuracy.recordings) add_recording(r, criteria);
     for (const char* method : ours) add_consistency(accuracy, method, criteria);

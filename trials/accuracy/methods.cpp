@@ -23,7 +23,6 @@ constexpr Recipe recipes[] = {
     {method_name::automatic, RelockMethod::joint, BridgeMethod::automatic, false},
     {method_name::automatic_ticks, RelockMethod::mean_square, BridgeMethod::automatic, false},
     {method_name::optimal_ticks, RelockMethod::mean_square, BridgeMethod::optimal, false},
-    {method_name::flat, RelockMethod::joint, BridgeMethod::optimal, false},
     {method_name::constant, RelockMethod::mean_square, BridgeMethod::constant, true},
     {method_name::linear, RelockMethod::mean_square, BridgeMethod::linear, true},
     {method_name::quadratic, RelockMethod::mean_square, BridgeMethod::quadratic, true},
@@ -67,9 +66,7 @@ std::vector<AccuracyMethod> methods_for(const config::Config& gyro, const std::v
     std::vector<AccuracyMethod> methods;
     for (const std::string& name : names) {
         const Recipe& recipe = recipe_of(name);
-        config::Config config = gyro;
-        if (name == method_name::flat) config.compensation.prior = config::MotionPrior::flat;
-        methods.push_back({name, rig::compensation_config(config, recipe.relock, recipe.bridge)});
+        methods.push_back({name, rig::compensation_config(gyro, recipe.relock, recipe.bridge)});
     }
     return methods;
 }

@@ -19,7 +19,6 @@ inline constexpr const char* optimal = "joint, optimal";
 inline constexpr const char* automatic = "joint, auto";
 inline constexpr const char* automatic_ticks = "mean square, auto";
 inline constexpr const char* optimal_ticks = "mean square, optimal";
-inline constexpr const char* flat = "joint, optimal, flat prior";
 inline constexpr const char* constant = "mean square, constant";
 inline constexpr const char* linear = "mean square, linear";
 inline constexpr const char* quadratic = "mean square, quadratic";

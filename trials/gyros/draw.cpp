@@ -113,8 +113,6 @@ public:
         set_motion();
         set_switching();
         set_compensation();
-        set_one_of("switching.after_step", std::array{"wait", "wait", "switch"});
-        set_one_of("gyro.coil_current", std::array{"monitor", "record"});
         set_lock_in();
         return std::move(settings_);
     }
@@ -282,7 +280,7 @@ private:
         if (is_one_in(12, "optimal interval")) set("switching.interval_s", std::string{"optimal"});
         set_one_of("switching.first_segment", std::array{"full", "half"});
         set_one_of("switching.last_segment", std::array{"any", "half"});
-        set_one_of("switching.schedule", std::array{"fixed", "fixed", "growing", "measured"});
+        set_one_of("switching.schedule", std::array{"fixed", "measured"});
         set_even("switching.interval_min_s", least_s, most_s);
         set_even("switching.interval_max_s", most_s, 2.0 * most_s);
     }
@@ -298,30 +296,13 @@ private:
         if (is_even && is_one_in(2, "polynomial bridge"))
             set_one_of("compensation.bridge", std::array{"quadratic", "linear", "constant"});
         else
-            set_one_of("compensation.bridge", std::array{"auto", "auto", "optimal"});
+            set("compensation.bridge", std::string{"auto"});
         set_whole("compensation.points_before", 2.0, 4);
         set_whole("compensation.points_after", 2.0, 4);
         set_whole("compensation.extrapolation_points", 3.0, 4);
-        if (c_.compensation.bridge == core::BridgeMethod::optimal) set_prior();
         set_one_of("compensation.magnetic", std::array{"none", "none", "watch", "estimate"});
         if (c_.compensation.magnetic != core::MagneticMethod::none && is_one_in(2, "calibrated drift"))
             set_calibrated_drift();
-    }
-
-    // A user who presumes a motion knows it.
-    void set_prior() {
-        const config::Motion& m = c_.motion;
-        if (m.kind != config::MotionKind::sine && m.kind != config::MotionKind::sum) return;
-        set_one_of("compensation.prior", std::array{"learnt", "learnt", "flat", "lines"});
-        if (c_.compensation.prior == config::MotionPrior::flat) {
-            double square = 0.0;
-            for (const double a : m.amplitude_arcsec_s) square += 0.5 * a * a;
-            set("compensation.prior_band_hz", 1.2 * *std::ranges::max_element(m.frequency_hz));
-            set("compensation.prior_rate_arcsec_s", std::sqrt(square));
-        } else if (c_.compensation.prior == config::MotionPrior::lines) {
-            set("compensation.prior_line_hz", fmt::format("[{}]", fmt::join(m.frequency_hz, ",")));
-            set("compensation.prior_line_arcsec_s", fmt::format("[{}]", fmt::join(m.amplitude_arcsec_s, ",")));
-        }
     }
 
     // A calibration that errs by its own sigma.

@@ -159,10 +159,7 @@ private:
         return config_.gyro.scale_arcsec * std::sqrt(n / 12.0);
     }
 
-    [[nodiscard]] bool is_polynomial() const {
-        const core::BridgeMethod bridge = config_.compensation.bridge;
-        return bridge != core::BridgeMethod::automatic && bridge != core::BridgeMethod::optimal;
-    }
+    [[nodiscard]] bool is_polynomial() const { return config_.compensation.bridge != core::BridgeMethod::automatic; }
 
     const config::Config& config_;
     twin::Motion motion_;

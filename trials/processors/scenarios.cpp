@@ -17,17 +17,14 @@ using chance::Draws;
 
 constexpr std::array relocks{core::RelockMethod::none, core::RelockMethod::frequency, core::RelockMethod::detuning,
                              core::RelockMethod::mean_square, core::RelockMethod::joint};
-constexpr std::array bridges{core::BridgeMethod::none,    core::BridgeMethod::constant,
-                             core::BridgeMethod::linear,  core::BridgeMethod::quadratic,
-                             core::BridgeMethod::optimal, core::BridgeMethod::automatic};
+constexpr std::array bridges{core::BridgeMethod::none, core::BridgeMethod::constant, core::BridgeMethod::linear,
+                             core::BridgeMethod::quadratic, core::BridgeMethod::automatic};
 constexpr std::array dithers{core::DitherMethod::none, core::DitherMethod::automatic, core::DitherMethod::paired,
                              core::DitherMethod::random};
 constexpr std::array magnetics{core::MagneticMethod::none, core::MagneticMethod::watch, core::MagneticMethod::estimate};
 // The twin's third loop is a formula that no fault moves, and the same as the first to the core.
 constexpr std::array loops{config::Loop::analog, config::Loop::digital};
-constexpr std::array schedules{config::Schedule::fixed, config::Schedule::fixed, config::Schedule::growing,
-                               config::Schedule::measured};
-constexpr std::array priors{config::MotionPrior::learnt, config::MotionPrior::flat, config::MotionPrior::lines};
+constexpr std::array schedules{config::Schedule::fixed, config::Schedule::measured};
 
 void draw_gyro(const Draws& draws, config::Config& c) {
     c.run.seed = draws.of("run.seed").below(1'000'000'000);
@@ -72,7 +69,6 @@ void draw_compensation(const Draws& draws, config::Config& c) {
     c.compensation.extrapolation_points = static_cast<int>(3 + draws.of("compensation.extrapolation_points").below(6));
     c.compensation.points_before = static_cast<int>(2 + draws.of("compensation.points_before").below(4));
     c.compensation.points_after = static_cast<int>(2 + draws.of("compensation.points_after").below(4));
-    c.compensation.prior = draws.of("compensation.prior").one_of(priors);
     c.compensation.magnetic = draws.of("compensation.magnetic").one_of(magnetics);
 }
 

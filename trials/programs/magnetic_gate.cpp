@@ -56,8 +56,8 @@ int main(int argc, char** argv) {
     app.add_option("SEEDS", seeds)->check(CLI::PositiveNumber);
     using zlg::core::FirstSegment;
     using zlg::core::ScheduleKind;
-    const std::map<std::string, ScheduleKind> kinds{
-        {"fixed", ScheduleKind::fixed}, {"growing", ScheduleKind::growing}, {"measured", ScheduleKind::measured}};
+    const std::map<std::string, ScheduleKind> kinds{{"fixed", ScheduleKind::fixed},
+                                                    {"measured", ScheduleKind::measured}};
     const std::map<std::string, FirstSegment> firsts{{"full", FirstSegment::full}, {"half", FirstSegment::half}};
     app.add_option("--schedule", gate.schedule)->transform(CLI::CheckedTransformer(kinds));
     app.add_option("--longest", gate.longest_s, "longest interval of a schedule that is not fixed, s")

@@ -220,15 +220,14 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
 // Magnetic drift to subtract from this tick. With the fringe phase read, a switch is known well enough for the step of the
 // drift there to matter, so the drift is estimated whatever the method; what the method leaves in the values is handed to the
 // bridge. Advances the estimator.
-double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state, TickInput& tick) noexcept {
+double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
+                       const TickInput& tick) noexcept {
     const bool by_phase = state.bridge.learning.moments.with_phase;
     const MagneticMethod method = config.magnetic.method;
     if (method == MagneticMethod::none && !by_phase && !state.magnetic.started) return 0.0;
-    const double subtracted = step(config.gyro, config.magnetic, state.magnetic,
-                                   {tick.measured, tick.mode, tick.value_arcsec, tick.settled, by_phase});
-    if (tick.measured) {
-        tick.variance_arcsec2 += state.magnetic.variance_arcsec2;
-    } else {
+    const double subtracted =
+        step(config.gyro, config.magnetic, state.magnetic, {tick.measured, tick.mode, tick.value_arcsec});
+    if (!tick.measured) {
         // In the angle of a tick.
         const double tick_s = by_phase ? config.gyro.tick.value() : 0.0;
         const MagneticFilterState& filter = state.magnetic.filter;
@@ -260,26 +259,6 @@ void read_lit_halves(const GyroCompensationConfig& config, GyroCompensationState
         add_gap_tick(config.gyro, state.bridge.lit, read, !state.bridge.gap.open, motion_arcsec2);
 }
 
-// Of a tick, and of the sum over a gap, in which eps is presumed to be that of its end. Returns what is subtracted from the tick.
-double subtract_asymmetry(const CompensationConstants& gyro, CoilAsymmetryState& state, const HalfRecord& first,
-                          const HalfRecord& second, TickInput& tick) noexcept {
-    // Most logs have no current.
-    if (second.coil_ua == 0 && state.n_differences == 0.0) return 0.0;
-    const double bias_hz = bias_at(gyro, Celsius{first.temperature_c}).value();
-    const double per_ratio = tick.mode * gyro.scale.value() * gyro.tick.value() * bias_hz;
-    const CoilAsymmetry coil =
-        step(state, first, second, {tick.measured, tick.mode, tick.value_arcsec, rounding_arcsec2(gyro), per_ratio});
-    if (coil.variance == 0.0) return 0.0;
-    const double known_ticks = as_double(tick.known_ticks);
-    const double subtracted = per_ratio * coil.ratio;
-    const double variance_arcsec2 = per_ratio * per_ratio * coil.variance;
-    tick.value_arcsec -= subtracted;
-    tick.variance_arcsec2 += variance_arcsec2;
-    tick.known_arcsec -= known_ticks * subtracted;
-    tick.known_variance_arcsec2 += known_ticks * known_ticks * variance_arcsec2;
-    return subtracted;
-}
-
 // Nothing can be subtracted: the motion is learnt from all ticks, and the switch is as uncertain as these together.
 void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& relock, TickInput& tick) noexcept {
     if (relock.due)
@@ -291,7 +270,7 @@ void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& re
 }
 
 // What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the perimeter or
-// the re-lock, the edges of faults, the current of the coil, the magnetic drift. What remains goes to the gap interpolation.
+// the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
                                  const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
@@ -348,11 +327,10 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     // The counts of a half that was missed go over into the next one, which then is not measured.
     state.refused = second.loop_closed && !second.valid;
     tick.bias_arcsec = state.bias_arcsec;
-    const double uneven_arcsec = subtract_asymmetry(config.gyro, state.coil, first, second, tick);
     const double magnetic = magnetic_arcsec(config, state, tick);
     tick.value_arcsec -= magnetic;
     if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
-        read_lit_halves(config, state, second, borders.start, tick, uneven_arcsec + magnetic);
+        read_lit_halves(config, state, second, borders.start, tick, magnetic);
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, config.bridge, state.bridge, tick)};
     remember(state.switch_errors, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;

@@ -137,29 +137,6 @@ double subtract(const CompensationConstants& gyro, const MagneticDriftConfig& c,
     return now + past;
 }
 
-// Take the steps of the field out of a tick, and see to it that the filter learns nothing from what was not yet taken out.
-double without_steps(const CompensationConstants& gyro, const MagneticDriftConfig& c, MagneticDriftState& s,
-                     const MagneticTick& tick, bool measured) noexcept {
-    s.variance_arcsec2 = 0.0;
-    if (c.method != MagneticMethod::estimate) return 0.0;
-    const FieldStepPrior prior{.drift_arcsec_s = c.presumed_arcsec_s,
-                               .drift_variance = c.presumed_sigma_arcsec_s * c.presumed_sigma_arcsec_s,
-                               .sway_arcsec_s = s.filter.scatter_arcsec_s};
-    if (!measured) {
-        if (s.mode != 0 && pause(gyro, prior, s.field, tick.with_phase)) s.segment = {};
-        return 0.0;
-    }
-    const FieldStepOutput found =
-        step(gyro, prior, s.field, {tick.mode, tick.angle_arcsec, tick.settled, tick.with_phase});
-    s.variance_arcsec2 = found.variance_arcsec2;
-    if (s.field.change_variance > 0.0) {
-        s.segment = {};
-        s.filter.covariance[of_drift][of_drift] += s.field.change_variance;
-        update_trust(c, s);
-    }
-    return found.subtract_arcsec;
-}
-
 }  // namespace
 
 MagneticDriftFault check(const MagneticDriftConfig& c) noexcept {
@@ -177,7 +154,6 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
     const bool credible = is_credible(gyro, tick);
     if (!credible) state.segment = {};
     const bool measured = tick.measured && credible && tick.mode != 0;
-    const double of_steps = without_steps(gyro, config, state, tick, measured);
     const std::int8_t mode = measured ? tick.mode : std::int8_t{0};
     if (mode != state.mode) {
         end_segment(gyro, config, state);
@@ -186,9 +162,8 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
     state.mode = mode;
     if (++state.pending_ticks >= block_ticks) predict_to_now(gyro, config, state);
     if (mode == 0) return 0.0;
-    const double of_field = state.field.field_arcsec_s * gyro.tick.value() * static_cast<double>(mode);
-    accumulate(state.segment, tick.angle_arcsec - of_field);
-    return of_steps + subtract(gyro, config, state);
+    accumulate(state.segment, tick.angle_arcsec);
+    return subtract(gyro, config, state);
 }
 
 double trusted_arcsec_s(const MagneticDriftState& state) noexcept {

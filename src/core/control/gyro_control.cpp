@@ -38,8 +38,7 @@ HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
             .edge_offset_ticks = o.commuted.edge_offset_ticks,
             .span = has_counts ? o.reading.span : 1,
             .fringe = o.fringe.fringe,
-            .lit = o.steady,
-            .coil_ua = o.coil_ua};
+            .lit = o.steady};
 }
 
 // Whether the piezo has been near an end of its range for so long that it should be led back towards the middle, and a
@@ -64,15 +63,10 @@ void decide_switch(const GyroControlConfig& c, GyroControlState& s, const Observ
                    ModeSwitchInput& in) noexcept {
     // Without usable light the outcome of a switch would be unknown, and the rotation in its gap would be lost.
     const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt && o.fresh;
-    const bool stepped = c.rate_step.block_halves > 0 && step(c.rate_step, s.rate_step,
-                                                              {.is_second = in.tick_border,
-                                                               .closed = o.loop_closed && o.settled,
-                                                               .good = o.valid && o.reading.span == 1,
-                                                               .counts = o.reading.counts});
     if (in.tick_border) {
-        in.due = step(c.schedule, s.schedule,
-                      {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice, .stepped = stepped})
-                     .open;
+        in.due =
+            step(c.schedule, s.schedule, {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice})
+                .open;
     }
     // In a switch, a return or a search the ends of the range are not watched.
     if (s.mode_switch.phase != SwitchPhase::tracking) return;

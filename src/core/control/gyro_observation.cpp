@@ -60,13 +60,6 @@ void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observatio
     o.settled = o.loop_closed && s.mode_switch.phase == SwitchPhase::tracking;
 }
 
-// Rounded. What is no current of a coil, or none at all, is not read.
-std::int32_t microamperes(double current_a) noexcept {
-    const double ua = 1e6 * current_a;
-    if (!(ua > -2e9 && ua < 2e9)) return 0;
-    return static_cast<std::int32_t>(ua < 0.0 ? ua - 0.5 : ua + 0.5);
-}
-
 void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     const bool good = o.counted && !o.beyond && !o.commuted.sign_error && !o.polarity_error;
     o.bias = step(c.bias_monitor, s.bias_monitor,
@@ -79,7 +72,6 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
     o.bias_wrong = o.bias.judged && !o.bias.in_band && was_lit;
     if (!o.fresh) return;
     o.coil = step(c.coil_monitor, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
-    if (c.records_coil) o.coil_ua = microamperes(frame.coil_current_a);
 }
 
 void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {

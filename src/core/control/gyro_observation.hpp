@@ -34,7 +34,6 @@ struct Observation {
     BiasMonitorOutput bias;
     bool bias_wrong = false;
     CoilMonitorOutput coil;
-    std::int32_t coil_ua = 0;  // to be recorded
     SyncDetectorOutput light;
     LightMonitorOutput monitored;
     bool detuning_usable = false;

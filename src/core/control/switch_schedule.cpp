@@ -55,21 +55,6 @@ bool is_newly_due(const SwitchScheduleConfig& c, SwitchScheduleState& s, const S
     return regular || s.balanced;
 }
 
-// An opening before it is planned, to learn whether a step of the rate was a field.
-bool is_due_by_step(const SwitchScheduleConfig& c, const SwitchScheduleState& s,
-                    const SwitchScheduleInput& in) noexcept {
-    if (!in.ready || s.held || s.balanced || !(in.tick >= 0 && in.tick < tick_limit)) return false;
-    const std::int64_t half_interval = c.interval_ticks / 2;
-    const bool by_half = c.kind == ScheduleKind::fixed && half_interval < c.min_ticks;
-    return in.tick - s.opened_tick >= (by_half ? half_interval : c.min_ticks);
-}
-
-// What is left of the segment that ends early, the next one has less than an interval.
-void move_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
-    const std::int64_t left_ticks = s.next_tick - tick;
-    s.next_tick = tick + (left_ticks < c.interval_ticks ? c.interval_ticks - left_ticks : c.interval_ticks);
-}
-
 // Sixteen bits that look random: the last step of MurmurHash3 (A. Appleby, public domain).
 std::uint32_t scattered(std::uint32_t x) noexcept {
     x = (x ^ (x >> 16U)) * 0x85ebca6bU;
@@ -90,11 +75,19 @@ std::int64_t varied(std::int64_t interval_ticks, std::uint32_t n_openings) noexc
     return interval_ticks - sixteenth / 65536 * part - sixteenth % 65536 * part / 65536;
 }
 
+// What a few switches have measured may be far off: the interval follows it step by step.
+std::int64_t within_factor_2(std::int64_t before_ticks, std::int64_t wanted_ticks) noexcept {
+    const std::int64_t least = before_ticks - before_ticks / 2;
+    const std::int64_t most = 2 * before_ticks;
+    if (wanted_ticks < least) return least;
+    return wanted_ticks < most ? wanted_ticks : most;
+}
+
 void note_opening(const SwitchScheduleConfig& c, SwitchScheduleState& s, const SwitchScheduleInput& in) noexcept {
     s.opened_tick = in.tick;
     if (c.kind == ScheduleKind::fixed) return;
-    const SwitchAdvice advice = c.kind == ScheduleKind::measured ? in.advice : SwitchAdvice{};
-    s.interval_ticks = varied(balanced_interval(c, advice, in.tick), ++s.n_openings);
+    s.interval_ticks =
+        within_factor_2(s.interval_ticks, varied(balanced_interval(c, in.advice, in.tick), ++s.n_openings));
     s.imbalance_ticks = s.centre_ticks + limited_to(s.imbalance_ticks - s.centre_ticks, c.max_ticks);
 }
 
@@ -129,9 +122,7 @@ SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleStat
     const bool late = state.waiting || jumped;
     const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
     state.waiting = planned && !in.ready;
-    const bool early = in.stepped && !planned && is_due_by_step(config, state, in);
-    if (!((planned || state.asked || early) && in.ready)) return {};
-    if (early && config.kind == ScheduleKind::fixed) move_grid(config, state, in.tick);
+    if (!((planned || state.asked) && in.ready)) return {};
     state.asked = false;
     note_opening(config, state, in);
     return {.open = true, .late = late};

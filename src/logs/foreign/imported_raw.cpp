@@ -179,7 +179,7 @@ private:
                                  {"gyro.scale_arcsec", look_.mapping.text("scale_arcsec")}};
         if (halves_.rows > 1)
             made_.notes.push_back(fmt::format("{} rows make a half; their counts are added up", halves_.rows));
-        for (const char* key : {"fringe", "span", "coil_ua", "edge_offset_ticks"})
+        for (const char* key : {"fringe", "span", "edge_offset_ticks"})
             if (halves_.rows > 1 && from_.find(key) != nullptr)
                 throw FormatError(
                     fmt::format("{}: {} rows make a half, and {} of a part of one is none of the half; leave it out",
@@ -270,8 +270,6 @@ private:
             row.fringe = std::isnan(fringe) ? row.fringe : static_cast<float>(whole("fringe", end, 0.0, 65535.0));
         }
         if (from_.find("span") != nullptr) row.span = static_cast<std::int32_t>(whole("span", end, 1.0, 2147483647.0));
-        if (from_.find("coil_ua") != nullptr)
-            row.coil_ua = static_cast<std::int32_t>(whole("coil_ua", end, -2147483647.0, 2147483647.0));
         if (from_.find("edge_offset_ticks") != nullptr)
             row.edge_offset_ticks =
                 static_cast<std::int32_t>(whole("edge_offset_ticks", end, -2147483647.0, 2147483647.0));
@@ -290,7 +288,6 @@ private:
         header.has_fringe = from_.find("fringe") != nullptr;
         header.has_span = from_.find("span") != nullptr;
         header.has_lit = from_.find("lit") != nullptr;
-        header.has_coil = from_.find("coil_ua") != nullptr;
         header.has_edge_offset = from_.find("edge_offset_ticks") != nullptr;
         if (header.has_edge_offset) header.timer_hz = look_.mapping.real("timer_hz").value();
     }

@@ -59,7 +59,6 @@ constexpr std::array<Key, 33> keys{{
     {"fringe", Takes::raw_column, "", "as in docs/logs.md"},
     {"span", Takes::raw_column, "", "as in docs/logs.md"},
     {"lit", Takes::raw_column, "", "as in docs/logs.md"},
-    {"coil_ua", Takes::raw_column, "", "as in docs/logs.md"},
     {"edge_offset_ticks", Takes::raw_column, "", "as in docs/logs.md"},
     {"timer_hz", Takes::positive, "a number above 0", "ticks a second of the timer of edge_offset_ticks"},
 }};

@@ -32,7 +32,7 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
     std::vector<std::int64_t> wanted;
     for (const char* key :
          {"half", "bias_sign", "mode", "counts", "loop_closed", "loop_open", "valid", "detuning_lambda",
-          "detuning_sq_lambda2", "piezo_v", "temperature_c", "fringe", "span", "lit", "coil_ua", "edge_offset_ticks"}) {
+          "detuning_sq_lambda2", "piezo_v", "temperature_c", "fringe", "span", "lit", "edge_offset_ticks"}) {
         if (!look.mapping.has(key)) continue;
         const std::string said = look.mapping.text(key);
         RawSource source{.key = key, .values = {}, .from = said};

@@ -46,6 +46,27 @@ TEST(MagneticDrift, WhatIsNoNumberIsRefused) {
     EXPECT_EQ(check(c), MagneticDriftFault::warming);
 }
 
+// A tone has no field in it, however its periods lie to the switches: what is read is 20.06 Hz in whole counts.
+TEST(MagneticDrift, OfATonePureNothingIsSubtracted) {
+    constexpr CompensationConstants counted{.tick = Seconds{0.005}, .scale = Arcsec{3.263}};
+    constexpr double turn = 2.0 * std::numbers::pi * 20.06 * 0.005;  // a tick
+    constexpr double amplitude_counts = 12'000.0 / (2.0 * std::numbers::pi * 20.06) / 3.263;
+    for (const int interval : {1600, 2000, 4000}) {
+        for (int phase = 0; phase < 12; ++phase) {
+            MagneticDriftState state;
+            const auto reading = [&](int tick) {
+                return std::floor(-amplitude_counts * std::cos(turn * tick + phase * std::numbers::pi / 6.0));
+            };
+            for (int tick = 0; tick < 120'000; ++tick) {
+                const MagneticTick read{.measured = tick < interval || tick % interval >= 3,
+                                        .mode = static_cast<std::int8_t>(tick / interval % 2 == 0 ? 1 : -1),
+                                        .angle_arcsec = 3.263 * (reading(tick + 1) - reading(tick))};
+                ASSERT_EQ(step(counted, config_of(), state, read), 0.0) << interval << " " << phase << " " << tick;
+            }
+        }
+    }
+}
+
 // A gyro that switches every `interval_s`, the first time after half of that, on a base that moves.
 struct Gyro {
     double interval_s = 45.0;

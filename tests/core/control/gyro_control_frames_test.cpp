@@ -49,20 +49,6 @@ TEST_P(EitherLoop, AFrameThatDoesNotFollowIsNotCounted) {
     EXPECT_EQ(loop.health.back(), health_sequence_error);
 }
 
-TEST_P(EitherLoop, RecordsTheCurrentOfTheCoilInMicroamperesWhereItIsAsked) {
-    const auto recorded = [](bool records, double current_a) {
-        GyroControlConfig config = config_of(GetParam());
-        config.records_coil = records;
-        Loop loop{config};
-        loop.ticks(2);
-        return loop.half([&](SensorFrame& f) { f.coil_current_a = current_a; }).record.coil_ua;
-    };
-    EXPECT_EQ(recorded(false, 1.0), 0);
-    EXPECT_EQ(recorded(true, 1.0009765625), 1'000'977);  // a code of a converter of 12 bits
-    EXPECT_EQ(recorded(true, -0.9990234375), -999'023);
-    for (const double unread : {0.0, not_a_number, 1.0 / 0.0, 2001.0, -1e300}) EXPECT_EQ(recorded(true, unread), 0);
-}
-
 TEST_P(EitherLoop, FlagsNameWhatIsWrongWithAFrame) {
     const auto bits = [](auto spoil) {
         Loop loop{config_of(GetParam())};

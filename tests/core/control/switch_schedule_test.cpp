@@ -116,7 +116,7 @@ Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int8_t m
 
 SwitchScheduleConfig growing(FirstSegment first = FirstSegment::half) {
     return {.first_segment = first,
-            .kind = ScheduleKind::growing,
+            .kind = ScheduleKind::measured,
             .min_ticks = 100,
             .max_ticks = 100000,
             .tick_s = 0.1,
@@ -189,11 +189,9 @@ TEST(SwitchSchedule, AFullFirstSegmentPutsTheCentreAtHalfOfIt) {
     }
 }
 
-TEST(SwitchSchedule, OnlyTheMeasuredOneTakesAdvice) {
+TEST(SwitchSchedule, AdviceIsTakenWhereTheIntervalIsMeasured) {
     SwitchScheduleConfig c = growing();
     const auto quiet = [](std::int64_t) { return SwitchAdvice{.switch_error_arcsec = 0.3, .magnetic_arcsec_s = 0.5}; };
-    EXPECT_EQ(course(c, 100000, quiet).openings, course(c, 100000).openings);
-    c.kind = ScheduleKind::measured;
     // A tenth of the error: 10^(2/3) = 4.6 times as many switches.
     const auto more = static_cast<double>(course(c, 400000, quiet).openings.size());
     const auto fewer = static_cast<double>(course(c, 400000).openings.size());
@@ -201,8 +199,7 @@ TEST(SwitchSchedule, OnlyTheMeasuredOneTakesAdvice) {
 }
 
 TEST(SwitchSchedule, AdviceThatJumpsDoesNotCarryTheSawtoothAway) {
-    SwitchScheduleConfig c = growing();
-    c.kind = ScheduleKind::measured;
+    const SwitchScheduleConfig c = growing();
     const auto jumping = [](std::int64_t tick) {
         return SwitchAdvice{.switch_error_arcsec = tick / 7919 % 2 == 0 ? 0.5 : 8.0, .magnetic_arcsec_s = 0.5};
     };
@@ -230,7 +227,7 @@ TEST(SwitchSchedule, AFailureIsNotPaidBackByMoreThanTheLongestInterval) {
 
 TEST(SwitchSchedule, TheEndIsBalancedWhereItIsKnown) {
     for (const FirstSegment first : {FirstSegment::full, FirstSegment::half})
-        for (const ScheduleKind kind : {ScheduleKind::fixed, ScheduleKind::growing})
+        for (const ScheduleKind kind : {ScheduleKind::fixed, ScheduleKind::measured})
             for (const std::int64_t end : {37, 150, 999, 1000, 1001, 1049, 1050, 1951, 20000})
                 for (const std::int8_t mode : {std::int8_t{1}, std::int8_t{-1}}) {
                     SwitchScheduleConfig c = growing(first);
@@ -242,6 +239,29 @@ TEST(SwitchSchedule, TheEndIsBalancedWhereItIsKnown) {
                     EXPECT_LE(std::abs(got.imbalance.back()), 1) << end;
                     EXPECT_LE(got.openings.size(), without + 1) << end;
                 }
+}
+
+// Whatever is advised.
+TEST(SwitchSchedule, FromSwitchToSwitchTheIntervalChangesByAFactorOfTwoAtMost) {
+    const SwitchScheduleConfig c = growing();
+    const auto jumping = [](std::int64_t tick) {
+        return SwitchAdvice{.switch_error_arcsec = tick / 20011 % 2 == 0 ? 0.01 : 500.0, .magnetic_arcsec_s = 0.5};
+    };
+    SwitchScheduleState s = initial_state(c);
+    std::int8_t mode = 1;
+    std::int64_t shortest = s.interval_ticks, longest = shortest;
+    for (std::int64_t tick = 1; tick < 400000; ++tick) {
+        const std::int64_t before = s.interval_ticks;
+        if (!step(c, s, {.tick = tick, .mode = mode, .advice = jumping(tick)}).open) continue;
+        mode = static_cast<std::int8_t>(-mode);
+        EXPECT_LE(s.interval_ticks, 2 * before) << tick;
+        EXPECT_GE(2 * s.interval_ticks, before) << tick;
+        shortest = std::min(shortest, s.interval_ticks);
+        longest = std::max(longest, s.interval_ticks);
+    }
+    // It gets everywhere all the same.
+    EXPECT_LT(shortest, c.min_ticks);
+    EXPECT_GT(longest, 20 * c.min_ticks);
 }
 
 // What is set from outside.
@@ -256,7 +276,7 @@ TEST(SwitchSchedule, HeldNothingIsDueAndTheGridGoesOn) {
 }
 
 TEST(SwitchSchedule, HeldByBalanceItIsDueWhenReleased) {
-    const SwitchScheduleConfig c{.kind = ScheduleKind::growing, .min_ticks = 10, .max_ticks = 20};
+    const SwitchScheduleConfig c{.kind = ScheduleKind::measured, .min_ticks = 10, .max_ticks = 20};
     SwitchScheduleState s = initial_state(c);
     s.held = true;
     for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
@@ -295,64 +315,6 @@ TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
     for (std::int64_t tick = 100; tick < 110; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
     EXPECT_TRUE(step(c, s, {.tick = 110}).open);
     EXPECT_FALSE(step(c, s, {.tick = 111}).open);
-}
-
-// Openings of a gyro whose rate has stepped in [from, to), as (tick, lead of mode + there).
-struct Opening {
-    std::int64_t tick = 0, lead_ticks = 0;
-};
-
-std::vector<Opening> openings_with_step(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t from,
-                                        std::int64_t to) {
-    SwitchScheduleState s = initial_state(c);
-    std::vector<Opening> result;
-    std::int8_t mode = 1;
-    std::int64_t lead = 0;
-    bool seen = false;  // a switch answers
-    for (std::int64_t tick = 1; tick < n_ticks; ++tick) {
-        lead += mode;
-        if (!step(c, s, {.tick = tick, .mode = mode, .stepped = tick >= from && tick < to && !seen}).open) continue;
-        seen = seen || tick >= from;
-        mode = static_cast<std::int8_t>(-mode);
-        result.push_back({tick, lead});
-    }
-    return result;
-}
-
-TEST(SwitchSchedule, AStepOpensEarlyAndTheNextSegmentMakesGoodForIt) {
-    for (const FirstSegment first : {FirstSegment::full, FirstSegment::half}) {
-        const SwitchScheduleConfig c{.interval_ticks = 100, .first_segment = first, .min_ticks = 20};
-        const std::vector<Opening> planned = openings_with_step(c, 1000, 2000, 2000);
-        const std::int64_t top = planned[0].lead_ticks;
-        const std::int64_t bottom = planned[1].lead_ticks;
-        const std::int64_t from = planned[1].tick + 30;
-        const std::vector<Opening> got = openings_with_step(c, 1000, from, 1000);
-        EXPECT_EQ(got[2].tick, from);
-        for (std::size_t k = 3; k < got.size(); ++k) EXPECT_EQ(got[k].lead_ticks, k % 2 == 0 ? top : bottom);
-    }
-}
-
-TEST(SwitchSchedule, AStepWaitsForTheShortestInterval) {
-    const SwitchScheduleConfig c{.interval_ticks = 100, .min_ticks = 30};
-    EXPECT_EQ(openings_with_step(c, 1000, 105, 1000)[1].tick, 130);
-    // On a grid at most for half an interval.
-    const SwitchScheduleConfig coarse{.interval_ticks = 100, .min_ticks = 2000};
-    EXPECT_EQ(openings_with_step(coarse, 1000, 105, 1000)[1].tick, 150);
-    const SwitchScheduleConfig growing{
-        .interval_ticks = 100, .kind = ScheduleKind::growing, .min_ticks = 300, .max_ticks = 9000};
-    const std::vector<Opening> planned = openings_with_step(growing, 30'000, 40'000, 40'000);
-    const std::int64_t from = planned[1].tick + 5;
-    EXPECT_EQ(openings_with_step(growing, 30'000, from, 30'000)[2].tick, planned[1].tick + 300);
-    EXPECT_GT(planned[2].tick, planned[1].tick + 600);
-}
-
-TEST(SwitchSchedule, AStepOpensNothingThatIsHeld) {
-    const SwitchScheduleConfig c{.interval_ticks = 100, .min_ticks = 10};
-    SwitchScheduleState s = initial_state(c);
-    s.held = true;
-    for (std::int64_t tick = 1; tick < 500; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .stepped = true}).open);
-    EXPECT_FALSE(step(c, s, {.tick = Limits::min(), .stepped = true}).open);
-    EXPECT_FALSE(step(c, s, {.tick = Limits::max(), .stepped = true}).open);
 }
 
 }  // namespace switch_schedule_test

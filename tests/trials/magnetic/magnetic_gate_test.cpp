@@ -20,7 +20,7 @@ MagneticGate gate(ScheduleKind schedule) {
 bool knows_the_mode(const MovingBase& base) { return base.name.ends_with("times the mode"); }
 
 TEST(MagneticGate, NowhereWorseThanWithoutOrSigmaSaysSo) {
-    for (const ScheduleKind schedule : {ScheduleKind::fixed, ScheduleKind::growing})
+    for (const ScheduleKind schedule : {ScheduleKind::fixed, ScheduleKind::measured})
         for (const MovingBase& base : moving_bases(gate(schedule))) {
             // What jumps whenever the gyro switches, on a schedule that nothing else can follow, is a drift of the gyro.
             if (schedule != ScheduleKind::fixed && knows_the_mode(base)) continue;
@@ -39,7 +39,7 @@ GateResult judged(const MagneticGate& g, const std::string& name) {
 }
 
 TEST(MagneticGate, AtRestTheSawtoothIsTakenOut) {
-    for (const ScheduleKind schedule : {ScheduleKind::fixed, ScheduleKind::growing}) {
+    for (const ScheduleKind schedule : {ScheduleKind::fixed, ScheduleKind::measured}) {
         const GateResult r = judged(gate(schedule), "rest");
         // 0.7 to 1 arcsec/s for 10 s.
         EXPECT_NEAR(r.without_arcsec, 0.97 * 20.0 / std::sqrt(12.0), 1.0);
@@ -54,7 +54,7 @@ TEST(MagneticGate, ASteadyRotationInStepIsLeftInTheAngle) {
         EXPECT_EQ(judged(fixed, name).trust, 0.0) << name;
     // Only the times of the switches tell this one.
     EXPECT_GT(judged(fixed, "in step: square wave of 2 arcsec/s").with_arcsec, 1.1 * 5.6);
-    const GateResult varied = judged(gate(ScheduleKind::growing), "in step: square wave of 2 arcsec/s");
+    const GateResult varied = judged(gate(ScheduleKind::measured), "in step: square wave of 2 arcsec/s");
     EXPECT_LE(varied.with_arcsec, 1.1 * varied.without_arcsec);
 }
 

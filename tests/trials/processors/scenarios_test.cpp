@@ -54,10 +54,10 @@ TEST(Scenarios, choose_every_method_and_every_fault) {
         none |= c.faults.random_per_hour == 0.0;
     }
     EXPECT_EQ(relocks.size(), 5u);
-    EXPECT_EQ(bridges.size(), 6u);
+    EXPECT_EQ(bridges.size(), 5u);
     EXPECT_EQ(magnetics.size(), 3u);
     EXPECT_EQ(dithers.size(), 4u);
-    EXPECT_EQ(schedules.size(), 3u);
+    EXPECT_EQ(schedules.size(), 2u);
     EXPECT_EQ(readouts.size(), 2u);
     EXPECT_EQ(faults.size(), twin::fault_kind_names.size());
     EXPECT_TRUE(all_faults);

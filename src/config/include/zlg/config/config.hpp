@@ -32,16 +32,8 @@ using Laser = twin::LaserConfig;
 using Photodiodes = twin::PhotodiodesConfig;
 
 enum class LastSegment { any, half };
-enum class AfterStep { wait, switch_early };
-enum class MotionPrior { learnt, flat, lines };
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
-
-// What the current of the bias coil is read for.
-enum class CoilCurrent {
-    monitor,  // health alone
-    record,   // the raw log and the compensation, too
-};
 
 struct Run {
     std::optional<double> duration_s;  // unset: 3600, or the length of the motion file
@@ -51,7 +43,6 @@ struct Run {
 // What makes the gyro itself stands in the sections of the twin; added here is what its processor presumes or does.
 struct Gyro : twin::GyroConfig {
     core::DitherMethod dither = core::DitherMethod::none;
-    CoilCurrent coil_current = CoilCurrent::monitor;
     std::optional<double> counter_max_hz;  // unset: 1.01 times that of 400 deg/s and the bias
 };
 
@@ -80,7 +71,6 @@ struct Switching {
     double switch_error_arcsec = 2.0;  // presumed, of one switch, rms
     double magnetic_arcsec_s = 0.7;    // presumed
     int gap_ticks = 3;
-    AfterStep after_step = AfterStep::wait;
     int gap_min_ticks = 0;  // from which on a switch that has arrived closes the loop; 0: gap_ticks
 };
 
@@ -91,11 +81,6 @@ struct Compensation {
     int extrapolation_points = 4;
     int points_before = 2;
     int points_after = 2;
-    MotionPrior prior = MotionPrior::learnt;  // of bridge = "optimal"
-    double prior_band_hz = 24.0;              // of a flat prior: 0.12 in a tick of 5 ms
-    double prior_rate_arcsec_s = 8485.0;      // its rms rate: that of a sine of 12 000 arcsec/s
-    std::vector<double> prior_line_hz = {20.0};
-    std::vector<double> prior_line_arcsec_s = {12000.0};  // amplitudes
     core::MagneticMethod magnetic = core::MagneticMethod::none;
     double magnetic_arcsec_s = 0.0;        // at the start, by calibration
     double magnetic_sigma_arcsec_s = 1.0;  // of that; not calibrated

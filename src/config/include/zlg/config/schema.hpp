@@ -68,6 +68,7 @@ void apply_set(Config& config, std::string_view setting);
 void apply_pair(Config& config, std::string_view dotted_key, std::string_view value, std::string_view source_name);
 
 // The settings of a log: those of a known section; others (`flags`, notes of the laboratory) are none of ours.
+// Keys and values that a former version knew are stepped over (`former_keys_note` names them); elsewhere they are errors.
 //
 // errors  ConfigError: as apply_pair. It blames the log, not the user's configuration.
 void apply_log(Config& config, const Settings& log_settings, std::string_view log_name);

@@ -9,7 +9,6 @@
 
 #include <zlg/core/compensation/angle.hpp>
 #include <zlg/core/compensation/border.hpp>
-#include <zlg/core/compensation/coil_asymmetry.hpp>
 #include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/compensation/counted_stretch.hpp>
 #include <zlg/core/compensation/edge_shift.hpp>
@@ -73,7 +72,6 @@ struct GyroCompensationState {
     SwitchErrors switch_errors{};
     Angle angle{};  // sum of all dtheta delivered
     MagneticDriftState magnetic{};
-    CoilAsymmetryState coil{};
     GapBridgeState bridge{};
     JointRelockState joint{};
 

@@ -83,17 +83,14 @@ struct HalfRecord {
     // counts.
     float fringe = __builtin_nanf("");
     bool lit = false;  // both beams were lit and steady throughout the half: its counts are good, in an open loop too
-    // Current of the bias coil as it was read in the half, microamperes; 0: not read, or not recorded.
-    std::int32_t coil_ua = 0;
 
     // The same bits, so that a quantity that was not measured is equal to itself.
     friend constexpr bool operator==(const HalfRecord& a, const HalfRecord& b) noexcept {
         return a.half == b.half && a.counts == b.counts && same_bits(a.detuning_lambda, b.detuning_lambda) &&
                same_bits(a.detuning_sq_lambda2, b.detuning_sq_lambda2) && same_bits(a.piezo_v, b.piezo_v) &&
-               same_bits(a.temperature_c, b.temperature_c) && a.coil_ua == b.coil_ua && a.bias_sign == b.bias_sign &&
-               a.mode == b.mode && a.loop_closed == b.loop_closed && a.valid == b.valid &&
-               a.edge_offset_ticks == b.edge_offset_ticks && a.span == b.span && same_bits(a.fringe, b.fringe) &&
-               a.lit == b.lit;
+               same_bits(a.temperature_c, b.temperature_c) && a.bias_sign == b.bias_sign && a.mode == b.mode &&
+               a.loop_closed == b.loop_closed && a.valid == b.valid && a.edge_offset_ticks == b.edge_offset_ticks &&
+               a.span == b.span && same_bits(a.fringe, b.fringe) && a.lit == b.lit;
     }
 };
 

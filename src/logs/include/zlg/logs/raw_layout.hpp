@@ -26,7 +26,6 @@ struct RawColumns {
     bool has_span = false;
     bool has_fringe = false;
     bool has_lit = false;
-    bool has_coil = false;
 };
 
 inline constexpr RawColumns all_raw_columns{.has_valid = true,
@@ -90,7 +89,6 @@ struct RawTable {
         optional_column("span", "1", &Row::span, any_whole<std::int32_t>, &Presence::has_span, std::int32_t{1}, true),
         optional_column<double>("fringe", "1/65536", &Row::fringe, Fringe{}, &Presence::has_fringe, not_measured),
         optional_column<std::uint8_t>("lit", "1", &Row::lit, Flag{}, &Presence::has_lit, 0),
-        optional_column("coil_ua", "uA", &Row::coil_ua, any_whole<std::int32_t>, &Presence::has_coil, std::int32_t{0}),
     };
 };
 

@@ -15,7 +15,7 @@ struct LogCompensation {
     config::Config config;  // as it was given, with compensation.relock decided
     core::GyroCompensationConfig compensation;
     bool lacks_detuning = false;        // for that reason alone nothing is subtracted after a closing
-    std::vector<std::string> notes;     // what is done in place of what was asked, a line each
+    std::vector<std::string> notes;     // what is done in place of what was asked or logged, a line each
     std::vector<std::string> warnings;  // what was asked and is not done
 };
 

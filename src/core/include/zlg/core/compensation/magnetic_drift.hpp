@@ -22,7 +22,6 @@
 #include <cstdint>
 
 #include <zlg/core/compensation/compensation_constants.hpp>
-#include <zlg/core/compensation/field_step.hpp>
 #include <zlg/core/compensation/magnetic_filter.hpp>
 #include <zlg/core/compensation/segment_rate.hpp>
 #include <zlg/core/units.hpp>
@@ -62,8 +61,6 @@ struct MagneticDriftState {
     double trust = 0.0;              // 0..1: (3), the part of M that is subtracted
     double due_arcsec = 0.0;         // trust M, by now
     double subtracted_arcsec = 0.0;  // so far
-    FieldStepState field{};          // of `estimate`
-    double variance_arcsec2 = 0.0;   // that the last tick has more, by steps of the field
 
     friend constexpr bool operator==(const MagneticDriftState&, const MagneticDriftState&) = default;
 };
@@ -72,8 +69,6 @@ struct MagneticTick {
     bool measured = true;
     std::int8_t mode = 1;
     double angle_arcsec = 0.0;  // as read, re-lock corrected
-    bool settled = true;        // no re-lock is corrected in it
-    bool with_phase = false;    // readings have the place within the count, as a rule
 };
 
 // Advance by one tick. A gap, or a change of the mode, ends a segment.
@@ -85,9 +80,6 @@ struct MagneticTick {
 // scatter of the innovations, and that increases sigma; so does motion in step with the switches (motion_in_step.hpp). A
 // rotation in step that jumps with the switches is bounded by sigma_p alone, the standard deviation of the presumed drift,
 // of its warming by now and of its random walk. Segments whose rate scatters by more than 300 arcsec/s are not used.
-//
-// Steps of the drift are found at the switches (field_step.hpp) and subtracted before all this: they are certain where they are
-// found, and too fast for the filter. What it knew of the drift loses their variance.
 //
 // config  passed `check`.
 // state   from MagneticDriftState{}.

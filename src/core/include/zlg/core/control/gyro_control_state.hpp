@@ -15,7 +15,6 @@
 #include <zlg/core/control/light_monitor.hpp>
 #include <zlg/core/control/mode_switch.hpp>
 #include <zlg/core/control/perimeter_loop.hpp>
-#include <zlg/core/control/rate_step.hpp>
 #include <zlg/core/control/reading_monitor.hpp>
 #include <zlg/core/control/stroke_model.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
@@ -32,13 +31,11 @@ struct GyroControlConfig {
     HalfWaveConfig half_wave{};
     StrokeModelConfig stroke{};  // its range is that of `loop`
     SwitchScheduleConfig schedule{};
-    RateStepConfig rate_step{};      // after which the schedule switches early
     ModeSwitchConfig mode_switch{};  // its range is that of `loop`
     BiasCommutatorConfig commutator{};
     HealthConfig health{};
     BiasMonitorConfig bias_monitor{};
     CoilMonitorConfig coil_monitor{};
-    bool records_coil = false;  // the coil's current goes into the records, and compensation uses it
     CounterMonitorConfig counter_monitor{};
     LightMonitorConfig light_monitor{};
     DetuningMonitorConfig detuning_monitor{};
@@ -69,8 +66,7 @@ enum class GyroControlFault : unsigned char {
     if (check(c.loop) != PerimeterLoopFault::none) return GyroControlFault::loop;
     if (check(c.half_wave) != HalfWaveFault::none) return GyroControlFault::half_wave;
     if (check(c.stroke) != StrokeModelFault::none) return GyroControlFault::stroke;
-    if (check(c.schedule) != SwitchScheduleFault::none || check(c.rate_step) != RateStepFault::none)
-        return GyroControlFault::schedule;
+    if (check(c.schedule) != SwitchScheduleFault::none) return GyroControlFault::schedule;
     if (check(c.mode_switch) != ModeSwitchFault::none) return GyroControlFault::mode_switch;
     if (check(c.commutator) != BiasCommutatorFault::none) return GyroControlFault::commutator;
     if (check(c.health) != HealthFault::none) return GyroControlFault::health;
@@ -103,7 +99,6 @@ struct GyroControlState {
     double closed_at_v = 0.0;  // reading of the piezo when the loop was closed last,
     bool closed_read = false;  // if there was one
     SwitchScheduleState schedule{};
-    RateStepState rate_step{};
     ModeSwitchState mode_switch{};
     BiasCommutatorState commutator{};
     std::int64_t half = 0;       // index of the half that is latched next; 2j and 2j + 1 make tick j

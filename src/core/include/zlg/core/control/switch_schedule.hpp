@@ -13,9 +13,8 @@ enum class FirstSegment : unsigned char {
 };
 
 enum class ScheduleKind : unsigned char {
-    fixed,     // a grid, laid once from the start of the run
-    growing,   // the interval grows with the time that has passed
-    measured,  // the same, from the errors and the drift that compensation has measured
+    fixed,         // a grid, laid once from the start of the run
+    measured = 2,  // by the time that has passed, and the errors and the drift that compensation has measured
 };
 
 struct SwitchScheduleConfig {
@@ -77,7 +76,6 @@ struct SwitchScheduleInput {
     bool ready = true;      // the gyro is tracking: what is due when it is not waits, several that wait are one
     std::int8_t mode = 1;   // of the tick that ends now
     SwitchAdvice advice{};  // for `measured`
-    bool stepped = false;   // the rate has stepped, and a switch would tell whether by a field
 };
 
 struct SwitchScheduleOutput {
@@ -89,16 +87,14 @@ struct SwitchScheduleOutput {
 //
 //   fixed     opening k is due before tick first_tick + k interval_ticks, k = 0, 1, ...; a late one does not move the
 //             grid. Should the tick jump over a whole interval, the grid is laid anew from there.
-//   others    due where the time in mode + exceeds that in mode - by interval/2, or the other way round: so the sawtooth
+//   measured  due where the time in mode + exceeds that in mode - by interval/2, or the other way round: so the sawtooth
 //             stays centred while the interval changes, and a late opening is made good by the next one. With a full first
 //             segment its centre is half of the first interval. Up to 1/16 of the interval is left out, a
 //             different part each time, so that no vibration keeps step. 15/16 of min_ticks pass between two openings
-//             at least; what exceeds max_ticks is forgotten.
+//             at least; what exceeds max_ticks is forgotten. From one opening to the next the interval changes by a
+//             factor of 2 at most.
 //   end_tick  the last opening is due where the time that is left just makes up for the imbalance.
-//   stepped   an opening at once, but not before min_ticks, on a grid half an interval if that is less, have passed since the
-//             last one. On a grid the next segment makes good for it: it ends where the lead of one mode over the
-//             other is what it would have been two points of the grid on, and the grid is laid anew from there.
-//   held      points of the grid pass; when it ends, the others are due at once where the time in the modes asks for it.
+//   held      points of the grid pass; when it ends, `measured` is due at once where the time in the modes asks for it.
 //
 // An interval that has been made shorter since counts from now.
 //

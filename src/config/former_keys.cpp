@@ -1,0 +1,59 @@
+#include "former_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <zlg/config/log_settings.hpp>
+
+namespace zlg::config {
+namespace {
+
+constexpr std::string_view motion_is_learnt = "leave it out: the motion is learnt";
+
+constexpr std::array<FormerKey, 9> formers{{
+    {"gyro", "coil_current", "", 3, "leave it out: the current is monitored, and not recorded"},
+    {"switching", "after_step", "", 3, "leave it out: a switch waits for its time"},
+    {"switching", "schedule", "growing", 3, "take switching.schedule = \"measured\""},
+    {"compensation", "bridge", "optimal", 3, "take compensation.bridge = \"auto\""},
+    {"compensation", "prior", "", 3, motion_is_learnt},
+    {"compensation", "prior_band_hz", "", 3, motion_is_learnt},
+    {"compensation", "prior_rate_arcsec_s", "", 3, motion_is_learnt},
+    {"compensation", "prior_line_hz", "", 3, motion_is_learnt},
+    {"compensation", "prior_line_arcsec_s", "", 3, motion_is_learnt},
+}};
+
+// Without blanks about it and the quotes of a text.
+std::string_view bare(std::string_view value) {
+    constexpr std::string_view around = " \t\"'";
+    const auto first = value.find_first_not_of(around);
+    return first == std::string_view::npos ? std::string_view{}
+                                           : value.substr(first, value.find_last_not_of(around) - first + 1);
+}
+
+}  // namespace
+
+const FormerKey* find_former(std::string_view section, std::string_view name, std::string_view value) {
+    for (const FormerKey& former : formers)
+        if (former.section == section && former.name == name && (former.value.empty() || former.value == bare(value)))
+            return &former;
+    return nullptr;
+}
+
+std::string shown(const FormerKey& former) {
+    const std::string value = former.value.empty() ? "" : fmt::format(" = \"{}\"", former.value);
+    return fmt::format("{}.{}{}", former.section, former.name, value);
+}
+
+std::optional<std::string> former_keys_note(const Settings& log_settings, std::string_view log_name) {
+    std::string found;
+    for (const auto& [key, value] : log_settings) {
+        const auto dot = std::min(key.find('.'), key.size());
+        const std::string_view name = dot == key.size() ? std::string_view{} : std::string_view{key}.substr(dot + 1);
+        const FormerKey* former = find_former(std::string_view{key}.substr(0, dot), name, value);
+        if (former != nullptr) found += (found.empty() ? "" : ", ") + shown(*former);
+    }
+    if (found.empty()) return std::nullopt;
+    return fmt::format("{}: settings of a former version are stepped over: {}", log_name, found);
+}
+
+}  // namespace zlg::config
