@@ -178,6 +178,25 @@ double scatter_ratio(const std::vector<Reading>& readings, const BiasLaw& law, d
     return std::sqrt(sum / static_cast<double>(law.dof));
 }
 
+// A gyro that is shaken or walks reaches 4.
+constexpr double max_scatter_ratio = 100.0;
+
+// Why counts, mode and bias_sign make no bias together; empty where they do.
+std::string contradiction_of(const BiasLaw& law) {
+    const auto& [determined, value, sigma, reason] = law.bias_hz;
+    if (!(std::abs(value) > sigma))
+        return fmt::format("it comes out as {:.3g} +- {:.3g} Hz: the counts do not follow bias_sign * mode", value,
+                           sigma);
+    if (!(value > 0.0))
+        return fmt::format("it comes out as {:.6g} Hz: bias_sign or mode of the logs has the other sign", value);
+    if (!(law.scatter_ratio <= max_scatter_ratio))
+        return fmt::format(
+            "the segments scatter by {:.3g} times what rounding leaves, allowed is up to {:g}: counts, "
+            "mode or bias_sign are wrong in a part of the logs",
+            law.scatter_ratio, max_scatter_ratio);
+    return {};
+}
+
 }  // namespace
 
 double BiasLaw::at_hz(double temperature_c) const {
@@ -210,10 +229,13 @@ BiasLaw find_bias_law(std::span<const LabLog> logs, double reference_temperature
             numeric::refused(fmt::format("too few of {} stretches of settled record decide: in the others the counter "
                                          "hardly turns; a longer record, or a known rate, would tell",
                                          readings.size()));
-    if (law.bias_hz.determined && !(law.bias_hz.value > 0.0))
-        law.bias_hz = numeric::refused(fmt::format(
-            "it comes out as {:.6g} Hz: bias_sign or mode of the logs has the other sign", law.bias_hz.value));
+    if (!law.bias_hz.determined) return law;
     law.scatter_ratio = scatter_ratio(readings, law, hz_per_count);
+    if (const std::string contradiction = contradiction_of(law); !contradiction.empty()) {
+        law.contradicts = true;
+        law.bias_hz = numeric::refused(contradiction);
+        law.temperature_coefficient_per_c = numeric::refused("the bias frequency is not determined");
+    }
     return law;
 }
 

@@ -89,6 +89,12 @@ double chi2_per_dof(const std::vector<Borders>& all, const Eigen::Vector2d& solu
 
 numeric::Estimate judged(double chi, double sigma, const BiasLoss& loss) {
     const numeric::Estimate e = numeric::estimated(chi, sigma);
+    constexpr double max_chi2_per_dof = 1000.0;
+    if (e.determined && !(loss.chi2_per_dof <= max_chi2_per_dof))
+        return numeric::refused(
+            fmt::format("chi = {:.2g} +- {:.2g}: the residuals are {:.3g} times what rounding and light noise make, "
+                        "allowed is up to {:g}; a gyro at rest would tell",
+                        chi, sigma, loss.chi2_per_dof, max_chi2_per_dof));
     constexpr double min_sigma = 0.1;
     constexpr double within_sigmas = 2.0;
     if (e.determined && std::abs(chi) < within_sigmas * sigma && sigma <= min_sigma)

@@ -44,7 +44,7 @@ void add(const BiasLaw& law, const BiasLoss& loss, Calibration& c) {
     if (law.dof > 0)
         c.goodness.push_back({"bias_scatter_ratio", law.scatter_ratio,
                               "rms of the segments about the law of f0, over what rounding leaves; 0..3"});
-    if (loss.n_relocks > 0)
+    if (loss.n_relocks > 0 && loss.chi2_per_dof > 0.0)
         c.goodness.push_back(
             {"chi_chi2_per_dof", loss.chi2_per_dof,
              fmt::format("residuals of {} re-locks over white rounding and light noise; about 1", loss.n_relocks)});

@@ -259,6 +259,12 @@ RestCheck rest_of(std::span<const LabLog> logs, double scale_arcsec, double walk
 
 DriftLaw find_drift_law(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s, const BiasLaw& bias) {
     DriftLaw law;
+    if (bias.contradicts) {
+        refuse_all("counts, mode and bias_sign make no bias frequency together, so what follows the mode is not known",
+                   law);
+        law.rest.worst_ratio = std::numeric_limits<double>::quiet_NaN();
+        return law;
+    }
     const Record record{logs, scale_arcsec, rate_arcsec_s, bias};
     if (record.n() < min_pieces) {
         refuse_all(fmt::format("{} pieces of settled record; {} or more are needed", record.n(), min_pieces), law);

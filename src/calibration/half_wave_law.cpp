@@ -192,6 +192,11 @@ void fit(const std::vector<Step>& steps, bool with_law, const Converter& convert
     law.coefficient_taken_per_c = beta;
 }
 
+void refuse(const std::string& reason, HalfWaveLaw& law) {
+    law.half_wave_v = numeric::refused(reason);
+    law.temperature_coefficient_per_c = law.half_wave_v;
+}
+
 }  // namespace
 
 double HalfWaveLaw::at_v(double temperature_c) const {
@@ -204,20 +209,28 @@ HalfWaveLaw find_half_wave_law(std::span<const LabLog> logs, double reference_te
     std::vector<Step> steps;
     for (std::size_t k = 0; k < logs.size(); ++k) collect(logs[k], k, steps);
     std::erase_if(steps, [](const Step& s) { return !std::isfinite(s.voltage_v); });
+    const std::int64_t n_seen = std::ssize(steps);
     if (!steps.empty()) divide_by_multiple(steps);
     law.n_switches = std::ssize(steps);
     if (law.n_switches < min_switches) {
-        law.half_wave_v = numeric::refused(
-            fmt::format("{} switches with the column piezo_v, at rest before and after ({:.4g} ticks after a "
-                        "re-lock); {} or more are needed",
-                        law.n_switches, longest_rest_ticks(logs), min_switches));
-        law.temperature_coefficient_per_c = law.half_wave_v;
+        refuse(fmt::format("{} switches with the column piezo_v, at rest before and after ({:.4g} ticks after a "
+                           "re-lock); {} or more are needed",
+                           law.n_switches, longest_rest_ticks(logs), min_switches),
+               law);
+        return law;
+    }
+    if (2 * law.n_switches < n_seen) {
+        refuse(fmt::format("of {} switches only {} move by one voltage or its odd multiples; allowed is half of them",
+                           n_seen, law.n_switches),
+               law);
         return law;
     }
     const std::string too_few = too_few_temperatures(logs);
     const bool with_law = too_few.empty() && law.n_switches > min_switches;
     if (!with_law) law.temperature_coefficient_per_c = numeric::refused(too_few.empty() ? "too few switches" : too_few);
     fit(steps, with_law, converter_of(logs), law);
+    if (law.half_wave_v.determined && !(law.half_wave_v.value > law.half_wave_v.sigma))
+        refuse(fmt::format("it comes out as {:.3g} +- {:.3g} V", law.half_wave_v.value, law.half_wave_v.sigma), law);
     return law;
 }
 

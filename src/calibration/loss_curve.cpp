@@ -15,6 +15,7 @@
 namespace zlg::calibration {
 namespace {
 
+constexpr double max_chi2_per_dof = 1000.0;
 constexpr Eigen::Index n_terms = 4;
 constexpr std::int64_t min_relocks_of_curve = 20;
 constexpr int n_points = 24;
@@ -167,6 +168,9 @@ struct Bend {
 
 // Why the fit is no curve; empty where it is one.
 std::string fault_of(const Fit& fit, double last_lambda) {
+    if (!(fit.chi2_per_dof <= max_chi2_per_dof))
+        return fmt::format("the residuals of the re-locks are {:.3g} times what rounding makes, allowed is up to {:g}",
+                           fit.chi2_per_dof, max_chi2_per_dof);
     if (fit.repeats > max_repeated_ratio)
         return "the counter rounds alike after every switch; a slow rotation at a known rate would tell";
     const Bend bend{fit, last_lambda};

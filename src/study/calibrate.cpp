@@ -11,6 +11,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/recorded/log_compensation.hpp>
+#include <zlg/rig/bias_check.hpp>
 #include <zlg/study/calibrate.hpp>
 
 namespace zlg::study {
@@ -23,6 +24,7 @@ struct Lab {
     std::vector<calibration::LabLog> logs;
     std::vector<config::Config> configs;   // of each log, with what the user says over it
     std::vector<config::Config> recorded;  // how its detunings were read
+    std::vector<rig::BiasCheck> signs;     // whether its columns mode and bias_sign belong to its counts
     std::vector<std::string> warnings;
 };
 
@@ -58,13 +60,14 @@ config::Config config_of(const config::Config& said, const config::Settings& of_
     return config;
 }
 
-calibration::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s,
+calibration::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s, rig::BiasCheck& signs,
                          const std::function<void(double)>& on_progress) {
     calibration::LabReader reader{path, tick_s};
     core::HalfRecord record;
     std::int64_t halves = 0;
     while (raw.next(record)) {
         reader.take(record);
+        signs.take(record);
         if (++halves % 100'000 == 0 && on_progress) on_progress(raw.fraction_read());
     }
     if (halves < 2) throw logs::FormatError{fmt::format("{}: holds no whole tick, which is two half-periods", path)};
@@ -88,7 +91,10 @@ Lab read_all(const CalibrationTask& task) {
         const auto tell = [&](double of_log) {
             if (task.on_progress) task.on_progress((static_cast<double>(k) + of_log) / n_logs);
         };
-        lab.logs.push_back(read(raw, path, lab.configs.back().gyro.tick_s, tell));
+        const config::Gyro& gyro = lab.configs.back().gyro;
+        lab.signs.emplace_back(
+            core::CompensationConstants{.tick = core::Seconds{gyro.tick_s}, .bias = core::Hertz{gyro.bias_hz}});
+        lab.logs.push_back(read(raw, path, gyro.tick_s, lab.signs.back(), tell));
         if (!raw.line_is_ended())
             lab.warnings.push_back(fmt::format("{}: the last line has no end; the file may have been cut off", path));
     }
@@ -174,6 +180,30 @@ std::string far_reference(const CalibrationTask& task, const Lab& lab, const cal
         nearest_c, reference_c, bias_coefficient);
 }
 
+// A bias that does not show is none of a log whose bias is found: it is smaller than was presumed.
+void add_contradictions(const Lab& lab, CalibrationResult& result) {
+    const std::vector<calibration::Constant>& constants = result.calibration.constants;
+    const bool shows = std::ranges::any_of(
+        constants, [](const calibration::Constant& c) { return c.key == "gyro.bias_hz" && c.estimate.determined; });
+    for (std::size_t k = 0; k < lab.signs.size(); ++k) {
+        const std::string complaint = lab.signs[k].complaint(lab.logs[k].name);
+        if (!complaint.empty() && (lab.signs[k].is_contradicted() || !shows)) result.warnings.push_back(complaint);
+    }
+}
+
+// What no configuration may hold is no constant of a gyro.
+void refuse_beyond_ranges(calibration::Calibration& found) {
+    for (calibration::Constant& c : found.constants) {
+        if (!c.estimate.determined || c.key.find('.') == std::string::npos) continue;
+        try {
+            config::Config any;
+            config::apply_pair(any, c.key, fmt::format("{}", c.estimate.value), "it comes out as");
+        } catch (const config::ConfigError& error) {
+            c.estimate = numeric::refused(error.what());
+        }
+    }
+}
+
 }  // namespace
 
 bool CalibrationResult::any_determined() const {
@@ -190,6 +220,8 @@ CalibrationResult calibrate(const CalibrationTask& task) {
                              .config = lab.configs.front(),
                              .slope_per_lambda = std::abs(lab.recorded.front().gyro.discriminator_per_lambda),
                              .warnings = std::move(lab.warnings)};
+    refuse_beyond_ranges(result.calibration);
+    add_contradictions(lab, result);
     result.reference_warning = far_reference(task, lab, result.calibration);
     if (!result.reference_warning.empty()) result.warnings.push_back(result.reference_warning);
     return result;

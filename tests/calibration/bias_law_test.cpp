@@ -100,6 +100,22 @@ TEST(BiasLaw, a_gyro_that_hardly_turns_is_estimated_without_bias) {
     EXPECT_NEAR(sum_sq / trials, 1.0, 0.6);
 }
 
+TEST(BiasLaw, refuses_a_bias_that_part_of_the_log_contradicts_and_one_below_its_error) {
+    auto logs = one_log(SyntheticGyro{.rise_c = 10.0}, 60.0);
+    EXPECT_FALSE(find_bias_law(logs, 20.0, 0.0).contradicts);
+    for (Block& block : logs.front().blocks)
+        if (block.first_tick > 8000) block.difference = -block.difference;
+    const BiasLaw part = find_bias_law(logs, 20.0, 0.0);
+    EXPECT_TRUE(part.contradicts);
+    EXPECT_FALSE(part.bias_hz.determined);
+    EXPECT_FALSE(part.temperature_coefficient_per_c.determined);
+    std::int64_t sign = 1;
+    for (Block& block : logs.front().blocks) block.difference *= sign = -sign;
+    const BiasLaw none = find_bias_law(logs, 20.0, 0.0);
+    EXPECT_TRUE(none.contradicts);
+    EXPECT_NE(none.bias_hz.reason.find("do not follow"), std::string::npos) << none.bias_hz.reason;
+}
+
 TEST(BiasLaw, refuses_what_is_too_short_and_a_sign_that_is_wrong) {
     const auto logs = one_log(SyntheticGyro{}, 0.3);
     EXPECT_FALSE(find_bias_law(logs, 20.0, 0.0).bias_hz.determined);

@@ -223,6 +223,24 @@ class Follow(CliTest):
         self.assertEqual(run("follow", self.line(), "--out", out).returncode, 3)
         self.assertEqual(out.read_text(), "mine")
 
+    def test_of_a_port_that_is_none_nothing_is_asked(self):
+        for port in ("99999", "65536", "0", "-1", "", "+80", " 80", "80x", "1e3", "http", "4294967377", "99999999999999999999"):
+            for host in ("localhost", "::1", "[::1]"):
+                with self.subTest(host=host, port=port):
+                    self.refuse(2, "follow", f"tcp:{host}:{port}", "--out", self.folder / "a.csv", says=["PORT in 1..65535"])
+        for address in ("tcp:", "tcp::", "tcp::80", "tcp:80", "tcp:[]:80", "tcp:[::1]", "tcp:[::1]80"):
+            self.refuse(2, "follow", address, "--out", self.folder / "a.csv", says=["PORT in 1..65535"])
+
+    def test_an_ipv6_address_with_and_without_brackets(self):
+        for host in ("[::1]", "::1"):
+            with socket.socket(socket.AF_INET6) as server:
+                try:
+                    server.bind(("::1", 0))
+                except OSError:
+                    self.skipTest("this machine has no IPv6")
+                server.listen()
+                self.served(server, f"tcp:{host}:{server.getsockname()[1]}")
+
     def test_standard_input(self):
         with self.line().open("rb") as source:
             _, out = self.followed("-", stdin=source)

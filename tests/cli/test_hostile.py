@@ -382,6 +382,52 @@ class Sizes(Hostile):
             self.refuse_quickly(3, "analyze", path, *self.TEXT, f"analysis.column_holds={holds}",
                                 says=["small.txt", "differ by", "too small"])
 
+    def test_of_a_rate_of_rows(self):
+        path = self.write("rows.txt", "".join(f"{k * k % 7}\n" for k in range(300)))
+        for rate in ("1e300", "1e-300", "1e100", "1e-100", "1e13", "1e-13"):
+            self.refuse_quickly(2, "analyze", path, "--set", "analysis.column_holds=rate", "--set", f"analysis.rate_hz={rate}",
+                                says=["analysis.rate_hz", "1e-12..1e"])
+            self.refuse_quickly(3, "analyze", path, "--map", "axis=1", "--map", "time=none", "--map", "holds=rate", "--map", "unit=deg/s",
+                                "--map", f"rate_hz={rate}", says=["rows.txt", "samples a second", "1e-12..1e+12"])
+
+    def test_whose_fourth_powers_a_number_holds(self):
+        generator = random.Random(3)
+        for scale, rate in ((1e28, 1e-12), (1e-28, 1e12), (1e17, 1e12), (1e-17, 1e-12)):
+            path = self.write("rows.txt", "".join(f"{scale * generator.gauss(0.0, 1.0):.9g}\n" for k in range(300)))
+            for holds in ("rate", "increment", "phase"):
+                result = run("analyze", path, "--set", f"analysis.column_holds={holds}", "--set", f"analysis.rate_hz={rate}")
+                self.assertIn(result.returncode, (0, 3), result.stderr)
+                self.assertNotIn("boost", result.stderr)
+        path = self.write("rows.txt", "".join(f"{1e-60 * generator.gauss(0.0, 1.0):.9g}\n" for k in range(300)))
+        self.refuse_quickly(3, "analyze", path, *self.TEXT, "analysis.column_holds=rate", says=["differ by", "1e-30"])
+
+    def test_of_faults(self):
+        def faults(n, at_s, duration_s):
+            lists = {"kind": ['"light_noisy"'] * n, "at_s": map(repr, at_s), "duration_s": [repr(duration_s)] * n, "size": ["0"] * n}
+            return self.write("faults.toml", "[faults]\n" + "".join(f"{k} = [{', '.join(v)}]\n" for k, v in lists.items()))
+
+        log = ["--duration", 2, "--out", self.folder / "a.csv", "--force"]
+        for n in (101, 1000, 10_000):
+            config = faults(n, [1.0 + 1e-5 * k for k in range(n)], 3.0)
+            self.refuse_quickly(2, "simulate", config, *log, says=["more than 100 act at once at 1.00"])
+        self.refuse_quickly(2, "simulate", "--set", "faults.random_per_hour=1e6", *log, says=["more than 100 act at once"])
+        for n, apart in ((100, 1e-5), (20_000, -1e-4)):
+            config = faults(n, [2.0 + apart * k for k in range(n)] if apart < 0 else [0.1 + apart * k for k in range(n)],
+                            1e-5 if apart < 0 else 3.0)
+            before_s = processor_seconds_of_children()
+            self.succeed("simulate", config, *log)
+            self.assertLess(processor_seconds_of_children() - before_s, 5)
+
+    def test_of_names(self):
+        long = self.folder / ("a" * 300)
+        loop = self.folder / "loop"
+        loop.symlink_to(loop)
+        raw = self.log()
+        for path in (long, loop / "a"):
+            self.refuse_quickly(3, "process", raw, "--out", self.folder / "a.csv", "--switches", f"{path}.csv", says=["cannot look up"])
+            self.refuse_quickly((2, 3), "simulate", "--duration", 1, "--set", "motion.kind=file", "--set", f"motion.path={path}", "--out",
+                                self.folder / "a.csv", says=[str(path.name)[:20]])
+
     def test_of_a_seed(self):
         for key in ("run.seed", "faults.random_seed"):
             self.refuse_quickly(2, "design", "--set", f"{key}=18446744073709551615", says=["0..9223372036854775807"])

@@ -3,8 +3,10 @@
 import json
 import os
 import random
+import resource
 import shlex
 import signal
+import socket
 import subprocess
 import time
 import unittest
@@ -244,6 +246,45 @@ class BadInput(SweepTest):
         self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
         self.assertEqual(len(complaints(result)), 1, result.stderr)
         self.assertIn(says, complaints(result)[0])
+
+    def test_what_is_merged_are_regular_files(self):
+        os.mkfifo(self.folder / "pipe")
+        with socket.socket(socket.AF_UNIX) as server:
+            server.bind(str(self.folder / "socket"))
+            for path in (self.folder / "pipe", self.folder / "socket", "/dev/zero", "/dev/full", "/dev/null"):
+                self.refused(3, "--merge", path, "--out", self.folder / "m.h5", says=f"cannot read {path}: it is no regular file")
+        self.refused(3, "--merge", self.folder, "--out", self.folder / "m.h5", says="it is a folder")
+
+    def test_a_checkpoint_of_holes_costs_no_memory(self):
+        def limited():
+            resource.setrlimit(resource.RLIMIT_AS, (600 << 20, 600 << 20))
+
+        self.swept("r.h5", "--part", "1/2")
+        for begin in (b"", b"zlg sweep checkpoint 1\n", b"zlg sweep checkpoint 1\n| x"):
+            with open(self.folder / "holes.part", "wb") as file:
+                file.write(begin)
+                file.truncate(1 << 40)
+            result = run("sweep", "--merge", self.folder / "holes.part", "--out", self.folder / "m.h5", preexec_fn=limited, timeout=20)
+            self.assertEqual(result.returncode, 3)
+            self.assertRegex(result.stderr, "holes.part.*(is damaged|cannot be read as HDF5)")
+
+    def test_any_bit_of_a_description_is_damage(self):
+        whole = self.swept("r.h5", "--part", "1/6")
+        begin = whole.index(b"# zlg ")
+        end = whole.index(b"min = 1", begin)
+        generator = random.Random(4)
+        for place in range(begin, end, 3):
+            flipped = bytearray(whole)
+            flipped[place] ^= 1 << generator.randrange(8)
+            (self.folder / "flipped.h5").write_bytes(flipped)
+            self.refused(3, "--merge", self.folder / "flipped.h5", "--out", self.folder / "m.h5", says="flipped.h5")
+
+    def test_where_no_more_files_can_be_opened_nothing_empty_stays(self):
+        description, out = self.description(), self.folder / "u.h5"
+        for most in range(4, 10):
+            result = run("sweep", description, "--out", out, "--force", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (most, most)))
+            left = [p.name for p in self.folder.glob("u.h5*") if p.stat().st_size == 0]
+            self.assertEqual(left, [], f"{most} files: {result.stderr}")
 
     def test_of_the_command_line(self):
         description, out = self.description(), self.folder / "r.h5"

@@ -150,6 +150,27 @@ std::string complaint(const Fault& fault, Loop loop = Loop::analog) {
     return "none";
 }
 
+TEST(Faults, AHundredMayActAtOnce) {
+    const auto refusal = [](std::vector<Fault> faults) -> std::string {
+        TwinConfig config;
+        config.faults = std::move(faults);
+        try {
+            Twin twin{config, Motion::rest()};
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "";
+    };
+    std::vector<Fault> at_once;
+    for (std::size_t k = 0; k < max_faults_at_once; ++k)
+        at_once.push_back({FaultKind::light_noisy, 3.0 - 1e-3 * static_cast<double>(k), 1.0, 0.0});
+    EXPECT_EQ(refusal(at_once), "");
+    at_once.push_back({FaultKind::light_noisy, 4.0 - 1e-3, 1.0, 0.0});
+    EXPECT_EQ(refusal(at_once), "") << "those that are over do not count";
+    at_once.push_back({FaultKind::shock, 3.0, 0.0, 0.0});
+    EXPECT_NE(refusal(at_once).find("more than 100 act at once at 3 s"), std::string::npos);
+}
+
 TEST(Faults, WhatCannotBeIsRefused) {
     EXPECT_EQ(complaint({FaultKind::beam_fades, 1.0, 1.0, 1.5}),
               "fault beam_fades: faults.size is 1.5, allowed is 0..1");

@@ -20,6 +20,7 @@ struct BiasLaw {
     double reference_temperature_c = 20.0;
     double scatter_ratio = 0.0;  // rms of the segments about the law, over what rounding alone would leave
     std::int64_t dof = 0;
+    bool contradicts = false;  // counts, mode and bias_sign do not go together: nothing follows from them
 
     [[nodiscard]] double at_hz(double temperature_c) const;
 };

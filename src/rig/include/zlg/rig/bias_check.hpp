@@ -29,6 +29,8 @@ public:
     // One line where 32 halves in a row contradict the columns, whatever lies between them that shows no bias, or where nearly
     // all halves count the bias one way; else empty.
     [[nodiscard]] std::string complaint(const std::string& log_name) const;
+    // The first of both: it holds whatever the bias is.
+    [[nodiscard]] bool is_contradicted() const { return lasts_; }
 
 private:
     struct Pair {
