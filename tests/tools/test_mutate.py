@@ -172,6 +172,11 @@ class Mutate(TreeTest):
             self.assertEqual(answer.stdout.count("taken out of tests/mutants/survivors.txt"), 2, answer.stdout)
             self.assertEqual(self.survivors(), SURVIVOR)
 
+    def test_what_survives_in_a_new_module_is_added_where_it_is_asked(self):
+        (self.root / "tests" / "mutants").mkdir()
+        self.assert_good(self.mutate("relock_drift", "--add"))
+        self.assertEqual(self.survivors(), SURVIVOR)
+
     def test_the_day_is_the_seed_and_is_printed(self):
         self.write("tests/mutants/survivors.txt", SURVIVOR)
         self.assertRegex(self.mutate("--sample", "1").stdout, r"drawn with --sample 1 --seed 20\d{6}\n")

@@ -133,6 +133,30 @@ TEST(BiasCommutator, StampsFollowTheCommandedEdges) {
     EXPECT_GT(n_moved, 900);
 }
 
+// The half to come after a positive one is negative, and its end begins a period of the law.
+TEST(BiasCommutator, ThePeriodOfTheLawBeginsWhereANegativeHalfEnds) {
+    for (const std::int8_t first : {std::int8_t{1}, std::int8_t{-1}}) {
+        BiasCommutatorState s;
+        (void)step(dithered, s, {true, first, 25000});
+        (void)next_edge(dithered, s, {});
+        EXPECT_EQ(s.dither.period, first > 0 ? 0 : -1);
+    }
+}
+
+// Due is the end of the next half, as it was commanded: nearer to it than to its neighbours, early or late, is on time.
+TEST(BiasCommutator, OnTimeIsNearerToTheCommandedEndThanToAnyOther) {
+    for (const std::int32_t edge_ticks : {0, 9000, -9000}) {
+        const BiasCommutatorState s{
+            .timer_known = true, .expected_ticks = 1'000'000, .dither = {.end_ticks = edge_ticks}};
+        const auto at = [&](std::int64_t off_ticks) {
+            return is_on_time(config, s, static_cast<std::uint64_t>(1'025'000 + edge_ticks + off_ticks));
+        };
+        EXPECT_TRUE(at(0) && at(12'499) && at(-12'499)) << edge_ticks;
+        EXPECT_FALSE(at(12'500) || at(-12'500) || at(25'000) || at(-25'000)) << edge_ticks;
+    }
+    EXPECT_FALSE(is_on_time(config, {.expected_ticks = 1'000'000}, 1'025'000)) << "no stamp is known";
+}
+
 TEST(BiasCommutator, AGyroThatDoesNotObeyIsFound) {
     BiasCommutatorState s;
     int n_errors = 0;

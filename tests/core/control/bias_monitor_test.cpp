@@ -162,6 +162,23 @@ TEST(BiasMonitor, ABiasThatSwingsIsNoNewLevel) {
     }
 }
 
+// What is learnt is the mean: of the first 32 differences, and of the 400 of a new level.
+TEST(BiasMonitor, ALevelIsTheMeanOfWhatItWasLearntOf) {
+    Counter counter;
+    const auto jitter = [&counter](double level, int halves) {
+        for (int k = 0; k < halves; k += 4) {
+            counter.bias = k % 8 == 0 ? level - 4.0 : level + 4.0;
+            counter.halves(4);
+        }
+    };
+    counter.halves(1);
+    jitter(150.0, 32);
+    EXPECT_EQ(counter.state.n_learnt, 32);
+    EXPECT_NEAR(counter.state.bias_counts, 150.0, 1.0);
+    jitter(100.0, 408);
+    EXPECT_NEAR(counter.state.bias_counts, 100.0, 1.0);
+}
+
 TEST(BiasMonitor, ABiasThatWasNeverThereIsLost) {
     Counter counter;
     counter.bias = 0.0;

@@ -113,6 +113,13 @@ TEST(HalfWave, DirectionLeadsTowardsTheMiddleOfTheRange) {
     EXPECT_FALSE(choose_direction(range, Volts{150.0}, Volts{40.0}).out_of_range);
 }
 
+// 80 V upwards, 40 V downwards: the room is what lies between the neighbour and the end of the range, wherever that begins.
+TEST(HalfWave, TheRoomDownwardsEndsWhereTheRangeBegins) {
+    constexpr PiezoRange raised{.min = Volts{100.0}, .max = Volts{300.0}, .margin = Volts{5.0}};
+    EXPECT_EQ(choose_direction(raised, Volts{180.0}, Volts{40.0}).sign, 1);
+    EXPECT_EQ(choose_direction(raised, Volts{220.0}, Volts{40.0}).sign, -1);
+}
+
 TEST(HalfWave, WhenNeitherNeighbourKeepsTheMarginTheRoomierIsTakenAndSaid) {
     constexpr PiezoRange narrow{.min = Volts{0.0}, .max = Volts{80.0}, .margin = Volts{5.0}};
     const SwitchDirection up = choose_direction(narrow, Volts{38.0}, Volts{40.0});
