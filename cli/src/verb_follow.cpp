@@ -136,7 +136,9 @@ void add_follow(CLI::App& program) {
         ->check([](const std::string& duration) {
             double seconds = 0.0;
             const bool read = CLI::detail::lexical_cast(duration, seconds);
-            return read && seconds > 0.0 && seconds <= 1e9 ? "" : fmt::format("{}: allowed is up to 1e9 s", duration);
+            return read && seconds > 0.0 && seconds <= 1e9
+                       ? ""
+                       : fmt::format("{}: allowed is above 0 up to 1e9 s", duration);
         });
     verb->add_flag("--force", options->force, "overwrite what is there");
     verb->add_flag("--json", options->json, "the result as one JSON object on standard output");

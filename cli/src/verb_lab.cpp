@@ -49,7 +49,8 @@ void add_lab(CLI::App& program) {
             ->type_name("FILE|DEVICE|ADDRESS")
             ->check(is_a_name());
     verb->add_option("--port", options->port, fmt::format("of 127.0.0.1, 0: any that is free ({})", default_port))
-        ->needs(follow);
+        ->needs(follow)
+        ->check(CLI::Range(0, 65535).description(""));
     verb->add_option("--baud", options->baud, "speed of a serial device (921600)")->needs(follow);
     add_config_options(*verb, *options);
     for (const char* option : {"--config", "--set"}) verb->get_option(option)->needs(follow);

@@ -2,7 +2,9 @@
 
 import json
 import random
+import tempfile
 import unittest
+from pathlib import Path
 
 from support import CliTest, csv_text, quiet_log, run
 
@@ -70,10 +72,10 @@ class Calibrations(CliTest):
 
     @classmethod
     def setUpClass(cls):
-        super().setUpClass()
-        path = cls.folder / "good.csv"
-        cls.succeed(cls(), "simulate", "--duration", 120, "--set", "motion.kind=rest", "--set", "switching.interval_s=3", "--out", path)
-        lines = path.read_text().splitlines()
+        with tempfile.TemporaryDirectory() as folder:
+            good = Path(folder) / "good.csv"
+            run("simulate", "--duration", 120, "--set", "motion.kind=rest", "--set", "switching.interval_s=3", "--out", good)
+            lines = good.read_text().splitlines()
         cls.head = [line for line in lines if line.startswith("#")]
         names, *rows = [line.split(",") for line in lines if not line.startswith("#")]
         cls.names, cls.rows = names, [dict(zip(names, row)) for row in rows]

@@ -1,6 +1,7 @@
 """What nobody sends in good faith: deep, endless and huge inputs, outputs that are inputs, control characters."""
 
 import os
+import random
 import resource
 import subprocess
 import threading

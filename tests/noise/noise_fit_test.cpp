@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/noise_fit.hpp>
@@ -57,6 +59,16 @@ TEST(NoiseFit, every_smooth_term_that_is_there_is_found) {
     expect_found(fit, NoiseKind::rate_random_walk, 0.02);
     expect_found(fit, NoiseKind::ramp, 0.001);
     EXPECT_EQ(n_found(fit), 4);
+}
+
+TEST(NoiseFit, numbers_whose_squares_vanish_or_overflow_are_refused) {
+    std::mt19937_64 random{5};
+    std::normal_distribution<double> gauss;
+    for (const double scale : {1e-100, 1e90}) {
+        std::vector<double> rates(640);
+        for (double& rate : rates) rate = scale * gauss(random);
+        EXPECT_THROW((void)fit_noise_in_place(rates, 1.0), deviations::SeriesError) << scale;
+    }
 }
 
 TEST(NoiseFit, bias_instability_beside_white_noise) {
