@@ -23,7 +23,8 @@ for bridge, result in results.items():
 left.set_xlabel("time, s")
 left.set_ylabel("angle error, arcsec")
 left.legend()
-right.boxplot([result.switch_error_arcsec for result in results.values()], labels=list(results))
+right.boxplot([result.switch_error_arcsec for result in results.values()])
+right.set_xticklabels(list(results))
 right.set_ylabel("error of a switch, arcsec")
 for axes in (left, right):
     axes.grid(alpha=0.3)

@@ -17,7 +17,7 @@ Progress = Optional[Callable[[float], object]]
 def _of_type(hint: Any, value: Any) -> Any:
     if get_origin(hint) is Union:  # Optional
         hint = get_args(hint)[0]
-    if isinstance(value, dict) and dataclasses.is_dataclass(hint):
+    if isinstance(value, dict) and isinstance(hint, type) and dataclasses.is_dataclass(hint):
         return made_of(hint, value)
     if isinstance(value, list) and get_origin(hint) is list:
         return [_of_type(get_args(hint)[0], each) for each in value]
@@ -27,7 +27,8 @@ def _of_type(hint: Any, value: Any) -> Any:
 def made_of(kind: type[T], columns: dict[str, Any]) -> T:
     """An instance of the dataclass from the columns that bear its field names; nested dictionaries become nested dataclasses."""
     types = get_type_hints(kind)
-    names = {field.name for field in dataclasses.fields(kind)}
+    described: Any = kind  # for the stubs of later Pythons not every class has fields
+    names = {field.name for field in dataclasses.fields(described)}
     return kind(**{name: _of_type(types[name], value) for name, value in columns.items() if name in names})
 
 

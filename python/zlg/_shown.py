@@ -30,7 +30,12 @@ def short(value: Any) -> str:
         return "[" + ", ".join(short(each) for each in value) + "]"
     if dataclasses.is_dataclass(value):
         return f"<{type(value).__name__}>"
-    return repr(value)
+    return repr(value.item() if isinstance(value, np.generic) else value)
+
+
+def members_of(record: Any) -> list[tuple[str, Any]]:
+    """Names and values of a dataclass."""
+    return [(field.name, getattr(record, field.name)) for field in dataclasses.fields(record)]
 
 
 def _is_large(value: Any) -> bool:
@@ -41,8 +46,7 @@ class Shown:
     """A dataclass whose repr stays short; arrays are told by their length and ends."""
 
     def _rows(self) -> list[tuple[str, str]]:
-        members = ((field.name, getattr(self, field.name)) for field in dataclasses.fields(self))
-        return [(name, short(value)) for name, value in members if value is not None]
+        return [(name, short(value)) for name, value in members_of(self) if value is not None]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
@@ -69,8 +73,7 @@ class Columns(Shown):
 
     def to_pandas(self) -> Any:
         """The columns as a pandas.DataFrame; those of light samples, which are tables, are left out. Needs pandas."""
-        arrays = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        columns = {name: each for name, each in arrays.items() if isinstance(each, np.ndarray) and each.ndim == 1}
+        columns = {name: each for name, each in members_of(self) if isinstance(each, np.ndarray) and each.ndim == 1}
         index = columns.pop(self._index, getattr(self, self._index)) if self._index else None
         frame = importlib.import_module("pandas").DataFrame(columns, index=index)
         frame.index.name = self._index or None

@@ -47,7 +47,8 @@ class Batch(Columns):
     @property
     def t_s(self) -> NDArray[np.float64]:
         """End of each tick, s since the first batch, shape (ticks,)."""
-        return self.tick_s * (self.tick + 1)
+        ends: NDArray[np.float64] = np.multiply(self.tick_s, self.tick + 1)
+        return ends
 
 
 @dataclass(repr=False)

@@ -118,13 +118,15 @@ class AngleLog(Columns):
     @property
     def t_s(self) -> NDArray[np.float64]:
         """End of each tick, s, shape (ticks,)."""
-        return self.tick_s * np.arange(1, len(self) + 1)
+        ends: NDArray[np.float64] = np.multiply(self.tick_s, np.arange(1, len(self) + 1))
+        return ends
 
     @property
     def measured(self) -> NDArray[np.bool_]:
         """False where the increment was bridged, guessed or distrusted, shape (ticks,)."""
         missing = np.uint32(_zlg.not_measured)
-        return np.equal(self.flags & missing, 0)
+        measured: NDArray[np.bool_] = np.equal(self.flags & missing, 0)
+        return measured
 
     @property
     def error_arcsec(self) -> NDArray[np.float64]:

@@ -247,7 +247,7 @@ class Analysis(Shown):
 
 def axis_of_log(log: AngleLog, name: str = "gyro") -> Axis:
     """The final increments of an angle log; ticks that were not measured are missing."""
-    rates = log.dtheta_final_arcsec / log.tick_s
+    rates: NDArray[np.float64] = np.divide(log.dtheta_final_arcsec, log.tick_s)
     return Axis(name, 1.0 / log.tick_s, np.where(log.measured, rates, np.nan), log.mode, rates)
 
 

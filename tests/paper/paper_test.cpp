@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <zlg/paper/paper.hpp>
@@ -32,17 +33,17 @@ const paper::Paper& paper() {
     return made;
 }
 
-const report::Figure& figure(const std::string& id) {
+const report::Figure& figure(std::string_view id) {
     for (const auto& item : paper().items)
         for (const auto& f : item.section.figures)
             if (f.id == id) return f;
-    throw std::out_of_range{id};
+    throw std::out_of_range{std::string{id}};
 }
 
-const report::Series& series(const std::string& id, const std::string& name) {
+const report::Series& series(std::string_view id, std::string_view name) {
     for (const auto& s : figure(id).series)
         if (s.name == name) return s;
-    throw std::out_of_range{id + ": " + name};
+    throw std::out_of_range{std::string{id} + ": " + std::string{name}};
 }
 
 double value_at(const report::Series& s, double x) {

@@ -33,7 +33,7 @@ def test_gives_rows_that_run_repeats(tmp_path):
     assert frame.attrs["units"]["configured.switch_error_rms_arcsec"] == "arcsec"
     row = frame.loc[3]
     config = zlg.Config.of("run.duration_s=5", "switching.interval_s=2", f"run.seed={row['seed']}",
-                           f"gyro.bias_chi={row['gyro.bias_chi']!r}", f"compensation.relock={row['compensation.relock']}")
+                           f"gyro.bias_chi={float(row['gyro.bias_chi'])!r}", f"compensation.relock={row['compensation.relock']}")
     alone = zlg.run(config, angles=False)
     assert alone.fingerprint == row["fingerprint"]
     assert alone["configured"].switch_rms_arcsec == row["configured.switch_error_rms_arcsec"]

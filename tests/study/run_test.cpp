@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <zlg/config/schema.hpp>
@@ -26,10 +28,10 @@ study::RunResult run_of(const config::Config& c, int threads = 2) {
     return study::run(task);
 }
 
-const study::VariantResult& named(const study::RunResult& r, const std::string& name) {
+const study::VariantResult& named(const study::RunResult& r, std::string_view name) {
     for (const auto& v : r.variants)
         if (v.name == name) return v;
-    throw std::out_of_range{name};
+    throw std::out_of_range{std::string{name}};
 }
 
 double rms(const study::RunResult& r, const std::string& name) {

@@ -8,17 +8,18 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace zlg::trials {
 namespace {
 
-const report::Figure& panel(const PhysicsPictures& made, const std::string& id) {
+const report::Figure& panel(const PhysicsPictures& made, std::string_view id) {
     for (const Picture& picture : made.pictures) {
         for (const report::Figure& figure : picture.panels) {
             if (figure.id == id) return figure;
         }
     }
-    throw std::logic_error("no panel " + id);
+    throw std::logic_error("no panel " + std::string{id});
 }
 
 double reading(const PhysicsPictures& made, const std::string& quantity) {
