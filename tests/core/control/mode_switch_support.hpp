@@ -27,6 +27,7 @@ public:
         in.piezo = Volts{seen == Seen::missed ? not_a_number : piezo_v};
         in.set_point = Volts{set_point_v};
         in.half_wave = Volts{40.0};
+        in.offset = Volts{offset_v};
         ++half_;
         last_ = step(config, state, in);
         if (last_.event) {
@@ -67,6 +68,7 @@ public:
         ASSERT_EQ(state.phase, SwitchPhase::searching);
     }
 
+    double offset_v = 0.0;
     ModeSwitchState state = initial_state(config);
     SwitchEvent event;
     int n_events = 0;

@@ -5,6 +5,7 @@
 #include <zlg/core/common/maths.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace zlg::core::test {
 namespace mode_switch_test {
@@ -18,6 +19,17 @@ static_assert(check(ModeSwitchConfig{.lock_tolerance = Wavelengths{not_a_number}
 static_assert(check(ModeSwitchConfig{.start_set_point = Volts{301.0}}) == ModeSwitchFault::start);
 static_assert(check(ModeSwitchConfig{.start_polarity = 0}) == ModeSwitchFault::start);
 static_assert(check(ModeSwitchConfig{.range = {.max = Volts{not_a_number}}}) == ModeSwitchFault::range);
+
+// 160 V lead down to 120 V and 120 V up to 160 V, either with the same hysteresis.
+TEST(ModeSwitch, TheOffsetIsAddedToAMoveInEitherDirection) {
+    for (const auto& [piezo_v, target_v] : {std::pair{160.0, 123.0}, {120.0, 163.0}}) {
+        Sequence s;
+        s.piezo_v = s.set_point_v = piezo_v;
+        s.offset_v = 3.0;
+        s.to_open();
+        EXPECT_NEAR(s.state.set_point_v, target_v, 1e-9);
+    }
+}
 
 TEST(ModeSwitch, StartsClosedAtTheStartPointAndTracksAfterTheFirstLock) {
     Sequence q;

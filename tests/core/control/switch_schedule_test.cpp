@@ -76,6 +76,13 @@ TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnew) {
     EXPECT_TRUE(step(c, s, {.tick = 1013, .ready = true}).open);
 }
 
+TEST(SwitchSchedule, AJumpWithinAnIntervalDoesNotMoveTheGrid) {
+    const SwitchScheduleConfig c{.interval_ticks = 10};
+    SwitchScheduleState s = initial_state(c);
+    EXPECT_TRUE(step(c, s, {.tick = 13, .ready = true}).open);
+    EXPECT_TRUE(step(c, s, {.tick = 20, .ready = true}).open);
+}
+
 TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
     for (const std::int64_t interval : {std::int64_t{1}, std::int64_t{1} << 53}) {
         const SwitchScheduleConfig c{.interval_ticks = interval};
@@ -159,6 +166,22 @@ TEST(SwitchSchedule, AGrowingIntervalKeepsTheSawtoothCentred) {
             const auto peak = static_cast<double>(got.imbalance[static_cast<std::size_t>(got.openings[k] - 1)]);
             EXPECT_LE(std::abs(peak), static_cast<double>(interval / 2) + 1.0) << k;
             EXPECT_GE(std::abs(peak), static_cast<double>(interval) * 15.0 / 32.0 - 1.0) << k;
+        }
+    }
+}
+
+// Of either mode, and of intervals so long that a sixteenth of them has more than sixteen bits.
+TEST(SwitchSchedule, AnOpeningShortensTheIntervalByASixteenthAtMostAndForgetsALeadBeyondTheLongest) {
+    for (const std::int64_t interval : {std::int64_t{3000}, std::int64_t{1} << 25}) {
+        for (const std::int8_t mode : {std::int8_t{1}, std::int8_t{-1}}) {
+            SwitchScheduleConfig c = growing();
+            c.min_ticks = c.max_ticks = interval;
+            SwitchScheduleState s = initial_state(c);
+            s.imbalance_ticks = mode * 5 * interval;
+            ASSERT_TRUE(step(c, s, {.tick = 7 * interval, .ready = true, .mode = mode}).open);
+            EXPECT_LE(s.interval_ticks, interval);
+            EXPECT_GE(s.interval_ticks, interval - interval / 16);
+            EXPECT_EQ(s.imbalance_ticks, mode * interval);
         }
     }
 }
