@@ -160,7 +160,7 @@ config::Config read_one(const Options& options, const std::string& path, Analysi
     return read_text(options, path, input.axes, input.tables);
 }
 
-// Deviations are sums of squares, and their fit squares them again: a double must hold the fourth power, with that of the rate.
+// Deviations are sums of squares, and their fit squares them again: a double must hold the fourth power.
 void check_sizes(const study::AxisRecord& axis) {
     constexpr double most = 1e30, least = 1e-30;               // arcsec/s
     constexpr double fewest_per_s = 1e-12, most_per_s = 1e12;  // samples

@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    // The next line, with which `at_` goes on; false where there is no whole line any more, and `line_` is what is there.
+    // The next line, with which `at_` goes on; false where no whole one is left: `line_` is what is there.
     bool next() {
         ++n_lines_;
         line_.clear();

@@ -34,7 +34,7 @@ private:
     void settle(const Fault& fault);
 
     std::vector<Fault> faults_;
-    std::size_t next_ = 0;       // the first that has not begun
+    std::size_t next_ = 0;  // the first that has not begun
     std::vector<Fault> active_;
     double settled_lambda_ = 0.0;
     double settled_c_ = 0.0;
