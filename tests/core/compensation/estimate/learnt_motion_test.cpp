@@ -12,8 +12,8 @@ namespace learnt_motion_test {
 using compensation_test::Random;
 using zlg::core::add;
 using zlg::core::block_halves;
-using zlg::core::moment_place;
 using zlg::core::LearntMotion;
+using zlg::core::moment_place;
 using zlg::core::part_halves;
 using zlg::core::start;
 
