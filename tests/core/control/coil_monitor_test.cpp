@@ -53,6 +53,30 @@ TEST(CoilMonitor, AnOrdinaryCurrentIsNeverOff) {
     }
 }
 
+// A supply that ages by a tenth within two hours of halves, 30 times what is tolerated at once.
+TEST(CoilMonitor, ACurrentThatDriftsIsFollowed) {
+    Coil coil;
+    (void)coil.n_off(500);
+    int off = 0;
+    for (int k = 0; k < 300000; ++k) {
+        coil.positive = coil.negative = 1.0 + 0.1 * k / 300000.0;
+        off += coil.half().off;
+    }
+    EXPECT_EQ(off, 0);
+    EXPECT_NEAR(coil.state.level_a[0], 1.1, 0.003);
+    EXPECT_NEAR(coil.state.level_a[1], 1.1, 0.003);
+}
+
+// The mean size of a normal deviation is sqrt(2/pi) of its standard deviation.
+TEST(CoilMonitor, TheSpreadThatItLearnsIsThatOfTheReadings) {
+    for (const double noise : {1e-4, 1e-3, 1e-2}) {
+        Coil coil;
+        coil.noise = noise;
+        (void)coil.n_off(200);  // it follows by then, with weights that change little
+        EXPECT_NEAR(coil.state.spread / noise, 0.798, 0.2) << noise;
+    }
+}
+
 TEST(CoilMonitor, ACurrentThatIsNotMeasuredSaysNothing) {
     CoilMonitorState s;
     for (int k = 0; k < 1000; ++k) {

@@ -101,6 +101,54 @@ TEST(ReadingMonitor, AWrongReadingComesBackAndTakesNothing) {
     }
 }
 
+// A gyro half by half: a rate of 3 counts, a reading that is 400 off, more that are missed or lack the bias, and one that is `off`
+// from where the rate leads to.
+ReadingMonitorOutput after_a_wrong_reading(int more, std::int64_t off, bool bias_lost = false) {
+    ReadingMonitorState state;
+    ReadingMonitorInput in{.read = true, .countable = true, .mode = 1, .max_counts = limit, .bias_counts = bias};
+    std::int64_t counter = 0;
+    std::int8_t sign = -1;
+    const auto half = [&](std::int64_t turned, std::int64_t wrong) {
+        sign = static_cast<std::int8_t>(-sign);
+        counter += turned + sign * bias;
+        in.reading = static_cast<std::uint64_t>(counter + wrong);
+        in.beat_sign = sign;
+        return step(state, in);
+    };
+    in.agrees = true;
+    for (int h = 0; h < 6; ++h) EXPECT_TRUE(half(3, 0).trusted);
+    in.suspicious = true;
+    in.agrees = false;
+    EXPECT_FALSE(half(3, 400).trusted);
+    in.suspicious = false;
+    in.bias_lost = bias_lost;
+    in.read = bias_lost;
+    for (int h = 0; h < more; ++h) EXPECT_FALSE(half(3, 400).trusted) << h;
+    in.read = true;
+    in.agrees = !bias_lost;
+    return half(3, off);
+}
+
+// Within a sixth of the bias, 25 counts, where the rate stood still; the bias of an odd number of halves is part of the way.
+TEST(ReadingMonitor, AReadingHasReturnedWhereTheRateAndTheBiasLeadTo) {
+    for (const int missed : {0, 1, 2}) {
+        for (const int side : {1, -1}) {
+            const ReadingMonitorOutput back = after_a_wrong_reading(missed, side * 24);
+            EXPECT_TRUE(back.trusted) << missed;
+            EXPECT_EQ(back.span, missed + 2);
+            EXPECT_FALSE(after_a_wrong_reading(missed, side * 27).trusted) << missed;
+        }
+    }
+}
+
+// Without its bias for 16 halves the gyro was not in its mode: its counts begin anew.
+TEST(ReadingMonitor, ABiasThatStaysLostEndsTheWait) {
+    EXPECT_FALSE(after_a_wrong_reading(14, 400, true).trusted);
+    const ReadingMonitorOutput anew = after_a_wrong_reading(15, 400, true);
+    EXPECT_TRUE(anew.trusted);
+    EXPECT_EQ(anew.span, 1);
+}
+
 TEST(ReadingMonitor, ARotationThatTheNextReadingsConfirmIsKept) {
     for (const std::int64_t turned : {30, -47, 92, 138, -151, 300, 777, -999}) {
         for (std::size_t n = 1; n <= 3; ++n) {
