@@ -207,7 +207,7 @@ class Lists(unittest.TestCase):
 
     # A survivor more is a test less: raise this number for a module that is new to the mutants, and for nothing else.
     def test_the_list_of_survivors_only_shrinks(self):
-        self.assertLessEqual(len(mutate.known_survivors()), 497)
+        self.assertLessEqual(len(mutate.known_survivors()), 422)
 
     def test_every_survivor_is_a_mutant_and_stands_once(self):
         every = {mutant.key for paths in mutate.modules().values() for path in paths
