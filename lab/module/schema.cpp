@@ -21,7 +21,7 @@ constexpr std::array<const char*, 11> kind_names{"real",     "optional_real", "i
                                                  "interval", "column",        "columns"};
 
 // The texts of the table hold no control characters.
-std::string quoted(std::string_view text) {
+std::string json_text(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
@@ -43,13 +43,14 @@ std::string list(const Range& range, const Text& text) {
 std::string key_json(const config::KeyInfo& key) {
     return fmt::format(
         R"({{"section":{},"name":{},"unit":{},"meaning":{},"default":{},"allowed":{},"kind":"{}","choices":{}}})",
-        quoted(key.section), quoted(key.name), quoted(key.unit), quoted(key.meaning), quoted(key.default_text),
-        quoted(key.allowed), kind_names.at(static_cast<std::size_t>(key.kind)), list(key.choices, quoted));
+        json_text(key.section), json_text(key.name), json_text(key.unit), json_text(key.meaning),
+        json_text(key.default_text), json_text(key.allowed), kind_names.at(static_cast<std::size_t>(key.kind)),
+        list(key.choices, json_text));
 }
 
 std::string fault_json(const twin::FaultFacts& fault) {
-    return fmt::format(R"({{"name":{},"unit":{},"least":{},"most":{},"duration_s":{:.2g}}})", quoted(fault.name),
-                       quoted(fault.unit), fault.random_size.least, fault.random_size.most,
+    return fmt::format(R"({{"name":{},"unit":{},"least":{},"most":{},"duration_s":{:.2g}}})", json_text(fault.name),
+                       json_text(fault.unit), fault.random_size.least, fault.random_size.most,
                        std::sqrt(fault.random_s.least * fault.random_s.most));
 }
 
@@ -57,8 +58,8 @@ std::string fault_json(const twin::FaultFacts& fault) {
 
 std::string schema_json() {
     return fmt::format(R"({{"keys":{},"health":{},"angle_flags":{},"faults":{}}})",
-                       list(config::describe_keys(), key_json), list(core::health_bit_names, quoted),
-                       list(core::angle_flag_names, quoted), list(twin::fault_table, fault_json));
+                       list(config::describe_keys(), key_json), list(core::health_bit_names, json_text),
+                       list(core::angle_flag_names, json_text), list(twin::fault_table, fault_json));
 }
 
 std::string changed_settings(const config::Config& config) {

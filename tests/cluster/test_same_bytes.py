@@ -2,6 +2,7 @@
 
 import os
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -10,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from ways import SWEEP, ZLG, ZLG_MPI, environment, has_ranks, on_ranks, on_threads, run
+from ways import SWEEP, ZLG, ZLG_MPI, environment, has_ranks, of_zlg, on_ranks, on_threads, run
 
 needs_ranks = pytest.mark.skipif(not has_ranks(), reason="no OpenMPI, or zlg-mpi is not built")
 
@@ -162,19 +163,25 @@ def test_a_call_repeats_nothing_that_was_recorded(long, tmp_path):
     out = tmp_path / "r.h5"
     part = tmp_path / "r.h5.part"
     call = started(on_ranks(3, long / "sweep.toml", "--out", out), stderr=subprocess.PIPE, text=True)
-    wait_for_rows(call, part, 5)
+    wait_for_rows(call, part, 1)  # mpirun takes two seconds to hand the signal on, in which fifteen gyros end
     call.send_signal(signal.SIGINT)
     _, stderr = call.communicate(timeout=30)
     recorded = rows_of(part)
-    assert f"interrupted by a signal; {len(recorded)} of 40 gyros are in {part}, and the same line goes on" in stderr
+    # mpirun of OpenMPI 5 hands on nothing of what ranks say after Ctrl-C.
+    if hands_on_last_words():
+        assert f"interrupted by a signal; {len(recorded)} of 40 gyros are in {part}, and the same line goes on" in stderr
     again = started(on_ranks(2, long / "sweep.toml", "--out", out))
-    wait_for_rows(again, part, len(recorded) + 5)
+    wait_for_rows(again, part, len(recorded) + 1)
     seen = rows_of(part)
     again.send_signal(signal.SIGINT)
     again.wait(30)
     assert seen[:len(recorded)] == recorded
     gyros = [row.split("\t")[0] for row in rows_of(part)]
     assert len(gyros) == len(set(gyros))
+
+
+def hands_on_last_words():
+    return re.search(r"Open MPI\)? 4\.", subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=True).stdout) is not None
 
 
 def rows_of(part):
@@ -197,7 +204,7 @@ class TestBadInput:
     def refused(self, code, says, *arguments):
         result = run(on_ranks(3, *arguments))
         assert (result.returncode, result.stdout) == (code, ""), result.stderr
-        assert len(result.stderr.splitlines()) == 1, result.stderr
+        assert len(of_zlg(result.stderr)) == 1, result.stderr
         assert says in result.stderr
 
     def test_of_the_command_line_and_the_description(self, short, tmp_path):
@@ -224,7 +231,7 @@ class TestBadInput:
         limit = part.stat().st_size + 100
         resource.prlimit(ranks_of(call)[0], resource.RLIMIT_FSIZE, (limit, limit))
         _, stderr = call.communicate(timeout=30)
-        assert (call.returncode, stderr) == (3, f"zlg: cannot write {part}: File too large\n")
+        assert (call.returncode, of_zlg(stderr)) == (3, [f"zlg: cannot write {part}: File too large"])
         swept(on_ranks(2, long / "sweep.toml", "--out", out))
         assert out.read_bytes() == (long / "whole.h5").read_bytes()
 
@@ -243,9 +250,8 @@ def test_ranks_that_see_another_motion_file_are_refused(tmp_path):
         (tmp_path / name / "m.csv").write_text("\n".join(str(k % 7) for k in range(2000)) + f"\n{last}\n")
 
     def on_folders(other, out):
-        rank = ["-np", "1", "-wdir"]
-        program = [ZLG_MPI, "sweep", tmp_path / "sweep.toml", "--out", tmp_path / out]
-        return run(["mpirun", "-q", *rank, tmp_path / "here", *program, ":", *rank, tmp_path / other, *program])
+        enter = f'cd "{tmp_path}/$([ "$OMPI_COMM_WORLD_RANK" = 0 ] && echo here || echo {other})" && exec "$@"'
+        return run(["mpirun", "-np", 2, "sh", "-c", enter, "sh", ZLG_MPI, "sweep", tmp_path / "sweep.toml", "--out", tmp_path / out])
 
     assert on_folders("same", "same.h5").returncode == 0
     result = on_folders("there", "other.h5")
