@@ -93,7 +93,6 @@ Script estimated(std::string name, int gap_ticks, int light_samples, RelockMetho
     s.light_per_detuning = 1.0;
     s.control.mode_switch.lock_tolerance = core::Wavelengths{0.25};
     s.compensation.bridge.method = BridgeMethod::automatic;
-    s.compensation.bridge.optimal.halves = relock == RelockMethod::joint;
     return s;
 }
 

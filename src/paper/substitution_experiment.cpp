@@ -30,8 +30,8 @@ void require(bool good, const char* name, double value, const char* allowed) {
 }
 
 void check(const SubstitutionExperiment& e) {
-    static_assert(core::max_gap_ticks == 16);
-    require(e.gap_ticks >= 1 && e.gap_ticks <= core::max_gap_ticks, "gap_ticks", e.gap_ticks, "1..16");
+    static_assert(core::max_polynomial_gap == 16);
+    require(e.gap_ticks >= 1 && e.gap_ticks <= core::max_polynomial_gap, "gap_ticks", e.gap_ticks, "1..16");
     require(e.amplitude_arcsec_s >= 0.0 && std::isfinite(e.amplitude_arcsec_s), "amplitude_arcsec_s",
             e.amplitude_arcsec_s, "a finite number from 0");
     if (e.amplitude_arcsec_s > 0.0) {

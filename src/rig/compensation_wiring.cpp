@@ -30,14 +30,6 @@ core::CompensationConstants constants_of(const config::Config& config) {
             .control_curve = discriminator_curve(config, g.discriminator_per_lambda)};
 }
 
-// Whether the motion is learnt and gaps are estimated by half-ticks: each half must be corrected, or read as it is. Learning
-// by half-ticks costs a processor a seventh more, so that `auto` does it with `joint` alone.
-bool has_halves(core::RelockMethod relock, core::BridgeMethod bridge) {
-    if (relock == core::RelockMethod::joint) return true;
-    return bridge == core::BridgeMethod::optimal &&
-           (relock == core::RelockMethod::mean_square || relock == core::RelockMethod::none);
-}
-
 // How `joint` reads the light samples: with the slope and the curve of the control.
 core::RelockProfileConfig profile_of(const config::Config& config, core::RelockMethod relock) {
     if (relock != core::RelockMethod::joint) return {};
@@ -80,7 +72,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
                                                        .extrapolation_points = c.extrapolation_points,
                                                        .points_before = c.points_before,
                                                        .points_after = c.points_after,
-                                                       .optimal = {.halves = has_halves(relock, bridge)}},
+                                                       .gap_ticks = static_cast<int>(config.switching.gap_ticks)},
                                             .magnetic = magnetic_of(config),
                                             .lock_in = lock_in_of(config),
                                             .gyro = constants_of(config)};

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "compensation/estimate/switch_estimate.hpp"
+#include <zlg/core/compensation/switch_estimate.hpp>
 
 namespace {
 

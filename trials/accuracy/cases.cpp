@@ -12,8 +12,8 @@ constexpr const char* x1 = readouts[0];
 constexpr const char* x4 = readouts[1];
 
 std::vector<std::string> main_methods() {
-    return {method_name::optimal,  method_name::automatic, method_name::automatic_ticks,
-            method_name::constant, method_name::linear,    method_name::quadratic};
+    return {method_name::automatic, method_name::automatic_ticks, method_name::constant, method_name::linear,
+            method_name::quadratic};
 }
 
 std::vector<std::string> all_methods() {

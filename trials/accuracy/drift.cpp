@@ -20,7 +20,7 @@ struct Combination {
 constexpr Combination combinations[] = {{0.7, 50.0}, {0.7, 100.0}, {14.0, 50.0}};
 
 const std::vector<std::string>& drift_methods() {
-    static const std::vector<std::string> names{method_name::automatic, method_name::optimal, method_name::quadratic,
+    static const std::vector<std::string> names{method_name::automatic, method_name::quadratic,
                                                 method_name::detuning_quadratic};
     return names;
 }

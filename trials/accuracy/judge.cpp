@@ -163,12 +163,11 @@ void add_manoeuvres(const Accuracy& accuracy, std::vector<Criterion>& out) {
 }  // namespace
 
 std::vector<Criterion> judge(const Accuracy& accuracy) {
-    constexpr std::array ours{method_name::optimal, method_name::automatic};
     std::vector<Criterion> criteria;
-    for (const char* method : ours) add_whole_switch(accuracy, method, criteria);
+    add_whole_switch(accuracy, method_name::automatic, criteria);
     add_relock(accuracy, criteria);
     for (const RecordingFigures& r : accuracy.recordings) add_recording(r, criteria);
-    for (const char* method : ours) add_consistency(accuracy, method, criteria);
+    add_consistency(accuracy, method_name::automatic, criteria);
     add_manoeuvres(accuracy, criteria);
     add_gap_criteria(accuracy, criteria);
     return criteria;

@@ -118,8 +118,8 @@ double over_best_polynomial(const ManoeuvreFigures& figures) {
 namespace {
 
 const std::vector<std::string>& compared_methods() {
-    static const std::vector<std::string> names{method_name::automatic, method_name::optimal, method_name::constant,
-                                                method_name::linear, method_name::quadratic};
+    static const std::vector<std::string> names{method_name::automatic, method_name::constant, method_name::linear,
+                                                method_name::quadratic};
     return names;
 }
 

@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 // A gap disturbs nothing earlier before it and nothing later after it.
 constexpr std::int64_t lead_ticks = 9;
-constexpr std::int64_t trail_ticks = 24;
+constexpr std::int64_t trail_ticks = 40;
 constexpr double place_ticks = 8.0;
 
 // Ticks of the common motion from one copy to the next, and up to so many more at random.

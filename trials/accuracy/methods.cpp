@@ -19,10 +19,8 @@ struct Recipe {
 };
 
 constexpr Recipe recipes[] = {
-    {method_name::optimal, RelockMethod::joint, BridgeMethod::optimal, false},
     {method_name::automatic, RelockMethod::joint, BridgeMethod::automatic, false},
     {method_name::automatic_ticks, RelockMethod::mean_square, BridgeMethod::automatic, false},
-    {method_name::optimal_ticks, RelockMethod::mean_square, BridgeMethod::optimal, false},
     {method_name::constant, RelockMethod::mean_square, BridgeMethod::constant, true},
     {method_name::linear, RelockMethod::mean_square, BridgeMethod::linear, true},
     {method_name::quadratic, RelockMethod::mean_square, BridgeMethod::quadratic, true},
@@ -30,7 +28,6 @@ constexpr Recipe recipes[] = {
     {method_name::detuning_quadratic, RelockMethod::detuning, BridgeMethod::quadratic, true},
     {method_name::frequency_quadratic, RelockMethod::frequency, BridgeMethod::quadratic, true},
     {method_name::uncorrected, RelockMethod::none, BridgeMethod::quadratic, true},
-    {method_name::uncorrected_optimal, RelockMethod::none, BridgeMethod::optimal, false},
     {method_name::uncorrected_automatic, RelockMethod::none, BridgeMethod::automatic, false},
 };
 

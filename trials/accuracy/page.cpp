@@ -42,7 +42,7 @@ Figure ratio_figure(const Accuracy& accuracy) {
         "does not know the constant rate can do better; below it a method makes use of that rate, or roundings repeat.",
         "case", "rms error over bound");
     add_points(
-        f, accuracy, {method_name::automatic, method_name::optimal, method_name::quadratic, method_name::constant},
+        f, accuracy, {method_name::automatic, method_name::quadratic, method_name::constant},
         [](const CaseFigures& c) { return c.bound.halves_arcsec > 0.0; },
         [](const CaseFigures& c, const ErrorFigures& e) { return e.rms_arcsec / c.bound.halves_arcsec; });
     return f;
@@ -55,8 +55,8 @@ Figure nev_figure(const Accuracy& accuracy) {
                              "The paper's polynomials take the motion as one of their own kind.",
                              "case", "NEV");
     add_points(
-        f, accuracy, {method_name::automatic, method_name::optimal, method_name::quadratic},
-        [](const CaseFigures&) { return true; }, [](const CaseFigures&, const ErrorFigures& e) { return e.nev; });
+        f, accuracy, {method_name::automatic, method_name::quadratic}, [](const CaseFigures&) { return true; },
+        [](const CaseFigures&, const ErrorFigures& e) { return e.nev; });
     return f;
 }
 

@@ -15,10 +15,8 @@ namespace zlg::trials {
 
 // Names by which a method is found again in the figures.
 namespace method_name {
-inline constexpr const char* optimal = "joint, optimal";
 inline constexpr const char* automatic = "joint, auto";
 inline constexpr const char* automatic_ticks = "mean square, auto";
-inline constexpr const char* optimal_ticks = "mean square, optimal";
 inline constexpr const char* constant = "mean square, constant";
 inline constexpr const char* linear = "mean square, linear";
 inline constexpr const char* quadratic = "mean square, quadratic";
@@ -26,7 +24,6 @@ inline constexpr const char* detuning_constant = "(13), constant";
 inline constexpr const char* detuning_quadratic = "(13), quadratic";
 inline constexpr const char* frequency_quadratic = "(11), quadratic";
 inline constexpr const char* uncorrected = "none, quadratic";
-inline constexpr const char* uncorrected_optimal = "none, optimal";
 inline constexpr const char* uncorrected_automatic = "none, auto";
 }  // namespace method_name
 

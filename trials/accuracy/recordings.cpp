@@ -165,7 +165,6 @@ std::vector<AccuracyMethod> bridges_for(const Recording& r) {
     const auto add = [&](const char* name, core::BridgeMethod bridge) {
         methods.push_back({name, rig::compensation_config(config, core::RelockMethod::none, bridge)});
     };
-    add("optimal", core::BridgeMethod::optimal);
     add("auto", core::BridgeMethod::automatic);
     add("constant", core::BridgeMethod::constant);
     add("linear", core::BridgeMethod::linear);
@@ -178,8 +177,7 @@ AxisFigures measure_axis(const Recording& r, int number, const std::vector<doubl
     const std::vector<std::int64_t> gaps = gaps_of(r, column.counts.size());
     AxisFigures axis{.column = number, .fit_rms_arcsec = fit_rms(r, column, gaps)};
     for (const AccuracyMethod& method : bridges_for(r)) {
-        const bool of_paper = method.config.bridge.method != core::BridgeMethod::optimal &&
-                              method.config.bridge.method != core::BridgeMethod::automatic;
+        const bool of_paper = method.config.bridge.method != core::BridgeMethod::automatic;
         const auto errors = errors_of(r, column, gaps.size(), method.config);
         axis.methods.push_back({.method = method.name, .of_paper = of_paper, .whole = figures_of(errors)});
     }
@@ -216,8 +214,7 @@ GapLengthFigures measure_gap_length(const Recording& r, int number, const Column
     GapLengthFigures f{.recording = r.name, .column = number, .gap_ticks = r.gap_ticks};
     std::vector<std::vector<SwitchError>> errors;
     for (const AccuracyMethod& method : bridges_for(r))
-        if (method.config.bridge.method != core::BridgeMethod::optimal)
-            errors.push_back(errors_of(r, column, gaps.size(), method.config));
+        errors.push_back(errors_of(r, column, gaps.size(), method.config));
     const std::vector<Trimmed> rms = trimmed_rms(errors);
     f.n = static_cast<std::int64_t>(gaps.size());
     f.nev = figures_of(errors[0]).nev;

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/core/compensation/relock_profile.hpp>
+#include <zlg/core/compensation/switch_light.hpp>
 #include <zlg/numeric/parallel.hpp>
 
 #include "bound.hpp"
@@ -14,6 +14,9 @@
 
 namespace zlg::trials {
 namespace {
+
+// Half-ticks after the loop is closed.
+constexpr int relock_halves = 40;
 
 // One gyro at rest, one switch: the profile estimated from its light against the true decay.
 SwitchError trial_of(const GyroLaw& law, std::uint64_t seed) {
@@ -26,24 +29,25 @@ SwitchError trial_of(const GyroLaw& law, std::uint64_t seed) {
     const core::CompensationConstants constants{.light_noise = core::Wavelengths{law.light_noise_lambda},
                                                 .light_samples = law.light_samples};
     const core::RelockProfileConfig config{.discriminator_per_lambda = synthetic_discriminator_per_lambda};
-    core::RelockProfileState state;
-    enter_gap(state);
-    std::array<double, core::profile_halves> per_lambda2{};
+    core::SwitchLight state{.armed = true};
+    std::array<double, relock_halves> per_lambda2{};
     SwitchError e{.sigma_arcsec = std::numeric_limits<double>::infinity()};
     for (std::size_t k = 0; k < per_lambda2.size(); ++k) {
         const SyntheticHalf half = gyro.advance();
-        step(constants, config, state, half.record, half.light);
+        step(constants, config, state, half.record, half.light, true, static_cast<std::int64_t>(k), relock_halves);
         const int sign = half.record.bias_sign * half.record.mode;
         if (k == 0) e.sign = sign;
         per_lambda2[k] = -sign * law.chi * law.bias_hz * law.scale_arcsec * 0.5 * law.tick_s;
         e.error_arcsec -= half.false_arcsec;
     }
-    if (!state.profile.known) return e;
+    const core::LightFit fit{state.sums, law.light_noise_lambda};
+    if (!fit.is_known()) return e;
     double variance = 0.0;
-    for (std::size_t k = 0; k < per_lambda2.size(); ++k) {
-        e.error_arcsec += per_lambda2[k] * state.profile.mean_sq_lambda2[k];
-        for (std::size_t j = 0; j < per_lambda2.size(); ++j)
-            variance += per_lambda2[k] * per_lambda2[j] * state.profile.covariance_lambda4[k][j];
+    for (int k = 0; k < relock_halves; ++k) {
+        const double a = per_lambda2[static_cast<std::size_t>(k)];
+        e.error_arcsec += a * fit.angle(k);
+        for (int j = 0; j < relock_halves; ++j)
+            variance += a * per_lambda2[static_cast<std::size_t>(j)] * fit.covariance(k, j);
     }
     e.sigma_arcsec = std::sqrt(variance);
     return e;

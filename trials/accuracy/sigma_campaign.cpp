@@ -72,9 +72,8 @@ constexpr MotionClass classes[] = {
     {"first gap: band, by phase", band, 600, 1, 10, 60, true},
 };
 
-const std::vector<std::string> without_miss{method_name::uncorrected_optimal, method_name::uncorrected_automatic};
-const std::vector<std::string> with_miss{method_name::optimal_ticks, method_name::automatic_ticks, method_name::optimal,
-                                         method_name::automatic};
+const std::vector<std::string> without_miss{method_name::uncorrected_automatic};
+const std::vector<std::string> with_miss{method_name::automatic_ticks, method_name::automatic};
 
 GyroLaw draw_gyro(Draw draw) {
     GyroLaw g;

@@ -44,13 +44,13 @@ report::Section summary_table(const Accuracy& accuracy, const Group& group) {
     report::Section s =
         section(group.heading, group.caption,
                 {"case", "bound, ticks, \"", "bound, halves, \"", "constant, \"", "quadratic, \"", "ticks, auto, \"",
-                 "optimal, \"", "auto, \"", "auto/bound", "worst, \"", "bias, \"", "NEV", "within 3 sigma, %"});
+                 "auto, \"", "auto/bound", "worst, \"", "bias, \"", "NEV", "within 3 sigma, %"});
     for (const CaseFigures& c : accuracy.cases) {
         const MethodFigures* automatic = find_method(c.methods, method_name::automatic);
         if (c.group != group.group || automatic == nullptr) continue;
         std::vector<std::string> row{c.name, bound_text(c, c.bound.ticks_arcsec), bound_text(c, c.bound.halves_arcsec)};
-        for (const char* name : {method_name::constant, method_name::quadratic, method_name::automatic_ticks,
-                                 method_name::optimal, method_name::automatic}) {
+        for (const char* name :
+             {method_name::constant, method_name::quadratic, method_name::automatic_ticks, method_name::automatic}) {
             const MethodFigures* m = find_method(c.methods, name);
             row.push_back(m == nullptr ? "-" : fixed_number(m->whole.rms_arcsec, 2));
         }

@@ -1,4 +1,4 @@
-#include "triangle.hpp"
+#include <zlg/core/common/triangle.hpp>
 
 #include <zlg/core/common/maths.hpp>
 

@@ -3,8 +3,9 @@
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
-#include "gap/gap_estimate.hpp"
+#include "common/bounds.hpp"
 #include "known_sum.hpp"
+#include "relock/relock_light.hpp"
 #include "tick_allowance.hpp"
 
 namespace zlg::core {
@@ -126,77 +127,83 @@ void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& f
     tick.variance_arcsec2 += tick.common_arcsec2;
 }
 
-bool uses_halves(const GyroCompensationConfig& config) noexcept {
-    return is_estimated(config.bridge) && config.bridge.optimal.halves;
-}
-
-// `joint` alone reads the samples: the others know what the records tell.
+// The samples that the estimate of a switch reads: the paper's methods know what the records tell.
 LightSamples samples_for(const GyroCompensationConfig& config, LightSamples light) noexcept {
     return config.relock.method == RelockMethod::joint ? light : LightSamples{};
+}
+
+// Its light is that of the new mode before the loop is closed.
+bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_closed && half.valid && half.span == 1; }
+
+void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
+                LightSamples light, int k) noexcept {
+    if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.bridge.relock_ticks < 1)
+        return;
+    step(config.gyro, config.profile, state.bridge.light, half, samples_for(config, light),
+         is_measured(half) || is_lit(half), 2 * state.bridge.next_tick + k, static_cast<int>(2 * config.relock.ticks));
 }
 
 // Time constant of the mean of the bias, which follows the temperature, in ticks.
 constexpr double bias_memory_ticks = 256.0;
 
-// Excess of the first half over the second, without the bias. What the bias adds is a slow mean over settled ticks,
-// each taken with the sign of its first half; a settled tick is added to the mean before it is used.
-void set_half_excess(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
-                     const HalfRecord& second, double known_excess_counts, TickInput& tick) noexcept {
-    const double difference = as_double(first.counts - second.counts) - known_excess_counts;
-    const double excess = config.gyro.scale.value() * difference;
-    if (tick.settled) {
-        const double bias = 0.5 * tick.sign * excess;
-        state.bias_arcsec += state.bias_arcsec == 0.0 ? bias : (bias - state.bias_arcsec) / bias_memory_ticks;
-    }
-    tick.half_excess_arcsec = excess - 2.0 * tick.sign * state.bias_arcsec;
+// The mean of what the bias adds to a half, over settled ticks, each taken with the sign of its first half.
+void learn_bias(GyroCompensationState& state, double half_excess_arcsec, int sign) noexcept {
+    const double bias = 0.5 * sign * half_excess_arcsec;
+    if (state.n_bias < bias_memory_ticks) state.n_bias += 1.0;
+    state.bias_arcsec += (bias - state.bias_arcsec) / state.n_bias;
 }
 
-// Covariance of the recent motion between half-ticks.
-MotionCovariance recent_motion(const GyroCompensationConfig& config, const GapBridgeState& bridge) noexcept {
-    const MotionMomentsState& moments = bridge.learning.moments;
-    return {config.gyro, config.bridge.optimal, moments, fast_memory, 1.0, moments.with_phase};
-}
-
-// Ticks after a gap in which a re-lock shows.
-constexpr int shown_ticks = 4;
-
-// Square of the number of standard deviations of the difference of two halves beyond which it is no motion.
-constexpr double excess_gate_sq = 25.0;
-
-// Without a correction the half-ticks after a gap are points as they were read, unless the halves differ more than those of the
-// learnt motion do: then the detuning still changes, and the gap is bridged by whole ticks, in which little of that is left.
-void take_as_read(const GyroCompensationConfig& config, GapBridgeState& bridge) noexcept {
-    JointRelock& joint = bridge.joint;
-    joint.correction_arcsec = {};
-    joint.covariance_arcsec2 = {};
-    const MotionCovariance motion = recent_motion(config, bridge);
-    const double usual = motion.of_samples(0, 0) + motion.of_samples(1, 1) - 2.0 * motion.of_samples(0, 1);
-    joint.known = true;
-    for (int k = 0; k < shown_ticks; ++k) {
-        const double excess = at(bridge, joint.first_tick + k).half_excess_arcsec;
-        if (!(excess * excess <= excess_gate_sq * usual)) joint.known = false;
+// The false angle of a half by its record.
+void read_record(const CompensationConstants& gyro, const HalfRecord& half, HalfReading& reading) noexcept {
+    const RecordedSquare recorded = recorded_square(gyro, half);
+    if (!recorded.known) return;
+    const double unit =
+        0.5 * gyro.chi * bias_at(gyro, Celsius{half.temperature_c}).value() * gyro.scale.value() * gyro.tick.value();
+    reading.false_arcsec = -reading.sign * unit * recorded.mean_sq_lambda2;
+    reading.false_arcsec2 = square(unit) * recorded.variance_lambda4;
+    if (!is_finite(reading.false_arcsec + reading.false_arcsec2)) {
+        reading.false_arcsec = 0.0;
+        reading.false_arcsec2 = -1.0;
     }
 }
 
-// The bridge holds one profile, and keeps it until the gap that it belongs to is resolved; the next one waits.
-void deliver_profile(const GyroCompensationConfig& config, GyroCompensationState& state,
-                     const HalfRecord& half) noexcept {
-    if (!is_due(state.joint) || needs_profile(state.bridge)) return;
-    const Celsius temperature{half.temperature_c};
-    deliver(config.gyro, state.joint, temperature, state.bridge.joint);
-    if (config.relock.method == RelockMethod::none) take_as_read(config, state.bridge);
+// The halves of a measured tick: what it turned, and half of what the first one turned more.
+void read_halves(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
+                 double half_excess_arcsec, TickInput& tick) noexcept {
+    const bool squares = !tick.settled && (config.relock.method == RelockMethod::joint ||
+                                           config.relock.method == RelockMethod::mean_square);
+    for (int k = 0; k < 2; ++k) {
+        HalfReading& reading = tick.half[static_cast<unsigned>(k)];
+        reading.read = true;
+        reading.angle_arcsec =
+            0.5 * (tick.value_arcsec + tick.relock_arcsec + (k == 0 ? half_excess_arcsec : -half_excess_arcsec));
+        if (squares) read_record(config.gyro, k == 0 ? first : second, reading);
+    }
 }
 
-// Measured ticks in a row whose readings have a phase, after which the covariances are those of such readings: longer than
-// any window.
+// A lit half of a gap, where its counts are an angle.
+void read_lit_half(const GyroCompensationConfig& config, const GyroCompensationState& state, const HalfRecord& half,
+                   const Border& from, const Border& to, HalfReading& reading) noexcept {
+    if (!is_lit(half) || half.edge_offset_ticks != 0 || !(state.n_bias > 0.0)) return;
+    if (state.bridge.with_phase && !(from.is_known() && to.is_known())) return;
+    reading.read = reading.lit = true;
+    reading.angle_arcsec = config.gyro.scale.value() * counts_and_parts(half.counts, parts_between(from, to)) -
+                           reading.sign * state.bias_arcsec;
+    read_record(config.gyro, half, reading);
+}
+
+// Measured ticks, more with the place within the count than without, after which the readings are taken to be such; and as many
+// the other way: longer than what a gap leaves without.
 constexpr std::int32_t phase_debounce = 32;
 
 void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
-    if (!with_phase)
-        state.n_with_phase = 0;
-    else if (state.n_with_phase < phase_debounce)
-        ++state.n_with_phase;
-    state.bridge.learning.moments.with_phase = state.n_with_phase >= phase_debounce;
+    std::int32_t& n = state.n_with_phase;
+    n += with_phase ? (n < phase_debounce) : -(n > 0);
+    bool& by_phase = state.bridge.with_phase;
+    if (n != (by_phase ? 0 : phase_debounce)) return;
+    by_phase = !by_phase;
+    // What was learnt holds other roundings, thousands of times as large or small.
+    start(state.bridge.motion, state.bridge.motion.moments.length);
 }
 
 // Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
@@ -222,7 +229,7 @@ void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
 // bridge. Advances the estimator.
 double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
                        const TickInput& tick) noexcept {
-    const bool by_phase = state.bridge.learning.moments.with_phase;
+    const bool by_phase = state.bridge.with_phase;
     const MagneticMethod method = config.magnetic.method;
     if (method == MagneticMethod::none && !by_phase && !state.magnetic.started) return 0.0;
     const double subtracted =
@@ -237,26 +244,6 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
         state.bridge.magnetic_variance_arcsec2 = variance * tick_s * tick_s;
     }
     return subtracted;
-}
-
-// Of a tick of a gap, or of the first one after it.
-void read_lit_halves(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& second,
-                     const Border& start, const TickInput& tick, double drift_arcsec) noexcept {
-    const MotionMomentsState& moments = state.bridge.learning.moments;
-    const MotionCovariance motion = recent_motion(config, state.bridge);
-    const double motion_arcsec2 = second_difference_arcsec2(motion);
-    const LitTick read{
-        .first = state.first,
-        .second = second,
-        .start = start,
-        .tick = state.bridge.next_tick,
-        .bias_arcsec = state.bias_arcsec,
-        .difference_arcsec2 = motion.of_samples(0, 0) + motion.of_samples(2, 2) - 2.0 * motion.of_samples(0, 2),
-        .with_phase = moments.with_phase};
-    if (tick.measured)
-        end_gap(config.gyro, state.bridge.lit, read, motion_arcsec2, drift_arcsec);
-    else
-        add_gap_tick(config.gyro, state.bridge.lit, read, !state.bridge.gap.open, motion_arcsec2);
 }
 
 // Nothing can be subtracted: the motion is learnt from all ticks, and the switch is as uncertain as these together.
@@ -281,11 +268,8 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     const EdgeShiftState edges_before = state.edges;
     const EdgeShiftOutput shifted = step(config.gyro, state.edges, edge_input(config.gyro, first, second, borders));
     TickInput tick = assemble(config.gyro, first, second, borders, shifted.value_arcsec);
-    if (uses_halves(config)) {
-        step(config.gyro, config.profile, state.joint, second, samples_for(config, light), tick.measured,
-             state.bridge.next_tick);
-        deliver_profile(config, state, second);
-    }
+    take_light(config, state, second, light, 1);
+    double half_excess = 0.0;
     if (tick.measured) {
         tick.with_phase = borders.start.is_known() && border_of(first).is_known() && borders.end.is_known();
         note_phase(state, tick.with_phase);
@@ -300,7 +284,9 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         if (relock.tick.known && to_come > 0)
             tick.relock_to_come_arcsec2 = as_double(to_come) * relock.tick.variance_arcsec2;
         if (config.relock.presumes) leave_uncorrected(state, relock, tick);
-        if (uses_halves(config)) set_half_excess(config, state, first, second, excess, tick);
+        half_excess = config.gyro.scale.value() * (as_double(first.counts - second.counts) - excess);
+        if (tick.settled) learn_bias(state, half_excess, tick.sign);
+        half_excess -= 2.0 * tick.sign * state.bias_arcsec;
         state.first_waits = relock.waiting;
         begin_anew(state.stretch, detuning_sq(config.gyro, second));
     } else {
@@ -310,9 +296,6 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
             enter_gap(state.relock, moves);
             state.uncorrected_arcsec2 = 0.0;
         }
-        tick.settled_tick = state.settled_tick;
-        if ((tick.flags & flag_loop_unlocked) != 0)
-            state.settled_tick = state.bridge.next_tick + 1 + config.relock.ticks;
         state.bridge.relock_ticks = config.relock.ticks;
         tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
         if (config.bridge.method != BridgeMethod::none) {
@@ -326,12 +309,21 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     }
     // The counts of a half that was missed go over into the next one, which then is not measured.
     state.refused = second.loop_closed && !second.valid;
-    tick.bias_arcsec = state.bias_arcsec;
-    const double magnetic = magnetic_arcsec(config, state, tick);
-    tick.value_arcsec -= magnetic;
-    if (uses_halves(config) && (state.bridge.gap.open || !tick.measured))
-        read_lit_halves(config, state, second, borders.start, tick, magnetic);
-    CompensationOutput out{.has_sample = true, .sample = step(config.gyro, config.bridge, state.bridge, tick)};
+    tick.value_arcsec -= magnetic_arcsec(config, state, tick);
+    if (is_estimated(config.bridge)) {
+        for (int k = 0; k < 2; ++k) {
+            const HalfRecord& half = k == 0 ? first : second;
+            tick.half[static_cast<unsigned>(k)].sign = static_cast<std::int8_t>(half.bias_sign * half.mode);
+        }
+        const Border middle = border_of(first);
+        if (tick.measured) {
+            read_halves(config, first, second, half_excess, tick);
+        } else {
+            read_lit_half(config, state, first, borders.start, middle, tick.half[0]);
+            read_lit_half(config, state, second, middle, borders.end, tick.half[1]);
+        }
+    }
+    CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};
     remember(state.switch_errors, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
     const std::int32_t parts = tick.measured ? parts_between(borders.start, borders.end) : 0;
@@ -360,7 +352,9 @@ GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
     const GyroCompensationFault fault = fault_of(check(config.gyro));
     if (fault != GyroCompensationFault::none) return fault;
     if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
-    if (check(config.bridge) != GapBridgeFault::none) return GyroCompensationFault::bridge;
+    if (check(bridge_of(config)) != GapBridgeFault::none) return GyroCompensationFault::bridge;
+    if (final_delay_ticks(config.gyro, bridge_of(config)) > most_final_delay_ticks)
+        return GyroCompensationFault::bridge;
     if (check(config.profile) != RelockProfileFault::none) return GyroCompensationFault::profile;
     if (check(config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
     if (check(config.lock_in) != LockInFault::none) return GyroCompensationFault::lock_in;
@@ -383,14 +377,7 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
     first = half;
     sanitise(config, state, first);
     state.has_first = true;
-    if (uses_halves(config)) {
-        step(config.gyro, config.profile, state.joint, first, samples_for(config, light),
-             first.loop_closed && first.valid, state.bridge.next_tick);
-        deliver_profile(config, state, first);
-    }
-    // No angle is due in this half: there is room for the estimate of a gap.
-    if (state.bridge.n_pending > 0 && is_estimated(config.bridge))
-        advance_estimate(config.gyro, config.bridge, state.bridge);
+    take_light(config, state, first, light, 0);
     return {};
 }
 
@@ -400,7 +387,7 @@ DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& s
         at(state.bridge, state.bridge.next_tick - 1).row.flags |= flag_relock_uncorrected;
         state.first_waits = false;
     }
-    return drain(config.gyro, config.bridge, state.bridge);
+    return drain(config.gyro, bridge_of(config), state.bridge);
 }
 
 }  // namespace zlg::core

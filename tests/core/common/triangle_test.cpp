@@ -1,4 +1,4 @@
-#include "common/triangle.hpp"
+#include <zlg/core/common/triangle.hpp>
 
 #include <gtest/gtest.h>
 

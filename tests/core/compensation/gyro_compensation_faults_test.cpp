@@ -126,21 +126,6 @@ TEST(FaultEdges, APushOfThePerimeterIsInSigmaByPhase) {
     }
 }
 
-TEST(FaultEdges, AnErrorOfPartOfACountStandsApartByPhase) {
-    for (const double error : {0.1, 0.4, 1.0, 1.4}) {
-        Halves halves = at_rest(500, true);
-        const auto parts = static_cast<int>(error * 65536.0);
-        for (std::size_t h = 801; h < halves.size(); ++h)
-            halves[h].fringe = static_cast<float>((32768 + parts) % 65536);
-        halves[801].counts += (32768 + parts) / 65536;
-        const Delivered all = run(without_walk(), halves);
-        EXPECT_NEAR(all.rows[400].dtheta_final_arcsec, error * scale, 1e-3);
-        EXPECT_GE(5.0 * sigma_of(all, 400), error * scale) << error;
-        EXPECT_LE(sigma_of(all, 400), error * scale) << error;
-        for (const std::size_t t : {397u, 398u, 399u, 401u, 402u}) EXPECT_LT(sigma_of(all, t), 0.4 * error * scale);
-    }
-}
-
 // A detuning of 0.25/sqrt(2) wavelength, of which tick n has no more than a part 1/(2n - 1) left.
 TEST(Uncorrected, WhatAClosingLeavesIsInSigmaAndFlagged) {
     GyroCompensationConfig config = without_walk();

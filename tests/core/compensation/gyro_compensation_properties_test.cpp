@@ -89,7 +89,6 @@ GyroCompensationConfig any_config(BridgeMethod bridge, bool with_relock) {
     // No law of the counts: it is not linear in them.
     if (with_relock) c.lock_in = {.threshold = Hertz{1.0 * any(0, 100)}, .sigma = Hertz{1.0 * any(0, 100)}};
     c.bridge.method = bridge;
-    c.bridge.optimal.halves = c.relock.method == RelockMethod::joint;
     const int order = order_of(bridge);
     c.bridge.extrapolation_points = any(order + 1, 8);
     c.bridge.points_before = any(1, 8);
@@ -247,7 +246,8 @@ Quad missing_arcsec(const GyroCompensationConfig& config, GyroCompensationState 
 
 RC_GTEST_PROP(GyroCompensationProperty, AfterEveryCorrectionNothingOfTheAngleIsMissing, ()) {
     const GyroCompensationConfig config = any_config(any_bridge(), true);
-    Halves halves = any_log(40, 24);
+    // The last correction is due within 30 + 16 ticks of its gap.
+    Halves halves = any_log(40, 64);
     spread_detuning(halves);
     GyroCompensationState state;
     Delivered so_far;

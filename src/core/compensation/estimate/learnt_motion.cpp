@@ -1,4 +1,4 @@
-#include "learnt_motion.hpp"
+#include <zlg/core/compensation/learnt_motion.hpp>
 
 #include <zlg/core/common/maths.hpp>
 
@@ -59,6 +59,7 @@ void fold(LearntMotion& m, double forget_ticks) noexcept {
     const RunSums sums{m};
     const double keep = maths::exp(-0.5 * sums.n_windows / forget_ticks);
     moments.n_windows = keep * moments.n_windows + sums.n_windows;
+    m.mean_arcsec = m.level_arcsec + sums.mean;
     for (double& x : moments.sum) x *= keep;
     for (int k = 0; k < length; ++k) {
         // Products at the distance k whose earlier half is among the last L - 1 - k of the run, but for the first i of these.

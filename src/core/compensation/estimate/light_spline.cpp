@@ -1,4 +1,4 @@
-#include "light_spline.hpp"
+#include <zlg/core/compensation/light_spline.hpp>
 
 #include <zlg/core/common/maths.hpp>
 

@@ -1,4 +1,4 @@
-#include "switch_estimate.hpp"
+#include <zlg/core/compensation/switch_estimate.hpp>
 
 #include <zlg/core/common/maths.hpp>
 
@@ -236,6 +236,19 @@ bool solve(const Layout& layout, double wanted_halves, double scale_variance, Tr
            is_finite(found.variance_arcsec2) && is_finite(found.scale) && is_finite(found.scale_variance);
 }
 
+// The same, given the angle of all that is wanted from elsewhere: its likelihood, and the mean of both (Bayes for two Gaussian
+// variables).
+//
+// off_arcsec  that angle, less what is added to those of all members.
+void learn_total(double off_arcsec, double variance_arcsec2, MemberEstimate& found) noexcept {
+    const double sum = found.variance_arcsec2 + variance_arcsec2;
+    if (!(variance_arcsec2 >= 0.0 && sum > 0.0)) return;
+    const double off = off_arcsec - found.angle_arcsec;
+    found.evidence -= 0.5 * (off * off / sum + maths::log(sum));
+    found.angle_arcsec += found.variance_arcsec2 / sum * off;
+    found.variance_arcsec2 *= variance_arcsec2 / sum;
+}
+
 // Mean and variance of a mixture.
 struct Moments2 {
     double mean = 0.0;
@@ -395,14 +408,20 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     const double of_learnt = motion.n_windows >= few_windows ? prior_of_learnt : prior_of_unknown;
     const double of_member = (1.0 - of_learnt) / static_cast<double>(bank.size() * motion_sizes.size());
     build(layout, base, base, 0.0, factor);
-    if (solve(layout, problem.wanted_halves, scale.variance, factor, found)) mixture.add(of_learnt, found);
+    const double added = problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
+    const auto judge = [&]() noexcept {
+        if (!solve(layout, problem.wanted_halves, scale.variance, factor, found)) return false;
+        learn_total(window.known_arcsec - added, window.known_variance_arcsec2, found);
+        return is_finite(found.evidence);
+    };
+    if (judge()) mixture.add(of_learnt, found);
     for (std::size_t b = 0; b < bank.size(); ++b) {
         const Kernel kernel{bank[b], window};
         if (!kernel.is_there()) continue;
         lay_out(kernel, window, layout, kernel_of_points);
         for (const double size : motion_sizes) {
             build(layout, base, kernel_of_points, size * unit, factor);
-            if (!solve(layout, problem.wanted_halves, scale.variance, factor, found)) continue;
+            if (!judge()) continue;
             candidate[static_cast<unsigned>(mixture.size())] = {b, size * unit};
             mixture.add(of_member, found);
         }
@@ -412,7 +431,7 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     const Moments2 angle = mixture.of(&MemberEstimate::angle_arcsec, &MemberEstimate::variance_arcsec2);
     const Moments2 shift = mixture.of(&MemberEstimate::scale, &MemberEstimate::scale_variance);
     result.known = true;
-    result.angle_arcsec = angle.mean + problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
+    result.angle_arcsec = angle.mean + added;
     result.variance_arcsec2 = angle.variance;
     result.scale.value = scale.value + shift.mean;
     result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;

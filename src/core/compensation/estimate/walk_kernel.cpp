@@ -1,4 +1,4 @@
-#include "walk_kernel.hpp"
+#include <zlg/core/compensation/walk_kernel.hpp>
 
 namespace zlg::core {
 namespace {

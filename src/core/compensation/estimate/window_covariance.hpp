@@ -5,8 +5,8 @@
 
 #include <zlg/core/compensation/compensation_constants.hpp>
 
-#include "common/triangle.hpp"
-#include "switch_window.hpp"
+#include <zlg/core/common/triangle.hpp>
+#include <zlg/core/compensation/switch_window.hpp>
 
 namespace zlg::core {
 

@@ -7,28 +7,26 @@
 #include <zlg/core/compensation/border.hpp>
 
 #include "common/bounds.hpp"
-#include "gap_estimate.hpp"
 #include "gap_interpolation.hpp"
 #include "gap_known.hpp"
-#include "gap_points.hpp"
-#include "polynomial_motion.hpp"
-#include "row_outlier.hpp"
+#include "gap_switch.hpp"
 
 namespace zlg::core {
 namespace {
 
-void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick,
-               std::int64_t settled_tick) noexcept {
+// Age at which a window of the motion counts 1/e, in ticks: a quarter of a minute of 5 ms.
+constexpr double forget_ticks = 3000.0;
+
+void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept {
     OpenGap& open = state.gap;
     open.open = true;
     open.gap.first_tick = tick;
-    open.gap.settled_tick = settled_tick;
     Points points;
     points.collect(state, tick - 1, 1 - config.extrapolation_points, 0, tick);
     if (points.n == 0) return;
     open.gap.has_before = true;
     open.gap.mode_before = at(state, tick - 1).row.mode;
-    const int order = order_in_place(config, state);
+    const int order = order_of(config.method);
     std::construct_at(&open.fit, points.position, points.n, order);
     open.lower_order = open.fit.order() < order;
     const double n = points.n;
@@ -55,21 +53,16 @@ void set_extrapolated(AngleRow& row, double value_arcsec, double variance_arcsec
 }
 
 // dtheta of the gap's tick j, and what its final value is if the log ends here.
-void extrapolate(const CompensationConstants& gyro, const GapBridgeState& state, HistoryTick& entry,
-                 std::int32_t j) noexcept {
+void extrapolate(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
+                 HistoryTick& entry, std::int32_t j) noexcept {
     const OpenGap& open = state.gap;
     AngleRow& row = entry.row;
     row.flags |= flag_extrapolated;
-    if (!open.gap.has_before || j > max_gap_ticks) {
+    if (!open.gap.has_before || j > max_gap_ticks(config)) {
         row.dtheta_arcsec = open.constant_arcsec;
         return set_unrepaired(open, row);
     }
-    const GapPrediction& predicted = state.prediction;
-    if (predicted.first_tick == open.gap.first_tick) {
-        const auto k = static_cast<unsigned>(j - 1);
-        return set_extrapolated(row, predicted.value_arcsec[k], predicted.variance_arcsec2[k]);
-    }
-    const double usual = rounding_arcsec2(gyro, state.learning.moments.with_phase);
+    const double usual = rounding_arcsec2(gyro, state.with_phase);
     const FitWeights w = open.fit.weights(j);
     double sum = 0.0;
     double variance = 0.0;
@@ -87,10 +80,10 @@ void extrapolate(const CompensationConstants& gyro, const GapBridgeState& state,
 
 // The gap has become too long. Only its first ticks were delivered with another than their final value, and they may
 // have left the history before the gap ends.
-void give_up(GapBridgeState& state) noexcept {
+void give_up(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
     Gap& gap = state.gap.gap;
     ExactSum difference;
-    for (int k = 0; k < max_gap_ticks; ++k) {
+    for (int k = 0; k < max_gap_ticks(config); ++k) {
         AngleRow& row = at(state, gap.first_tick + k).row;
         set_unrepaired(state.gap, row);
         difference.add(row.dtheta_final_arcsec);
@@ -101,10 +94,7 @@ void give_up(GapBridgeState& state) noexcept {
 
 void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                   const TickInput& input, std::int64_t tick) noexcept {
-    if (!state.gap.open) {
-        begin_gap(config, state, tick, input.settled_tick);
-        if (is_estimated(config) && state.gap.gap.has_before) predict_gap(gyro, config, state, tick);
-    }
+    if (!state.gap.open) begin_gap(config, state, tick);
     Gap& gap = state.gap.gap;
     ++gap.n;
     HistoryTick& entry = at(state, tick);
@@ -114,91 +104,70 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
         entry.row.sigma_arcsec = infinity;
         return;
     }
-    const auto j = static_cast<std::int32_t>(gap.n <= max_gap_ticks ? gap.n : max_gap_ticks + 1);
-    extrapolate(gyro, state, entry, j);
-    note_known(rounding_arcsec2(gyro, state.learning.moments.with_phase), input, gap, entry);
-    if (gap.n <= max_gap_ticks) return;
+    const int longest = max_gap_ticks(config);
+    const auto j = static_cast<std::int32_t>(gap.n <= longest ? gap.n : longest + 1);
+    extrapolate(gyro, config, state, entry, j);
+    note_known(rounding_arcsec2(gyro, state.with_phase), input, gap, entry);
+    if (gap.n <= longest) return;
     // Its rows become final before its end is known.
-    if (gap.n == max_gap_ticks + 1) give_up(state);
-    const std::int64_t first = gap.n == max_gap_ticks + 1 ? gap.first_tick : tick;
+    if (gap.n == longest + 1) give_up(config, state);
+    const std::int64_t first = gap.n == longest + 1 ? gap.first_tick : tick;
     const ExactSum change =
         settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec).change_arcsec;
     gap.final_minus_delivered_arcsec.add(change.high);
     gap.final_minus_delivered_arcsec.add(change.low);
 }
 
-// Each half of the gap that is no point may turn by as much as the lit ones beside it show.
-double unread_arcsec2(const LitHalvesState& lit, std::int64_t gap_ticks, std::int64_t end) noexcept {
-    return lit.end_tick == end ? lit.turned_arcsec2 * static_cast<double>(2 * gap_ticks - lit.n) : 0.0;
-}
-
 // The first tick after a gap: from here on the gap waits.
-void end_gap(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input, std::int64_t tick) noexcept {
-    const bool at_start = !state.gap.gap.has_before && config.extrapolation_points > ticks_to_correction(config);
+void end_gap(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+             const TickInput& input, std::int64_t tick) noexcept {
+    const int wait = ticks_to_correction(gyro, config);
+    const bool at_start = !state.gap.gap.has_before && config.extrapolation_points > wait;
     // There eq (14) is used in reversed time and needs its points after the gap.
-    const int wait = at_start ? config.extrapolation_points : ticks_to_correction(config);
-    // A guard: in the 13 ticks that a gap waits at most, no more than 7 gaps can end.
+    const int due = at_start ? config.extrapolation_points : wait;
+    // A guard: no more gaps can end while one waits.
     if (state.n_pending < max_pending_gaps) {
         state.pending[static_cast<unsigned>(state.n_pending++)] =
             PendingGap{.gap = state.gap.gap,
-                       .due_tick = tick + wait,
+                       .ready_tick = tick + (is_estimated(config) && !at_start ? ticks_to_last_point(config) : due),
+                       .due_tick = tick + due,
                        .sign_after = input.sign,
-                       .mode_after = input.mode,
-                       .unread_arcsec2 = unread_arcsec2(state.lit, state.gap.gap.n, tick)};
+                       .mode_after = input.mode};
     }
     state.gap = OpenGap{};
 }
 
-// Give a gap its final rows.
-//
-// more_arcsec2  variance of each row beyond that of the fit.
-// return        final minus delivered.
-ExactSum interpolate(GapBridgeState& state, const Gap& gap, const GapSums& sums, bool lower_order,
-                     double more_arcsec2) noexcept {
-    std::uint32_t gained = gap.has_before ? std::uint32_t{flag_interpolated} : 0u;
-    if (lower_order) gained |= flag_lower_order;
-    ExactSum difference;
-    for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j) {
-        AngleRow& row = at(state, gap.first_tick + j).row;
-        row.dtheta_final_arcsec = sums.value_arcsec[j];
-        row.sigma_arcsec = deviation(sums.variance_arcsec2[j] + more_arcsec2);
-        row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | gained;
-        if (!is_finite(row.sigma_arcsec)) row.flags |= flag_unrepaired;
-        difference.add(row.dtheta_final_arcsec);
-        difference.add(-row.dtheta_arcsec);
-    }
-    return difference;
+// Variance of what the re-lock adds to the angle of a switch behind the points of a fit.
+double relock_beyond(const GapBridgeState& state, const Gap& gap, std::int64_t end, int n_after) noexcept {
+    double sum = state.relock_to_come_arcsec2 + state.walk_of_switch_arcsec2;
+    for (std::int64_t tick = gap.first_tick + gap.n + n_after; tick < end; ++tick)
+        if (at(state, tick).measured) sum += at(state, tick).relock_variance_arcsec2;
+    return sum;
 }
 
 // Give a gap its final rows by a polynomial, and its report their deviation.
 //
 // return  final minus delivered.
 ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
-             std::int64_t end, const EstimatedAngle& found, GapReport& report) noexcept {
-    const double judged = found.polynomial_variance_arcsec2;
-    const bool is_judged = judged > 0.0;
-    GapSums sums = is_estimated(config) && !is_judged ? sums_with_motion(gyro, config, state, gap, end, found.order)
-                                                      : sums_of(gyro, config, state, gap, end, found.order);
-    // The polynomial stands in for an estimate, because nothing is known of the motion yet.
-    const bool in_place = is_estimated(config) && !found.has_history;
-    // An estimate judges with the re-lock behind the points.
-    if (!is_judged) sums.angle_variance_arcsec2 += relock_beyond(state, gap, end, config.points_after);
-    const double variance = sums.angle_variance_arcsec2;
-    report.sigma_sum_arcsec = deviation(judged > 0.0 ? judged : variance);
-    // As an error that all rows have in common, whose sum is n times that of one.
-    const auto n = static_cast<double>(gap.n);
-    const double more = variance < judged ? (judged - variance) / (n * n) : 0.0;
-    return interpolate(state, gap, sums, in_place || sums.fit.order() < found.order, more);
-}
-
-// Add a variance to the angle of a gap: to each of its ticks an equal part.
-void widen(GapBridgeState& state, const Gap& gap, double variance_arcsec2, GapReport& report) noexcept {
-    const double of_tick = variance_arcsec2 / static_cast<double>(gap.n);
-    for (std::int64_t j = 0; j < gap.n; ++j) {
-        double& sigma = at(state, gap.first_tick + j).row.sigma_arcsec;
-        sigma = square_root(sigma * sigma + of_tick);
+             std::int64_t end, GapReport& report) noexcept {
+    const int order = order_of(config.method);
+    const GapSums sums = sums_of(gyro, config, state, gap, end, order);
+    report.sigma_sum_arcsec =
+        deviation(sums.angle_variance_arcsec2 + relock_beyond(state, gap, end, config.points_after));
+    std::uint32_t gained = gap.has_before ? std::uint32_t{flag_interpolated} : 0u;
+    // Also where the polynomial stands in for an estimate.
+    if (is_estimated(config) || sums.fit.order() < order) gained |= flag_lower_order;
+    ExactSum difference;
+    for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j) {
+        AngleRow& row = at(state, gap.first_tick + j).row;
+        row.dtheta_final_arcsec = sums.value_arcsec[j];
+        row.sigma_arcsec = deviation(sums.variance_arcsec2[j]);
+        row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | gained;
+        if (!is_finite(row.sigma_arcsec)) row.flags |= flag_unrepaired;
+        difference.add(row.dtheta_final_arcsec);
+        difference.add(-row.dtheta_arcsec);
     }
-    report.sigma_sum_arcsec = square_root(report.sigma_sum_arcsec * report.sigma_sum_arcsec + variance_arcsec2);
+    return difference;
 }
 
 // An error that the points beside a gap have in common goes over to each of its ticks, and with those of the re-lock into the
@@ -212,28 +181,27 @@ void widen_in_common(GapBridgeState& state, const Gap& gap, GapReport& report) n
     report.sigma_sum_arcsec = square_root(square(report.sigma_sum_arcsec) + n_ticks * n_ticks * state.common_arcsec2);
 }
 
-// Work at the end of a log, in the units of `estimate`: unbounded.
-constexpr int all_work = 1000;
-
-// Give a gap its final values from the ticks before `end`, and its pending correction, eq (17).
-GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                  PendingGap& pending, std::int64_t end, int work) noexcept {
+// Give a gap its final values from the ticks before `end`, its report, and its pending correction, eq (17).
+void resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+             PendingGap& pending, std::int64_t end) noexcept {
     Gap& gap = pending.gap;
-    GapReport report{.first_tick = gap.first_tick,
-                     .n_ticks = gap.n,
-                     .sign_after = pending.sign_after,
-                     .mode_after = pending.mode_after,
-                     .mode_changed = pending.mode_after != gap.mode_before,
-                     .sigma_sum_arcsec = infinity};
+    GapReport& report = pending.report;
+    report = {.first_tick = gap.first_tick,
+              .n_ticks = gap.n,
+              .sign_after = pending.sign_after,
+              .mode_after = pending.mode_after,
+              .mode_changed = pending.mode_after != gap.mode_before,
+              .sigma_sum_arcsec = infinity};
     pending.resolved = true;
-    if (config.method == BridgeMethod::none) return report;
+    if (config.method == BridgeMethod::none) return;
     ExactSum difference = gap.final_minus_delivered_arcsec;
-    if (gap.n <= max_gap_ticks) {
-        const EstimatedAngle found = is_estimated(config) ? estimate(gyro, config, state, gap, end, work)
-                                                          : EstimatedAngle{.order = order_of(config.method)};
-        difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, found, report);
-        if (found.known) report.sigma_sum_arcsec = found.sigma_sum_arcsec;
-        if (pending.unread_arcsec2 > 0.0) widen(state, gap, pending.unread_arcsec2, report);
+    const bool is_short = gap.n <= max_gap_ticks(config);
+    if (is_short) {
+        const SwitchAngle found = is_estimated(config) ? estimate_switch(gyro, config, state, gap, end) : SwitchAngle{};
+        pending.estimated = found.known;
+        pending.scale = found.scale;
+        difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, report);
+        if (found.known) report.sigma_sum_arcsec = deviation(found.variance_arcsec2);
         pending.correction_arcsec.add(found.after_arcsec.high);
         pending.correction_arcsec.add(found.after_arcsec.low);
         const KnownShift known =
@@ -245,12 +213,25 @@ GapReport resolve(const CompensationConstants& gyro, const GapBridgeConfig& conf
     }
     if (is_known(gap))
         report.sigma_sum_arcsec = deviation(gap.known_variance_arcsec2);
-    else if (gap.n <= max_gap_ticks && state.common_arcsec2 > 0.0)
+    else if (is_short && state.common_arcsec2 > 0.0)
         widen_in_common(state, gap, report);
     report.dp_arcsec = -difference.value();
     pending.correction_arcsec.add(difference.high);
     pending.correction_arcsec.add(difference.low);
-    return report;
+}
+
+// Tell of a gap whose correction is due. false: none is to be told of.
+bool tell(GapBridgeState& state, PendingGap& pending, GapReport& report) noexcept {
+    pending.told = true;
+    report = pending.report;
+    if (pending.estimated) {
+        state.scale = pending.scale;
+    }
+    if (pending.estimated && !is_known(pending.gap)) {
+        report.sigma_sum_arcsec =
+            deviation(square(report.sigma_sum_arcsec) + state.relock_to_come_arcsec2 + state.walk_of_switch_arcsec2);
+    }
+    return pending.gap.has_before;
 }
 
 // dtheta of a measured tick: its value, and the corrections of gaps that are due. Sums are exact, and the rounding
@@ -300,36 +281,37 @@ void amend_previous(GapBridgeState& state, const TickInput& input, std::int64_t 
     }
 }
 
-void add_measured_tick(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input,
-                       std::int64_t tick) noexcept {
-    if (state.gap.open) end_gap(config, state, input, tick);
+void add_measured_tick(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                       const TickInput& input, std::int64_t tick) noexcept {
+    if (state.gap.open) end_gap(gyro, config, state, input, tick);
     HistoryTick& entry = at(state, tick);
     entry.row.dtheta_final_arcsec = input.value_arcsec;
     entry.row.dtheta_arcsec = state.n_pending > 0 ? deliver(config, state, entry, tick) : input.value_arcsec;
     entry.row.sigma_arcsec = square_root(input.variance_arcsec2);
 }
 
-// Its estimate is there, and a later gap waits for the memory that it lies in: that one would not be ready in time.
-bool makes_room(const GapBridgeState& state, int k) noexcept {
-    const EstimatedGap& e = state.estimate;
-    return k + 1 < state.n_pending && e.solution.done &&
-           e.first_tick == state.pending[static_cast<unsigned>(k)].gap.first_tick;
-}
-
-// return  some gap was due.
-bool resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+// Final values of the gaps whose last point is in, and the reports of those whose correction is due.
+void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                  std::int64_t tick, AngleSample& sample) noexcept {
-    bool any = false;
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.resolved || (pending.due_tick > tick && !makes_room(state, k))) continue;
-        any = true;
-        const GapReport report = resolve(gyro, config, state, pending, tick, work_a_half);
-        if (!pending.gap.has_before) continue;
+        if (!pending.resolved && pending.ready_tick <= tick) resolve(gyro, config, state, pending, tick);
+        if (pending.told || pending.due_tick > tick) continue;
+        GapReport report;
+        if (!tell(state, pending, report)) continue;
         sample.has_gap = true;
         sample.gap = report;
     }
-    return any;
+}
+
+// The halves of a tick, learnt where they show the motion alone.
+void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input, std::int64_t tick) noexcept {
+    LearntMotion& motion = state.motion;
+    if (motion.moments.length != window_halves(config)) start(motion, window_halves(config));
+    const bool usable = input.measured && input.settled && is_finite(input.variance_arcsec2) && input.half[0].read &&
+                        input.half[1].read && (!state.with_phase || input.with_phase);
+    for (int k = 0; k < 2; ++k)
+        add(motion, 2 * tick + k, usable, input.half[static_cast<unsigned>(k)].angle_arcsec, forget_ticks);
 }
 
 }  // namespace
@@ -339,22 +321,21 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
     const std::int64_t tick = state.next_tick++;
     AngleSample sample{.tick = tick};
     if (input.amend_previous && tick > 0) amend_previous(state, input, tick);
-    const bool resolved = state.n_pending > 0 && resolve_due(gyro, config, state, tick, sample);
+    if (state.n_pending > 0) resolve_due(gyro, config, state, tick, sample);
 
     HistoryTick& entry = at(state, tick);
     entry = HistoryTick{
         .row = {.tick = tick, .relock_arcsec = input.relock_arcsec, .mode = input.mode, .flags = input.flags},
         .variance_arcsec2 = input.variance_arcsec2,
         .relock_variance_arcsec2 = input.relock_variance_arcsec2,
-        .half_excess_arcsec = input.half_excess_arcsec,
-        .sign = input.sign,
+        .half = input.half,
         .measured = input.measured,
+        .settled = input.settled,
         .with_phase = input.with_phase};
     state.relock_to_come_arcsec2 = input.relock_to_come_arcsec2;
-    state.bias_arcsec = input.bias_arcsec;
     if (input.measured) {
         state.common_arcsec2 = input.common_arcsec2;
-        add_measured_tick(config, state, input, tick);
+        add_measured_tick(gyro, config, state, input, tick);
     } else {
         state.walk_of_switch_arcsec2 = input.walk_of_switch_arcsec2;
         add_gap_tick(gyro, config, state, input, tick);
@@ -362,14 +343,11 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
 
     sample.dtheta_arcsec = entry.row.dtheta_arcsec;
     sample.flags = entry.row.flags;
-    if (tick - state.next_final >= final_delay_ticks(config)) {
+    if (tick - state.next_final >= final_delay_ticks(gyro, config)) {
         sample.has_final = true;
         sample.final_row = at(state, state.next_final++).row;
     }
-    if (!is_estimated(config)) return sample;
-    if (sample.has_final) hold_apart(gyro, state, tick - sample.final_row.tick, sample.final_row);
-    learn(gyro, config, state, input, !resolved && !state.gap.open && state.n_pending == 0);
-    if (state.n_pending > 0 && !resolved) advance_estimate(gyro, config, state);
+    if (is_estimated(config)) learn(config, state, input, tick);
     return sample;
 }
 
@@ -377,9 +355,8 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     DrainOutput out;
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.resolved) continue;
-        out.gap = resolve(gyro, config, state, pending, state.next_tick, all_work);
-        out.has_gap = pending.gap.has_before;
+        if (!pending.resolved) resolve(gyro, config, state, pending, state.next_tick);
+        if (!pending.told) out.has_gap = tell(state, pending, out.gap);
     }
     // Every gap must be resolved before a row may leave.
     if (out.has_gap) return out;
@@ -391,7 +368,6 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     if (state.next_final < state.next_tick) {
         out.has_row = true;
         out.row = at(state, state.next_final++).row;
-        if (is_estimated(config)) hold_apart(gyro, state, state.next_tick - state.next_final, out.row);
     }
     return out;
 }

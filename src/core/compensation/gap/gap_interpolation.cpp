@@ -3,12 +3,6 @@
 #include <zlg/core/compensation/border.hpp>
 
 namespace zlg::core {
-namespace {
-
-int smaller(int a, int b) noexcept { return a < b ? a : b; }
-
-}  // namespace
-
 void Points::collect(const GapBridgeState& state, std::int64_t origin, int from, int to, std::int64_t end) noexcept {
     const int first = origin + from < 0 ? static_cast<int>(-origin) : from;
     const int last = origin + to < end ? to : static_cast<int>(end - 1 - origin);
@@ -19,33 +13,33 @@ void Points::collect(const GapBridgeState& state, std::int64_t origin, int from,
     }
 }
 
+namespace {
+
 // The points of a gap's fit: those before and after it, or after it alone in reversed time.
 PolynomialFit fit_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end,
                      int order) noexcept {
     const int n = static_cast<int>(gap.n);
     const std::int64_t origin = gap.first_tick - 1;
-    // Where the motion is learnt, as far as its window reaches: there its covariance is known.
-    const int before =
-        is_estimated(config) ? smaller(config.points_before, points_before_gap(n)) : config.points_before;
-    const int after = is_estimated(config) ? smaller(config.points_after, points_a_side(n)) : config.points_after;
     Points points;
     if (gap.has_before) {
-        points.collect(state, origin, 1 - before, 0, end);
-        points.collect(state, origin, n + 1, n + after, end);
+        points.collect(state, origin, 1 - config.points_before, 0, end);
+        points.collect(state, origin, n + 1, n + config.points_after, end);
     } else {
         points.collect(state, origin, n + 1, n + config.extrapolation_points, end);
     }
     return {points.position, points.n, order};
 }
 
+}  // namespace
+
 GapSums sums_of(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
                 const Gap& gap, std::int64_t end, int order) noexcept {
     GapSums sums{.fit = fit_of(config, state, gap, end, order)};
     const auto n = static_cast<unsigned>(gap.n);
-    std::array<double, max_gap_ticks> last_weight{};
+    std::array<double, max_estimated_gap> last_weight{};
     double last_angle_weight = 0.0;
     double last_variance = 0.0;
-    const double usual = rounding_arcsec2(gyro, state.learning.moments.with_phase);
+    const double usual = rounding_arcsec2(gyro, state.with_phase);
     for (int k = 0; k < sums.fit.n(); ++k) {
         const HistoryTick& point = at(state, gap.first_tick - 1 + sums.fit.position(k));
         const PointWeight weight = sums.fit.weight_of(static_cast<unsigned>(k));

@@ -30,17 +30,13 @@ struct Points {
 // Eq (15) for each tick of one gap.
 struct GapSums {
     PolynomialFit fit{};  // position 0 is the tick before the gap
-    std::array<double, max_gap_ticks> value_arcsec{};
-    std::array<double, max_gap_ticks> variance_arcsec2{};
+    std::array<double, max_estimated_gap> value_arcsec{};
+    std::array<double, max_estimated_gap> variance_arcsec2{};
     double angle_variance_arcsec2 = 0.0;  // of the whole gap's angle, with the re-lock errors of its points behind it
 };
 
-// Of a gap of at most 16 ticks, through the ticks before `end`, of which one at least was measured.
+// Of a gap of at most 40 ticks, through the ticks before `end`, of which one at least was measured.
 [[nodiscard]] GapSums sums_of(const CompensationConstants& gyro, const GapBridgeConfig& config,
                               const GapBridgeState& state, const Gap& gap, std::int64_t end, int order) noexcept;
-
-// The fit alone.
-[[nodiscard]] PolynomialFit fit_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap,
-                                   std::int64_t end, int order) noexcept;
 
 }  // namespace zlg::core

@@ -6,12 +6,13 @@
 
 #include "common/bounds.hpp"
 #include "gap_interpolation.hpp"
+#include "gap_switch.hpp"
 
 namespace zlg::core {
 namespace {
 
 // A stretch of known sum, and its rows that are not delivered yet: `n` of them, from `first` on.
-struct Stretch {
+struct KnownStretch {
     std::int64_t first = 0, last = 0;
     std::int64_t n_delivered = 0;
     double sum_arcsec = 0.0;
@@ -20,7 +21,7 @@ struct Stretch {
     [[nodiscard]] double n() const noexcept { return as_double(last - first + 1); }
 };
 
-Stretch stretch_of(const GapBridgeState& state, const HistoryTick& entry, std::int64_t n_ticks) noexcept {
+KnownStretch stretch_of(const GapBridgeState& state, const HistoryTick& entry, std::int64_t n_ticks) noexcept {
     const std::int64_t last = entry.row.tick;
     const std::int64_t start = last + 1 - n_ticks;
     const std::int64_t first = start < state.next_final ? state.next_final : start;
@@ -34,7 +35,7 @@ struct Judgement {
     bool contradicts = false;      // (3)
 };
 
-double deficit_of(const GapBridgeState& state, const Stretch& s, double constant_arcsec) noexcept {
+double deficit_of(const GapBridgeState& state, const KnownStretch& s, double constant_arcsec) noexcept {
     ExactSum deficit;
     deficit.add(s.sum_arcsec);
     deficit.add(-as_double(s.n_delivered) * constant_arcsec);
@@ -52,24 +53,23 @@ void set_row(AngleRow& row, double value_arcsec, double variance_arcsec2, ExactS
 }
 
 // w_j of (1) without learnt motion: a parabola over the whole gap, constant over a part of one.
-double share(const Stretch& s, bool is_whole, double j) noexcept {
+double share(const KnownStretch& s, bool is_whole, double j) noexcept {
     const double n = s.n();
     return is_whole ? 6.0 * j * (n + 1.0 - j) / (n * (n + 1.0) * (n + 2.0)) : 1.0 / n;
 }
 
 // Added variance of a tick in a stretch whose mean rate is an outlier: (2) for a rotation in any one of its ticks.
-double outlier_variance(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                        const Stretch& s) noexcept {
+double outlier_variance(const GapBridgeState& state, const KnownStretch& s) noexcept {
     const double n = s.n() + as_double(s.n_delivered);
-    const double off_level = s.sum_arcsec / n - state.learning.moments.level;
-    const bool is_outlier = off_level * off_level > outlier_sq * tick_variance(gyro, config, state);
+    const double off_level = s.sum_arcsec / n - 2.0 * mean_half_arcsec(state.motion);
+    const bool is_outlier = off_level * off_level > outlier_sq * tick_variance(state);
     return is_outlier ? off_level * off_level * (n - 1.0) : 0.0;
 }
 
-void shift_rows(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                const Stretch& s, bool is_whole, double constant_arcsec, ExactSum& change) noexcept {
+void shift_rows(GapBridgeState& state, const KnownStretch& s, bool is_whole, double constant_arcsec,
+                ExactSum& change) noexcept {
     const double deficit = deficit_of(state, s, constant_arcsec);
-    const double about_mean = tick_variance(gyro, config, state) + outlier_variance(gyro, config, state, s);
+    const double about_mean = tick_variance(state) + outlier_variance(state, s);
     // Per row: the residual of the delivered rows is in the remaining ones.
     const double beyond =
         as_double(s.n_delivered) * (s.sum_arcsec / (s.n() + as_double(s.n_delivered)) - constant_arcsec) / s.n();
@@ -83,7 +83,7 @@ void shift_rows(const CompensationConstants& gyro, const GapBridgeConfig& config
     }
 }
 
-Judgement judge(const GapBridgeState& state, const HistoryTick& entry, const Stretch& s) noexcept {
+Judgement judge(const GapBridgeState& state, const HistoryTick& entry, const KnownStretch& s) noexcept {
     Judgement out{.off_arcsec = deficit_of(state, s, 0.0)};
     for (std::int64_t t = s.first; t <= s.last; ++t) {
         const double sigma = at(state, t).row.sigma_arcsec;
@@ -102,26 +102,13 @@ void count_in(double rounding_arcsec2, std::int64_t n_ticks, double variance_arc
     gap.known_variance_arcsec2 += variance_arcsec2;
 }
 
-void settle(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
-            const HistoryTick& entry, const Stretch& s, double constant_arcsec, ExactSum& change) noexcept {
+void settle(GapBridgeState& state, const Gap& gap, const KnownStretch& s, double constant_arcsec,
+            ExactSum& change) noexcept {
     if (s.first > s.last) return;
     if (s.first == s.last && s.n_delivered == 0)
         return set_row(at(state, s.last).row, s.sum_arcsec, s.variance_arcsec2, change);
     const bool is_whole = s.n_delivered == 0 && s.last + 1 - s.first == gap.n;
-    // The rows get the sum as it is; of its own error each has a part.
-    const double error_arcsec2 = entry.known_is_rough ? entry.relock_variance_arcsec2 / (s.n() * s.n()) : 0.0;
-    const double inner_arcsec2 = entry.known_is_rough ? 0.0 : entry.relock_variance_arcsec2;
-    const KnownEstimate found =
-        is_whole ? estimate_known(gyro, config, state, gap, s.sum_arcsec, inner_arcsec2) : KnownEstimate{};
-    if (!found.known) return shift_rows(gyro, config, state, s, is_whole, constant_arcsec, change);
-    for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j)
-        set_row(at(state, gap.first_tick + j).row, found.value_arcsec[j], found.variance_arcsec2[j] + error_arcsec2,
-                change);
-    // Rounding of the estimate. The change is that of the stored value, which is rounded once more.
-    AngleRow& last = at(state, s.last).row;
-    change.add(-last.dtheta_final_arcsec);
-    last.dtheta_final_arcsec += deficit_of(state, s, 0.0);
-    change.add(last.dtheta_final_arcsec);
+    shift_rows(state, s, is_whole, constant_arcsec, change);
 }
 
 }  // namespace
@@ -140,25 +127,25 @@ void note_known(double rounding_arcsec2, const TickInput& input, Gap& gap, Histo
 KnownShift settle_known(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                         Gap& gap, std::int64_t first, std::int64_t last, double constant_arcsec) noexcept {
     // The rows of a longer gap were delivered before the sum was known.
-    const bool is_short = gap.n <= max_gap_ticks;
+    const bool is_short = gap.n <= max_gap_ticks(config);
     KnownShift out;
-    std::uint32_t covered = 0;  // one bit for each tick of a short gap
+    std::uint64_t covered = 0;  // one bit for each tick of a short gap
     double beside_arcsec2 = 0.0;
     for (std::int64_t t = first; t <= last; ++t) {
         HistoryTick& entry = at(state, t);
         const std::int64_t n = entry.known_ticks;
         if (n == 0) continue;
         entry.known_ticks = 0;
-        const Stretch s = stretch_of(state, entry, n);
+        const KnownStretch s = stretch_of(state, entry, n);
         const Judgement bridge = is_short ? judge(state, entry, s) : Judgement{};
         if (entry.known_is_rough) {
             if (!bridge.contradicts && !(entry.known_variance_arcsec2 < bridge.claimed_arcsec2)) continue;
-            count_in(rounding_arcsec2(gyro, state.learning.moments.with_phase), n, entry.known_variance_arcsec2, gap);
+            count_in(rounding_arcsec2(gyro, state.with_phase), n, entry.known_variance_arcsec2, gap);
             out.variance_arcsec2 += entry.known_variance_arcsec2;
         }
-        if (is_short) covered |= ((1u << n) - 1u) << (t + 1 - n - gap.first_tick);
+        if (is_short) covered |= ((std::uint64_t{1} << n) - 1u) << (t + 1 - n - gap.first_tick);
         if (bridge.contradicts) beside_arcsec2 += square(bridge.off_arcsec);
-        settle(gyro, config, state, gap, entry, s, constant_arcsec, out.change_arcsec);
+        settle(state, gap, s, constant_arcsec, out.change_arcsec);
     }
     double n_beside = 0.0;
     for (std::int64_t j = 0; j < gap.n && beside_arcsec2 > 0.0; ++j) {

@@ -3,9 +3,8 @@
 //
 //   final_j = m_j + w_j r,  r = known sum - sum of m,  sum of w = 1                                      (1)
 //
-// m and w come from the learnt covariance of the motion, with the ticks around the gap and the sum as points
-// (gap_known_estimate); where it is not known, m from the bridge and w proportional to j (n + 1 - j): the covariance
-// with its sum of a rate that is a random walk and known at both ends. A sum that the motion does not explain may be a
+// m comes from the bridge, and w is proportional to j (n + 1 - j): the covariance with its sum of a rate that is a random walk
+// and known at both ends. A sum that the motion does not explain may be a
 // rotation within any one tick: it is tick j with probability w_j, which adds the variance
 //
 //   r^2 w (1 - w)                                                                                        (2)
@@ -50,22 +49,5 @@ struct KnownShift {
 
 // All ticks of the gap are known.
 [[nodiscard]] constexpr bool is_known(const Gap& gap) noexcept { return gap.n > 0 && gap.known_ticks == gap.n; }
-
-struct KnownEstimate {
-    bool known = false;
-    std::array<double, max_solved_gap> value_arcsec{};
-    std::array<double, max_solved_gap> variance_arcsec2{};
-};
-
-// The ticks of a gap of 2 to 15, all of one known sum, by the learnt motion.
-//
-// error_arcsec2  variance of the sum beyond that of the motion and of the readings.
-[[nodiscard]] KnownEstimate estimate_known(const CompensationConstants& gyro, const GapBridgeConfig& config,
-                                           GapBridgeState& state, const Gap& gap, double sum_arcsec,
-                                           double error_arcsec2) noexcept;
-
-// Variance of a tick about its mean over a long time, as learnt; infinite where it is not.
-[[nodiscard]] double tick_variance(const CompensationConstants& gyro, const GapBridgeConfig& config,
-                                   GapBridgeState& state) noexcept;
 
 }  // namespace zlg::core

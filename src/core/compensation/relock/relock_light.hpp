@@ -6,7 +6,6 @@
 
 #include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/compensation/relock_profile_config.hpp>
-#include <zlg/core/compensation/relock_profile_state.hpp>
 #include <zlg/core/records.hpp>
 
 namespace zlg::core {

@@ -1,4 +1,4 @@
-#include "compensation/estimate/learnt_motion.hpp"
+#include <zlg/core/compensation/learnt_motion.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "compensation/estimate/light_spline.hpp"
+#include <zlg/core/compensation/light_spline.hpp>
 
 #include <gtest/gtest.h>
 

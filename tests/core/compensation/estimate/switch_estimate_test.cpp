@@ -1,6 +1,6 @@
 // Windows whose estimate is known in closed form; drawn ones are held against NumPy in tests/core/test_estimate.py.
 
-#include "compensation/estimate/switch_estimate.hpp"
+#include <zlg/core/compensation/switch_estimate.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "compensation/estimate/walk_kernel.hpp"
+#include <zlg/core/compensation/walk_kernel.hpp>
 
 #include <gtest/gtest.h>
 

@@ -44,12 +44,31 @@ TEST(GapBridgeCheck, ThereAreMorePointsThanTheOrder) {
                 }
 }
 
-// A given covariance of the motion that is none.
 TEST(GapBridgeCheck, TheEstimateIsJudgedWhereItIsUsed) {
-    const OptimalBridgeConfig bad{.learns = false};
-    for (const auto method : {BridgeMethod::optimal, BridgeMethod::automatic})
-        EXPECT_EQ(check(GapBridgeConfig{.method = method, .optimal = bad}), GapBridgeFault::optimal);
-    EXPECT_EQ(check(GapBridgeConfig{.method = BridgeMethod::quadratic, .optimal = bad}), GapBridgeFault::none);
+    for (const int bad : {0, 41}) {
+        EXPECT_EQ(check(GapBridgeConfig{.method = BridgeMethod::automatic, .gap_ticks = bad}),
+                  GapBridgeFault::gap_ticks);
+        EXPECT_EQ(check(GapBridgeConfig{.gap_ticks = bad}), GapBridgeFault::none);
+    }
+    for (const int bad : {-1, 65})
+        EXPECT_EQ(check(GapBridgeConfig{.method = BridgeMethod::automatic, .relock_ticks = bad}),
+                  GapBridgeFault::relock_ticks);
+}
+
+// max(16, gap_ticks) + max(8, relock_ticks where corrected) + ceil(80 ms/tick) + 1
+TEST(GapBridgeConfig, TheDelayOfAnEstimate) {
+    const auto delay = [](double tick_s, int gap_ticks, RelockMethod relock, int relock_ticks) {
+        return final_delay_ticks({.tick = Seconds{tick_s}}, {.method = BridgeMethod::automatic,
+                                                             .gap_ticks = gap_ticks,
+                                                             .relock = relock,
+                                                             .relock_ticks = relock_ticks});
+    };
+    EXPECT_EQ(delay(0.005, 3, RelockMethod::joint, 20), 53);
+    EXPECT_EQ(delay(0.005, 3, RelockMethod::none, 20), 16 + 8 + 16 + 1);
+    EXPECT_EQ(delay(0.005, 40, RelockMethod::detuning, 64), 40 + 64 + 16 + 1);
+    EXPECT_EQ(delay(0.02, 17, RelockMethod::joint, 4), 17 + 8 + 4 + 1);
+    EXPECT_EQ(delay(0.003, 1, RelockMethod::joint, 9), 16 + 9 + 27 + 1);
+    EXPECT_EQ(delay(0.1, 1, RelockMethod::joint, 20), 16 + 20 + 1 + 1);
 }
 
 }  // namespace gap_bridge_config_test

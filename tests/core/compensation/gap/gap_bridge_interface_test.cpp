@@ -28,7 +28,7 @@ TEST(GapBridgeInterface, TheDelayIsThatOfTheLongestGapAndOfThePointsAfterIt) {
     for (int ahead = 3; ahead <= 8; ++ahead)
         for (int after = 1; after <= 8; ++after) {
             const GapBridgeConfig config{.extrapolation_points = ahead, .points_after = after};
-            const int delay = final_delay_ticks(config);
+            const int delay = final_delay_ticks({}, config);
             EXPECT_EQ(delay, 16 + (ahead > after ? ahead : after));
             EXPECT_LE(delay, 24);
         }

@@ -133,10 +133,10 @@ TEST(GapBridgeLaw, NothingOfARowChangesAfterTheDelay) {
         Delivered got;
         for (const TickInput& tick : log) {
             step_into(config, state, tick, got);
-            const std::size_t held =
-                std::min<std::size_t>(got.rows.size(), 64u - static_cast<unsigned>(final_delay_ticks(config)));
+            const std::size_t held = std::min<std::size_t>(
+                got.rows.size(), history_ticks - static_cast<unsigned>(final_delay_ticks({}, config)));
             for (std::size_t k = got.rows.size() - held; k < got.rows.size(); ++k)
-                ASSERT_EQ(state.history[k % 64].row, got.rows[k]) << "tick " << k;
+                ASSERT_EQ(state.history[k % history_ticks].row, got.rows[k]) << "tick " << k;
         }
     }
 }
@@ -150,7 +150,7 @@ TEST(GapBridgeLaw, RowsOfALogThatWasCutAreThoseOfTheWholeLog) {
         const auto cut = static_cast<std::size_t>(random.index(30, 290));
         const Delivered part = run(config, Log(log.begin(), log.begin() + static_cast<std::ptrdiff_t>(cut)));
         ASSERT_EQ(part.rows.size(), cut);
-        const auto delay = static_cast<std::size_t>(final_delay_ticks(config));
+        const auto delay = static_cast<std::size_t>(final_delay_ticks({}, config));
         for (std::size_t k = 0; k < cut; ++k) ASSERT_EQ(part.rows[k].dtheta_arcsec, whole.rows[k].dtheta_arcsec);
         for (std::size_t k = 0; k + delay < cut; ++k)
             ASSERT_EQ(part.rows[k], whole.rows[k]) << "tick " << k << " cut " << cut;

@@ -198,31 +198,6 @@ TEST(GapBridgeNoise, SigmaOfAFirstGapOfOneTickIsThatOfItsTick) {
     EXPECT_GT(n_more, 0);
 }
 
-// Each half of the gap that is not lit may turn by as much as the lit ones show.
-TEST(GapBridgeNoise, ARotationBesideTheLitHalvesMayBeInAllOthers) {
-    constexpr double turned_arcsec2 = 0.3;
-    for (const int n_lit : {1, 2, 3}) {
-        for (const std::int64_t n : {2, 4}) {
-            std::array<double, 2> variance{};
-            for (const bool turned : {false, true}) {
-                const GapBridgeConfig config{.method = BridgeMethod::quadratic};
-                GapBridgeState state;
-                Delivered got;
-                for (std::int64_t t = 0; t < 60; ++t) {
-                    if (t == 20 + n && turned) {
-                        state.lit.end_tick = t;
-                        state.lit.n = n_lit;
-                        state.lit.turned_arcsec2 = turned_arcsec2;
-                    }
-                    step_into(config, state, t >= 20 && t < 20 + n ? gap_tick() : measured_tick(1.0), got);
-                }
-                variance[turned] = std::pow(got.gaps.at(0).sigma_sum_arcsec, 2.0);
-            }
-            EXPECT_NEAR(variance[1] - variance[0], static_cast<double>(2 * n - n_lit) * turned_arcsec2, 1e-9);
-        }
-    }
-}
-
 TEST(GapBridgeNoise, AnUnknownSigmaOfAPointMakesThatOfTheGapUnknown) {
     Log log(30, measured_tick(1.0));
     log[13].variance_arcsec2 = infinite;

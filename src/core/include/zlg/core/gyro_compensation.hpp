@@ -13,11 +13,10 @@
 #include <zlg/core/compensation/counted_stretch.hpp>
 #include <zlg/core/compensation/edge_shift.hpp>
 #include <zlg/core/compensation/gap_bridge.hpp>
-#include <zlg/core/compensation/joint_relock.hpp>
 #include <zlg/core/compensation/lock_in.hpp>
 #include <zlg/core/compensation/magnetic_drift.hpp>
 #include <zlg/core/compensation/relock_drift.hpp>
-#include <zlg/core/compensation/relock_profile.hpp>
+#include <zlg/core/compensation/relock_profile_config.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/core/units.hpp>
 
@@ -26,11 +25,19 @@ namespace zlg::core {
 struct GyroCompensationConfig {
     RelockDriftConfig relock{};
     RelockProfileConfig profile{};  // of `joint`
-    GapBridgeConfig bridge{};       // of half-ticks with `joint`
+    GapBridgeConfig bridge{};       // its relock and relock_ticks are those of `relock` (bridge_of)
     MagneticDriftConfig magnetic{};
     LockInConfig lock_in{};
     CompensationConstants gyro{};
 };
+
+// The bridge with the re-lock that it corrects.
+[[nodiscard]] constexpr GapBridgeConfig bridge_of(const GyroCompensationConfig& config) noexcept {
+    GapBridgeConfig bridge = config.bridge;
+    bridge.relock = config.relock.method;
+    bridge.relock_ticks = config.relock.ticks;
+    return bridge;
+}
 
 // The numbers of the enumerators are sent over the gyro's line (docs/wire.md) and do not change. Of the faults of the
 // constants, those of timer and plateau are `edges`, that of the random walk is `random_walk`, the others are `relock`.
@@ -62,18 +69,18 @@ struct GyroCompensationState {
     double uncorrected_arcsec2 = 0.0;  // variance of the false angles since the last gap, where none are subtracted
     bool refused = false;              // the last half was closed, and not valid
     Border border{};                   // at the end of the last half
-    std::int32_t n_with_phase = 0;     // measured ticks in a row with the place within the count at both ends, up to 32
-    std::int64_t settled_tick = 0;     // the first tick whose re-lock was over, after the loop was open last
-    bool start_unknown = false;        // the reversal that begins the next half is recorded where none can have been
+    std::int32_t n_with_phase =
+        0;  // measured ticks with the place within the count at both ends less those without, 0..32
+    bool start_unknown = false;  // the reversal that begins the next half is recorded where none can have been
     EdgeShiftState edges{};
     CountedStretchState stretch{};
     RelockDriftState relock{};
-    double bias_arcsec = 0.0;  // what a positive bias adds to a half, slow mean; 0: not yet known
+    double bias_arcsec = 0.0;  // what a positive bias adds to a half, slow mean
+    double n_bias = 0.0;       // ticks in it, up to its memory
     SwitchErrors switch_errors{};
     Angle angle{};  // sum of all dtheta delivered
     MagneticDriftState magnetic{};
     GapBridgeState bridge{};
-    JointRelockState joint{};
 
     friend bool operator==(const GyroCompensationState&, const GyroCompensationState&) = default;
 };

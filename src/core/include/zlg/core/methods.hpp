@@ -26,8 +26,7 @@ enum class BridgeMethod : unsigned char {
     constant,
     linear,
     quadratic,
-    optimal,    // least mean square error for a prior of the motion
-    automatic,  // the one of these with the smallest predicted error
+    automatic,  // the estimate of the switch, by the learnt motion
 };
 
 // The polynomial order of a method, or the highest that it may fall back to; 0 for `none`.
@@ -39,7 +38,6 @@ enum class BridgeMethod : unsigned char {
         case BridgeMethod::linear:
             return 1;
         case BridgeMethod::quadratic:
-        case BridgeMethod::optimal:
         case BridgeMethod::automatic:
             break;
     }

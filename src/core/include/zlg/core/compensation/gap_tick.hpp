@@ -1,11 +1,24 @@
 #pragma once
 // A tick as the gap bridge is given it, and as it remembers it.
 
+#include <array>
 #include <cstdint>
 
 #include <zlg/core/records.hpp>
 
 namespace zlg::core {
+
+// What a half-tick was read as, where its counts are an angle: after the loop is closed, or before it where both beams are lit.
+struct HalfReading {
+    bool read = false;
+    bool lit = false;             // in a gap
+    std::int8_t sign = 1;         // bias_sign * mode
+    double angle_arcsec = 0.0;    // without the bias; its false angle is in it
+    double false_arcsec = 0.0;    // -s D of the recorded mean square of the detuning: what is to be subtracted
+    double false_arcsec2 = -1.0;  // its variance, by the noise of the light; negative: not measured
+
+    friend bool operator==(const HalfReading&, const HalfReading&) = default;
+};
 
 // One tick as measured, or the place of one in a gap.
 struct TickInput {
@@ -14,16 +27,12 @@ struct TickInput {
     double variance_arcsec2 = 0.0;
     double relock_arcsec = 0.0;            // the correction in it
     double relock_variance_arcsec2 = 0.0;  // its variance, a part of the whole
-    double half_excess_arcsec = 0.0;       // first half over the second, without the bias
-    double bias_arcsec = 0.0;              // what a positive bias adds to a half, as far as half-ticks are used
+    std::array<HalfReading, 2> half{};     // of `automatic`
     double relock_to_come_arcsec2 = 0.0;   // variance of the corrections after this one, as far as this one tells
-    double walk_of_switch_arcsec2 =
-        0.0;                      // of a tick of a gap: variance of the random walk in the re-lock ticks after it
+    // Of a tick of a gap: variance of the random walk in the re-lock ticks after it.
+    double walk_of_switch_arcsec2 = 0.0;
     double common_arcsec2 = 0.0;  // part of the variance that all ticks at an even rate have in common
-    std::int64_t settled_tick =
-        0;                // of a tick of a gap: the first one whose re-lock was over before this gap; its halves and
-                          // those of later ones hold the same bias
-    bool settled = true;  // re-lock is over: the tick shows the motion alone
+    bool settled = true;          // re-lock is over: the tick shows the motion alone
     bool with_phase = false;      // the place within the count is known at both ends and in the middle
     bool known_is_rough = false;  // the known sum; the motion around the gap may tell more (gap_known.hpp)
     std::int8_t mode = 1;
@@ -43,11 +52,11 @@ struct HistoryTick {
     AngleRow row{};
     double variance_arcsec2 = 0.0;
     double relock_variance_arcsec2 = 0.0;  // of the re-lock correction, a part of the variance
-    double half_excess_arcsec = 0.0;       // first half over the second, without the bias
-    std::int8_t sign = 1;                  // of the bias in its first half
+    std::array<HalfReading, 2> half{};
     bool measured = false;
-    bool with_phase = false;       // as in TickInput
-    bool known_is_rough = false;   // as in TickInput
+    bool settled = false;  // as in TickInput
+    bool with_phase = false;
+    bool known_is_rough = false;
     std::int64_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
     double known_arcsec = 0.0;
     double known_variance_arcsec2 = 0.0;

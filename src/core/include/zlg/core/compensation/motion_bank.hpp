@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "walk_kernel.hpp"
+#include <zlg/core/compensation/walk_kernel.hpp>
 
 namespace zlg::core {
 

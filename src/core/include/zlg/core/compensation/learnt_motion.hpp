@@ -18,7 +18,7 @@
 #include <array>
 #include <cstdint>
 
-#include "switch_window.hpp"
+#include <zlg/core/compensation/switch_window.hpp>
 
 namespace zlg::core {
 
@@ -31,6 +31,7 @@ struct LearntMotion {
     int n_run = 0;                                     // halves of the run in the products
     int n_waiting = 0;                                 // and those that wait for the end of their part
     double sum = 0.0;                                  // of the n_run halves
+    double mean_arcsec = 0.0;                          // of a half, in the run that was folded last
     std::array<double, most_window_halves> product{};  // P_k
     std::array<double, most_window_halves> head{};     // the first L - 1 halves of the run
     std::array<double, most_window_halves + part_halves> recent{};  // its last L - 1 halves, then those that wait
@@ -48,5 +49,8 @@ void start(LearntMotion& memory, int length) noexcept;
 // settled       measured, and free of re-lock; another half ends the run.
 // forget_ticks  age at which a window counts 1/e.
 void add(LearntMotion& memory, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept;
+
+// Mean of a half in the run that was folded last.
+[[nodiscard]] inline double mean_half_arcsec(const LearntMotion& memory) noexcept { return memory.mean_arcsec; }
 
 }  // namespace zlg::core

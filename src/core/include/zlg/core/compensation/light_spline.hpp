@@ -16,7 +16,7 @@
 #include <array>
 #include <span>
 
-#include "common/triangle.hpp"
+#include <zlg/core/common/triangle.hpp>
 
 namespace zlg::core {
 

@@ -25,9 +25,9 @@
 
 #include <zlg/core/compensation/compensation_constants.hpp>
 
-#include "common/triangle.hpp"
-#include "motion_bank.hpp"
-#include "switch_window.hpp"
+#include <zlg/core/common/triangle.hpp>
+#include <zlg/core/compensation/motion_bank.hpp>
+#include <zlg/core/compensation/switch_window.hpp>
 
 namespace zlg::core {
 
@@ -49,6 +49,8 @@ inline constexpr int estimate_rows = most_window_rows + 4;  // with the right-ha
 
 // Room to work in, of the caller: what it holds before and after is of no account.
 struct EstimateRoom {
+    friend constexpr bool operator==(const EstimateRoom&, const EstimateRoom&) noexcept { return true; }
+
     std::array<double, triangle_size(most_window_rows)> motion{};  // C + D R D^T of all rows
     std::array<double, triangle_size(most_window_rows)> errors{};  // E
     std::array<double, triangle_size(estimate_rows)> base{};       // V of the points, and its border

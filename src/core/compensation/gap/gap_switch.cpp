@@ -1,0 +1,406 @@
+#include "gap_switch.hpp"
+
+#include <zlg/core/common/maths.hpp>
+#include <zlg/core/compensation/border.hpp>
+
+#include "common/bounds.hpp"
+#include "gap_interpolation.hpp"
+
+namespace zlg::core {
+namespace {
+
+// What a reading far from the centre is off by (lit halves): the law of the bias by 1.5 %, its quartic term at the miss, and the
+// detuning itself by .002 wavelength.
+constexpr double law_error_ratio = 0.015;
+constexpr double reading_error_lambda = 0.002;
+
+// Beyond so many standard deviations squared, and beyond the part of the bias, a second difference is not that of a motion.
+constexpr double limit_sq = 25.0;
+constexpr double tolerated_bias_ratio = 0.02;
+
+// Ticks after the gap whose halves are points of their own.
+constexpr int ticks_by_halves = 8;
+
+constexpr int most_gap_rows = 16;
+constexpr int most_lit_rows = 16;
+
+constexpr int min_points = 3;
+
+// Windows of motion from which on an estimate needs no `lower_order`: as many as the prior of the learnt motion asks for.
+constexpr double few_windows = 25.0;
+
+// How the false angles of halves are taken off.
+enum class HalfLight : unsigned char {
+    none,     // nothing is taken off
+    spline,   // the fit of the samples
+    records,  // the recorded mean square of each half
+    ticks     // the paper's correction of the tick is in its value
+};
+
+struct Place {
+    std::int64_t tick = 0;  // of the row; the first one, where it is several
+    int n_ticks = 1;
+    int half = -1;  // of that tick; -1: all of it
+};
+
+class SwitchProblem {
+public:
+    SwitchProblem(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
+                  const Gap& gap, std::int64_t end) noexcept
+        : gyro_{gyro},
+          config_{config},
+          state_{state},
+          gap_{gap},
+          end_of_gap_{gap.first_tick + gap.n},
+          end_{end},
+          first_tick_{gap.first_tick - ticks_before_estimate} {
+        const SwitchLight& light = state.light;
+        const bool is_own = light.first_half >= 2 * gap.first_tick && light.first_half < 2 * (end_of_gap_ + 1);
+        if (is_joint() && is_own && is_complete(light) && config.relock_ticks > 0) {
+            light_ = HalfLight::spline;
+            window_.light = light.sums;
+            window_.light_start = static_cast<int>(light.first_half - 2 * first_tick_);
+        } else if (is_joint() || config.relock == RelockMethod::mean_square) {
+            light_ = HalfLight::records;
+        } else if (config.relock != RelockMethod::none) {
+            light_ = HalfLight::ticks;
+        }
+        window_.with_phase = state.with_phase;
+        const bool steps = end_of_gap_ < end && at(state, end_of_gap_).row.mode != gap.mode_before;
+        window_.magnetic_variance_arcsec2 = steps ? state.magnetic_variance_arcsec2 : 0.0;
+        window_.gap = {2 * ticks_before_estimate, 2 * static_cast<int>(ticks_before_estimate + gap.n)};
+        for (std::int64_t t = first_tick_; t < gap.first_tick; ++t) add_before(t);
+        add_gap();
+        const int after = ticks_to_last_point(config);
+        const int looked_at = after < most_ticks_after_estimate ? after : most_ticks_after_estimate;
+        for (int k = 0; k < looked_at; ++k) add_after(k);
+        window_.n_halves = window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
+        know_sum();
+    }
+
+    [[nodiscard]] const SwitchWindow& window() const noexcept { return window_; }
+    [[nodiscard]] const Place& place(int r) const noexcept { return place_[static_cast<unsigned>(r)]; }
+    [[nodiscard]] HalfLight light() const noexcept { return light_; }
+    // Square of what lit halves that were refused are off by: as much may each half of the gap that was not read have turned.
+    [[nodiscard]] double unread_arcsec2() const noexcept { return unread_arcsec2_; }
+    // Points on both sides, and enough of them.
+    [[nodiscard]] bool is_solvable() const noexcept {
+        return n_before_ > 0 && n_after_ > 0 && n_before_ + n_after_ >= min_points;
+    }
+
+private:
+    // The gap's angle, where the counter knows it, and nothing else is wanted.
+    void know_sum() noexcept {
+        if (gap_.known_ticks != gap_.n) return;
+        for (int r = 0; r < window_.n_rows; ++r) {
+            const WindowRow& row = window_.row[static_cast<unsigned>(r)];
+            if (row.wanted && row.read) return;
+        }
+        double sum = 0.0;
+        for (std::int64_t t = gap_.first_tick; t < end_of_gap_; ++t)
+            if (at(state_, t).known_ticks > 0) sum += at(state_, t).known_arcsec;
+        window_.known_arcsec = sum;
+        window_.known_variance_arcsec2 = gap_.known_variance_arcsec2;
+    }
+
+    [[nodiscard]] bool is_joint() const noexcept { return config_.relock == RelockMethod::joint; }
+
+    [[nodiscard]] bool is_point(std::int64_t tick) const noexcept {
+        if (tick < 0 || tick >= end_) return false;
+        const HistoryTick& entry = at(state_, tick);
+        if (entry.row.tick != tick || !entry.measured || !is_finite(entry.variance_arcsec2)) return false;
+        return !state_.with_phase || entry.with_phase;
+    }
+
+    [[nodiscard]] bool has_halves(const HistoryTick& entry) const noexcept {
+        return entry.half[0].read && entry.half[1].read;
+    }
+
+    WindowRow& add(const Place& place, int halves) noexcept {
+        const int first = window_.n_rows == 0 ? 0 : window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
+        place_[static_cast<unsigned>(window_.n_rows)] = place;
+        WindowRow& row = window_.row[static_cast<unsigned>(window_.n_rows++)];
+        row.halves = {first, first + halves};
+        row.after_gap = first >= window_.gap.first;
+        for (int h = 0; h < halves; ++h) {
+            const std::int64_t tick = place.tick + (place.half < 0 ? h / 2 : 0);
+            const HistoryTick& entry = at(state_, tick < 0 ? 0 : tick);
+            const int k = place.half < 0 ? h % 2 : place.half;
+            window_.bias_sign[static_cast<unsigned>(first + h)] =
+                tick < 0 || tick >= end_ ? std::int8_t{1} : entry.half[static_cast<unsigned>(k)].sign;
+        }
+        return row;
+    }
+
+    void count(const WindowRow& row) noexcept { ++(row.after_gap ? n_after_ : n_before_); }
+
+    // Magnetic drift that is still in a tick.
+    [[nodiscard]] double magnetic(const HistoryTick& entry) const noexcept {
+        return entry.row.mode * state_.magnetic_arcsec;
+    }
+
+    void add_tick_as_it_is(std::int64_t tick) noexcept {
+        const HistoryTick& entry = at(state_, tick);
+        WindowRow& row = add({.tick = tick}, 2);
+        row.read = true;
+        row.y_arcsec = entry.row.dtheta_final_arcsec - magnetic(entry);
+        row.error_arcsec2 = entry.relock_variance_arcsec2;
+        count(row);
+    }
+
+    void add_before(std::int64_t tick) noexcept {
+        if (!is_point(tick)) {
+            (void)add({.tick = tick}, 2);
+            return;
+        }
+        const HistoryTick& entry = at(state_, tick);
+        if (!entry.settled || !has_halves(entry)) return add_tick_as_it_is(tick);
+        for (int k = 0; k < 2; ++k) {
+            WindowRow& row = add({.tick = tick, .half = k}, 1);
+            row.read = true;
+            row.y_arcsec = entry.half[static_cast<unsigned>(k)].angle_arcsec - 0.5 * magnetic(entry);
+            count(row);
+        }
+    }
+
+    // A half as it was read, with what is taken off by its record.
+    void read_half(const HistoryTick& entry, int k, bool wanted, WindowRow& row) noexcept {
+        const HalfReading& half = entry.half[static_cast<unsigned>(k)];
+        row.read = true;
+        row.wanted = wanted;
+        row.y_arcsec = half.angle_arcsec - 0.5 * magnetic(entry);
+        count(row);
+        if (light_ != HalfLight::records || !wanted) return;
+        row.y_arcsec -= (1.0 + state_.scale.value) * half.false_arcsec;
+        row.error_arcsec2 = half.false_arcsec2;
+        row.common_arcsec = square_root(state_.scale.variance) * half.false_arcsec;
+    }
+
+    [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
+        return half.lit && half.read && light_ != HalfLight::ticks &&
+               (light_ != HalfLight::records || half.false_arcsec2 >= 0.0);
+    }
+
+    [[nodiscard]] const HalfReading& half_reading(std::int64_t half) const noexcept {
+        return at(state_, half / 2).half[static_cast<unsigned>(half % 2)];
+    }
+
+    // A half that is recorded as lit but was not alternates with the bias in another way than the two behind it do: their second
+    // difference is then not one of the learnt motion. Without one nothing is believed.
+    [[nodiscard]] bool fits(std::int64_t half) noexcept {
+        const MotionMoments& m = state_.motion.moments;
+        if (!(m.n_windows >= few_windows) || half + 2 >= 2 * end_ || half + 2 > 2 * end_of_gap_ + 1) return false;
+        const auto c = [&m](int i, int j) { return m.sum[moment_place(m.length, i, j)] / m.n_windows; };
+        const double motion = c(0, 0) + 4.0 * c(1, 1) + c(2, 2) - 4.0 * (c(0, 1) + c(1, 2)) + 2.0 * c(0, 2);
+        const HalfReading& a = half_reading(half);
+        const HalfReading& b = half_reading(half + 1);
+        const HalfReading& d = half_reading(half + 2);
+        const auto noise = [](const HalfReading& x) { return x.false_arcsec2 > 0.0 ? x.false_arcsec2 : 0.0; };
+        const double common = law_error_ratio * (a.false_arcsec - 2.0 * b.false_arcsec + d.false_arcsec);
+        const double off =
+            a.angle_arcsec - a.false_arcsec - 2.0 * (b.angle_arcsec - b.false_arcsec) + d.angle_arcsec - d.false_arcsec;
+        const double bias = gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value() / 2.0;
+        const double variance = motion + noise(a) + 4.0 * noise(b) + noise(d) + square(common);
+        if (square(off) <= limit_sq * variance + square(tolerated_bias_ratio * bias)) return true;
+        unread_arcsec2_ = square(off);
+        return false;
+    }
+
+    // The lit halves that reach up to the end of the gap.
+    [[nodiscard]] std::int64_t first_lit_half() noexcept {
+        std::int64_t h = 2 * end_of_gap_;
+        if (light_ == HalfLight::none || light_ == HalfLight::ticks || !is_point(end_of_gap_)) return h;
+        const std::int64_t least = h - most_lit_rows > 2 * gap_.first_tick ? h - most_lit_rows : 2 * gap_.first_tick;
+        while (h > least && is_lit(half_reading(h - 1)) && fits(h - 1)) --h;
+        // By the spline, from where it begins.
+        if (light_ == HalfLight::spline && h < first_tick_ * 2 + window_.light_start)
+            h = first_tick_ * 2 + window_.light_start;
+        return h;
+    }
+
+    void add_lit(std::int64_t half) noexcept {
+        const HistoryTick& entry = at(state_, half / 2);
+        const int k = static_cast<int>(half % 2);
+        WindowRow& row = add({.tick = half / 2, .half = k}, 1);
+        read_half(entry, k, true, row);
+        const HalfReading& read = entry.half[static_cast<unsigned>(k)];
+        // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
+        const double unit = 0.5 * gyro_.chi * gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value();
+        const double d = size(read.false_arcsec);
+        const double common = square_root(square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * d);
+        row.common_arcsec = read.false_arcsec < 0.0 ? -common : common;
+    }
+
+    void add_gap() noexcept {
+        const std::int64_t lit = first_lit_half();
+        const std::int64_t dark_ticks = lit / 2 - gap_.first_tick;
+        const int rows = most_gap_rows;
+        const auto each = static_cast<int>((dark_ticks + rows - 1) / rows);
+        for (std::int64_t t = gap_.first_tick; t < lit / 2;) {
+            const auto left = static_cast<int>(lit / 2 - t);
+            const int n = left < each ? left : each;
+            add({.tick = t, .n_ticks = n}, 2 * n).wanted = true;
+            t += n;
+        }
+        if (lit % 2 != 0) add({.tick = lit / 2, .half = 0}, 1).wanted = true;
+        for (std::int64_t h = lit; h < 2 * end_of_gap_; ++h) add_lit(h);
+    }
+
+    void add_after(int k) noexcept {
+        const std::int64_t tick = end_of_gap_ + k;
+        if (!is_point(tick)) {
+            (void)add({.tick = tick}, 2);
+            return;
+        }
+        const HistoryTick& entry = at(state_, tick);
+        const bool wanted = light_ != HalfLight::none && k < config_.relock_ticks;
+        const bool corrects = wanted && light_ != HalfLight::ticks;
+        const bool by_records = corrects && light_ == HalfLight::records;
+        const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0 && entry.half[1].false_arcsec2 >= 0.0);
+        if (!has_halves(entry) || !known || (wanted && light_ == HalfLight::ticks)) {
+            add_tick_as_it_is(tick);
+            window_.row[static_cast<unsigned>(window_.n_rows - 1)].wanted = wanted;
+            return;
+        }
+        if (k < ticks_by_halves) {
+            for (int half = 0; half < 2; ++half) read_half(entry, half, wanted, add({.tick = tick, .half = half}, 1));
+            return;
+        }
+        WindowRow& row = add({.tick = tick}, 2);
+        read_half(entry, 0, wanted, row);
+        const WindowRow first = row;
+        read_half(entry, 1, wanted, row);
+        --n_after_;
+        row.y_arcsec += first.y_arcsec;
+        row.error_arcsec2 += first.error_arcsec2;
+        row.common_arcsec += first.common_arcsec;
+    }
+
+    const CompensationConstants& gyro_;
+    const GapBridgeConfig& config_;
+    const GapBridgeState& state_;
+    const Gap& gap_;
+    std::int64_t end_of_gap_;
+    std::int64_t end_;
+    std::int64_t first_tick_;
+    HalfLight light_ = HalfLight::none;
+    int n_before_ = 0;
+    int n_after_ = 0;
+    double unread_arcsec2_ = 0.0;
+    SwitchWindow window_{};
+    std::array<Place, most_window_rows> place_{};
+};
+
+void set_final(HistoryTick& entry, double value_arcsec, ExactSum& change) noexcept {
+    change.add(value_arcsec);
+    change.add(-entry.row.dtheta_final_arcsec);
+    entry.row.dtheta_final_arcsec = value_arcsec;
+}
+
+// A tick of the gap, whose rows are summed.
+void set_gap_tick(HistoryTick& entry, double value_arcsec, double variance_arcsec2, bool learnt,
+                  ExactSum& difference) noexcept {
+    AngleRow& row = entry.row;
+    row.dtheta_final_arcsec = value_arcsec;
+    row.sigma_arcsec = deviation(variance_arcsec2);
+    row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | flag_interpolated;
+    if (!learnt) row.flags |= flag_lower_order;
+    difference.add(row.dtheta_final_arcsec);
+    difference.add(-row.dtheta_arcsec);
+}
+
+void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec2, ExactSum& change) noexcept {
+    const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
+    set_final(entry, value_arcsec, change);
+    entry.row.relock_arcsec = read - value_arcsec;
+    entry.variance_arcsec2 += error_arcsec2 - entry.relock_variance_arcsec2;
+    entry.relock_variance_arcsec2 = error_arcsec2;
+    entry.row.sigma_arcsec = deviation(entry.variance_arcsec2);
+    entry.row.flags = (entry.row.flags & ~std::uint32_t{flag_relock_uncorrected}) | flag_relock_corrected;
+}
+
+// The false angles of ticks behind the window, by the light alone.
+void correct_far_ticks(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                       std::int64_t end_of_gap, std::int64_t end, const RelockScale& scale,
+                       SwitchAngle& found) noexcept {
+    if (config.relock_ticks <= most_ticks_after_estimate) return;
+    const LightFit fit{state.light.sums, gyro.light_noise.value()};
+    if (!fit.is_known()) return;
+    const double unit = 0.5 * gyro.chi * gyro.bias.value() * gyro.scale.value() * gyro.tick.value();
+    for (std::int64_t tick = end_of_gap + most_ticks_after_estimate; tick < end_of_gap + config.relock_ticks; ++tick) {
+        const auto h = static_cast<int>(2 * tick - state.light.first_half);
+        if (tick >= end || h + 1 >= state.light.sums.basis.halves) return;
+        HistoryTick& entry = at(state, tick);
+        if (!entry.measured || !entry.half[0].read || !entry.half[1].read) continue;
+        double d = 0.0;
+        double variance = 0.0;
+        for (int a = 0; a < 2; ++a) {
+            const int sign = entry.half[static_cast<unsigned>(a)].sign;
+            d += unit * sign * fit.angle(h + a);
+            for (int b = 0; b < 2; ++b)
+                variance +=
+                    unit * unit * sign * entry.half[static_cast<unsigned>(b)].sign * fit.covariance(h + a, h + b);
+        }
+        const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
+        set_after_tick(entry, read + (1.0 + scale.value) * d, variance + scale.variance * d * d, found.after_arcsec);
+        found.variance_arcsec2 += variance;
+    }
+}
+
+}  // namespace
+
+double tick_variance(const GapBridgeState& state) noexcept {
+    const MotionMoments& m = state.motion.moments;
+    if (!(m.n_windows >= few_windows)) return infinity;
+    const double sum = m.sum[moment_place(m.length, 0, 0)] + m.sum[moment_place(m.length, 1, 1)] +
+                       2.0 * m.sum[moment_place(m.length, 0, 1)];
+    return sum / m.n_windows;
+}
+
+SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                            const Gap& gap, std::int64_t end) noexcept {
+    SwitchAngle out{.scale = state.scale};
+    if (!gap.has_before) return out;
+    const SwitchProblem problem{gyro, config, state, gap, end};
+    if (!problem.is_solvable()) return out;
+    const SwitchWindow& window = problem.window();
+    const SwitchEstimate found = estimate(gyro, window, state.motion.moments, state.scale, state.room);
+    if (!found.known) return out;
+    out.known = true;
+    out.variance_arcsec2 = found.variance_arcsec2;
+    if (problem.light() == HalfLight::spline) out.scale = found.scale;
+    const bool learnt = state.motion.moments.n_windows >= few_windows;
+    for (int r = 0; r < window.n_rows;) {
+        const Place& place = problem.place(r);
+        const bool wanted = window.row[static_cast<unsigned>(r)].wanted;
+        const bool in_gap = place.tick >= gap.first_tick && place.tick < gap.first_tick + gap.n;
+        double angle = 0.0;
+        double variance = 0.0;
+        double unread = 0.0;
+        const int first = r;
+        for (; r < window.n_rows && (r == first || problem.place(r).tick == place.tick); ++r) {
+            const auto at_row = static_cast<unsigned>(r);
+            angle += found.row[at_row].angle_arcsec;
+            variance += found.row[at_row].variance_arcsec2;
+            const WindowRow& row = window.row[at_row];
+            if (row.wanted && !row.read)
+                unread += problem.unread_arcsec2() * static_cast<double>(row.halves.last - row.halves.first);
+        }
+        out.variance_arcsec2 += unread;
+        variance += unread;
+        if (!wanted) continue;
+        HistoryTick& entry = at(state, place.tick);
+        if (!in_gap) {
+            set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
+            continue;
+        }
+        for (int k = 0; k < place.n_ticks; ++k)
+            set_gap_tick(at(state, place.tick + k), angle / place.n_ticks, variance / place.n_ticks, learnt,
+                         out.gap_arcsec);
+    }
+    if (problem.light() == HalfLight::spline)
+        correct_far_ticks(gyro, config, state, gap.first_tick + gap.n, end, state.scale, out);
+    return out;
+}
+
+}  // namespace zlg::core

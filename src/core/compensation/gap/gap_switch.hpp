@@ -1,0 +1,29 @@
+#pragma once
+// A gap and the ticks after it as the estimate of the switch sees them, and their final values by it (switch_estimate.hpp).
+//
+// Rows of the window: half-ticks to eight ticks before and after the gap, ticks after these, in the gap ticks, or a few together
+// where it is long; lit halves of the gap are points. What was corrected before in another switch is a tick, with its variance.
+
+#include <cstdint>
+
+#include <zlg/core/compensation/gap_bridge_config.hpp>
+#include <zlg/core/compensation/gap_bridge_state.hpp>
+
+namespace zlg::core {
+
+struct SwitchAngle {
+    bool known = false;             // false: no point on one side, or no estimate
+    ExactSum gap_arcsec{};          // final minus delivered, of the gap
+    ExactSum after_arcsec{};        // that of the ticks after it that are corrected
+    double variance_arcsec2 = 0.0;  // of all these together
+    RelockScale scale{};
+};
+
+// Give a gap, and the ticks after it, their final values from the ticks before `end`.
+[[nodiscard]] SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeConfig& config,
+                                          GapBridgeState& state, const Gap& gap, std::int64_t end) noexcept;
+
+// Variance of a tick about the mean rate, as learnt; infinite where nothing is.
+[[nodiscard]] double tick_variance(const GapBridgeState& state) noexcept;
+
+}  // namespace zlg::core
