@@ -42,7 +42,6 @@ GyroCompensationConfig config_from(Bytes& bytes) {
     c.bridge.extrapolation_points = static_cast<int>(bytes.index(10));
     c.bridge.points_before = static_cast<int>(bytes.index(10));
     c.bridge.points_after = static_cast<int>(bytes.index(10));
-    c.bridge.optimal.halves = c.relock.method == RelockMethod::joint;
     if (bytes.flag()) c.gyro.timer = Hertz{bytes.real(1e7)};
     if (bytes.flag()) c.gyro.random_walk = ArcsecPerRootSecond{bytes.real(0.14)};
     c.magnetic.method = static_cast<MagneticMethod>(bytes.index(3));
@@ -136,7 +135,7 @@ struct Ledger {
         claim(sample.tick == n_ticks++, "ticks come in order");
         claim(std::isfinite(sample.dtheta_arcsec), "what is delivered is a number");
         claim(std::isfinite(out.angle_arcsec), "the angle is a number");
-        const int delay = final_delay_ticks(config.bridge);
+        const int delay = final_delay_ticks(config.gyro, bridge_of(config));
         claim(delay >= 0 && delay <= max_delay_ticks, "the delay is bounded");
         claim(sample.has_final == (sample.tick >= delay), "a tick is final after the delay");
         note(sample.dtheta_arcsec);

@@ -97,7 +97,8 @@ GyroCompensationConfig any_config(BridgeMethod bridge, bool with_relock) {
     return c;
 }
 
-BridgeMethod any_bridge() { return static_cast<BridgeMethod>(any(0, 5)); }
+BridgeMethod any_bridge() { return static_cast<BridgeMethod>(any(0, 4)); }
+
 // That remembers no motion.
 BridgeMethod any_fixed_bridge() { return static_cast<BridgeMethod>(any(0, 3)); }
 BridgeMethod any_polynomial() { return static_cast<BridgeMethod>(any(1, 3)); }
@@ -298,7 +299,10 @@ void vary(GyroCompensationConfig& config, double least, double most, Set set) {
 GyroCompensationConfig any_checked_config() {
     GyroCompensationConfig c = any_config(any_bridge(), true);
     const double sign = any(0, 1) == 0 ? 1.0 : -1.0;
-    vary(c, 1e-9, 1e9, [](auto& v, double x) { v.gyro.tick = Seconds{x}; });
+    vary(c, 1e-9, 1e9, [](auto& v, double x) {
+        v.gyro.tick = Seconds{x};
+        if (final_delay_ticks(v.gyro, bridge_of(v)) > most_final_delay_ticks) v.bridge.method = BridgeMethod::quadratic;
+    });
     vary(c, 1e-9, 1e9, [](auto& v, double x) { v.gyro.scale = Arcsec{x}; });
     vary(c, 1e-290, 1e15, [](auto& v, double x) { v.gyro.bias = Hertz{x}; });
     vary(c, 1e-290, 1e6, [](auto& v, double x) { v.gyro.chi = x; });

@@ -236,19 +236,6 @@ bool solve(const Layout& layout, double wanted_halves, double scale_variance, Tr
            is_finite(found.variance_arcsec2) && is_finite(found.scale) && is_finite(found.scale_variance);
 }
 
-// The same, given the angle of all that is wanted from elsewhere: its likelihood, and the mean of both (Bayes for two Gaussian
-// variables).
-//
-// off_arcsec  that angle, less what is added to those of all members.
-void learn_total(double off_arcsec, double variance_arcsec2, MemberEstimate& found) noexcept {
-    const double sum = found.variance_arcsec2 + variance_arcsec2;
-    if (!(variance_arcsec2 >= 0.0 && sum > 0.0)) return;
-    const double off = off_arcsec - found.angle_arcsec;
-    found.evidence -= 0.5 * (off * off / sum + maths::log(sum));
-    found.angle_arcsec += found.variance_arcsec2 / sum * off;
-    found.variance_arcsec2 *= variance_arcsec2 / sum;
-}
-
 // Mean and variance of a mixture.
 struct Moments2 {
     double mean = 0.0;
@@ -372,6 +359,7 @@ void spread(const Problem& problem, Triangle base, Triangle factor, SwitchEstima
                               dot(with.data(), with.data(), n) + own_missing * own_missing / weight;
         const double common = with_all - dot(with.data(), target, n) + own_missing * missing / weight;
         const double share = of_all > 0.0 ? common / of_all : 0.0;
+        result.row[static_cast<unsigned>(r)].share = share;
         result.row[static_cast<unsigned>(r)].angle_arcsec = mean + share * off;
         const double left = of_row + share * share * (result.variance_arcsec2 - of_all);
         result.row[static_cast<unsigned>(r)].variance_arcsec2 = left > 0.0 ? left : 0.0;
@@ -409,19 +397,14 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     const double of_member = (1.0 - of_learnt) / static_cast<double>(bank.size() * motion_sizes.size());
     build(layout, base, base, 0.0, factor);
     const double added = problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
-    const auto judge = [&]() noexcept {
-        if (!solve(layout, problem.wanted_halves, scale.variance, factor, found)) return false;
-        learn_total(window.known_arcsec - added, window.known_variance_arcsec2, found);
-        return is_finite(found.evidence);
-    };
-    if (judge()) mixture.add(of_learnt, found);
+    if (solve(layout, problem.wanted_halves, scale.variance, factor, found)) mixture.add(of_learnt, found);
     for (std::size_t b = 0; b < bank.size(); ++b) {
         const Kernel kernel{bank[b], window};
         if (!kernel.is_there()) continue;
         lay_out(kernel, window, layout, kernel_of_points);
         for (const double size : motion_sizes) {
             build(layout, base, kernel_of_points, size * unit, factor);
-            if (!judge()) continue;
+            if (!solve(layout, problem.wanted_halves, scale.variance, factor, found)) continue;
             candidate[static_cast<unsigned>(mixture.size())] = {b, size * unit};
             mixture.add(of_member, found);
         }

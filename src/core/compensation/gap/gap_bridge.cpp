@@ -97,6 +97,7 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
     if (!state.gap.open) begin_gap(config, state, tick);
     Gap& gap = state.gap.gap;
     ++gap.n;
+    gap.moves = gap.moves || (input.flags & flag_loop_unlocked) != 0;
     HistoryTick& entry = at(state, tick);
     if (gap.has_before && input.mode != gap.mode_before) entry.row.flags |= flag_switching;
     if (config.method == BridgeMethod::none) {
@@ -199,6 +200,7 @@ void resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     if (is_short) {
         const SwitchAngle found = is_estimated(config) ? estimate_switch(gyro, config, state, gap, end) : SwitchAngle{};
         pending.estimated = found.known;
+        if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
         pending.scale = found.scale;
         difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, report);
         if (found.known) report.sigma_sum_arcsec = deviation(found.variance_arcsec2);

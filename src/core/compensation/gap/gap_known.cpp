@@ -102,12 +102,31 @@ void count_in(double rounding_arcsec2, std::int64_t n_ticks, double variance_arc
     gap.known_variance_arcsec2 += variance_arcsec2;
 }
 
+// A whole gap that is estimated: w_j of (1) is the regression of tick j on the sum, and takes what the sum tells off its variance;
+// what the sum is off by more than three standard deviations may be a rotation in any one of n ticks, each as likely:
+//
+//   r^2 ((1 - w_j)^2 + (n - 1) w_j^2)/n
+void condition_rows(GapBridgeState& state, const Gap& gap, const KnownStretch& s, ExactSum& change) noexcept {
+    const double deficit = deficit_of(state, s, 0.0);
+    const bool is_outlier = square(deficit) > outlier_sq * (gap.variance_arcsec2 + gap.known_variance_arcsec2);
+    for (std::int64_t t = s.first; t <= s.last; ++t) {
+        HistoryTick& entry = at(state, t);
+        const double w = entry.share;
+        const double left = square(entry.row.sigma_arcsec) - w * w * gap.variance_arcsec2;
+        const double of_sum = w * w * gap.known_variance_arcsec2;
+        const double outlier = is_outlier ? square(deficit) * (square(1.0 - w) + (s.n() - 1.0) * w * w) / s.n() : 0.0;
+        set_row(entry.row, entry.row.dtheta_final_arcsec + w * deficit, (left > 0.0 ? left : 0.0) + of_sum + outlier,
+                change);
+    }
+}
+
 void settle(GapBridgeState& state, const Gap& gap, const KnownStretch& s, double constant_arcsec,
             ExactSum& change) noexcept {
     if (s.first > s.last) return;
     if (s.first == s.last && s.n_delivered == 0)
         return set_row(at(state, s.last).row, s.sum_arcsec, s.variance_arcsec2, change);
     const bool is_whole = s.n_delivered == 0 && s.last + 1 - s.first == gap.n;
+    if (is_whole && gap.variance_arcsec2 >= 0.0) return condition_rows(state, gap, s, change);
     shift_rows(state, s, is_whole, constant_arcsec, change);
 }
 

@@ -56,7 +56,9 @@ public:
           first_tick_{gap.first_tick - ticks_before_estimate} {
         const SwitchLight& light = state.light;
         const bool is_own = light.first_half >= 2 * gap.first_tick && light.first_half < 2 * (end_of_gap_ + 1);
-        if (is_joint() && is_own && is_complete(light) && config.relock_ticks > 0) {
+        if (!gap.moves) {
+            light_ = HalfLight::ticks;
+        } else if (is_joint() && is_own && is_complete(light) && config.relock_ticks > 0) {
             light_ = HalfLight::spline;
             window_.light = light.sums;
             window_.light_start = static_cast<int>(light.first_half - 2 * first_tick_);
@@ -75,7 +77,6 @@ public:
         const int looked_at = after < most_ticks_after_estimate ? after : most_ticks_after_estimate;
         for (int k = 0; k < looked_at; ++k) add_after(k);
         window_.n_halves = window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
-        know_sum();
     }
 
     [[nodiscard]] const SwitchWindow& window() const noexcept { return window_; }
@@ -89,20 +90,6 @@ public:
     }
 
 private:
-    // The gap's angle, where the counter knows it, and nothing else is wanted.
-    void know_sum() noexcept {
-        if (gap_.known_ticks != gap_.n) return;
-        for (int r = 0; r < window_.n_rows; ++r) {
-            const WindowRow& row = window_.row[static_cast<unsigned>(r)];
-            if (row.wanted && row.read) return;
-        }
-        double sum = 0.0;
-        for (std::int64_t t = gap_.first_tick; t < end_of_gap_; ++t)
-            if (at(state_, t).known_ticks > 0) sum += at(state_, t).known_arcsec;
-        window_.known_arcsec = sum;
-        window_.known_variance_arcsec2 = gap_.known_variance_arcsec2;
-    }
-
     [[nodiscard]] bool is_joint() const noexcept { return config_.relock == RelockMethod::joint; }
 
     [[nodiscard]] bool is_point(std::int64_t tick) const noexcept {
@@ -154,7 +141,8 @@ private:
             return;
         }
         const HistoryTick& entry = at(state_, tick);
-        if (!entry.settled || !has_halves(entry)) return add_tick_as_it_is(tick);
+        // Also one in which a fault may have begun unseen.
+        if (!entry.settled || !has_halves(entry) || entry.relock_variance_arcsec2 > 0.0) return add_tick_as_it_is(tick);
         for (int k = 0; k < 2; ++k) {
             WindowRow& row = add({.tick = tick, .half = k}, 1);
             row.read = true;
@@ -253,11 +241,12 @@ private:
             return;
         }
         const HistoryTick& entry = at(state_, tick);
-        const bool wanted = light_ != HalfLight::none && k < config_.relock_ticks;
+        const bool wanted = gap_.moves && light_ != HalfLight::none && k < config_.relock_ticks;
         const bool corrects = wanted && light_ != HalfLight::ticks;
         const bool by_records = corrects && light_ == HalfLight::records;
         const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0 && entry.half[1].false_arcsec2 >= 0.0);
-        if (!has_halves(entry) || !known || (wanted && light_ == HalfLight::ticks)) {
+        const bool is_corrected = light_ == HalfLight::ticks && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
+        if (!has_halves(entry) || !known || is_corrected) {
             add_tick_as_it_is(tick);
             window_.row[static_cast<unsigned>(window_.n_rows - 1)].wanted = wanted;
             return;
@@ -377,11 +366,13 @@ SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeCo
         double angle = 0.0;
         double variance = 0.0;
         double unread = 0.0;
+        double share = 0.0;
         const int first = r;
         for (; r < window.n_rows && (r == first || problem.place(r).tick == place.tick); ++r) {
             const auto at_row = static_cast<unsigned>(r);
             angle += found.row[at_row].angle_arcsec;
             variance += found.row[at_row].variance_arcsec2;
+            share += found.row[at_row].share;
             const WindowRow& row = window.row[at_row];
             if (row.wanted && !row.read)
                 unread += problem.unread_arcsec2() * static_cast<double>(row.halves.last - row.halves.first);
@@ -394,9 +385,11 @@ SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeCo
             set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
             continue;
         }
-        for (int k = 0; k < place.n_ticks; ++k)
-            set_gap_tick(at(state, place.tick + k), angle / place.n_ticks, variance / place.n_ticks, learnt,
-                         out.gap_arcsec);
+        for (int k = 0; k < place.n_ticks; ++k) {
+            HistoryTick& tick = at(state, place.tick + k);
+            set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, learnt, out.gap_arcsec);
+            tick.share = share / place.n_ticks;
+        }
     }
     if (problem.light() == HalfLight::spline)
         correct_far_ticks(gyro, config, state, gap.first_tick + gap.n, end, state.scale, out);

@@ -25,6 +25,8 @@ inline constexpr int max_extrapolation_points = 8;
 struct Gap {
     bool has_before = false;  // a measured tick precedes it
     std::int8_t mode_before = 1;
+    bool moves = false;              // the loop is open in it, and the perimeter moves
+    double variance_arcsec2 = -1.0;  // of its angle, if it is estimated and nothing else with it
     std::int64_t first_tick = 0, n = 0;       // n: ticks so far
     ExactSum final_minus_delivered_arcsec{};  // of a gap that is too long
     std::int64_t known_ticks = 0;             // whose sums are known

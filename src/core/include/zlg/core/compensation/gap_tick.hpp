@@ -53,6 +53,7 @@ struct HistoryTick {
     double variance_arcsec2 = 0.0;
     double relock_variance_arcsec2 = 0.0;  // of the re-lock correction, a part of the variance
     std::array<HalfReading, 2> half{};
+    double share = 0.0;  // of a tick of a gap that is estimated: its part of what the angle of the gap is off by
     bool measured = false;
     bool settled = false;  // as in TickInput
     bool with_phase = false;

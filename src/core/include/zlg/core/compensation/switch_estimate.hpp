@@ -35,6 +35,7 @@ namespace zlg::core {
 struct RowEstimate {
     double angle_arcsec = 0.0;
     double variance_arcsec2 = 0.0;
+    double share = 0.0;  // its covariance with the angle of all that is wanted, over the variance of that
 };
 
 struct SwitchEstimate {

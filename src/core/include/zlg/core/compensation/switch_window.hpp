@@ -36,9 +36,6 @@ struct SwitchWindow {
     std::array<WindowRow, most_window_rows> row{};
     std::array<std::int8_t, most_window_halves> bias_sign{};  // of each half, mode included
     bool with_phase = false;                                  // readings by phase, not of whole counts
-    // Of all that is wanted together, where the counter knows it: the angle, and its variance; negative: it does not.
-    double known_arcsec = 0.0;
-    double known_variance_arcsec2 = -1.0;
     // Variance of the magnetic drift in a tick, as far as it is not known and steps at the gap.
     double magnetic_variance_arcsec2 = 0.0;
     // Halves from `light_start` on whose false angle is corrected; none where `light` is empty.
