@@ -81,7 +81,10 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
             return made;
         case core::GyroCompensationFault::bridge:
             require_points(config, bridge);
-            break;
+            refuse(config, {"gyro.tick_s", "switching.gap_ticks", "compensation.relock_ticks"},
+                   "max(16, gap_ticks) + max(8, relock_ticks) + 80 ms in ticks + 1 of at most 128 ticks, after which a "
+                   "tick is "
+                   "final with compensation.bridge = \"auto\"");
         case core::GyroCompensationFault::edges:
         case core::GyroCompensationFault::relock:
             refuse(config, {"gyro.tick_s", "gyro.scale_arcsec", "gyro.bias_hz", "gyro.bias_chi", "gyro.bias_edge_s"},

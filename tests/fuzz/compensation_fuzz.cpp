@@ -19,7 +19,7 @@ using namespace zlg::core;
 using zlg::fuzz::Bytes;
 using zlg::fuzz::claim;
 
-constexpr int max_delay_ticks = 29;  // of `joint`
+constexpr int max_delay_ticks = zlg::core::most_final_delay_ticks;
 
 void constants_from(Bytes& bytes, CompensationConstants& c) {
     c.tick = Seconds{bytes.real(0.005)};
@@ -38,7 +38,7 @@ GyroCompensationConfig config_from(Bytes& bytes) {
     c.relock.ticks = bytes.flag() ? 20 : bytes.take<std::int8_t>();
     // The rest is as it is mostly, so that most inputs are about the records.
     if (!bytes.flag()) constants_from(bytes, c.gyro);
-    c.bridge.method = static_cast<BridgeMethod>(bytes.index(6));
+    c.bridge.method = static_cast<BridgeMethod>(bytes.index(5));
     c.bridge.extrapolation_points = static_cast<int>(bytes.index(10));
     c.bridge.points_before = static_cast<int>(bytes.index(10));
     c.bridge.points_after = static_cast<int>(bytes.index(10));

@@ -145,8 +145,8 @@ TEST(LitHalves, NarrowTheErrorOfASwitchOverVibration) {
         const std::vector<Errors> e = errors(gyro(fidelity), 120.0,
                                              {{core::RelockMethod::joint, core::BridgeMethod::automatic, false},
                                               {core::RelockMethod::joint, core::BridgeMethod::automatic, true},
-                                              {core::RelockMethod::mean_square, core::BridgeMethod::optimal, false},
-                                              {core::RelockMethod::mean_square, core::BridgeMethod::optimal, true}});
+                                              {core::RelockMethod::mean_square, core::BridgeMethod::automatic, false},
+                                              {core::RelockMethod::mean_square, core::BridgeMethod::automatic, true}});
         EXPECT_GT(e[0].rms_arcsec, 4.0 * e[1].rms_arcsec);
         EXPECT_GT(e[2].rms_arcsec, 4.0 * e[3].rms_arcsec);
         // 50 switches: +-3 standard deviations of a mean of squares about 1, and sigma not more than 1.5 times too large.
