@@ -325,6 +325,10 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
     if (input.amend_previous && tick > 0) amend_previous(state, input, tick);
     if (state.n_pending > 0) resolve_due(gyro, config, state, tick, sample);
 
+    if (tick - state.next_final >= final_delay_ticks(gyro, config)) {
+        sample.has_final = true;
+        sample.final_row = at(state, state.next_final++).row;
+    }
     HistoryTick& entry = at(state, tick);
     entry = HistoryTick{
         .row = {.tick = tick, .relock_arcsec = input.relock_arcsec, .mode = input.mode, .flags = input.flags},
@@ -345,10 +349,6 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
 
     sample.dtheta_arcsec = entry.row.dtheta_arcsec;
     sample.flags = entry.row.flags;
-    if (tick - state.next_final >= final_delay_ticks(gyro, config)) {
-        sample.has_final = true;
-        sample.final_row = at(state, state.next_final++).row;
-    }
     if (is_estimated(config)) learn(config, state, input, tick);
     return sample;
 }

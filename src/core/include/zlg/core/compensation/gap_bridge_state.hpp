@@ -17,7 +17,9 @@ namespace zlg::core {
 
 // Gaps that wait for the ticks after them, each of one tick and one more.
 inline constexpr int max_pending_gaps = (most_final_delay_ticks - max_polynomial_gap) / 2;
-inline constexpr int history_ticks = most_final_delay_ticks + ticks_before_estimate + 1;
+// A row leaves it when the next tick takes its place; the longest window is shorter.
+inline constexpr int history_ticks = most_final_delay_ticks;
+static_assert(ticks_before_estimate + max_estimated_gap + most_relock_ticks < history_ticks);
 
 inline constexpr int max_extrapolation_points = 8;
 
@@ -88,11 +90,11 @@ struct GapBridgeState {
 };
 
 [[nodiscard]] inline HistoryTick& at(GapBridgeState& state, std::int64_t tick) noexcept {
-    return state.history[static_cast<std::uint64_t>(tick) % history_ticks];
+    return state.history[static_cast<std::size_t>(tick % history_ticks)];
 }
 
 [[nodiscard]] inline const HistoryTick& at(const GapBridgeState& state, std::int64_t tick) noexcept {
-    return state.history[static_cast<std::uint64_t>(tick) % history_ticks];
+    return state.history[static_cast<std::size_t>(tick % history_ticks)];
 }
 
 }  // namespace zlg::core
