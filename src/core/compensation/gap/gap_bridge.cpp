@@ -193,12 +193,11 @@ void resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
               .mode_after = pending.mode_after,
               .mode_changed = pending.mode_after != gap.mode_before,
               .sigma_sum_arcsec = infinity};
-    pending.resolved = true;
     if (config.method == BridgeMethod::none) return;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     const bool is_short = gap.n <= max_gap_ticks(config);
     if (is_short) {
-        const SwitchAngle found = is_estimated(config) ? estimate_switch(gyro, config, state, gap, end) : SwitchAngle{};
+        const SwitchAngle found = pending.asked ? take(gyro, config, state, gap) : SwitchAngle{};
         pending.estimated = found.known;
         if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
         pending.scale = found.scale;
@@ -297,8 +296,10 @@ void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& confi
                  std::int64_t tick, AngleSample& sample) noexcept {
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (!pending.resolved && pending.ready_tick <= tick) resolve(gyro, config, state, pending, tick);
+        if (pending.ready_tick == tick && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
+            pending.asked = ask(gyro, config, state, pending.gap, tick);
         if (pending.told || pending.due_tick > tick) continue;
+        resolve(gyro, config, state, pending, tick);
         GapReport report;
         if (!tell(state, pending, report)) continue;
         sample.has_gap = true;
@@ -349,7 +350,10 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
 
     sample.dtheta_arcsec = entry.row.dtheta_arcsec;
     sample.flags = entry.row.flags;
-    if (is_estimated(config)) learn(config, state, input, tick);
+    if (is_estimated(config)) {
+        learn(config, state, input, tick);
+        if (!config.works_apart) work(gyro, state.motion, state.background);
+    }
     return sample;
 }
 
@@ -357,8 +361,12 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     DrainOutput out;
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (!pending.resolved) resolve(gyro, config, state, pending, state.next_tick);
-        if (!pending.told) out.has_gap = tell(state, pending, out.gap);
+        if (pending.told) continue;
+        if (!pending.asked && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
+            pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
+        work(gyro, state.motion, state.background);
+        resolve(gyro, config, state, pending, state.next_tick);
+        out.has_gap = tell(state, pending, out.gap);
     }
     // Every gap must be resolved before a row may leave.
     if (out.has_gap) return out;

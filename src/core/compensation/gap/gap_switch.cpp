@@ -26,28 +26,14 @@ constexpr int most_lit_rows = 16;
 
 constexpr int min_points = 3;
 
-// Windows of motion from which on an estimate needs no `lower_order`: as many as the prior of the learnt motion asks for.
-constexpr double few_windows = 25.0;
-
-// How the false angles of halves are taken off.
-enum class HalfLight : unsigned char {
-    none,     // nothing is taken off
-    spline,   // the fit of the samples
-    records,  // the recorded mean square of each half
-    ticks     // the paper's correction of the tick is in its value
-};
-
-struct Place {
-    std::int64_t tick = 0;  // of the row; the first one, where it is several
-    int n_ticks = 1;
-    int half = -1;  // of that tick; -1: all of it
-};
-
-class SwitchProblem {
+// Composes the plan of a switch.
+class Planner {
 public:
-    SwitchProblem(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
-                  const Gap& gap, std::int64_t end) noexcept
-        : gyro_{gyro},
+    Planner(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
+            const Gap& gap, std::int64_t end, SwitchPlan& plan) noexcept
+        : plan_{plan},
+          window_{plan.window},
+          gyro_{gyro},
           config_{config},
           state_{state},
           gap_{gap},
@@ -57,15 +43,15 @@ public:
         const SwitchLight& light = state.light;
         const bool is_own = light.first_half >= 2 * gap.first_tick && light.first_half < 2 * (end_of_gap_ + 1);
         if (!gap.moves) {
-            light_ = HalfLight::ticks;
+            plan_.light = HalfLight::ticks;
         } else if (is_joint() && is_own && is_complete(light) && config.relock_ticks > 0) {
-            light_ = HalfLight::spline;
+            plan_.light = HalfLight::spline;
             window_.light = light.sums;
             window_.light_start = static_cast<int>(light.first_half - 2 * first_tick_);
         } else if (is_joint() || config.relock == RelockMethod::mean_square) {
-            light_ = HalfLight::records;
+            plan_.light = HalfLight::records;
         } else if (config.relock != RelockMethod::none) {
-            light_ = HalfLight::ticks;
+            plan_.light = HalfLight::ticks;
         }
         window_.with_phase = state.with_phase;
         const bool steps = end_of_gap_ < end && at(state, end_of_gap_).row.mode != gap.mode_before;
@@ -77,16 +63,7 @@ public:
         const int looked_at = after < most_ticks_after_estimate ? after : most_ticks_after_estimate;
         for (int k = 0; k < looked_at; ++k) add_after(k);
         window_.n_halves = window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
-    }
-
-    [[nodiscard]] const SwitchWindow& window() const noexcept { return window_; }
-    [[nodiscard]] const Place& place(int r) const noexcept { return place_[static_cast<unsigned>(r)]; }
-    [[nodiscard]] HalfLight light() const noexcept { return light_; }
-    // Square of what lit halves that were refused are off by: as much may each half of the gap that was not read have turned.
-    [[nodiscard]] double unread_arcsec2() const noexcept { return unread_arcsec2_; }
-    // Points on both sides, and enough of them.
-    [[nodiscard]] bool is_solvable() const noexcept {
-        return n_before_ > 0 && n_after_ > 0 && n_before_ + n_after_ >= min_points;
+        plan.is_solvable = n_before_ > 0 && n_after_ > 0 && n_before_ + n_after_ >= min_points;
     }
 
 private:
@@ -103,9 +80,9 @@ private:
         return entry.half[0].read && entry.half[1].read;
     }
 
-    WindowRow& add(const Place& place, int halves) noexcept {
+    WindowRow& add(const RowPlace& place, int halves) noexcept {
         const int first = window_.n_rows == 0 ? 0 : window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
-        place_[static_cast<unsigned>(window_.n_rows)] = place;
+        plan_.place[static_cast<unsigned>(window_.n_rows)] = place;
         WindowRow& row = window_.row[static_cast<unsigned>(window_.n_rows++)];
         row.halves = {first, first + halves};
         row.after_gap = first >= window_.gap.first;
@@ -144,7 +121,7 @@ private:
         // Also one in which a fault may have begun unseen.
         if (!entry.settled || !has_halves(entry) || entry.relock_variance_arcsec2 > 0.0) return add_tick_as_it_is(tick);
         for (int k = 0; k < 2; ++k) {
-            WindowRow& row = add({.tick = tick, .half = k}, 1);
+            WindowRow& row = add({.tick = tick, .half = static_cast<std::int16_t>(k)}, 1);
             row.read = true;
             row.y_arcsec = entry.half[static_cast<unsigned>(k)].angle_arcsec - 0.5 * magnetic(entry);
             count(row);
@@ -158,15 +135,15 @@ private:
         row.wanted = wanted;
         row.y_arcsec = half.angle_arcsec - 0.5 * magnetic(entry);
         count(row);
-        if (light_ != HalfLight::records || !wanted) return;
+        if (plan_.light != HalfLight::records || !wanted) return;
         row.y_arcsec -= (1.0 + state_.scale.value) * half.false_arcsec;
         row.error_arcsec2 = half.false_arcsec2;
         row.common_arcsec = square_root(state_.scale.variance) * half.false_arcsec;
     }
 
     [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
-        return half.lit && half.read && light_ != HalfLight::ticks &&
-               (light_ != HalfLight::records || half.false_arcsec2 >= 0.0);
+        return half.lit && half.read && plan_.light != HalfLight::ticks &&
+               (plan_.light != HalfLight::records || half.false_arcsec2 >= 0.0);
     }
 
     [[nodiscard]] const HalfReading& half_reading(std::int64_t half) const noexcept {
@@ -176,10 +153,8 @@ private:
     // A half that is recorded as lit but was not alternates with the bias in another way than the two behind it do: their second
     // difference is then not one of the learnt motion. Without one nothing is believed.
     [[nodiscard]] bool fits(std::int64_t half) noexcept {
-        const MotionMoments& m = state_.motion.moments;
+        const MotionSummary& m = state_.motion.summary;
         if (!(m.n_windows >= few_windows) || half + 2 >= 2 * end_ || half + 2 > 2 * end_of_gap_ + 1) return false;
-        const auto c = [&m](int i, int j) { return m.sum[moment_place(m.length, i, j)] / m.n_windows; };
-        const double motion = c(0, 0) + 4.0 * c(1, 1) + c(2, 2) - 4.0 * (c(0, 1) + c(1, 2)) + 2.0 * c(0, 2);
         const HalfReading& a = half_reading(half);
         const HalfReading& b = half_reading(half + 1);
         const HalfReading& d = half_reading(half + 2);
@@ -188,20 +163,20 @@ private:
         const double off =
             a.angle_arcsec - a.false_arcsec - 2.0 * (b.angle_arcsec - b.false_arcsec) + d.angle_arcsec - d.false_arcsec;
         const double bias = gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value() / 2.0;
-        const double variance = motion + noise(a) + 4.0 * noise(b) + noise(d) + square(common);
+        const double variance = m.second_difference_arcsec2 + noise(a) + 4.0 * noise(b) + noise(d) + square(common);
         if (square(off) <= limit_sq * variance + square(tolerated_bias_ratio * bias)) return true;
-        unread_arcsec2_ = square(off);
+        plan_.unread_arcsec2 = square(off);
         return false;
     }
 
     // The lit halves that reach up to the end of the gap.
     [[nodiscard]] std::int64_t first_lit_half() noexcept {
         std::int64_t h = 2 * end_of_gap_;
-        if (light_ == HalfLight::none || light_ == HalfLight::ticks || !is_point(end_of_gap_)) return h;
+        if (plan_.light == HalfLight::none || plan_.light == HalfLight::ticks || !is_point(end_of_gap_)) return h;
         const std::int64_t least = h - most_lit_rows > 2 * gap_.first_tick ? h - most_lit_rows : 2 * gap_.first_tick;
         while (h > least && is_lit(half_reading(h - 1)) && fits(h - 1)) --h;
         // By the spline, from where it begins.
-        if (light_ == HalfLight::spline && h < first_tick_ * 2 + window_.light_start)
+        if (plan_.light == HalfLight::spline && h < first_tick_ * 2 + window_.light_start)
             h = first_tick_ * 2 + window_.light_start;
         return h;
     }
@@ -209,7 +184,7 @@ private:
     void add_lit(std::int64_t half) noexcept {
         const HistoryTick& entry = at(state_, half / 2);
         const int k = static_cast<int>(half % 2);
-        WindowRow& row = add({.tick = half / 2, .half = k}, 1);
+        WindowRow& row = add({.tick = half / 2, .half = static_cast<std::int16_t>(k)}, 1);
         read_half(entry, k, true, row);
         const HalfReading& read = entry.half[static_cast<unsigned>(k)];
         // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
@@ -227,7 +202,7 @@ private:
         for (std::int64_t t = gap_.first_tick; t < lit / 2;) {
             const auto left = static_cast<int>(lit / 2 - t);
             const int n = left < each ? left : each;
-            add({.tick = t, .n_ticks = n}, 2 * n).wanted = true;
+            add({.tick = t, .n_ticks = static_cast<std::int16_t>(n)}, 2 * n).wanted = true;
             t += n;
         }
         if (lit % 2 != 0) add({.tick = lit / 2, .half = 0}, 1).wanted = true;
@@ -241,18 +216,20 @@ private:
             return;
         }
         const HistoryTick& entry = at(state_, tick);
-        const bool wanted = gap_.moves && light_ != HalfLight::none && k < config_.relock_ticks;
-        const bool corrects = wanted && light_ != HalfLight::ticks;
-        const bool by_records = corrects && light_ == HalfLight::records;
+        const bool wanted = gap_.moves && plan_.light != HalfLight::none && k < config_.relock_ticks;
+        const bool corrects = wanted && plan_.light != HalfLight::ticks;
+        const bool by_records = corrects && plan_.light == HalfLight::records;
         const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0 && entry.half[1].false_arcsec2 >= 0.0);
-        const bool is_corrected = light_ == HalfLight::ticks && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
+        const bool is_corrected =
+            plan_.light == HalfLight::ticks && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
         if (!has_halves(entry) || !known || is_corrected) {
             add_tick_as_it_is(tick);
             window_.row[static_cast<unsigned>(window_.n_rows - 1)].wanted = wanted;
             return;
         }
         if (k < ticks_by_halves) {
-            for (int half = 0; half < 2; ++half) read_half(entry, half, wanted, add({.tick = tick, .half = half}, 1));
+            for (int half = 0; half < 2; ++half)
+                read_half(entry, half, wanted, add({.tick = tick, .half = static_cast<std::int16_t>(half)}, 1));
             return;
         }
         WindowRow& row = add({.tick = tick}, 2);
@@ -265,6 +242,8 @@ private:
         row.common_arcsec += first.common_arcsec;
     }
 
+    SwitchPlan& plan_;
+    SwitchWindow& window_;
     const CompensationConstants& gyro_;
     const GapBridgeConfig& config_;
     const GapBridgeState& state_;
@@ -272,12 +251,8 @@ private:
     std::int64_t end_of_gap_;
     std::int64_t end_;
     std::int64_t first_tick_;
-    HalfLight light_ = HalfLight::none;
     int n_before_ = 0;
     int n_after_ = 0;
-    double unread_arcsec2_ = 0.0;
-    SwitchWindow window_{};
-    std::array<Place, most_window_rows> place_{};
 };
 
 void set_final(HistoryTick& entry, double value_arcsec, ExactSum& change) noexcept {
@@ -310,15 +285,16 @@ void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec
 
 // The false angles of ticks behind the window, by the light alone.
 void correct_far_ticks(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                       std::int64_t end_of_gap, std::int64_t end, const RelockScale& scale,
+                       const Gap& gap, const SwitchWindow& window, const RelockScale& scale,
                        SwitchAngle& found) noexcept {
     if (config.relock_ticks <= most_ticks_after_estimate) return;
-    const LightFit fit{state.light.sums, gyro.light_noise.value()};
+    const LightFit fit{window.light, gyro.light_noise.value()};
     if (!fit.is_known()) return;
     const double unit = 0.5 * gyro.chi * gyro.bias.value() * gyro.scale.value() * gyro.tick.value();
+    const std::int64_t end_of_gap = gap.first_tick + gap.n;
     for (std::int64_t tick = end_of_gap + most_ticks_after_estimate; tick < end_of_gap + config.relock_ticks; ++tick) {
-        const auto h = static_cast<int>(2 * tick - state.light.first_half);
-        if (tick >= end || h + 1 >= state.light.sums.basis.halves) return;
+        const auto h = static_cast<int>(2 * (tick - gap.first_tick + ticks_before_estimate)) - window.light_start;
+        if (tick >= state.next_tick - 1 || h + 1 >= window.light.basis.halves) return;
         HistoryTick& entry = at(state, tick);
         if (!entry.measured || !entry.half[0].read || !entry.half[1].read) continue;
         double d = 0.0;
@@ -339,28 +315,48 @@ void correct_far_ticks(const CompensationConstants& gyro, const GapBridgeConfig&
 }  // namespace
 
 double tick_variance(const GapBridgeState& state) noexcept {
-    const MotionMoments& m = state.motion.moments;
-    if (!(m.n_windows >= few_windows)) return infinity;
-    const double sum = m.sum[moment_place(m.length, 0, 0)] + m.sum[moment_place(m.length, 1, 1)] +
-                       2.0 * m.sum[moment_place(m.length, 0, 1)];
-    return sum / m.n_windows;
+    const MotionSummary& m = state.motion.summary;
+    return m.n_windows >= few_windows ? m.tick_arcsec2 : infinity;
 }
 
-SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                            const Gap& gap, std::int64_t end) noexcept {
+bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
+         std::int64_t end) noexcept {
+    if (!gap.has_before) return false;
+    for (SwitchJob& job : state.background.job) {
+        if (job.gap >= 0) continue;
+        job.plan = SwitchPlan{};
+        const Planner planner{gyro, config, state, gap, end, job.plan};
+        if (!job.plan.is_solvable) return false;
+        job.asked_at = 2 * end;
+        job.scale = state.scale;
+        job.done = job.late = false;
+        job.gap = gap.first_tick;
+        return true;
+    }
+    return false;
+}
+
+SwitchAngle take(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                 const Gap& gap) noexcept {
     SwitchAngle out{.scale = state.scale};
-    if (!gap.has_before) return out;
-    const SwitchProblem problem{gyro, config, state, gap, end};
-    if (!problem.is_solvable()) return out;
-    const SwitchWindow& window = problem.window();
-    const SwitchEstimate found = estimate(gyro, window, state.motion.moments, state.scale, state.room);
+    SwitchJob* job = nullptr;
+    for (SwitchJob& one : state.background.job)
+        if (one.gap == gap.first_tick) job = &one;
+    if (job == nullptr) return out;
+    if (!job->done) {
+        job->late = true;
+        return out;
+    }
+    job->gap = -1;
+    const SwitchPlan& plan = job->plan;
+    const SwitchWindow& window = plan.window;
+    const SwitchEstimate& found = job->found;
     if (!found.known) return out;
     out.known = true;
     out.variance_arcsec2 = found.variance_arcsec2;
-    if (problem.light() == HalfLight::spline) out.scale = found.scale;
-    const bool learnt = state.motion.moments.n_windows >= few_windows;
+    if (plan.light == HalfLight::spline) out.scale = found.scale;
     for (int r = 0; r < window.n_rows;) {
-        const Place& place = problem.place(r);
+        const RowPlace& place = plan.place[static_cast<unsigned>(r)];
         const bool wanted = window.row[static_cast<unsigned>(r)].wanted;
         const bool in_gap = place.tick >= gap.first_tick && place.tick < gap.first_tick + gap.n;
         double angle = 0.0;
@@ -368,14 +364,14 @@ SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeCo
         double unread = 0.0;
         double share = 0.0;
         const int first = r;
-        for (; r < window.n_rows && (r == first || problem.place(r).tick == place.tick); ++r) {
+        for (; r < window.n_rows && (r == first || plan.place[static_cast<unsigned>(r)].tick == place.tick); ++r) {
             const auto at_row = static_cast<unsigned>(r);
             angle += found.row[at_row].angle_arcsec;
             variance += found.row[at_row].variance_arcsec2;
             share += found.row[at_row].share;
             const WindowRow& row = window.row[at_row];
             if (row.wanted && !row.read)
-                unread += problem.unread_arcsec2() * static_cast<double>(row.halves.last - row.halves.first);
+                unread += plan.unread_arcsec2 * static_cast<double>(row.halves.last - row.halves.first);
         }
         out.variance_arcsec2 += unread;
         variance += unread;
@@ -387,12 +383,11 @@ SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeCo
         }
         for (int k = 0; k < place.n_ticks; ++k) {
             HistoryTick& tick = at(state, place.tick + k);
-            set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, learnt, out.gap_arcsec);
+            set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);
             tick.share = share / place.n_ticks;
         }
     }
-    if (problem.light() == HalfLight::spline)
-        correct_far_ticks(gyro, config, state, gap.first_tick + gap.n, end, state.scale, out);
+    if (plan.light == HalfLight::spline) correct_far_ticks(gyro, config, state, gap, window, job->scale, out);
     return out;
 }
 

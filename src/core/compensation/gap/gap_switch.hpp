@@ -19,9 +19,13 @@ struct SwitchAngle {
     RelockScale scale{};
 };
 
-// Give a gap, and the ticks after it, their final values from the ticks before `end`.
-[[nodiscard]] SwitchAngle estimate_switch(const CompensationConstants& gyro, const GapBridgeConfig& config,
-                                          GapBridgeState& state, const Gap& gap, std::int64_t end) noexcept;
+// Ask for the estimate of a gap, from the ticks before `end`. false: there is no point on one side, or no place for one more.
+[[nodiscard]] bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                       const Gap& gap, std::int64_t end) noexcept;
+
+// Take the estimate, and give the gap and the ticks after it their final values.
+[[nodiscard]] SwitchAngle take(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                               const Gap& gap) noexcept;
 
 // Variance of a tick about the mean rate, as learnt; infinite where nothing is.
 [[nodiscard]] double tick_variance(const GapBridgeState& state) noexcept;

@@ -9,7 +9,7 @@
 #include <zlg/core/compensation/gap_tick.hpp>
 #include <zlg/core/compensation/learnt_motion.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
-#include <zlg/core/compensation/switch_estimate.hpp>
+#include <zlg/core/compensation/switch_job.hpp>
 #include <zlg/core/compensation/switch_light.hpp>
 #include <zlg/core/records.hpp>
 
@@ -27,8 +27,8 @@ inline constexpr int max_extrapolation_points = 8;
 struct Gap {
     bool has_before = false;  // a measured tick precedes it
     std::int8_t mode_before = 1;
-    bool moves = false;              // the loop is open in it, and the perimeter moves
-    double variance_arcsec2 = -1.0;  // of its angle, if it is estimated and nothing else with it
+    bool moves = false;                       // the loop is open in it, and the perimeter moves
+    double variance_arcsec2 = -1.0;           // of its angle, if it is estimated and nothing else with it
     std::int64_t first_tick = 0, n = 0;       // n: ticks so far
     ExactSum final_minus_delivered_arcsec{};  // of a gap that is too long
     std::int64_t known_ticks = 0;             // whose sums are known
@@ -55,7 +55,7 @@ struct PendingGap {
     std::int64_t ready_tick = 0;  // before which its last point lies
     std::int64_t due_tick = 0;
     std::int8_t sign_after = 1, mode_after = 1;
-    bool resolved = false;
+    bool asked = false;
     ExactSum correction_arcsec{};  // pending: final minus delivered, of the gap and of the ticks that it amended
     GapReport report{};            // once it is resolved
     bool told = false;             // its report is out
@@ -82,7 +82,7 @@ struct GapBridgeState {
     LearntMotion motion{};
     SwitchLight light{};
     RelockScale scale{};
-    EstimateRoom room{};
+    BackgroundWork background{};
     std::array<PendingGap, max_pending_gaps> pending{};
     std::array<HistoryTick, history_ticks> history{};
 

@@ -36,6 +36,8 @@ struct RowEstimate {
     double angle_arcsec = 0.0;
     double variance_arcsec2 = 0.0;
     double share = 0.0;  // its covariance with the angle of all that is wanted, over the variance of that
+
+    friend bool operator==(const RowEstimate&, const RowEstimate&) = default;
 };
 
 struct SwitchEstimate {
@@ -44,6 +46,8 @@ struct SwitchEstimate {
     double variance_arcsec2 = 0.0;
     RelockScale scale{};
     std::array<RowEstimate, most_window_rows> row{};
+
+    friend bool operator==(const SwitchEstimate&, const SwitchEstimate&) = default;
 };
 
 inline constexpr int estimate_rows = most_window_rows + 4;  // with the right-hand sides

@@ -27,6 +27,8 @@ struct WindowRow {
     // Standard deviation of an error that all rows with one have in common, with its sign: of a light that is read far from the centre.
     double common_arcsec = 0.0;
     double error_arcsec2 = 0.0;  // variance of what else it may hold, which stays in the angle if it is wanted
+
+    friend bool operator==(const WindowRow&, const WindowRow&) = default;
 };
 
 struct SwitchWindow {
@@ -41,6 +43,8 @@ struct SwitchWindow {
     // Halves from `light_start` on whose false angle is corrected; none where `light` is empty.
     int light_start = 0;
     LightSums light{};
+
+    friend bool operator==(const SwitchWindow&, const SwitchWindow&) = default;
 };
 
 // Second moments of the motion over windows of halves, alike in both directions of time: C_ij = C_ji = C_(L-1-j)(L-1-i).
