@@ -91,6 +91,11 @@ std::string described(const ForeignColumn& column) {
                                : fmt::format("column {}, '{}'", column.number, text::excerpt(column.name, 60, ' '));
 }
 
+void refuse_words(const ForeignColumn& column) {
+    if (!column.word.empty())
+        throw FormatError(column.word + "; allowed is a finite number, or nan where it is missing");
+}
+
 const ForeignColumn& column_named(const ForeignTable& table, const std::string& name) {
     if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos && name.size() < 8) {
         const std::size_t number = std::stoul(name);
