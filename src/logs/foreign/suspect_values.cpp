@@ -76,12 +76,13 @@ void refuse_wraps(const ForeignLook& look, const TextColumn& column, const Angle
             return slack < range / 8.0 && std::fabs(jump - range) <= slack + 1e-3 * range;
         };
         const bool ends_a_saw = step.size * way < 0.0 && jump > std::max((most - least) / 2.0, most - least - slack);
-        if (ends_a_saw || std::ranges::any_of(ranges, is_range))
+        const auto range = std::ranges::find_if(ranges, is_range);
+        if (ends_a_saw || range != ranges.end())
             throw FormatError(
-                fmt::format("{}, {}, row {}: it jumps from {} to {}, as one that begins anew after about {:.6g} does; "
+                fmt::format("{}, {}, row {}: it jumps from {} to {}, as one that begins anew after {:.9g} does; "
                             "allowed are numbers that go on",
                             look.table.path, described(column), step.to + 1, column.values[step.from],
-                            column.values[step.to], jump + usual));
+                            column.values[step.to], range == ranges.end() ? jump + usual : *range));
     }
 }
 
