@@ -31,13 +31,18 @@ struct ForeignArray {
 // Values row by row as ForeignArray::read gives them.
 [[nodiscard]] std::vector<double> by_columns(std::vector<double> by_rows, std::size_t columns);
 
+// errors  FormatError: whole numbers of 8 bytes that were rounded on the way.
+void check_exact(const std::string& where, const std::vector<double>& values);
+
 // A matrix whose shorter side is longer is none of a record.
 inline constexpr std::size_t max_matrix_columns = 1000;
 
-// The arrays of the commonest length as columns; the others are left out with a note.
+// The arrays of the commonest length as columns; the others are left out with a note, before `notes` of what the reader left
+// out itself.
 //
 // errors  MappingError: two lengths are equally common; FormatError: no array.
 [[nodiscard]] ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
-                                           std::vector<ForeignArray> arrays);
+                                           std::vector<ForeignArray> arrays,
+                                           const std::vector<std::string>& notes = {});
 
 }  // namespace zlg::logs

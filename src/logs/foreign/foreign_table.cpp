@@ -114,7 +114,10 @@ const ForeignColumn& column_named(const ForeignTable& table, const std::string& 
                                    all_columns(table)));
 }
 
-ForeignTable table_of_arrays(const std::string& path, const std::string& nature, std::vector<ForeignArray> arrays) {
+ForeignTable table_of_arrays(const std::string& path, const std::string& nature, std::vector<ForeignArray> arrays,
+                             const std::vector<std::string>& notes) {
+    if (arrays.empty() && !notes.empty())
+        throw FormatError(fmt::format("{}: holds no array of numbers; {}", path, notes.front()));
     std::map<std::size_t, std::size_t> columns_of_length;
     for (const ForeignArray& array : arrays)
         if (array.rows > 1) columns_of_length[array.rows] += array.columns;
@@ -146,6 +149,7 @@ ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
     }
     std::vector<std::string> names;
     for (const ForeignColumn& column : table.columns) names.push_back(column.name);
+    table.notes.insert(table.notes.end(), notes.begin(), notes.end());
     table.read = [used = std::move(used), names = std::move(names)](const std::vector<std::int64_t>& wanted,
                                                                     std::int64_t times) {
         TextTable read{.columns = {}, .times = {}, .names = names, .n_columns = std::ssize(names)};

@@ -122,14 +122,6 @@ std::vector<double> numbers(const StoredMatrix& stored, std::size_t at, std::siz
     return values;
 }
 
-// Whole numbers beyond 2^53 would be rounded on the way.
-void check_exact(const StoredMatrix& stored, const std::vector<double>& values) {
-    if (stored.type != NumberType::i8 && stored.type != NumberType::u8) return;
-    for (const double v : values)
-        if (std::fabs(v) >= 9007199254740992.0)
-            throw FormatError(fmt::format("{}: holds {:.17g}; allowed are whole numbers below 2^53", stored.where, v));
-}
-
 }  // namespace
 
 std::size_t size_of(NumberType type) {
@@ -157,10 +149,18 @@ ForeignArray array_of(const std::string& name, const StoredMatrix& stored) {
                 values.insert(values.end(), column.begin(), column.end());
             }
         }
-        if (is_used) check_exact(stored, values);
+        if (is_used && (stored.type == NumberType::i8 || stored.type == NumberType::u8))
+            check_exact(stored.where, values);
         return values;
     };
     return array;
+}
+
+void check_exact(const std::string& where, const std::vector<double>& values) {
+    constexpr double exact_whole = 9007199254740992.0;  // 2^53
+    for (const double v : values)
+        if (std::fabs(v) >= exact_whole)
+            throw FormatError(fmt::format("{}: holds {:.17g}; allowed are whole numbers below 2^53", where, v));
 }
 
 std::vector<double> by_columns(std::vector<double> by_rows, std::size_t columns) {
