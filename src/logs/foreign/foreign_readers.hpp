@@ -22,17 +22,15 @@ struct ForeignArray {
     std::string unit;      // empty: not said
     std::size_t rows = 0;  // of a matrix the longer side
     std::size_t columns = 1;
+    bool may_be_rounded = false;  // whole numbers of 8 bytes
     // The first rows, one column behind the other. `is_used`: numbers are made of them, and must be what they stand for.
     //
-    // errors  IoError; FormatError: damaged, or, used, scaled by an attribute or rounded.
+    // errors  IoError; FormatError: damaged, or, used, scaled by an attribute.
     std::function<std::vector<double>(std::size_t n_rows, bool is_used)> read;
 };
 
 // Values row by row as ForeignArray::read gives them.
 [[nodiscard]] std::vector<double> by_columns(std::vector<double> by_rows, std::size_t columns);
-
-// errors  FormatError: whole numbers of 8 bytes that were rounded on the way.
-void check_exact(const std::string& where, const std::vector<double>& values);
 
 // A matrix whose shorter side is longer is none of a record.
 inline constexpr std::size_t max_matrix_columns = 1000;

@@ -101,9 +101,6 @@ struct StoredSet {
         if (!found.not_plain.empty())
             throw FormatError(
                 fmt::format("{}, '{}': {}", file->path(), zlg::text::excerpt(name, 60, ' '), found.not_plain));
-        const Handle type{H5Dget_type(set.get()), &H5Tclose};
-        if (H5Tget_class(type.get()) != H5T_INTEGER || H5Tget_size(type.get()) < 8) return;
-        check_exact(fmt::format("{}, {}", file->path(), path), values);
     }
 
     // Of those read at once the library keeps some kB for each chunk.
@@ -150,12 +147,14 @@ public:
         : file_{std::make_shared<Source>(path)}, budget_{path, std::filesystem::file_size(path)} {}
 
     std::vector<ForeignArray> all(const std::string& from) {
-        const Handle object{H5Oopen(file_->id(), from.c_str(), H5P_DEFAULT), &H5Oclose};
+        Handle object{H5Oopen(file_->id(), from.c_str(), H5P_DEFAULT), &H5Oclose};
         if (!object.is_open())
             throw MappingError(
                 fmt::format("{}: table = '{}': there is no such group or data set", file_->path(), from));
         (void)is_new(object.get(), from);
-        if (H5Iget_type(object.get()) == H5I_DATASET)
+        const bool is_set = H5Iget_type(object.get()) == H5I_DATASET;
+        object.close();
+        if (is_set)
             take(from, from.substr(from.rfind('/') + 1));
         else
             walk(from == "/" ? "" : from, "", 0);
@@ -177,13 +176,14 @@ private:
             if (name.starts_with('#')) continue;  // what MATLAB keeps for itself
             budget_.take_object();
             const std::string path = group + "/" + name;
-            const Handle object{H5Oopen(file_->id(), path.c_str(), H5P_DEFAULT), &H5Oclose};
+            Handle object{H5Oopen(file_->id(), path.c_str(), H5P_DEFAULT), &H5Oclose};
             if (!object.is_open()) file_->fail_to_read(path);
             if (!is_new(object.get(), path)) {
                 leave_out(prefix + name, "it is another name of what was read before");
                 continue;
             }
             const H5I_type_t kind = H5Iget_type(object.get());
+            object.close();
             if (kind == H5I_GROUP) walk(path, prefix + name + "/", depth + 1);
             if (kind == H5I_DATASET) take(path, prefix + name);
         }
@@ -194,6 +194,7 @@ private:
             notes.push_back(fmt::format("'{}' is left out: {}", zlg::text::excerpt(name, 60, ' '), why));
     }
 
+    // Nothing else has it open, or the library would go on with the cache of that.
     void take(const std::string& path, const std::string& name) {
         const Handle access = hdf5::access_with_cache(0);
         Handle set{H5Dopen2(file_->id(), path.c_str(), access.get()), &H5Dclose};
@@ -224,6 +225,7 @@ private:
                            .unit = unit_of(*file_, path),
                            .rows = std::max(size[0], size[1]),
                            .columns = std::min(size[0], size[1]),
+                           .may_be_rounded = kind == H5T_INTEGER && H5Tget_size(type.get()) >= 8,
                            .read = {}};
         array.read = [stored = std::make_shared<const StoredSet>(StoredSet{.file = file_,
                                                                            .path = path,

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/inputs.hpp>
@@ -137,8 +136,13 @@ void StoredMatrix::take_shape(std::size_t n, std::size_t m, bool last_index_foll
 }
 
 ForeignArray array_of(const std::string& name, const StoredMatrix& stored) {
-    ForeignArray array{.name = name, .unit = {}, .rows = stored.rows, .columns = stored.columns, .read = {}};
-    array.read = [stored](std::size_t n, bool is_used) {
+    ForeignArray array{.name = name,
+                       .unit = {},
+                       .rows = stored.rows,
+                       .columns = stored.columns,
+                       .may_be_rounded = stored.type == NumberType::i8 || stored.type == NumberType::u8,
+                       .read = {}};
+    array.read = [stored](std::size_t n, bool) {
         std::vector<double> values;
         if (stored.rows_follow) {
             values = by_columns(numbers(stored, 0, n * stored.columns), stored.columns);
@@ -149,18 +153,9 @@ ForeignArray array_of(const std::string& name, const StoredMatrix& stored) {
                 values.insert(values.end(), column.begin(), column.end());
             }
         }
-        if (is_used && (stored.type == NumberType::i8 || stored.type == NumberType::u8))
-            check_exact(stored.where, values);
         return values;
     };
     return array;
-}
-
-void check_exact(const std::string& where, const std::vector<double>& values) {
-    constexpr double exact_whole = 9007199254740992.0;  // 2^53
-    for (const double v : values)
-        if (std::fabs(v) >= exact_whole)
-            throw FormatError(fmt::format("{}: holds {:.17g}; allowed are whole numbers below 2^53", where, v));
 }
 
 std::vector<double> by_columns(std::vector<double> by_rows, std::size_t columns) {
