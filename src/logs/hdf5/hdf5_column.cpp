@@ -7,6 +7,7 @@ namespace zlg::logs::hdf5 {
 namespace {
 
 constexpr std::size_t max_chunk_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_kept_bytes = std::size_t{16} << 20;  // of each column
 constexpr std::size_t max_number_bytes = 8;
 
 }  // namespace
@@ -14,6 +15,7 @@ constexpr std::size_t max_number_bytes = 8;
 DataSet::DataSet(const Source& source, std::string path, Shape shape) : source_{&source}, path_{std::move(path)} {
     const auto open = [&](std::size_t cache_bytes) {
         const Handle access = access_with_cache(cache_bytes);
+        set_.close();  // or the library would go on with the cache that it has
         set_ = {H5Dopen2(source.id(), path_.c_str(), access.get()), &H5Dclose};
         if (!set_.is_open()) source.fail(path_, "is no data set that can be read: " + last_failure().reason);
     };
@@ -29,8 +31,8 @@ DataSet::DataSet(const Source& source, std::string path, Shape shape) : source_{
         source.fail(path_, fmt::format("has {} values in a row; allowed is 1..{}", width_, shape.max_width));
     }
     check_storage();
-    // A packed chunk that does not stay in memory would be unpacked for every block of rows anew.
-    if (chunks_.are_packed()) open(chunks_.bytes());
+    // A packed chunk that does not stay in memory is unpacked for every block of rows anew.
+    if (chunks_.are_packed() && chunks_.bytes() <= max_kept_bytes) open(chunks_.bytes());
 }
 
 void DataSet::check_type(const Shape& shape) const {
