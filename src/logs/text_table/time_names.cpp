@@ -11,17 +11,17 @@ namespace zlg::logs {
 
 namespace {
 
-bool is_letter(char c) {
+bool is_unit_letter(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || (static_cast<unsigned char>(c) & 0x80) != 0;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_unit_digit(char c) { return c >= '0' && c <= '9'; }
 
 // A word of the name, in small letters, and what is left behind it. Ms are no milliseconds.
 std::string next_word(std::string_view& name) {
-    while (!name.empty() && !is_letter(name.front())) name.remove_prefix(1);
+    while (!name.empty() && !is_unit_letter(name.front())) name.remove_prefix(1);
     std::string word;
-    for (; !name.empty() && is_letter(name.front()); name.remove_prefix(1))
+    for (; !name.empty() && is_unit_letter(name.front()); name.remove_prefix(1))
         word +=
             name.starts_with("Ms") ? 'M' : static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
     return word;
@@ -64,12 +64,12 @@ std::vector<double> units_in(std::string_view name) {
 // Of the digits at from..to: more than the number of an axis.
 bool is_factor(std::string_view name, std::size_t from, std::size_t to) {
     const auto is = [name](std::size_t k, bool (*what)(char)) { return k < name.size() && what(name[k]); };
-    if (is(to, [](char c) { return c == '.' || c == ','; }) && is(to + 1, is_digit)) return true;
+    if (is(to, [](char c) { return c == '.' || c == ','; }) && is(to + 1, is_unit_digit)) return true;
     // x100 is no word that 100 numbers.
-    const bool behind_x = from > 0 && (name[from - 1] == 'x' || name[from - 1] == 'X') && !is(from - 2, is_letter);
-    const bool numbers_word = is(from - 1, is_letter) && !behind_x;
+    const bool behind_x = from > 0 && (name[from - 1] == 'x' || name[from - 1] == 'X') && !is(from - 2, is_unit_letter);
+    const bool numbers_word = is(from - 1, is_unit_letter) && !behind_x;
     const bool is_long = to - from > 1;
-    return is(to, is_letter) ? is_long || !numbers_word : is_long && !numbers_word;
+    return is(to, is_unit_letter) ? is_long || !numbers_word : is_long && !numbers_word;
 }
 
 }  // namespace
@@ -78,10 +78,10 @@ bool names_factor(std::string_view name) {
     for (const std::string_view sign : {"*", "^", "\xC3\x97", "\xC2\xB7"})
         if (name.find(sign) != std::string_view::npos) return true;
     const std::size_t bracket = std::min(name.find_first_of("[(<"), name.size());
-    if (std::ranges::any_of(name.substr(bracket), is_digit)) return true;
+    if (std::ranges::any_of(name.substr(bracket), is_unit_digit)) return true;
     const std::string_view head = name.substr(0, bracket);
     for (std::size_t from = 0, to = 0; from < head.size(); from = to + 1) {
-        for (to = from; to < head.size() && is_digit(head[to]);) ++to;
+        for (to = from; to < head.size() && is_unit_digit(head[to]);) ++to;
         if (to > from && is_factor(head, from, to)) return true;
     }
     return false;
