@@ -1,4 +1,5 @@
-// An HDF5 file of another program in which some bytes were changed, or any bytes.
+// An HDF5 file of another program in which some bytes were changed. Of the earliest version of the format, whose object headers have no
+// checksum, it is read as it is: libhdf5 1.10 itself reads beyond its buffers where such a header is damaged.
 
 #include <hdf5.h>
 
@@ -13,7 +14,6 @@ namespace {
 using namespace zlg;
 
 constexpr hsize_t n_rows = 40;
-constexpr std::uint8_t whole_file = 255;  // what follows is the file
 
 void add(hid_t file, const char* name, hid_t type, hid_t creation, hsize_t columns, double slope) {
     const hsize_t size[2] = {n_rows, columns};
@@ -64,12 +64,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::claim_nothing_is_open();
     fuzz::Bytes bytes{data, size};
     const logs::Mapping mapping = fuzz::any_mapping(bytes);
-    const auto kind = bytes.take<std::uint8_t>();
-    std::vector<std::uint8_t> file = kind % 2 == 1 ? latest : earliest;
-    if (kind == whole_file)
-        file.assign(data + size - bytes.size(), data + size);
-    else
-        while (!bytes.empty()) fuzz::spoil(bytes, file);
+    const bool is_latest = bytes.flag();
+    std::vector<std::uint8_t> file = is_latest ? latest : earliest;
+    while (is_latest && !bytes.empty()) fuzz::spoil(bytes, file);
     const std::string path = fuzz::scratch().write("foreign.h5", file.data(), file.size());
     try {
         fuzz::claim_foreign(path, mapping);
