@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <zlg/config/config.hpp>
+#include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/imported.hpp>
 #include <zlg/logs/raw_log.hpp>
@@ -62,9 +64,20 @@ void note_all(const ImportOptions& options, const std::vector<std::string>& note
     for (const std::string& note : notes) complain(fmt::format("note: {}: {}", name_of_file(options.file), note));
 }
 
+// A log whose tick or scale the readers refuse is none.
+void require_readable(const ImportOptions& options, const config::Settings& settings) {
+    config::Config config;
+    try {
+        config::apply_log(config, settings, options.out);
+    } catch (const config::ConfigError& error) {
+        throw UsageError{fmt::format("{}, by --map rate_hz, tick_s or scale_arcsec, or by the times", error.what())};
+    }
+}
+
 std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& look) {
     const logs::ImportedRaw made = logs::imported_raw(look);
     note_all(options, made.notes);
+    require_readable(options, made.header.settings);
     const Interruptible interruptible;
     // Read once through the rules of a raw log, which name what is wrong.
     logs::RawReader rows{options.file, made.header, made.rows};
@@ -88,8 +101,10 @@ std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& 
     const logs::ImportedAxis& axis = made.axes.front();
     complain(fmt::format("note: {}: {}, {}", name_of_file(options.file), axis.name, axis.holds));
     const double tick_s = 1.0 / axis.rate_hz;
+    const config::Settings settings{{"gyro.tick_s", fmt::format("{}", tick_s)}};
+    require_readable(options, settings);
     const Interruptible interruptible;
-    logs::AngleWriter log{options.out, tick_s, {{"gyro.tick_s", fmt::format("{}", tick_s)}}, options.force, {}};
+    logs::AngleWriter log{options.out, tick_s, settings, options.force, {}};
     const std::vector<core::AngleRow> rows = logs::angle_rows(axis);
     for (const core::AngleRow& row : rows) {
         if (row.tick % 100'000 == 0) interruptible.check();

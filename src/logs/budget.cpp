@@ -15,6 +15,7 @@ constexpr std::size_t per_byte = 4;
 // A sparse file has more bytes than any disk.
 constexpr std::size_t of_the_largest = std::size_t{1} << 30;
 constexpr std::size_t max_objects = 10'000;
+constexpr std::size_t values_of_a_chunk = 32, unpacked_for_a_value = 4;
 
 }  // namespace
 
@@ -30,6 +31,25 @@ void Budget::take_values(std::size_t rows, std::size_t columns) {
             "{}: {} times {} values{}; allowed are {} in all, of a file of {} bytes", path_, rows, columns,
             n_values_ > 0 ? fmt::format(", and {} before", n_values_) : std::string{}, max_values_, file_bytes_));
     n_values_ += rows * columns;
+}
+
+void Budget::take_chunks(std::size_t n, std::size_t unpacked_values_of_one) {
+    const std::size_t cost = std::max(values_of_a_chunk, unpacked_values_of_one / unpacked_for_a_value);
+    if (n > (max_values_ - n_for_chunks_) / cost)
+        throw FormatError(fmt::format(
+            "{}: {} chunks that cost as much as {} values each{}; allowed are {} in all, of a file of {} bytes", path_,
+            n, cost, n_for_chunks_ > 0 ? fmt::format(", and others before as {}", n_for_chunks_) : std::string{},
+            max_values_, file_bytes_));
+    n_for_chunks_ += n * cost;
+}
+
+void Budget::take_unpacked(std::size_t bytes) {
+    const std::size_t most = sizeof(double) * max_values_;
+    if (bytes > most - n_unpacked_)
+        throw FormatError(fmt::format(
+            "{}: unpacks to {} bytes{}; allowed are {} in all, of a file of {} bytes", path_, bytes,
+            n_unpacked_ > 0 ? fmt::format(", and {} before", n_unpacked_) : std::string{}, most, file_bytes_));
+    n_unpacked_ += bytes;
 }
 
 void Budget::take_object() {

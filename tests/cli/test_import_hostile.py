@@ -91,6 +91,93 @@ class Hdf5(Hostile):
             path = self.hdf5(lambda file: file.create_dataset("w", (n,), "f8", chunks=(n,), compression="gzip").id.write_direct_chunk((0,), packed))
             self.cheap("import", path, code=3)
 
+    def test_chunks_below_64_kib_that_unpack_to_more_than_their_values(self):
+        packed = zlib.compress(bytes(60 << 20), 9)
+        def make(file):
+            w = file.create_dataset("w", (30 * 128,), "f8", chunks=(128,), compression="gzip")
+            for k in range(30):
+                w.id.write_direct_chunk((128 * k,), packed)
+        self.assertIn("row 1", self.cheap("import", self.hdf5(make), code=3).stderr)
+        # Fewer bytes than its values take, of which the library would read on behind them, deflated or not.
+        for skipped, chunk in ((0, zlib.compress(bytes(512))), (1, bytes(512))):
+            path = self.hdf5(lambda file: file.create_dataset("w", (128,), "f8", chunks=(128,), compression="gzip").id.write_direct_chunk(
+                (0,), chunk, filter_mask=skipped))
+            self.assertIn("its values take 1024", self.cheap("import", path, code=3).stderr)
+
+    def test_a_filter_that_says_itself_how_much_it_makes(self):
+        path = self.hdf5(lambda file: file.create_dataset("w", data=numpy.full(1000, 5, "i4"), chunks=(100,), scaleoffset=0))
+        data = path.read_bytes()
+        said = struct.pack("<7I", 2, 0, 100, 0, 4, 1, 0)  # of chunks of 100 values
+        self.assertEqual(data.count(said), 1)
+        path.write_bytes(data.replace(said, struct.pack("<7I", 2, 0, 1 << 29, 0, 4, 1, 0)))
+        self.assertIn("'scaleoffset'; allowed are", self.cheap("import", path, code=3).stderr)
+        # An own log too.
+        self.succeed("run", "--duration", "5", "--out", self.folder / "run")
+        log = self.folder / "run" / "angles.h5"
+        with h5py.File(log, "r+") as file:
+            mode = file["angles/mode"][()]
+            del file["angles/mode"]
+            file["angles"].create_dataset("mode", data=mode, chunks=(100,), scaleoffset=0)
+        self.assertIn("'scaleoffset'; allowed are", self.cheap("inspect", log, code=3).stderr)
+        # Packed first, and mixed then: what it unpacks to is not seen.
+        def mixed(file):
+            creation = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+            creation.set_chunk((100,))
+            creation.set_deflate(1)
+            creation.set_shuffle()
+            h5py.h5d.create(file.id, b"w", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((100,)), creation).write(
+                h5py.h5s.ALL, h5py.h5s.ALL, self.rates(100))
+        self.assertIn("behind deflate", self.cheap("import", self.hdf5(mixed), code=3).stderr)
+
+    def test_many_chunks_of_few_values_and_few_values_in_many_bytes(self):
+        def nominal(file):
+            file.create_dataset("w", (1_000_000,), "f8", chunks=(1,))[:3] = 1, 2, 3
+        def square(file):
+            file.create_dataset("w", (1000, 1000), "f8", chunks=(1, 1))[0, :3] = 1, 2, 3
+        def wide(file):
+            for k in range(200):
+                file.create_dataset(f"w{k}", (20,), "f8", maxshape=(None,), chunks=(1_000_000,), compression="gzip")[:] = numpy.arange(20) + k
+        for make in (nominal, square, wide):
+            self.assertIn("chunks that cost", self.cheap("import", self.hdf5(make), code=3).stderr)
+        # Within what is allowed.
+        def some(file):
+            for k in range(3):
+                file.create_dataset(f"w{k}", (10_000,), "f8", chunks=(1,))[:3] = 1, 2, 3
+        self.cheap("import", self.hdf5(some), code=0)
+
+    def test_chunks_that_were_never_written_are_missing_samples(self):
+        rates = self.rates(6000)
+        lost = [k for k in range(6000) if 2000 <= k < 2200 or k >= 5900]
+        for libver in ("earliest", "latest"):
+            for kind in ({}, {"compression": "gzip"}, {"compression": "gzip", "shuffle": True, "fletcher32": True}, {"fletcher32": True}):
+                def make(file):
+                    w = file.create_dataset("w", (6000,), "f8", chunks=(100,), **kind)
+                    w[:2000], w[2200:5900] = rates[:2000], rates[2200:5900]
+                with self.subTest(libver=libver, **kind):
+                    path = self.hdf5(make, libver=libver)
+                    log = self.angles(path, "--map", "axis=w", *W[2:], *FIXED_RATE, rows=6000)
+                    self.assertEqual([k for k in range(6000) if log.has(k, "invalid")], lost)
+                    self.assertEqual(log.dtheta[300], rates[300] / 100)
+        def matrix(file):
+            m = file.create_dataset("m", (3, 6000), "i4", chunks=(2, 100), compression="gzip")
+            m[:2], m[2, :2000] = numpy.arange(6000) % 5, 5 + numpy.arange(2000) % 3
+        path = self.hdf5(matrix)
+        for axis, there in ((1, 6000), (3, 2000)):
+            _, analysed = self.mean(path, "--map", f"axis={axis}", *W[2:], *FIXED_RATE)
+            self.assertEqual((analysed["samples"], analysed["known"]), (6000, there))
+
+    def test_times_of_whole_nanoseconds(self):
+        rates = self.rates(400)
+        def make(file):
+            file["t_ns"] = 1_700_000_000_123_456_789 + 10_000_000 * numpy.arange(400)
+            file["w"], file["n"] = rates, (1 << 60) + numpy.arange(400) % 7
+            file["on"], file["cube"] = rates > 0, numpy.zeros((5, 5, 5))
+        path = self.hdf5(make)
+        self.assert_turns(self.angles(path, "--map", "axis=w", *W[2:], rows=400), rates / 100)
+        self.refuse(3, "analyze", path, "--map", "axis=n", *W[2:], says=("'n'", "2^53"))
+        for name, why in (("on", "no plain numbers"), ("cube", "dimensions")):
+            self.refuse(2, "analyze", path, "--map", f"axis={name}", *W[2:], says=(f"'{name}' is left out", why))
+
     def test_many_small_chunks_are_right(self):
         rates = self.rates(30000)
         path = self.hdf5(lambda file: file.create_dataset("w", data=numpy.column_stack([rates, -rates]), chunks=(1, 1), compression="gzip"))
@@ -114,7 +201,16 @@ class Matlab(Hostile):
         packed += b"".join(packer.compress(bytes(1 << 20)) for _ in range(100)) + packer.flush()
         one = struct.pack("<II", 15, len(packed)) + packed
         self.cheap("import", self.write("bomb.mat", HEAD + one), code=3)
-        self.cheap("import", self.write("bombs.mat", HEAD + 10 * one), code=3)
+        for path in (self.folder / "bomb.mat", self.write("bombs.mat", HEAD + 10 * one)):
+            self.assertIn("unpacks to", self.cheap("import", path, code=3).stderr)
+
+    def test_an_array_of_structures(self):
+        def field(numbers):
+            return element(14, element(6, struct.pack("<II", 6, 0)) + element(5, struct.pack("<ii", len(numbers), 1)) + element(1, b"") +
+                           element(9, numbers.tobytes()))
+        head = element(6, struct.pack("<II", 2, 0)) + element(5, struct.pack("<ii", 1, 2)) + element(1, b"s") + struct.pack("<HHI", 5, 4, 32)
+        path = self.write("two.mat", HEAD + element(14, head + element(1, b"w".ljust(32, b"\0")) + field(self.rates(50)) + field(self.rates(50))))
+        self.assertIn("only the first is read", self.cheap("import", path, code=0).stdout)
 
     def test_structures_without_end(self):
         inner = b""

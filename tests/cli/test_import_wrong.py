@@ -88,8 +88,8 @@ class SilentlyWrong(Foreign):
             self.refused("lost.csv", text(numpy.floor(numpy.delete(whole, 211)), ".0f"), "--map", "axis=w_dph", says=("rounded", "rate_hz"))
 
 
-class OfALaboratory(Foreign):
-    """Logs as they come from a bench, of which a number would be wrong without a word."""
+class Bench(Foreign):
+    """Tables of 400 rows at 100 Hz."""
 
     DPH = ["--map", "axis=w_dph"]
 
@@ -109,6 +109,10 @@ class OfALaboratory(Foreign):
         result = run("analyze", path, *said)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(says, result.stderr)
+
+
+class OfALaboratory(Bench):
+    """Logs as they come from a bench, of which a number would be wrong without a word."""
 
     def test_two_units_in_the_name_of_the_times(self):
         path = self.table("units.csv", "t_ms [s],w_dph", self.t, self.w)
@@ -185,3 +189,115 @@ class OfALaboratory(Foreign):
         self.noted(self.table("cut.csv", "t_s,w_dph", self.t, self.w, end=""), *self.DPH, says="its last line has no end")
         stopped = self.w[:300] + ["0"] * 100
         self.noted(self.table("stopped.csv", "t_s,w_dph", self.t, stopped), *self.DPH, says="last 100 rows are all 0")
+
+
+class WhatNamesSay(Bench):
+    """Factors beside units, columns that contradict each other or count the rows, words among numbers, keys that nothing reads."""
+
+    RATE = ["--map", "holds=rate"]
+
+    def refused(self, path, *said, code=3, says=()):
+        self.refuse(code, "import", path, *said, "--out", self.folder / "o.csv", says=says)
+
+    def mean(self, path, *said):
+        return super().mean(path, *(said or self.RATE))
+
+
+    def test_a_factor_beside_the_unit_of_times_is_asked_for(self):
+        times = [1000 * k for k in range(400)]
+        for name in ("time [10us]", "time [1e-3 s]", "time [10^-3 s]", "time [0.1 ms]", "time [100ns]", "time [s/1000]", "time [us*10]", "t_100us",
+                     "t5us", "time_us_x100", "time [Ms]"):
+            with self.subTest(name):
+                self.refused(self.table("factor.csv", f"{name},w_dph", times, self.w), code=2, says=("time_unit", name))
+        self.refused(self.table("line.csv", "time,w\n[10us],[deg/h]", times, self.w), code=2, says=("time_unit", "10us"))
+        for name in ("time [us]", "t1_us", "TIME_US"):
+            self.assertAlmostEqual(self.mean(self.table("plain.csv", f"{name},w_dph", times, self.w))[1]["rate_hz"], 1000, delta=1e-6)
+
+    def test_a_factor_in_an_attribute_of_hdf5_is_asked_for(self):
+        path = self.folder / "factor.h5"
+        for units in ("10us", "us"):
+            with h5py.File(path, "w") as file:
+                file["w_dph"] = self.rates(400)
+                file["time"] = numpy.arange(400) * 1000
+                file["time"].attrs["units"] = units
+            if units == "us":
+                self.mean(path, "--map", "axis=w_dph")
+            else:
+                self.refused(path, *self.DPH, code=2, says=("time_unit", "10us"))
+
+    def test_a_factor_beside_the_unit_of_a_rate_is_asked_for(self):
+        for name in ("gyro_z*100 [deg/s]", "gyro_z [deg/s] x100", "gyro_z_x1000_dps", "gyro_z [Mrad/s]", "gyro_z [10 deg/s]"):
+            with self.subTest(name):
+                self.refused(self.table("factor.csv", f"t_s,{name}", self.t, self.w), *self.RATE, code=2, says=("unit=", name))
+                # Nor is another column taken in its place.
+                self.refused(self.table("other.csv", f"t_s,{name},ref_dps", self.t, self.w, self.w), code=2, says=("axis=", name, "ref_dps"))
+        for name in ("gyro1_z_dps", "gyro_1_dps", "w2 [deg/s]", "gyro_x1 [mrad/s]", "GYRO_DPS"):
+            self.mean(self.table("axis.csv", f"t_s,{name}", self.t, self.w))
+
+    def test_a_counter_is_no_time(self):
+        said = ["--map", "axis=3", "--map", "unit=deg/h", "--map", "holds=rate", "--map", "time_unit=ms"]
+        path = self.table("counter.csv", "0;0;15.01", range(1, 400), [k // 2 * 5 for k in range(1, 400)], self.w[1:], separator=";")
+        self.refused(path, *said, code=2, says=("time=1", "number the rows", "rate_hz"))
+        self.assertAlmostEqual(self.mean(path, *said, "--map", "time=1")[1]["rate_hz"], 1000, delta=1e-6)
+        self.assertAlmostEqual(self.mean(path, *said[:-2], "--map", "rate_hz=400")[1]["rate_hz"], 400, delta=1e-6)
+
+    def test_times_that_contradict_each_other(self):
+        twice = [f"{k / 50:.2f}" for k in range(400)]
+        dates = [f"2026-01-01T00:00:{k / 100:05.2f}Z" for k in range(400)]
+        for names, first in (("time_s,time_s", self.t), ("time_s,t_s", self.t), ("utc,time_s", dates)):
+            path = self.table("two.csv", f"{names},w_dph", first, twice, self.w)
+            self.refused(path, code=2, says=("time=1|2", "100 Hz", "50 Hz"))
+            self.assertAlmostEqual(self.mean(path, "--map", "time=2")[1]["rate_hz"], 50, delta=1e-6)
+        ms = [10 * k for k in range(400)]
+        agreeing = self.table("agree.csv", "utc,time_s,t_ms,timestamp,w_dph", dates, self.t, ms, [10_000_000 * k for k in range(400)], self.w)
+        self.assertAlmostEqual(self.mean(agreeing)[1]["rate_hz"], 100, delta=1e-6)
+        self.refused(self.table("open.csv", "time,timestamp,w_dph", self.t, ms, self.w), "--map", "time_unit=ms", code=2, says=("time=1|2",))
+
+    def test_times_too_small_for_a_number(self):
+        path = self.table("small.csv", "t [s],w_dph", ["0.0", *(f"{k}e-310" for k in range(1, 400))], self.w)
+        self.refused(path, code=2, says=("gyro.tick_s", "1e-6..10"))
+
+    def test_a_word_among_the_numbers_of_an_axis(self):
+        self.w[49] = "OVF"
+        ref = [f"{-5 + k % 5 * 0.1:.1f}" for k in range(400)]
+        path = self.table("word.csv", "t_s,gyro_dps,ref_dps", self.t, self.w, ref)
+        for said in ([], ["--map", "axis=2"]):
+            self.refused(path, *said, says=("word.csv:51, column 2: 'OVF'", "a finite number, or nan"))
+        self.mean(path, "--map", "axis=ref_dps")
+        self.refused(self.table("open.csv", "t_s,gyro,ref", self.t, self.w, ref), code=2, says=("axis=", "'gyro'", "'ref'"))
+        self.refused(self.table("only.csv", "t_s,gyro", self.t, self.w), says=("only.csv:51", "'OVF'"))
+
+    def test_a_saw_of_any_height_begins_anew(self):
+        said = ["--map", "axis=a", "--map", "holds=angle", "--map", "unit=counts", *SCALE]
+        for step, height in ((15, 360), (50, 4096), (-50, 4096), (80, 360)):
+            angle = [step * k % height for k in range(400)]
+            row = next(k for k in range(1, 400) if (angle[k] - angle[k - 1]) * step < 0) + 1
+            self.refused(self.table("saw.csv", "t_s,a", self.t, angle), *said, says=(f"row {row}:", "anew", f"{height}"))
+        k = numpy.arange(400)
+        for honest in (100 * numpy.sin(0.3 * k), 100 * numpy.sin(2.0 * k), abs(k % 40 - 20), k % 10 // 5 * 90, 15 * k - 400 * numpy.sin(0.1 * k),
+                       k // 40 * 90, numpy.cumsum(self.rng.standard_normal(400))):
+            self.mean(self.table("honest.csv", "t_s,a", self.t, honest), *said)
+
+    def test_a_counter_of_a_raw_log_shows_missing_rows(self):
+        said = ["--map", "counts=N", "--map", "bias_sign=dir", *FIXED, *SCALE, "--map", "tick_s=0.005"]
+        for per_half in (1, 2):
+            signs = {k: 1 - k // per_half % 2 * 2 for k in range(400 * per_half) if not 100 <= k < 140}
+            path = self.table("raw.csv", "n,dir,N", signs, signs.values(), [150 * sign + (k % 4 == 0) for k, sign in signs.items()])
+            out = self.folder / "raw_log.csv"
+            result = run("import", path, "--out", out, "--force", *said)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("40 rows are missing", result.stderr)
+            self.assertEqual(len([line for line in out.read_text().splitlines() if line[0].isdigit()]), 400)
+
+    def test_no_log_is_written_that_readers_refuse(self):
+        path = self.table("slow.csv", "w_dph", self.w)
+        for rate in ("0.05", "1e-300", "1e300", "1e-310"):
+            self.refused(path, "--map", f"rate_hz={rate}", code=2, says=("rate_hz", "tick_s", "1e-6..10"))
+        self.assertFalse((self.folder / "o.csv").exists())
+
+    def test_keys_that_nothing_reads(self):
+        path = self.table("plain.csv", "t_s,w_dph", self.t, self.w)
+        for key in ("timer_hz=1e300", "mode_plus=7", "bias_sign_plus=1", "mode=always:1"):
+            self.refused(path, "--map", key, code=2, says=(key.split("=")[0], "raw logs"))
+        raw = self.table("raw.csv", "counts,bias_sign", range(4), [1, -1, 1, -1])
+        self.refused(raw, *FIXED, *SCALE, "--map", "tick_s=0.005", *self.RATE, code=2, says=("holds = rate", "counts"))

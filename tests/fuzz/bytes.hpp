@@ -31,6 +31,7 @@ public:
     Bytes(const std::uint8_t* data, std::size_t size) : left_{data, size} {}
 
     [[nodiscard]] bool empty() const { return left_.empty(); }
+    [[nodiscard]] std::size_t size() const { return left_.size(); }
 
     template <class Number>
     [[nodiscard]] Number take() {

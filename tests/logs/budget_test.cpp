@@ -36,6 +36,17 @@ TEST(Budget, rows_that_are_filled_in_are_a_multiple_of_those_there) {
     EXPECT_EQ(max_missing_rows(1'000'000), 10'000'000);
 }
 
+TEST(Budget, chunks_cost_more_than_their_values) {
+    Budget budget{"a.h5", 0};
+    budget.take_values(1 << 20, 1);
+    budget.take_chunks(1 << 14, 0);
+    budget.take_chunks(2, 1 << 20);
+    EXPECT_THROW(budget.take_chunks(1, 128), FormatError);
+    EXPECT_THROW(budget.take_chunks(std::numeric_limits<std::size_t>::max(), std::numeric_limits<std::size_t>::max()),
+                 FormatError);
+    EXPECT_THROW(Budget("a.h5", 0).take_chunks((1 << 15) + 1, 0), FormatError);
+}
+
 TEST(Budget, ten_thousand_objects_are_enough) {
     Budget budget{"a.h5", 1000};
     for (int k = 0; k < 10'000; ++k) budget.take_object();

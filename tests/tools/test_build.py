@@ -154,14 +154,18 @@ class WithoutApt(unittest.TestCase):
 class LeftOut(unittest.TestCase):
     """In continuous integration no test is left out for want of what scripts/install brings."""
 
-    def wanting(self, runner, log, folder):
+    def called(self, function, runner, log, folder, mode="usual", **environment):
         (folder / "log").write_text(log, encoding="utf-8")
         functions = (ROOT / "scripts" / "test").read_text(encoding="utf-8").partition('mkdir -p "$logs"')[0].partition("set -euo pipefail")[2]
         functions = functions.replace('cd "$(dirname "${BASH_SOURCE[0]}")/.."\n', "", 1)
-        done = subprocess.run(["bash", "-c", f'{functions}\nleft_out_for_want "$wanted_runner" "$wanted_log"'], cwd=ROOT, capture_output=True,
-                              text=True, check=False, env={**os.environ, "wanted_runner": runner, "wanted_log": str(folder / "log")})
+        done = subprocess.run(["bash", "-c", f'{functions}\n{function} "$wanted_runner" "$wanted_log"', "scripts/test", mode], cwd=ROOT,
+                              capture_output=True, text=True, check=False,
+                              env={**os.environ, "wanted_runner": runner, "wanted_log": str(folder / "log"), **environment})
         self.assertEqual(done.stderr, "")
-        return done.stdout.splitlines()
+        return done
+
+    def wanting(self, runner, log, folder, mode="usual"):
+        return self.called("left_out_for_want", runner, log, folder, mode).stdout.splitlines()
 
     def test_a_tool_or_an_image_is_wanting_and_data_are_not(self):
         with tempfile.TemporaryDirectory() as name:
@@ -169,6 +173,8 @@ class LeftOut(unittest.TestCase):
             tool, page = "SKIPPED [2] tests/x.py:3: there is no node", "SKIPPED [1] tests/y.py:4: this build holds no lab page"
             self.assertEqual(self.wanting("pytest", f"{tool}\n{page}\n1 passed, 3 skipped\n", folder), [tool])
             self.assertEqual(self.wanting("pytest", f"{page}\n1 passed, 1 skipped\n", folder), [])
+            # It brings the page itself.
+            self.assertEqual(self.wanting("pytest", f"{page}\n1 passed, 1 skipped\n", folder, "deep"), [page])
             self.assertEqual(self.wanting("pytest", "4 passed\n", folder), [])
             last = folder / "Testing" / "Temporary" / "LastTest.log"
             last.parent.mkdir(parents=True)
@@ -178,6 +184,13 @@ class LeftOut(unittest.TestCase):
             last.write_text("b_test.cpp:5: Skipped\nno image of the processor, or no emulator\n\n[  SKIPPED ] B.c\n", encoding="utf-8")
             self.assertEqual(self.wanting("ctest", log, folder), ["no image of the processor, or no emulator"])
             self.assertEqual(self.wanting("none", log, folder), [])
+
+    def test_where_all_was_left_out_nothing_was_run(self):
+        with tempfile.TemporaryDirectory() as name:
+            for log, fails in (("3 skipped\n", 1), ("1 passed, 3 skipped\n", 0), ("0 passed, 0 failed, 2 skipped\n", 1)):
+                for runner in ("pytest", "shards"):
+                    self.assertEqual(self.called("add_totals", runner, log, Path(name), CI="true").returncode, fails, log)
+                    self.assertEqual(self.called("add_totals", runner, log, Path(name), CI="").returncode, 0, log)
 
 
 class Scripts(unittest.TestCase):

@@ -18,7 +18,7 @@ changed_tests = module_from_spec(spec_from_loader(loader.name, loader))
 loader.exec_module(changed_tests)
 FILES = (
     "src/core/control/monitor.cpp", "src/core/common/maths/power.cpp", "src/core/include/zlg/core/records.hpp",
-    "tests/core/control/monitor_test.cpp", "tests/wire/frame_test.cpp", "tests/twin/twin_test.cpp", "tests/rig/rig_test.cpp",
+    "tests/core/control/monitor_test.cpp", "tests/core/test_estimate.py", "tests/wire/frame_test.cpp", "tests/twin/twin_test.cpp", "tests/rig/rig_test.cpp",
     "tests/study/study_test.cpp", "tests/report/page_test.cpp", "tests/trials/campaign_test.cpp", "tests/firmware/gyro_test.cpp",
     "tests/processor/qemu_test.cpp",
     "tests/nocompile/volts.cpp", "tests/cli/test_run.py", "tests/cli/test_physics.py", "tests/cli/support.py",
@@ -35,8 +35,15 @@ CHOICES = {
     "records of the core": (
         ["src/core/include/zlg/core/records.hpp"],
         ["own core", "users firmware rig study trials twin wire", "later cli firmware lab processor python"]),
+    "the estimate of a switch, which NumPy judges": (
+        ["src/core/compensation/estimate/counter_rounding.cpp"],
+        ["own core", "users firmware rig study trials wire", "core tests/core/test_estimate.py", "later cli firmware lab processor python"]),
+    "its test": (["tests/core/test_estimate.py"], ["core tests/core/test_estimate.py"]),
+    "its reference": (["tests/reference/gap_estimator.py"], ["tools tests/tools", "core tests/core/test_estimate.py"]),
+    "its cases": (["tests/core/estimate_cases.cpp"], ["own core", "core tests/core/test_estimate.py"]),
+    "the script of a page": (["src/report/page.js"], ["own report", "users study trials", "later browser cli lab python"]),
     "the build of a library": (
-        ["src/report/CMakeLists.txt"], ["own report", "users study trials", "later cli lab python"]),
+        ["src/report/CMakeLists.txt"], ["own report", "users study trials", "later browser cli lab python"]),
     "a test in C++ stands for its folder alone": (["tests/core/control/monitor_test.cpp"], ["own core"]),
     "what must not compile": (["tests/nocompile/volts.cpp"], ["nocompile"]),
     "the program": (["cli/main.cpp"], ["cli tests/cli"]),
@@ -60,7 +67,7 @@ CHOICES = {
     "a name of another alphabet": (["docs/кольцо.md"], ["tools tests/tools", "cli tests/cli/test_physics.py"]),
     "several": (
         ["src/report/page.cpp", "src/core/control/monitor.cpp", "cli/main.cpp"],
-        ["own core report", "users firmware rig study trials wire", "cli tests/cli", "later firmware lab processor python"]),
+        ["own core report", "users firmware rig study trials wire", "cli tests/cli", "later browser firmware lab processor python"]),
     "nothing": ([], []),
 }
 

@@ -53,6 +53,7 @@ void take_raw_names(ForeignLook& look) {
         const auto is_it = [&](const ForeignColumn& c) { return text::lower_case(c.name) == key; };
         if (std::ranges::count_if(look.table.columns, is_it) != 1) continue;
         const auto& found = *std::ranges::find_if(look.table.columns, is_it);
+        refuse_words(found);
         if (!found.is_number) continue;
         look.mapping.set(key, fmt::format("{}", found.number), "names");
         look.said.push_back(fmt::format("{} is {}, by its name", key, described(found)));
@@ -77,14 +78,17 @@ void check_raw(ForeignLook& look) {
 bool take_axis(ForeignLook& look, std::int64_t times) {
     std::vector<const ForeignColumn*> numbers, rates;
     for (const ForeignColumn& column : look.table.columns) {
-        if (!column.is_number || column.number == times || is_constant(column)) continue;
-        const auto unit = unit_in_name(column.name);
+        const bool may_be_read = column.is_number || !column.word.empty();
+        if (!may_be_read || column.number == times || is_constant(column)) continue;
         if (rises_as_time(column.values) && look.mapping.text("holds") != "angle") continue;
         numbers.push_back(&column);
-        if (unit && unit->kind == UnitKind::rate) rates.push_back(&column);
+        if (!names_rate(column.name)) continue;
+        refuse_words(column);
+        rates.push_back(&column);
     }
     const ForeignColumn* only = rates.size() == 1 ? rates.front() : numbers.size() == 1 ? numbers.front() : nullptr;
     if (only != nullptr) {
+        refuse_words(*only);
         look.mapping.set_axes({fmt::format("{}", only->number)});
         look.said.push_back(fmt::format("the axis is {}", described(*only)));
         return true;
@@ -129,6 +133,7 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     if (m.has("unit")) unit = unit_named(m.text("unit"));
     for (const std::string& axis : m.axes()) {
         const ForeignColumn& column = column_named(look.table, axis);
+        refuse_words(column);
         if (!column.is_number)
             throw MappingError(fmt::format("{}: axis = '{}': {} holds words; allowed are numbers", look.table.path,
                                            axis, described(column)));
@@ -140,7 +145,11 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     }
     // Of an axis that is still to be chosen its name will say it.
     const bool is_open = m.axes().empty() && names_say;
-    if (!unit && !is_open) look.missing.push_back("unit=... (" + allowed_units() + ")");
+    if (!unit && !is_open) {
+        const std::string of =
+            m.axes().empty() ? "" : "of " + described(column_named(look.table, m.axes().front())) + "; ";
+        look.missing.push_back(fmt::format("unit=... ({}{})", of, allowed_units()));
+    }
     if (!m.has("holds") && !is_open) {
         if (unit && unit->kind == UnitKind::rate)
             look.mapping.set("holds", "rate", "names");
@@ -176,6 +185,23 @@ void refuse_mixed_rows(const ForeignLook& look) {
     }
 }
 
+// Keys that only the other kind of import reads.
+void refuse_idle_keys(const ForeignLook& look) {
+    constexpr std::array<std::string_view, 4> of_raw{"tick_s", "timer_hz", "mode_plus", "bias_sign_plus"};
+    constexpr std::array<std::string_view, 3> of_axes{"axis", "holds", "unit"};
+    const bool is_raw = look.makes == Makes::raw;
+    for (const std::string& key : look.mapping.keys_set()) {
+        const bool is_idle = is_raw ? std::ranges::find(of_axes, key) != of_axes.end()
+                                    : is_raw_key(key) || std::ranges::find(of_raw, key) != of_raw.end();
+        if (is_idle)
+            throw MappingError(
+                fmt::format("{}: {} = {} is {}; allowed is {}", look.table.path, key,
+                            key == "axis" ? look.mapping.axes().front() : look.mapping.text(key),
+                            is_raw ? "of angles, and this one has counts" : "of raw logs, and this one has no counts",
+                            is_raw ? "to leave it out, or counts" : "to leave it out; rows a second are rate_hz"));
+    }
+}
+
 }  // namespace
 
 ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
@@ -200,6 +226,7 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
 }
 
 void require_whole(const ForeignLook& look) {
+    refuse_idle_keys(look);
     if (look.missing.empty()) return;
     std::string all;
     for (const std::string& one : look.missing) all += fmt::format("{}--map {}", all.empty() ? "" : "; ", one);

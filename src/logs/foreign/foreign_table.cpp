@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
@@ -52,19 +53,30 @@ TextColumn empty_column(std::int64_t number, const std::vector<std::string>& nam
     return {.number = number, .name = names[static_cast<std::size_t>(number - 1)], .values = {}};
 }
 
+// Times that are rounded still say how the rows lie.
+void check_exact(const std::string& path, const TextColumn& column) {
+    constexpr double exact_whole = 9007199254740992.0;  // 2^53
+    for (const double v : column.values)
+        if (std::fabs(v) >= exact_whole)
+            throw FormatError(
+                fmt::format("{}, {}: holds {:.17g}; allowed are whole numbers below 2^53", path, described(column), v));
+}
+
 // Each array is read once, and given back before the next.
-void fill_columns(TextTable& table, const std::vector<ForeignArray>& arrays) {
+void fill_columns(const std::string& path, TextTable& table, const std::vector<ForeignArray>& arrays) {
     std::size_t first = 0;  // column of the array, from 0
     for (const ForeignArray& array : arrays) {
         std::vector<double> values;
-        const auto fill = [&](TextColumn& column) {
+        const auto fill = [&](TextColumn& column) {  // where it is of this array
             const auto number = static_cast<std::size_t>(column.number - 1);
-            if (number < first || number >= first + array.columns) return;
+            if (number < first || number >= first + array.columns) return false;
             if (values.empty()) values = array.read(array.rows, true);
             const auto begin = values.begin() + static_cast<std::ptrdiff_t>((number - first) * array.rows);
             column.values.assign(begin, begin + static_cast<std::ptrdiff_t>(array.rows));
+            return true;
         };
-        for (TextColumn& column : table.columns) fill(column);
+        for (TextColumn& column : table.columns)
+            if (fill(column) && array.may_be_rounded) check_exact(path, column);
         if (table.times) fill(*table.times);
         first += array.columns;
     }
@@ -91,6 +103,11 @@ std::string described(const ForeignColumn& column) {
                                : fmt::format("column {}, '{}'", column.number, text::excerpt(column.name, 60, ' '));
 }
 
+void refuse_words(const ForeignColumn& column) {
+    if (!column.word.empty())
+        throw FormatError(column.word + "; allowed is a finite number, or nan where it is missing");
+}
+
 const ForeignColumn& column_named(const ForeignTable& table, const std::string& name) {
     if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos && name.size() < 8) {
         const std::size_t number = std::stoul(name);
@@ -110,11 +127,17 @@ const ForeignColumn& column_named(const ForeignTable& table, const std::string& 
                                            text::excerpt(name, 60, ' '), table.columns.size()));
         if (n == 1) return *std::ranges::find_if(table.columns, is_it);
     }
+    for (const std::string& note : table.notes)
+        if (note.starts_with(fmt::format("'{}' is left out: ", text::excerpt(name, 60, ' '))))
+            throw MappingError(fmt::format("{}: {}", table.path, note));
     throw MappingError(fmt::format("{}: no column '{}'; its columns are {}", table.path, text::excerpt(name, 60, ' '),
                                    all_columns(table)));
 }
 
-ForeignTable table_of_arrays(const std::string& path, const std::string& nature, std::vector<ForeignArray> arrays) {
+ForeignTable table_of_arrays(const std::string& path, const std::string& nature, std::vector<ForeignArray> arrays,
+                             const std::vector<std::string>& notes) {
+    if (arrays.empty() && !notes.empty())
+        throw FormatError(fmt::format("{}: holds no array of numbers; {}", path, notes.front()));
     std::map<std::size_t, std::size_t> columns_of_length;
     for (const ForeignArray& array : arrays)
         if (array.rows > 1) columns_of_length[array.rows] += array.columns;
@@ -146,12 +169,13 @@ ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
     }
     std::vector<std::string> names;
     for (const ForeignColumn& column : table.columns) names.push_back(column.name);
-    table.read = [used = std::move(used), names = std::move(names)](const std::vector<std::int64_t>& wanted,
-                                                                    std::int64_t times) {
+    table.notes.insert(table.notes.end(), notes.begin(), notes.end());
+    table.read = [path, used = std::move(used), names = std::move(names)](const std::vector<std::int64_t>& wanted,
+                                                                          std::int64_t times) {
         TextTable read{.columns = {}, .times = {}, .names = names, .n_columns = std::ssize(names)};
         for (const std::int64_t number : wanted) read.columns.push_back(empty_column(number, names));
         if (times > 0) read.times = empty_column(times, names);
-        fill_columns(read, used);
+        fill_columns(path, read, used);
         return read;
     };
     return table;

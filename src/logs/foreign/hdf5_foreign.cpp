@@ -32,7 +32,6 @@ using ObjectInfo = H5O_info1_t;
 #else
 using ObjectInfo = H5O_info_t;
 #endif
-constexpr double exact_whole = 9007199254740992.0;  // 2^53
 
 std::string unit_of(const Source& file, const std::string& path) {
     for (const char* name : {"unit", "units", "Unit", "Units"}) {
@@ -92,7 +91,7 @@ struct StoredSet {
     std::size_t columns = 1;
     int rank = 1;
     bool rows_follow = true;
-    hsize_t rows_at_once = 0;  // the library keeps some kB for each chunk of what it reads at once
+    hdf5::Chunks chunks;
 
     // The numbers are what they stand for.
     void check(const std::vector<double>& values) const {
@@ -102,26 +101,40 @@ struct StoredSet {
         if (!found.not_plain.empty())
             throw FormatError(
                 fmt::format("{}, '{}': {}", file->path(), zlg::text::excerpt(name, 60, ' '), found.not_plain));
-        const Handle type{H5Dget_type(set.get()), &H5Tclose};
-        if (H5Tget_class(type.get()) != H5T_INTEGER || H5Tget_size(type.get()) < 8) return;
-        for (const double v : values)
-            if (std::fabs(v) >= exact_whole)
-                file->fail(path, fmt::format("holds {:.17g}; allowed are whole numbers below 2^53", v));
+    }
+
+    // Of those read at once the library keeps some kB for each chunk.
+    [[nodiscard]] hsize_t rows_at_once() const {
+        constexpr hsize_t chunks_at_once = 1024;
+        if (chunks.size()[0] == 0) return rows;
+        const hsize_t along = chunks.size()[rows_follow ? 0 : 1], across = chunks.size()[rows_follow ? 1 : 0];
+        return std::max<hsize_t>(chunks_at_once / ((columns + across - 1) / across), 1) * along;
+    }
+
+    // What was never written is missing.
+    void read_block(const hdf5::Index& begin, const hdf5::Index& count, const hdf5::Index& size,
+                    std::vector<double>& values) const {
+        const std::vector<hdf5::Index> unwritten = chunks.unwritten(*file, path, set.get(), begin, count);
+        const Handle space{H5Dget_space(set.get()), &H5Sclose};
+        const Handle memory{H5Screate_simple(rank, size.data(), nullptr), &H5Sclose};
+        if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) < 0 ||
+            H5Sselect_hyperslab(memory.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) < 0 ||
+            H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
+            file->fail_to_read(path);
+        for (const hdf5::Index& at : unwritten)
+            for (hsize_t k = at[0]; k < std::min(at[0] + chunks.size()[0], size[0]); ++k)
+                for (hsize_t j = at[1]; j < std::min(at[1] + chunks.size()[1], size[1]); ++j)
+                    values[k * size[1] + j] = NAN;
     }
 
     [[nodiscard]] std::vector<double> read(std::size_t n, bool is_used) const {
         std::vector<double> values(n * columns);
         const std::size_t dimension = rows_follow ? 0 : 1;  // that of the rows
-        hsize_t begin[2] = {0, 0}, count[2] = {columns, columns}, in_memory[2] = {columns, columns};
-        in_memory[dimension] = n;
-        const Handle space{H5Dget_space(set.get()), &H5Sclose};
-        const Handle memory{H5Screate_simple(rank, in_memory, nullptr), &H5Sclose};
+        hdf5::Index begin{0, 0}, count{columns, columns}, size{columns, columns};
+        size[dimension] = n;
         for (; begin[dimension] < n; begin[dimension] += count[dimension]) {
-            count[dimension] = std::min<hsize_t>(rows_at_once, n - begin[dimension]);
-            if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin, nullptr, count, nullptr) < 0 ||
-                H5Sselect_hyperslab(memory.get(), H5S_SELECT_SET, begin, nullptr, count, nullptr) < 0 ||
-                H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
-                file->fail_to_read(path);
+            count[dimension] = std::min<hsize_t>(rows_at_once(), n - begin[dimension]);
+            read_block(begin, count, size, values);
         }
         if (is_used) check(values);
         return rows_follow ? by_columns(std::move(values), columns) : values;
@@ -134,12 +147,14 @@ public:
         : file_{std::make_shared<Source>(path)}, budget_{path, std::filesystem::file_size(path)} {}
 
     std::vector<ForeignArray> all(const std::string& from) {
-        const Handle object{H5Oopen(file_->id(), from.c_str(), H5P_DEFAULT), &H5Oclose};
+        Handle object{H5Oopen(file_->id(), from.c_str(), H5P_DEFAULT), &H5Oclose};
         if (!object.is_open())
             throw MappingError(
                 fmt::format("{}: table = '{}': there is no such group or data set", file_->path(), from));
         (void)is_new(object.get(), from);
-        if (H5Iget_type(object.get()) == H5I_DATASET)
+        const bool is_set = H5Iget_type(object.get()) == H5I_DATASET;
+        object.close();
+        if (is_set)
             take(from, from.substr(from.rfind('/') + 1));
         else
             walk(from == "/" ? "" : from, "", 0);
@@ -161,13 +176,14 @@ private:
             if (name.starts_with('#')) continue;  // what MATLAB keeps for itself
             budget_.take_object();
             const std::string path = group + "/" + name;
-            const Handle object{H5Oopen(file_->id(), path.c_str(), H5P_DEFAULT), &H5Oclose};
+            Handle object{H5Oopen(file_->id(), path.c_str(), H5P_DEFAULT), &H5Oclose};
             if (!object.is_open()) file_->fail_to_read(path);
             if (!is_new(object.get(), path)) {
                 leave_out(prefix + name, "it is another name of what was read before");
                 continue;
             }
             const H5I_type_t kind = H5Iget_type(object.get());
+            object.close();
             if (kind == H5I_GROUP) walk(path, prefix + name + "/", depth + 1);
             if (kind == H5I_DATASET) take(path, prefix + name);
         }
@@ -178,8 +194,10 @@ private:
             notes.push_back(fmt::format("'{}' is left out: {}", zlg::text::excerpt(name, 60, ' '), why));
     }
 
+    // Nothing else has it open, or the library would go on with the cache of that.
     void take(const std::string& path, const std::string& name) {
-        Handle set{H5Dopen2(file_->id(), path.c_str(), H5P_DEFAULT), &H5Dclose};
+        const Handle access = hdf5::access_with_cache(0);
+        Handle set{H5Dopen2(file_->id(), path.c_str(), access.get()), &H5Dclose};
         if (!set.is_open()) file_->fail_to_read(path);
         const Handle type{H5Dget_type(set.get()), &H5Tclose};
         const Handle space{H5Dget_space(set.get()), &H5Sclose};
@@ -196,17 +214,18 @@ private:
         if (H5Dget_storage_size(set.get()) == 0) return leave_out(name, "nothing was ever written into it");
         if (std::min(size[0], size[1]) > max_matrix_columns)
             return leave_out(name, "neither of its sides is below 1000");
+        hdf5::Chunks chunks{*file_, path, set.get(), sizeof(double) * budget_.max_values()};
         budget_.take_values(size[0], size[1]);
-        const auto chunk = hdf5::checked_chunk(*file_, path, set.get(), sizeof(double) * budget_.max_values());
+        if (const hdf5::Index& chunk = chunks.size(); chunk[0] != 0)
+            budget_.take_chunks(((size[0] - 1) / chunk[0] + 1) * ((size[1] - 1) / chunk[1] + 1),
+                                chunks.are_packed() ? chunks.bytes() / sizeof(double) : 0);
         const bool rows_follow = size[0] >= size[1];
-        constexpr hsize_t chunks_at_once = 1024;
-        const hsize_t across = rows_follow ? (size[1] + chunk[1] - 1) / chunk[1] : (size[0] + chunk[0] - 1) / chunk[0];
-        const hsize_t rows_at_once = std::max<hsize_t>(chunks_at_once / across, 1) * chunk[rows_follow ? 0 : 1];
         // Of a matrix the longer side are the rows, whichever way round its writer stores it.
         ForeignArray array{.name = name,
                            .unit = unit_of(*file_, path),
                            .rows = std::max(size[0], size[1]),
                            .columns = std::min(size[0], size[1]),
+                           .may_be_rounded = kind == H5T_INTEGER && H5Tget_size(type.get()) >= 8,
                            .read = {}};
         array.read = [stored = std::make_shared<const StoredSet>(StoredSet{.file = file_,
                                                                            .path = path,
@@ -216,7 +235,7 @@ private:
                                                                            .columns = array.columns,
                                                                            .rank = rank,
                                                                            .rows_follow = rows_follow,
-                                                                           .rows_at_once = rows_at_once})](
+                                                                           .chunks = std::move(chunks)})](
                          std::size_t n, bool is_used) { return stored->read(n, is_used); };
         arrays_.push_back(std::move(array));
     }
@@ -234,11 +253,7 @@ ForeignTable hdf5_table_of(const std::string& path, const Mapping& mapping) {
     if (!from.starts_with('/')) from = "/" + from;
     Reader reader{path};
     std::vector<ForeignArray> arrays = reader.all(from);
-    if (arrays.empty() && !reader.notes.empty())
-        throw FormatError(fmt::format("{}: holds no array of numbers; {}", path, reader.notes.front()));
-    ForeignTable table = table_of_arrays(path, foreign_nature(path), std::move(arrays));
-    table.notes.insert(table.notes.end(), reader.notes.begin(), reader.notes.end());
-    return table;
+    return table_of_arrays(path, foreign_nature(path), std::move(arrays), reader.notes);
 }
 
 }  // namespace zlg::logs

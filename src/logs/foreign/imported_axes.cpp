@@ -77,9 +77,6 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
 
 ImportedAxes imported_axes(const ForeignLook& look) {
     require_whole(look);
-    if (look.mapping.has("tick_s"))
-        throw MappingError(fmt::format("{}: tick_s = {} is of raw logs, and this one has no counts; allowed is rate_hz",
-                                       look.table.path, look.mapping.text("tick_s")));
     check_kind(look);
     std::vector<std::int64_t> wanted;
     for (const std::string& axis : look.mapping.axes()) wanted.push_back(column_named(look.table, axis).number);

@@ -120,13 +120,11 @@ private:
         const auto tick = mapping.real("tick_s");
         if (tick && !mapping.has("rate_hz")) {
             // Rows of a half are the usual case; of parts of one the unit must be known.
-            if (missing_of_clock(look_.table, mapping).empty())
-                step = std::nullopt;
-            else
-                step = *tick / 2.0;
+            if (!missing_of_clock(look_.table, mapping).empty()) step = *tick / 2.0;
         }
         clock_ = row_clock(from_.read(), path_, mapping, step);
-        knows_step_ = true;
+        // Numbers of rows show which are missing, and not how long one is.
+        knows_step_ = !step || !clock_.times || !numbers_rows(*from_.read().times, *clock_.times);
         for (const std::string& note : clock_.notes) made_.notes.push_back(note);
         if (!holes_count) clock_.times.reset();
     }

@@ -162,6 +162,13 @@ std::string Mapping::text(std::string_view key) const {
 
 std::optional<double> Mapping::real(std::string_view key) const { return number_in(text(key)); }
 
+std::vector<std::string> Mapping::keys_set() const {
+    std::vector<std::string> all;
+    if (!axes_.empty()) all.emplace_back("axis");
+    for (const auto& [key, value] : values_) all.push_back(key);
+    return all;
+}
+
 std::vector<std::string> Mapping::raw_columns() const {
     std::vector<std::string> columns;
     for (const auto& [key, value] : values_)

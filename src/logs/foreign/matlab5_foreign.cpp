@@ -2,7 +2,6 @@
 // the memory that a file asks for and gives what nobody wrote where bytes are missing.
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include <zlg/text/escape.hpp>
 
 #include "foreign_readers.hpp"
+#include "inflated.hpp"
 #include "stored_numbers.hpp"
 
 namespace zlg::logs {
@@ -23,17 +23,9 @@ namespace {
 
 constexpr std::size_t header_bytes = 128, tag_bytes = 8;
 constexpr std::uint32_t matrix = 14, compressed = 15;
-constexpr int max_depth = 16, max_named_depth = 4;
+constexpr int max_depth = 4;
 
-enum Kind : std::uint32_t {
-    cells = 1,
-    structure = 2,
-    object = 3,
-    letters = 4,
-    sparse = 5,
-    first_of_numbers = 6,
-    last_of_numbers = 15
-};
+enum Kind : std::uint32_t { structure = 2, first_of_numbers = 6, last_of_numbers = 15 };
 
 // Of the types 1 to 13.
 std::optional<NumberType> type_of(std::uint32_t type) {
@@ -75,57 +67,12 @@ struct Rest {
     [[nodiscard]] bool is_empty() const { return at >= bytes.size(); }
 };
 
-class Inflater {
-public:
-    explicit Inflater(Piece packed) : packed_{std::move(packed)} { good_ = inflateInit(&stream_) == Z_OK; }
-    ~Inflater() { inflateEnd(&stream_); }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-
-    // Empty where the bytes are damaged, or make more than `most` or than the tag says that they begin with.
-    template <class SizeInTag>
-    std::optional<std::string> all(std::size_t most, SizeInTag size_in_tag) {
-        std::string bytes;
-        std::string in(block, '\0'), out(block, '\0');
-        int state = good_ ? Z_OK : Z_DATA_ERROR;
-        for (std::size_t at = 0; state == Z_OK;) {
-            if (stream_.avail_in == 0) {
-                const std::size_t n = std::min(block, packed_.size() - at);  // 0: what is left comes of what was read
-                packed_.read(at, n, in.data());
-                at += n;
-                stream_.next_in = reinterpret_cast<Bytef*>(in.data());
-                stream_.avail_in = static_cast<uInt>(n);
-            }
-            stream_.next_out = reinterpret_cast<Bytef*>(out.data());
-            stream_.avail_out = static_cast<uInt>(block);
-            state = inflate(&stream_, Z_NO_FLUSH);
-            const bool is_first = bytes.empty();
-            bytes.append(out, 0, block - stream_.avail_out);
-            if (is_first && bytes.size() >= tag_bytes) {
-                const std::size_t whole = 2 * tag_bytes + size_in_tag(bytes);
-                if (whole > most) return std::nullopt;
-                most = whole;
-                bytes.reserve(whole + block);
-            }
-            if (bytes.size() > most) return std::nullopt;
-        }
-        return state == Z_STREAM_END ? std::optional{std::move(bytes)} : std::nullopt;
-    }
-
-private:
-    static constexpr std::size_t block = std::size_t{1} << 16;
-    Piece packed_;
-    z_stream stream_{};
-    bool good_ = false;
-};
-
 class Reader {
 public:
     Reader(const std::string& path, std::string asked)
         : path_{path}, asked_{std::move(asked)}, file_{Piece::of_file(path)}, budget_{path, file_.size()} {
         if (file_.size() < header_bytes) throw FormatError(fmt::format("{}: a MATLAB 5 file that is cut off", path));
         swapped_ = file_.text(126, 1) == "M";
-        left_to_inflate_ = sizeof(double) * budget_.max_values();
     }
 
     void read() {
@@ -177,28 +124,37 @@ private:
         return element;
     }
 
+    // The tag that the bytes begin with says how many they are.
     void take_compressed(const Piece& packed) {
-        std::optional<std::string> bytes =
-            Inflater{packed}.all(left_to_inflate_, [this](const std::string& tag) -> std::size_t {
-                return word(Piece::of_memory(tag.substr(0, tag_bytes)), 4);
-            });
-        if (!bytes) refuse("has compressed bytes that do not end, or make more than may be read");
-        left_to_inflate_ -= bytes->size();
-        Rest rest{Piece::of_memory(*std::move(bytes))};
+        std::string bytes;
+        std::size_t most = 0;
+        const auto read = [&packed](std::size_t at, std::size_t n, char* to) { packed.read(at, n, to); };
+        const auto take = [&](std::string_view piece) {
+            bytes += piece;
+            if (most == 0 && bytes.size() >= tag_bytes) {
+                most = 2 * tag_bytes + word(Piece::of_memory(bytes.substr(0, tag_bytes)), 4);
+                budget_.take_unpacked(most);
+                bytes.reserve(most);
+            }
+            return most == 0 || bytes.size() <= most;
+        };
+        if (!inflate_all(packed.size(), read, take))
+            refuse("has compressed bytes that do not end, or are more than they say");
+        Rest rest{Piece::of_memory(std::move(bytes))};
         const Element element = next(rest, true);
         if (element.type == matrix) take_matrix(element.data, {}, 0);
     }
 
-    void leave_out(const std::string& name) {
-        if (notes.size() < 10)
-            notes.push_back(fmt::format("'{}' is left out: it is no real matrix", text::excerpt(name, 60, ' ')));
+    void note(const std::string& name, const char* what) {
+        if (notes.size() < 10) notes.push_back(fmt::format("'{}' {}", text::excerpt(name, 60, ' '), what));
     }
+
+    void leave_out(const std::string& name) { note(name, "is left out: it is no real matrix"); }
 
     // Flags, dimensions, name, and the numbers or, of structures and cells, matrices. Of an inner one the name is given.
     void take_matrix(const Piece& bytes, std::string name, int depth) {
         budget_.take_object();
         if (bytes.size() == 0) return;  // a field that holds nothing
-        if (depth > max_depth) refuse("has structures in structures without end");
         Rest rest{bytes};
         const Element flags = next(rest);
         if (flags.data.size() != 8) refuse("has no flags");
@@ -249,9 +205,9 @@ private:
         arrays.push_back(array_of(name, stored));
     }
 
-    // The fields of the first element.
+    // The fields of the first element; those of the others follow.
     void take_fields(Rest rest, const std::string& name, int depth) {
-        if (depth >= max_named_depth) return leave_out(name);
+        if (depth >= max_depth) return leave_out(name);
         const Element length = next(rest);
         const std::size_t bytes_of_name = length.data.size() == 4 ? word(length.data, 0) : 0;
         const Element names = next(rest);
@@ -263,6 +219,7 @@ private:
             if (field.type != matrix) refuse("has a field that is no matrix");
             take_matrix(field.data, fmt::format("{}.{}", name, padded.c_str()), depth + 1);
         }
+        if (!rest.is_empty()) note(name, "holds more than one structure: only the first is read");
     }
 
     const std::string& path_;
@@ -271,7 +228,6 @@ private:
     Budget budget_;
     bool swapped_ = false;
     bool found_ = false;
-    std::size_t left_to_inflate_ = 0;
     std::size_t where_ = 0;
 };
 
@@ -280,11 +236,7 @@ private:
 ForeignTable matlab5_table_of(const std::string& path, const Mapping& mapping) {
     Reader reader{path, mapping.text("table")};
     reader.read();
-    if (reader.arrays.empty() && !reader.notes.empty())
-        throw FormatError(fmt::format("{}: holds no array of numbers; {}", path, reader.notes.front()));
-    ForeignTable table = table_of_arrays(path, "a MATLAB 5 file", std::move(reader.arrays));
-    table.notes.insert(table.notes.end(), reader.notes.begin(), reader.notes.end());
-    return table;
+    return table_of_arrays(path, "a MATLAB 5 file", std::move(reader.arrays), reader.notes);
 }
 
 }  // namespace zlg::logs

@@ -3,18 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-#include <map>
-#include <set>
+#include <cstdlib>
 #include <span>
-#include <string_view>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/time_check.hpp>
-#include <zlg/text/spelling.hpp>
-
-#include "text_table/time_names.hpp"
 
 namespace zlg::logs {
 
@@ -23,7 +16,7 @@ namespace {
 // The number with the fewest digits that the times allow.
 double simplest(double step, double tolerance) {
     for (int digits = 1; digits < 17; ++digits) {
-        const double rounded = std::stod(fmt::format("{:.{}e}", step, digits - 1));
+        const double rounded = std::strtod(fmt::format("{:.{}e}", step, digits - 1).c_str(), nullptr);
         if (std::fabs(rounded - step) <= tolerance * step) return rounded;
     }
     return step;
@@ -215,7 +208,8 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     if (std::ranges::adjacent_find(times.values) != times.values.end())
         clock.notes.push_back(
             fmt::format("{}: its times repeat, so that a single row that is missing is not seen", described(times)));
-    clock.notes.push_back(fmt::format("{}: a row is {:.9g} s", described(times), clock.step_s));
+    if (!numbers_rows(times, *clock.times))
+        clock.notes.push_back(fmt::format("{}: a row is {:.9g} s", described(times), clock.step_s));
     if (clock.times->n_missing > 0)
         clock.notes.push_back(missing_in_words(read, path, *clock.times).substr(path.size() + 2));
     return clock;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/inputs.hpp>
@@ -122,14 +121,6 @@ std::vector<double> numbers(const StoredMatrix& stored, std::size_t at, std::siz
     return values;
 }
 
-// Whole numbers beyond 2^53 would be rounded on the way.
-void check_exact(const StoredMatrix& stored, const std::vector<double>& values) {
-    if (stored.type != NumberType::i8 && stored.type != NumberType::u8) return;
-    for (const double v : values)
-        if (std::fabs(v) >= 9007199254740992.0)
-            throw FormatError(fmt::format("{}: holds {:.17g}; allowed are whole numbers below 2^53", stored.where, v));
-}
-
 }  // namespace
 
 std::size_t size_of(NumberType type) {
@@ -145,8 +136,13 @@ void StoredMatrix::take_shape(std::size_t n, std::size_t m, bool last_index_foll
 }
 
 ForeignArray array_of(const std::string& name, const StoredMatrix& stored) {
-    ForeignArray array{.name = name, .unit = {}, .rows = stored.rows, .columns = stored.columns, .read = {}};
-    array.read = [stored](std::size_t n, bool is_used) {
+    ForeignArray array{.name = name,
+                       .unit = {},
+                       .rows = stored.rows,
+                       .columns = stored.columns,
+                       .may_be_rounded = stored.type == NumberType::i8 || stored.type == NumberType::u8,
+                       .read = {}};
+    array.read = [stored](std::size_t n, bool) {
         std::vector<double> values;
         if (stored.rows_follow) {
             values = by_columns(numbers(stored, 0, n * stored.columns), stored.columns);
@@ -157,7 +153,6 @@ ForeignArray array_of(const std::string& name, const StoredMatrix& stored) {
                 values.insert(values.end(), column.begin(), column.end());
             }
         }
-        if (is_used) check_exact(stored, values);
         return values;
     };
     return array;

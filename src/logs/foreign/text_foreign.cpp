@@ -224,19 +224,25 @@ void take_names_above(Look& look) {
         look.units.clear();
 }
 
-ForeignColumn column_of(Look& look, std::size_t f) {
+ForeignColumn column_of(Look& look, const std::string& path, std::size_t f) {
     ForeignColumn column{.number = static_cast<std::int64_t>(f) + 1, .name = {}, .first = {}, .values = {}};
     if (f < look.dialect.names.size()) column.name = look.dialect.names[f];
     if (f < look.units.size() && !look.units[f].empty())
         column.name += fmt::format(" [{}]", without_brackets(look.units[f]));
     column.is_number = is_numeric(look.lines, look.dialect, f);
     std::optional<DateTime> first_date;
-    for (const std::vector<Field>& fields :
-         look.lines.rows(look.dialect.separator).subspan(look.dialect.has_header ? 1 : 0)) {
+    std::size_t n_numbers = 0, n_words = 0;
+    const std::size_t header = look.dialect.has_header ? 1 : 0;
+    for (const std::vector<Field>& fields : look.lines.rows(look.dialect.separator).subspan(header)) {
         if (f >= fields.size()) break;
         if (column.values.empty()) column.first = text::excerpt(fields[f].text, 30, ' ');
         const auto number = number_of(fields[f].text, look.dialect.mark);
         double value = number ? number->value : std::numeric_limits<double>::quiet_NaN();
+        n_numbers += number ? 1u : 0u;
+        if (!number && !says_missing(fields[f].text) && n_words++ == 0)
+            column.word =
+                fmt::format("{}:{}, column {}: '{}'", path, look.lines.lines()[column.values.size() + header].number,
+                            column.number, text::excerpt(fields[f].text, 60, ' '));
         if (!column.is_number) {
             if (column.other.empty())
                 if (std::string excerpt = text::excerpt(fields[f].text, 30, ' '); excerpt != column.first)
@@ -249,6 +255,7 @@ ForeignColumn column_of(Look& look, std::size_t f) {
         }
         column.values.push_back(value);
     }
+    if (n_words >= n_numbers) column.word.clear();
     column.holds_dates = first_date && std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
     return column;
 }
@@ -272,7 +279,7 @@ ForeignTable text_table_of(const std::string& path, const Mapping& mapping) {
     refuse_one_row(look, path);
     take_names_above(look);
     ForeignTable table{.path = path, .nature = nature_of(look), .columns = {}, .notes = {}, .n_rows = {}, .read = {}};
-    for (std::size_t f = 0; f < look.dialect.n_fields; ++f) table.columns.push_back(column_of(look, f));
+    for (std::size_t f = 0; f < look.dialect.n_fields; ++f) table.columns.push_back(column_of(look, path, f));
     if (!ends_with_a_line(path))
         table.notes.emplace_back("its last line has no end: if the file was cut off, its last number may be too short");
     std::vector<std::string> names;

@@ -22,6 +22,10 @@ namespace {
 const std::map<std::string, double> to_a_second{{"s", 1.0},  {"ms", 1e3},         {"us", 1e6},
                                                 {"ns", 1e9}, {"min", 1.0 / 60.0}, {"h", 1.0 / 3600.0}};
 
+const ForeignColumn& column_at(const ForeignTable& table, std::int64_t number) {
+    return table.columns[static_cast<std::size_t>(number - 1)];
+}
+
 bool is_numbered(std::span<const double> values) {
     return values.size() > 2 && values[1] - values[0] == 1.0 &&
            std::ranges::all_of(values, [](double v) { return v == std::floor(v); });
@@ -49,6 +53,41 @@ std::vector<std::int64_t> free_of(const std::vector<std::int64_t>& all, const Fo
     return free.empty() ? all : free;
 }
 
+TextColumn times_in(const ForeignColumn& column) {
+    return {.number = column.number, .name = column.name, .values = column.values, .holds_dates = column.holds_dates};
+}
+
+// Both say one rate, as far as they say their units: a unit that is open, and not said, may be any of s, ms, us, ns.
+bool agree(const ForeignColumn& a, const ForeignColumn& b, const ForeignTable& table, const Mapping& mapping) {
+    const auto times_a = row_times(times_in(a), table.path, false), times_b = row_times(times_in(b), table.path, false);
+    if (!times_a || !times_b) return true;
+    const auto unit = [&mapping](const ForeignColumn& column) {
+        if (column.holds_dates) return std::optional{1.0};
+        if (mapping.has("time_unit")) return std::optional{to_a_second.at(mapping.text("time_unit"))};
+        return unit_of(column.name);
+    };
+    const auto unit_a = unit(a), unit_b = unit(b);
+    double ratio = times_a->step / times_b->step * unit_b.value_or(1.0) / unit_a.value_or(1.0);
+    if (!unit_a || !unit_b) ratio /= std::pow(1e3, std::round(std::log10(ratio) / 3.0));
+    return std::fabs(ratio - 1.0) <= times_a->tolerance + times_b->tolerance;
+}
+
+// The first one that is named so, and those that contradict it.
+std::vector<std::int64_t> named_times(const ForeignTable& table, const Mapping& mapping) {
+    std::vector<std::int64_t> named;
+    for (const ForeignColumn& column : table.columns) {
+        if (!names_time(column.name) || !(column.holds_dates || goes_on(column.values))) continue;
+        if (named.empty() || !agree(column_at(table, named.front()), column, table, mapping))
+            named.push_back(column.number);
+    }
+    return named;
+}
+
+std::string rate_of(const ForeignTable& table, std::int64_t number) {
+    const TextColumn times = times_in(column_at(table, number));
+    return rate_in_words(times, row_times(times, table.path, false).value());
+}
+
 // By what is said, by names, by dates: the first that decides. More than one: it is open which.
 std::vector<std::int64_t> time_columns(const ForeignTable& table, const Mapping& mapping) {
     if (mapping.has("time")) {
@@ -56,8 +95,8 @@ std::vector<std::int64_t> time_columns(const ForeignTable& table, const Mapping&
         if (name == "none" || name == "0") return {};
         return {column_named(table, name).number};
     }
-    for (const ForeignColumn& column : table.columns)
-        if (names_time(column.name) && (column.holds_dates || goes_on(column.values))) return {column.number};
+    if (std::vector<std::int64_t> named = named_times(table, mapping); !named.empty())
+        return free_of(named, table, mapping);
     std::vector<std::int64_t> dates, nameless;
     for (const ForeignColumn& column : table.columns) {
         if (column.holds_dates) dates.push_back(column.number);
@@ -66,7 +105,7 @@ std::vector<std::int64_t> time_columns(const ForeignTable& table, const Mapping&
     if (!dates.empty()) return free_of(dates, table, mapping);
     if (!nameless.empty()) return free_of(nameless, table, mapping);
     // Numbers of rows show those that are missing, and no rate.
-    if (mapping.has("rate_hz"))
+    if (mapping.has("rate_hz") || (mapping.has("tick_s") && !mapping.has("half")))
         for (const ForeignColumn& column : table.columns)
             if (names_row_numbers(column.name) && is_numbered(column.values) && goes_on(column.values))
                 return {column.number};
@@ -97,6 +136,8 @@ std::string open_times(const ForeignTable& table, const Mapping& mapping) {
     constexpr std::size_t most_named = 20;
     const auto named = std::span{all}.first(std::min(all.size(), most_named));
     const char* more = all.size() > most_named ? " and more" : "";
+    if (names_time(column_at(table, all[0]).name))
+        return fmt::format("time={} ({}; {})", fmt::join(named, "|"), rate_of(table, all[0]), rate_of(table, all[1]));
     return fmt::format("time={} or none (columns {}{} rise as times do, and no name says which)", fmt::join(named, "|"),
                        fmt::join(named, ", "), more);
 }
@@ -104,7 +145,7 @@ std::string open_times(const ForeignTable& table, const Mapping& mapping) {
 void refuse_unused_times(const ForeignTable& table, const Mapping& mapping) {
     if (mapping.has("time") || mapping.has("half") || !time_columns(table, mapping).empty()) return;
     for (const ForeignColumn& column : table.columns)
-        if (names_time(column.name) && column.is_number && column.values.size() > 1)
+        if (names_time(column.name) && (column.is_number || !column.word.empty()) && column.values.size() > 1)
             throw MappingError(
                 fmt::format("{}, {}: is named as times are, and does not rise; --map time=none leaves it out",
                             table.path, described(column)));
@@ -114,13 +155,18 @@ std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) 
     if (mapping.has("rate_hz") || !open_times(table, mapping).empty()) return {};
     const std::int64_t number = time_column(table, mapping);
     if (number == 0) return "rate_hz=... (rows a second; no column of times was recognised, or time=COLUMN)";
-    const ForeignColumn& column = table.columns[static_cast<std::size_t>(number - 1)];
+    const ForeignColumn& column = column_at(table, number);
+    const bool may_count = is_numbered(column.values);
+    if (may_count && column.name.empty() && !mapping.has("time"))
+        return fmt::format(
+            "time={0} if {1} holds the times and does not merely number the rows, time=COLUMN if "
+            "another does, or rate_hz=... (rows a second)",
+            number, described(column));
     if (known_time_unit(table.path, column.name, column.holds_dates, mapping)) return {};
-    if (is_numbered(column.values))
+    if (may_count)
         return fmt::format("rate_hz=... (rows a second; {} merely numbers them), or time_unit=s, ms, us, ns",
                            described(column));
-    TextColumn times{.number = column.number, .name = column.name, .values = column.values};
-    const auto found = row_times(times, table.path, false);
+    const auto found = row_times(times_in(column), table.path, false);
     if (!found) return fmt::format("time_unit=s, ms, us or ns (of {})", described(column));
     return fmt::format("time_unit=s (then {:.6g} Hz), ms ({:.6g} Hz), us or ns, of {}", 1.0 / found->step,
                        1e3 / found->step, described(column));

@@ -9,6 +9,8 @@
 #include <vector>
 #include <zlg/text/spelling.hpp>
 
+#include "text_table/time_names.hpp"
+
 namespace zlg::logs {
 
 namespace {
@@ -43,8 +45,10 @@ void replace(std::string& text, std::string_view from, std::string_view to) {
 
 // One spelling of each word.
 std::string usual_spelling(std::string_view word) {
-    std::string text = text::lower_case(word);
+    std::string text{word};
     std::erase(text, ' ');
+    if (text.size() > 1 && text[0] == 'M' && text[1] >= 'a') return text;
+    text = text::lower_case(text);
     constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spellings{{{"\xC2\xB0", "deg"},
                                                                                        {"\xC2\xB5", "u"},
                                                                                        {"\xCE\xBC", "u"},
@@ -66,6 +70,33 @@ std::string usual_spelling(std::string_view word) {
     return text;
 }
 
+// 10 deg/s, deg/s*10, 1e-3 deg/s and Mdeg/s become deg/s.
+std::string without_factor(std::string_view text) {
+    std::string unit{text};
+    std::erase_if(unit, [](char c) { return std::string_view{"0123456789.,*^+- "}.find(c) != std::string_view::npos; });
+    const std::size_t begin = unit.find_first_not_of("eExX/_M");
+    if (begin == std::string::npos) return {};
+    return unit.substr(begin, unit.find_last_not_of("eExX/_") + 1 - begin);
+}
+
+// Of the text where a name may have its unit the first that is one.
+template <class Reads>
+std::optional<AngleUnit> first_unit(std::string_view name, const Reads& reads) {
+    const std::size_t open = name.find_first_of("[(");
+    if (open != std::string_view::npos) {
+        const std::size_t close = name.find_first_of("])", open);
+        if (close == std::string_view::npos) return std::nullopt;
+        return reads(name.substr(open + 1, close - open - 1));
+    }
+    // rate_deg_s before rate_s; a name that is nothing but a unit says nothing of a quantity.
+    std::vector<std::size_t> parts;
+    for (std::size_t at = name.find_first_of("_ "); at != std::string_view::npos; at = name.find_first_of("_ ", at + 1))
+        parts.push_back(at + 1);
+    for (std::size_t k = parts.size() > 2 ? parts.size() - 2 : 0; k < parts.size(); ++k)
+        if (const auto unit = reads(name.substr(parts[k]))) return unit;
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<AngleUnit> unit_named(std::string_view word) {
@@ -76,19 +107,12 @@ std::optional<AngleUnit> unit_named(std::string_view word) {
 }
 
 std::optional<AngleUnit> unit_in_name(std::string_view name) {
-    const std::size_t open = name.find_first_of("[(");
-    if (open != std::string_view::npos) {
-        const std::size_t close = name.find_first_of("])", open);
-        if (close == std::string_view::npos) return std::nullopt;
-        return unit_named(name.substr(open + 1, close - open - 1));
-    }
-    // rate_deg_s before rate_s; a name that is nothing but a unit says nothing of a quantity.
-    std::vector<std::size_t> parts;
-    for (std::size_t at = name.find_first_of("_ "); at != std::string_view::npos; at = name.find_first_of("_ ", at + 1))
-        parts.push_back(at + 1);
-    for (std::size_t k = parts.size() > 2 ? parts.size() - 2 : 0; k < parts.size(); ++k)
-        if (const auto unit = unit_named(name.substr(parts[k]))) return unit;
-    return std::nullopt;
+    return names_factor(name) ? std::nullopt : first_unit(name, unit_named);
+}
+
+bool names_rate(std::string_view name) {
+    const auto unit = first_unit(name, [](std::string_view text) { return unit_named(without_factor(text)); });
+    return unit && unit->kind == UnitKind::rate;
 }
 
 std::string allowed_units() {

@@ -2,27 +2,20 @@
 
 #include <fmt/format.h>
 
-#include "hdf5_chunks.hpp"
-
 namespace zlg::logs::hdf5 {
 
 namespace {
 
 constexpr std::size_t max_chunk_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_kept_bytes = std::size_t{16} << 20;  // of each column
 constexpr std::size_t max_number_bytes = 8;
-
-// A packed chunk that does not stay in memory would be unpacked for every block of rows anew.
-Handle access_with_cache(std::size_t bytes) {
-    Handle access{H5Pcreate(H5P_DATASET_ACCESS), &H5Pclose};
-    H5Pset_chunk_cache(access.get(), H5D_CHUNK_CACHE_NSLOTS_DEFAULT, bytes, H5D_CHUNK_CACHE_W0_DEFAULT);
-    return access;
-}
 
 }  // namespace
 
 DataSet::DataSet(const Source& source, std::string path, Shape shape) : source_{&source}, path_{std::move(path)} {
     const auto open = [&](std::size_t cache_bytes) {
         const Handle access = access_with_cache(cache_bytes);
+        set_.close();  // or the library would go on with the cache that it has
         set_ = {H5Dopen2(source.id(), path_.c_str(), access.get()), &H5Dclose};
         if (!set_.is_open()) source.fail(path_, "is no data set that can be read: " + last_failure().reason);
     };
@@ -37,7 +30,9 @@ DataSet::DataSet(const Source& source, std::string path, Shape shape) : source_{
     if (shape.max_width > 0 && !(width_ >= 1 && width_ <= static_cast<std::size_t>(shape.max_width))) {
         source.fail(path_, fmt::format("has {} values in a row; allowed is 1..{}", width_, shape.max_width));
     }
-    if (const std::size_t packed_bytes = check_storage(); packed_bytes > 0) open(packed_bytes);
+    check_storage();
+    // A packed chunk that does not stay in memory is unpacked for every block of rows anew.
+    if (chunks_.are_packed() && chunks_.bytes() <= max_kept_bytes) open(chunks_.bytes());
 }
 
 void DataSet::check_type(const Shape& shape) const {
@@ -51,16 +46,12 @@ void DataSet::check_type(const Shape& shape) const {
     }
 }
 
-// Returns how many bytes a packed chunk takes when it is unpacked; 0: nothing is packed.
-std::size_t DataSet::check_storage() {
+void DataSet::check_storage() {
     const Handle creation{H5Dget_create_plist(set_.get()), &H5Pclose};
-    const H5D_layout_t layout = H5Pget_layout(creation.get());
-    if (H5Pget_external_count(creation.get()) != 0 || layout == H5D_VIRTUAL) {
+    if (H5Pget_external_count(creation.get()) != 0 || H5Pget_layout(creation.get()) == H5D_VIRTUAL) {
         source_->fail(path_, "is stored in another file; allowed is a data set of this file");
     }
-    if (layout != H5D_CHUNKED) return 0;
-    chunk_ = checked_chunk(*source_, path_, set_.get(), max_chunk_bytes);
-    return H5Pget_nfilters(creation.get()) > 0 ? chunk_[0] * chunk_[1] * H5Tget_size(type_.get()) : 0;
+    chunks_ = {*source_, path_, set_.get(), max_chunk_bytes};
 }
 
 void DataSet::measure() {
@@ -81,22 +72,20 @@ std::string DataSet::place(hsize_t first, std::size_t n) const {
                   : fmt::format("{}, rows {}..{}", path_, first + 1, first + n);
 }
 
-// The library hands out zeros for a chunk that was never written. A complete log may mean them; an interrupted one has
-// lost the numbers.
-void DataSet::require_written(hsize_t first, std::size_t n) const {
-    if (chunk_[0] == 0 || source_->is_complete()) return;
-    std::array<hsize_t, 2> at{first - first % chunk_[0], 0};
-    for (; at[0] < first + n; at[0] += chunk_[0]) {
-        for (at[1] = 0; at[1] < width_; at[1] += chunk_[1]) {
-            hsize_t bytes = 0;
-            if (H5Dget_chunk_storage_size(set_.get(), at.data(), &bytes) < 0) source_->fail_to_read(place(first, n));
-            if (bytes == 0) source_->fail(place(first, n), "was never written; the log was interrupted");
-        }
-    }
+// A complete log may mean the zeros of a chunk that was never written; an interrupted one has lost the numbers.
+void DataSet::check_chunks(hsize_t first, std::size_t n) const {
+    const hsize_t rows = chunks_.size()[0];
+    const bool must_be_written = rows != 0 && !source_->is_complete();
+    if (!must_be_written && !chunks_.are_packed()) return;
+    const hsize_t from = first / rows * rows + rows == checked_until_ ? checked_until_ : first;
+    if (from >= first + n) return;
+    const auto lost = chunks_.unwritten(*source_, path_, set_.get(), {from, 0}, {first + n - from, width_});
+    if (must_be_written && !lost.empty()) source_->fail(place(first, n), "was never written; the log was interrupted");
+    checked_until_ = (first + n + rows - 1) / rows * rows;
 }
 
 void DataSet::read(hsize_t first, std::size_t n, hid_t type, void* values) const {
-    require_written(first, n);
+    check_chunks(first, n);
     const std::array<hsize_t, 2> start{first, 0};
     const std::array<hsize_t, 2> count{n, width_};
     const Handle block{H5Screate_simple(rank_, count.data(), nullptr), &H5Sclose};

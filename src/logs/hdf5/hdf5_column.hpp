@@ -1,12 +1,12 @@
 #pragma once
 // One column of an HDF5 log, read in blocks of rows.
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "hdf5_chunks.hpp"
 #include "hdf5_source.hpp"
 
 namespace zlg::logs::hdf5 {
@@ -22,7 +22,7 @@ public:
     DataSet() = default;
 
     // errors  FormatError: no data set, another shape, numbers of more than 8 bytes, stored outside the file, chunks of
-    // more than 64 MiB.
+    // more than 64 MiB, or packed by a filter that is not allowed.
     DataSet(const Source& source, std::string path, Shape shape);
 
     [[nodiscard]] bool is_open() const { return set_.is_open(); }
@@ -43,8 +43,8 @@ public:
 private:
     void measure();
     void check_type(const Shape& shape) const;
-    [[nodiscard]] std::size_t check_storage();
-    void require_written(hsize_t first, std::size_t n) const;
+    void check_storage();
+    void check_chunks(hsize_t first, std::size_t n) const;
     [[nodiscard]] std::string place(hsize_t first, std::size_t n) const;
 
     const Source* source_ = nullptr;
@@ -55,7 +55,8 @@ private:
     int rank_ = 1;
     hsize_t rows_ = 0;
     std::size_t width_ = 1;
-    std::array<hsize_t, 2> chunk_{0, 0};  // rows and values in a row of a chunk; 0: in one piece
+    Chunks chunks_;
+    mutable hsize_t checked_until_ = 0;  // where the chunk ends that was read last
 };
 
 template <class T>

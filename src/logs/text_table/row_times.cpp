@@ -63,10 +63,6 @@ bool fits(const RowTimes& times, double to_a_second, double rate_hz) {
     return std::fabs(to_a_second / times.step / rate_hz - 1.0) <= times.tolerance;
 }
 
-bool is_numbered(const TextColumn& column, const RowTimes& times) {
-    return times.step == 1.0 && std::ranges::all_of(column.values, [](double v) { return v == std::floor(v); });
-}
-
 struct Unit {
     const char* name;
     double to_a_second;
@@ -138,15 +134,20 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
     return times;
 }
 
+bool numbers_rows(const TextColumn& column, const RowTimes& times) {
+    return !said_unit(column) && times.step == 1.0 &&
+           std::ranges::all_of(column.values, [](double v) { return v == std::floor(v); });
+}
+
 std::string contradiction(const TextColumn& column, const RowTimes& times, double rate_hz) {
+    if (numbers_rows(column, times)) return {};
     const std::optional<double> named = said_unit(column);
-    if (!named && is_numbered(column, times)) return {};
     if (named ? fits(times, *named, rate_hz) : unnamed_unit(times, rate_hz) != nullptr) return {};
     return rate_in_words(column, times);
 }
 
 std::string presumed_unit(const TextColumn& column, const RowTimes& times, double rate_hz) {
-    if (said_unit(column) || is_numbered(column, times)) return {};
+    if (said_unit(column) || numbers_rows(column, times)) return {};
     const Unit* unit = unnamed_unit(times, rate_hz);
     return unit == nullptr || unit->to_a_second == 1.0 ? std::string{} : std::string{unit->name};
 }

@@ -9,7 +9,11 @@ namespace zlg::logs {
 // time, t, Zeit, timestamp and the like, with or without a unit behind.
 [[nodiscard]] bool names_time(std::string_view column_name);
 
-// How many of the unit in the name make a second; empty where it names none.
+// A number or an operator beside a unit, as in `t [10us]`, `w*100 [deg/s]`, `w_x1000_dps`: what the unit then is nobody
+// knows. The number of an axis or a sensor, as in gyro1_z or gyro_1_dps, is none.
+[[nodiscard]] bool names_factor(std::string_view name);
+
+// How many of the unit in the name make a second; empty where it names none, or has a factor beside it.
 [[nodiscard]] std::optional<double> unit_of(std::string_view column_name);
 
 // The name has two units that differ, as `t_ms [s]` does.

@@ -18,12 +18,21 @@ public:
     void take_values(std::size_t rows, std::size_t columns);
     void take_object();
 
+    // Bytes of what is unpacked into memory.
+    void take_unpacked(std::size_t bytes);
+
+    // Pieces that a reader looks up one by one, and those that are packed unpacks whole, whatever they hold of the values: of
+    // each 32 values, or a quarter of those that are unpacked.
+    void take_chunks(std::size_t n, std::size_t unpacked_values_of_one);
+
 private:
     std::string path_;
     std::size_t file_bytes_;
     std::size_t max_values_;
     std::size_t n_values_ = 0;
+    std::size_t n_for_chunks_ = 0;
     std::size_t n_objects_ = 0;
+    std::size_t n_unpacked_ = 0;
 };
 
 // What is looked at of a file before it is asked for rows.

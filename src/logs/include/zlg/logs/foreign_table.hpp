@@ -13,12 +13,13 @@
 namespace zlg::logs {
 
 struct ForeignColumn {
-    std::int64_t number = 0;     // first is 1
-    std::string name;            // with the unit behind it in brackets, where the file says one; empty: it has none
-    bool is_number = true;       // or dates, or empty fields; else words
-    bool holds_dates = false;    // or times of the day: the values are seconds from the first one on
-    std::string first;           // value, as it stands in the file
-    std::string other;           // the first one that differs, of a column of words
+    std::int64_t number = 0;   // first is 1
+    std::string name;          // with the unit behind it in brackets, where the file says one; empty: it has none
+    bool is_number = true;     // or dates, or empty fields; else words
+    bool holds_dates = false;  // or times of the day: the values are seconds from the first one on
+    std::string first;         // value, as it stands in the file
+    std::string other;         // the first one that differs, of a column of words
+    std::string word;  // where the first one stands among more numbers: "v.csv:51, column 2: 'OVF'"; empty: none does
     std::vector<double> values;  // of the first rows; NaN where one is missing
 };
 
@@ -40,6 +41,9 @@ struct ForeignTable {
 //
 // errors  MappingError: there is none, or more than one.
 [[nodiscard]] const ForeignColumn& column_named(const ForeignTable& table, const std::string& name);
+
+// errors  FormatError: a word stands among its numbers.
+void refuse_words(const ForeignColumn& column);
 
 // "column 2, 'rate [deg/s]'".
 [[nodiscard]] std::string described(const ForeignColumn& column);

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] std::string text(std::string_view key) const;
     [[nodiscard]] std::optional<double> real(std::string_view key) const;
     [[nodiscard]] std::vector<std::string> axes() const { return axes_; }
+    // What is set.
+    [[nodiscard]] std::vector<std::string> keys_set() const;
     // The columns that hold something of a raw log.
     [[nodiscard]] std::vector<std::string> raw_columns() const;
     void set_axes(std::vector<std::string> axes) { axes_ = std::move(axes); }
