@@ -80,7 +80,7 @@ TEST(Schema, ASyntaxErrorIsToldWithLineAndColumn) {
 
 TEST(Schema, AWrongTypeIsToldWithTheWantedOne) {
     EXPECT_EQ(toml_complaint("[switching]\ngap_ticks = 3.0\n"),
-              "lab.toml:2: switching.gap_ticks = 3.0: an integer is wanted, this is a real number; allowed is 1..16");
+              "lab.toml:2: switching.gap_ticks = 3.0: an integer is wanted, this is a real number; allowed is 1..40");
     expect_contains(set_complaint("gyro.tick_s=true"), "gyro.tick_s = true: a number is wanted, this is a boolean");
     expect_contains(set_complaint("gyro.tick_s=fast"), "a number is wanted, this is a string");
     expect_contains(set_complaint("gyro.tick_s=[1]"), "a number is wanted, this is an array");
@@ -118,7 +118,7 @@ TEST(Schema, AValueOfAWrongTypeIsShownAsItCouldBeWritten) {
 }
 
 TEST(Schema, AValueOutOfRangeIsToldWhatIsAllowed) {
-    EXPECT_EQ(set_complaint("switching.gap_ticks=99"), "--set: switching.gap_ticks = 99: allowed is 1..16");
+    EXPECT_EQ(set_complaint("switching.gap_ticks=99"), "--set: switching.gap_ticks = 99: allowed is 1..40");
     expect_refused(toml_complaint("[gyro]\n\ntick_s = 0\n"), "lab.toml:3: gyro.tick_s", "0", "1e-6..10");
     expect_refused(set_complaint("perimeter.miss_lambda=0.24"), "perimeter.miss_lambda", "0.24",
                    "from 0 to below 0.24");

@@ -260,6 +260,13 @@ public:
             sum += weight_[m] *= maths::exp(member_[m].evidence - best);
         for (double& weight : weight_) weight /= sum;
     }
+    // The member of the largest weight.
+    [[nodiscard]] int best() const noexcept {
+        int found = 0;
+        for (int m = 1; m < n_; ++m)
+            if (weight(m) > weight(found)) found = m;
+        return found;
+    }
     // Of the member that was added as the m-th.
     [[nodiscard]] double weight(int m) const noexcept { return weight_[static_cast<unsigned>(m)]; }
 
@@ -311,10 +318,10 @@ struct Candidate {
     double size = 0.0;
 };
 
-// The rows, given the angle and the variance of all of them together: one more estimate, by the mean covariance.
+// The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the likeliest member.
 //
 // base    V of that covariance, and its border
-// motion  of `problem`: the kernels are in it, too
+// motion  of `problem`: the kernel of that member is in it, too
 void spread(const Problem& problem, Triangle base, Triangle factor, SwitchEstimate& result) noexcept {
     const Layout& layout = problem.layout;
     const SwitchWindow& window = problem.window;
@@ -419,17 +426,11 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     result.scale.value = scale.value + shift.mean;
     result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
 
-    // The mean covariance of the mixture: kernels that have a part in it.
-    for (std::size_t b = 0; b < bank.size(); ++b) {
-        double size = 0.0;
-        for (int m = 0; m < mixture.size(); ++m) {
-            const Candidate& c = candidate[static_cast<unsigned>(m)];
-            if (c.size > 0.0 && c.kernel == b) size += mixture.weight(m) * c.size;
-        }
-        if (!(size > 0.0)) continue;
-        const Kernel kernel{bank[b], window};
+    const Candidate& best = candidate[static_cast<unsigned>(mixture.best())];
+    if (best.size > 0.0) {
+        const Kernel kernel{bank[best.kernel], window};
         for (int r = 0; r < window.n_rows; ++r)
-            for (int s = 0; s <= r; ++s) problem.motion.row(r)[s] += size * kernel.at(r, s);
+            for (int s = 0; s <= r; ++s) problem.motion.row(r)[s] += best.size * kernel.at(r, s);
     }
     assemble(problem, base);
     spread(problem, base, factor, result);

@@ -9,7 +9,7 @@
 namespace zlg::core {
 namespace {
 
-// What a reading far from the centre is off by (lit halves): the law of the bias by 1.5 %, its quartic term at the miss, and the
+// What a reading far from the centre is off by, all halves of a switch in common: the law of the bias by 1.5 %, its quartic term at the miss, and the
 // detuning itself by .002 wavelength.
 constexpr double law_error_ratio = 0.015;
 constexpr double reading_error_lambda = 0.002;
@@ -135,10 +135,17 @@ private:
         row.wanted = wanted;
         row.y_arcsec = half.angle_arcsec - 0.5 * magnetic(entry);
         count(row);
-        if (plan_.light != HalfLight::records || !wanted) return;
-        row.y_arcsec -= (1.0 + state_.scale.value) * half.false_arcsec;
-        row.error_arcsec2 = half.false_arcsec2;
-        row.common_arcsec = square_root(state_.scale.variance) * half.false_arcsec;
+        if (!wanted) return;
+        // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
+        const double unit = 0.5 * gyro_.chi * gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value();
+        const double d = half.false_arcsec;
+        double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
+        if (plan_.light == HalfLight::records) {
+            row.y_arcsec -= (1.0 + state_.scale.value) * d;
+            row.error_arcsec2 = half.false_arcsec2;
+            common += state_.scale.variance * d * d;
+        }
+        row.common_arcsec = d < 0.0 ? -square_root(common) : square_root(common);
     }
 
     [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
@@ -184,14 +191,7 @@ private:
     void add_lit(std::int64_t half) noexcept {
         const HistoryTick& entry = at(state_, half / 2);
         const int k = static_cast<int>(half % 2);
-        WindowRow& row = add({.tick = half / 2, .half = static_cast<std::int16_t>(k)}, 1);
-        read_half(entry, k, true, row);
-        const HalfReading& read = entry.half[static_cast<unsigned>(k)];
-        // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
-        const double unit = 0.5 * gyro_.chi * gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value();
-        const double d = size(read.false_arcsec);
-        const double common = square_root(square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * d);
-        row.common_arcsec = read.false_arcsec < 0.0 ? -common : common;
+        read_half(entry, k, true, add({.tick = half / 2, .half = static_cast<std::int16_t>(k)}, 1));
     }
 
     void add_gap() noexcept {

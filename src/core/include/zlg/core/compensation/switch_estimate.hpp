@@ -15,8 +15,8 @@
 // weighed by their restricted likelihood and a prior, and the estimate is the mean of the mixture (Searle, Casella and
 // McCulloch, Variance Components, 1992, ch. 6; kriging with an unknown mean: Stein, Interpolation of Spatial Data, 1999).
 //
-// The mixture decides the angle of all that is wanted. How it is spread over the rows follows from the mean covariance of the
-// members, given that sum: as of Gaussian variables whose sum is known.
+// The mixture decides the angle of all that is wanted. How it is spread over the rows follows from the covariance of the likeliest
+// member, given that sum: as of Gaussian variables whose sum is known.
 //
 // A pure function: no state, no stages. The scale of chi f0 goes in and out by value.
 
