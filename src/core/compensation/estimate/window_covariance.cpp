@@ -117,7 +117,7 @@ void error_covariance(const CompensationConstants& gyro, const SwitchWindow& win
         const WindowRow& row = window.row[at];
         const Stretch lit = light.is_known() ? lit_part(window, row) : Stretch{};
         double& d = readings.false_arcsec[at];
-        d = 0.0;
+        d = row.recorded_arcsec;
         for (int h = lit.first; h < lit.last; ++h) d += k * light.angle(h) * sign_of(window, window.light_start + h);
         readings.angle_arcsec[at] = row.y_arcsec + (1.0 + scale.value) * d;
         if (row.read) {

@@ -139,11 +139,10 @@ private:
         // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
         const double unit = 0.5 * gyro_.chi * gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value();
         const double d = half.false_arcsec;
-        double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
+        const double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
         if (plan_.light == HalfLight::records) {
-            row.y_arcsec -= (1.0 + state_.scale.value) * d;
+            row.recorded_arcsec = -d;
             row.error_arcsec2 = half.false_arcsec2;
-            common += state_.scale.variance * d * d;
         }
         row.common_arcsec = d < 0.0 ? -square_root(common) : square_root(common);
     }
@@ -238,6 +237,7 @@ private:
         read_half(entry, 1, wanted, row);
         --n_after_;
         row.y_arcsec += first.y_arcsec;
+        row.recorded_arcsec += first.recorded_arcsec;
         row.error_arcsec2 += first.error_arcsec2;
         row.common_arcsec += first.common_arcsec;
     }
@@ -354,7 +354,7 @@ SwitchAngle take(const CompensationConstants& gyro, const GapBridgeConfig& confi
     if (!found.known) return out;
     out.known = true;
     out.variance_arcsec2 = found.variance_arcsec2;
-    if (plan.light == HalfLight::spline) out.scale = found.scale;
+    if (plan.light == HalfLight::spline || plan.light == HalfLight::records) out.scale = found.scale;
     for (int r = 0; r < window.n_rows;) {
         const RowPlace& place = plan.place[static_cast<unsigned>(r)];
         const bool wanted = window.row[static_cast<unsigned>(r)].wanted;

@@ -20,10 +20,11 @@ inline constexpr int most_window_rows = 64;
 // A stretch of the window whose angle was read, or is wanted, as one number. The rows follow one another without a hole.
 struct WindowRow {
     Stretch halves{};
-    bool read = false;       // its angle was read: a point
-    bool wanted = false;     // its angle is part of what is asked for
-    bool after_gap = false;  // on that side of it
-    double y_arcsec = 0.0;   // as read, without the bias
+    bool read = false;             // its angle was read: a point
+    bool wanted = false;           // its angle is part of what is asked for
+    bool after_gap = false;        // on that side of it
+    double y_arcsec = 0.0;         // as read, without the bias
+    double recorded_arcsec = 0.0;  // false angle by the record of the light, as d_r, where it is not that of `light`
     // Standard deviation of an error that all rows with one have in common, with its sign: of a light that is read far from the centre.
     double common_arcsec = 0.0;
     double error_arcsec2 = 0.0;  // variance of what else it may hold, which stays in the angle if it is wanted
