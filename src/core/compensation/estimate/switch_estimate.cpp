@@ -19,6 +19,9 @@ constexpr double rounding_of_trace = 2e-15;
 // The scale of chi f0 wanders from switch to switch by this variance.
 constexpr double scale_wander = 1e-8;
 
+// A shift of it beyond five standard deviations is that of damaged records.
+constexpr double most_shift_sq = 25.0;
+
 constexpr int most_members = 1 + static_cast<int>(motion_bank.size() * motion_sizes.size());
 
 // Sum of logarithms of numbers that may be very small or large, with few logarithms.
@@ -423,8 +426,10 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     result.known = true;
     result.angle_arcsec = angle.mean + added;
     result.variance_arcsec2 = angle.variance;
-    result.scale.value = scale.value + shift.mean;
-    result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
+    if (square(shift.mean) <= most_shift_sq * scale.variance) {
+        result.scale.value = scale.value + shift.mean;
+        result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
+    }
 
     const Candidate& best = candidate[static_cast<unsigned>(mixture.best())];
     if (best.size > 0.0) {
