@@ -59,6 +59,12 @@ class Npy(Hostile):
                 self.assert_turns(self.angles(path, *W, *FIXED_RATE), expected / 100)
         self.cheap("import", self.array("{'descr': '<f8', 'fortran_order': 1, 'shape': (50, 3)}", bytes(1200)), code=3)
 
+    def test_a_version_that_numpy_does_not_know(self):
+        path = self.array("{'descr': '<f8', 'fortran_order': False, 'shape': (50, 3)}", bytes(1200))
+        self.cheap("import", path, code=0)
+        path.write_bytes(path.read_bytes()[:7] + b"\xff" + path.read_bytes()[8:])
+        self.assertIn("of version 2.255", self.cheap("import", path, code=3).stderr)
+
 
 class Hdf5(Hostile):
     def test_links_to_its_own_groups(self):

@@ -87,7 +87,7 @@ private:
         if (bytes_.size() < 12) fail("that is cut off");
         const std::string start = bytes_.text(6, 6);
         const auto byte = [&start](std::size_t k) { return std::size_t{static_cast<unsigned char>(start[k])}; };
-        if (byte(0) < 1 || byte(0) > 3) fail(fmt::format("of version {}", byte(0)));
+        if (byte(0) < 1 || byte(0) > 3 || byte(1) != 0) fail(fmt::format("of version {}.{}", byte(0), byte(1)));
         const bool is_long = byte(0) > 1;
         const std::size_t length = byte(2) | byte(3) << 8 | (is_long ? byte(4) << 16 | byte(5) << 24 : 0);
         if (length > max_head) fail(fmt::format("with a head of {} bytes, where {} is the most", length, max_head));
