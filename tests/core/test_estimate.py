@@ -53,7 +53,8 @@ def second_moments(y, length):
 def simple_rows(gap_halves, relock):
     hi = BEFORE + gap_halves
     rows = [(h, h + 1, True, False) for h in range(BEFORE)] + [(BEFORE, hi, False, True)]
-    return rows + [(h, h + 1, True, relock) for h in range(hi, hi + AFTER)]
+    rows += [(h, h + 1, True, relock) for h in range(hi, hi + 16)]
+    return rows + [(h, h + 2, True, relock) for h in range(hi + 16, hi + AFTER, 2)]
 
 
 def mixed_rows(draw, gap_halves, relock):
@@ -62,9 +63,9 @@ def mixed_rows(draw, gap_halves, relock):
     lo, hi = BEFORE, BEFORE + gap_halves
     h = 0
     while h < length:
-        last = min(h + int(draw.choice([1, 2, 2])), lo if h < lo else hi if h < hi else length)
+        last = min(h + (2 if h >= hi + 8 else int(draw.choice([1, 2, 2]))), lo if h < lo else hi if h < hi else length)
         in_gap = lo <= h < hi
-        read = draw.random() < (0.3 if in_gap else 0.9)
+        read = draw.random() < (0.3 if in_gap else 0.9) and not (in_gap and sum(row[2] and row[0] >= lo for row in rows) == 4)
         rows.append((h, last, read, not read if in_gap else read and relock and h >= hi))
         h = last
     return rows
@@ -73,7 +74,6 @@ def mixed_rows(draw, gap_halves, relock):
 def drawn_case(draw, mixed):
     gyro = reference.Gyro(scale=draw.choice([3.263, 3.263 / 4]), tick_s=draw.choice([0.002, 0.005, 0.01]),
                           fringe_noise=0.0016 if draw.random() < 0.33 else None)
-    # Rows of every kind: at most 64.
     gap, relock, samples = int(draw.integers(2, 25 if mixed else 33)), draw.random() < 0.8, int(draw.choice([1, 2, 4, 16, 64]))
     rows = mixed_rows(draw, gap, relock) if mixed else simple_rows(gap, relock)
     length, learnt = BEFORE + gap + AFTER, int(draw.choice([200, 2000, 6000]))
@@ -92,7 +92,7 @@ def drawn_case(draw, mixed):
     y = read_halves(draw, gyro, angle, sign, false)
     errors = {}
     if mixed:
-        errors = {"error_var": draw.choice([0.0, 1.0], len(rows)) * 1e-3, "common": draw.normal(0, 0.05, len(rows))}
+        errors = {"error_var": draw.choice([0.0, 1.0], len(rows)) * 1e-3, "common": draw.normal(0, 0.05, len(rows)) * [row[0] >= BEFORE for row in rows]}
     window = reference.Window(rows, (BEFORE, BEFORE + gap), y[-length:], sign[-length:], light,
                               magnetic_variance=draw.choice([0.0, 1e-5]), **errors)
     return gyro, window, *second_moments(y[:learnt], length), draw.choice([0.0, 0.02]), draw.choice([0.01, 1e-4])

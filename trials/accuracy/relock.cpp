@@ -45,9 +45,9 @@ SwitchError trial_of(const GyroLaw& law, std::uint64_t seed) {
     double variance = 0.0;
     for (int k = 0; k < relock_halves; ++k) {
         const double a = per_lambda2[static_cast<std::size_t>(k)];
-        e.error_arcsec += a * fit.angle(k);
+        e.error_arcsec += a * fit.angle(fit.half(k));
         for (int j = 0; j < relock_halves; ++j)
-            variance += a * per_lambda2[static_cast<std::size_t>(j)] * fit.covariance(k, j);
+            variance += a * per_lambda2[static_cast<std::size_t>(j)] * fit.covariance(fit.half(k), fit.half(j));
     }
     e.sigma_arcsec = std::sqrt(variance);
     return e;

@@ -60,6 +60,26 @@ void substitute_back(Triangle factor, const double* reciprocal, int n, double* x
     }
 }
 
+void invert(Triangle factor, const double* reciprocal, int n) noexcept {
+    // L^-1, row by row: an element of L is of no use to those right of it.
+    for (int i = 0; i < n; ++i) {
+        double* const row = factor.row(i);
+        for (int j = 0; j < i; ++j) {
+            double sum = 0.0;
+            for (int k = j; k < i; ++k) sum += row[k] * factor.row(k)[j];
+            row[j] = -sum * reciprocal[i];
+        }
+        row[i] = reciprocal[i];
+    }
+    // L^-T L^-1: an element from its own row and those below.
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j <= i; ++j) {
+            double sum = 0.0;
+            for (int k = i; k < n; ++k) sum += factor.row(k)[i] * factor.row(k)[j];
+            factor.row(i)[j] = sum;
+        }
+}
+
 bool factorise(Triangle a, double* reciprocal, int n) noexcept {
     for (int i = 0; i < n; ++i) {
         double* const row = a.row(i);

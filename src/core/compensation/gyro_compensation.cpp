@@ -160,10 +160,10 @@ void read_record(const CompensationConstants& gyro, const HalfRecord& half, Half
     const double unit =
         0.5 * gyro.chi * bias_at(gyro, Celsius{half.temperature_c}).value() * gyro.scale.value() * gyro.tick.value();
     reading.false_arcsec = -reading.sign * unit * recorded.mean_sq_lambda2;
-    reading.false_arcsec2 = square(unit) * recorded.variance_lambda4;
+    reading.false_arcsec2 = static_cast<float>(square(unit) * recorded.variance_lambda4);
     if (!is_finite(reading.false_arcsec + reading.false_arcsec2)) {
         reading.false_arcsec = 0.0;
-        reading.false_arcsec2 = -1.0;
+        reading.false_arcsec2 = -1.0F;
     }
 }
 
@@ -203,7 +203,7 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
     if (n != (by_phase ? 0 : phase_debounce)) return;
     by_phase = !by_phase;
     // What was learnt holds other roundings, thousands of times as large or small.
-    start(state.bridge.motion, state.bridge.motion.moments.length);
+    start(state.bridge.motion, state.bridge.motion.moments.length, state.bridge.motion.moments.step_halves);
 }
 
 // Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus

@@ -31,7 +31,7 @@ void take_part(LearntMotion& m) noexcept {
 struct RunSums {
     double mean = 0.0;
     int n_windows = 0;
-    std::array<double, most_window_halves> at{};
+    std::array<double, most_moment_steps> at{};
 
     RunSums(const EndedRun& run, int length) noexcept {
         n_windows = run.n - length + 1;
@@ -50,7 +50,7 @@ struct RunSums {
 };
 
 // Sum of products at the distance k within n halves.
-double products_within(const std::array<double, most_window_halves>& x, int n, int k) noexcept {
+double products_within(const std::array<double, most_moment_steps>& x, int n, int k) noexcept {
     double sum = 0.0;
     for (unsigned s = 0; s + static_cast<unsigned>(k) < static_cast<unsigned>(n); ++s)
         sum += x[s] * x[s + static_cast<unsigned>(k)];
@@ -94,10 +94,13 @@ void go_on(LearntMotion& m) noexcept {
     m.n_run = kept;
 }
 
-MotionSummary summary_of(const MotionMoments& m, double mean_half_arcsec) noexcept {
+MotionSummary summary_of(const MotionMoments& m, double mean_arcsec) noexcept {
     const auto c = [&m](int i, int j) { return m.sum[moment_place(m.length, i, j)] / m.n_windows; };
+    // By ticks lit halves are not judged.
+    if (m.step_halves == 2)
+        return {.n_windows = m.n_windows, .mean_half_arcsec = 0.5 * mean_arcsec, .tick_arcsec2 = c(0, 0)};
     return {.n_windows = m.n_windows,
-            .mean_half_arcsec = mean_half_arcsec,
+            .mean_half_arcsec = mean_arcsec,
             .tick_arcsec2 = c(0, 0) + c(1, 1) + 2.0 * c(0, 1),
             .second_difference_arcsec2 = c(0, 0) + 4.0 * c(1, 1) + c(2, 2) - 4.0 * (c(0, 1) + c(1, 2)) + 2.0 * c(0, 2)};
 }
@@ -109,7 +112,7 @@ void fold(LearntMotion& m) noexcept {
     EndedRun& run = m.ended;
     const int length = moments.length;
     const RunSums sums{run, length};
-    const double keep = maths::exp(-0.5 * sums.n_windows / run.forget_ticks);
+    const double keep = maths::exp(-0.5 * moments.step_halves * sums.n_windows / run.forget_ticks);
     moments.n_windows = keep * moments.n_windows + sums.n_windows;
     for (double& x : moments.sum) x *= keep;
     for (int k = 0; k < length; ++k) {
@@ -129,9 +132,10 @@ void fold(LearntMotion& m) noexcept {
     run.done = true;
 }
 
-void start(LearntMotion& memory, int length) noexcept {
+void start(LearntMotion& memory, int length, int step_halves) noexcept {
     memory = {};
     memory.moments.length = length;
+    memory.moments.step_halves = step_halves;
 }
 
 void add(LearntMotion& m, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept {

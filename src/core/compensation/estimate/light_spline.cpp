@@ -82,11 +82,10 @@ void add(LightSums& sums, int h, std::span<const double> detuning_lambda) noexce
     sums.n_samples += static_cast<int>(detuning_lambda.size());
 }
 
-LightFit::LightFit(const LightSums& sums, double light_sd_lambda) noexcept {
-    const int n = sums.basis.n_terms;
-    std::array<double, triangle_size(most_light_terms)> factor_numbers{};
+LightFit::LightFit(const LightSums& sums, double light_sd_lambda) noexcept : basis_{sums.basis} {
+    const int n = basis_.n_terms;
     std::array<double, most_light_terms> reciprocal{};
-    const Triangle factor{factor_numbers.data()};
+    const Triangle factor{covariance_.data()};
     for (int i = 0; i < n; ++i)
         for (int j = i < 3 ? 0 : i - 3; j <= i; ++j)
             factor.row(i)[j] = sums.normal[static_cast<unsigned>(4 * i + 3 + j - i)];
@@ -99,24 +98,15 @@ LightFit::LightFit(const LightSums& sums, double light_sd_lambda) noexcept {
     substitute_back(factor, reciprocal.data(), n, term_.data());
     const double left_over = (sums.sum_sq - explained_sq) / (sums.n_samples - n);
     const double configured = square(light_sd_lambda);
+    invert(factor, reciprocal.data(), n);
     const double variance = left_over > configured ? left_over : configured;
-
-    // A column of the inverse at a time, of which the part from the diagonal on is kept.
-    for (int j = 0; j < n; ++j) {
-        std::array<double, most_light_terms> column{};
-        column[static_cast<unsigned>(j)] = 1.0;
-        eliminate(factor, reciprocal.data(), n, column.data());
-        substitute_back(factor, reciprocal.data(), n, column.data());
-        for (int i = j; i < n; ++i)
-            covariance_[row_start(i) + static_cast<unsigned>(j)] = variance * column[static_cast<unsigned>(i)];
-    }
-    for (int h = 0; h < sums.basis.halves; ++h) halves_[static_cast<unsigned>(h)] = half_of(sums.basis, h);
+    for (std::size_t k = 0; k < triangle_size(n); ++k) covariance_[k] *= variance;
 }
 
-LightFit::Half LightFit::half_of(const LightBasis& basis, int h) const noexcept {
-    Half half;
+LightHalf LightFit::half(int h) const noexcept {
+    LightHalf half{};
     for (int k = 0; k < 4; ++k) {
-        const BasisValues at = values_at(basis, h, h + gauss_point[k]);
+        const BasisValues at = values_at(basis_, h, h + gauss_point[k]);
         half.first = at.first;
         unsigned i = 0;
         for (unsigned a = 0; a < 4; ++a)
@@ -129,8 +119,7 @@ LightFit::Half LightFit::half_of(const LightBasis& basis, int h) const noexcept 
     return half;
 }
 
-double LightFit::angle(int h) const noexcept {
-    const Half& half = halves_[static_cast<unsigned>(h)];
+double LightFit::angle(const LightHalf& half) const noexcept {
     double sum = 0.0;
     for (int a = 0; a < 4; ++a) {
         sum += half.slope[static_cast<unsigned>(a)] * term_[static_cast<unsigned>(half.first + a)];
@@ -141,9 +130,7 @@ double LightFit::angle(int h) const noexcept {
     return sum;
 }
 
-double LightFit::covariance(int h, int g) const noexcept {
-    const Half& one = halves_[static_cast<unsigned>(h)];
-    const Half& other = halves_[static_cast<unsigned>(g)];
+double LightFit::covariance(const LightHalf& one, const LightHalf& other) const noexcept {
     // S = block of cov c between both; then Q_h S and S Q_g, whose products summed are the trace.
     double linear = 0.0;
     double trace = 0.0;

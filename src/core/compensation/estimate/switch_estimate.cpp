@@ -1,5 +1,7 @@
 #include <zlg/core/compensation/switch_estimate.hpp>
 
+#include <memory>
+
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
@@ -22,8 +24,6 @@ constexpr double scale_wander = 1e-8;
 // A shift of it beyond five standard deviations is that of damaged records.
 constexpr double most_shift_sq = 25.0;
 
-constexpr int most_members = 1 + static_cast<int>(motion_bank.size() * motion_sizes.size());
-
 // Sum of logarithms of numbers that may be very small or large, with few logarithms.
 class LogOfProduct {
 public:
@@ -45,14 +45,10 @@ private:
     double sum_ = 0.0;
 };
 
-// The points, then the rows that border their factor.
+// The points.
 struct Layout {
-    int n = 0;                                // points
-    std::array<int, most_window_rows> row{};  // of each point
-    [[nodiscard]] int target() const noexcept { return n; }
-    [[nodiscard]] int level() const noexcept { return n + 1; }
-    [[nodiscard]] int reading() const noexcept { return n + 2; }
-    [[nodiscard]] int scale() const noexcept { return n + 3; }
+    int n = 0;
+    std::array<int, most_window_rows> row{};  // of each
 };
 
 const WindowRow& row_of(const SwitchWindow& window, int r) noexcept { return window.row[static_cast<unsigned>(r)]; }
@@ -66,57 +62,81 @@ Layout layout_of(const SwitchWindow& window) noexcept {
     return layout;
 }
 
-// Covariance of a row with what is wanted: the motion of the rows that were not read, less the errors of those that were.
-double with_wanted(const SwitchWindow& window, Triangle motion, Triangle errors, int r) noexcept {
-    double sum = 0.0;
-    for (int s = 0; s < window.n_rows; ++s) {
-        const WindowRow& row = row_of(window, s);
-        if (row.wanted) sum += row.read ? -errors.at(r, s) : motion.at(r, s);
-    }
-    return sum;
-}
-
 bool is_bridged(const WindowRow& row) noexcept { return row.wanted && !row.read; }
-bool is_corrected(const WindowRow& row) noexcept { return row.wanted && row.read; }
 
-// What the estimate is made from: C + D R D^T and E of all rows, the readings, and the points among them.
+// What the estimate is made from.
 struct Problem {
     const SwitchWindow& window;
     const RelockScale& scale;
-    Triangle motion;
-    Triangle errors;
+    Triangle v;       // V of all rows
+    Triangle errors;  // E of the points after the gap
     WindowReadings readings{};
     Layout layout{};
+    int n_before = 0;            // points before it
     double wanted_halves = 0.0;  // of the rows without a reading
     double known_arcsec = 0.0;   // of those with one
+
+    // Of a point after the gap with another point: what the error of a reading before the gap is has nothing to do with it.
+    [[nodiscard]] double error(int a, int b) const noexcept {
+        return a < n_before || b < n_before ? 0.0 : errors.at(a - n_before, b - n_before);
+    }
+    [[nodiscard]] int row(int point) const noexcept { return layout.row[static_cast<unsigned>(point)]; }
+    [[nodiscard]] bool is_corrected(int point) const noexcept { return row_of(window, row(point)).wanted; }
 };
 
-// V of the points, the row of what is wanted with its variance, and the right-hand sides.
-void assemble(const Problem& problem, Triangle base) noexcept {
-    const SwitchWindow& window = problem.window;
+// The rows that border V of the points: one number for each point.
+using PointValues = std::array<double, most_window_points>;
+
+struct Border {
+    PointValues
+        target{};  // covariance with what is wanted: of the motion that was not read, less the errors of what was
+    double target_variance = 0.0;
+    PointValues level{}, reading{}, scale{};
+};
+
+// E, and with it C + E of the points.
+void add_errors(const CompensationConstants& gyro, EstimateRoom& room, Problem& problem) noexcept {
+    const ReadingErrors e{gyro, problem.window, problem.scale, room.halves, problem.readings};
     const Layout& layout = problem.layout;
-    double variance = 0.0;
-    for (int r = 0; r < window.n_rows; ++r) {
-        const WindowRow& row = row_of(window, r);
-        for (int s = 0; s < window.n_rows; ++s) {
-            if (is_bridged(row) && is_bridged(row_of(window, s))) variance += problem.motion.at(r, s);
-            if (is_corrected(row) && is_corrected(row_of(window, s))) variance += problem.errors.at(r, s);
-        }
-    }
-    for (int a = 0; a < layout.n; ++a) {
-        const int r = layout.row[static_cast<unsigned>(a)];
+    for (int a = 0; a < layout.n; ++a)
         for (int b = 0; b <= a; ++b) {
-            const int s = layout.row[static_cast<unsigned>(b)];
-            base.row(a)[b] = problem.motion.row(r)[s] + problem.errors.row(r)[s];
+            const double error = e.of(problem.row(a), problem.row(b));
+            problem.v.row(problem.row(a))[problem.row(b)] += error;
+            if (b >= problem.n_before) problem.errors.row(a - problem.n_before)[b - problem.n_before] = error;
         }
-        const double halves = width(row_of(window, r));
-        const auto at = static_cast<unsigned>(r);
-        base.row(layout.target())[a] = with_wanted(window, problem.motion, problem.errors, r);
-        base.row(layout.level())[a] = halves;
-        base.row(layout.reading())[a] = problem.readings.angle_arcsec[at] - halves * problem.readings.rate_arcsec;
-        base.row(layout.scale())[a] = -problem.scale.variance * problem.readings.false_arcsec[at];
+}
+
+void set_target(const Problem& problem, Border& border) noexcept {
+    const SwitchWindow& window = problem.window;
+    const int n = problem.layout.n;
+    border.target_variance = 0.0;
+    for (int a = 0; a < n; ++a) {
+        double sum = 0.0;
+        for (int u = 0; u < window.n_rows; ++u)
+            if (is_bridged(row_of(window, u))) sum += problem.v.at(u, problem.row(a));
+        for (int b = problem.n_before; b < n; ++b)
+            if (problem.is_corrected(b)) sum -= problem.error(a, b);
+        border.target[static_cast<unsigned>(a)] = sum;
+        for (int b = problem.n_before; b < n; ++b)
+            if (problem.is_corrected(a) && problem.is_corrected(b)) border.target_variance += problem.error(a, b);
     }
-    base.row(layout.target())[layout.n] = variance;
+    for (int u = 0; u < window.n_rows; ++u)
+        for (int w = 0; w < window.n_rows; ++w)
+            if (is_bridged(row_of(window, u)) && is_bridged(row_of(window, w)))
+                border.target_variance += problem.v.at(u, w);
+}
+
+Border border_of(const Problem& problem) noexcept {
+    Border border;
+    set_target(problem, border);
+    for (int a = 0; a < problem.layout.n; ++a) {
+        const auto at = static_cast<unsigned>(a);
+        const auto r = static_cast<unsigned>(problem.row(a));
+        border.level[at] = width(problem.window.row[r]);
+        border.reading[at] = problem.readings.angle_arcsec[r] - border.level[at] * problem.readings.rate_arcsec;
+        border.scale[at] = -problem.scale.variance * problem.readings.false_arcsec[r];
+    }
+    return border;
 }
 
 // Where a member walks in this window.
@@ -153,75 +173,111 @@ public:
         const Walk walk = walk_of(member, window);
         const double unit = unit_of(member, walk, window);
         if (!(unit > 0.0)) return;
-        part_ = both_ways_ ? 0.5 / unit : 1.0 / unit;
+        const double part = both_ways_ ? 0.5 / unit : 1.0 / unit;
         for (int r = 0; r < window.n_rows; ++r) {
             const Stretch& halves = row_of(window, r).halves;
-            forward_[static_cast<unsigned>(r)] = walked(walk, halves);
-            if (both_ways_) backward_[static_cast<unsigned>(r)] = walked(walk, reversed(window, halves));
+            forward_[static_cast<unsigned>(r)] = scaled(walked(walk, halves), part);
+            if (both_ways_) backward_[static_cast<unsigned>(r)] = scaled(walked(walk, reversed(window, halves)), part);
         }
+        is_there_ = true;
     }
 
     // False: it does not walk in this window.
-    [[nodiscard]] bool is_there() const noexcept { return part_ > 0.0; }
+    [[nodiscard]] bool is_there() const noexcept { return is_there_; }
 
-    // Of two rows.
-    [[nodiscard]] double at(int r, int s) const noexcept {
-        const auto early = static_cast<unsigned>(r < s ? r : s);
-        const auto late = static_cast<unsigned>(r < s ? s : r);
-        double k = r == s ? forward_[late].variance : covariance(forward_[early], forward_[late]);
-        if (both_ways_) k += r == s ? backward_[late].variance : covariance(backward_[late], backward_[early]);
-        return part_ * k;
+    // Of two rows, the second of which is the later one, or the same.
+    [[nodiscard]] double at(int early, int late) const noexcept {
+        const auto e = static_cast<unsigned>(early);
+        const auto l = static_cast<unsigned>(late);
+        if (early == late) return forward_[l].variance + (both_ways_ ? backward_[l].variance : 0.0);
+        const double k = covariance(forward_[e], forward_[l]);
+        return both_ways_ ? k + covariance(backward_[l], backward_[e]) : k;
     }
 
 private:
+    static WalkedStretch scaled(WalkedStretch stretch, double by) noexcept {
+        for (double& moment : stretch.moment) moment *= by;
+        stretch.variance *= by;
+        return stretch;
+    }
+
     bool both_ways_ = false;
-    double part_ = 0.0;
+    bool is_there_ = false;
     std::array<WalkedStretch, most_window_rows> forward_;
     std::array<WalkedStretch, most_window_rows> backward_;
 };
 
-// The kernel of the points, and its row of what is wanted with the variance.
-void lay_out(const Kernel& kernel, const SwitchWindow& window, const Layout& layout, Triangle into) noexcept {
-    double* const target = into.row(layout.target());
-    target[layout.n] = 0.0;
-    for (int a = 0; a < layout.n; ++a) {
-        const int r = layout.row[static_cast<unsigned>(a)];
-        for (int b = 0; b <= a; ++b) into.row(a)[b] = kernel.at(r, layout.row[static_cast<unsigned>(b)]);
-        target[a] = 0.0;
-        for (int u = 0; u < window.n_rows; ++u)
-            if (is_bridged(row_of(window, u))) target[a] += kernel.at(u, r);
+// The kernel's covariance of the points with what is wanted, and its variance.
+struct KernelTarget {
+    PointValues with{};
+    double variance = 0.0;
+};
+
+KernelTarget target_of(const Problem& problem, const Kernel& kernel) noexcept {
+    const SwitchWindow& window = problem.window;
+    KernelTarget target;
+    for (int u = 0; u < window.n_rows; ++u) {
+        if (!is_bridged(row_of(window, u))) continue;
+        for (int a = 0; a < problem.layout.n; ++a) {
+            const int r = problem.row(a);
+            target.with[static_cast<unsigned>(a)] += r < u ? kernel.at(r, u) : kernel.at(u, r);
+        }
+        for (int w = 0; w <= u; ++w)
+            if (is_bridged(row_of(window, w))) target.variance += (w < u ? 2.0 : 1.0) * kernel.at(w, u);
     }
-    for (int u = 0; u < window.n_rows; ++u)
-        for (int w = 0; w < window.n_rows; ++w)
-            if (is_bridged(row_of(window, u)) && is_bridged(row_of(window, w))) target[layout.n] += kernel.at(u, w);
+    return target;
 }
+
+// V of the points, with a kernel of this size.
+void build(const Problem& problem, const Kernel* kernel, double size, Triangle into) noexcept {
+    for (int a = 0; a < problem.layout.n; ++a) {
+        const int r = problem.row(a);
+        const double* const from = problem.v.row(r);
+        double* const to = into.row(a);
+        if (kernel == nullptr) {
+            for (int b = 0; b <= a; ++b) to[b] = from[problem.row(b)];
+        } else {
+            for (int b = 0; b <= a; ++b) to[b] = from[problem.row(b)] + size * kernel->at(problem.row(b), r);
+        }
+    }
+}
+
+struct MeanVariance {
+    double mean = 0.0;
+    double variance = 0.0;
+};
 
 // What one member says.
 struct MemberEstimate {
     double evidence = 0.0;  // logarithm of its restricted likelihood
-    double angle_arcsec = 0.0;
-    double variance_arcsec2 = 0.0;
-    double scale = 0.0;  // shift of the scale of chi f0
-    double scale_variance = 0.0;
+    MeanVariance angle{};   // arcsec, arcsec^2
+    MeanVariance scale{};   // shift of the scale of chi f0
 };
 
 // Generalised least squares with an unknown level, by one factor.
 //
-// factor  V_m and its border, as `assemble` lays them out; of no use after.
+// factor  V_m of the points, with room for the border; of no use after.
 // return  false where V_m is not positive definite.
-bool solve(const Layout& layout, double wanted_halves, double scale_variance, Triangle factor,
+bool solve(const Problem& problem, const Border& border, const KernelTarget* kernel, double size, Triangle factor,
            MemberEstimate& found) noexcept {
-    const int n = layout.n;
-    std::array<double, most_window_rows> reciprocal{};
+    const int n = problem.layout.n;
+    PointValues reciprocal{};
     double trace = 0.0;
     for (int a = 0; a < n; ++a) trace += factor.row(a)[a];
     for (int a = 0; a < n; ++a) factor.row(a)[a] += rounding_of_trace * trace;
-    const double variance = factor.row(n)[n];
     if (!factorise(factor, reciprocal.data(), n)) return false;
-    double* const target = factor.row(layout.target());
-    double* const level = factor.row(layout.level());
-    double* const reading = factor.row(layout.reading());
-    double* const scale = factor.row(layout.scale());
+    double* const target = factor.row(n);
+    double* const level = factor.row(n + 1);
+    double* const reading = factor.row(n + 2);
+    double* const scale = factor.row(n + 3);
+    for (int a = 0; a < n; ++a) {
+        const auto at = static_cast<unsigned>(a);
+        target[a] = border.target[at] + (kernel != nullptr ? size * kernel->with[at] : 0.0);
+        level[a] = border.level[at];
+        reading[a] = border.reading[at];
+        scale[a] = border.scale[at];
+    }
+    const double variance = border.target_variance + (kernel != nullptr ? size * kernel->variance : 0.0);
     for (double* const row : {target, level, reading, scale}) eliminate(factor, reciprocal.data(), n, row);
     const double weight = dot(level, level, n);
     const double rate = dot(level, reading, n) / weight;
@@ -230,112 +286,116 @@ bool solve(const Layout& layout, double wanted_halves, double scale_variance, Tr
     LogOfProduct pivots;
     for (int a = 0; a < n; ++a) pivots.add(reciprocal[static_cast<unsigned>(a)]);
     const double misfit = dot(reading, reading, n) - rate * rate * weight;
+    const double missing = problem.wanted_halves - level_target;
     found.evidence = -0.5 * (misfit + maths::log(weight)) + pivots.value();
-    found.angle_arcsec = wanted_halves * rate + dot(reading, target, n) - rate * level_target;
-    found.variance_arcsec2 = variance - dot(target, target, n) + square(wanted_halves - level_target) / weight;
-    found.scale = dot(reading, scale, n) - rate * level_scale;
-    found.scale_variance = scale_variance - dot(scale, scale, n) + square(level_scale) / weight;
-    return is_finite(found.evidence) && is_finite(found.angle_arcsec) && found.variance_arcsec2 >= 0.0 &&
-           is_finite(found.variance_arcsec2) && is_finite(found.scale) && is_finite(found.scale_variance);
-}
-
-// Mean and variance of a mixture.
-struct Moments2 {
-    double mean = 0.0;
-    double variance = 0.0;
-};
-
-class Mixture {
-public:
-    void add(double prior, const MemberEstimate& member) noexcept {
-        member_[static_cast<unsigned>(n_)] = member;
-        weight_[static_cast<unsigned>(n_++)] = prior;
-    }
-    [[nodiscard]] int size() const noexcept { return n_; }
-
-    // Priors become weights, by the evidence.
-    void weigh() noexcept {
-        double best = -infinity;
-        for (int m = 0; m < n_; ++m)
-            if (member_[static_cast<unsigned>(m)].evidence > best) best = member_[static_cast<unsigned>(m)].evidence;
-        double sum = 0.0;
-        for (unsigned m = 0; m < static_cast<unsigned>(n_); ++m)
-            sum += weight_[m] *= maths::exp(member_[m].evidence - best);
-        for (double& weight : weight_) weight /= sum;
-    }
-    // The member of the largest weight.
-    [[nodiscard]] int best() const noexcept {
-        int found = 0;
-        for (int m = 1; m < n_; ++m)
-            if (weight(m) > weight(found)) found = m;
-        return found;
-    }
-    // Of the member that was added as the m-th.
-    [[nodiscard]] double weight(int m) const noexcept { return weight_[static_cast<unsigned>(m)]; }
-
-    [[nodiscard]] Moments2 of(double MemberEstimate::*mean, double MemberEstimate::*variance) const noexcept {
-        Moments2 result;
-        for (int m = 0; m < n_; ++m) result.mean += weight(m) * (member_[static_cast<unsigned>(m)].*mean);
-        for (int m = 0; m < n_; ++m) {
-            const MemberEstimate& member = member_[static_cast<unsigned>(m)];
-            result.variance += weight(m) * (member.*variance + square(member.*mean - result.mean));
-        }
-        return result;
-    }
-
-private:
-    int n_ = 0;
-    std::array<double, most_members> weight_{};
-    std::array<MemberEstimate, most_members> member_{};
-};
-
-// V_m and its border: the base, and the kernel as large as this.
-void build(const Layout& layout, Triangle base, Triangle kernel, double size, Triangle into) noexcept {
-    const double* const from = base.row(0);
-    double* const to = into.row(0);
-    const std::size_t with_target = triangle_size(layout.n + 1);
-    const std::size_t all = triangle_size(layout.n + 4);
-    if (size > 0.0) {
-        const double* const more = kernel.row(0);
-        for (std::size_t k = 0; k < with_target; ++k) to[k] = from[k] + size * more[k];
-    } else {
-        for (std::size_t k = 0; k < with_target; ++k) to[k] = from[k];
-    }
-    for (std::size_t k = with_target; k < all; ++k) to[k] = from[k];
+    found.angle = {problem.wanted_halves * rate + dot(reading, target, n) - rate * level_target,
+                   variance - dot(target, target, n) + square(missing) / weight};
+    found.scale = {dot(reading, scale, n) - rate * level_scale,
+                   problem.scale.variance - dot(scale, scale, n) + square(level_scale) / weight};
+    return is_finite(found.evidence) && is_finite(found.angle.mean) && found.angle.variance >= 0.0 &&
+           is_finite(found.angle.variance) && is_finite(found.scale.mean) && is_finite(found.scale.variance);
 }
 
 // The variance of a half that its neighbours do not foretell: the smallest squared pivot of V. 0: V has no factor.
-double smallest_pivot(const Layout& layout, Triangle base, Triangle factor) noexcept {
-    std::array<double, most_window_rows> reciprocal{};
-    build(layout, base, base, 0.0, factor);
-    if (!factorise(factor, reciprocal.data(), layout.n)) return 0.0;
+double smallest_pivot(const Problem& problem, Triangle factor) noexcept {
+    PointValues reciprocal{};
+    build(problem, nullptr, 0.0, factor);
+    if (!factorise(factor, reciprocal.data(), problem.layout.n)) return 0.0;
     double least = infinity;
-    for (int a = 0; a < layout.n; ++a)
+    for (int a = 0; a < problem.layout.n; ++a)
         if (square(factor.row(a)[a]) < least) least = square(factor.row(a)[a]);
     return least;
 }
 
-// Which kernel, and how large: of each member of the mixture after the first.
+// Which kernel, and how large; size 0: none.
 struct Candidate {
-    std::size_t kernel = 0;
+    std::size_t member = 0;
     double size = 0.0;
 };
 
-// The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the likeliest member.
-//
-// base    V of that covariance, and its border
-// motion  of `problem`: the kernel of that member is in it, too
-void spread(const Problem& problem, Triangle base, Triangle factor, SwitchEstimate& result) noexcept {
-    const Layout& layout = problem.layout;
+// Mean and variance of a mixture as its members come in, with weights relative to the best evidence so far (West, Comm. ACM 22
+// (1979) 532).
+class Mixture {
+public:
+    void add(double prior, const MemberEstimate& member, const Candidate& candidate) noexcept {
+        if (member.evidence > best_evidence_) {
+            const double keep = maths::exp(best_evidence_ - member.evidence);
+            sum_ *= keep;
+            largest_ *= keep;
+            angle_.variance *= keep;
+            scale_.variance *= keep;
+            best_evidence_ = member.evidence;
+        }
+        const double weight = prior * maths::exp(member.evidence - best_evidence_);
+        sum_ += weight;
+        if (!(sum_ > 0.0)) return;
+        take(weight, member.angle, angle_);
+        take(weight, member.scale, scale_);
+        if (!(weight > largest_)) return;
+        largest_ = weight;
+        likeliest_ = candidate;
+    }
+    [[nodiscard]] bool is_empty() const noexcept { return !(sum_ > 0.0); }
+    [[nodiscard]] const Candidate& likeliest() const noexcept { return likeliest_; }
+    [[nodiscard]] MeanVariance angle() const noexcept { return {angle_.mean, angle_.variance / sum_}; }
+    [[nodiscard]] MeanVariance scale() const noexcept { return {scale_.mean, scale_.variance / sum_}; }
+
+private:
+    void take(double weight, const MeanVariance& of_member, MeanVariance& sum) const noexcept {
+        const double off = of_member.mean - sum.mean;
+        sum.mean += off * (weight / sum_);
+        sum.variance += weight * (of_member.variance + off * (of_member.mean - sum.mean));
+    }
+
+    double best_evidence_ = -infinity;
+    double sum_ = 0.0;
+    double largest_ = 0.0;  // weight
+    Candidate likeliest_{};
+    MeanVariance angle_{}, scale_{};  // variances times sum_
+};
+
+// The mixture of the learnt motion and of all members of the bank.
+Mixture mixture_of(const Problem& problem, const Border& border, bool is_learnt, std::span<const BankMember> bank,
+                   double unit, Triangle factor) noexcept {
+    Mixture mixture;
+    MemberEstimate found;
+    const double of_learnt = is_learnt ? prior_of_learnt : prior_of_unknown;
+    const double of_member = (1.0 - of_learnt) / static_cast<double>(bank.size() * motion_sizes.size());
+    build(problem, nullptr, 0.0, factor);
+    if (solve(problem, border, nullptr, 0.0, factor, found)) mixture.add(of_learnt, found, {});
+    for (std::size_t b = 0; b < bank.size(); ++b) {
+        const Kernel kernel{bank[b], problem.window};
+        if (!kernel.is_there()) continue;
+        const KernelTarget target = target_of(problem, kernel);
+        for (const double size : motion_sizes) {
+            build(problem, &kernel, size * unit, factor);
+            if (solve(problem, border, &target, size * unit, factor, found))
+                mixture.add(of_member, found, {b, size * unit});
+        }
+    }
+    return mixture;
+}
+
+// V with the kernel of the likeliest member.
+void add_likeliest(const Candidate& likeliest, std::span<const BankMember> bank, Problem& problem) noexcept {
+    if (!(likeliest.size > 0.0)) return;
+    const Kernel kernel{bank[likeliest.member], problem.window};
+    for (int r = 0; r < problem.window.n_rows; ++r)
+        for (int s = 0; s <= r; ++s) problem.v.row(r)[s] += likeliest.size * kernel.at(s, r);
+}
+
+// The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the likeliest
+// member, which V now has.
+void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstimate& result) noexcept {
     const SwitchWindow& window = problem.window;
-    std::array<double, most_window_rows> reciprocal{};
-    build(layout, base, base, 0.0, factor);
-    const int n = layout.n;
+    const int n = problem.layout.n;
+    PointValues reciprocal{};
+    build(problem, nullptr, 0.0, factor);
     if (!factorise(factor, reciprocal.data(), n)) return;
-    double* const target = factor.row(layout.target());
-    double* const level = factor.row(layout.level());
-    double* const reading = factor.row(layout.reading());
-    const double variance = target[n];
+    set_target(problem, border);
+    double* const target = border.target.data();
+    double* const level = border.level.data();
+    double* const reading = border.reading.data();
     for (double* const row : {target, level, reading}) eliminate(factor, reciprocal.data(), n, row);
     const double weight = dot(level, level, n);
     const double rate = dot(level, reading, n) / weight;
@@ -343,20 +403,26 @@ void spread(const Problem& problem, Triangle base, Triangle factor, SwitchEstima
     const double missing = problem.wanted_halves - of_level;
     const double by_mean = problem.wanted_halves * rate + dot(reading, target, n) - rate * of_level +
                            problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
-    const double of_all = variance - dot(target, target, n) + missing * missing / weight;
+    const double of_all = border.target_variance - dot(target, target, n) + missing * missing / weight;
     const double off = result.angle_arcsec - by_mean;
+    int point = -1;
     for (int r = 0; r < window.n_rows; ++r) {
         const WindowRow& row = row_of(window, r);
+        point += row.read;
         if (!row.wanted) continue;
-        std::array<double, most_window_rows> with{};
-        for (int a = 0; a < n; ++a) {
-            const int s = layout.row[static_cast<unsigned>(a)];
-            with[static_cast<unsigned>(a)] = row.read ? -problem.errors.at(r, s) : problem.motion.at(r, s);
-        }
+        PointValues with{};
+        double own = 0.0;
         double with_all = 0.0;
-        for (int s = 0; s < window.n_rows; ++s) {
-            if (row.read && is_corrected(row_of(window, s))) with_all += problem.errors.at(r, s);
-            if (!row.read && is_bridged(row_of(window, s))) with_all += problem.motion.at(r, s);
+        for (int a = 0; a < n; ++a)
+            with[static_cast<unsigned>(a)] = row.read ? -problem.error(point, a) : problem.v.at(r, problem.row(a));
+        if (row.read) {
+            own = problem.error(point, point);
+            for (int b = 0; b < n; ++b)
+                if (problem.is_corrected(b)) with_all += problem.error(point, b);
+        } else {
+            own = problem.v.at(r, r);
+            for (int s = 0; s < window.n_rows; ++s)
+                if (is_bridged(row_of(window, s))) with_all += problem.v.at(r, s);
         }
         eliminate(factor, reciprocal.data(), n, with.data());
         const double halves = row.read ? 0.0 : width(row);
@@ -365,14 +431,12 @@ void spread(const Problem& problem, Triangle base, Triangle factor, SwitchEstima
                                       : halves * (rate + problem.readings.rate_arcsec);
         const double mean = known + dot(reading, with.data(), n) - rate * own_level;
         const double own_missing = halves - own_level;
-        const double of_row = (row.read ? problem.errors.at(r, r) : problem.motion.at(r, r)) -
-                              dot(with.data(), with.data(), n) + own_missing * own_missing / weight;
+        const double of_row = own - dot(with.data(), with.data(), n) + own_missing * own_missing / weight;
         const double common = with_all - dot(with.data(), target, n) + own_missing * missing / weight;
         const double share = of_all > 0.0 ? common / of_all : 0.0;
-        result.row[static_cast<unsigned>(r)].share = share;
-        result.row[static_cast<unsigned>(r)].angle_arcsec = mean + share * off;
         const double left = of_row + share * share * (result.variance_arcsec2 - of_all);
-        result.row[static_cast<unsigned>(r)].variance_arcsec2 = left > 0.0 ? left : 0.0;
+        result.row[static_cast<unsigned>(r)] = {
+            .angle_arcsec = mean + share * off, .variance_arcsec2 = left > 0.0 ? left : 0.0, .share = share};
     }
 }
 
@@ -380,65 +444,38 @@ void spread(const Problem& problem, Triangle base, Triangle factor, SwitchEstima
 
 SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& window, const MotionMoments& motion,
                         const RelockScale& scale, EstimateRoom& room, std::span<const BankMember> bank) noexcept {
-    const Triangle base{room.base.data()};
-    const Triangle kernel_of_points{room.kernel.data()};
+    SwitchEstimate result{.scale = scale};
     const Triangle factor{room.factor.data()};
-    Problem problem{window, scale, Triangle{room.motion.data()}, Triangle{room.errors.data()}};
+    Problem problem{window, scale, Triangle{room.covariance.data()}, Triangle{room.errors.data()}};
     problem.layout = layout_of(window);
-    const Layout& layout = problem.layout;
-    learnt_covariance(gyro, window, motion, problem.motion, factor);
-    error_covariance(gyro, window, scale, problem.readings, problem.errors);
-    rounding_covariance(gyro, window, problem.readings, scale.value, problem.motion, problem.errors, factor);
-    for (std::size_t k = 0; k < triangle_size(window.n_rows); ++k) room.motion[k] += room.factor[k];
+    for (int a = 0; a < problem.layout.n; ++a) problem.n_before += !row_of(window, problem.row(a)).after_gap;
+    const int n_after = problem.layout.n - problem.n_before;
+    if (problem.layout.n > most_window_points || n_after > most_points_after) return result;
+    learnt_covariance(gyro, window, motion, problem.v);
+    add_errors(gyro, room, problem);
+    std::construct_at(&room.factor);
+    add_roundings(gyro, window, problem.readings, scale.value, problem.v);
     for (int r = 0; r < window.n_rows; ++r) {
         const WindowRow& row = row_of(window, r);
         if (is_bridged(row)) problem.wanted_halves += width(row);
-        if (is_corrected(row)) problem.known_arcsec += problem.readings.angle_arcsec[static_cast<unsigned>(r)];
+        if (row.wanted && row.read) problem.known_arcsec += problem.readings.angle_arcsec[static_cast<unsigned>(r)];
     }
-    assemble(problem, base);
-
-    SwitchEstimate result{.scale = scale};
-    const double unit = smallest_pivot(layout, base, factor);
+    Border border = border_of(problem);
+    const double unit = smallest_pivot(problem, factor);
     if (!(unit > 0.0)) return result;
-    Mixture mixture;
-    MemberEstimate found;
-    std::array<Candidate, most_members> candidate{};
-    const double of_learnt = motion.n_windows >= few_windows ? prior_of_learnt : prior_of_unknown;
-    const double of_member = (1.0 - of_learnt) / static_cast<double>(bank.size() * motion_sizes.size());
-    build(layout, base, base, 0.0, factor);
-    const double added = problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
-    if (solve(layout, problem.wanted_halves, scale.variance, factor, found)) mixture.add(of_learnt, found);
-    for (std::size_t b = 0; b < bank.size(); ++b) {
-        const Kernel kernel{bank[b], window};
-        if (!kernel.is_there()) continue;
-        lay_out(kernel, window, layout, kernel_of_points);
-        for (const double size : motion_sizes) {
-            build(layout, base, kernel_of_points, size * unit, factor);
-            if (!solve(layout, problem.wanted_halves, scale.variance, factor, found)) continue;
-            candidate[static_cast<unsigned>(mixture.size())] = {b, size * unit};
-            mixture.add(of_member, found);
-        }
-    }
-    if (mixture.size() == 0) return result;
-    mixture.weigh();
-    const Moments2 angle = mixture.of(&MemberEstimate::angle_arcsec, &MemberEstimate::variance_arcsec2);
-    const Moments2 shift = mixture.of(&MemberEstimate::scale, &MemberEstimate::scale_variance);
+    const Mixture mixture = mixture_of(problem, border, motion.n_windows >= few_windows, bank, unit, factor);
+    if (mixture.is_empty()) return result;
+    const MeanVariance angle = mixture.angle();
+    const MeanVariance shift = mixture.scale();
     result.known = true;
-    result.angle_arcsec = angle.mean + added;
+    result.angle_arcsec = angle.mean + problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
     result.variance_arcsec2 = angle.variance;
     if (square(shift.mean) <= most_shift_sq * scale.variance) {
         result.scale.value = scale.value + shift.mean;
         result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
     }
-
-    const Candidate& best = candidate[static_cast<unsigned>(mixture.best())];
-    if (best.size > 0.0) {
-        const Kernel kernel{bank[best.kernel], window};
-        for (int r = 0; r < window.n_rows; ++r)
-            for (int s = 0; s <= r; ++s) problem.motion.row(r)[s] += best.size * kernel.at(r, s);
-    }
-    assemble(problem, base);
-    spread(problem, base, factor, result);
+    add_likeliest(mixture.likeliest(), bank, problem);
+    spread(problem, border, factor, result);
     return result;
 }
 

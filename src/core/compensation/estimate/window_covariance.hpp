@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include <zlg/core/compensation/compensation_constants.hpp>
-
 #include <zlg/core/common/triangle.hpp>
-#include <zlg/core/compensation/switch_window.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
+#include <zlg/core/compensation/light_spline.hpp>
+#include <zlg/core/compensation/switch_estimate.hpp>
 
 namespace zlg::core {
 
@@ -19,21 +19,39 @@ struct WindowReadings {
 
 // C: the learnt covariance, of which the roundings that the moments hold are taken out, as large a share as leaves it positive.
 //
-// into  receives it.
-// trial a second room, of no account after.
+// into  receives it, of all rows.
 void learnt_covariance(const CompensationConstants& gyro, const SwitchWindow& window, const MotionMoments& motion,
-                       Triangle into, Triangle trial) noexcept;
+                       Triangle into) noexcept;
 
-// E, and the readings.
-//
-// return  what the light says of false angles; not known: none are corrected.
-void error_covariance(const CompensationConstants& gyro, const SwitchWindow& window, const RelockScale& scale,
-                      WindowReadings& readings, Triangle into) noexcept;
+// E of the points.
+class ReadingErrors {
+public:
+    // halves    room to work in, for as long as this is used.
+    // readings  receives what the light says, and what follows.
+    ReadingErrors(const CompensationConstants& gyro, const SwitchWindow& window, const RelockScale& scale,
+                  LightHalves& halves, WindowReadings& readings) noexcept;
 
-// D R D^T.
+    // Of two rows that were read.
+    [[nodiscard]] double of(int r, int s) const noexcept;
+
+private:
+    [[nodiscard]] Stretch lit_part(const WindowRow& row) const noexcept;
+    [[nodiscard]] double by_light(const WindowRow& row, const WindowRow& other) const noexcept;
+
+    const SwitchWindow& window_;
+    const RelockScale& scale_;
+    const WindowReadings& readings_;
+    const LightFit light_;
+    LightHalves& halves_;
+    int from_ = 0;  // half of the light that is the first of these
+    double unit_arcsec_ = 0.0;
+    double bias_arcsec_ = 0.0;
+};
+
+// V = C + E + D R D^T.
 //
-// motion, errors  C and E: how far the place of a reading scatters.
-void rounding_covariance(const CompensationConstants& gyro, const SwitchWindow& window, const WindowReadings& readings,
-                         double scale, Triangle motion, Triangle errors, Triangle into) noexcept;
+// v  C + E, of all rows; receives V.
+void add_roundings(const CompensationConstants& gyro, const SwitchWindow& window, const WindowReadings& readings,
+                   double scale, Triangle v) noexcept;
 
 }  // namespace zlg::core

@@ -182,25 +182,28 @@ void widen_in_common(GapBridgeState& state, const Gap& gap, GapReport& report) n
     report.sigma_sum_arcsec = square_root(square(report.sigma_sum_arcsec) + n_ticks * n_ticks * state.common_arcsec2);
 }
 
-// Give a gap its final values from the ticks before `end`, its report, and its pending correction, eq (17).
-void resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-             PendingGap& pending, std::int64_t end) noexcept {
+// Give a gap its final values from the ticks before `end`, its pending correction, eq (17), and its report.
+//
+// return  false: nobody is to be told of it.
+bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+             PendingGap& pending, std::int64_t end, GapReport& report) noexcept {
     Gap& gap = pending.gap;
-    GapReport& report = pending.report;
+    pending.told = true;
     report = {.first_tick = gap.first_tick,
               .n_ticks = gap.n,
               .sign_after = pending.sign_after,
               .mode_after = pending.mode_after,
               .mode_changed = pending.mode_after != gap.mode_before,
               .sigma_sum_arcsec = infinity};
-    if (config.method == BridgeMethod::none) return;
+    if (config.method == BridgeMethod::none) return gap.has_before;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     const bool is_short = gap.n <= max_gap_ticks(config);
+    bool is_estimate = false;
     if (is_short) {
-        const SwitchAngle found = pending.asked ? take(gyro, config, state, gap) : SwitchAngle{};
-        pending.estimated = found.known;
+        const SwitchAngle found = pending.asked ? take(state, gap) : SwitchAngle{};
+        is_estimate = found.known;
         if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
-        pending.scale = found.scale;
+        if (found.known) state.scale = found.scale;
         difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, report);
         if (found.known) report.sigma_sum_arcsec = deviation(found.variance_arcsec2);
         pending.correction_arcsec.add(found.after_arcsec.high);
@@ -219,20 +222,11 @@ void resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     report.dp_arcsec = -difference.value();
     pending.correction_arcsec.add(difference.high);
     pending.correction_arcsec.add(difference.low);
-}
-
-// Tell of a gap whose correction is due. false: none is to be told of.
-bool tell(GapBridgeState& state, PendingGap& pending, GapReport& report) noexcept {
-    pending.told = true;
-    report = pending.report;
-    if (pending.estimated) {
-        state.scale = pending.scale;
-    }
-    if (pending.estimated && !is_known(pending.gap)) {
+    // What the ticks behind the estimate add to the angle of the switch.
+    if (is_estimate && !is_known(gap))
         report.sigma_sum_arcsec =
             deviation(square(report.sigma_sum_arcsec) + state.relock_to_come_arcsec2 + state.walk_of_switch_arcsec2);
-    }
-    return pending.gap.has_before;
+    return gap.has_before;
 }
 
 // dtheta of a measured tick: its value, and the corrections of gaps that are due. Sums are exact, and the rounding
@@ -299,9 +293,8 @@ void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& confi
         if (pending.ready_tick == tick && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
             pending.asked = ask(gyro, config, state, pending.gap, tick);
         if (pending.told || pending.due_tick > tick) continue;
-        resolve(gyro, config, state, pending, tick);
         GapReport report;
-        if (!tell(state, pending, report)) continue;
+        if (!resolve(gyro, config, state, pending, tick, report)) continue;
         sample.has_gap = true;
         sample.gap = report;
     }
@@ -310,11 +303,17 @@ void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& confi
 // The halves of a tick, learnt where they show the motion alone.
 void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input, std::int64_t tick) noexcept {
     LearntMotion& motion = state.motion;
-    if (motion.moments.length != window_halves(config)) start(motion, window_halves(config));
+    const int step_halves = window_step_halves(config);
+    const int length = window_halves(config) / step_halves;
+    if (motion.moments.length != length || motion.moments.step_halves != step_halves)
+        start(motion, length, step_halves);
     const bool usable = input.measured && input.settled && is_finite(input.variance_arcsec2) && input.half[0].read &&
                         input.half[1].read && (!state.with_phase || input.with_phase);
+    const auto& half = input.half;
+    if (step_halves == 2)
+        return add(motion, 2 * tick + 1, usable, half[0].angle_arcsec + half[1].angle_arcsec, forget_ticks);
     for (int k = 0; k < 2; ++k)
-        add(motion, 2 * tick + k, usable, input.half[static_cast<unsigned>(k)].angle_arcsec, forget_ticks);
+        add(motion, 2 * tick + k, usable, half[static_cast<unsigned>(k)].angle_arcsec, forget_ticks);
 }
 
 }  // namespace
@@ -365,8 +364,7 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
         if (!pending.asked && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
             pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
         work(gyro, state.motion, state.background);
-        resolve(gyro, config, state, pending, state.next_tick);
-        out.has_gap = tell(state, pending, out.gap);
+        out.has_gap = resolve(gyro, config, state, pending, state.next_tick, out.gap);
     }
     // Every gap must be resolved before a row may leave.
     if (out.has_gap) return out;

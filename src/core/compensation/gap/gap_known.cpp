@@ -134,7 +134,7 @@ void settle(GapBridgeState& state, const Gap& gap, const KnownStretch& s, double
 
 void note_known(double rounding_arcsec2, const TickInput& input, Gap& gap, HistoryTick& entry) noexcept {
     if (input.known_ticks <= 0 || input.known_ticks > gap.n - gap.known_ticks) return;
-    entry.known_ticks = input.known_ticks;
+    entry.known_ticks = static_cast<std::int32_t>(input.known_ticks);
     entry.known_arcsec = input.known_arcsec;
     entry.known_variance_arcsec2 = input.known_variance_arcsec2;
     entry.known_is_rough = input.known_is_rough;

@@ -18,11 +18,11 @@ constexpr double reading_error_lambda = 0.002;
 constexpr double limit_sq = 25.0;
 constexpr double tolerated_bias_ratio = 0.02;
 
-// Ticks after the gap whose halves are points of their own.
-constexpr int ticks_by_halves = 8;
+// Halves from the first one with light on that are points of their own.
+constexpr int halves_by_halves = 16;
 
-constexpr int most_gap_rows = 16;
-constexpr int most_lit_rows = 16;
+// Lit halves that are points; the wholes that these make too many are left to the light.
+constexpr int most_lit_rows = 8;
 
 constexpr int min_points = 3;
 
@@ -39,7 +39,8 @@ public:
           gap_{gap},
           end_of_gap_{gap.first_tick + gap.n},
           end_{end},
-          first_tick_{gap.first_tick - ticks_before_estimate} {
+          first_tick_{gap.first_tick - ticks_before_estimate},
+          by_halves_{window_step_halves(config) == 1} {
         const SwitchLight& light = state.light;
         const bool is_own = light.first_half >= 2 * gap.first_tick && light.first_half < 2 * (end_of_gap_ + 1);
         if (!gap.moves) {
@@ -61,8 +62,10 @@ public:
         add_gap();
         const int after = ticks_to_last_point(config);
         const int looked_at = after < most_ticks_after_estimate ? after : most_ticks_after_estimate;
-        for (int k = 0; k < looked_at; ++k) add_after(k);
+        const int most_rows = window_.n_rows - n_lit_ + most_points_after;
+        for (int k = 0; k < looked_at && window_.n_rows < most_rows; ++k) add_after(k);
         window_.n_halves = window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
+        plan_.n_late = late_ticks();
         plan.is_solvable = n_before_ > 0 && n_after_ > 0 && n_before_ + n_after_ >= min_points;
     }
 
@@ -80,6 +83,11 @@ private:
         return entry.half[0].read && entry.half[1].read;
     }
 
+    [[nodiscard]] RowPlace place_of(std::int64_t tick, int n_ticks = 1, int half = -1) const noexcept {
+        return {static_cast<std::int16_t>(tick - gap_.first_tick), static_cast<std::int8_t>(n_ticks),
+                static_cast<std::int8_t>(half)};
+    }
+
     WindowRow& add(const RowPlace& place, int halves) noexcept {
         const int first = window_.n_rows == 0 ? 0 : window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
         plan_.place[static_cast<unsigned>(window_.n_rows)] = place;
@@ -87,13 +95,24 @@ private:
         row.halves = {first, first + halves};
         row.after_gap = first >= window_.gap.first;
         for (int h = 0; h < halves; ++h) {
-            const std::int64_t tick = place.tick + (place.half < 0 ? h / 2 : 0);
+            const std::int64_t tick = gap_.first_tick + place.tick + (place.half < 0 ? h / 2 : 0);
             const HistoryTick& entry = at(state_, tick < 0 ? 0 : tick);
             const int k = place.half < 0 ? h % 2 : place.half;
             window_.bias_sign[static_cast<unsigned>(first + h)] =
                 tick < 0 || tick >= end_ ? std::int8_t{1} : entry.half[static_cast<unsigned>(k)].sign;
         }
         return row;
+    }
+
+    // Ticks behind the window that have light.
+    [[nodiscard]] int late_ticks() const noexcept {
+        if (plan_.light != HalfLight::spline) return 0;
+        const auto behind = static_cast<int>(config_.relock_ticks) - (window_.n_halves - window_.gap.last) / 2;
+        const int lit = (window_.light.basis.halves - (window_.n_halves - window_.light_start)) / 2;
+        const auto known = static_cast<int>(end_ - end_of_gap_) - (window_.n_halves - window_.gap.last) / 2;
+        int n = behind < lit ? behind : lit;
+        if (n > known) n = known;
+        return n < 0 ? 0 : n < most_late_ticks ? n : most_late_ticks;
     }
 
     void count(const WindowRow& row) noexcept { ++(row.after_gap ? n_after_ : n_before_); }
@@ -105,7 +124,7 @@ private:
 
     void add_tick_as_it_is(std::int64_t tick) noexcept {
         const HistoryTick& entry = at(state_, tick);
-        WindowRow& row = add({.tick = tick}, 2);
+        WindowRow& row = add(place_of(tick), 2);
         row.read = true;
         row.y_arcsec = entry.row.dtheta_final_arcsec - magnetic(entry);
         row.error_arcsec2 = entry.relock_variance_arcsec2;
@@ -114,14 +133,15 @@ private:
 
     void add_before(std::int64_t tick) noexcept {
         if (!is_point(tick)) {
-            (void)add({.tick = tick}, 2);
+            (void)add(place_of(tick), 2);
             return;
         }
         const HistoryTick& entry = at(state_, tick);
         // Also one in which a fault may have begun unseen.
-        if (!entry.settled || !has_halves(entry) || entry.relock_variance_arcsec2 > 0.0) return add_tick_as_it_is(tick);
+        if (!by_halves_ || !entry.settled || !has_halves(entry) || entry.relock_variance_arcsec2 > 0.0)
+            return add_tick_as_it_is(tick);
         for (int k = 0; k < 2; ++k) {
-            WindowRow& row = add({.tick = tick, .half = static_cast<std::int16_t>(k)}, 1);
+            WindowRow& row = add(place_of(tick, 1, k), 1);
             row.read = true;
             row.y_arcsec = entry.half[static_cast<unsigned>(k)].angle_arcsec - 0.5 * magnetic(entry);
             count(row);
@@ -149,7 +169,7 @@ private:
 
     [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
         return half.lit && half.read && plan_.light != HalfLight::ticks &&
-               (plan_.light != HalfLight::records || half.false_arcsec2 >= 0.0);
+               (plan_.light != HalfLight::records || half.false_arcsec2 >= 0.0F);
     }
 
     [[nodiscard]] const HalfReading& half_reading(std::int64_t half) const noexcept {
@@ -164,7 +184,7 @@ private:
         const HalfReading& a = half_reading(half);
         const HalfReading& b = half_reading(half + 1);
         const HalfReading& d = half_reading(half + 2);
-        const auto noise = [](const HalfReading& x) { return x.false_arcsec2 > 0.0 ? x.false_arcsec2 : 0.0; };
+        const auto noise = [](const HalfReading& x) { return x.false_arcsec2 > 0.0F ? double{x.false_arcsec2} : 0.0; };
         const double common = law_error_ratio * (a.false_arcsec - 2.0 * b.false_arcsec + d.false_arcsec);
         const double off =
             a.angle_arcsec - a.false_arcsec - 2.0 * (b.angle_arcsec - b.false_arcsec) + d.angle_arcsec - d.false_arcsec;
@@ -178,7 +198,8 @@ private:
     // The lit halves that reach up to the end of the gap.
     [[nodiscard]] std::int64_t first_lit_half() noexcept {
         std::int64_t h = 2 * end_of_gap_;
-        if (plan_.light == HalfLight::none || plan_.light == HalfLight::ticks || !is_point(end_of_gap_)) return h;
+        if (!by_halves_ || plan_.light == HalfLight::none || plan_.light == HalfLight::ticks || !is_point(end_of_gap_))
+            return h;
         const std::int64_t least = h - most_lit_rows > 2 * gap_.first_tick ? h - most_lit_rows : 2 * gap_.first_tick;
         while (h > least && is_lit(half_reading(h - 1)) && fits(h - 1)) --h;
         // By the spline, from where it begins.
@@ -190,35 +211,35 @@ private:
     void add_lit(std::int64_t half) noexcept {
         const HistoryTick& entry = at(state_, half / 2);
         const int k = static_cast<int>(half % 2);
-        read_half(entry, k, true, add({.tick = half / 2, .half = static_cast<std::int16_t>(k)}, 1));
+        read_half(entry, k, true, add(place_of(half / 2, 1, k), 1));
     }
 
     void add_gap() noexcept {
         const std::int64_t lit = first_lit_half();
         const std::int64_t dark_ticks = lit / 2 - gap_.first_tick;
-        const int rows = most_gap_rows;
-        const auto each = static_cast<int>((dark_ticks + rows - 1) / rows);
+        const auto each = static_cast<int>((dark_ticks + most_rows_without - 1) / most_rows_without);
         for (std::int64_t t = gap_.first_tick; t < lit / 2;) {
             const auto left = static_cast<int>(lit / 2 - t);
             const int n = left < each ? left : each;
-            add({.tick = t, .n_ticks = static_cast<std::int16_t>(n)}, 2 * n).wanted = true;
+            add(place_of(t, n), 2 * n).wanted = true;
             t += n;
         }
-        if (lit % 2 != 0) add({.tick = lit / 2, .half = 0}, 1).wanted = true;
+        if (lit % 2 != 0) add(place_of(lit / 2, 1, 0), 1).wanted = true;
+        n_lit_ = static_cast<int>(2 * end_of_gap_ - lit);
         for (std::int64_t h = lit; h < 2 * end_of_gap_; ++h) add_lit(h);
     }
 
     void add_after(int k) noexcept {
         const std::int64_t tick = end_of_gap_ + k;
         if (!is_point(tick)) {
-            (void)add({.tick = tick}, 2);
+            (void)add(place_of(tick), 2);
             return;
         }
         const HistoryTick& entry = at(state_, tick);
         const bool wanted = gap_.moves && plan_.light != HalfLight::none && k < config_.relock_ticks;
         const bool corrects = wanted && plan_.light != HalfLight::ticks;
         const bool by_records = corrects && plan_.light == HalfLight::records;
-        const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0 && entry.half[1].false_arcsec2 >= 0.0);
+        const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0F && entry.half[1].false_arcsec2 >= 0.0F);
         const bool is_corrected =
             plan_.light == HalfLight::ticks && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
         if (!has_halves(entry) || !known || is_corrected) {
@@ -226,12 +247,11 @@ private:
             window_.row[static_cast<unsigned>(window_.n_rows - 1)].wanted = wanted;
             return;
         }
-        if (k < ticks_by_halves) {
-            for (int half = 0; half < 2; ++half)
-                read_half(entry, half, wanted, add({.tick = tick, .half = static_cast<std::int16_t>(half)}, 1));
+        if (by_halves_ && n_lit_ + 2 * (k + 1) <= halves_by_halves) {
+            for (int half = 0; half < 2; ++half) read_half(entry, half, wanted, add(place_of(tick, 1, half), 1));
             return;
         }
-        WindowRow& row = add({.tick = tick}, 2);
+        WindowRow& row = add(place_of(tick), 2);
         read_half(entry, 0, wanted, row);
         const WindowRow first = row;
         read_half(entry, 1, wanted, row);
@@ -251,6 +271,8 @@ private:
     std::int64_t end_of_gap_;
     std::int64_t end_;
     std::int64_t first_tick_;
+    bool by_halves_;
+    int n_lit_ = 0;
     int n_before_ = 0;
     int n_after_ = 0;
 };
@@ -283,32 +305,20 @@ void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec
     entry.row.flags = (entry.row.flags & ~std::uint32_t{flag_relock_uncorrected}) | flag_relock_corrected;
 }
 
-// The false angles of ticks behind the window, by the light alone.
-void correct_far_ticks(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                       const Gap& gap, const SwitchWindow& window, const RelockScale& scale,
-                       SwitchAngle& found) noexcept {
-    if (config.relock_ticks <= most_ticks_after_estimate) return;
-    const LightFit fit{window.light, gyro.light_noise.value()};
-    if (!fit.is_known()) return;
-    const double unit = 0.5 * gyro.chi * gyro.bias.value() * gyro.scale.value() * gyro.tick.value();
-    const std::int64_t end_of_gap = gap.first_tick + gap.n;
-    for (std::int64_t tick = end_of_gap + most_ticks_after_estimate; tick < end_of_gap + config.relock_ticks; ++tick) {
-        const auto h = static_cast<int>(2 * (tick - gap.first_tick + ticks_before_estimate)) - window.light_start;
-        if (tick >= state.next_tick - 1 || h + 1 >= window.light.basis.halves) return;
-        HistoryTick& entry = at(state, tick);
-        if (!entry.measured || !entry.half[0].read || !entry.half[1].read) continue;
-        double d = 0.0;
-        double variance = 0.0;
-        for (int a = 0; a < 2; ++a) {
-            const int sign = entry.half[static_cast<unsigned>(a)].sign;
-            d += unit * sign * fit.angle(h + a);
-            for (int b = 0; b < 2; ++b)
-                variance +=
-                    unit * unit * sign * entry.half[static_cast<unsigned>(b)].sign * fit.covariance(h + a, h + b);
-        }
+// Ticks behind the window.
+void correct_late_ticks(GapBridgeState& state, const Gap& gap, const SwitchJob& job, SwitchAngle& found) noexcept {
+    const SwitchWindow& window = job.plan.window;
+    const std::int64_t first = gap.first_tick + gap.n + (window.n_halves - window.gap.last) / 2;
+    for (int k = 0; k < job.plan.n_late; ++k) {
+        HistoryTick& entry = at(state, first + k);
+        const bool alternates = entry.half[0].sign == -entry.half[1].sign;
+        if (!entry.measured || !entry.half[0].read || !entry.half[1].read || !alternates) continue;
+        const LateTick& late = job.late_tick[static_cast<unsigned>(k)];
+        const double d = entry.half[0].sign * late.false_arcsec;
+        const double variance = late.variance_arcsec2 + job.scale.variance * d * d;
         const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
-        set_after_tick(entry, read + (1.0 + scale.value) * d, variance + scale.variance * d * d, found.after_arcsec);
-        found.variance_arcsec2 += variance;
+        set_after_tick(entry, read + (1.0 + job.scale.value) * d, variance, found.after_arcsec);
+        found.variance_arcsec2 += late.variance_arcsec2;
     }
 }
 
@@ -336,8 +346,7 @@ bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBr
     return false;
 }
 
-SwitchAngle take(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                 const Gap& gap) noexcept {
+SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
     SwitchAngle out{.scale = state.scale};
     SwitchJob* job = nullptr;
     for (SwitchJob& one : state.background.job)
@@ -358,7 +367,7 @@ SwitchAngle take(const CompensationConstants& gyro, const GapBridgeConfig& confi
     for (int r = 0; r < window.n_rows;) {
         const RowPlace& place = plan.place[static_cast<unsigned>(r)];
         const bool wanted = window.row[static_cast<unsigned>(r)].wanted;
-        const bool in_gap = place.tick >= gap.first_tick && place.tick < gap.first_tick + gap.n;
+        const bool in_gap = place.tick >= 0 && place.tick < gap.n;
         double angle = 0.0;
         double variance = 0.0;
         double unread = 0.0;
@@ -376,18 +385,18 @@ SwitchAngle take(const CompensationConstants& gyro, const GapBridgeConfig& confi
         out.variance_arcsec2 += unread;
         variance += unread;
         if (!wanted) continue;
-        HistoryTick& entry = at(state, place.tick);
+        HistoryTick& entry = at(state, gap.first_tick + place.tick);
         if (!in_gap) {
             set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
             continue;
         }
         for (int k = 0; k < place.n_ticks; ++k) {
-            HistoryTick& tick = at(state, place.tick + k);
+            HistoryTick& tick = at(state, gap.first_tick + place.tick + k);
             set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);
             tick.share = share / place.n_ticks;
         }
     }
-    if (plan.light == HalfLight::spline) correct_far_ticks(gyro, config, state, gap, window, job->scale, out);
+    correct_late_ticks(state, gap, *job, out);
     return out;
 }
 

@@ -67,7 +67,7 @@ void add_all(LearntMotion& memory, const std::vector<double>& x, std::int64_t fi
 TEST(LearntMotion, HoldsTheProductsOfAllWindowsOfARun) {
     for (const int length : {8, 20, 62}) {
         LearntMotion memory;
-        start(memory, length);
+        start(memory, length, 1);
         const auto x = some_motion(10 * part_halves, 3);
         add_all(memory, x, 0);
         learn(memory, 10 * part_halves, false, 0.0, forget_ticks);
@@ -79,8 +79,8 @@ TEST(LearntMotion, HoldsTheProductsOfAllWindowsOfARun) {
 TEST(LearntMotion, HalvesThatBeginAPartWithoutEndingItAreNotIn) {
     LearntMotion whole;
     LearntMotion more;
-    start(whole, 20);
-    start(more, 20);
+    start(whole, 20, 1);
+    start(more, 20, 1);
     const auto x = some_motion(4 * part_halves + 9, 5);
     add_all(whole, {x.begin(), x.begin() + 4 * part_halves}, 0);
     add_all(more, x, 0);
@@ -91,7 +91,7 @@ TEST(LearntMotion, HalvesThatBeginAPartWithoutEndingItAreNotIn) {
 
 TEST(LearntMotion, ARunThatBeginsWithinAPartLosesNothingOfIt) {
     LearntMotion memory;
-    start(memory, 8);
+    start(memory, 8, 1);
     const auto x = some_motion(part_halves + 5, 6);
     add_all(memory, x, 3 * part_halves - 5);
     learn(memory, 4 * part_halves, false, 0.0, forget_ticks);
@@ -100,7 +100,7 @@ TEST(LearntMotion, ARunThatBeginsWithinAPartLosesNothingOfIt) {
 
 TEST(LearntMotion, WindowsThatStraddleBlocksCount) {
     LearntMotion memory;
-    start(memory, 20);
+    start(memory, 20, 1);
     const auto x = some_motion(2 * block_halves, 7);
     add_all(memory, x, 0);
     const double first = block_halves - 19, second = block_halves;
@@ -117,8 +117,8 @@ TEST(LearntMotion, WindowsThatStraddleBlocksCount) {
 TEST(LearntMotion, TheTimeOfAFoldIsOfNoAccount) {
     LearntMotion soon;
     LearntMotion late;
-    start(soon, 20);
-    start(late, 20);
+    start(soon, 20, 1);
+    start(late, 20, 1);
     const auto x = some_motion(3 * block_halves, 9);
     for (std::size_t s = 0; s < x.size(); ++s) {
         const bool settled = s % 700 != 699;
@@ -134,7 +134,7 @@ TEST(LearntMotion, TheTimeOfAFoldIsOfNoAccount) {
 
 TEST(LearntMotion, TheSummaryIsThatOfTheMoments) {
     LearntMotion memory;
-    start(memory, 20);
+    start(memory, 20, 1);
     const auto x = some_motion(10 * part_halves, 4);
     add_all(memory, x, 0);
     for (int h = 0; h < 20; ++h) learn(memory, 10 * part_halves + h, false, 0.0, forget_ticks);
@@ -148,11 +148,11 @@ TEST(LearntMotion, TheSummaryIsThatOfTheMoments) {
 
 TEST(LearntMotion, AShortRunTeachesNothing) {
     LearntMotion memory;
-    start(memory, 62);
+    start(memory, 62, 1);
     add_all(memory, some_motion(3 * part_halves, 8), 0);
     learn(memory, 3 * part_halves, false, 0.0, forget_ticks);
     LearntMotion nothing;
-    start(nothing, 62);
+    start(nothing, 62, 1);
     EXPECT_EQ(memory.moments, nothing.moments);
 }
 

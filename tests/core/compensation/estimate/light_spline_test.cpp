@@ -63,7 +63,7 @@ TEST(LightSpline, ACubicCourseGivesItsMeanSquareInEveryHalf) {
         for (int h = 0; h < 40; ++h) {
             double mean_sq = 0.0;
             for (int k = 0; k < 1000; ++k) mean_sq += std::pow(course(h + (k + 0.5) / 1000.0), 2) / 1000.0;
-            EXPECT_NEAR(fit.angle(h), mean_sq, 1e-8);
+            EXPECT_NEAR(fit.angle(fit.half(h)), mean_sq, 1e-8);
         }
     }
 }
@@ -79,11 +79,11 @@ TEST(LightSpline, TheNoiseOfTheLightAddsNothingOnTheMeanAndScattersAsItSays) {
     for (int k = 0; k < trials; ++k) {
         const LightFit fit{sums_of(40, 16, [&](double t) { return course(t) + noise * random.normal(); }), 0.0};
         for (int a = 0; a < 3; ++a) {
-            const double off = fit.angle(half[a]) - exact.angle(half[a]);
+            const double off = fit.angle(fit.half(half[a])) - exact.angle(exact.half(half[a]));
             sum[a] += off;
             for (int b = 0; b < 3; ++b) {
-                square[a][b] += off * (fit.angle(half[b]) - exact.angle(half[b]));
-                claimed[a][b] += fit.covariance(half[a], half[b]);
+                square[a][b] += off * (fit.angle(fit.half(half[b])) - exact.angle(exact.half(half[b])));
+                claimed[a][b] += fit.covariance(fit.half(half[a]), fit.half(half[b]));
             }
         }
     }
@@ -100,8 +100,8 @@ TEST(LightSpline, WhereNothingIsDetunedTheVarianceIsClaimedThreeTimes) {
     double square = 0.0, claimed = 0.0;
     for (int k = 0; k < 1500; ++k) {
         const LightFit fit{sums_of(40, 16, [&](double) { return 0.01 * random.normal(); }), 0.0};
-        square += fit.angle(30) * fit.angle(30);
-        claimed += fit.covariance(30, 30);
+        square += fit.angle(fit.half(30)) * fit.angle(fit.half(30));
+        claimed += fit.covariance(fit.half(30), fit.half(30));
     }
     EXPECT_NEAR(claimed / square, 3.0, 0.4);
 }

@@ -15,6 +15,8 @@ using namespace zlg::core;
 
 constexpr double rate = 7.5;  // arcsec in a half
 constexpr int gap_halves = 6;
+constexpr int before_halves = 16;
+constexpr int after_halves = 24;
 constexpr int points = before_halves + after_halves;
 
 // No bias, no noise of readings: what is left is the walk of the angle, the same for every half.
@@ -129,7 +131,7 @@ Relocking relocking(double chi_ratio) {
     for (WindowRow& row : r.window.row) {
         if (!row.after_gap || !row.read) continue;
         row.wanted = true;
-        row.y_arcsec = rate - chi_ratio * r.false_arcsec * r.window.bias_sign[static_cast<unsigned>(row.halves.first)];
+        row.y_arcsec = rate - chi_ratio * r.false_arcsec * r.window.bias_sign[static_cast<std::size_t>(row.halves.first)];
     }
     return r;
 }

@@ -48,7 +48,7 @@ TEST(SwitchLight, GathersTheHalvesFromTheFirstOneThatCounts) {
     EXPECT_EQ(state.first_half, 11);
     const LightFit fit{state.sums, 1e-6};
     ASSERT_TRUE(fit.is_known());
-    for (int h = 0; h < halves; ++h) EXPECT_NEAR(fit.angle(h), 0.01, 1e-6);
+    for (int h = 0; h < halves; ++h) EXPECT_NEAR(fit.angle(fit.half(h)), 0.01, 1e-6);
 }
 
 TEST(SwitchLight, AnotherGapBeginsItAnew) {

@@ -46,6 +46,9 @@ void substitute_back(Triangle factor, const double* reciprocal, int n, double* x
 // return      false where A is not positive definite or holds what is not a number; the rows are then of no use.
 [[nodiscard]] bool factorise(Triangle a, double* reciprocal, int n) noexcept;
 
+// A^-1 in place of the factor of A.
+void invert(Triangle factor, const double* reciprocal, int n) noexcept;
+
 // Sum of products of n numbers.
 [[nodiscard]] double dot(const double* a, const double* b, int n) noexcept;
 

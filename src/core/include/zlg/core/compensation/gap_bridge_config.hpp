@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <zlg/core/compensation/compensation_constants.hpp>
+#include <zlg/core/compensation/switch_window.hpp>
 #include <zlg/core/methods.hpp>
 #include <zlg/core/units.hpp>
 
@@ -81,11 +82,15 @@ inline constexpr int most_final_delay_ticks = 128;
     return max_polynomial_gap + (c.extrapolation_points > wait ? c.extrapolation_points : wait);
 }
 
-// Half-ticks of the longest window of an estimate.
+// Half-ticks of the longest window of an estimate; where they are more than the moments hold it goes by whole ticks.
 [[nodiscard]] constexpr int window_halves(const GapBridgeConfig& c) noexcept {
     const int after = ticks_to_last_point(c);
     return 2 * (ticks_before_estimate + max_gap_ticks(c) +
                 (after < most_ticks_after_estimate ? after : most_ticks_after_estimate));
+}
+
+[[nodiscard]] constexpr int window_step_halves(const GapBridgeConfig& c) noexcept {
+    return window_halves(c) > most_moment_steps ? 2 : 1;
 }
 
 }  // namespace zlg::core

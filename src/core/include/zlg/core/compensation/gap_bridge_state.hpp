@@ -56,11 +56,8 @@ struct PendingGap {
     std::int64_t due_tick = 0;
     std::int8_t sign_after = 1, mode_after = 1;
     bool asked = false;
-    ExactSum correction_arcsec{};  // pending: final minus delivered, of the gap and of the ticks that it amended
-    GapReport report{};            // once it is resolved
     bool told = false;             // its report is out
-    bool estimated = false;
-    RelockScale scale{};  // as it has shown it
+    ExactSum correction_arcsec{};  // pending: final minus delivered, of the gap and of the ticks that it amended
 
     friend bool operator==(const PendingGap&, const PendingGap&) = default;
 };

@@ -13,9 +13,9 @@ struct HalfReading {
     bool read = false;
     bool lit = false;             // in a gap
     std::int8_t sign = 1;         // bias_sign * mode
+    float false_arcsec2 = -1.0F;  // variance of `false_arcsec`, by the noise of the light; negative: not measured
     double angle_arcsec = 0.0;    // without the bias; its false angle is in it
     double false_arcsec = 0.0;    // -s D of the recorded mean square of the detuning: what is to be subtracted
-    double false_arcsec2 = -1.0;  // its variance, by the noise of the light; negative: not measured
 
     friend bool operator==(const HalfReading&, const HalfReading&) = default;
 };
@@ -58,7 +58,7 @@ struct HistoryTick {
     bool settled = false;  // as in TickInput
     bool with_phase = false;
     bool known_is_rough = false;
-    std::int64_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
+    std::int32_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
     double known_arcsec = 0.0;
     double known_variance_arcsec2 = 0.0;
 

@@ -1,15 +1,16 @@
 #pragma once
-// What is learnt of the motion: second moments of all windows of L settled halves in a row, forgotten exponentially.
+// What is learnt of the motion: second moments of all windows of L settled steps in a row, forgotten exponentially. A step is a half,
+// or a tick where the windows would be too long.
 //
 //   C_ij = sum over windows t of x_(t+i) x_(t+j)                                                            (1)
 //
 // the covariance method of linear prediction (Makhoul, Proc. IEEE 63 (1975) 561). It is positive, and not smeared by a taper as
-// autocovariances are. For all windows of a run of n halves it follows from the products of the run by their distance k,
+// autocovariances are. For all windows of a run of n steps it follows from the products of the run by their distance k,
 //
 //   P_k = sum over s of x_s x_(s+k),    C_i(i+k) = P_k - (those with s < i) - (those with s > n - L + i)    (2)
 //
-// so that a half costs L products, and the matrix L^2 only where a run ends: at a gap, or after `block_halves`. The next run
-// then begins with the last L - 1 halves of this one, and no window is lost; their own products are added with the matrix. Its mean is taken off: contrasts do not see it, but the
+// so that a step costs L products, and the matrix L^2 only where a run ends: at a gap, or after `block_halves`. The next run
+// then begins with the last L - 1 steps of this one, and no window is lost; their own products are added with the matrix. Its mean is taken off: contrasts do not see it, but the
 // law of the roundings does. The sums are made alike in both directions of time.
 //
 // Halves go in by parts that end where their index is a multiple of `part_halves`: what a memory holds is a function of the
@@ -34,9 +35,9 @@ struct EndedRun {
     double forget_ticks = 1.0;
     int n = 0;
     double sum = 0.0;
-    std::array<double, most_window_halves> product{};  // P_k
-    std::array<double, most_window_halves> head{};     // the first L - 1 halves
-    std::array<double, most_window_halves> tail{};     // and the last
+    std::array<double, most_moment_steps> product{};  // P_k
+    std::array<double, most_moment_steps> head{};     // the first L - 1 steps
+    std::array<double, most_moment_steps> tail{};     // and the last
 
     friend bool operator==(const EndedRun&, const EndedRun&) = default;
 };
@@ -56,14 +57,14 @@ inline constexpr int fold_halves = 16;
 
 struct LearntMotion {
     MotionMoments moments{};    // of the runs that have been folded
-    double level_arcsec = 0.0;  // first half of the run: what is subtracted from all
+    double level_arcsec = 0.0;  // first step of the run: what is subtracted from all
     bool goes_on = false;
-    int n_run = 0;      // halves of the run in the products
+    int n_run = 0;      // steps of the run in the products
     int n_waiting = 0;  // and those that wait for the end of their part
-    double sum = 0.0;   // of the n_run halves
-    std::array<double, most_window_halves> product{};
-    std::array<double, most_window_halves> head{};
-    std::array<double, most_window_halves + part_halves> recent{};  // its last L - 1 halves, then those that wait
+    double sum = 0.0;   // of the n_run steps
+    std::array<double, most_moment_steps> product{};
+    std::array<double, most_moment_steps> head{};
+    std::array<double, most_moment_steps + part_halves> recent{};  // its last L - 1 steps, then those that wait
     EndedRun ended{};
     MotionSummary folded{};   // of `moments`
     MotionSummary summary{};  // what is told
@@ -73,12 +74,13 @@ struct LearntMotion {
 
 // Begin with nothing learnt.
 //
-// length  L, even, up to most_window_halves.
-void start(LearntMotion& memory, int length) noexcept;
+// length       L, even, up to most_moment_steps.
+// step_halves  1 or 2.
+void start(LearntMotion& memory, int length, int step_halves) noexcept;
 
-// A half; its index; its angle without the bias. Where a run ends, its fold is asked for.
+// A step: the index of its last half, and its angle without the bias. Where a run ends, its fold is asked for.
 //
-// settled       measured, and free of re-lock; another half ends the run.
+// settled       measured, and free of re-lock; another step ends the run.
 // forget_ticks  age at which a window counts 1/e.
 void add(LearntMotion& memory, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept;
 

@@ -59,6 +59,13 @@ struct LightSums {
 // The samples of half h, wavelengths, equally spaced over it.
 void add(LightSums& sums, int h, std::span<const double> detuning_lambda) noexcept;
 
+// A half, as (2) and (3) need it: Q_h of the four terms from `first` on, and Q_h c.
+struct LightHalf {
+    int first;
+    std::array<double, 10> product;  // lower triangle
+    std::array<double, 4> slope;
+};
+
 // The fit (1), in units of k: false angles over k.
 class LightFit {
 public:
@@ -67,23 +74,17 @@ public:
 
     // False where there are too few samples for the knots.
     [[nodiscard]] bool is_known() const noexcept { return known_; }
+    [[nodiscard]] LightHalf half(int h) const noexcept;
     // (2), without the sign of the bias.
-    [[nodiscard]] double angle(int h) const noexcept;
+    [[nodiscard]] double angle(const LightHalf& half) const noexcept;
     // (3).
-    [[nodiscard]] double covariance(int h, int g) const noexcept;
+    [[nodiscard]] double covariance(const LightHalf& one, const LightHalf& other) const noexcept;
 
 private:
-    struct Half {
-        int first = 0;
-        std::array<double, 10> product{};  // Q_h, lower triangle
-        std::array<double, 4> slope{};     // Q_h c
-    };
-    [[nodiscard]] Half half_of(const LightBasis& basis, int h) const noexcept;
-
     bool known_ = false;
+    LightBasis basis_{};
     std::array<double, most_light_terms> term_{};                       // c
     std::array<double, triangle_size(most_light_terms)> covariance_{};  // cov c
-    std::array<Half, most_light_halves> halves_;
 };
 
 }  // namespace zlg::core

@@ -23,9 +23,8 @@
 #include <array>
 #include <span>
 
-#include <zlg/core/compensation/compensation_constants.hpp>
-
 #include <zlg/core/common/triangle.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/compensation/motion_bank.hpp>
 #include <zlg/core/compensation/switch_window.hpp>
 
@@ -50,17 +49,22 @@ struct SwitchEstimate {
     friend bool operator==(const SwitchEstimate&, const SwitchEstimate&) = default;
 };
 
-inline constexpr int estimate_rows = most_window_rows + 4;  // with the right-hand sides
+inline constexpr int n_borders = 4;
+
+// Of the light, from the first half on that is read after the gap.
+using LightHalves = std::array<LightHalf, 64>;
 
 // Room to work in, of the caller: what it holds before and after is of no account.
 struct EstimateRoom {
     friend constexpr bool operator==(const EstimateRoom&, const EstimateRoom&) noexcept { return true; }
 
-    std::array<double, triangle_size(most_window_rows)> motion{};  // C + D R D^T of all rows
-    std::array<double, triangle_size(most_window_rows)> errors{};  // E
-    std::array<double, triangle_size(estimate_rows)> base{};       // V of the points, and its border
-    std::array<double, triangle_size(estimate_rows)> kernel{};
-    std::array<double, triangle_size(estimate_rows)> factor{};
+    std::array<double, triangle_size(most_window_rows)> covariance{};  // V of all rows
+    std::array<double, triangle_size(most_points_after)> errors{};     // E of the points after the gap
+    union {
+        std::array<double, triangle_size(most_window_points + n_borders)>
+            factor{};        // of V_m of the points, and its border
+        LightHalves halves;  // while E is made
+    };
 };
 
 // bank  of at most as many members as `motion_bank`.

@@ -21,11 +21,21 @@ enum class HalfLight : unsigned char {
     ticks     // the paper's correction of the tick is in its value
 };
 
+// A tick behind the window: what the light alone says that it was turned by, for a first half of positive sign.
+struct LateTick {
+    double false_arcsec = 0.0;
+    double variance_arcsec2 = 0.0;
+
+    friend bool operator==(const LateTick&, const LateTick&) = default;
+};
+
+inline constexpr int most_late_ticks = 48;
+
 // What a row of the window stands for.
 struct RowPlace {
-    std::int64_t tick = 0;  // the first one, where it is several
-    std::int16_t n_ticks = 1;
-    std::int16_t half = -1;  // of that tick; -1: all of it
+    std::int16_t tick = 0;  // the first one, where it is several, counted from the first one of the gap
+    std::int8_t n_ticks = 1;
+    std::int8_t half = -1;  // of that tick; -1: all of it
 
     friend bool operator==(const RowPlace&, const RowPlace&) = default;
 };
@@ -37,6 +47,7 @@ struct SwitchPlan {
     double unread_arcsec2 = 0.0;
     SwitchWindow window{};
     std::array<RowPlace, most_window_rows> place{};
+    int n_late = 0;  // ticks behind the window that the light corrects
 
     friend bool operator==(const SwitchPlan&, const SwitchPlan&) = default;
 };
@@ -50,6 +61,7 @@ struct SwitchJob {
     SwitchPlan plan{};
     RelockScale scale{};
     SwitchEstimate found{};
+    std::array<LateTick, most_late_ticks> late_tick{};
 
     friend bool operator==(const SwitchJob&, const SwitchJob&) = default;
 };

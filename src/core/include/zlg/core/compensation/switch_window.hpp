@@ -11,11 +11,13 @@
 
 namespace zlg::core {
 
-inline constexpr int before_halves = 16;  // of the window, before the gap
-inline constexpr int after_halves = 40;   // and after it
-inline constexpr int most_gap_halves = 80;
-inline constexpr int most_window_halves = before_halves + most_gap_halves + after_halves;
-inline constexpr int most_window_rows = 64;
+inline constexpr int most_window_halves = 136;  // 8 ticks, a gap of 40, and 20 after it
+// Rows with a reading, on either side: 8 ticks by halves, and 12 as wholes.
+inline constexpr int most_points_before = 16;
+inline constexpr int most_points_after = 28;
+inline constexpr int most_window_points = most_points_before + most_points_after;
+inline constexpr int most_rows_without = 16;
+inline constexpr int most_window_rows = most_window_points + most_rows_without;
 
 // A stretch of the window whose angle was read, or is wanted, as one number. The rows follow one another without a hole.
 struct WindowRow {
@@ -48,12 +50,16 @@ struct SwitchWindow {
     friend bool operator==(const SwitchWindow&, const SwitchWindow&) = default;
 };
 
-// Second moments of the motion over windows of halves, alike in both directions of time: C_ij = C_ji = C_(L-1-j)(L-1-i).
+// Windows of so many steps: that of a gap of 16 ticks, by halves. Those of longer gaps are learnt by ticks.
+inline constexpr int most_moment_steps = 88;
+
+// Second moments of the motion over windows of steps, alike in both directions of time: C_ij = C_ji = C_(L-1-j)(L-1-i).
 struct MotionMoments {
     int length = 0;          // L
+    int step_halves = 1;     // or 2
     double n_windows = 0.0;  // effective number
     // Sums over the windows, of i <= j <= L - 1 - i, by rows.
-    std::array<double, most_window_halves*(most_window_halves + 2) / 4> sum{};
+    std::array<double, most_moment_steps*(most_moment_steps + 2) / 4> sum{};
 
     friend bool operator==(const MotionMoments&, const MotionMoments&) = default;
 };

@@ -14,12 +14,18 @@
 // and a matrix of n stretches costs n (8 points of Gauss) and n^2 k/2 products. Source of the kernels: integrated Wiener
 // processes, Wahba, Spline Models for Observational Data, 1990, ch. 1 (their constant, that is (k-1)!^2, is of no account here).
 
+#include <cstdint>
+
 namespace zlg::core {
 
 // A stretch of half-ticks of the window, [first, last).
 struct Stretch {
-    int first = 0;
-    int last = 0;
+    std::int16_t first = 0;
+    std::int16_t last = 0;
+
+    constexpr Stretch() noexcept = default;
+    constexpr Stretch(int from, int to) noexcept
+        : first{static_cast<std::int16_t>(from)}, last{static_cast<std::int16_t>(to)} {}
 
     friend constexpr bool operator==(const Stretch&, const Stretch&) = default;
 };
