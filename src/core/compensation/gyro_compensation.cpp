@@ -137,7 +137,7 @@ bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_clo
 
 void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                 LightSamples light, int k) noexcept {
-    if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.bridge.relock_ticks < 1)
+    if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.relock.ticks < 1)
         return;
     step(config.gyro, config.profile, state.bridge.light, half, samples_for(config, light),
          is_measured(half) || is_lit(half), 2 * state.bridge.next_tick + k, static_cast<int>(2 * config.relock.ticks));
