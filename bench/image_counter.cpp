@@ -4,7 +4,9 @@
 //   module      instructions from here to there count for the module of this number
 //   half        the half-period's interrupt begins at this address
 //   background  a half-period has ended when the processor is here again
-// and `out`, to which it writes one row of 32-bit counts for each half-period, in the order of the modules' numbers.
+//   work        the module of this number works in the background, too
+// and `out`, to which it writes one row of 32-bit counts for each half-period, in the order of the modules' numbers; the last number
+// of a row is what the modules of `work` took in the background before it.
 
 #include <algorithm>
 #include <cstddef>
@@ -107,6 +109,9 @@ private:
     }
 
     void begin() {
+        in_background_ = 0;
+        for (const Range& r : ranges_)
+            if (r.kind == "work") in_background_ += counts_[r.number];
         std::fill(counts_.begin(), counts_.end(), 0);
         in_half_ = true;
     }
@@ -114,12 +119,16 @@ private:
     void end() {
         if (!in_half_ || out_ == nullptr) return;
         in_half_ = false;
-        const std::vector<std::uint32_t> row(counts_.begin(), counts_.end());
+        std::vector<std::uint32_t> row(counts_.begin(), counts_.end());
+        row.push_back(static_cast<std::uint32_t>(in_background_));
+        // What follows is the background's.
+        std::fill(counts_.begin(), counts_.end(), 0);
         std::fwrite(row.data(), sizeof(std::uint32_t), row.size(), out_);
     }
 
     std::vector<Range> ranges_;
     std::vector<std::uint64_t> counts_;  // QEMU keeps the addresses of its elements
+    std::uint64_t in_background_ = 0;
     bool in_half_ = false;
     std::FILE* out_;
 };

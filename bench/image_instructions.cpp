@@ -78,7 +78,7 @@ void print_sizes() {
     print("compensation: settings", sizeof(core::GyroCompensationConfig));
     print("compensation: state", sizeof(core::GyroCompensationState));
     print("of that: gap_bridge with what it has learnt", sizeof(core::GapBridgeState));
-    print("of that: joint_relock", sizeof(core::JointRelockState));
+    print("of that: the estimates of switches", sizeof(core::BackgroundWork));
     print("of that: magnetic_drift", sizeof(core::MagneticDriftState));
 }
 

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 PROGRAM = Path(sys.argv[0]).name
-MAX_WORST = 60000  # instructions in the worst half-period, which is that of a gap before the motion is known
+MAX_WORST = 30000  # instructions in the worst half-period
 
 ROW = 150  # columns
 
@@ -19,53 +19,29 @@ TOLERANCE_OTHER_COMPILER = 0.5
 
 # Sources that are part of a module of another name. What several modules share is charged to the function that uses it.
 PART_OF = {
-    "gap_bridge_config": "gap_bridge",
-    "gap_bridge_state": "gap_bridge",
-    "gap_interpolation": "gap_bridge",
-    "polynomial_fit": "gap_bridge",
+    **dict.fromkeys(["gap_bridge_config", "gap_bridge_state", "gap_interpolation", "polynomial_fit", "gap_tick", "gap_switch",
+                     "switch_job", "motion_spread", "handover"], "gap_bridge"),
+    **dict.fromkeys(["triangle", "counter_rounding", "learnt_motion", "light_spline", "switch_estimate", "switch_window",
+                     "walk_kernel", "window_covariance", "motion_bank"], "estimate"),
     "gyro_observation": "gyro_control",
-    "bridge_scores": "motion_learning",
     "ellipse_correction": "fringe_readout",
     "border": "gyro_compensation",
     "known_sum": "gyro_compensation",
     "tick_allowance": "gyro_compensation",
-    "motion_moments": "motion_learning",
-    "cholesky": "optimal_bridge",
     "compensation_constants": "relock_drift",
-    "gap_estimate": "optimal_bridge",
-    "gap_final": "optimal_bridge",
-    "gap_points": "optimal_bridge",
-    "gap_first": "optimal_bridge",
-    "gap_rounding": "optimal_bridge",
-    "rounding_law": "optimal_bridge",
     "gap_known": "counted_stretch",
-    "gap_known_estimate": "counted_stretch",
-    "joint_relock": "optimal_bridge",
-    "lit_halves": "optimal_bridge",
-    "motion_covariance": "optimal_bridge",
-    "mixture_models": "gap_mixture",
-    "motion_shapes": "gap_mixture",
-    "tridiagonal": "gap_mixture",
     "stage_model": "perimeter_loop",
     **dict.fromkeys(["maths_kernels", "exponential", "hyperbolic_tangent", "hypot", "inverse", "logarithm", "power", "reduction",
                      "trigonometric", "turns_of"], "relock_drift"),
     "as_double": "relock_drift",
-    "relock_profile_config": "relock_profile",
-    "relock_profile_state": "relock_profile",
-    "gap_tick": "gap_bridge",
-    "polynomial_motion": "gap_bridge",
-    "row_outlier": "gap_bridge",
-    "tick_outlier": "gap_bridge",
     "gyro_control_state": "gyro_control",
-    "relock_chain": "relock_profile",
-    "relock_light": "relock_profile",
-    "relock_onset": "relock_profile",
+    **dict.fromkeys(["relock_profile_config", "relock_light"], "switch_light"),
 }
 MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "stroke_model", "mode_switch", "switch_schedule", "bias_commutator",
     "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "fringe_readout", "health",
-    "gyro_control", "relock_drift", "relock_profile", "edge_shift", "lock_in", "gap_bridge", "motion_moments",
-    "bridge_scores", "motion_learning", "optimal_bridge", "gap_mixture", "counted_stretch", "joint_relock", "angle", "gyro_compensation",
+    "gyro_control", "relock_drift", "switch_light", "edge_shift", "lock_in", "gap_bridge", "estimate", "counted_stretch", "angle",
+    "gyro_compensation",
 ]
 WHOLE = "whole half-period"
 USUAL = "steady, 16 samples"

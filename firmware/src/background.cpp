@@ -36,6 +36,12 @@ void Background::run() noexcept {
     send_rest();
     // One frame after the other: an answer first, for somebody waits for it.
     if (sent_ == out_.size) listen();
+    send();
+    gyro().work([]() noexcept { background().send(); });
+}
+
+void Background::send() noexcept {
+    send_rest();
     if (sent_ == out_.size && status_due_) send_status();
     if (sent_ == out_.size) send_tick();
 }

@@ -15,10 +15,11 @@ public:
     // session   number of this start; differs from that of the last.
     void start(const wire::GyroSettings& settings, std::uint16_t session) noexcept;
 
-    // One round. It sends what the line takes and never waits.
+    // One round. It sends what the line takes and never waits for it; while the gyro works it goes on sending.
     void run() noexcept;
 
 private:
+    void send() noexcept;
     void send_rest() noexcept;
     void send_tick() noexcept;
     void send_status() noexcept;

@@ -38,6 +38,8 @@ HalfOutput Gyro::half(const core::SensorFrame& frame) noexcept {
     return out;
 }
 
+void Gyro::work(core::Pause pause) noexcept { core::work(settings_.compensation, state_.compensation, pause); }
+
 core::DrainOutput Gyro::drain() noexcept { return core::drain(settings_.compensation, state_.compensation); }
 
 }  // namespace zlg::firmware

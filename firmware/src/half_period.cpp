@@ -54,6 +54,7 @@ core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint
     background().start(settings, static_cast<std::uint16_t>(port::starts()));
     const core::ActuatorFrame first = gyro().start(settings, counter.value_or(0));
     if (!counter) gyro().forget_counter();
+    gyro().work_in_background();
     return first;
 }
 

@@ -12,17 +12,11 @@ constexpr std::size_t body_bytes = 96;
 enum Content : std::uint8_t { content_closed = 1, content_held = 2, content_asked = 4 };
 constexpr std::uint8_t contents = content_closed | content_held | content_asked;
 
-// What no member of its own holds: bits, and a byte that is 0.
-struct Rest {
-    std::uint8_t content = 0;
-    std::uint8_t zero = 0;
-};
-
 // The numbers of the body in their order.
 template <class Codec, class AnyStatus>
-void lay_out(Codec&& codec, AnyStatus& s, Rest& rest) noexcept {
-    codec(s.tick, s.phase, s.polarity, rest.content, rest.zero, s.tick_s, s.scale_arcsec, s.timer_hz, s.health,
-          s.n_switches, s.n_failed, s.half_wave_v, s.half_wave_sigma_v, s.piezo_v, s.temperature_c, s.detuning_lambda,
+void lay_out(Codec&& codec, AnyStatus& s, std::uint8_t& content) noexcept {
+    codec(s.tick, s.phase, s.polarity, content, s.n_late, s.tick_s, s.scale_arcsec, s.timer_hz, s.health, s.n_switches,
+          s.n_failed, s.half_wave_v, s.half_wave_sigma_v, s.piezo_v, s.temperature_c, s.detuning_lambda,
           s.magnetic_arcsec_s, s.switch_error_arcsec, s.settings_crc, s.n_received, s.n_damaged, s.n_overruns,
           s.stack_used_bytes, s.last_fault);
 }
@@ -46,6 +40,7 @@ Status status_of(const core::GyroControlState& control, const core::GyroCompensa
     s.loop_closed = control.mode_switch.loop_closed;
     s.polarity = control.mode_switch.polarity;
     s.held = control.schedule.held;
+    s.n_late = static_cast<std::uint8_t>(compensation.bridge.background.n_late);
     s.asked = control.schedule.asked;
     s.half_wave_v = static_cast<float>(control.half_wave.estimate_v);
     s.half_wave_sigma_v = static_cast<float>(sigma(control.half_wave).value());
@@ -58,23 +53,22 @@ Status status_of(const core::GyroControlState& control, const core::GyroCompensa
 }
 
 Frame frame_of(Sender& sender, const Status& s) noexcept {
-    Rest rest;
-    rest.content = static_cast<std::uint8_t>((s.loop_closed ? content_closed : 0) | (s.held ? content_held : 0) |
+    auto content = static_cast<std::uint8_t>((s.loop_closed ? content_closed : 0) | (s.held ? content_held : 0) |
                                              (s.asked ? content_asked : 0));
     Packer p;
-    lay_out(p, s, rest);
+    lay_out(p, s, content);
     return frame_of(sender, MessageType::status, p.body());
 }
 
 std::optional<Status> status_in(const Message& message) noexcept {
     if (message.type != MessageType::status || message.body.size() != body_bytes) return std::nullopt;
     Status s;
-    Rest rest;
-    lay_out(Unpacker{message.body}, s, rest);
-    if ((rest.content & ~contents) != 0 || rest.zero != 0) return std::nullopt;
-    s.loop_closed = (rest.content & content_closed) != 0;
-    s.held = (rest.content & content_held) != 0;
-    s.asked = (rest.content & content_asked) != 0;
+    std::uint8_t content = 0;
+    lay_out(Unpacker{message.body}, s, content);
+    if ((content & ~contents) != 0) return std::nullopt;
+    s.loop_closed = (content & content_closed) != 0;
+    s.held = (content & content_held) != 0;
+    s.asked = (content & content_asked) != 0;
     if (!is_possible(s)) return std::nullopt;
     return s;
 }

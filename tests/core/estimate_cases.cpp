@@ -46,8 +46,8 @@ void read_moments(MotionMoments& motion) {
 SwitchWindow window_of(int n_rows) {
     SwitchWindow window;
     window.n_rows = n_rows;
-    window.gap = {whole(), 0};
-    window.gap.last = whole();
+    const int gap = whole();
+    window.gap = {gap, whole()};
     window.n_halves = whole();
     window.light_start = window.gap.last;
     return window;
@@ -55,8 +55,8 @@ SwitchWindow window_of(int n_rows) {
 
 void read_rows(SwitchWindow& window) {
     for (WindowRow& row : std::span{window.row}.first(static_cast<unsigned>(window.n_rows))) {
-        row.halves.first = whole();
-        row.halves.last = whole();
+        const int first = whole();
+        row.halves = {first, whole()};
         row.read = whole() != 0;
         row.wanted = whole() != 0;
         row.error_arcsec2 = number();

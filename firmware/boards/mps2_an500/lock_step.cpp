@@ -40,6 +40,7 @@ void answer(Exchange& x) noexcept {
             pend_irq(half_timer_irq);
             barrier();
             x.output = last_half();
+            gyro().work();
             x.half_wave = gyro().state().control.half_wave;
             break;
         case Request::drain:

@@ -44,6 +44,7 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
                    const Borders& borders, double value_arcsec) noexcept {
     TickInput tick;
     tick.measured = is_measured(first, second);
+    tick.late = first.late || second.late;
     tick.value_arcsec = value_arcsec;
     tick.variance_arcsec2 = rounding_arcsec2(gyro, borders.start, borders.end) + walk_arcsec2(gyro);
     tick.mode = second.mode;
@@ -137,8 +138,7 @@ bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_clo
 
 void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                 LightSamples light, int k) noexcept {
-    if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.relock.ticks < 1)
-        return;
+    if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.relock.ticks < 1) return;
     step(config.gyro, config.profile, state.bridge.light, half, samples_for(config, light),
          is_measured(half) || is_lit(half), 2 * state.bridge.next_tick + k, static_cast<int>(2 * config.relock.ticks));
 }
@@ -202,8 +202,7 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
     bool& by_phase = state.bridge.with_phase;
     if (n != (by_phase ? 0 : phase_debounce)) return;
     by_phase = !by_phase;
-    // What was learnt holds other roundings, thousands of times as large or small.
-    start(state.bridge.motion, state.bridge.motion.moments.length, state.bridge.motion.moments.step_halves);
+    state.bridge.spread = {};
 }
 
 // Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
@@ -379,6 +378,10 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
     state.has_first = true;
     take_light(config, state, first, light, 0);
     return {};
+}
+
+void work(const GyroCompensationConfig& config, GyroCompensationState& state, Pause pause) noexcept {
+    work(config.gyro, bridge_of(config), state.bridge, pause);
 }
 
 DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept {

@@ -51,6 +51,12 @@ public:
     // cost   that of both parts of the core; no allocation.
     [[nodiscard]] HalfOutput half(const core::SensorFrame& frame) noexcept;
 
+    // From now on the caller works between the half-periods (`work`), which may interrupt that; else a half does it at its end.
+    void work_in_background() noexcept { state_.compensation.bridge.background.worker.is_background = true; }
+
+    // What the halves have left to do: up to 80 ms. `pause` is called within.
+    void work(core::Pause pause = nullptr) noexcept;
+
     // The angle that is still due when no more halves come, one report at each call, until there is none.
     [[nodiscard]] core::DrainOutput drain() noexcept;
 

@@ -33,14 +33,15 @@ struct RunSums {
     int n_windows = 0;
     std::array<double, most_moment_steps> at{};
 
-    RunSums(const EndedRun& run, int length) noexcept {
-        n_windows = run.n - length + 1;
-        mean = run.sum / run.n;
+    explicit RunSums(const LearntMotion& m) noexcept {
+        const int length = m.moments.length;
+        n_windows = m.n_run - length + 1;
+        mean = m.sum / m.n_run;
         double off = 0.0;  // the last L - 1, then one of the first for one of the last
-        for (int s = 0; s < length - 1; ++s) off += run.tail[static_cast<unsigned>(s)];
+        for (int s = 0; s < length - 1; ++s) off += m.recent[static_cast<unsigned>(s)];
         for (int i = 0; i < length; ++i) {
-            at[static_cast<unsigned>(i)] = run.sum - off;
-            if (i < length - 1) off += run.head[static_cast<unsigned>(i)] - run.tail[static_cast<unsigned>(i)];
+            at[static_cast<unsigned>(i)] = m.sum - off;
+            if (i < length - 1) off += m.head[static_cast<unsigned>(i)] - m.recent[static_cast<unsigned>(i)];
         }
     }
 
@@ -49,30 +50,35 @@ struct RunSums {
     }
 };
 
-// Sum of products at the distance k within n halves.
-double products_within(const std::array<double, most_moment_steps>& x, int n, int k) noexcept {
+// Sum of products at the distance k within n steps.
+double products_within(const double* x, int n, int k) noexcept {
     double sum = 0.0;
-    for (unsigned s = 0; s + static_cast<unsigned>(k) < static_cast<unsigned>(n); ++s)
-        sum += x[s] * x[s + static_cast<unsigned>(k)];
+    for (int s = 0; s + k < n; ++s) sum += x[s] * x[s + k];
     return sum;
 }
 
-void ask(LearntMotion& m, std::int64_t half, double forget_ticks) noexcept {
-    const int length = m.moments.length;
-    if (m.n_run < length || is_asked(m)) return;
-    EndedRun& run = m.ended;
-    run.asked_at = half;
-    run.goes_on = m.goes_on;
-    run.level_arcsec = m.level_arcsec;
-    run.forget_ticks = forget_ticks;
-    run.n = m.n_run;
-    run.sum = m.sum;
-    for (int k = 0; k < length; ++k) of(run.product, k) = of(m.product, k);
-    for (int s = 0; s < length - 1; ++s) {
-        of(run.head, s) = of(m.head, s);
-        of(run.tail, s) = of(m.recent, s);
+// Add the moments of the run, for all windows that lie in it.
+void fold(LearntMotion& m, double forget_ticks) noexcept {
+    MotionMoments& moments = m.moments;
+    const int length = moments.length;
+    if (m.n_run < length) return;
+    const RunSums sums{m};
+    const double keep = maths::exp(-0.5 * moments.step_halves * sums.n_windows / forget_ticks);
+    moments.n_windows = keep * moments.n_windows + sums.n_windows;
+    for (double& x : moments.sum) x *= keep;
+    for (int k = 0; k < length; ++k) {
+        double all = of(m.product, k);
+        if (m.goes_on) all += products_within(m.head.data(), length - 1, k);
+        // Products at the distance k whose earlier step is among the last L - 1 - k of the run, but for the first i of these.
+        double off = products_within(m.recent.data(), length - 1, k);
+        for (int i = 0; i + k < length; ++i) {
+            const int j = i + k;
+            // Of its own mirror image all, of others half.
+            moments.sum[moment_place(length, i, j)] +=
+                (i + j == length - 1 ? 1.0 : 0.5) * sums.less_mean(all - off, i, j);
+            if (j < length - 1) off += of(m.head, i) * of(m.head, j) - of(m.recent, i) * of(m.recent, j);
+        }
     }
-    run.done = false;
 }
 
 void end_run(LearntMotion& m) noexcept {
@@ -82,7 +88,7 @@ void end_run(LearntMotion& m) noexcept {
     for (double& x : m.product) x = 0.0;
 }
 
-// A run that begins with the last L - 1 halves of the one before it.
+// A run that begins with the last L - 1 steps of the one before it.
 void go_on(LearntMotion& m) noexcept {
     const int kept = m.moments.length - 1;
     end_run(m);
@@ -94,43 +100,7 @@ void go_on(LearntMotion& m) noexcept {
     m.n_run = kept;
 }
 
-MotionSummary summary_of(const MotionMoments& m, double mean_arcsec) noexcept {
-    const auto c = [&m](int i, int j) { return m.sum[moment_place(m.length, i, j)] / m.n_windows; };
-    // By ticks lit halves are not judged.
-    if (m.step_halves == 2)
-        return {.n_windows = m.n_windows, .mean_half_arcsec = 0.5 * mean_arcsec, .tick_arcsec2 = c(0, 0)};
-    return {.n_windows = m.n_windows,
-            .mean_half_arcsec = mean_arcsec,
-            .tick_arcsec2 = c(0, 0) + c(1, 1) + 2.0 * c(0, 1),
-            .second_difference_arcsec2 = c(0, 0) + 4.0 * c(1, 1) + c(2, 2) - 4.0 * (c(0, 1) + c(1, 2)) + 2.0 * c(0, 2)};
-}
-
 }  // namespace
-
-void fold(LearntMotion& m) noexcept {
-    MotionMoments& moments = m.moments;
-    EndedRun& run = m.ended;
-    const int length = moments.length;
-    const RunSums sums{run, length};
-    const double keep = maths::exp(-0.5 * moments.step_halves * sums.n_windows / run.forget_ticks);
-    moments.n_windows = keep * moments.n_windows + sums.n_windows;
-    for (double& x : moments.sum) x *= keep;
-    for (int k = 0; k < length; ++k) {
-        double all = of(run.product, k);
-        if (run.goes_on) all += products_within(run.head, length - 1, k);
-        // Products at the distance k whose earlier half is among the last L - 1 - k of the run, but for the first i of these.
-        double off = products_within(run.tail, length - 1, k);
-        for (int i = 0; i + k < length; ++i) {
-            const int j = i + k;
-            // Of its own mirror image all, of others half.
-            moments.sum[moment_place(length, i, j)] +=
-                (i + j == length - 1 ? 1.0 : 0.5) * sums.less_mean(all - off, i, j);
-            if (j < length - 1) off += of(run.head, i) * of(run.head, j) - of(run.tail, i) * of(run.tail, j);
-        }
-    }
-    m.folded = summary_of(moments, run.level_arcsec + sums.mean);
-    run.done = true;
-}
 
 void start(LearntMotion& memory, int length, int step_halves) noexcept {
     memory = {};
@@ -139,13 +109,9 @@ void start(LearntMotion& memory, int length, int step_halves) noexcept {
 }
 
 void add(LearntMotion& m, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept {
-    if (m.ended.asked_at >= 0 && m.ended.done && half >= m.ended.asked_at + fold_halves) {
-        m.summary = m.folded;
-        m.ended.asked_at = -1;
-    }
     if (!settled) {
         if (m.n_run + m.n_waiting == 0) return;
-        ask(m, half, forget_ticks);
+        fold(m, forget_ticks);
         return end_run(m);
     }
     if (m.n_run + m.n_waiting == 0) m.level_arcsec = angle_arcsec;
@@ -154,7 +120,7 @@ void add(LearntMotion& m, std::int64_t half, bool settled, double angle_arcsec, 
     if ((half + 1) % part_halves != 0) return;
     take_part(m);
     if ((half + 1) % block_halves != 0 || m.n_run < m.moments.length) return;
-    ask(m, half, forget_ticks);
+    fold(m, forget_ticks);
     go_on(m);
 }
 

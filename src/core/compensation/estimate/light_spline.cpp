@@ -16,7 +16,7 @@ constexpr double gauss_point[4] = {0.06943184420297371, 0.33000947820757187, 0.6
 constexpr double gauss_weight[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
 
 void add_knot(LightBasis& basis, int& n, int knot) noexcept {
-    basis.knot[static_cast<unsigned>(3 + n)] = knot;
+    basis.knot[static_cast<unsigned>(3 + n)] = static_cast<std::uint8_t>(knot);
     ++n;
 }
 
@@ -40,17 +40,21 @@ LightBasis light_basis(int halves, int samples) noexcept {
     for (const int knot : far_knots)
         if (knot + 1 < halves) add_knot(basis, n, knot);
     // Four knots in one place end the basis; those at the start are 0 already.
-    for (int k = 0; k < 4; ++k) basis.knot[static_cast<unsigned>(3 + n + k)] = halves;
+    for (int k = 0; k < 4; ++k) basis.knot[static_cast<unsigned>(3 + n + k)] = static_cast<std::uint8_t>(halves);
     basis.n_terms = n + 3;
     return basis;
 }
 
-BasisValues values_at(const LightBasis& basis, int h, double time) noexcept {
-    BasisValues result;
-    result.first = interval_of(basis, h);
-    const double* const knot = basis.knot.data() + result.first + 3;  // at or before the time
-    auto& value = result.value;
-    value[0] = 1.0;
+BasisSpan span_of(const LightBasis& basis, int h) noexcept {
+    BasisSpan span;
+    span.first = interval_of(basis, h);
+    for (unsigned k = 0; k < 6; ++k) span.knot[k] = basis.knot[static_cast<unsigned>(span.first) + 1 + k];
+    return span;
+}
+
+std::array<double, 4> values_at(const BasisSpan& span, double time) noexcept {
+    const double* const knot = span.knot.data() + 2;  // at or before the time
+    std::array<double, 4> value{1.0, 0.0, 0.0, 0.0};
     // From the constants to the cubics: de Boor's recurrence.
     for (int order = 1; order <= 3; ++order) {
         double carried = 0.0;
@@ -63,19 +67,20 @@ BasisValues values_at(const LightBasis& basis, int h, double time) noexcept {
         }
         value[static_cast<unsigned>(order)] = carried;
     }
-    return result;
+    return value;
 }
 
 void add(LightSums& sums, int h, std::span<const double> detuning_lambda) noexcept {
     const auto n = static_cast<double>(detuning_lambda.size());
+    const BasisSpan span = span_of(sums.basis, h);
     double place = 0.5;
     for (const double x : detuning_lambda) {
-        const BasisValues basis = values_at(sums.basis, h, h + place / n);
+        const std::array<double, 4> value = values_at(span, h + place / n);
         place += 1.0;
         for (unsigned a = 0; a < 4; ++a) {
-            const unsigned i = static_cast<unsigned>(basis.first) + a;
-            sums.moment[i] += basis.value[a] * x;
-            for (unsigned b = 0; b <= a; ++b) sums.normal[4 * i + 3 + b - a] += basis.value[a] * basis.value[b];
+            const unsigned i = static_cast<unsigned>(span.first) + a;
+            sums.moment[i] += value[a] * x;
+            for (unsigned b = 0; b <= a; ++b) sums.normal[4 * i + 3 + b - a] += value[a] * value[b];
         }
         sums.sum_sq += x * x;
     }
@@ -105,12 +110,13 @@ LightFit::LightFit(const LightSums& sums, double light_sd_lambda) noexcept : bas
 
 LightHalf LightFit::half(int h) const noexcept {
     LightHalf half{};
+    const BasisSpan span = span_of(basis_, h);
+    half.first = span.first;
     for (int k = 0; k < 4; ++k) {
-        const BasisValues at = values_at(basis_, h, h + gauss_point[k]);
-        half.first = at.first;
+        const std::array<double, 4> value = values_at(span, h + gauss_point[k]);
         unsigned i = 0;
         for (unsigned a = 0; a < 4; ++a)
-            for (unsigned b = 0; b <= a; ++b) half.product[i++] += gauss_weight[k] * at.value[a] * at.value[b];
+            for (unsigned b = 0; b <= a; ++b) half.product[i++] += gauss_weight[k] * value[a] * value[b];
     }
     for (int a = 0; a < 4; ++a)
         for (int b = 0; b < 4; ++b)

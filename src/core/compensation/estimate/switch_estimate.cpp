@@ -169,7 +169,7 @@ double unit_of(const BankMember& member, const Walk& walk, const SwitchWindow& w
 class Kernel {
 public:
     Kernel(const BankMember& member, const SwitchWindow& window) noexcept
-        : both_ways_{member.place == WalkPlace::everywhere} {
+        : kind_{member.kind}, both_ways_{member.place == WalkPlace::everywhere} {
         const Walk walk = walk_of(member, window);
         const double unit = unit_of(member, walk, window);
         if (!(unit > 0.0)) return;
@@ -194,6 +194,13 @@ public:
         return both_ways_ ? k + covariance(backward_[l], backward_[e]) : k;
     }
 
+    // Row a of the kernel of the points, so many times, on top of what is there.
+    void add_row(const Problem& problem, int a, double size, double* to) const noexcept {
+        to[a] += size * at(problem.row(a), problem.row(a));
+        if (kind_ == 3) return both_ways_ ? add<3, true>(problem, a, size, to) : add<3, false>(problem, a, size, to);
+        return both_ways_ ? add<2, true>(problem, a, size, to) : add<2, false>(problem, a, size, to);
+    }
+
 private:
     static WalkedStretch scaled(WalkedStretch stretch, double by) noexcept {
         for (double& moment : stretch.moment) moment *= by;
@@ -201,10 +208,31 @@ private:
         return stretch;
     }
 
+    // Products of the terms of a walk, of which there are `n`: the last row with those before it.
+    template <unsigned n, bool both_ways>
+    void add(const Problem& problem, int a, double size, double* to) const noexcept {
+        const auto late = static_cast<unsigned>(problem.row(a));
+        double of_late[n];
+        double back[n];
+        for (unsigned m = 0; m < n; ++m) {
+            of_late[m] = size * forward_[late].coefficient[m];
+            back[m] = size * backward_[late].moment[m];
+        }
+        for (int b = 0; b < a; ++b) {
+            const auto early = static_cast<unsigned>(problem.row(b));
+            double sum = of_late[0] * forward_[early].moment[0];
+            for (unsigned m = 1; m < n; ++m) sum += of_late[m] * forward_[early].moment[m];
+            if constexpr (both_ways)
+                for (unsigned m = 0; m < n; ++m) sum += back[m] * backward_[early].coefficient[m];
+            to[b] += sum;
+        }
+    }
+
+    int kind_ = 2;
     bool both_ways_ = false;
     bool is_there_ = false;
-    std::array<WalkedStretch, most_window_rows> forward_;
-    std::array<WalkedStretch, most_window_rows> backward_;
+    std::array<WalkedStretch, most_window_rows> forward_{};
+    std::array<WalkedStretch, most_window_rows> backward_{};
 };
 
 // The kernel's covariance of the points with what is wanted, and its variance.
@@ -234,11 +262,8 @@ void build(const Problem& problem, const Kernel* kernel, double size, Triangle i
         const int r = problem.row(a);
         const double* const from = problem.v.row(r);
         double* const to = into.row(a);
-        if (kernel == nullptr) {
-            for (int b = 0; b <= a; ++b) to[b] = from[problem.row(b)];
-        } else {
-            for (int b = 0; b <= a; ++b) to[b] = from[problem.row(b)] + size * kernel->at(problem.row(b), r);
-        }
+        for (int b = 0; b <= a; ++b) to[b] = from[problem.row(b)];
+        if (kernel != nullptr) kernel->add_row(problem, a, size, to);
     }
 }
 
@@ -356,7 +381,7 @@ private:
 
 // The mixture of the learnt motion and of all members of the bank.
 Mixture mixture_of(const Problem& problem, const Border& border, bool is_learnt, std::span<const BankMember> bank,
-                   double unit, Triangle factor) noexcept {
+                   double unit, Triangle factor, Pause pause) noexcept {
     Mixture mixture;
     MemberEstimate found;
     const double of_learnt = is_learnt ? prior_of_learnt : prior_of_unknown;
@@ -368,6 +393,7 @@ Mixture mixture_of(const Problem& problem, const Border& border, bool is_learnt,
         if (!kernel.is_there()) continue;
         const KernelTarget target = target_of(problem, kernel);
         for (const double size : motion_sizes) {
+            if (pause != nullptr) pause();
             build(problem, &kernel, size * unit, factor);
             if (solve(problem, border, &target, size * unit, factor, found))
                 mixture.add(of_member, found, {b, size * unit});
@@ -443,7 +469,8 @@ void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstim
 }  // namespace
 
 SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& window, const MotionMoments& motion,
-                        const RelockScale& scale, EstimateRoom& room, std::span<const BankMember> bank) noexcept {
+                        const RelockScale& scale, EstimateRoom& room, std::span<const BankMember> bank,
+                        Pause pause) noexcept {
     SwitchEstimate result{.scale = scale};
     const Triangle factor{room.factor.data()};
     Problem problem{window, scale, Triangle{room.covariance.data()}, Triangle{room.errors.data()}};
@@ -463,7 +490,7 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     Border border = border_of(problem);
     const double unit = smallest_pivot(problem, factor);
     if (!(unit > 0.0)) return result;
-    const Mixture mixture = mixture_of(problem, border, motion.n_windows >= few_windows, bank, unit, factor);
+    const Mixture mixture = mixture_of(problem, border, motion.n_windows >= few_windows, bank, unit, factor, pause);
     if (mixture.is_empty()) return result;
     const MeanVariance angle = mixture.angle();
     const MeanVariance shift = mixture.scale();

@@ -11,9 +11,10 @@
 namespace zlg::core {
 namespace {
 
-// Shares of the roundings in the learnt moments that are tried. Where the roundings repeat, at rest and at even rates, the moments
-// hold less of them than independent ones would be.
-constexpr double shares[] = {0.8, 0.4, 0.2, 0.1, 0.05, 0.02, 0.0};
+// Shares of the roundings in the learnt moments that are taken out. Where the roundings repeat, at rest and at even rates, the
+// moments hold less of them than independent ones would be.
+constexpr double shares[] = {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8};
+constexpr int n_shares = 7;
 
 // On the diagonal, so that a motion that never changes has a covariance: of the variance of a reading, and of the learnt trace (what
 // its products leave of rounding).
@@ -90,13 +91,14 @@ void learnt_covariance(const CompensationConstants& gyro, const SwitchWindow& wi
     const double least =
         least_of_reading * reading + walk_arcsec2(gyro) / 2.0 + least_of_trace * trace_of(motion, window);
     std::array<double, most_window_rows> reciprocal{};
-    for (const double share : shares) {
-        fill(window, motion, least, share * reading, into);
-        if (share == 0.0) break;
-        if (!factorise(into, reciprocal.data(), window.n_rows)) continue;
-        fill(window, motion, least, share * reading, into);
-        break;
+    // What is taken out is positive by itself: where a share leaves a positive covariance, smaller ones do.
+    int most = 0;
+    for (int step = 4; step > 0; step /= 2) {
+        if (most + step >= n_shares) continue;
+        fill(window, motion, least, shares[most + step] * reading, into);
+        if (factorise(into, reciprocal.data(), window.n_rows)) most += step;
     }
+    fill(window, motion, least, shares[most] * reading, into);
     add_magnetic_step(window, into);
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <zlg/core/common/as_double.hpp>
+#include <zlg/core/common/handover.hpp>
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
@@ -13,9 +14,6 @@
 
 namespace zlg::core {
 namespace {
-
-// Age at which a window of the motion counts 1/e, in ticks: a quarter of a minute of 5 ms.
-constexpr double forget_ticks = 3000.0;
 
 void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept {
     OpenGap& open = state.gap;
@@ -128,12 +126,13 @@ void end_gap(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     const int due = at_start ? config.extrapolation_points : wait;
     // A guard: no more gaps can end while one waits.
     if (state.n_pending < max_pending_gaps) {
-        state.pending[static_cast<unsigned>(state.n_pending++)] =
-            PendingGap{.gap = state.gap.gap,
-                       .ready_tick = tick + (is_estimated(config) && !at_start ? ticks_to_last_point(config) : due),
-                       .due_tick = tick + due,
-                       .sign_after = input.sign,
-                       .mode_after = input.mode};
+        state.pending[static_cast<unsigned>(state.n_pending++)] = PendingGap{
+            .gap = state.gap.gap,
+            .due_tick = tick + due,
+            .ready_before =
+                static_cast<std::int16_t>(is_estimated(config) && !at_start ? due - ticks_to_last_point(config) : 0),
+            .sign_after = input.sign,
+            .mode_after = input.mode};
     }
     state.gap = OpenGap{};
 }
@@ -184,9 +183,10 @@ void widen_in_common(GapBridgeState& state, const Gap& gap, GapReport& report) n
 
 // Give a gap its final values from the ticks before `end`, its pending correction, eq (17), and its report.
 //
+// late    the estimate is recorded as not ready.
 // return  false: nobody is to be told of it.
 bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-             PendingGap& pending, std::int64_t end, GapReport& report) noexcept {
+             PendingGap& pending, std::int64_t end, bool late, GapReport& report) noexcept {
     Gap& gap = pending.gap;
     pending.told = true;
     report = {.first_tick = gap.first_tick,
@@ -200,7 +200,7 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     const bool is_short = gap.n <= max_gap_ticks(config);
     bool is_estimate = false;
     if (is_short) {
-        const SwitchAngle found = pending.asked ? take(state, gap) : SwitchAngle{};
+        const SwitchAngle found = pending.asked ? take(state, gap, late) : SwitchAngle{};
         is_estimate = found.known;
         if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
         if (found.known) state.scale = found.scale;
@@ -287,33 +287,18 @@ void add_measured_tick(const CompensationConstants& gyro, const GapBridgeConfig&
 
 // Final values of the gaps whose last point is in, and the reports of those whose correction is due.
 void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                 std::int64_t tick, AngleSample& sample) noexcept {
+                 std::int64_t tick, bool late, AngleSample& sample) noexcept {
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.ready_tick == tick && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
+        if (pending.due_tick - pending.ready_before == tick && is_estimated(config) &&
+            pending.gap.n <= max_gap_ticks(config))
             pending.asked = ask(gyro, config, state, pending.gap, tick);
         if (pending.told || pending.due_tick > tick) continue;
         GapReport report;
-        if (!resolve(gyro, config, state, pending, tick, report)) continue;
+        if (!resolve(gyro, config, state, pending, tick, late, report)) continue;
         sample.has_gap = true;
         sample.gap = report;
     }
-}
-
-// The halves of a tick, learnt where they show the motion alone.
-void learn(const GapBridgeConfig& config, GapBridgeState& state, const TickInput& input, std::int64_t tick) noexcept {
-    LearntMotion& motion = state.motion;
-    const int step_halves = window_step_halves(config);
-    const int length = window_halves(config) / step_halves;
-    if (motion.moments.length != length || motion.moments.step_halves != step_halves)
-        start(motion, length, step_halves);
-    const bool usable = input.measured && input.settled && is_finite(input.variance_arcsec2) && input.half[0].read &&
-                        input.half[1].read && (!state.with_phase || input.with_phase);
-    const auto& half = input.half;
-    if (step_halves == 2)
-        return add(motion, 2 * tick + 1, usable, half[0].angle_arcsec + half[1].angle_arcsec, forget_ticks);
-    for (int k = 0; k < 2; ++k)
-        add(motion, 2 * tick + k, usable, half[static_cast<unsigned>(k)].angle_arcsec, forget_ticks);
 }
 
 }  // namespace
@@ -323,7 +308,7 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
     const std::int64_t tick = state.next_tick++;
     AngleSample sample{.tick = tick};
     if (input.amend_previous && tick > 0) amend_previous(state, input, tick);
-    if (state.n_pending > 0) resolve_due(gyro, config, state, tick, sample);
+    if (state.n_pending > 0) resolve_due(gyro, config, state, tick, input.late, sample);
 
     if (tick - state.next_final >= final_delay_ticks(gyro, config)) {
         sample.has_final = true;
@@ -337,7 +322,8 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         .half = input.half,
         .measured = input.measured,
         .settled = input.settled,
-        .with_phase = input.with_phase};
+        .with_phase = input.with_phase,
+        .by_phase = state.with_phase};
     state.relock_to_come_arcsec2 = input.relock_to_come_arcsec2;
     if (input.measured) {
         state.common_arcsec2 = input.common_arcsec2;
@@ -350,8 +336,10 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
     sample.dtheta_arcsec = entry.row.dtheta_arcsec;
     sample.flags = entry.row.flags;
     if (is_estimated(config)) {
-        learn(config, state, input, tick);
-        if (!config.works_apart) work(gyro, state.motion, state.background);
+        const auto& half = input.half;
+        add(state.spread, is_settled(entry), half[0].angle_arcsec, half[1].angle_arcsec, forget_ticks);
+        hand_over(state.background.n_ticks, static_cast<std::uint32_t>(state.next_tick));
+        if (!state.background.worker.is_background) work(gyro, config, state);
     }
     return sample;
 }
@@ -363,8 +351,8 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
         if (pending.told) continue;
         if (!pending.asked && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
             pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
-        work(gyro, state.motion, state.background);
-        out.has_gap = resolve(gyro, config, state, pending, state.next_tick, out.gap);
+        work(gyro, config, state);
+        out.has_gap = resolve(gyro, config, state, pending, state.next_tick, false, out.gap);
     }
     // Every gap must be resolved before a row may leave.
     if (out.has_gap) return out;

@@ -61,7 +61,7 @@ double share(const KnownStretch& s, bool is_whole, double j) noexcept {
 // Added variance of a tick in a stretch whose mean rate is an outlier: (2) for a rotation in any one of its ticks.
 double outlier_variance(const GapBridgeState& state, const KnownStretch& s) noexcept {
     const double n = s.n() + as_double(s.n_delivered);
-    const double off_level = s.sum_arcsec / n - 2.0 * state.motion.summary.mean_half_arcsec;
+    const double off_level = s.sum_arcsec / n - 2.0 * state.spread.mean_half_arcsec;
     const bool is_outlier = off_level * off_level > outlier_sq * tick_variance(state);
     return is_outlier ? off_level * off_level * (n - 1.0) : 0.0;
 }

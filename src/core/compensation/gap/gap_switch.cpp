@@ -1,5 +1,6 @@
 #include "gap_switch.hpp"
 
+#include <zlg/core/common/handover.hpp>
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
@@ -25,6 +26,9 @@ constexpr int halves_by_halves = 16;
 constexpr int most_lit_rows = 8;
 
 constexpr int min_points = 3;
+
+// Settled ticks from which on their scatter is known.
+constexpr double few_ticks = 25.0;
 
 // Composes the plan of a switch.
 class Planner {
@@ -179,8 +183,8 @@ private:
     // A half that is recorded as lit but was not alternates with the bias in another way than the two behind it do: their second
     // difference is then not one of the learnt motion. Without one nothing is believed.
     [[nodiscard]] bool fits(std::int64_t half) noexcept {
-        const MotionSummary& m = state_.motion.summary;
-        if (!(m.n_windows >= few_windows) || half + 2 >= 2 * end_ || half + 2 > 2 * end_of_gap_ + 1) return false;
+        const MotionSpread& m = state_.spread;
+        if (!(m.n_ticks >= few_ticks) || half + 2 >= 2 * end_ || half + 2 > 2 * end_of_gap_ + 1) return false;
         const HalfReading& a = half_reading(half);
         const HalfReading& b = half_reading(half + 1);
         const HalfReading& d = half_reading(half + 2);
@@ -325,42 +329,50 @@ void correct_late_ticks(GapBridgeState& state, const Gap& gap, const SwitchJob& 
 }  // namespace
 
 double tick_variance(const GapBridgeState& state) noexcept {
-    const MotionSummary& m = state.motion.summary;
-    return m.n_windows >= few_windows ? m.tick_arcsec2 : infinity;
+    return state.spread.n_ticks >= few_ticks ? state.spread.tick_arcsec2 : infinity;
 }
 
 bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
          std::int64_t end) noexcept {
     if (!gap.has_before) return false;
+    bool is_late = false;
     for (SwitchJob& job : state.background.job) {
-        if (job.gap >= 0) continue;
+        const JobState now = taken(job.state);
+        is_late = is_late || now == JobState::late;
+        if (now != JobState::free) continue;
         job.plan = SwitchPlan{};
         const Planner planner{gyro, config, state, gap, end, job.plan};
         if (!job.plan.is_solvable) return false;
-        job.asked_at = 2 * end;
+        job.asked_at = end;
         job.scale = state.scale;
-        job.done = job.late = false;
         job.gap = gap.first_tick;
+        hand_over(job.state, JobState::asked);
         return true;
     }
+    // For want of a place that a late one still has.
+    if (is_late) ++state.background.n_late;
     return false;
 }
 
-SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
+SwitchAngle take(GapBridgeState& state, const Gap& gap, bool late) noexcept {
     SwitchAngle out{.scale = state.scale};
     SwitchJob* job = nullptr;
     for (SwitchJob& one : state.background.job)
-        if (one.gap == gap.first_tick) job = &one;
+        if (one.gap == gap.first_tick && taken(one.state) != JobState::free) job = &one;
     if (job == nullptr) return out;
-    if (!job->done) {
-        job->late = true;
+    const bool is_late = hand_over_if(job->state, JobState::asked, JobState::late);
+    if (is_late || late) {
+        ++state.background.n_late;
+        if (!is_late) hand_over(job->state, JobState::free);
         return out;
     }
-    job->gap = -1;
     const SwitchPlan& plan = job->plan;
     const SwitchWindow& window = plan.window;
     const SwitchEstimate& found = job->found;
-    if (!found.known) return out;
+    if (!found.known) {
+        hand_over(job->state, JobState::free);
+        return out;
+    }
     out.known = true;
     out.variance_arcsec2 = found.variance_arcsec2;
     if (plan.light == HalfLight::spline || plan.light == HalfLight::records) out.scale = found.scale;
@@ -397,6 +409,7 @@ SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
         }
     }
     correct_late_ticks(state, gap, *job, out);
+    hand_over(job->state, JobState::free);
     return out;
 }
 

@@ -1,4 +1,7 @@
-#include <zlg/core/compensation/switch_job.hpp>
+#include <zlg/core/common/handover.hpp>
+#include <zlg/core/compensation/gap_bridge.hpp>
+
+#include "common/bounds.hpp"
 
 namespace zlg::core {
 namespace {
@@ -6,8 +9,36 @@ namespace {
 SwitchJob* next_job(BackgroundWork& background) noexcept {
     SwitchJob* next = nullptr;
     for (SwitchJob& job : background.job)
-        if (job.gap >= 0 && !job.done && (next == nullptr || job.asked_at < next->asked_at)) next = &job;
+        if (taken(job.state) == JobState::asked && (next == nullptr || job.asked_at < next->asked_at)) next = &job;
     return next;
+}
+
+// One tick of the history.
+void learn(const GapBridgeConfig& config, const HistoryTick& entry, LearntMotion& motion) noexcept {
+    const int step_halves = window_step_halves(config);
+    const int length = window_halves(config) / step_halves;
+    const std::int64_t tick = motion.next_tick++;
+    const bool is_new = motion.moments.length != length || motion.moments.step_halves != step_halves;
+    if (is_new || motion.with_phase != entry.by_phase) {
+        // What was learnt by counts holds other roundings, thousands of times as large or small.
+        start(motion, length, step_halves);
+        motion.next_tick = tick + 1;
+        motion.with_phase = entry.by_phase;
+    }
+    // Nothing is learnt from a tick that others have overwritten.
+    const bool settled = entry.row.tick == tick && is_settled(entry);
+    const auto& half = entry.half;
+    if (step_halves == 2)
+        return add(motion, 2 * tick + 1, settled, half[0].angle_arcsec + half[1].angle_arcsec, forget_ticks);
+    for (int k = 0; k < 2; ++k)
+        add(motion, 2 * tick + k, settled, half[static_cast<unsigned>(k)].angle_arcsec, forget_ticks);
+}
+
+// Those that there are, up to one of them.
+void learn_until(const GapBridgeConfig& config, GapBridgeState& state, std::uint32_t n_ticks) noexcept {
+    LearntMotion& motion = state.background.motion;
+    while (static_cast<std::int32_t>(n_ticks - static_cast<std::uint32_t>(motion.next_tick)) > 0)
+        learn(config, at(state, motion.next_tick), motion);
 }
 
 void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
@@ -23,29 +54,27 @@ void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
     for (unsigned k = 0; k < static_cast<unsigned>(job.plan.n_late); ++k, h += 2) {
         const LightHalf first = fit.half(h);
         const LightHalf second = fit.half(h + 1);
-        job.late_tick[k] = {
-            unit * (fit.angle(first) - fit.angle(second)),
-            unit * unit *
-                (fit.covariance(first, first) + fit.covariance(second, second) - 2.0 * fit.covariance(first, second))};
+        const double variance =
+            fit.covariance(first, first) + fit.covariance(second, second) - 2.0 * fit.covariance(first, second);
+        job.late_tick[k] = {static_cast<float>(unit * (fit.angle(first) - fit.angle(second))),
+                            static_cast<float>(unit * unit * variance)};
     }
 }
 
 }  // namespace
 
-void work(const CompensationConstants& gyro, LearntMotion& motion, BackgroundWork& background) noexcept {
-    for (;;) {
-        SwitchJob* const job = next_job(background);
-        if (is_asked(motion) && (job == nullptr || motion.ended.asked_at <= job->asked_at)) {
-            fold(motion);
-            continue;
-        }
-        if (job == nullptr) return;
-        job->learnt = motion.moments.n_windows >= few_windows;
-        job->found = estimate(gyro, job->plan.window, motion.moments, job->scale, background.room);
+void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+          Pause pause) noexcept {
+    BackgroundWork& background = state.background;
+    const MotionMoments& moments = background.motion.moments;
+    while (SwitchJob* const job = next_job(background)) {
+        learn_until(config, state, static_cast<std::uint32_t>(job->asked_at));
+        job->learnt = moments.n_windows >= few_windows;
+        job->found = estimate(gyro, job->plan.window, moments, job->scale, background.room, motion_bank, pause);
         correct_late(gyro, *job);
-        job->done = true;
-        if (job->late) job->gap = -1;
+        if (!hand_over_if(job->state, JobState::asked, JobState::done)) hand_over(job->state, JobState::free);
     }
+    learn_until(config, state, taken(background.n_ticks));
 }
 
 }  // namespace zlg::core

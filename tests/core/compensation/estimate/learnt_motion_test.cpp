@@ -11,8 +11,6 @@ namespace learnt_motion_test {
 
 using compensation_test::Random;
 using zlg::core::block_halves;
-using zlg::core::fold;
-using zlg::core::is_asked;
 using zlg::core::LearntMotion;
 using zlg::core::moment_place;
 using zlg::core::part_halves;
@@ -53,15 +51,9 @@ void expect_equal(const LearntMotion& memory, const std::vector<std::vector<doub
                 << i << ' ' << j;
 }
 
-// A half, and at once the fold that it may ask for.
-void learn(LearntMotion& memory, std::int64_t half, bool settled, double angle_arcsec, double forget) {
-    zlg::core::add(memory, half, settled, angle_arcsec, forget);
-    if (is_asked(memory)) fold(memory);
-}
-
 void add_all(LearntMotion& memory, const std::vector<double>& x, std::int64_t first_half) {
     for (std::size_t s = 0; s < x.size(); ++s)
-        learn(memory, first_half + static_cast<std::int64_t>(s), true, x[s], forget_ticks);
+        add(memory, first_half + static_cast<std::int64_t>(s), true, x[s], forget_ticks);
 }
 
 TEST(LearntMotion, HoldsTheProductsOfAllWindowsOfARun) {
@@ -70,7 +62,7 @@ TEST(LearntMotion, HoldsTheProductsOfAllWindowsOfARun) {
         start(memory, length, 1);
         const auto x = some_motion(10 * part_halves, 3);
         add_all(memory, x, 0);
-        learn(memory, 10 * part_halves, false, 0.0, forget_ticks);
+        add(memory, 10 * part_halves, false, 0.0, forget_ticks);
         EXPECT_EQ(memory.moments.n_windows, 10 * part_halves - length + 1);
         expect_equal(memory, direct(x, 0, x.size(), static_cast<unsigned>(length)));
     }
@@ -84,8 +76,8 @@ TEST(LearntMotion, HalvesThatBeginAPartWithoutEndingItAreNotIn) {
     const auto x = some_motion(4 * part_halves + 9, 5);
     add_all(whole, {x.begin(), x.begin() + 4 * part_halves}, 0);
     add_all(more, x, 0);
-    learn(whole, 0, false, 0.0, forget_ticks);
-    learn(more, 0, false, 0.0, forget_ticks);
+    add(whole, 0, false, 0.0, forget_ticks);
+    add(more, 0, false, 0.0, forget_ticks);
     EXPECT_EQ(whole.moments, more.moments);
 }
 
@@ -94,7 +86,7 @@ TEST(LearntMotion, ARunThatBeginsWithinAPartLosesNothingOfIt) {
     start(memory, 8, 1);
     const auto x = some_motion(part_halves + 5, 6);
     add_all(memory, x, 3 * part_halves - 5);
-    learn(memory, 4 * part_halves, false, 0.0, forget_ticks);
+    add(memory, 4 * part_halves, false, 0.0, forget_ticks);
     expect_equal(memory, direct(x, 0, x.size(), 8));
 }
 
@@ -113,44 +105,11 @@ TEST(LearntMotion, WindowsThatStraddleBlocksCount) {
     expect_equal(memory, sum);
 }
 
-// Whenever the fold is made before the next one is asked for, and what is said of the motion changes at the same half.
-TEST(LearntMotion, TheTimeOfAFoldIsOfNoAccount) {
-    LearntMotion soon;
-    LearntMotion late;
-    start(soon, 20, 1);
-    start(late, 20, 1);
-    const auto x = some_motion(3 * block_halves, 9);
-    for (std::size_t s = 0; s < x.size(); ++s) {
-        const bool settled = s % 700 != 699;
-        learn(soon, static_cast<std::int64_t>(s), settled, x[s], forget_ticks);
-        zlg::core::add(late, static_cast<std::int64_t>(s), settled, x[s], forget_ticks);
-        if (is_asked(late) && s % 9 == 0) fold(late);
-        ASSERT_EQ(soon.summary, late.summary) << s;
-    }
-    EXPECT_GT(soon.summary.n_windows, 1000.0);
-    if (is_asked(late)) fold(late);
-    EXPECT_EQ(soon.moments, late.moments);
-}
-
-TEST(LearntMotion, TheSummaryIsThatOfTheMoments) {
-    LearntMotion memory;
-    start(memory, 20, 1);
-    const auto x = some_motion(10 * part_halves, 4);
-    add_all(memory, x, 0);
-    for (int h = 0; h < 20; ++h) learn(memory, 10 * part_halves + h, false, 0.0, forget_ticks);
-    const auto sum = direct(x, 0, x.size(), 20);
-    const double n = memory.moments.n_windows;
-    EXPECT_NEAR(memory.summary.tick_arcsec2, (sum[0][0] + sum[1][1] + 2.0 * sum[0][1]) / n, 1e-9);
-    double mean = 0.0;
-    for (const double value : x) mean += value / static_cast<double>(x.size());
-    EXPECT_NEAR(memory.summary.mean_half_arcsec, mean, 1e-9);
-}
-
 TEST(LearntMotion, AShortRunTeachesNothing) {
     LearntMotion memory;
     start(memory, 62, 1);
     add_all(memory, some_motion(3 * part_halves, 8), 0);
-    learn(memory, 3 * part_halves, false, 0.0, forget_ticks);
+    add(memory, 3 * part_halves, false, 0.0, forget_ticks);
     LearntMotion nothing;
     start(nothing, 62, 1);
     EXPECT_EQ(memory.moments, nothing.moments);

@@ -15,6 +15,7 @@ using zlg::core::light_basis;
 using zlg::core::LightBasis;
 using zlg::core::LightFit;
 using zlg::core::LightSums;
+using zlg::core::span_of;
 using zlg::core::values_at;
 
 // Samples of a course of the detuning over all halves.
@@ -35,12 +36,13 @@ TEST(LightSpline, TheBasisAddsUpToOneEverywhere) {
         const LightBasis basis = light_basis(halves, 16);
         for (int h = 0; h < halves; ++h)
             for (const double part : {0.0, 0.3, 0.99}) {
-                const auto at = values_at(basis, h, h + part);
+                const auto span = span_of(basis, h);
+                const auto value = values_at(span, h + part);
                 double sum = 0.0;
-                for (const double b : at.value) sum += b;
+                for (const double b : value) sum += b;
                 EXPECT_NEAR(sum, 1.0, 1e-14);
-                EXPECT_GE(at.first, 0);
-                EXPECT_LE(at.first + 4, basis.n_terms);
+                EXPECT_GE(span.first, 0);
+                EXPECT_LE(span.first + 4, basis.n_terms);
             }
     }
 }

@@ -131,7 +131,8 @@ Relocking relocking(double chi_ratio) {
     for (WindowRow& row : r.window.row) {
         if (!row.after_gap || !row.read) continue;
         row.wanted = true;
-        row.y_arcsec = rate - chi_ratio * r.false_arcsec * r.window.bias_sign[static_cast<std::size_t>(row.halves.first)];
+        row.y_arcsec =
+            rate - chi_ratio * r.false_arcsec * r.window.bias_sign[static_cast<std::size_t>(row.halves.first)];
     }
     return r;
 }

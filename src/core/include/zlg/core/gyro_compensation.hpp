@@ -99,6 +99,9 @@ struct CompensationOutput {
 [[nodiscard]] CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationState& state,
                                       const HalfRecord& half, LightSamples light = {}) noexcept;
 
+// What a half-period leaves to the background, where it does (gap_bridge.hpp).
+void work(const GyroCompensationConfig& config, GyroCompensationState& state, Pause pause = nullptr) noexcept;
+
 // The log has ended: one more report of a gap or final row at each call, until there is neither. An odd last half is
 // dropped.
 [[nodiscard]] DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept;

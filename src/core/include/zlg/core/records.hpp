@@ -82,7 +82,8 @@ struct HalfRecord {
     // Place within the count at the end of the half, 0..65535, 1/65536: the angle there is (sum of counts + fringe/65536)
     // counts.
     float fringe = __builtin_nanf("");
-    bool lit = false;  // both beams were lit and steady throughout the half: its counts are good, in an open loop too
+    bool late = false;  // where a correction is due: its estimate was not ready, and the polynomial stands in
+    bool lit = false;   // both beams were lit and steady throughout the half: its counts are good, in an open loop too
 
     // The same bits, so that a quantity that was not measured is equal to itself.
     friend constexpr bool operator==(const HalfRecord& a, const HalfRecord& b) noexcept {
@@ -90,7 +91,7 @@ struct HalfRecord {
                same_bits(a.detuning_sq_lambda2, b.detuning_sq_lambda2) && same_bits(a.piezo_v, b.piezo_v) &&
                same_bits(a.temperature_c, b.temperature_c) && a.bias_sign == b.bias_sign && a.mode == b.mode &&
                a.loop_closed == b.loop_closed && a.valid == b.valid && a.edge_offset_ticks == b.edge_offset_ticks &&
-               a.span == b.span && same_bits(a.fringe, b.fringe) && a.lit == b.lit;
+               a.span == b.span && same_bits(a.fringe, b.fringe) && a.lit == b.lit && a.late == b.late;
     }
 };
 

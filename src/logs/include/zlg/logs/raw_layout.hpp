@@ -25,6 +25,7 @@ struct RawColumns {
     double timer_hz = 0.0;         // 1..1e15 where there are shifts, else not used
     bool has_span = false;
     bool has_fringe = false;
+    bool has_late = false;
     bool has_lit = false;
 };
 
@@ -88,6 +89,7 @@ struct RawTable {
                         &Presence::has_edge_offset, std::int32_t{0}, true),
         optional_column("span", "1", &Row::span, any_whole<std::int32_t>, &Presence::has_span, std::int32_t{1}, true),
         optional_column<double>("fringe", "1/65536", &Row::fringe, Fringe{}, &Presence::has_fringe, not_measured),
+        optional_column<std::uint8_t>("late", "1", &Row::late, Flag{}, &Presence::has_late, 0),
         optional_column<std::uint8_t>("lit", "1", &Row::lit, Flag{}, &Presence::has_lit, 0),
     };
 };

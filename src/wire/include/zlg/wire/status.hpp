@@ -23,6 +23,7 @@ struct Status {
     std::uint32_t health = 0;      // of the last half
     std::uint32_t n_switches = 0;  // completed, wraps; and
     std::uint32_t n_failed = 0;    // returns and searches
+    std::uint8_t n_late = 0;       // estimates of switches that were not there when they were due, wraps
     float half_wave_v = 0.0f;      // U_lambda/2 as learnt, one standard deviation of it
     float half_wave_sigma_v = 0.0f;
     float piezo_v = 0.0f;  // last readings

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <zlg/core/compensation/gap_bridge_config.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/wire/angle_register.hpp>
 #include <zlg/wire/frame.hpp>
@@ -25,7 +26,7 @@ inline constexpr double min_tick_s = 1e-6;
 inline constexpr double max_tick_s = 10.0;
 
 // The compensation settles every tick within so many.
-inline constexpr std::uint16_t max_settled_age_ticks = 64;
+inline constexpr std::uint16_t max_settled_age_ticks = core::most_final_delay_ticks;
 
 struct Telemetry {
     std::uint32_t tick = 0;               // since the start of the gyro, wraps

@@ -35,6 +35,11 @@ namespace zlg::core {
 [[nodiscard]] AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                                const TickInput& tick) noexcept;
 
+// What the half-periods have asked for, and what can be learnt by now. `step` does it itself, but where the background does: there it
+// is to be called between the half-periods, by one caller, whom `step` may interrupt.
+void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+          Pause pause = nullptr) noexcept;
+
 struct DrainOutput {
     bool has_row = false, has_gap = false;
     AngleRow row{};

@@ -28,7 +28,6 @@ struct GapBridgeConfig {
     // Of `automatic`: how ticks after a gap are corrected, and how many, 0..64.
     RelockMethod relock = RelockMethod::none;
     std::int64_t relock_ticks = 0;
-    bool works_apart = false;  // somebody calls `work` between the half-periods
 };
 
 enum class GapBridgeFault : unsigned char {

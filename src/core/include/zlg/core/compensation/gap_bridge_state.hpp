@@ -7,7 +7,7 @@
 #include <zlg/core/compensation/angle.hpp>
 #include <zlg/core/compensation/gap_bridge_config.hpp>
 #include <zlg/core/compensation/gap_tick.hpp>
-#include <zlg/core/compensation/learnt_motion.hpp>
+#include <zlg/core/compensation/motion_spread.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
 #include <zlg/core/compensation/switch_job.hpp>
 #include <zlg/core/compensation/switch_light.hpp>
@@ -22,6 +22,9 @@ inline constexpr int history_ticks = most_final_delay_ticks;
 static_assert(ticks_before_estimate + max_estimated_gap + most_relock_ticks < history_ticks);
 
 inline constexpr int max_extrapolation_points = 8;
+
+// Age at which what is learnt of the motion counts 1/e, in ticks: a quarter of a minute of 5 ms.
+inline constexpr double forget_ticks = 3000.0;
 
 // Where a gap lies.
 struct Gap {
@@ -52,8 +55,8 @@ struct OpenGap {
 // A gap that is over and waits for the ticks after it, and then for the tick in which its correction is due.
 struct PendingGap {
     Gap gap{};
-    std::int64_t ready_tick = 0;  // before which its last point lies
     std::int64_t due_tick = 0;
+    std::int16_t ready_before = 0;  // ticks; before that tick its last point lies
     std::int8_t sign_after = 1, mode_after = 1;
     bool asked = false;
     bool told = false;             // its report is out
@@ -76,7 +79,7 @@ struct GapBridgeState {
     std::int64_t relock_ticks = 0;        // after a gap, that belong to its switch
     bool with_phase = false;              // the readings of late have the place within the count
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
-    LearntMotion motion{};
+    MotionSpread spread{};
     SwitchLight light{};
     RelockScale scale{};
     BackgroundWork background{};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include <zlg/core/common/maths.hpp>
 #include <zlg/core/records.hpp>
 
 namespace zlg::core {
@@ -22,6 +23,7 @@ struct HalfReading {
 
 // One tick as measured, or the place of one in a gap.
 struct TickInput {
+    bool late = false;          // as it is recorded: the estimate of a gap that is due now was not ready
     bool measured = true;       // false: a tick of a gap
     double value_arcsec = 0.0;  // with the re-lock correction; in a gap what the counter read
     double variance_arcsec2 = 0.0;
@@ -54,15 +56,23 @@ struct HistoryTick {
     double relock_variance_arcsec2 = 0.0;  // of the re-lock correction, a part of the variance
     std::array<HalfReading, 2> half{};
     double share = 0.0;  // of a tick of a gap that is estimated: its part of what the angle of the gap is off by
-    bool measured = false;
-    bool settled = false;  // as in TickInput
-    bool with_phase = false;
-    bool known_is_rough = false;
+    // As in TickInput.
+    bool measured : 1 = false;
+    bool settled : 1 = false;
+    bool with_phase : 1 = false;
+    bool known_is_rough : 1 = false;
+    bool by_phase : 1 = false;     // as the readings of late are: what is learnt goes by it
     std::int32_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
     double known_arcsec = 0.0;
     double known_variance_arcsec2 = 0.0;
 
     friend bool operator==(const HistoryTick&, const HistoryTick&) = default;
 };
+
+// Its halves show the motion alone.
+[[nodiscard]] inline bool is_settled(const HistoryTick& entry) noexcept {
+    return entry.measured && entry.settled && is_finite(entry.variance_arcsec2) && entry.half[0].read &&
+           entry.half[1].read && (!entry.by_phase || entry.with_phase);
+}
 
 }  // namespace zlg::core

@@ -9,12 +9,13 @@
 //
 //   P_k = sum over s of x_s x_(s+k),    C_i(i+k) = P_k - (those with s < i) - (those with s > n - L + i)    (2)
 //
-// so that a step costs L products, and the matrix L^2 only where a run ends: at a gap, or after `block_halves`. The next run
-// then begins with the last L - 1 steps of this one, and no window is lost; their own products are added with the matrix. Its mean is taken off: contrasts do not see it, but the
-// law of the roundings does. The sums are made alike in both directions of time.
+// so that a step costs L products, and the matrix L^2 only where a run ends: at a gap, or after `block_halves`. The next run then
+// begins with the last L - 1 steps of this one, and no window is lost; their own products are added with the matrix. The mean of a
+// run is taken off: contrasts do not see it, but the law of the roundings does. The sums are made alike in both directions of
+// time.
 //
-// Halves go in by parts that end where their index is a multiple of `part_halves`: what a memory holds is a function of the
-// indices of halves, whenever it is computed.
+// Steps go in by parts that end where the index of their last half is a multiple of `part_halves`: what a memory holds is a
+// function of the indices of halves, whenever it is computed.
 
 #include <array>
 #include <cstdint>
@@ -26,48 +27,18 @@ namespace zlg::core {
 inline constexpr int part_halves = 16;
 inline constexpr int block_halves = 1024;
 
-// A run that has ended and is to be folded into the moments.
-struct EndedRun {
-    std::int64_t asked_at = -1;  // half; -1: of none
-    bool done = true;
-    bool goes_on = false;  // its head lies in the run before it: the products do not hold those of the head alone
-    double level_arcsec = 0.0;
-    double forget_ticks = 1.0;
-    int n = 0;
-    double sum = 0.0;
-    std::array<double, most_moment_steps> product{};  // P_k
-    std::array<double, most_moment_steps> head{};     // the first L - 1 steps
-    std::array<double, most_moment_steps> tail{};     // and the last
-
-    friend bool operator==(const EndedRun&, const EndedRun&) = default;
-};
-
-// What is said of the motion between the estimates: as it was folded `fold_halves` ago or earlier.
-struct MotionSummary {
-    double n_windows = 0.0;
-    double mean_half_arcsec = 0.0;           // in the run that was folded last
-    double tick_arcsec2 = 0.0;               // variance of a tick about the mean
-    double second_difference_arcsec2 = 0.0;  // of three halves in a row
-
-    friend bool operator==(const MotionSummary&, const MotionSummary&) = default;
-};
-
-// Halves that a fold may last.
-inline constexpr int fold_halves = 16;
-
 struct LearntMotion {
-    MotionMoments moments{};    // of the runs that have been folded
-    double level_arcsec = 0.0;  // first step of the run: what is subtracted from all
-    bool goes_on = false;
-    int n_run = 0;      // steps of the run in the products
-    int n_waiting = 0;  // and those that wait for the end of their part
-    double sum = 0.0;   // of the n_run steps
-    std::array<double, most_moment_steps> product{};
-    std::array<double, most_moment_steps> head{};
+    MotionMoments moments{};     // of the runs that have ended
+    std::int64_t next_tick = 0;  // that is to be learnt
+    bool with_phase = false;     // the readings that it was learnt from
+    double level_arcsec = 0.0;   // first step of the run: what is subtracted from all
+    bool goes_on = false;        // its head lies in the run before it: the products do not hold those of the head alone
+    int n_run = 0;               // steps of the run in the products
+    int n_waiting = 0;           // and those that wait for the end of their part
+    double sum = 0.0;            // of the n_run steps
+    std::array<double, most_moment_steps> product{};               // P_k
+    std::array<double, most_moment_steps> head{};                  // its first L - 1 steps
     std::array<double, most_moment_steps + part_halves> recent{};  // its last L - 1 steps, then those that wait
-    EndedRun ended{};
-    MotionSummary folded{};   // of `moments`
-    MotionSummary summary{};  // what is told
 
     friend bool operator==(const LearntMotion&, const LearntMotion&) = default;
 };
@@ -78,15 +49,10 @@ struct LearntMotion {
 // step_halves  1 or 2.
 void start(LearntMotion& memory, int length, int step_halves) noexcept;
 
-// A step: the index of its last half, and its angle without the bias. Where a run ends, its fold is asked for.
+// A step: the index of its last half, and its angle without the bias.
 //
 // settled       measured, and free of re-lock; another step ends the run.
 // forget_ticks  age at which a window counts 1/e.
 void add(LearntMotion& memory, std::int64_t half, bool settled, double angle_arcsec, double forget_ticks) noexcept;
-
-[[nodiscard]] inline bool is_asked(const LearntMotion& memory) noexcept { return !memory.ended.done; }
-
-// Add the moments of the run that has ended, for all windows that lie in it.
-void fold(LearntMotion& memory) noexcept;
 
 }  // namespace zlg::core

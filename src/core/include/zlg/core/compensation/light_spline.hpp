@@ -14,6 +14,7 @@
 // the end lets the noise of late halves through. With a single sample a half the first knots are a tick apart.
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include <zlg/core/common/triangle.hpp>
@@ -21,13 +22,13 @@
 namespace zlg::core {
 
 inline constexpr int most_light_halves = 160;
-inline constexpr int most_light_terms = 32;
+inline constexpr int most_light_terms = 31;
 
 // The basis: its knots, three of them at either end, in half-periods.
 struct LightBasis {
     int halves = 0;
     int n_terms = 0;
-    std::array<double, most_light_terms + 4> knot{};
+    std::array<std::uint8_t, most_light_terms + 4> knot{};
 
     friend bool operator==(const LightBasis&, const LightBasis&) = default;
 };
@@ -36,14 +37,17 @@ struct LightBasis {
 // samples of a half, 1..64
 [[nodiscard]] LightBasis light_basis(int halves, int samples) noexcept;
 
-// Four terms are not 0 between two knots: those from `first` on.
-struct BasisValues {
+// Between two knots four terms are not 0, those from `first` on; they follow from six knots, the third of which is at or before.
+struct BasisSpan {
     int first = 0;
-    std::array<double, 4> value{};
+    std::array<double, 6> knot{};
 };
 
-// At a time within half h.
-[[nodiscard]] BasisValues values_at(const LightBasis& basis, int h, double time) noexcept;
+// Within half h.
+[[nodiscard]] BasisSpan span_of(const LightBasis& basis, int h) noexcept;
+
+// The four terms at a time within the half.
+[[nodiscard]] std::array<double, 4> values_at(const BasisSpan& span, double time) noexcept;
 
 // What the samples of a switch leave behind: the normal equations (1), as they grow from half to half.
 struct LightSums {

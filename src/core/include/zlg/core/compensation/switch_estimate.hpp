@@ -67,9 +67,12 @@ struct EstimateRoom {
     };
 };
 
+// Called some hundred times while an estimate is made, by one who has more to do.
+using Pause = void (*)() noexcept;
+
 // bank  of at most as many members as `motion_bank`.
 [[nodiscard]] SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& window,
                                       const MotionMoments& motion, const RelockScale& scale, EstimateRoom& room,
-                                      std::span<const BankMember> bank = motion_bank) noexcept;
+                                      std::span<const BankMember> bank = motion_bank, Pause pause = nullptr) noexcept;
 
 }  // namespace zlg::core

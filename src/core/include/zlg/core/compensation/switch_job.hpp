@@ -1,9 +1,9 @@
 #pragma once
-// What is computed beside the half-periods: the folds of what was learnt, and the estimates of switches.
+// What is computed beside the half-periods: what is learnt of the motion, and the estimates of switches.
 //
-// A half-period only asks, with a snapshot of all that the answer depends on, and takes the answer at a half that is a function of
-// the asking one: so the angles are the same whenever between the two it was computed. On a host that is at once, on the gyro's
-// processor between the interrupts.
+// A half-period only asks, with a snapshot of the halves around the gap, and takes the answer in a tick that is a function of the
+// asking one: so the angles are the same whenever between the two it was computed. What is learnt is read from the history, tick
+// by tick up to the asking one. On a host that is done at once, on the gyro's processor between the interrupts.
 
 #include <array>
 #include <cstdint>
@@ -23,8 +23,8 @@ enum class HalfLight : unsigned char {
 
 // A tick behind the window: what the light alone says that it was turned by, for a first half of positive sign.
 struct LateTick {
-    double false_arcsec = 0.0;
-    double variance_arcsec2 = 0.0;
+    float false_arcsec = 0.0F;
+    float variance_arcsec2 = 0.0F;
 
     friend bool operator==(const LateTick&, const LateTick&) = default;
 };
@@ -52,12 +52,18 @@ struct SwitchPlan {
     friend bool operator==(const SwitchPlan&, const SwitchPlan&) = default;
 };
 
+enum class JobState : unsigned char {
+    free,
+    asked,
+    done,
+    late  // nobody waits for it any more
+};
+
 struct SwitchJob {
-    std::int64_t gap = -1;      // first tick of the gap; -1: the place is free
-    std::int64_t asked_at = 0;  // half
-    bool done = false;
-    bool late = false;    // nobody waits for it any more
-    bool learnt = false;  // by a motion that is known
+    JobState state = JobState::free;  // handed over (handover.hpp)
+    bool learnt = false;              // by a motion that is known
+    std::int64_t gap = -1;            // its first tick
+    std::int64_t asked_at = 0;        // tick; those before it are what is learnt
     SwitchPlan plan{};
     RelockScale scale{};
     SwitchEstimate found{};
@@ -69,8 +75,19 @@ struct SwitchJob {
 // Switches whose estimate is asked for or waits to be taken. More at a time are bridged by the polynomial.
 inline constexpr int most_jobs = 2;
 
+// Who calls `work`: a half-period at its end, or the background. The angles are the same.
+struct Worker {
+    bool is_background = false;
+
+    friend constexpr bool operator==(const Worker&, const Worker&) noexcept { return true; }
+};
+
 struct BackgroundWork {
+    Worker worker{};
+    std::uint32_t n_ticks = 0;  // that may be learnt, as they are counted; handed over
+    std::uint32_t n_late = 0;   // estimates that were not there when they were due, wraps
     std::array<SwitchJob, most_jobs> job{};
+    LearntMotion motion{};
     EstimateRoom room{};
 
     friend bool operator==(const BackgroundWork&, const BackgroundWork&) = default;
@@ -78,8 +95,5 @@ struct BackgroundWork {
 
 // Windows from which on the learnt motion is known.
 inline constexpr double few_windows = 25.0;
-
-// All that was asked for, in the order of asking.
-void work(const CompensationConstants& gyro, LearntMotion& motion, BackgroundWork& background) noexcept;
 
 }  // namespace zlg::core
