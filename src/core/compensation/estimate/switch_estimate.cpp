@@ -165,7 +165,7 @@ double unit_of(const BankMember& member, const Walk& walk, const SwitchWindow& w
     return 0.5 * (variance_of_half(walk, middle) + variance_of_half(walk, window.n_halves - 1 - middle));
 }
 
-// K of a member, as large as its unit.
+// K of a member, as large as its unit: as the walks of walk_kernel.hpp have it, of a walk both ways half of each.
 class Kernel {
 public:
     Kernel(const BankMember& member, const SwitchWindow& window) noexcept
@@ -176,8 +176,9 @@ public:
         const double part = both_ways_ ? 0.5 / unit : 1.0 / unit;
         for (int r = 0; r < window.n_rows; ++r) {
             const Stretch& halves = row_of(window, r).halves;
-            forward_[static_cast<unsigned>(r)] = scaled(walked(walk, halves), part);
-            if (both_ways_) backward_[static_cast<unsigned>(r)] = scaled(walked(walk, reversed(window, halves)), part);
+            set(r, part, walked(walk, halves), moment_, coefficient_);
+            // Against time the later of two rows is the first.
+            if (both_ways_) set(r, part, walked(walk, reversed(window, halves)), back_moment_, back_coefficient_);
         }
         is_there_ = true;
     }
@@ -189,50 +190,60 @@ public:
     [[nodiscard]] double at(int early, int late) const noexcept {
         const auto e = static_cast<unsigned>(early);
         const auto l = static_cast<unsigned>(late);
-        if (early == late) return forward_[l].variance + (both_ways_ ? backward_[l].variance : 0.0);
-        const double k = covariance(forward_[e], forward_[l]);
-        return both_ways_ ? k + covariance(backward_[l], backward_[e]) : k;
+        if (early == late) return variance_[l];
+        double k = 0.0;
+        for (unsigned m = 0; m < most_walk_terms; ++m)
+            k += moment_[m][e] * coefficient_[m][l] + back_moment_[m][l] * back_coefficient_[m][e];
+        return k;
     }
 
-    // Row a of the kernel of the points, so many times, on top of what is there.
-    void add_row(const Problem& problem, int a, double size, double* to) const noexcept {
-        to[a] += size * at(problem.row(a), problem.row(a));
-        if (kind_ == 3) return both_ways_ ? add<3, true>(problem, a, size, to) : add<3, false>(problem, a, size, to);
-        return both_ways_ ? add<2, true>(problem, a, size, to) : add<2, false>(problem, a, size, to);
+    // Row a of a matrix of the points and, so many times, of the kernel.
+    void add_row(const Problem& problem, int a, double size, const double* v, double* to) const noexcept {
+        const int r = problem.row(a);
+        to[a] = v[r] + size * at(r, r);
+        if (kind_ == 2)
+            return both_ways_ ? add<2, true>(problem, a, size, v, to) : add<2, false>(problem, a, size, v, to);
+        return both_ways_ ? add<3, true>(problem, a, size, v, to) : add<3, false>(problem, a, size, v, to);
     }
 
 private:
-    static WalkedStretch scaled(WalkedStretch stretch, double by) noexcept {
-        for (double& moment : stretch.moment) moment *= by;
-        stretch.variance *= by;
-        return stretch;
+    using Terms = std::array<std::array<double, most_window_rows>, most_walk_terms>;
+
+    void set(int r, double part, const WalkedStretch& walked, Terms& moment, Terms& coefficient) noexcept {
+        const auto at = static_cast<unsigned>(r);
+        variance_[at] += part * walked.variance;
+        for (unsigned m = 0; m < most_walk_terms; ++m) {
+            moment[m][at] = part * walked.moment[m];
+            coefficient[m][at] = walked.coefficient[m];
+        }
     }
 
-    // Products of the terms of a walk, of which there are `n`: the last row with those before it.
+    // The points before it, of a walk of so many terms.
     template <unsigned n, bool both_ways>
-    void add(const Problem& problem, int a, double size, double* to) const noexcept {
+    void add(const Problem& problem, int a, double size, const double* v, double* to) const noexcept {
         const auto late = static_cast<unsigned>(problem.row(a));
         double of_late[n];
         double back[n];
         for (unsigned m = 0; m < n; ++m) {
-            of_late[m] = size * forward_[late].coefficient[m];
-            back[m] = size * backward_[late].moment[m];
+            of_late[m] = size * coefficient_[m][late];
+            back[m] = size * back_moment_[m][late];
         }
         for (int b = 0; b < a; ++b) {
             const auto early = static_cast<unsigned>(problem.row(b));
-            double sum = of_late[0] * forward_[early].moment[0];
-            for (unsigned m = 1; m < n; ++m) sum += of_late[m] * forward_[early].moment[m];
+            double sum = v[early];
+            for (unsigned m = 0; m < n; ++m) sum += of_late[m] * moment_[m][early];
             if constexpr (both_ways)
-                for (unsigned m = 0; m < n; ++m) sum += back[m] * backward_[early].coefficient[m];
-            to[b] += sum;
+                for (unsigned m = 0; m < n; ++m) sum += back[m] * back_coefficient_[m][early];
+            to[b] = sum;
         }
     }
 
     int kind_ = 2;
     bool both_ways_ = false;
     bool is_there_ = false;
-    std::array<WalkedStretch, most_window_rows> forward_{};
-    std::array<WalkedStretch, most_window_rows> backward_{};
+    std::array<double, most_window_rows> variance_{};
+    Terms moment_{}, coefficient_{};
+    Terms back_moment_{}, back_coefficient_{};
 };
 
 // The kernel's covariance of the points with what is wanted, and its variance.
@@ -259,11 +270,12 @@ KernelTarget target_of(const Problem& problem, const Kernel& kernel) noexcept {
 // V of the points, with a kernel of this size.
 void build(const Problem& problem, const Kernel* kernel, double size, Triangle into) noexcept {
     for (int a = 0; a < problem.layout.n; ++a) {
-        const int r = problem.row(a);
-        const double* const from = problem.v.row(r);
+        const double* const v = problem.v.row(problem.row(a));
         double* const to = into.row(a);
-        for (int b = 0; b <= a; ++b) to[b] = from[problem.row(b)];
-        if (kernel != nullptr) kernel->add_row(problem, a, size, to);
+        if (kernel != nullptr)
+            kernel->add_row(problem, a, size, v, to);
+        else
+            for (int b = 0; b <= a; ++b) to[b] = v[problem.row(b)];
     }
 }
 

@@ -30,22 +30,46 @@ double reading_arcsec2(const CompensationConstants& gyro, const SwitchWindow& wi
 
 double width(const WindowRow& row) noexcept { return row.halves.last - row.halves.first; }
 
-// Sum of the learnt moments over two stretches, per window.
-double mean_product(const MotionMoments& motion, int shift, const Stretch& one, const Stretch& other) noexcept {
-    const int step = motion.step_halves;
-    double sum = 0.0;
-    for (int i = one.first / step; i < one.last / step; ++i)
-        for (int j = other.first / step; j < other.last / step; ++j)
-            sum += motion.sum[moment_place(motion.length, i + shift, j + shift)];
-    return sum / (motion.n_windows > 1.0 ? motion.n_windows : 1.0);
-}
+// The learnt moments as sums over stretches of the window, per window.
+class Products {
+public:
+    Products(const MotionMoments& motion, const SwitchWindow& window) noexcept
+        : sum_{motion.sum.data()},
+          step_{motion.step_halves},
+          last_{motion.length - 1},
+          shift_{(motion.length - window.n_halves / motion.step_halves) / 2},
+          part_{1.0 / (motion.n_windows > 1.0 ? motion.n_windows : 1.0)} {
+        for (int i = 0; i <= last_; ++i)
+            start_[static_cast<unsigned>(i)] = static_cast<int>(moment_place(last_ + 1, i, i)) - i;
+    }
 
-double trace_of(const MotionMoments& motion, const SwitchWindow& window) noexcept {
-    const int steps = window.n_halves / motion.step_halves;
-    const int shift = (motion.length - steps) / 2;
+    // Of a stretch and a later one, or itself.
+    [[nodiscard]] double of(const Stretch& early, const Stretch& late) const noexcept {
+        double sum = 0.0;
+        for (int j = late.first / step_ + shift_; j < late.last / step_ + shift_; ++j)
+            for (int i = early.first / step_ + shift_; i < early.last / step_ + shift_; ++i) sum += at(i, j);
+        return part_ * sum;
+    }
+
+private:
+    [[nodiscard]] double at(int i, int j) const noexcept {
+        if (i > j) return at(j, i);
+        return i + j <= last_ ? sum_[start(i) + j] : sum_[start(last_ - j) + last_ - i];
+    }
+    [[nodiscard]] int start(int i) const noexcept { return start_[static_cast<unsigned>(i)]; }
+
+    const double* sum_;
+    int step_;
+    int last_;
+    int shift_;
+    double part_;
+    std::array<int, most_moment_steps> start_;  // place of (i, i), less i
+};
+
+double trace_of(const Products& products, const SwitchWindow& window, int step) noexcept {
     double sum = 0.0;
-    for (int i = shift; i < shift + steps; ++i) sum += motion.sum[moment_place(motion.length, i, i)];
-    return sum / (motion.n_windows > 1.0 ? motion.n_windows : 1.0);
+    for (int h = 0; h < window.n_halves; h += step) sum += products.of({h, h + step}, {h, h + step});
+    return sum;
 }
 
 int sign_of(const SwitchWindow& window, int half) noexcept { return window.bias_sign[static_cast<unsigned>(half)]; }
@@ -60,6 +84,18 @@ double alternation(const SwitchWindow& window, const WindowRow& row) noexcept {
     return sum;
 }
 
+// (2) and (3) of light_spline.hpp are linear in it.
+LightHalf signed_by(int sign, LightHalf half) noexcept {
+    for (double& x : half.product) x *= sign;
+    for (double& x : half.slope) x *= sign;
+    return half;
+}
+
+void add(const LightHalf& half, LightHalf& sum) noexcept {
+    for (std::size_t k = 0; k < half.product.size(); ++k) sum.product[k] += half.product[k];
+    for (std::size_t k = 0; k < half.slope.size(); ++k) sum.slope[k] += half.slope[k];
+}
+
 // What the drift of a switching mode is off by has one sign before the gap and the other after it.
 void add_magnetic_step(const SwitchWindow& window, Triangle into) noexcept {
     const auto share = [&](int r) {
@@ -71,13 +107,12 @@ void add_magnetic_step(const SwitchWindow& window, Triangle into) noexcept {
 }
 
 // C of the rows, less a share of the roundings that are in the moments: D D^T, in which two neighbours share a border.
-void fill(const SwitchWindow& window, const MotionMoments& motion, double least, double roundings,
+void fill(const SwitchWindow& window, const Products& products, double least, double roundings,
           Triangle into) noexcept {
-    const int shift = (motion.length - window.n_halves / motion.step_halves) / 2;
     for (int r = 0; r < window.n_rows; ++r) {
         const WindowRow& row = window.row[static_cast<unsigned>(r)];
         for (int s = 0; s <= r; ++s)
-            into.row(r)[s] = mean_product(motion, shift, row.halves, window.row[static_cast<unsigned>(s)].halves);
+            into.row(r)[s] = products.of(window.row[static_cast<unsigned>(s)].halves, row.halves);
         into.row(r)[r] += least * width(row) - 2.0 * roundings;
         if (r > 0) into.row(r)[r - 1] += roundings;
     }
@@ -87,18 +122,19 @@ void fill(const SwitchWindow& window, const MotionMoments& motion, double least,
 
 void learnt_covariance(const CompensationConstants& gyro, const SwitchWindow& window, const MotionMoments& motion,
                        Triangle into) noexcept {
+    const Products products{motion, window};
     const double reading = reading_arcsec2(gyro, window);
-    const double least =
-        least_of_reading * reading + walk_arcsec2(gyro) / 2.0 + least_of_trace * trace_of(motion, window);
+    const double least = least_of_reading * reading + walk_arcsec2(gyro) / 2.0 +
+                         least_of_trace * trace_of(products, window, motion.step_halves);
     std::array<double, most_window_rows> reciprocal{};
     // What is taken out is positive by itself: where a share leaves a positive covariance, smaller ones do.
     int most = 0;
     for (int step = 4; step > 0; step /= 2) {
         if (most + step >= n_shares) continue;
-        fill(window, motion, least, shares[most + step] * reading, into);
+        fill(window, products, least, shares[most + step] * reading, into);
         if (factorise(into, reciprocal.data(), window.n_rows)) most += step;
     }
-    fill(window, motion, least, shares[most] * reading, into);
+    fill(window, products, least, shares[most] * reading, into);
     add_magnetic_step(window, into);
 }
 
@@ -111,19 +147,26 @@ ReadingErrors::ReadingErrors(const CompensationConstants& gyro, const SwitchWind
       halves_{halves},
       unit_arcsec_{gyro.chi * bias_per_half_arcsec(gyro)},
       bias_arcsec_{bias_error * bias_per_half_arcsec(gyro)} {
-    bool is_lit = false;
+    int n_forms = 0;
     double sum = 0.0;
     double n_halves = 0.0;
     for (int r = 0; r < window.n_rows; ++r) {
         const WindowRow& row = window.row[static_cast<unsigned>(r)];
-        double d = row.recorded_arcsec;
-        if (!is_lit) from_ = row.halves.first > window.light_start ? row.halves.first - window.light_start : 0;
         const Stretch part = lit_part(row);
-        for (int h = part.first; h < part.last; ++h) {
-            is_lit = true;
-            const LightHalf& half = *std::construct_at(&halves[static_cast<unsigned>(h - from_)], light_.half(h));
-            d += unit_arcsec_ * light_.angle(half) * sign_of(window, window.light_start + h);
+        forms_[static_cast<unsigned>(r)] = {n_forms, n_forms};
+        double d = row.recorded_arcsec;
+        for (int h = part.first; h < part.last && n_forms < static_cast<int>(halves.size()); ++h) {
+            const LightHalf half = signed_by(sign_of(window, window.light_start + h), light_.half(h));
+            d += unit_arcsec_ * light_.angle(half);
+            // Halves between the same knots make one form.
+            const bool is_first = forms_[static_cast<unsigned>(r)].first == n_forms;
+            LightHalf& last = halves[static_cast<unsigned>(is_first ? 0 : n_forms - 1)];
+            if (!is_first && last.first == half.first)
+                add(half, last);
+            else
+                std::construct_at(&halves[static_cast<unsigned>(n_forms++)], half);
         }
+        forms_[static_cast<unsigned>(r)] = {forms_[static_cast<unsigned>(r)].first, n_forms};
         readings.false_arcsec[static_cast<unsigned>(r)] = d;
         const double angle = row.y_arcsec + (1.0 + scale.value) * d;
         readings.angle_arcsec[static_cast<unsigned>(r)] = angle;
@@ -137,22 +180,16 @@ ReadingErrors::ReadingErrors(const CompensationConstants& gyro, const SwitchWind
 // Its halves that are corrected by the light, counted from the start of that.
 Stretch ReadingErrors::lit_part(const WindowRow& row) const noexcept {
     if (!row.read || !light_.is_known()) return {};
-    const int most = from_ + static_cast<int>(halves_.size());
-    const int end = window_.light.basis.halves < most ? window_.light.basis.halves : most;
     const int first = row.halves.first - window_.light_start;
     const int last = row.halves.last - window_.light_start;
-    return {first < from_ ? from_ : first, last > end ? end : last};
+    return {first < 0 ? 0 : first, last > window_.light.basis.halves ? window_.light.basis.halves : last};
 }
 
-double ReadingErrors::by_light(const WindowRow& row, const WindowRow& other) const noexcept {
-    const Stretch part = lit_part(row);
-    const Stretch other_part = lit_part(other);
+double ReadingErrors::by_light(const Stretch& forms, const Stretch& others) const noexcept {
     double sum = 0.0;
-    for (int h = part.first; h < part.last; ++h)
-        for (int g = other_part.first; g < other_part.last; ++g)
-            sum +=
-                sign_of(window_, window_.light_start + h) * sign_of(window_, window_.light_start + g) *
-                light_.covariance(halves_[static_cast<unsigned>(h - from_)], halves_[static_cast<unsigned>(g - from_)]);
+    for (int h = forms.first; h < forms.last; ++h)
+        for (int g = others.first; g < others.last; ++g)
+            sum += light_.covariance(halves_[static_cast<unsigned>(h)], halves_[static_cast<unsigned>(g)]);
     return square(unit_arcsec_) * sum;
 }
 
@@ -162,7 +199,7 @@ double ReadingErrors::of(int r, int s) const noexcept {
     const auto& d = readings_.false_arcsec;
     double sum = row.common_arcsec * other.common_arcsec;
     sum += d[static_cast<unsigned>(r)] * d[static_cast<unsigned>(s)] * scale_.variance;
-    sum += by_light(row, other);
+    sum += by_light(forms_[static_cast<unsigned>(r)], forms_[static_cast<unsigned>(s)]);
     if (row.after_gap == other.after_gap)
         sum += square(bias_arcsec_) * alternation(window_, row) * alternation(window_, other);
     return r == s ? sum + row.error_arcsec2 : sum;

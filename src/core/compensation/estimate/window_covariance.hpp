@@ -36,14 +36,14 @@ public:
 
 private:
     [[nodiscard]] Stretch lit_part(const WindowRow& row) const noexcept;
-    [[nodiscard]] double by_light(const WindowRow& row, const WindowRow& other) const noexcept;
+    [[nodiscard]] double by_light(const Stretch& forms, const Stretch& others) const noexcept;
 
     const SwitchWindow& window_;
     const RelockScale& scale_;
     const WindowReadings& readings_;
     const LightFit light_;
-    LightHalves& halves_;
-    int from_ = 0;  // half of the light that is the first of these
+    LightHalves& halves_;                            // with the sign of the bias, of each row in turn
+    std::array<Stretch, most_window_rows> forms_{};  // which are those of a row
     double unit_arcsec_ = 0.0;
     double bias_arcsec_ = 0.0;
 };

@@ -51,7 +51,7 @@ struct SwitchEstimate {
 
 inline constexpr int n_borders = 4;
 
-// Of the light, from the first half on that is read after the gap.
+// Of the light, of the rows that are read.
 using LightHalves = std::array<LightHalf, 64>;
 
 // Room to work in, of the caller: what it holds before and after is of no account.
