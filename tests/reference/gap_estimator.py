@@ -19,7 +19,7 @@ import numpy as np
 EVERYWHERE, BESIDE = (lambda lo, hi, length: (0, length)), (lambda lo, hi, length: (lo - 4, hi + 4))
 AFTER = lambda halves: lambda lo, hi, length: (hi + halves, length)
 BANK = [(2, EVERYWHERE), (3, EVERYWHERE), (2, BESIDE), (2, AFTER(2)), (2, AFTER(4)), (2, AFTER(8))]
-SIZES = 10.0 ** np.arange(-3.5, 11.6, 1.5)
+SIZES = 10.0 ** np.arange(-3.5, 11.6, 1.875)
 SHARES = 0.8, 0.4, 0.2, 0.1, 0.05, 0.02, 0.0
 KNOTS = np.r_[np.arange(17), 20, 24, 28, 34, 40]
 COARSE_KNOTS = np.r_[np.arange(0, 17, 2), 20, 24, 28, 34, 40]  # of one sample a half

@@ -1,0 +1,76 @@
+// The light samples of a switch: `joint` estimates it by them, whatever the recorded mean squares say.
+
+#include <zlg/core/gyro_compensation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "gyro_compensation_support.hpp"
+
+namespace gyro_compensation_light_test {
+
+using namespace zlg::core;
+using namespace gyro_compensation_support;
+
+constexpr int gap_tick = 400;
+constexpr int gap_ticks = 3;
+constexpr int n_samples = 16;
+constexpr double discriminator_per_lambda = 0.332;
+
+GyroCompensationConfig joint() {
+    GyroCompensationConfig c;
+    c.gyro.scale = Arcsec{0.01};  // its roundings are of no account
+    c.gyro.random_walk = ArcsecPerRootSecond{0.0};
+    c.relock = {.method = RelockMethod::joint};
+    c.bridge.method = BridgeMethod::automatic;
+    return c;
+}
+
+// A rotation that nobody foretells, with a detuning that decays from 0.2 wavelengths after the gap. What is recorded of it is half as much again as it was.
+//
+// return  sum of the corrected ticks after the gap: what the correction is off by.
+double error_after_gap(bool with_samples) {
+    const GyroCompensationConfig config = joint();
+    Recorder recorder{config, 1, 1};
+    compensation_test::Random random{11};
+    double truth = 0.0;
+    GyroCompensationState state;
+    Delivered all;
+    for (int h = 0; h < 2 * gap_tick + 160; ++h) {
+        const int since = h - 2 * (gap_tick + gap_ticks);
+        const bool open = h >= 2 * gap_tick && since < 0;
+        const auto detuning = [&](double time) { return open ? 0.2 : since < 0 ? 0.0 : 0.2 * std::exp(-0.4 * time); };
+        std::array<float, n_samples> a{}, b{};
+        double mean_sq = 0.0;
+        for (unsigned k = 0; k < n_samples; ++k) {
+            // A converter's least bit moves.
+            const double dl = detuning(since + (k + 0.5) / n_samples) + 1e-6 * (k % 2);
+            mean_sq += dl * dl / n_samples;
+            a[k] = static_cast<float>(1.0 + discriminator_per_lambda * dl);
+            b[k] = static_cast<float>(1.0 - discriminator_per_lambda * dl);
+        }
+        const double rotation = 2.0 * random.normal();
+        if (since >= 0 && since < 40) truth += rotation;
+        HalfRecord record = recorder.half(rotation, mean_sq);
+        record.detuning_sq_lambda2 *= 1.5;
+        record.loop_closed = !open;
+        const CompensationOutput out =
+            step(config, state, record, with_samples ? LightSamples{.a = a, .b = b} : LightSamples{});
+        if (out.has_sample && out.sample.has_final) all.rows.push_back(out.sample.final_row);
+    }
+    drain_into(config, state, all);
+    double sum = -truth;
+    for (int t = gap_tick + gap_ticks; t < gap_tick + gap_ticks + 20; ++t)
+        sum += all.rows[static_cast<std::size_t>(t)].dtheta_final_arcsec;
+    return sum;
+}
+
+TEST(GyroCompensationLight, JointEstimatesASwitchByTheSamples) {
+    const double by_records = error_after_gap(false);
+    EXPECT_GT(std::abs(by_records), 0.03);
+    EXPECT_LT(std::abs(error_after_gap(true)), 0.1 * std::abs(by_records));
+}
+
+}  // namespace gyro_compensation_light_test
