@@ -346,7 +346,7 @@ bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBr
     return false;
 }
 
-SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
+SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap) noexcept {
     SwitchAngle out{.scale = state.scale};
     SwitchJob* job = nullptr;
     for (SwitchJob& one : state.background.job)
@@ -364,6 +364,7 @@ SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
     out.known = true;
     out.variance_arcsec2 = found.variance_arcsec2;
     if (plan.light == HalfLight::spline || plan.light == HalfLight::records) out.scale = found.scale;
+    const double of_reading = 0.5 * rounding_arcsec2(gyro, state.with_phase);
     for (int r = 0; r < window.n_rows;) {
         const RowPlace& place = plan.place[static_cast<unsigned>(r)];
         const bool wanted = window.row[static_cast<unsigned>(r)].wanted;
@@ -377,19 +378,23 @@ SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
             const auto at_row = static_cast<unsigned>(r);
             angle += found.row[at_row].angle_arcsec;
             variance += found.row[at_row].variance_arcsec2;
+            if (r > first) variance += 2.0 * found.row[at_row].with_before_arcsec2;
             share += found.row[at_row].share;
             const WindowRow& row = window.row[at_row];
             if (row.wanted && !row.read)
                 unread += plan.unread_arcsec2 * static_cast<double>(row.halves.last - row.halves.first);
         }
         out.variance_arcsec2 += unread;
-        variance += unread;
+        variance = (variance > 0.0 ? variance : 0.0) + unread;
         if (!wanted) continue;
         HistoryTick& entry = at(state, gap.first_tick + place.tick);
         if (!in_gap) {
             set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
             continue;
         }
+        // Readings of the tick's own, which are roundings away from its angle.
+        if (window.row[static_cast<unsigned>(first)].read) variance += of_reading;
+        if (window.row[static_cast<unsigned>(r - 1)].read) variance += of_reading;
         for (int k = 0; k < place.n_ticks; ++k) {
             HistoryTick& tick = at(state, gap.first_tick + place.tick + k);
             set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);
