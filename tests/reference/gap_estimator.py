@@ -128,10 +128,15 @@ def motion_covariance(gyro, moments, windows, sums, reading_var):
 
 
 def roundings(gyro, window, rate, turned, covariance, reading_var):
-    """Covariance of the roundings at the borders of halves; none between two stretches without a reading in between."""
+    """Covariance of the roundings at the borders of halves; none between two stretches without a reading in between, and none at a border
+    that was not read."""
     n = len(window.sign)
+    is_read = np.zeros(n + 1)
+    for first, last, read, _ in window.rows:
+        if read:
+            is_read[first : last + 1] = 1
     if gyro.fringe_noise is not None:
-        return reading_var * np.eye(n + 1)
+        return reading_var * np.diag(is_read)
     bias = gyro.bias * gyro.scale * gyro.tick_s / 2
     place = (rate * np.arange(n + 1) + np.r_[0, np.cumsum(window.sign) * bias - np.cumsum(turned)]) / gyro.scale
     summed = np.zeros((n + 1, n + 1))
@@ -143,7 +148,7 @@ def roundings(gyro, window, rate, turned, covariance, reading_var):
     for first, last, read, _ in window.rows:
         if not read:
             stretch[last:] += 1
-    return r * (stretch[:, None] == stretch)
+    return r * (stretch[:, None] == stretch) * np.outer(is_read, is_read)
 
 
 def estimate(gyro, window, moments, windows, scale=0.0, scale_var=0.01, bank=BANK):

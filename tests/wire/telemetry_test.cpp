@@ -124,7 +124,7 @@ TEST(Telemetry, WhatNoGyroSendsIsRefused) {
     EXPECT_FALSE(refused([](Telemetry& t) { t.tick_s = 10.0; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.tick_s = 11.0; }));
     EXPECT_TRUE(refused([](Telemetry& t) { t.settled_sigma_arcsec = 1e300; }));
-    EXPECT_TRUE(refused([](Telemetry& t) { t.settled_age_ticks = 65; }));
+    EXPECT_TRUE(refused([](Telemetry& t) { t.settled_age_ticks = 129; }));
 }
 
 TEST(Telemetry, BitsAndBytesThatMustBeZeroAre) {

@@ -87,6 +87,13 @@ struct Problem {
 // The rows that border V of the points: one number for each point.
 using PointValues = std::array<double, most_window_points>;
 
+// A row without a reading, the border of which was read: its rounding, with that of the points and with itself.
+struct RoundedRow {
+    int row = -1;
+    PointValues with{};
+    double variance = 0.0;
+};
+
 struct Border {
     PointValues
         target{};  // covariance with what is wanted: of the motion that was not read, less the errors of what was
@@ -104,6 +111,22 @@ void add_errors(const CompensationConstants& gyro, EstimateRoom& room, Problem& 
             problem.v.row(problem.row(a))[problem.row(b)] += error;
             if (b >= problem.n_before) problem.errors.row(a - problem.n_before)[b - problem.n_before] = error;
         }
+}
+
+// Once before the roundings are in V, with -1, and once after.
+void note_rounding(const Problem& problem, double sign, RoundedRow& rounded) noexcept {
+    if (rounded.row < 0) return;
+    for (int a = 0; a < problem.layout.n; ++a)
+        rounded.with[static_cast<unsigned>(a)] += sign * problem.v.at(rounded.row, problem.row(a));
+    rounded.variance += sign * problem.v.at(rounded.row, rounded.row);
+}
+
+// The first and the last row that were not read; none for the last if they are one.
+std::array<RoundedRow, 2> rounded_rows(const SwitchWindow& window) noexcept {
+    std::array<RoundedRow, 2> rounded;
+    for (int r = 0; r < window.n_rows; ++r)
+        if (is_bridged(row_of(window, r))) rounded[rounded[0].row < 0 ? 0u : 1u].row = r;
+    return rounded;
 }
 
 void set_target(const Problem& problem, Border& border) noexcept {
@@ -386,7 +409,8 @@ void add_likeliest(const Candidate& likeliest, std::span<const BankMember> bank,
 
 // The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the likeliest
 // member, which V now has.
-void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstimate& result) noexcept {
+void spread(const Problem& problem, Border& border, std::array<RoundedRow, 2>& rounded, Triangle factor,
+            SwitchEstimate& result) noexcept {
     const SwitchWindow& window = problem.window;
     const int n = problem.layout.n;
     PointValues reciprocal{};
@@ -448,6 +472,14 @@ void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstim
             found.with_before_arcsec2 = beside - dot(with.data(), with_before.data(), n) +
                                         own_missing * missing_before / weight +
                                         share * share_before * (result.variance_arcsec2 - of_all);
+        // Estimate less motion: estimate less row, and the rounding. Of the latter the estimate holds a part.
+        for (unsigned k = 0; k < rounded.size(); ++k) {
+            if (rounded[k].row != r) continue;
+            eliminate(factor, reciprocal.data(), n, rounded[k].with.data());
+            const double held = dot(with.data(), rounded[k].with.data(), n) +
+                                own_missing * dot(level, rounded[k].with.data(), n) / weight;
+            result.rounding_arcsec2[k] = 2.0 * held - rounded[k].variance;
+        }
         with_before = with;
         missing_before = own_missing;
         share_before = share;
@@ -468,7 +500,10 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     learnt_covariance(gyro, window, motion, problem.v);
     add_errors(gyro, room, problem);
     std::construct_at(&room.factor);
+    std::array<RoundedRow, 2> rounded = rounded_rows(window);
+    for (RoundedRow& row : rounded) note_rounding(problem, -1.0, row);
     add_roundings(gyro, window, problem.readings, scale.value, problem.v);
+    for (RoundedRow& row : rounded) note_rounding(problem, 1.0, row);
     for (int r = 0; r < window.n_rows; ++r) {
         const WindowRow& row = row_of(window, r);
         if (is_bridged(row)) problem.wanted_halves += width(row);
@@ -489,7 +524,7 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
         result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
     }
     add_likeliest(mixture.likeliest(), bank, problem);
-    spread(problem, border, factor, result);
+    spread(problem, border, rounded, factor, result);
     return result;
 }
 

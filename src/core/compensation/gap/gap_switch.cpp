@@ -288,7 +288,7 @@ void set_gap_tick(HistoryTick& entry, double value_arcsec, double variance_arcse
                   ExactSum& difference) noexcept {
     AngleRow& row = entry.row;
     row.dtheta_final_arcsec = value_arcsec;
-    row.sigma_arcsec = deviation(variance_arcsec2);
+    row.sigma_arcsec = deviation(variance_arcsec2 < 0.0 ? 0.0 : variance_arcsec2);
     row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | flag_interpolated;
     if (!learnt) row.flags |= flag_lower_order;
     difference.add(row.dtheta_final_arcsec);
@@ -303,6 +303,19 @@ void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec
     entry.relock_variance_arcsec2 = error_arcsec2;
     entry.row.sigma_arcsec = deviation(entry.variance_arcsec2);
     entry.row.flags = (entry.row.flags & ~std::uint32_t{flag_relock_uncorrected}) | flag_relock_corrected;
+}
+
+// What roundings add to the variance of a tick of the gap, of which these are the rows. Of readings within it that is a bound: the estimate
+// may have found a part of them.
+double roundings_of_tick(const SwitchWindow& window, const SwitchEstimate& found, int first, int last,
+                         double of_reading) noexcept {
+    const auto is_read = [&](int r) { return window.row[static_cast<unsigned>(r)].read; };
+    const auto is_bridged = [&](int r) {
+        return r >= 0 && r < window.n_rows && !is_read(r) && window.row[static_cast<unsigned>(r)].wanted;
+    };
+    if (is_read(first) || is_read(last)) return (is_read(first) && is_read(last) ? 2.0 : 1.0) * of_reading;
+    return (is_bridged(first - 1) ? 0.0 : found.rounding_arcsec2[0]) +
+           (is_bridged(last + 1) ? 0.0 : found.rounding_arcsec2[1]);
 }
 
 // Ticks behind the window.
@@ -392,9 +405,7 @@ SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const
             set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
             continue;
         }
-        // Readings of the tick's own, which are roundings away from its angle.
-        if (window.row[static_cast<unsigned>(first)].read) variance += of_reading;
-        if (window.row[static_cast<unsigned>(r - 1)].read) variance += of_reading;
+        variance += roundings_of_tick(window, found, first, r - 1, of_reading);
         for (int k = 0; k < place.n_ticks; ++k) {
             HistoryTick& tick = at(state, gap.first_tick + place.tick + k);
             set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);

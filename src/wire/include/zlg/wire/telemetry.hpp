@@ -25,7 +25,7 @@ inline constexpr double min_tick_s = 1e-6;
 inline constexpr double max_tick_s = 10.0;
 
 // The compensation settles every tick within so many.
-inline constexpr std::uint16_t max_settled_age_ticks = 64;
+inline constexpr std::uint16_t max_settled_age_ticks = 128;
 
 struct Telemetry {
     std::uint32_t tick = 0;               // since the start of the gyro, wraps

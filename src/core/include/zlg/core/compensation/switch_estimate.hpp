@@ -45,6 +45,9 @@ struct SwitchEstimate {
     double angle_arcsec = 0.0;  // of all rows that are wanted
     double variance_arcsec2 = 0.0;
     RelockScale scale{};
+    // A row is the motion with the roundings at its borders. About the motion itself the first and the last row that were not read have
+    // so much more variance, or less; if they are one, the first.
+    std::array<double, 2> rounding_arcsec2{};
     std::array<RowEstimate, most_window_rows> row{};
 
     friend bool operator==(const SwitchEstimate&, const SwitchEstimate&) = default;
