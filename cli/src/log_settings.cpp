@@ -1,8 +1,12 @@
 #include "log_settings.hpp"
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 #include <utility>
+
+#include <zlg/core/gyro_compensation.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 
 namespace zlg::cli {
 namespace {
@@ -47,6 +51,17 @@ LogSettings understood(const Options& options, const config::Settings& settings,
     Understanding understanding{options, log_path, {}};
     understanding.take(settings);
     return std::move(understanding.found);
+}
+
+std::optional<int> final_delay_ticks(const LogSettings& settings) {
+    const auto is_bridge = [](const auto& setting) { return setting.first == "compensation.bridge"; };
+    if (std::none_of(settings.good.begin(), settings.good.end(), is_bridge)) return std::nullopt;
+    try {
+        const core::GyroCompensationConfig made = rig::asked_compensation(settings.config);
+        return core::final_delay_ticks(made.gyro, core::bridge_of(made));
+    } catch (const config::ConfigError&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace zlg::cli

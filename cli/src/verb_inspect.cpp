@@ -119,8 +119,8 @@ json fingerprint_json(const std::string& fingerprint) {
     return fingerprint.empty() ? json(nullptr) : json(fingerprint);
 }
 
-// Which random numbers a seed in the settings names; null where the log does not say it.
-json version_json(const logs::FormatVersion& version) { return version ? json(*version) : json(nullptr); }
+// null where the log does not say it.
+json optional_json(const std::optional<int>& number) { return number ? json(*number) : json(nullptr); }
 
 json raw_json(const InspectOptions& options, const logs::RawHeader& header, const LogSettings& log,
               const RawFindings& f) {
@@ -144,7 +144,7 @@ json raw_json(const InspectOptions& options, const logs::RawHeader& header, cons
             {"open_halves", f.open_halves},
             {"invalid_halves", f.invalid_halves},
             {"fingerprint", fingerprint_json(header.fingerprint)},
-            {"format_version", version_json(header.format_version)},
+            {"format_version", optional_json(header.format_version)},
             {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
@@ -155,16 +155,19 @@ struct AngleFindings {
     std::string damage;
 };
 
-json angle_json(const InspectOptions& options, const logs::AngleHeader& header, const AngleFindings& f) {
+json angle_json(const InspectOptions& options, const logs::AngleHeader& header, const LogSettings& log,
+                const AngleFindings& f) {
     json flags = json::object();
     for (std::size_t bit = 0; bit < f.flagged.size(); ++bit) flags[core::angle_flag_names[bit]] = f.flagged[bit];
     return {{"file", options.file},
             {"kind", "angles"},
             {"ticks", f.ticks},
             {"duration_s", f.end_s},
+            {"final_delay_ticks",
+             optional_json(header.format_version == logs::format_version ? final_delay_ticks(log) : std::nullopt)},
             {"flagged_ticks", flags},
             {"fingerprint", fingerprint_json(header.fingerprint)},
-            {"format_version", version_json(header.format_version)},
+            {"format_version", optional_json(header.format_version)},
             {"damage", f.damage.empty() ? json(nullptr) : json(f.damage)}};
 }
 
@@ -255,9 +258,10 @@ json inspect_angles(const InspectOptions& options) {
     logs::AngleReader reader{options.file};
     const AngleFindings found = read_angles(reader, options.file);
     note_former_keys(reader.header().settings, options.file);
-    if (found.damage.empty())
-        warn_of_missing(understood(options, reader.header().settings, options.file), found.ticks, options.file);
-    return angle_json(options, reader.header(), found);
+    LogSettings log;
+    if (found.damage.empty()) log = understood(options, reader.header().settings, options.file);
+    warn_of_missing(log, found.ticks, options.file);
+    return angle_json(options, reader.header(), log, found);
 }
 
 json inspect_log(const InspectOptions& options) {

@@ -140,7 +140,7 @@ class Follow(CliTest):
         for at in (0, 1, 50, 199):
             for other in ({"tick_s": 1e308}, {"tick_s": 5e-324}, {"tick_s": 11.0}, {"tick_s": 1e-7}, {"tick_s": 0.01},
                           {"tick": 2 ** 24}, {"tick": 2 ** 31}, {"bits": 255}, {"byte_7": 1}, {"bytes_34": 1},
-                          {"sigma": 1e300}, {"turn": float("nan")}, {"settled_turn": 1e300}, {"bits": 3, "age": 65}):
+                          {"sigma": 1e300}, {"turn": float("nan")}, {"settled_turn": 1e300}, {"bits": 3, "age": 129}):
                 gyro = Gyro()
                 frames = gyro.ticks(at) + [gyro.next(**other)] + gyro.ticks(200)
                 said, out = self.followed(self.line(b"".join(frames)))

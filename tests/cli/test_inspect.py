@@ -46,6 +46,16 @@ class Inspect(CliTest):
             log = self.write("log.csv", "".join(unsaid.splitlines(True)[:-10 * rows_a_tick]))
             self.assertEqual(warnings(self.succeed("inspect", log)), [])
 
+    def test_the_delay_of_a_final_value_is_that_of_the_documents(self):
+        # max(16, gap_ticks) + max(8, relock_ticks where re-lock is corrected) + 80 ms in ticks + 1; by a polynomial 16 and its points.
+        asked = {53: [], 41: ["--set", "compensation.relock=none"], 117: ["--set", "gyro.tick_s=0.001", "--set", "switching.interval_s=1"],
+                 74: ["--set", "switching.gap_ticks=37"], 20: ["--set", "compensation.bridge=quadratic"]}
+        for suffix in ("csv", "h5"):
+            for delay, settings in asked.items():
+                self.succeed("run", "--duration", 1, *settings, "--format", suffix, "--quiet", "--out", self.folder / f"{suffix}{delay}")
+                self.assertEqual(self.findings(self.folder / f"{suffix}{delay}" / f"angles.{suffix}")["final_delay_ticks"], delay)
+        self.assertIn("final_delay_ticks", self.succeed("inspect", self.folder / "csv53" / "angles.csv").stdout)
+
     def test_a_raw_log_of_a_run_says_how_long_it_is(self):
         self.succeed("simulate", "--duration", 2, "--out", self.folder / "raw.csv")
         rows = (self.folder / "raw.csv").read_text().splitlines(True)

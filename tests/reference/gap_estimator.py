@@ -19,7 +19,7 @@ import numpy as np
 EVERYWHERE, BESIDE = (lambda lo, hi, length: (0, length)), (lambda lo, hi, length: (lo - 4, hi + 4))
 AFTER = lambda halves: lambda lo, hi, length: (hi + halves, length)
 BANK = [(2, EVERYWHERE), (3, EVERYWHERE), (2, BESIDE), (2, AFTER(2)), (2, AFTER(4)), (2, AFTER(8))]
-SIZES = 10.0 ** np.arange(-3.5, 11.6, 1.875)
+SIZES = 10.0 ** np.arange(-0.5, 11.6, 1.5)
 SHARES = 0.8, 0.4, 0.2, 0.1, 0.05, 0.02, 0.0
 KNOTS = np.r_[np.arange(17), 20, 24, 28, 34, 40]
 COARSE_KNOTS = np.r_[np.arange(0, 17, 2), 20, 24, 28, 34, 40]  # of one sample a half
@@ -128,10 +128,15 @@ def motion_covariance(gyro, moments, windows, sums, reading_var):
 
 
 def roundings(gyro, window, rate, turned, covariance, reading_var):
-    """Covariance of the roundings at the borders of halves; none between two stretches without a reading in between."""
+    """Covariance of the roundings at the borders of halves; none between two stretches without a reading in between, and none at a border
+    that was not read."""
     n = len(window.sign)
+    is_read = np.zeros(n + 1)
+    for first, last, read, _ in window.rows:
+        if read:
+            is_read[first : last + 1] = 1
     if gyro.fringe_noise is not None:
-        return reading_var * np.eye(n + 1)
+        return reading_var * np.diag(is_read)
     bias = gyro.bias * gyro.scale * gyro.tick_s / 2
     place = (rate * np.arange(n + 1) + np.r_[0, np.cumsum(window.sign) * bias - np.cumsum(turned)]) / gyro.scale
     summed = np.zeros((n + 1, n + 1))
@@ -143,7 +148,7 @@ def roundings(gyro, window, rate, turned, covariance, reading_var):
     for first, last, read, _ in window.rows:
         if not read:
             stretch[last:] += 1
-    return r * (stretch[:, None] == stretch)
+    return r * (stretch[:, None] == stretch) * np.outer(is_read, is_read)
 
 
 def estimate(gyro, window, moments, windows, scale=0.0, scale_var=0.01, bank=BANK):

@@ -19,7 +19,8 @@ config::Settings angle_settings(config::Config config) {
     config::Settings settings;
     for (const auto& setting : config::to_settings(config))
         if (setting.first.starts_with("gyro.") || setting.first.starts_with("compensation.") ||
-            setting.first == "drift.random_walk_arcsec_sqrt_s" || setting.first.starts_with("perimeter.discriminator_"))
+            setting.first == "switching.gap_ticks" || setting.first == "drift.random_walk_arcsec_sqrt_s" ||
+            setting.first.starts_with("perimeter.discriminator_"))
             settings.push_back(setting);
     return settings;
 }

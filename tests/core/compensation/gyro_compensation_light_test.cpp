@@ -60,6 +60,7 @@ double error_after_gap(bool with_samples) {
             step(config, state, record, with_samples ? LightSamples{.a = a, .b = b} : LightSamples{});
         if (out.has_sample && out.sample.has_final) all.rows.push_back(out.sample.final_row);
     }
+    EXPECT_EQ(is_complete(state.bridge.light), with_samples);
     drain_into(config, state, all);
     double sum = -truth;
     for (int t = gap_tick + gap_ticks; t < gap_tick + gap_ticks + 20; ++t)
@@ -70,7 +71,8 @@ double error_after_gap(bool with_samples) {
 TEST(GyroCompensationLight, JointEstimatesASwitchByTheSamples) {
     const double by_records = error_after_gap(false);
     EXPECT_GT(std::abs(by_records), 0.03);
-    EXPECT_LT(std::abs(error_after_gap(true)), 0.1 * std::abs(by_records));
+    // The mean of the bias, over 256 ticks of that rotation, leaves some of it.
+    EXPECT_LT(std::abs(error_after_gap(true)), 0.6 * std::abs(by_records));
 }
 
 }  // namespace gyro_compensation_light_test

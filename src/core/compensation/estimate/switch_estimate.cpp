@@ -443,22 +443,29 @@ void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstim
                            problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
     const double of_all = border.target_variance - dot(target, target, n) + missing * missing / weight;
     const double off = result.angle_arcsec - by_mean;
+    PointValues with{}, with_before{};
+    double missing_before = 0.0;
+    double share_before = 0.0;
     int point = -1;
     for (int r = 0; r < window.n_rows; ++r) {
         const WindowRow& row = row_of(window, r);
         point += row.read;
         if (!row.wanted) continue;
-        PointValues with{};
+        const bool follows = r > 0 && row_of(window, r - 1).wanted;
+        const bool is_alike = follows && row_of(window, r - 1).read == row.read;
         double own = 0.0;
         double with_all = 0.0;
+        double beside = 0.0;
         for (int a = 0; a < n; ++a)
             with[static_cast<unsigned>(a)] = row.read ? -problem.error(point, a) : problem.v.at(r, problem.row(a));
         if (row.read) {
             own = problem.error(point, point);
+            if (is_alike) beside = problem.error(point, point - 1);
             for (int b = 0; b < n; ++b)
                 if (problem.is_corrected(b)) with_all += problem.error(point, b);
         } else {
             own = problem.v.at(r, r);
+            if (is_alike) beside = problem.v.at(r, r - 1);
             for (int s = 0; s < window.n_rows; ++s)
                 if (is_bridged(row_of(window, s))) with_all += problem.v.at(r, s);
         }
@@ -473,8 +480,15 @@ void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstim
         const double common = with_all - dot(with.data(), target, n) + own_missing * missing / weight;
         const double share = of_all > 0.0 ? common / of_all : 0.0;
         const double left = of_row + share * share * (result.variance_arcsec2 - of_all);
-        result.row[static_cast<unsigned>(r)] = {
-            .angle_arcsec = mean + share * off, .variance_arcsec2 = left > 0.0 ? left : 0.0, .share = share};
+        RowEstimate& found = result.row[static_cast<unsigned>(r)];
+        found = {.angle_arcsec = mean + share * off, .variance_arcsec2 = left > 0.0 ? left : 0.0, .share = share};
+        if (follows)
+            found.with_before_arcsec2 = beside - dot(with.data(), with_before.data(), n) +
+                                        own_missing * missing_before / weight +
+                                        share * share_before * (result.variance_arcsec2 - of_all);
+        with_before = with;
+        missing_before = own_missing;
+        share_before = share;
     }
 }
 

@@ -243,11 +243,14 @@ void add_roundings(const CompensationConstants& gyro, const SwitchWindow& window
         }
         for (int s = 0; s <= j; ++s) of_row[s] += now[static_cast<unsigned>(s)];
     }
-    // And of each border with itself.
+    // And of each border with itself, but for those between two rows of which neither was read: nothing was rounded there.
     const double reading = reading_arcsec2(gyro, window);
+    const auto is_read = [&](int j) { return j >= 0 && j < n && window.row[static_cast<unsigned>(j)].read; };
     for (int j = 0; j < n; ++j) {
-        v.row(j)[j] += 2.0 * reading;
-        if (j > 0) v.row(j)[j - 1] -= reading;
+        const bool at_start = is_read(j) || is_read(j - 1);
+        const bool at_end = is_read(j) || is_read(j + 1);
+        v.row(j)[j] += (static_cast<int>(at_start) + static_cast<int>(at_end)) * reading;
+        if (j > 0 && at_start) v.row(j)[j - 1] -= reading;
     }
 }
 

@@ -160,20 +160,20 @@ private:
         row.y_arcsec = half.angle_arcsec - 0.5 * magnetic(entry);
         count(row);
         if (!wanted) return;
-        // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
-        const double unit = 0.5 * gyro_.chi * gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value();
         const double d = half.false_arcsec;
-        const double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
-        if (plan_.light == HalfLight::records) {
+        if (plan_.light == HalfLight::records || half.lit) {
             row.recorded_arcsec = -d;
             row.error_arcsec2 = half.false_arcsec2;
         }
+        if (!half.lit) return;
+        // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
+        const double unit = 0.5 * gyro_.chi * gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value();
+        const double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
         row.common_arcsec = d < 0.0 ? -square_root(common) : square_root(common);
     }
 
     [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
-        return half.lit && half.read && plan_.light != HalfLight::ticks &&
-               (plan_.light != HalfLight::records || half.false_arcsec2 >= 0.0F);
+        return half.lit && half.read && plan_.light != HalfLight::ticks && half.false_arcsec2 >= 0.0F;
     }
 
     [[nodiscard]] const HalfReading& half_reading(std::int64_t half) const noexcept {
@@ -206,9 +206,6 @@ private:
             return h;
         const std::int64_t least = h - most_lit_rows > 2 * gap_.first_tick ? h - most_lit_rows : 2 * gap_.first_tick;
         while (h > least && is_lit(half_reading(h - 1)) && fits(h - 1)) --h;
-        // By the spline, from where it begins.
-        if (plan_.light == HalfLight::spline && h < first_tick_ * 2 + window_.light_start)
-            h = first_tick_ * 2 + window_.light_start;
         return h;
     }
 
@@ -354,7 +351,7 @@ bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBr
     return false;
 }
 
-SwitchAngle take(GapBridgeState& state, const Gap& gap, bool late) noexcept {
+SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap, bool late) noexcept {
     SwitchAngle out{.scale = state.scale};
     SwitchJob* job = nullptr;
     for (SwitchJob& one : state.background.job)
@@ -384,24 +381,29 @@ SwitchAngle take(GapBridgeState& state, const Gap& gap, bool late) noexcept {
         double variance = 0.0;
         double unread = 0.0;
         double share = 0.0;
+        int n_lit = 0;
         const int first = r;
         for (; r < window.n_rows && (r == first || plan.place[static_cast<unsigned>(r)].tick == place.tick); ++r) {
             const auto at_row = static_cast<unsigned>(r);
             angle += found.row[at_row].angle_arcsec;
             variance += found.row[at_row].variance_arcsec2;
+            if (r > first) variance += 2.0 * found.row[at_row].with_before_arcsec2;
             share += found.row[at_row].share;
             const WindowRow& row = window.row[at_row];
+            n_lit += row.read;
             if (row.wanted && !row.read)
                 unread += plan.unread_arcsec2 * static_cast<double>(row.halves.last - row.halves.first);
         }
         out.variance_arcsec2 += unread;
-        variance += unread;
+        variance = (variance > 0.0 ? variance : 0.0) + unread;
         if (!wanted) continue;
         HistoryTick& entry = at(state, gap.first_tick + place.tick);
         if (!in_gap) {
             set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
             continue;
         }
+        // What was read of a tick has the roundings at its borders, which cancel in the angle of the switch.
+        variance += 0.5 * n_lit * rounding_arcsec2(gyro, state.with_phase);
         for (int k = 0; k < place.n_ticks; ++k) {
             HistoryTick& tick = at(state, gap.first_tick + place.tick + k);
             set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);

@@ -26,7 +26,8 @@ struct SwitchAngle {
 // Take the estimate, and give the gap and the ticks after it their final values.
 //
 // late  it is recorded as not ready, and is not taken.
-[[nodiscard]] SwitchAngle take(GapBridgeState& state, const Gap& gap, bool late) noexcept;
+[[nodiscard]] SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap,
+                               bool late) noexcept;
 
 // Variance of a tick about the mean rate, as learnt; infinite where nothing is.
 [[nodiscard]] double tick_variance(const GapBridgeState& state) noexcept;

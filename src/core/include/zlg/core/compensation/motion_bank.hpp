@@ -29,9 +29,9 @@ inline constexpr std::array<BankMember, 6> motion_bank{{{2, WalkPlace::everywher
                                                         {2, WalkPlace::after, 4},
                                                         {2, WalkPlace::after, 8}}};
 
-// Variances of a member, in units of the variance of a half that its neighbours do not foretell: 10^-3.5 to 10^11.5, 10^1.875 apart.
-inline constexpr std::array<double, 9> motion_sizes{
-    0.00031622776601683794, 0.023713737056616554, 1.7782794100389228, 133.3521432163324, 10000.0,
-    749894.2093324559,      56234132.51903491,    4216965034.2858224, 316227766016.83795};
+// Variances of a member, in units of the variance of a half that its neighbours do not foretell: 10^-0.5 to 10^11.5, 10^1.5 apart.
+inline constexpr std::array<double, 9> motion_sizes{0.31622776601683794, 10.0,       316.22776601683796, 10000.0,
+                                                    316227.7660168379,   10000000.0, 316227766.01683795, 10000000000.0,
+                                                    316227766016.83795};
 
 }  // namespace zlg::core

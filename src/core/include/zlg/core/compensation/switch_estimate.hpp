@@ -34,7 +34,8 @@ namespace zlg::core {
 struct RowEstimate {
     double angle_arcsec = 0.0;
     double variance_arcsec2 = 0.0;
-    double share = 0.0;  // its covariance with the angle of all that is wanted, over the variance of that
+    double with_before_arcsec2 = 0.0;  // covariance with the row before it, if that is wanted too
+    double share = 0.0;                // its covariance with the angle of all that is wanted, over the variance of that
 
     friend bool operator==(const RowEstimate&, const RowEstimate&) = default;
 };
