@@ -200,7 +200,7 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     const bool is_short = gap.n <= max_gap_ticks(config);
     bool is_estimate = false;
     if (is_short) {
-        const SwitchAngle found = pending.asked ? take(state, gap) : SwitchAngle{};
+        const SwitchAngle found = pending.asked ? take(gyro, state, gap) : SwitchAngle{};
         is_estimate = found.known;
         if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
         if (found.known) state.scale = found.scale;

@@ -346,7 +346,7 @@ bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBr
     return false;
 }
 
-SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
+SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap) noexcept {
     SwitchAngle out{.scale = state.scale};
     SwitchJob* job = nullptr;
     for (SwitchJob& one : state.background.job)
@@ -372,6 +372,7 @@ SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
         double variance = 0.0;
         double unread = 0.0;
         double share = 0.0;
+        bool is_lit = false;
         const int first = r;
         for (; r < window.n_rows && (r == first || plan.place[static_cast<unsigned>(r)].tick == place.tick); ++r) {
             const auto at_row = static_cast<unsigned>(r);
@@ -379,6 +380,7 @@ SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
             variance += found.row[at_row].variance_arcsec2;
             share += found.row[at_row].share;
             const WindowRow& row = window.row[at_row];
+            is_lit = is_lit || row.read;
             if (row.wanted && !row.read)
                 unread += plan.unread_arcsec2 * static_cast<double>(row.halves.last - row.halves.first);
         }
@@ -390,6 +392,8 @@ SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept {
             set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
             continue;
         }
+        // What was read of a tick has the roundings at its borders; those between the rows of a switch cancel in its angle.
+        if (is_lit) variance += rounding_arcsec2(gyro, state.with_phase);
         for (int k = 0; k < place.n_ticks; ++k) {
             HistoryTick& tick = at(state, gap.first_tick + place.tick + k);
             set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);

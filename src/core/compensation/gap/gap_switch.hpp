@@ -24,7 +24,7 @@ struct SwitchAngle {
                        const Gap& gap, std::int64_t end) noexcept;
 
 // Take the estimate, and give the gap and the ticks after it their final values.
-[[nodiscard]] SwitchAngle take(GapBridgeState& state, const Gap& gap) noexcept;
+[[nodiscard]] SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap) noexcept;
 
 // Variance of a tick about the mean rate, as learnt; infinite where nothing is.
 [[nodiscard]] double tick_variance(const GapBridgeState& state) noexcept;
