@@ -132,15 +132,15 @@ LightSamples samples_for(const GyroCompensationConfig& config, LightSamples ligh
     return config.relock.method == RelockMethod::joint ? light : LightSamples{};
 }
 
-// Its light is that of the new mode before the loop is closed.
+// Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and no spline goes through that: these
+// halves are read by their records.
 bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_closed && half.valid && half.span == 1; }
 
 void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                 LightSamples light, int k) noexcept {
-    if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.relock.ticks < 1)
-        return;
-    step(config.gyro, config.profile, state.bridge.light, half, samples_for(config, light),
-         is_measured(half) || is_lit(half), 2 * state.bridge.next_tick + k, static_cast<int>(2 * config.relock.ticks));
+    if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.relock.ticks < 1) return;
+    step(config.gyro, config.profile, state.bridge.light, half, samples_for(config, light), is_measured(half),
+         2 * state.bridge.next_tick + k, static_cast<int>(2 * config.relock.ticks));
 }
 
 // Time constant of the mean of the bias, which follows the temperature, in ticks.

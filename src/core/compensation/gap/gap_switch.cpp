@@ -160,7 +160,7 @@ private:
         const double unit = 0.5 * gyro_.chi * gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value();
         const double d = half.false_arcsec;
         const double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
-        if (plan_.light == HalfLight::records) {
+        if (plan_.light == HalfLight::records || half.lit) {
             row.recorded_arcsec = -d;
             row.error_arcsec2 = half.false_arcsec2;
         }
@@ -168,8 +168,7 @@ private:
     }
 
     [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
-        return half.lit && half.read && plan_.light != HalfLight::ticks &&
-               (plan_.light != HalfLight::records || half.false_arcsec2 >= 0.0F);
+        return half.lit && half.read && plan_.light != HalfLight::ticks && half.false_arcsec2 >= 0.0F;
     }
 
     [[nodiscard]] const HalfReading& half_reading(std::int64_t half) const noexcept {
@@ -202,9 +201,6 @@ private:
             return h;
         const std::int64_t least = h - most_lit_rows > 2 * gap_.first_tick ? h - most_lit_rows : 2 * gap_.first_tick;
         while (h > least && is_lit(half_reading(h - 1)) && fits(h - 1)) --h;
-        // By the spline, from where it begins.
-        if (plan_.light == HalfLight::spline && h < first_tick_ * 2 + window_.light_start)
-            h = first_tick_ * 2 + window_.light_start;
         return h;
     }
 
