@@ -45,7 +45,7 @@ private:
     LightHalves& halves_;
     int from_ = 0;  // half of the light that is the first of these
     double unit_arcsec_ = 0.0;
-    double bias_arcsec_ = 0.0;
+    double bias_arcsec2_ = 0.0;
 };
 
 // V = C + E + D R D^T.

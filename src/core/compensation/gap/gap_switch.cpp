@@ -57,6 +57,8 @@ public:
         window_.with_phase = state.with_phase;
         const bool steps = end_of_gap_ < end && at(state, end_of_gap_).row.mode != gap.mode_before;
         window_.magnetic_variance_arcsec2 = steps ? state.magnetic_variance_arcsec2 : 0.0;
+        // Where whole counts repeat, at rest and at even rates, the mean of the bias is off by the rounding of a tick.
+        window_.bias_variance_arcsec2 = rounding_arcsec2(gyro, state.with_phase);
         window_.gap = {2 * ticks_before_estimate, 2 * static_cast<int>(ticks_before_estimate + gap.n)};
         for (std::int64_t t = first_tick_; t < gap.first_tick; ++t) add_before(t);
         add_gap();

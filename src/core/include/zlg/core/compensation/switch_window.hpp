@@ -43,6 +43,8 @@ struct SwitchWindow {
     bool with_phase = false;                                  // readings by phase, not of whole counts
     // Variance of the magnetic drift in a tick, as far as it is not known and steps at the gap.
     double magnetic_variance_arcsec2 = 0.0;
+    // Of the bias of a half, beyond what it may be off by itself: what was taken off is a mean that holds roundings.
+    double bias_variance_arcsec2 = 0.0;
     // Halves from `light_start` on whose false angle is corrected; none where `light` is empty.
     int light_start = 0;
     LightSums light{};
