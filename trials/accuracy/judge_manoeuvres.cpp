@@ -1,4 +1,4 @@
-// Limits of first manoeuvres: those that begin within the ticks before the gap, in it, or within those after it are one family.
+// Limits of first manoeuvres. Those that begin within the ticks before the gap, in it, or after it are one family.
 
 #include <algorithm>
 #include <cmath>
