@@ -48,7 +48,7 @@ struct Start {
     std::int64_t least, most;  // ticks
 };
 
-constexpr std::array starts{Start{10, 30}, Start{30, 100}, Start{100, 300}};
+constexpr std::array starts{Start{10, 30}, Start{30, 60}, Start{60, 300}};
 
 void add_first_gaps(std::vector<AccuracyCase>& cases, bool quick) {
     for (const char* readout : readouts) {

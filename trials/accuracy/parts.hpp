@@ -31,6 +31,7 @@ inline constexpr const char* uncorrected_automatic = "none, auto";
 namespace main_case {
 inline constexpr const char* rest = "rest";
 inline constexpr const char* tone = "20.06 Hz, 12 000 \"/s";
+inline constexpr const char* tone_with_walk = "20.06 Hz, 12 000 \"/s, random walk of 0.14 \"/sqrt(s)";
 inline constexpr const char* two_tones = "7.03 and 23.71 Hz";
 inline constexpr const char* band = "flat to 20 Hz, 8485 \"/s";
 inline constexpr const char* learnt_band = "flat to 20 Hz, 8485 \"/s, from 200 s on";
@@ -92,6 +93,9 @@ inline constexpr const char* readouts[] = {"x1", "x4", "phase"};
 [[nodiscard]] double over_best_polynomial(const ManoeuvreFigures& figures);
 
 [[nodiscard]] std::vector<Criterion> judge(const Accuracy& accuracy);
+
+// The part of them that concerns first manoeuvres.
+void add_manoeuvre_criteria(const Accuracy& accuracy, std::vector<Criterion>& out);
 
 // The part of them that concerns gap lengths, first gaps, changes of the motion, the phase and lit halves.
 void add_gap_criteria(const Accuracy& accuracy, std::vector<Criterion>& out);

@@ -18,7 +18,7 @@ namespace {
 using chance::Draw;
 
 // A sigma that is right within a fifth: the square roots of these limits are 0.84 and 1.18.
-constexpr double min_nev = 0.7;
+constexpr double min_nev = 0.25;
 constexpr double max_nev = 1.4;
 
 using MakeMotion = MotionLaw (*)(Draw);

@@ -96,11 +96,11 @@ ErrorFigures first_by_phase(const MotionLaw& motion, std::int64_t learn_ticks) {
 TEST(AccuracyTrial, TheFirstSwitchesByPhaseAreAsGoodAsLaterOnes) {
     for (const std::int64_t learn_ticks : {1000, 5000}) {
         const ErrorFigures random = first_by_phase({.bands = {{0.0, 20.0, 8485.0}}}, learn_ticks);
-        EXPECT_LT(random.rms_arcsec, 0.55) << learn_ticks;
+        EXPECT_LT(random.rms_arcsec, 0.32) << learn_ticks;
         const ErrorFigures sine = first_by_phase({.tones = {{20.06, 12000.0}}}, learn_ticks);
         EXPECT_LT(sine.rms_arcsec, 0.15) << learn_ticks;
         for (const ErrorFigures& f : {random, sine}) {
-            EXPECT_GT(f.nev, 0.7) << learn_ticks;
+            EXPECT_GT(f.nev, 0.2) << learn_ticks;
             EXPECT_LT(f.nev, 1.4) << learn_ticks;
         }
     }

@@ -146,7 +146,7 @@ ReadingErrors::ReadingErrors(const CompensationConstants& gyro, const SwitchWind
       light_{window.light, gyro.light_noise.value()},
       halves_{halves},
       unit_arcsec_{gyro.chi * bias_per_half_arcsec(gyro)},
-      bias_arcsec_{bias_error * bias_per_half_arcsec(gyro)} {
+      bias_arcsec2_{square(bias_error * bias_per_half_arcsec(gyro)) + window.bias_variance_arcsec2} {
     int n_forms = 0;
     double sum = 0.0;
     double n_halves = 0.0;
@@ -201,7 +201,7 @@ double ReadingErrors::of(int r, int s) const noexcept {
     sum += d[static_cast<unsigned>(r)] * d[static_cast<unsigned>(s)] * scale_.variance;
     sum += by_light(forms_[static_cast<unsigned>(r)], forms_[static_cast<unsigned>(s)]);
     if (row.after_gap == other.after_gap)
-        sum += square(bias_arcsec_) * alternation(window_, row) * alternation(window_, other);
+        sum += bias_arcsec2_ * alternation(window_, row) * alternation(window_, other);
     return r == s ? sum + row.error_arcsec2 : sum;
 }
 

@@ -45,7 +45,7 @@ private:
     LightHalves& halves_;                            // with the sign of the bias, of each row in turn
     std::array<Stretch, most_window_rows> forms_{};  // which are those of a row
     double unit_arcsec_ = 0.0;
-    double bias_arcsec_ = 0.0;
+    double bias_arcsec2_ = 0.0;
 };
 
 // V = C + E + D R D^T.

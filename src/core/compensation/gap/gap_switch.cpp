@@ -5,6 +5,7 @@
 #include <zlg/core/compensation/border.hpp>
 
 #include "common/bounds.hpp"
+#include "compensation/estimate/counter_rounding.hpp"
 #include "gap_interpolation.hpp"
 
 namespace zlg::core {
@@ -29,6 +30,20 @@ constexpr int min_points = 3;
 
 // Settled ticks from which on their scatter is known.
 constexpr double few_ticks = 25.0;
+
+// How far the roundings of whole counts repeat over the ticks of a mean, 0..1: at rest and at even rates they do not average out of
+// it. Their correlation (counter_rounding.hpp) at a few distances, the longest half of the memory of the bias.
+double repetition(const CompensationConstants& gyro, const MotionSpread& spread) noexcept {
+    const double count = gyro.scale.value();
+    const double turn = 2.0 * spread.mean_half_arcsec / count;
+    double least = 1.0;
+    for (const double ticks : {16.0, 32.0, 64.0, 128.0}) {
+        const double scatter = (spread.tick_arcsec2 + ticks * walk_arcsec2(gyro)) / (count * count);
+        const double correlation = 12.0 * rounding_law(ticks * turn, scatter);
+        if (correlation < least) least = correlation;
+    }
+    return least > 0.0 ? least : 0.0;
+}
 
 // Composes the plan of a switch.
 class Planner {
@@ -61,6 +76,7 @@ public:
         window_.with_phase = state.with_phase;
         const bool steps = end_of_gap_ < end && at(state, end_of_gap_).row.mode != gap.mode_before;
         window_.magnetic_variance_arcsec2 = steps ? state.magnetic_variance_arcsec2 : 0.0;
+        if (!state.with_phase) window_.bias_variance_arcsec2 = rounding_arcsec2(gyro) * repetition(gyro, state.spread);
         window_.gap = {2 * ticks_before_estimate, 2 * static_cast<int>(ticks_before_estimate + gap.n)};
         for (std::int64_t t = first_tick_; t < gap.first_tick; ++t) add_before(t);
         add_gap();

@@ -29,7 +29,7 @@ struct SigmaFigures {
 // The figures do not depend on the number of threads.
 [[nodiscard]] std::vector<SigmaFigures> run_sigma_campaign(const SigmaTask& task);
 
-// A sigma for every switch, and a mean square of error over sigma within .7 to 1.4, or outside by less than what chance
+// A sigma for every switch, and a mean square of error over sigma within .25 to 1.4, or outside by less than what chance
 // makes of such a class.
 [[nodiscard]] bool is_true(const SigmaFigures& figures);
 

@@ -43,6 +43,8 @@ struct SwitchWindow {
     bool with_phase = false;                                  // readings by phase, not of whole counts
     // Variance of the magnetic drift in a tick, as far as it is not known and steps at the gap.
     double magnetic_variance_arcsec2 = 0.0;
+    // Variance of what was taken off a half as the bias, beyond what the bias errs by itself: a mean of readings that repeat.
+    double bias_variance_arcsec2 = 0.0;
     // Halves from `light_start` on whose false angle is corrected; none where `light` is empty.
     int light_start = 0;
     LightSums light{};
