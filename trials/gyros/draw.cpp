@@ -271,7 +271,8 @@ private:
         if (is_one_in(2, "short gap")) set_whole("switching.gap_min_ticks", 1.0, 2);
         set("compensation.relock_ticks",
             std::clamp(std::ceil(settling_s() / tick_s) +
-                               static_cast<double>(draws_.of("compensation.relock_ticks").below(10)), 10.0, 64.0));
+                           static_cast<double>(draws_.of("compensation.relock_ticks").below(10)),
+                       10.0, 64.0));
         // Several re-locks long, and eight of them in the run.
         const double cycle_s = (c_.switching.gap_ticks + c_.compensation.relock_ticks) * tick_s;
         const double least_s = std::max(2.0, 5.0 * cycle_s);
