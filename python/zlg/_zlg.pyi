@@ -113,6 +113,7 @@ class HalfRecord:
     edge_offset_ticks: int
     span: int
     fringe: float
+    late: bool
     lit: bool
 
 class IoError(Error, OSError): ...

@@ -28,7 +28,7 @@ TEST(TableColumn, the_tables_name_every_column_once) {
     EXPECT_EQ(names_of<AngleTable>(), (std::vector<std::string>{"tick", "t_s", "dtheta_arcsec", "dtheta_final_arcsec",
                                                                 "sigma_arcsec", "mode", "flags"}));
     const std::vector<std::string> raw = names_of<RawTable>();
-    EXPECT_EQ(raw.size(), 14u);
+    EXPECT_EQ(raw.size(), 15u);
     EXPECT_EQ(std::set<std::string>(raw.begin(), raw.end()).size(), raw.size());
     EXPECT_EQ(raw.front(), "half");
 }
@@ -44,6 +44,7 @@ TEST(TableColumn, a_value_goes_into_a_row_and_comes_out_again) {
     EXPECT_EQ(row.half, 1);
     EXPECT_EQ(row.span, 12);
     EXPECT_EQ(row.fringe, 13.0f);
+    EXPECT_TRUE(row.late);
     EXPECT_TRUE(row.lit);
     AngleTable::Row angle;
     std::get<5>(AngleTable::columns).set(angle, std::int8_t{-1});
