@@ -291,6 +291,14 @@ struct MemberEstimate {
     MeanVariance scale{};   // shift of the scale of chi f0
 };
 
+// With what rounding leaves of a pivot.
+bool factorise_widened(Triangle v, double* reciprocal, int n) noexcept {
+    double trace = 0.0;
+    for (int a = 0; a < n; ++a) trace += v.row(a)[a];
+    for (int a = 0; a < n; ++a) v.row(a)[a] += rounding_of_trace * trace;
+    return factorise(v, reciprocal, n);
+}
+
 // Generalised least squares with an unknown level, by one factor.
 //
 // factor  V_m of the points, with room for the border; of no use after.
@@ -299,10 +307,7 @@ bool solve(const Problem& problem, const Border& border, const KernelTarget* ker
            MemberEstimate& found) noexcept {
     const int n = problem.layout.n;
     PointValues reciprocal{};
-    double trace = 0.0;
-    for (int a = 0; a < n; ++a) trace += factor.row(a)[a];
-    for (int a = 0; a < n; ++a) factor.row(a)[a] += rounding_of_trace * trace;
-    if (!factorise(factor, reciprocal.data(), n)) return false;
+    if (!factorise_widened(factor, reciprocal.data(), n)) return false;
     double* const target = factor.row(n);
     double* const level = factor.row(n + 1);
     double* const reading = factor.row(n + 2);
@@ -424,12 +429,14 @@ void add_likeliest(const Candidate& likeliest, std::span<const BankMember> bank,
 
 // The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the likeliest
 // member, which V now has.
-void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstimate& result) noexcept {
+//
+// return  false where that is not positive definite.
+bool spread(const Problem& problem, Border& border, Triangle factor, SwitchEstimate& result) noexcept {
     const SwitchWindow& window = problem.window;
     const int n = problem.layout.n;
     PointValues reciprocal{};
     build(problem, nullptr, 0.0, factor);
-    if (!factorise(factor, reciprocal.data(), n)) return;
+    if (!factorise_widened(factor, reciprocal.data(), n)) return false;
     set_target(problem, border);
     double* const target = border.target.data();
     double* const level = border.level.data();
@@ -490,6 +497,7 @@ void spread(const Problem& problem, Border& border, Triangle factor, SwitchEstim
         missing_before = own_missing;
         share_before = share;
     }
+    return true;
 }
 
 }  // namespace
@@ -504,6 +512,8 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     for (int a = 0; a < problem.layout.n; ++a) problem.n_before += !row_of(window, problem.row(a)).after_gap;
     const int n_after = problem.layout.n - problem.n_before;
     if (problem.layout.n > most_window_points || n_after > most_points_after) return result;
+    // Of another configuration: what is learnt is shorter.
+    if (window.n_halves > motion.length * motion.step_halves) return result;
     learnt_covariance(gyro, window, motion, problem.v);
     add_errors(gyro, room, problem);
     std::construct_at(&room.factor);
@@ -520,7 +530,6 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     if (mixture.is_empty()) return result;
     const MeanVariance angle = mixture.angle();
     const MeanVariance shift = mixture.scale();
-    result.known = true;
     result.angle_arcsec = angle.mean + problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
     result.variance_arcsec2 = angle.variance;
     if (square(shift.mean) <= most_shift_sq * scale.variance) {
@@ -528,7 +537,7 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
         result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
     }
     add_likeliest(mixture.likeliest(), bank, problem);
-    spread(problem, border, factor, result);
+    result.known = spread(problem, border, factor, result);
     return result;
 }
 
