@@ -195,12 +195,13 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
               .mode_after = pending.mode_after,
               .mode_changed = pending.mode_after != gap.mode_before,
               .sigma_sum_arcsec = infinity};
+    if (pending.asked && (!is_estimated(config) || gap.n > max_gap_ticks(config))) give_up(state, gap);
     if (config.method == BridgeMethod::none) return gap.has_before;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     const bool is_short = gap.n <= max_gap_ticks(config);
     bool is_estimate = false;
     if (is_short) {
-        const SwitchAngle found = pending.asked ? take(gyro, state, gap, late) : SwitchAngle{};
+        const SwitchAngle found = pending.asked && is_estimated(config) ? take(gyro, state, gap, late) : SwitchAngle{};
         is_estimate = found.known;
         if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
         if (found.known) state.scale = found.scale;

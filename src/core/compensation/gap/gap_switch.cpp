@@ -74,6 +74,7 @@ public:
             plan_.light = HalfLight::ticks;
         }
         window_.with_phase = state.with_phase;
+        plan_.magnetic_arcsec = state.magnetic_arcsec;
         const bool steps = end_of_gap_ < end && at(state, end_of_gap_).row.mode != gap.mode_before;
         window_.magnetic_variance_arcsec2 = steps ? state.magnetic_variance_arcsec2 : 0.0;
         if (!state.with_phase) window_.bias_variance_arcsec2 = rounding_arcsec2(gyro) * repetition(gyro, state.spread);
@@ -367,6 +368,12 @@ bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBr
     return false;
 }
 
+void give_up(GapBridgeState& state, const Gap& gap) noexcept {
+    for (SwitchJob& job : state.background.job)
+        if (job.gap == gap.first_tick && !hand_over_if(job.state, JobState::asked, JobState::late))
+            (void)hand_over_if(job.state, JobState::done, JobState::free);
+}
+
 SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap, bool late) noexcept {
     SwitchAngle out{.scale = state.scale};
     SwitchJob* job = nullptr;
@@ -415,11 +422,11 @@ SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const
         if (!wanted) continue;
         HistoryTick& entry = at(state, gap.first_tick + place.tick);
         if (!in_gap) {
-            set_after_tick(entry, angle + entry.row.mode * state.magnetic_arcsec, variance, out.after_arcsec);
+            set_after_tick(entry, angle + entry.row.mode * plan.magnetic_arcsec, variance, out.after_arcsec);
             continue;
         }
         // What was read of a tick has the roundings at its borders, which cancel in the angle of the switch.
-        variance += 0.5 * n_lit * rounding_arcsec2(gyro, state.with_phase);
+        variance += 0.5 * n_lit * rounding_arcsec2(gyro, window.with_phase);
         for (int k = 0; k < place.n_ticks; ++k) {
             HistoryTick& tick = at(state, gap.first_tick + place.tick + k);
             set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);

@@ -29,6 +29,9 @@ struct SwitchAngle {
 [[nodiscard]] SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap,
                                bool late) noexcept;
 
+// Nobody is to take it: the settings have changed.
+void give_up(GapBridgeState& state, const Gap& gap) noexcept;
+
 // Variance of a tick about the mean rate, as learnt; infinite where nothing is.
 [[nodiscard]] double tick_variance(const GapBridgeState& state) noexcept;
 

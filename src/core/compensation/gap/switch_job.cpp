@@ -8,8 +8,11 @@ namespace {
 
 SwitchJob* next_job(BackgroundWork& background) noexcept {
     SwitchJob* next = nullptr;
-    for (SwitchJob& job : background.job)
+    for (SwitchJob& job : background.job) {
+        // Nobody waits for it, and nobody works at it.
+        if (hand_over_if(job.state, JobState::late, JobState::free)) continue;
         if (taken(job.state) == JobState::asked && (next == nullptr || job.asked_at < next->asked_at)) next = &job;
+    }
     return next;
 }
 
@@ -67,14 +70,16 @@ void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapB
           Pause pause) noexcept {
     BackgroundWork& background = state.background;
     const MotionMoments& moments = background.motion.moments;
-    while (SwitchJob* const job = next_job(background)) {
+    // Those that there were before a switch may have been asked for.
+    std::uint32_t n_ticks = taken(background.n_ticks);
+    for (SwitchJob* job = nullptr; (job = next_job(background)) != nullptr; n_ticks = taken(background.n_ticks)) {
         learn_until(config, state, static_cast<std::uint32_t>(job->asked_at));
         job->learnt = moments.n_windows >= few_windows;
         job->found = estimate(gyro, job->plan.window, moments, job->scale, background.room, motion_bank, pause);
         correct_late(gyro, *job);
         if (!hand_over_if(job->state, JobState::asked, JobState::done)) hand_over(job->state, JobState::free);
     }
-    learn_until(config, state, taken(background.n_ticks));
+    learn_until(config, state, n_ticks);
 }
 
 }  // namespace zlg::core

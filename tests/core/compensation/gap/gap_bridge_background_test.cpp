@@ -90,4 +90,16 @@ TEST(BackgroundWork, ARecordOfALateEstimateIsObeyed) {
     expect_same(live, run(automatic, log));
 }
 
+// Two gaps miss theirs, one after the other; what comes later is estimated as if nothing had been.
+TEST(BackgroundWork, ALateEstimateLeavesItsPlace) {
+    Log log = tone_with_gaps(6000);
+    GapBridgeState state;
+    const Delivered live =
+        run_apart(log, state, [](std::size_t t) { return (t <= 1500 || t >= 1530) && (t <= 1650 || t >= 1680); });
+    EXPECT_EQ(state.background.n_late, 2u);
+    for (const int closed : {1500, 1650})
+        log[static_cast<std::size_t>(closed + ticks_to_correction({}, automatic))].late = true;
+    expect_same(live, run(automatic, log));
+}
+
 }  // namespace gap_bridge_background_test

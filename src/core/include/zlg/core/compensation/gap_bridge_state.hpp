@@ -16,7 +16,7 @@
 namespace zlg::core {
 
 // Gaps that wait for the ticks after them, each of one tick and one more.
-inline constexpr int max_pending_gaps = (most_final_delay_ticks - max_polynomial_gap) / 2;
+inline constexpr int max_pending_gaps = (most_final_delay_ticks - max_polynomial_gap) / 2 + 1;
 // A row leaves it when the next tick takes its place; the longest window is shorter.
 inline constexpr int history_ticks = most_final_delay_ticks;
 static_assert(ticks_before_estimate + max_estimated_gap + most_relock_ticks < history_ticks);

@@ -43,6 +43,7 @@ struct RowPlace {
 struct SwitchPlan {
     bool is_solvable = false;  // points on both sides, and enough of them
     HalfLight light = HalfLight::none;
+    double magnetic_arcsec = 0.0;  // that the points have lost, of mode +1
     // Square of what lit halves that were refused are off by: as much may each half of the gap that was not read have turned.
     double unread_arcsec2 = 0.0;
     SwitchWindow window{};
