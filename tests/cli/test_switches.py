@@ -108,7 +108,7 @@ class GapsOfOneTick(CliTest):
                     self.assertEqual(set(gaps), {1})
                     # Of 130 squares, three standard deviations are 0.37 of the mean, and 0.19 of its root.
                     self.assertLess(rms, 1.19 * counter if readout == "count" else 0.06)
-                    # By phase sigma is some 1.7 times too large: of the roundings that were learnt with the motion a part stays in it.
+                    # By phase sigma is up to 2.3 times too large (docs/compensation.md).
                     if (fidelity, readout) != ("laser", "count"):
                         self.assertTrue((0.15 if readout == "phase" else 0.63) < over_sigma < 1.37, over_sigma)
 

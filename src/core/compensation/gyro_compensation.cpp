@@ -93,6 +93,7 @@ void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, Tic
     } else if (relock.due && !relock.waiting) {
         tick.flags |= flag_relock_uncorrected;
         tick.variance_arcsec2 += relock.tick.variance_arcsec2;
+        tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
     }
     if (!relock.first_due) return;
     tick.amend_previous = true;

@@ -6,7 +6,7 @@ namespace zlg::core {
 namespace {
 
 // Part of the false angle of a stretch, at its most, by which the constants err: the quartic term of the bias, chi f0 and
-// the reading of a large detuning (lit_halves.hpp).
+// the reading of a large detuning.
 constexpr double law_part = 0.03;
 
 // What lock-in takes from the known sum of a gap's ticks, at their mean rate, given back to it.

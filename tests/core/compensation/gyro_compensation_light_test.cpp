@@ -75,4 +75,23 @@ TEST(GyroCompensationLight, JointEstimatesASwitchByTheSamples) {
     EXPECT_LT(std::abs(error_after_gap(true)), 0.6 * std::abs(by_records));
 }
 
+// At rest in the centre no decay is seen, and `frequency` has nothing to correct by.
+TEST(GyroCompensationLight, ATickThatCouldNotBeCorrectedKeepsItsFlag) {
+    GyroCompensationConfig config = joint();
+    config.relock.method = RelockMethod::frequency;
+    Recorder recorder{config, 1, 1};
+    Halves halves;
+    for (int t = 0; t < gap_tick + 80; ++t) recorder.tick_into(halves, 0.0, t < gap_tick || t >= gap_tick + gap_ticks);
+    const Delivered all = run(config, halves);
+    int n_uncorrected = 0;
+    for (std::size_t t = 0; t < all.rows.size(); ++t) {
+        const std::uint32_t flags = all.rows[t].flags;
+        if ((all.samples[t].sample.flags & flag_relock_uncorrected) == 0) continue;
+        ++n_uncorrected;
+        EXPECT_NE(flags & flag_relock_uncorrected, 0u) << t;
+        EXPECT_EQ(flags & flag_relock_corrected, 0u) << t;
+    }
+    EXPECT_GT(n_uncorrected, 10);
+}
+
 }  // namespace gyro_compensation_light_test

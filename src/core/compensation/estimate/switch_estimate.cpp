@@ -13,7 +13,6 @@ namespace {
 // Prior of the learnt motion alone: as likely as all of the bank; next to nothing before it is known from as many windows.
 constexpr double prior_of_learnt = 0.5;
 constexpr double prior_of_unknown = 0.05;
-constexpr double few_windows = 25.0;
 
 // What rounding leaves of a pivot, as a part of the trace: the largest sizes would fail without it.
 constexpr double rounding_of_trace = 2e-15;

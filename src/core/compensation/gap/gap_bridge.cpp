@@ -184,11 +184,11 @@ void widen_in_common(GapBridgeState& state, const Gap& gap, GapReport& report) n
 // Give a gap its final values from the ticks before `end`, its pending correction, eq (17), and its report.
 //
 // late    the estimate is recorded as not ready.
-// return  false: nobody is to be told of it.
+// return  false: its report goes to nobody.
 bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
              PendingGap& pending, std::int64_t end, bool late, GapReport& report) noexcept {
     Gap& gap = pending.gap;
-    pending.told = true;
+    pending.is_reported = true;
     report = {.first_tick = gap.first_tick,
               .n_ticks = gap.n,
               .sign_after = pending.sign_after,
@@ -294,7 +294,7 @@ void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& confi
         if (pending.due_tick - pending.ready_before == tick && is_estimated(config) &&
             pending.gap.n <= max_gap_ticks(config))
             pending.asked = ask(gyro, config, state, pending.gap, tick);
-        if (pending.told || pending.due_tick > tick) continue;
+        if (pending.is_reported || pending.due_tick > tick) continue;
         GapReport report;
         if (!resolve(gyro, config, state, pending, tick, late, report)) continue;
         sample.has_gap = true;
@@ -349,7 +349,7 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     DrainOutput out;
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.told) continue;
+        if (pending.is_reported) continue;
         if (!pending.asked && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
             pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
         work(gyro, config, state);

@@ -313,14 +313,17 @@ void set_gap_tick(HistoryTick& entry, double value_arcsec, double variance_arcse
     difference.add(-row.dtheta_arcsec);
 }
 
-void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec2, ExactSum& change) noexcept {
+// is_corrected  by the light: else the tick keeps its flags.
+void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec2, bool is_corrected,
+                    ExactSum& change) noexcept {
     const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
     set_final(entry, value_arcsec, change);
     entry.row.relock_arcsec = read - value_arcsec;
     entry.variance_arcsec2 += error_arcsec2 - entry.relock_variance_arcsec2;
     entry.relock_variance_arcsec2 = error_arcsec2;
     entry.row.sigma_arcsec = deviation(entry.variance_arcsec2);
-    entry.row.flags = (entry.row.flags & ~std::uint32_t{flag_relock_uncorrected}) | flag_relock_corrected;
+    if (is_corrected)
+        entry.row.flags = (entry.row.flags & ~std::uint32_t{flag_relock_uncorrected}) | flag_relock_corrected;
 }
 
 // Ticks behind the window.
@@ -335,7 +338,7 @@ void correct_late_ticks(GapBridgeState& state, const Gap& gap, const SwitchJob& 
         const double d = entry.half[0].sign * late.false_arcsec;
         const double variance = late.variance_arcsec2 + job.scale.variance * d * d;
         const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
-        set_after_tick(entry, read + (1.0 + job.scale.value) * d, variance, found.after_arcsec);
+        set_after_tick(entry, read + (1.0 + job.scale.value) * d, variance, true, found.after_arcsec);
         found.variance_arcsec2 += late.variance_arcsec2;
     }
 }
@@ -422,7 +425,10 @@ SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const
         if (!wanted) continue;
         HistoryTick& entry = at(state, gap.first_tick + place.tick);
         if (!in_gap) {
-            set_after_tick(entry, angle + entry.row.mode * plan.magnetic_arcsec, variance, out.after_arcsec);
+            const WindowRow& row = window.row[static_cast<unsigned>(first)];
+            const bool is_corrected = plan.light == HalfLight::spline || row.recorded_arcsec != 0.0;
+            set_after_tick(entry, angle + entry.row.mode * plan.magnetic_arcsec, variance, is_corrected,
+                           out.after_arcsec);
             continue;
         }
         // What was read of a tick has the roundings at its borders, which cancel in the angle of the switch.

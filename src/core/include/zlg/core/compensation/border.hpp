@@ -53,8 +53,8 @@ private:
     return with_phase ? gyro.fringe_noise_counts * gyro.fringe_noise_counts + of_parts : 1.0 / 12.0;
 }
 
-// Variance of a tick by both readings; twice the covariance of two neighbouring ticks, without its sign. `with_phase`: as
-// in motion_moments.hpp.
+// Variance of a tick by both readings; twice the covariance of two neighbouring ticks, without its sign. `with_phase`: the
+// place within the count is read.
 [[nodiscard]] constexpr double rounding_arcsec2(const CompensationConstants& gyro, bool with_phase) noexcept {
     if (!with_phase) return rounding_arcsec2(gyro);
     return gyro.scale.value() * gyro.scale.value() * 2.0 * reading_counts2(gyro, true);

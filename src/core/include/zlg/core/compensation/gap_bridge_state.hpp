@@ -59,7 +59,7 @@ struct PendingGap {
     std::int16_t ready_before = 0;  // ticks; before that tick its last point lies
     std::int8_t sign_after = 1, mode_after = 1;
     bool asked = false;
-    bool told = false;             // its report is out
+    bool is_reported = false;
     ExactSum correction_arcsec{};  // pending: final minus delivered, of the gap and of the ticks that it amended
 
     friend bool operator==(const PendingGap&, const PendingGap&) = default;
@@ -77,7 +77,7 @@ struct GapBridgeState {
     double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
     double common_arcsec2 = 0.0;          // of the last measured tick, as in TickInput
     std::int64_t relock_ticks = 0;        // after a gap, that belong to its switch
-    bool with_phase = false;              // the readings of late have the place within the count
+    bool with_phase = false;              // the readings have the place within the count (note_phase)
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
     MotionSpread spread{};
     SwitchLight light{};

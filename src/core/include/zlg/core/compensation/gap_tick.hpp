@@ -61,7 +61,7 @@ struct HistoryTick {
     bool settled : 1 = false;
     bool with_phase : 1 = false;
     bool known_is_rough : 1 = false;
-    bool by_phase : 1 = false;     // as the readings of late are: what is learnt goes by it
+    bool by_phase : 1 = false;     // the readings had the place within the count, by majority
     std::int32_t known_ticks = 0;  // that end with this one and have a known sum; 0: none
     double known_arcsec = 0.0;
     double known_variance_arcsec2 = 0.0;

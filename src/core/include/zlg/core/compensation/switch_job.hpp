@@ -94,7 +94,4 @@ struct BackgroundWork {
     friend bool operator==(const BackgroundWork&, const BackgroundWork&) = default;
 };
 
-// Windows from which on the learnt motion is known.
-inline constexpr double few_windows = 25.0;
-
 }  // namespace zlg::core

@@ -66,6 +66,9 @@ struct MotionMoments {
     friend bool operator==(const MotionMoments&, const MotionMoments&) = default;
 };
 
+// Windows from which on the learnt motion is known.
+inline constexpr double few_windows = 25.0;
+
 [[nodiscard]] constexpr std::size_t moment_place(int length, int i, int j) noexcept {
     if (i > j) return moment_place(length, j, i);
     if (i + j > length - 1) return moment_place(length, length - 1 - j, length - 1 - i);
