@@ -131,12 +131,15 @@ TrueMoments true_moments(const DiscriminatorCurve& curve, double mean_lambda, do
     if (curve.n_nodes == 0) return {.mean_lambda = mean_lambda, .mean_sq_lambda2 = mean_sq_lambda2};
     const double spread_sq = mean_sq_lambda2 - mean_lambda * mean_lambda - noise_sq_lambda2;
     const double spread = spread_sq > 0.0 ? square_root(spread_sq) : 0.0;
+    // What the noise of this half leaves below its expectation stays, so that the mean of many halves is the true one.
+    const double below_noise_sq = spread_sq > 0.0 ? 0.0 : spread_sq;
     const double above = true_detuning(curve, mean_lambda + spread).detuning_lambda;
     const double below = true_detuning(curve, mean_lambda - spread).detuning_lambda;
     const double slope = true_detuning(curve, mean_lambda).slope;
-    return {.mean_lambda = 0.5 * (above + below),
-            .mean_sq_lambda2 = 0.5 * (above * above + below * below) + slope * slope * noise_sq_lambda2,
-            .slope = slope};
+    return {
+        .mean_lambda = 0.5 * (above + below),
+        .mean_sq_lambda2 = 0.5 * (above * above + below * below) + slope * slope * (noise_sq_lambda2 + below_noise_sq),
+        .slope = slope};
 }
 
 }  // namespace zlg::core

@@ -48,6 +48,17 @@ TEST(DiscriminatorCurve, WithoutNodesIsTheLinearLawToTheLastBit) {
     EXPECT_EQ(m.mean_sq_lambda2, 0.02);
 }
 
+// Also below the noise, where the spread of a half comes out negative: else the mean of many halves is too large.
+TEST(DiscriminatorCurve, AStraightCurveLeavesTheMomentsAsTheyAre) {
+    const std::array<double, 2> x = {0.2, 0.5};
+    const DiscriminatorCurve straight = discriminator_curve(x, x);
+    for (const double mean_sq : {0.010009, 0.01001, 0.0102}) {
+        const TrueMoments m = true_moments(straight, 0.1, mean_sq, 1e-5);
+        EXPECT_NEAR(m.mean_lambda, 0.1, 1e-15);
+        EXPECT_NEAR(m.mean_sq_lambda2, mean_sq, 1e-15);
+    }
+}
+
 TEST(DiscriminatorCurve, PassesThroughItsNodesAndIsOdd) {
     const DiscriminatorCurve c = curve_of(12);
     ASSERT_EQ(check(c), CurveFault::none);

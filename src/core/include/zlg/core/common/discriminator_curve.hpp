@@ -100,7 +100,7 @@ struct TrueMoments {
 // The motion within the half is represented by two equal groups of samples, one standard deviation off the mean on
 // either side: right for moments up to the second, to third order in the motion for F.
 //
-// noise_sq_lambda2  variance of one sample, part of mean_sq_lambda2.
+// noise_sq_lambda2  variance of one sample, part of mean_sq_lambda2. A spread below it counts as negative.
 [[nodiscard]] TrueMoments true_moments(const DiscriminatorCurve& curve, double mean_lambda, double mean_sq_lambda2,
                                        double noise_sq_lambda2) noexcept;
 
