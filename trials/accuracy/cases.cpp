@@ -51,7 +51,7 @@ void add_loops(Cases& cases, bool quick) {
         add_gyros(cases, CaseGroup::loops, loop_name(loop), {x1, x4}, n, [&](GyroLaw& g) { g.loop = loop; });
         for (std::size_t k = first; k < cases.size(); ++k) cases[k].methods.push_back(method_name::detuning_quadratic);
     }
-    for (double wrong : {-0.01, 0.01})
+    for (double wrong : {-0.1, 0.1})
         add_gyros(cases, CaseGroup::loops, fmt::format("chi f0 wrong by {:+.0f} %", 100.0 * wrong), {x1, x4}, n,
                   [&](GyroLaw& g) { g.chi_error_ratio = wrong; });
 }

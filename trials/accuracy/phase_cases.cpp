@@ -28,7 +28,7 @@ void add_phase(std::vector<AccuracyCase>& cases, bool quick) {
     add(main_case::two_tones, two_tones);
     add(main_case::vibration, vibration);
     add(main_case::tone_with_walk, tone).gyro.random_walk_arcsec_sqrt_s = 0.14;
-    add("20.06 Hz, 12 000 \"/s, chi f0 wrong by +1 %", tone).gyro.chi_error_ratio = 0.01;
+    add("20.06 Hz, 12 000 \"/s, chi f0 wrong by +10 %", tone).gyro.chi_error_ratio = 0.1;
     for (int gap : {1, 10})
         add(fmt::format("20.06 Hz, 12 000 \"/s, gap of {} ticks", gap).c_str(), tone).gyro.gap_ticks = gap;
 }

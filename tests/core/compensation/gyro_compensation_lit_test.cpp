@@ -27,14 +27,15 @@ GyroCompensationConfig config_of(RelockMethod relock) {
     return c;
 }
 
-Halves records(const GyroCompensationConfig& config, bool lit) {
+Halves records(const GyroCompensationConfig& config, bool lit, double size = 1.0, double sq = miss_sq) {
     Halves all;
     Recorder recorder{config, 1, 1};
     for (int h = 0; h < 2 * gap_tick + 120; ++h) {
         const double t = 0.0025 * h;
-        const double motion = 28.0 * std::cos(2.0 * std::numbers::pi * 20.0 * t) + 11.0 * std::cos(377.0 * t + 1.0);
+        const double motion =
+            size * (28.0 * std::cos(2.0 * std::numbers::pi * 20.0 * t) + 11.0 * std::cos(377.0 * t + 1.0));
         const bool open = h >= 2 * gap_tick && h < 2 * (gap_tick + gap_ticks);
-        HalfRecord r = recorder.half(motion, open ? miss_sq : 0.0);
+        HalfRecord r = recorder.half(motion, open ? sq : 0.0);
         r.detuning_sq_lambda2 += 0.0033 * 0.0033;
         r.loop_closed = !open;
         r.lit = lit && h >= 2 * gap_tick + 3;
@@ -77,6 +78,16 @@ TEST(GyroCompensationLit, TheyNarrowTheGap) {
         read = with.all.rows[gap_tick + 2].dtheta_final_arcsec;
         EXPECT_NEAR(read, truth, 4.0 * config.gyro.scale.value() / std::sqrt(6.0));
     }
+}
+
+// Of a data sheet, chi is known to a tenth at first: so are the false angles that lit halves are judged by.
+TEST(GyroCompensationLit, AChiThatIsATenthOffRefusesNone) {
+    const GyroCompensationConfig right = config_of(RelockMethod::joint);
+    GyroCompensationConfig wrong = right;
+    wrong.gyro.chi *= 1.1;
+    const Halves halves = records(right, true, 0.0, 0.16);
+    const GapReport usual = outcome(right, halves).all.gaps.at(0);
+    EXPECT_LT(outcome(wrong, halves).all.gaps.at(0).sigma_sum_arcsec, 1.5 * usual.sigma_sum_arcsec);
 }
 
 // Delivered and final values have the same sum, with lit halves too.

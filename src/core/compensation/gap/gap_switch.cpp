@@ -206,11 +206,12 @@ private:
         const HalfReading& b = half_reading(half + 1);
         const HalfReading& d = half_reading(half + 2);
         const auto noise = [](const HalfReading& x) { return x.false_arcsec2 > 0.0F ? double{x.false_arcsec2} : 0.0; };
-        const double common = law_error_ratio * (a.false_arcsec - 2.0 * b.false_arcsec + d.false_arcsec);
-        const double off =
-            a.angle_arcsec - a.false_arcsec - 2.0 * (b.angle_arcsec - b.false_arcsec) + d.angle_arcsec - d.false_arcsec;
+        const double bend = a.false_arcsec - 2.0 * b.false_arcsec + d.false_arcsec;
+        const RelockScale& scale = state_.scale;
+        const double common = (square(law_error_ratio) + scale.variance) * square(bend);
+        const double off = a.angle_arcsec - 2.0 * b.angle_arcsec + d.angle_arcsec - (1.0 + scale.value) * bend;
         const double bias = gyro_.bias.value() * gyro_.scale.value() * gyro_.tick.value() / 2.0;
-        const double variance = m.second_difference_arcsec2 + noise(a) + 4.0 * noise(b) + noise(d) + square(common);
+        const double variance = m.second_difference_arcsec2 + noise(a) + 4.0 * noise(b) + noise(d) + common;
         if (square(off) <= limit_sq * variance + square(tolerated_bias_ratio * bias)) return true;
         plan_.unread_arcsec2 = square(off);
         return false;
