@@ -76,7 +76,7 @@ void read_halves(SwitchWindow& window) {
 }
 
 void read_light(SwitchWindow& window, int halves, int samples) {
-    if (halves > 0) window.light.basis = light_basis(halves, samples);
+    if (halves > 0) window.light.basis = light_basis(halves);
     std::vector<double> light(static_cast<unsigned>(samples));
     for (int h = 0; h < halves; ++h) {
         for (double& x : light) x = number();

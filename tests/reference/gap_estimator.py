@@ -22,7 +22,7 @@ BANK = [(2, EVERYWHERE), (3, EVERYWHERE), (2, BESIDE), (2, AFTER(2)), (2, AFTER(
 SIZES = 10.0 ** np.arange(-0.5, 11.6, 1.5)
 SHARES = 0.8, 0.4, 0.2, 0.1, 0.05, 0.02, 0.0
 KNOTS = np.r_[np.arange(17), 20, 24, 28, 34, 40]
-COARSE_KNOTS = np.r_[np.arange(0, 17, 2), 20, 24, 28, 34, 40]  # of one sample a half
+SMOOTHINGS = 10.0 ** np.arange(-3, 8, 2)
 
 
 @dataclass
@@ -72,17 +72,38 @@ def basis(knots, t):
     return b
 
 
+def roughness(knots):
+    """Integral of (1 + t)^3 times the square of the third derivative, the weight in the middle of each interval, as a matrix of the terms."""
+    k = np.r_[[knots[0]] * 3, knots, [knots[-1]] * 3].astype(float)
+    terms = np.eye(len(knots) + 2)
+    for order in (3, 2, 1):  # the coefficients of a derivative are divided differences of those before it
+        k = k[1:-1]
+        terms = order * np.diff(terms, axis=0) / (k[order:] - k[:-order])[:, None]
+    width, middle = np.diff(knots), np.add(knots[1:], knots[:-1]) / 2
+    return terms.T @ (((1 + middle) ** 3 * width)[:, None] * terms)
+
+
 def light_angles(light, light_noise):
     """Mean square of the detuning in each half, and its covariance, from a spline through halves x samples."""
     halves, samples = light.shape
-    knots = KNOTS if samples > 1 else COARSE_KNOTS
+    knots = KNOTS
     design = basis(knots, (np.arange(halves * samples) + 0.5) / samples)
     x, w = np.polynomial.legendre.leggauss(4)
     products = np.array([sum(0.5 * wi * np.outer(b, b) for wi, b in zip(w, basis(knots, h + 0.5 + 0.5 * x))) for h in range(halves)])
-    inverse = np.linalg.inv(design.T @ design)
-    c = inverse @ (design.T @ light.ravel())
-    left = light.ravel() - design @ c
-    cov = max(light_noise**2, left @ left / (len(left) - len(c))) * inverse
+    normal, moment = design.T @ design, design.T @ light.ravel()
+    n_free = light.size - len(moment)
+    left = light.ravel() - design @ np.linalg.lstsq(design, light.ravel(), rcond=None)[0]
+    variance = max(light_noise**2, left @ left / n_free if n_free > 0 else 0.0)
+    rough = roughness(knots)
+
+    def likelihood(g):
+        matrix = normal + g * rough
+        explained = moment @ np.linalg.solve(matrix, moment)
+        wide = (len(moment) - 3) * np.log(g) - np.linalg.slogdet(matrix)[1]
+        return (wide - (light.ravel() @ light.ravel() - explained) / variance) / 2
+
+    inverse = np.linalg.inv(normal + max(SMOOTHINGS, key=likelihood) / 100 * rough)
+    c, cov = inverse @ moment, variance * inverse
     q_c, q_cov = products @ c, products @ cov
     mean_sq = q_c @ c - np.einsum("kii->k", q_cov)
     covariance = 4 * q_c @ cov @ q_c.T

@@ -34,6 +34,18 @@ void eliminate_four(Triangle factor, const double* reciprocal, int j, double* x)
 
 }  // namespace
 
+double log_of_product(const double* x, int n) noexcept {
+    double sum = 0.0;
+    double product = 1.0;
+    for (int i = 0; i < n; ++i) {
+        product *= x[i];
+        if (product > 1e-200 && product < 1e200) continue;
+        sum += maths::log(product);
+        product = 1.0;
+    }
+    return sum + maths::log(product);
+}
+
 double dot(const double* a, const double* b, int n) noexcept {
     double even = 0.0;
     double odd = 0.0;

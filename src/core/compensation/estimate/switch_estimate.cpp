@@ -23,27 +23,6 @@ constexpr double scale_wander = 1e-8;
 // A shift of it beyond five standard deviations is that of damaged records.
 constexpr double most_shift_sq = 25.0;
 
-// Sum of logarithms of numbers that may be very small or large, with few logarithms.
-class LogOfProduct {
-public:
-    void add(double x) noexcept {
-        product_ *= x;
-        if (product_ < 1e-200 || product_ > 1e200) fold();
-    }
-    [[nodiscard]] double value() noexcept {
-        fold();
-        return sum_;
-    }
-
-private:
-    void fold() noexcept {
-        sum_ += maths::log(product_);
-        product_ = 1.0;
-    }
-    double product_ = 1.0;
-    double sum_ = 0.0;
-};
-
 // The points.
 struct Layout {
     int n = 0;
@@ -324,11 +303,9 @@ bool solve(const Problem& problem, const Border& border, const KernelTarget* ker
     const double rate = dot(level, reading, n) / weight;
     const double level_target = dot(level, target, n);
     const double level_scale = dot(level, scale, n);
-    LogOfProduct pivots;
-    for (int a = 0; a < n; ++a) pivots.add(reciprocal[static_cast<unsigned>(a)]);
     const double misfit = dot(reading, reading, n) - rate * rate * weight;
     const double missing = problem.wanted_halves - level_target;
-    found.evidence = -0.5 * (misfit + maths::log(weight)) + pivots.value();
+    found.evidence = -0.5 * (misfit + maths::log(weight)) + log_of_product(reciprocal.data(), n);
     found.angle = {problem.wanted_halves * rate + dot(reading, target, n) - rate * level_target,
                    variance - dot(target, target, n) + square(missing) / weight};
     found.scale = {dot(reading, scale, n) - rate * level_scale,

@@ -21,7 +21,7 @@ void step(const CompensationConstants& gyro, const RelockProfileConfig& config, 
         state.n_halves = 0;
         state.n_samples = samples.n;
         state.sums = LightSums{};
-        if (samples.n > 0) state.sums.basis = light_basis(halves, samples.n);
+        if (samples.n > 0) state.sums.basis = light_basis(halves);
     }
     if (samples.n == 0 || samples.n != state.n_samples) {
         state.n_samples = 0;

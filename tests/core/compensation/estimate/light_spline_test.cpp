@@ -22,7 +22,7 @@ using zlg::core::values_at;
 template <class Course>
 LightSums sums_of(int halves, int samples, Course course) {
     LightSums sums;
-    sums.basis = light_basis(halves, samples);
+    sums.basis = light_basis(halves);
     std::vector<double> light(static_cast<unsigned>(samples));
     for (int h = 0; h < halves; ++h) {
         for (int i = 0; i < samples; ++i) light[static_cast<unsigned>(i)] = course(h + (i + 0.5) / samples);
@@ -33,7 +33,7 @@ LightSums sums_of(int halves, int samples, Course course) {
 
 TEST(LightSpline, TheBasisAddsUpToOneEverywhere) {
     for (const int halves : {1, 3, 16, 17, 40, 128, 160}) {
-        const LightBasis basis = light_basis(halves, 16);
+        const LightBasis basis = light_basis(halves);
         for (int h = 0; h < halves; ++h)
             for (const double part : {0.0, 0.3, 0.99}) {
                 const auto span = span_of(basis, h);
@@ -48,17 +48,16 @@ TEST(LightSpline, TheBasisAddsUpToOneEverywhere) {
 }
 
 TEST(LightSpline, KnotsAreAHalfApartForEightTicksAndWiderThen) {
-    const LightBasis basis = light_basis(40, 16);
+    const LightBasis basis = light_basis(40);
     EXPECT_EQ(basis.n_terms, 24);
     EXPECT_EQ(basis.knot[3 + 16], 16.0);
     EXPECT_EQ(basis.knot[3 + 17], 20.0);
     EXPECT_EQ(basis.knot[3 + 21], 40.0);
-    // One sample a half does not decide on a knot a half.
-    EXPECT_EQ(light_basis(40, 1).n_terms, 16);
 }
 
-TEST(LightSpline, ACubicCourseGivesItsMeanSquareInEveryHalf) {
-    const auto course = [](double t) { return 0.2 - 0.03 * t + 0.002 * t * t - 0.00003 * t * t * t; };
+// It has no third derivative: no smoothing bends it.
+TEST(LightSpline, AParabolicCourseGivesItsMeanSquareInEveryHalf) {
+    const auto course = [](double t) { return 0.2 - 0.03 * t + 0.0006 * t * t; };
     for (const int samples : {1, 4, 16, 64}) {
         const LightFit fit{sums_of(40, samples, course), 0.0};
         ASSERT_TRUE(fit.is_known());
@@ -96,8 +95,9 @@ TEST(LightSpline, TheNoiseOfTheLightAddsNothingOnTheMeanAndScattersAsItSays) {
     }
 }
 
-// (Q c)^T cov c (Q c) holds its own noise, twice the trace: where nothing is detuned, the variance is claimed three times.
-TEST(LightSpline, WhereNothingIsDetunedTheVarianceIsClaimedThreeTimes) {
+// (Q c)^T cov c (Q c) holds its own noise, twice the trace: where nothing is detuned, the variance is claimed three times by the knots
+// alone. How much is smoothed is chosen from the same noise, which adds to what is claimed for.
+TEST(LightSpline, WhereNothingIsDetunedTheVarianceIsClaimedTwoToThreeTimes) {
     Random random{5};
     double square = 0.0, claimed = 0.0;
     for (int k = 0; k < 1500; ++k) {
@@ -105,16 +105,29 @@ TEST(LightSpline, WhereNothingIsDetunedTheVarianceIsClaimedThreeTimes) {
         square += fit.angle(fit.half(30)) * fit.angle(fit.half(30));
         claimed += fit.covariance(fit.half(30), fit.half(30));
     }
-    EXPECT_NEAR(claimed / square, 3.0, 0.4);
+    EXPECT_GT(claimed / square, 2.0);
+    EXPECT_LT(claimed / square, 3.0);
 }
 
-TEST(LightSpline, TooFewSamplesForTheKnotsAreNoFit) {
+// Of a slow loop the light of one half tells of its neighbours: by the knots alone it would not.
+TEST(LightSpline, ASlowLoopIsSmoothedOverManyHalves) {
+    Random random{6};
+    constexpr double noise = 0.0116;
+    double square = 0.0;
+    for (int k = 0; k < 300; ++k) {
+        const auto course = [&](double t) { return 0.22 * std::exp(-t / 60.0) + noise * random.normal(); };
+        const LightFit fit{sums_of(40, 8, course), noise};
+        const double off =
+            fit.angle(fit.half(8)) - std::pow(0.22, 2) * 30.0 * (std::exp(-8.0 / 30.0) - std::exp(-9.0 / 30.0));
+        square += off * off / 300.0;
+    }
+    // By its own samples alone a half is known to 2 dl s/sqrt(n).
+    EXPECT_LT(std::sqrt(square), 0.6 * 2.0 * 0.22 * std::exp(-8.5 / 60.0) * noise / std::sqrt(8.0));
+}
+
+TEST(LightSpline, NoSampleIsNoFit) {
     LightSums sums;
-    sums.basis = light_basis(40, 16);
-    EXPECT_FALSE(LightFit(sums, 0.0033).is_known());
-    const std::vector<double> half(16, 0.2);
-    for (int h = 0; h < 39; ++h)
-        if (h < 8 || h > 15) add(sums, h, half);
+    sums.basis = light_basis(40);
     EXPECT_FALSE(LightFit(sums, 0.0033).is_known());
 }
 

@@ -123,7 +123,7 @@ Relocking relocking(double chi_ratio) {
     r.gyro.light_noise = Wavelengths{1e-9};
     r.false_arcsec = r.gyro.chi * 60e3 * r.gyro.scale.value() * r.gyro.tick.value() / 2.0 * dl * dl;
     r.window.light_start = r.window.gap.last;
-    r.window.light.basis = light_basis(after_halves, 16);
+    r.window.light.basis = light_basis(after_halves);
     const std::vector<double> samples(16, dl);
     for (int h = 0; h < after_halves; ++h) add(r.window.light, h, samples);
     for (int h = r.window.light_start; h < r.window.n_halves; ++h)

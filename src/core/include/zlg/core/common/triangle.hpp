@@ -49,6 +49,9 @@ void substitute_back(Triangle factor, const double* reciprocal, int n, double* x
 // A^-1 in place of the factor of A.
 void invert(Triangle factor, const double* reciprocal, int n) noexcept;
 
+// Logarithm of the product of n positive numbers, very small or large ones too, by few logarithms.
+[[nodiscard]] double log_of_product(const double* x, int n) noexcept;
+
 // Sum of products of n numbers.
 [[nodiscard]] double dot(const double* a, const double* b, int n) noexcept;
 

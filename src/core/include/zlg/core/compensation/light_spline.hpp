@@ -1,17 +1,20 @@
 #pragma once
-// The detuning after the loop is closed, free-form from the light samples: a cubic spline by least squares, and the false angles
+// The detuning after the loop is closed, free-form from the light samples: a cubic smoothing spline, and the false angles
 // that follow from it, with the covariance of their errors.
 //
-//   dl(t) = sum of c_i B_i(t),   A^T A c = A^T x,   cov c = s^2 (A^T A)^-1                                   (1)
+//   dl(t) = sum of c_i B_i(t),   (A^T A + g P) c = A^T x,   cov c = s^2 (A^T A + g P)^-1                     (1)
 //   d_h = k (c^T Q_h c - tr(Q_h cov c)),   Q_h = integral of B B^T over half h,   k = chi f0 K T/2           (2)
 //   cov(d_h, d_g) = 4 k^2 (Q_h c)^T cov c (Q_g c) + 2 k^2 tr(Q_h cov c Q_g cov c)                            (3)
 //
-// x are the samples, A the basis at their times, s^2 their variance: that of the residuals where it is larger than the configured
-// one. The trace of (2) takes off what the noise of the light adds to a mean square. (3) is the covariance of two quadratic
+// x are the samples, A the basis at their times, s^2 their variance: that of the residuals of the knots alone (g = 0) where it is
+// larger than the configured one. c^T P c is the integral of (1 + t)^3 times the square of the third derivative, t in half-periods:
+// the longer a loop has been closed the slower it moves. It is taken as white noise, of the size that the samples make likeliest
+// (Wahba, Spline Models for Observational Data, 1990, ch. 4.8). So a slow loop is smoothed over many halves, and a fast one by its
+// knots. The trace of (2) takes off what the noise of the light adds to a mean square. (3) is the covariance of two quadratic
 // forms of a Gaussian vector (Searle, Linear Models, 1971, ch. 2.5). Basis: de Boor, A Practical Guide to Splines, ch. X.
 //
 // The knots are a half-period apart for eight ticks, in which a loop closes, and then wider and wider: a knot at every half to
-// the end lets the noise of late halves through. With a single sample a half the first knots are a tick apart.
+// the end lets the noise of late halves through.
 
 #include <array>
 #include <cstdint>
@@ -34,8 +37,7 @@ struct LightBasis {
 };
 
 // halves  1..most_light_halves
-// samples of a half, 1..64
-[[nodiscard]] LightBasis light_basis(int halves, int samples) noexcept;
+[[nodiscard]] LightBasis light_basis(int halves) noexcept;
 
 // Between two knots four terms are not 0, those from `first` on; they follow from six knots, the third of which is at or before.
 struct BasisSpan {
@@ -76,7 +78,7 @@ public:
     // light_sd_lambda  configured noise of one sample.
     LightFit(const LightSums& sums, double light_sd_lambda) noexcept;
 
-    // False where there are too few samples for the knots.
+    // False where there is no sample, or without noise too few for the knots.
     [[nodiscard]] bool is_known() const noexcept { return known_; }
     [[nodiscard]] LightHalf half(int h) const noexcept;
     // (2), without the sign of the bias.
@@ -85,6 +87,9 @@ public:
     [[nodiscard]] double covariance(const LightHalf& one, const LightHalf& other) const noexcept;
 
 private:
+    // A^T A + g P in its factor, L^-1 A^T x in `term_`; false where it has none.
+    bool solve(const LightSums& sums, double smoothing, double* reciprocal) noexcept;
+
     bool known_ = false;
     LightBasis basis_{};
     std::array<double, most_light_terms> term_{};                       // c
