@@ -9,8 +9,7 @@
 #include <zlg/core/compensation/relock_drift.hpp>
 #include <zlg/core/control/sync_detector.hpp>
 
-namespace zlg::core {
-namespace discriminator_curve_test {
+namespace zlg::core::discriminator_curve_test {
 
 static_assert(check(DiscriminatorCurve{}) == CurveFault::none);
 
@@ -308,5 +307,4 @@ TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
     EXPECT_NEAR(variance() / linear, 1.0 / 16.0, 1e-9);
 }
 
-}  // namespace discriminator_curve_test
-}  // namespace zlg::core
+}  // namespace zlg::core::discriminator_curve_test

@@ -6,8 +6,7 @@
 #include <string>
 #include <zlg/core/health.hpp>
 
-namespace zlg::core {
-namespace health_test {
+namespace zlg::core::health_test {
 
 constexpr HealthConfig config{.counts_limit = 1000};
 static_assert(check(config) == HealthFault::none);
@@ -50,5 +49,4 @@ TEST(Health, BitsHaveDistinctNamesInTheirOrder) {
     EXPECT_EQ(std::uint32_t{1} << (health_bit_names.size() - 1), health_fringe_skewed);
 }
 
-}  // namespace health_test
-}  // namespace zlg::core
+}  // namespace zlg::core::health_test

@@ -10,7 +10,7 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace maths_kernels_test {
+namespace zlg::core::maths_kernels_test {
 
 using namespace zlg::core::maths;
 using namespace compensation_test;
@@ -76,4 +76,4 @@ TEST(MathsKernels, QuadrantsTurnByRightAngles) {
     expect(std::uint64_t{0} - 1, -0.75, 0.25);
 }
 
-}  // namespace maths_kernels_test
+}  // namespace zlg::core::maths_kernels_test

@@ -11,9 +11,8 @@
 
 // Errors of ordinary arguments are held in maths_accuracy.cpp.
 
-namespace maths_test {
+namespace zlg::core::maths_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 
 constexpr double smallest_subnormal = 0x1p-1074;
@@ -219,4 +218,4 @@ TEST(TurnsOf, IsBelowOneTurn) {
     }
 }
 
-}  // namespace maths_test
+}  // namespace zlg::core::maths_test

@@ -7,16 +7,9 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace triangle_test {
+namespace zlg::core::triangle_test {
 
 using compensation_test::Random;
-using zlg::core::dot;
-using zlg::core::eliminate;
-using zlg::core::factorise;
-using zlg::core::row_start;
-using zlg::core::substitute_back;
-using zlg::core::Triangle;
-using zlg::core::triangle_size;
 
 // A A^T + 0.1 of a random A: positive definite.
 std::vector<double> random_covariance(Random& random, int n) {
@@ -80,4 +73,4 @@ TEST(Triangle, WhatIsNotPositiveDefiniteHasNoFactor) {
     EXPECT_FALSE(factorise(Triangle{endless.data()}, reciprocal.data(), 2));
 }
 
-}  // namespace triangle_test
+}  // namespace zlg::core::triangle_test

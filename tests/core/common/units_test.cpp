@@ -5,9 +5,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace units_test {
-
-using namespace zlg::core;
+namespace zlg::core::units_test {
 
 template <class A, class B>
 concept Addable = requires(A a, B b) {
@@ -75,4 +73,4 @@ TEST(Units, NothingIsOrderedWithNotANumber) {
     EXPECT_FALSE(nan >= Volts{0.0});
 }
 
-}  // namespace units_test
+}  // namespace zlg::core::units_test

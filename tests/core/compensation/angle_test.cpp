@@ -10,9 +10,8 @@
 
 #include "compensation_support.hpp"
 
-namespace angle_test {
+namespace zlg::core::angle_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 
 Quad exact_value(const ExactSum& sum) { return Quad{sum.high} + Quad{sum.low}; }
@@ -150,4 +149,4 @@ TEST(Angle, WildCountsWrapAndComeBack) {
     EXPECT_EQ(angle, Angle{});
 }
 
-}  // namespace angle_test
+}  // namespace zlg::core::angle_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace zlg::core {
-namespace border_test {
+namespace zlg::core::border_test {
 
 HalfRecord ended_at(float fringe) {
     HalfRecord half;
@@ -65,5 +64,4 @@ TEST(Border, NeighboursShareNoMoreThanEitherHas) {
     EXPECT_EQ(shared_rounding(1.5, 2.0, infinity), 1.5);
 }
 
-}  // namespace border_test
-}  // namespace zlg::core
+}  // namespace zlg::core::border_test

@@ -8,9 +8,8 @@
 
 #include "compensation_support.hpp"
 
-namespace compensation_constants_test {
+namespace zlg::core::compensation_constants_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 using Constants = CompensationConstants;
 using Fault = CompensationConstantsFault;
@@ -88,4 +87,4 @@ TEST(CompensationConstants, VariancesOfATick) {
     EXPECT_EQ(walk_arcsec2(gyro), 1.0);
 }
 
-}  // namespace compensation_constants_test
+}  // namespace zlg::core::compensation_constants_test

@@ -9,9 +9,8 @@
 
 #include "compensation_support.hpp"
 
-namespace edge_shift_test {
+namespace zlg::core::edge_shift_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 
 const CompensationConstants config;
@@ -206,4 +205,4 @@ TEST(EdgeShift, NothingThatComesOutIsNotANumber) {
     }
 }
 
-}  // namespace edge_shift_test
+}  // namespace zlg::core::edge_shift_test

@@ -12,9 +12,8 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace gyro_compensation_edges_test {
+namespace zlg::core::gyro_compensation_edges_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 using namespace gyro_compensation_support;
 
@@ -160,4 +159,4 @@ TEST(GyroCompensationEdges, ChecksTheTimer) {
     EXPECT_EQ(check(config), GyroCompensationFault::edges);
 }
 
-}  // namespace gyro_compensation_edges_test
+}  // namespace zlg::core::gyro_compensation_edges_test

@@ -9,8 +9,7 @@
 
 #include "gyro_compensation_support.hpp"
 
-namespace zlg::core {
-namespace gyro_compensation_faults_test {
+namespace zlg::core::gyro_compensation_faults_test {
 
 using namespace gyro_compensation_support;
 
@@ -183,5 +182,4 @@ TEST(Uncorrected, AMissedHalfMovesNoPerimeter) {
     for (const AngleRow& row : run(config, halves).rows) EXPECT_EQ(row.flags & flag_relock_uncorrected, 0u) << row.tick;
 }
 
-}  // namespace gyro_compensation_faults_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_compensation_faults_test

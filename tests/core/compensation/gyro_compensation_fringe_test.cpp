@@ -10,8 +10,7 @@
 
 #include "gyro_compensation_support.hpp"
 
-namespace zlg::core {
-namespace gyro_compensation_fringe_test {
+namespace zlg::core::gyro_compensation_fringe_test {
 
 using namespace gyro_compensation_support;
 using compensation_test::Random;
@@ -182,5 +181,4 @@ TEST(GyroCompensationFringe, AGapOfASteadyRateIsKnownToThePhase) {
     }
 }
 
-}  // namespace gyro_compensation_fringe_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_compensation_fringe_test

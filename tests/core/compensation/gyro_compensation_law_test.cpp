@@ -10,9 +10,8 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace gyro_compensation_law_test {
+namespace zlg::core::gyro_compensation_law_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 using namespace gyro_compensation_support;
 
@@ -285,4 +284,4 @@ TEST(GyroCompensationLaw, OneImpossibleDetuningDoesNotSpoilTheRest) {
     }
 }
 
-}  // namespace gyro_compensation_law_test
+}  // namespace zlg::core::gyro_compensation_law_test

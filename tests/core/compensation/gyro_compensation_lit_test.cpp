@@ -10,9 +10,8 @@
 
 #include "gyro_compensation_support.hpp"
 
-namespace gyro_compensation_lit_test {
+namespace zlg::core::gyro_compensation_lit_test {
 
-using namespace zlg::core;
 using namespace gyro_compensation_support;
 
 constexpr int gap_tick = 400;
@@ -115,4 +114,4 @@ TEST(GyroCompensationLit, NonsenseThatIsCalledLitIsRefused) {
     }
 }
 
-}  // namespace gyro_compensation_lit_test
+}  // namespace zlg::core::gyro_compensation_lit_test

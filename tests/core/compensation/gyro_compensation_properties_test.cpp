@@ -14,9 +14,8 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace gyro_compensation_properties_test {
+namespace zlg::core::gyro_compensation_properties_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 using namespace gyro_compensation_support;
 
@@ -332,4 +331,4 @@ RC_GTEST_PROP(GyroCompensationProperty, NothingThatComesOutIsNotANumberWhateverG
     for (const GapReport& gap : got.gaps) RC_ASSERT(std::isfinite(gap.dp_arcsec) && gap.sigma_sum_arcsec >= 0.0);
 }
 
-}  // namespace gyro_compensation_properties_test
+}  // namespace zlg::core::gyro_compensation_properties_test

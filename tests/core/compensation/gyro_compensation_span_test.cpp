@@ -9,8 +9,7 @@
 
 #include "gyro_compensation_support.hpp"
 
-namespace zlg::core {
-namespace gyro_compensation_span_test {
+namespace zlg::core::gyro_compensation_span_test {
 
 using namespace gyro_compensation_support;
 using compensation_test::Random;
@@ -316,5 +315,4 @@ TEST(GyroCompensationSpan, WithoutABridgeTheCountsAreTheAngle) {
     EXPECT_NEAR(s.final, count_sum(halves), 1e-6);
 }
 
-}  // namespace gyro_compensation_span_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_compensation_span_test

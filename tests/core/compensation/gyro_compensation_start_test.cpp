@@ -5,8 +5,7 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-namespace zlg::core {
-namespace gyro_compensation_start_test {
+namespace zlg::core::gyro_compensation_start_test {
 
 // Sigma of the first tick of a log at rest, whose halves have these mean squares of the detuning.
 double first_sigma(RelockMethod method, double first_sq, double second_sq) {
@@ -51,5 +50,4 @@ TEST(LogStart, ASettledLoopCostsNothing) {
     EXPECT_NEAR(first_sigma(RelockMethod::none, 2.6e-3, 2e-4), std::sqrt(of_rounding_arcsec2), 1e-12);
 }
 
-}  // namespace gyro_compensation_start_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_compensation_start_test

@@ -11,12 +11,7 @@
 
 namespace gyro_compensation_support {
 
-using zlg::core::AngleRow;
-using zlg::core::CompensationOutput;
-using zlg::core::GapReport;
-using zlg::core::GyroCompensationConfig;
-using zlg::core::GyroCompensationState;
-using zlg::core::HalfRecord;
+using namespace zlg::core;
 
 using Halves = std::vector<HalfRecord>;
 

@@ -9,9 +9,8 @@
 #include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace gyro_compensation_test {
+namespace zlg::core::gyro_compensation_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 using namespace gyro_compensation_support;
 
@@ -274,4 +273,4 @@ TEST(GyroCompensation, CheckPassesOnWhatItsPartsRefuse) {
     EXPECT_EQ(check(config), GyroCompensationFault::none);
 }
 
-}  // namespace gyro_compensation_test
+}  // namespace zlg::core::gyro_compensation_test

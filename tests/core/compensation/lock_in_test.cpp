@@ -12,9 +12,8 @@
 
 #include "compensation_support.hpp"
 
-namespace lock_in_test {
+namespace zlg::core::lock_in_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 
 constexpr double tick_s = 0.005;
@@ -174,4 +173,4 @@ TEST(LostToLockIn, AThresholdThatIsNoneIsRefused) {
     }
 }
 
-}  // namespace lock_in_test
+}  // namespace zlg::core::lock_in_test

@@ -3,8 +3,7 @@
 #include <limits>
 #include <zlg/core/control/bias_commutator.hpp>
 
-namespace zlg::core {
-namespace bias_commutator_test {
+namespace zlg::core::bias_commutator_test {
 
 constexpr BiasCommutatorConfig config{.half_ticks = 25000, .tolerance_ticks = 2};
 static_assert(check(config) == BiasCommutatorFault::none);
@@ -203,5 +202,4 @@ TEST(BiasCommutator, AStampThatIsFarOffIsALatchAtAnotherTime) {
     }
 }
 
-}  // namespace bias_commutator_test
-}  // namespace zlg::core
+}  // namespace zlg::core::bias_commutator_test

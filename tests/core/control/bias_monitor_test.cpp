@@ -5,8 +5,7 @@
 #include <limits>
 #include <zlg/core/control/bias_monitor.hpp>
 
-namespace zlg::core {
-namespace bias_monitor_test {
+namespace zlg::core::bias_monitor_test {
 
 constexpr BiasMonitorConfig config{.presumed_counts = 150.0};
 static_assert(check(config) == BiasMonitorFault::none);
@@ -229,5 +228,4 @@ TEST(BiasMonitor, HalvesThatWereNotCountedBreakTheRow) {
     EXPECT_FALSE(step(config, counter.state, {.counted = true, .counts = most}).judged);
 }
 
-}  // namespace bias_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::bias_monitor_test

@@ -6,8 +6,7 @@
 #include <random>
 #include <zlg/core/control/coil_monitor.hpp>
 
-namespace zlg::core {
-namespace coil_monitor_test {
+namespace zlg::core::coil_monitor_test {
 
 constexpr CoilMonitorConfig config{.tolerance_ratio = 0.0033};
 static_assert(check(config) == CoilMonitorFault::none);
@@ -207,5 +206,4 @@ TEST(CoilMonitor, NoNumberThatCanArriveIsKept) {
     EXPECT_TRUE(std::isfinite(coil.state.spread) && std::isfinite(coil.state.odd) && std::isfinite(coil.state.even));
 }
 
-}  // namespace coil_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::coil_monitor_test

@@ -6,8 +6,7 @@
 #include <random>
 #include <zlg/core/control/counter_monitor.hpp>
 
-namespace zlg::core {
-namespace counter_monitor_test {
+namespace zlg::core::counter_monitor_test {
 
 constexpr CounterMonitorConfig config{.watches = true};
 constexpr double pi = 3.14159265358979;
@@ -203,5 +202,4 @@ TEST(CounterMonitor, ACounterThatWrapsIsFollowed) {
     }
 }
 
-}  // namespace counter_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::counter_monitor_test

@@ -3,8 +3,7 @@
 #include <limits>
 #include <zlg/core/control/detuning_monitor.hpp>
 
-namespace zlg::core {
-namespace detuning_monitor_test {
+namespace zlg::core::detuning_monitor_test {
 
 constexpr DetuningMonitorConfig config{.max_change_lambda2 = 0.002, .relock_ticks = 20};
 static_assert(check(config) == DetuningMonitorFault::none);
@@ -62,5 +61,4 @@ TEST(DetuningMonitor, NothingIsJudgedBeforeTheLockNorWithoutAMeasurement) {
     for (int k = 0; k < 100; ++k) EXPECT_FALSE(step({}, off, {k % 2 != 0, true, true, true, k % 2 == 0 ? 0.0 : 1.0}));
 }
 
-}  // namespace detuning_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::detuning_monitor_test

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace zlg::core {
-namespace edge_dither_test {
+namespace zlg::core::edge_dither_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const EdgeDitherConfig config;
@@ -264,5 +263,4 @@ TEST(EdgeDither, NoMethodMovesNoEdge) {
     EXPECT_EQ(s, EdgeDitherState{});
 }
 
-}  // namespace edge_dither_test
-}  // namespace zlg::core
+}  // namespace zlg::core::edge_dither_test

@@ -5,8 +5,7 @@
 #include <random>
 #include <zlg/core/control/ellipse_correction.hpp>
 
-namespace zlg::core {
-namespace ellipse_correction_test {
+namespace zlg::core::ellipse_correction_test {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 
@@ -102,5 +101,4 @@ TEST(EllipseCorrection, WhatWasLearntIsForgotten) {
     EXPECT_EQ(state, EllipseCorrectionState{});
 }
 
-}  // namespace ellipse_correction_test
-}  // namespace zlg::core
+}  // namespace zlg::core::ellipse_correction_test

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <zlg/core/control/frame_order.hpp>
 
-namespace zlg::core {
-namespace frame_order_test {
+namespace zlg::core::frame_order_test {
 
 // Frames of halves 0, 1, 2, ... up to here, in order.
 FrameOrderState after(std::uint32_t n, std::uint32_t first = 0) {
@@ -101,5 +100,4 @@ TEST(FrameOrder, OneDamagedNumberDoesNotLeadAway) {
     EXPECT_TRUE(step(s, true, 11).follows);
 }
 
-}  // namespace frame_order_test
-}  // namespace zlg::core
+}  // namespace zlg::core::frame_order_test

@@ -7,8 +7,7 @@
 #include <random>
 #include <zlg/core/control/fringe_readout.hpp>
 
-namespace zlg::core {
-namespace fringe_readout_test {
+namespace zlg::core::fringe_readout_test {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 constexpr FringeReadoutConfig config{.reads = true, .limit = 1.9};
@@ -274,5 +273,4 @@ TEST(FringeReadout, ARotationThatTurnsTheBeatBackIsNoSkew) {
     }
 }
 
-}  // namespace fringe_readout_test
-}  // namespace zlg::core
+}  // namespace zlg::core::fringe_readout_test

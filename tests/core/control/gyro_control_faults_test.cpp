@@ -8,8 +8,7 @@
 #include <vector>
 #include <zlg/core/gyro_control.hpp>
 
-namespace zlg::core {
-namespace gyro_control_faults_test {
+namespace zlg::core::gyro_control_faults_test {
 
 using test::SmallPlant;
 
@@ -355,5 +354,4 @@ TEST_P(Faults, MoreCountsThanAnyRateAreNotValid) {
     EXPECT_EQ(gyro.invalid(), 0);
 }
 
-}  // namespace gyro_control_faults_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_control_faults_test

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 #include <zlg/core/common/maths.hpp>
 
-namespace zlg::core {
-namespace gyro_control_state_test {
+namespace zlg::core::gyro_control_state_test {
 
 constexpr GyroControlConfig config_with(auto change) {
     GyroControlConfig c;
@@ -46,5 +45,4 @@ TEST(GyroControlState, StartsAtTheSetPointTheCounterAndTheTemperatureThatArePres
     EXPECT_EQ(state.up.move_v, -state.down.move_v);
 }
 
-}  // namespace gyro_control_state_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_control_state_test

@@ -5,8 +5,7 @@
 #include <random>
 #include <zlg/core/control/half_wave.hpp>
 
-namespace zlg::core {
-namespace half_wave_test {
+namespace zlg::core::half_wave_test {
 
 constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
 constexpr HalfWaveConfig config{};
@@ -131,5 +130,4 @@ TEST(HalfWave, WhenNeitherNeighbourKeepsTheMarginTheRoomierIsTakenAndSaid) {
     EXPECT_FALSE(choose_direction(narrow, Volts{35.0}, Volts{40.0}).out_of_range);  // lands on the margin itself
 }
 
-}  // namespace half_wave_test
-}  // namespace zlg::core
+}  // namespace zlg::core::half_wave_test

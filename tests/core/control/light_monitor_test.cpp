@@ -10,8 +10,7 @@
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/control/light_monitor.hpp>
 
-namespace zlg::core {
-namespace light_monitor_test {
+namespace zlg::core::light_monitor_test {
 
 constexpr LightMonitorConfig config{.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
 static_assert(check(config) == LightMonitorFault::none);
@@ -400,5 +399,4 @@ TEST(LightMonitor, AFastWayToALockIsNoNoiseHoweverQuietTheLight) {
     }
 }
 
-}  // namespace light_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::light_monitor_test

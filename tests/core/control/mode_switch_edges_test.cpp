@@ -8,8 +8,7 @@
 #include <vector>
 #include <zlg/core/control/mode_switch.hpp>
 
-namespace zlg::core {
-namespace mode_switch_edges_test {
+namespace zlg::core::mode_switch_edges_test {
 
 // What one half shows. Light is in both directions unless it is dark or missed.
 struct Half {
@@ -323,5 +322,4 @@ TEST(ModeSwitchEdges, AWideModeHasOnePlaceAndANarrowOneAThousand) {
     EXPECT_DOUBLE_EQ(places(1e-9, 3)[2].set_point_v, 100.0 + 300.0 * 1.5 / 1000.0);
 }
 
-}  // namespace mode_switch_edges_test
-}  // namespace zlg::core
+}  // namespace zlg::core::mode_switch_edges_test

@@ -5,8 +5,7 @@
 #include <limits>
 #include <zlg/core/control/mode_switch.hpp>
 
-namespace zlg::core {
-namespace mode_switch_gap_test {
+namespace zlg::core::mode_switch_gap_test {
 
 constexpr ModeSwitchConfig shortest(std::int32_t gap_min_ticks) {
     return {
@@ -86,5 +85,4 @@ TEST(ModeSwitchGap, JudgesWhereTheDetuningLeadsNotWhereItWas) {
     EXPECT_EQ(gap_halves(shortest(1), in), 6);
 }
 
-}  // namespace mode_switch_gap_test
-}  // namespace zlg::core
+}  // namespace zlg::core::mode_switch_gap_test

@@ -6,8 +6,7 @@
 #include <set>
 #include <utility>
 
-namespace zlg::core::test {
-namespace mode_switch_phases_test {
+namespace zlg::core::test::mode_switch_phases_test {
 
 TEST(ModeSwitchTracking, DueOpensOnATickBorderOnly) {
     Sequence q;
@@ -236,5 +235,4 @@ TEST(ModeSwitchSearching, ASecondSearchBeginsAnew) {
     EXPECT_EQ(q.state.set_point_v, first_v);
 }
 
-}  // namespace mode_switch_phases_test
-}  // namespace zlg::core::test
+}  // namespace zlg::core::test::mode_switch_phases_test

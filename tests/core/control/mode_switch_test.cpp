@@ -7,8 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace zlg::core::test {
-namespace mode_switch_test {
+namespace zlg::core::test::mode_switch_test {
 
 static_assert(check(config) == ModeSwitchFault::none);
 static_assert(check(ModeSwitchConfig{}) == ModeSwitchFault::none);
@@ -170,5 +169,4 @@ TEST(ModeSwitch, OutOfRangeIsSaidAndTheSetPointStaysInside) {
     EXPECT_TRUE(s.out_of_range);
 }
 
-}  // namespace mode_switch_test
-}  // namespace zlg::core::test
+}  // namespace zlg::core::test::mode_switch_test

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <zlg/core/control/perimeter_loop.hpp>
 
-namespace zlg::core {
-namespace perimeter_loop_test {
+namespace zlg::core::perimeter_loop_test {
 
 constexpr PerimeterLoopConfig digital{.kind = LoopKind::digital};
 constexpr PerimeterLoopConfig analog{.kind = LoopKind::analog};
@@ -121,5 +120,4 @@ TEST(PerimeterLoop, AnAnalogLoopIsWatchedNotMoved) {
     EXPECT_EQ(s.set_point_v, 150.0);
 }
 
-}  // namespace perimeter_loop_test
-}  // namespace zlg::core
+}  // namespace zlg::core::perimeter_loop_test

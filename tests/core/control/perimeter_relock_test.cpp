@@ -6,8 +6,7 @@
 #include <vector>
 #include <zlg/core/control/perimeter_loop.hpp>
 
-namespace zlg::core {
-namespace perimeter_relock_test {
+namespace zlg::core::perimeter_relock_test {
 
 constexpr PerimeterLoopConfig relocking{.kind = LoopKind::digital, .time_constant = Seconds{0.025}, .relock_halves = 4};
 
@@ -191,5 +190,4 @@ TEST(PerimeterRelock, NothingButFiniteSetPointsWithinTheRangeComesOut) {
     }
 }
 
-}  // namespace perimeter_relock_test
-}  // namespace zlg::core
+}  // namespace zlg::core::perimeter_relock_test

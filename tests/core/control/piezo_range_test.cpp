@@ -3,8 +3,7 @@
 #include <limits>
 #include <zlg/core/control/piezo_range.hpp>
 
-namespace zlg::core {
-namespace piezo_range_test {
+namespace zlg::core::piezo_range_test {
 
 constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
 constexpr PiezoRange range{.min = Volts{-150.0}, .max = Volts{150.0}, .margin = Volts{10.0}};
@@ -40,5 +39,4 @@ TEST(PiezoRange, AReadingMayLieOneRangeOutside) {
     EXPECT_FALSE(plausible(range, Volts{std::numeric_limits<double>::infinity()}));
 }
 
-}  // namespace piezo_range_test
-}  // namespace zlg::core
+}  // namespace zlg::core::piezo_range_test

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace zlg::core {
-namespace reading_monitor_test {
+namespace zlg::core::reading_monitor_test {
 
 constexpr std::int64_t bias = 150;
 constexpr std::int64_t limit = 1253;
@@ -280,5 +279,4 @@ TEST(ReadingMonitor, TheCounterMayWrap) {
     EXPECT_EQ(out.counts, 10);
 }
 
-}  // namespace reading_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::reading_monitor_test

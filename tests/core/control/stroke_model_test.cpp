@@ -7,8 +7,7 @@
 #include <limits>
 #include <zlg/core/control/stroke_model.hpp>
 
-namespace zlg::core {
-namespace stroke_model_test {
+namespace zlg::core::stroke_model_test {
 
 constexpr StrokeModelConfig config{};
 
@@ -200,5 +199,4 @@ TEST(StrokeModel, NothingButFiniteNumbersStayWhateverComesIn) {
     }
 }
 
-}  // namespace stroke_model_test
-}  // namespace zlg::core
+}  // namespace zlg::core::stroke_model_test

@@ -8,8 +8,7 @@
 #include <vector>
 #include <zlg/core/control/switch_schedule.hpp>
 
-namespace zlg::core {
-namespace switch_schedule_test {
+namespace zlg::core::switch_schedule_test {
 
 using Limits = std::numeric_limits<std::int64_t>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -340,5 +339,4 @@ TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
     EXPECT_FALSE(step(c, s, {.tick = 111}).open);
 }
 
-}  // namespace switch_schedule_test
-}  // namespace zlg::core
+}  // namespace zlg::core::switch_schedule_test

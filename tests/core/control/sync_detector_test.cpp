@@ -7,8 +7,7 @@
 #include <vector>
 #include <zlg/core/control/sync_detector.hpp>
 
-namespace zlg::core {
-namespace sync_detector_test {
+namespace zlg::core::sync_detector_test {
 
 constexpr SyncDetectorConfig config{};
 static_assert(check(config) == SyncDetectorFault::none);
@@ -289,5 +288,4 @@ TEST(SyncDetector, ATenthOfTheLightIsDark) {
     EXPECT_TRUE(both(s, light_of(steady(0.0), 1, 90.0), 1).dark);
 }
 
-}  // namespace sync_detector_test
-}  // namespace zlg::core
+}  // namespace zlg::core::sync_detector_test

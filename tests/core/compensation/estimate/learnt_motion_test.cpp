@@ -7,14 +7,9 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace learnt_motion_test {
+namespace zlg::core::learnt_motion_test {
 
 using compensation_test::Random;
-using zlg::core::block_halves;
-using zlg::core::LearntMotion;
-using zlg::core::moment_place;
-using zlg::core::part_halves;
-using zlg::core::start;
 
 constexpr double forget_ticks = 3000.0;
 
@@ -115,4 +110,4 @@ TEST(LearntMotion, AShortRunTeachesNothing) {
     EXPECT_EQ(memory.moments, nothing.moments);
 }
 
-}  // namespace learnt_motion_test
+}  // namespace zlg::core::learnt_motion_test

@@ -7,16 +7,9 @@
 
 #include "compensation/compensation_support.hpp"
 
-namespace light_spline_test {
+namespace zlg::core::light_spline_test {
 
 using compensation_test::Random;
-using zlg::core::add;
-using zlg::core::light_basis;
-using zlg::core::LightBasis;
-using zlg::core::LightFit;
-using zlg::core::LightSums;
-using zlg::core::span_of;
-using zlg::core::values_at;
 
 // Samples of a course of the detuning over all halves.
 template <class Course>
@@ -118,4 +111,4 @@ TEST(LightSpline, TooFewSamplesForTheKnotsAreNoFit) {
     EXPECT_FALSE(LightFit(sums, 0.0033).is_known());
 }
 
-}  // namespace light_spline_test
+}  // namespace zlg::core::light_spline_test

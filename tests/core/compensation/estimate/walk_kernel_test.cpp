@@ -4,12 +4,7 @@
 
 #include <cmath>
 
-namespace walk_kernel_test {
-
-using zlg::core::covariance;
-using zlg::core::Stretch;
-using zlg::core::Walk;
-using zlg::core::walked;
+namespace zlg::core::walk_kernel_test {
 
 double influence(int kind, const Stretch& s, double q) {
     const auto part = [&](double from) { return from > q ? std::pow(from - q, kind) : 0.0; };
@@ -52,4 +47,4 @@ TEST(WalkKernel, CovariancesOfStretchesAreTheIntegralsOfTheirProducts) {
                 }
 }
 
-}  // namespace walk_kernel_test
+}  // namespace zlg::core::walk_kernel_test
