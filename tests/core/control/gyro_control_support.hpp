@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <utility>
 #include <vector>
 #include <zlg/core/common/maths.hpp>
@@ -30,6 +31,16 @@ inline bool all_finite(const HalfRecord& r) {
            std::isfinite(r.temperature_c);
 }
 
+inline void scale_light(SensorFrame& f, float part) {
+    for (float& x : f.light_a) x *= part;
+    for (float& x : f.light_b) x *= part;
+}
+inline void add_noise(SensorFrame& f, auto& random, float part) {
+    std::normal_distribution<float> normal;
+    for (float& x : f.light_a) x *= 1.0f + part * normal(random);
+    for (float& x : f.light_b) x *= 1.0f + part * normal(random);
+}
+
 // Control and a plant in closed loop; frames can be spoilt between the two.
 class Loop {
 public:
@@ -47,6 +58,7 @@ public:
         actuator = out.actuator;
         records.push_back(out.record);
         health.push_back(out.health);
+        seen |= out.health;
         if (out.has_event) events.push_back(out.event);
         return out;
     }
@@ -71,6 +83,14 @@ public:
         }
         return runs;
     }
+    // Halves that were not valid since the last call, and no longer remembered.
+    int invalid() {
+        int n = 0;
+        for (const HalfRecord& r : records) n += !r.valid;
+        records.clear();
+        return n;
+    }
+    [[nodiscard]] bool tracks() const { return state.mode_switch.phase == SwitchPhase::tracking; }
 
     SmallPlant plant;
     GyroControlConfig config;
@@ -79,6 +99,7 @@ public:
     GyroControlOutput out;
     std::vector<HalfRecord> records;
     std::vector<std::uint32_t> health;
+    std::uint32_t seen = 0;  // of the health, in all halves
     std::vector<SwitchEvent> events;
 };
 

@@ -133,10 +133,7 @@ TEST_P(EitherLoop, TheLightLevelRestsWhileTheGyroSwitches) {
     loop.ticks(200);
     const double before = loop.state.detector.both.level;
     while (loop.state.mode_switch.phase != SwitchPhase::tracking) {
-        (void)loop.half([](SensorFrame& f) {
-            for (float& x : f.light_a) x *= 0.8f;
-            for (float& x : f.light_b) x *= 0.8f;
-        });
+        (void)loop.half([](SensorFrame& f) { scale_light(f, 0.8f); });
     }
     EXPECT_NEAR(loop.state.detector.both.level, before, 1e-9 * before);
     EXPECT_EQ(loop.events.size(), 1u);

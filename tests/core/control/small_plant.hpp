@@ -61,6 +61,7 @@ public:
         f.loop_closed = a.loop_closed;
         f.piezo_v = voltage_v;
         f.temperature_c = 25.0;
+        f.coil_current_a = sign * 1.0;
         ++half_;
         return f;
     }
