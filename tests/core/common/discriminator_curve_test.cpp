@@ -5,29 +5,18 @@
 #include <limits>
 #include <span>
 #include <vector>
-#include <zlg/core/common/discriminator_curve.hpp>
 #include <zlg/core/compensation/relock_drift.hpp>
 #include <zlg/core/control/sync_detector.hpp>
+
+#include "common/expansive_curve.hpp"
 
 namespace zlg::core::discriminator_curve_test {
 
 static_assert(check(DiscriminatorCurve{}) == CurveFault::none);
 
-// An expansive discriminator: 1.05, 1.24, 1.8, 3.3 times its linear law at 0.05, 0.10, 0.15, 0.20 wavelength.
-double apparent(double dl) {
-    const double x2 = dl * dl;
-    return dl * (1.0 + 19.0 * x2 + 200.0 * x2 * x2 + 19000.0 * x2 * x2 * x2);
-}
+using test::expansive_curve;
 
-DiscriminatorCurve curve_of(int n) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int k = 1; k <= n; ++k) {
-        y.push_back(0.24 * k / n);
-        x.push_back(apparent(y.back()));
-    }
-    return discriminator_curve(x, y);
-}
+double apparent(double dl) { return test::expansive(dl); }
 
 double worst_error(const DiscriminatorCurve& c) {
     double worst = 0.0;
@@ -59,7 +48,7 @@ TEST(DiscriminatorCurve, AStraightCurveLeavesTheMomentsAsTheyAre) {
 }
 
 TEST(DiscriminatorCurve, PassesThroughItsNodesAndIsOdd) {
-    const DiscriminatorCurve c = curve_of(12);
+    const DiscriminatorCurve c = expansive_curve(12);
     ASSERT_EQ(check(c), CurveFault::none);
     for (int k = 1; k < 12; ++k) {
         const double dl = 0.24 * k / 12;
@@ -69,12 +58,12 @@ TEST(DiscriminatorCurve, PassesThroughItsNodesAndIsOdd) {
 }
 
 TEST(DiscriminatorCurve, ThirtyOneNodesAreGoodToFiveHundredThousandthsOfAWavelength) {
-    EXPECT_LT(worst_error(curve_of(31)), 5e-5);
-    EXPECT_GT(worst_error(curve_of(7)), 2e-4);
+    EXPECT_LT(worst_error(expansive_curve(31)), 5e-5);
+    EXPECT_GT(worst_error(expansive_curve(7)), 2e-4);
 }
 
 TEST(DiscriminatorCurve, HalfTheDistanceLeavesAnEighthOfTheError) {
-    const double ratio = worst_error(curve_of(15)) / worst_error(curve_of(30));
+    const double ratio = worst_error(expansive_curve(15)) / worst_error(expansive_curve(30));
     EXPECT_GT(ratio, 6.0);
     EXPECT_LT(ratio, 20.0);
 }
@@ -94,7 +83,7 @@ TEST(DiscriminatorCurve, IsMonotoneWhateverGrowsInItsNodes) {
 }
 
 TEST(DiscriminatorCurve, TheSlopeIsTheDerivative) {
-    const DiscriminatorCurve c = curve_of(20);
+    const DiscriminatorCurve c = expansive_curve(20);
     for (const double x : {-0.2, -0.05, 0.013, 0.1, 0.31}) {
         const double h = 1e-7;
         const double rise = true_detuning(c, x + h).detuning_lambda - true_detuning(c, x - h).detuning_lambda;
@@ -103,7 +92,7 @@ TEST(DiscriminatorCurve, TheSlopeIsTheDerivative) {
 }
 
 TEST(DiscriminatorCurve, BeyondItsLastNodeItHolds) {
-    const DiscriminatorCurve c = curve_of(20);
+    const DiscriminatorCurve c = expansive_curve(20);
     EXPECT_EQ(true_detuning(c, 50.0).detuning_lambda, 0.24);
     EXPECT_EQ(true_detuning(c, -50.0).detuning_lambda, -0.24);
     EXPECT_TRUE(std::isnan(true_detuning(c, std::numeric_limits<double>::quiet_NaN()).detuning_lambda));
@@ -112,19 +101,8 @@ TEST(DiscriminatorCurve, BeyondItsLastNodeItHolds) {
 // Unlike sides: to the left the curve of above, to the right one that is steeper.
 double right_apparent(double dl) { return dl * (1.1 + 25.0 * dl * dl); }
 
-DiscriminatorCurve curve_of_both_sides(int n) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int k = -n; k <= n; ++k) {
-        if (k == 0) continue;
-        y.push_back(0.24 * k / n);
-        x.push_back(k < 0 ? apparent(y.back()) : right_apparent(y.back()));
-    }
-    return discriminator_curve(x, y);
-}
-
 TEST(DiscriminatorCurve, EachSideMayHaveItsOwnNodes) {
-    const DiscriminatorCurve c = curve_of_both_sides(31);
+    const DiscriminatorCurve c = expansive_curve(31, right_apparent, true);
     ASSERT_EQ(check(c), CurveFault::none);
     EXPECT_EQ(nodes_below(c), 31u);
     EXPECT_EQ(true_detuning(c, 0.0).detuning_lambda, 0.0);
@@ -144,40 +122,34 @@ TEST(DiscriminatorCurve, EachSideMayHaveItsOwnNodes) {
 }
 
 TEST(DiscriminatorCurve, TwoEqualSidesAreTheMirroredOne) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int k = -31; k <= 31; ++k) {
-        if (k == 0) continue;
-        y.push_back(0.24 * k / 31);
-        x.push_back(apparent(y.back()));
-    }
-    const DiscriminatorCurve both = discriminator_curve(x, y);
-    const DiscriminatorCurve one = curve_of(31);
+    const DiscriminatorCurve both = expansive_curve(31, test::expansive, true);
+    const DiscriminatorCurve one = expansive_curve(31);
     for (double at = -3.0; at < 3.0; at += 0.0173)
         EXPECT_NEAR(true_detuning(both, at).detuning_lambda, true_detuning(one, at).detuning_lambda, 1e-5) << at;
 }
 
-TEST(DiscriminatorCurve, RefusesSidesThatAreNone) {
-    const auto fault = [](std::vector<double> x, std::vector<double> y) { return check(discriminator_curve(x, y)); };
-    EXPECT_EQ(fault({-0.2, -0.1}, {-0.2, -0.1}), CurveFault::size) << "the positive side is missing";
-    EXPECT_EQ(fault({-0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
-    EXPECT_EQ(fault({-0.1, 0.1, 0.05}, {-0.1, 0.1, 0.2}), CurveFault::node);
-    EXPECT_EQ(fault({-0.1, 0.1}, {-0.1, 0.1}), CurveFault::none);
+// A half in which the detuning goes evenly from one value to another.
+SyncDetectorOutput detected(const SyncDetectorConfig& c, double from, double to, int sign,
+                            double (*right)(double) = test::expansive) {
+    std::array<float, 16> a{};
+    std::array<float, 16> b{};
+    for (std::size_t k = 0; k < 16; ++k) {
+        const double dl = from + (to - from) * (static_cast<double>(k) + 0.5) / 16.0;
+        const double signal = sign * 0.332 * (dl < 0.0 ? apparent(dl) : right(dl));
+        a[k] = static_cast<float>(1000.0 * (1.0 + signal));
+        b[k] = static_cast<float>(1000.0 * (1.0 - signal));
+    }
+    SyncDetectorState s;
+    return step(c, s, {.light_a = a, .light_b = b, .sign = sign});
 }
 
 // The light turns with the sign of the half before it goes through a curve that is not odd.
 TEST(DiscriminatorCurve, TheSignOfAHalfTurnsTheSignalAndNotTheDetuning) {
     SyncDetectorConfig config;
-    config.curve = curve_of_both_sides(31);
+    config.curve = expansive_curve(31, right_apparent, true);
     for (const double dl : {-0.2, -0.05, 0.1}) {
-        const double signal = config.discriminator_per_lambda * (dl < 0.0 ? apparent(dl) : right_apparent(dl));
         for (const int sign : {1, -1}) {
-            std::array<float, 8> a{};
-            std::array<float, 8> b{};
-            a.fill(static_cast<float>(1.0 + sign * signal));
-            b.fill(static_cast<float>(1.0 - sign * signal));
-            SyncDetectorState state;
-            const SyncDetectorOutput out = step(config, state, {.light_a = a, .light_b = b, .sign = sign});
+            const SyncDetectorOutput out = detected(config, dl, dl, sign, right_apparent);
             ASSERT_TRUE(out.usable);
             EXPECT_NEAR(out.detuning.value(), dl, 4e-4) << sign;
         }
@@ -205,7 +177,7 @@ TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
     }
 }
 
-TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrow) {
+TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrowAndSidesThatAreNone) {
     const auto fault = [](std::vector<double> x, std::vector<double> y) { return check(discriminator_curve(x, y)); };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(fault({}, {}), CurveFault::none);
@@ -217,36 +189,18 @@ TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrow) {
     EXPECT_EQ(fault({0.1, 2000.0}, {0.1, 0.2}), CurveFault::node);
     EXPECT_EQ(fault({0.1}, {0.1, 0.2}), CurveFault::size);
     EXPECT_EQ(fault(std::vector<double>(32, 0.1), std::vector<double>(32, 0.1)), CurveFault::size);
-    DiscriminatorCurve steep = curve_of(4);
+    EXPECT_EQ(fault({-0.2, -0.1}, {-0.2, -0.1}), CurveFault::size) << "the positive side is missing";
+    EXPECT_EQ(fault({-0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({-0.1, 0.1, 0.05}, {-0.1, 0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({-0.1, 0.1}, {-0.1, 0.1}), CurveFault::none);
+    DiscriminatorCurve steep = expansive_curve(4);
     steep.slope[2] = 10.0;
     EXPECT_EQ(check(steep), CurveFault::slope);
 }
 
-struct Half {
-    std::array<float, 16> a{};
-    std::array<float, 16> b{};
-};
-
-Half light(double from, double to, int sign) {
-    Half h;
-    for (std::size_t k = 0; k < 16; ++k) {
-        const double dl = from + (to - from) * (static_cast<double>(k) + 0.5) / 16.0;
-        const double signal = sign * 0.332 * apparent(dl);
-        h.a[k] = static_cast<float>(1000.0 * (1.0 + signal));
-        h.b[k] = static_cast<float>(1000.0 * (1.0 - signal));
-    }
-    return h;
-}
-
-SyncDetectorOutput detected(const SyncDetectorConfig& c, double from, double to, int sign) {
-    SyncDetectorState s;
-    const Half h = light(from, to, sign);
-    return step(c, s, {.light_a = h.a, .light_b = h.b, .sign = sign});
-}
-
 TEST(DiscriminatorCurve, TheDetectorReadsTrueDetuningsThroughIt) {
     SyncDetectorConfig with;
-    with.curve = curve_of(31);
+    with.curve = expansive_curve(31);
     ASSERT_EQ(check(with), SyncDetectorFault::none);
     for (const int sign : {1, -1}) {
         const SyncDetectorOutput linear = detected({}, -0.2, -0.2, sign);
@@ -278,10 +232,10 @@ double relock_ratio(const SyncDetectorConfig& detector, const CompensationConsta
 TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
     const CompensationConstants plain{.light_noise = Wavelengths{0.0}};
     CompensationConstants late = plain;
-    late.record_curve = curve_of(31);
+    late.record_curve = expansive_curve(31);
     ASSERT_EQ(check(late), CompensationConstantsFault::none);
     SyncDetectorConfig with;
-    with.curve = curve_of(31);
+    with.curve = expansive_curve(31);
     for (const double miss : {0.05, 0.1, 0.2}) {
         EXPECT_NEAR(relock_ratio(with, plain, miss), 1.0, 2e-3) << miss;
         EXPECT_NEAR(relock_ratio({}, late, miss), 1.0, 0.03) << miss;

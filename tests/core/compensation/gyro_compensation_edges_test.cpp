@@ -136,20 +136,6 @@ TEST(GyroCompensationEdges, AShiftThatCannotBeMakesBothHalvesBesideItInvalid) {
     }
 }
 
-TEST(GyroCompensationEdges, ACopyOfTheStateGoesOnToTheSameBits) {
-    const auto config = config_of(RelockMethod::frequency, BridgeMethod::quadratic);
-    const Halves halves = Gyro{.dither = DitherMethod::random}.log(150, switches);
-    GyroCompensationState state, copy;
-    for (std::size_t k = 0; k < halves.size(); ++k) {
-        if (k == 83) copy = state;
-        const CompensationOutput out = step(config, state, halves[k]);
-        if (k < 83) continue;
-        const CompensationOutput again = step(config, copy, halves[k]);
-        EXPECT_EQ(out.sample.dtheta_arcsec, again.sample.dtheta_arcsec);
-        EXPECT_EQ(state, copy);
-    }
-}
-
 TEST(GyroCompensationEdges, ChecksTheTimer) {
     GyroCompensationConfig config;
     config.gyro.timer = Hertz{0.0};

@@ -181,46 +181,6 @@ TEST(GyroCompensationLaw, ALogReplayedTwiceOrFromASnapshotGivesTheSameBits) {
     }
 }
 
-TEST(GyroCompensationLaw, ACopiedStateIsEqualToItself) {
-    // Records without detuning, piezo voltage and temperature are the commonest of all.
-    HalfRecord half;
-    half.detuning_lambda = half.detuning_sq_lambda2 = half.piezo_v = half.temperature_c = not_a_number;
-    const GyroCompensationConfig config;
-    GyroCompensationState state;
-    for (int k = 0; k < 5; ++k) {
-        (void)step(config, state, half);
-        const GyroCompensationState copy = state;
-        EXPECT_TRUE(copy == state) << "after " << k + 1 << " halves";
-    }
-}
-
-TEST(GyroCompensationLaw, GarbageNeverGivesNotANumber) {
-    for (const RelockMethod method : all_methods)
-        for (const BridgeMethod bridge : all_bridges) {
-            Random random{4};
-            const GyroCompensationConfig config = config_of(method, bridge);
-            const std::size_t n_ticks = is_estimated(config.bridge) ? 10'000 : 50'000;
-            GyroCompensationState state;
-            Delivered got;
-            for (std::size_t k = 0; k < 2 * n_ticks; ++k) step_into(config, state, wild_half(random), got);
-            drain_into(config, state, got);
-            ASSERT_EQ(got.rows.size(), n_ticks);
-            int bad = 0;
-            for (std::size_t k = 0; k < got.rows.size(); ++k) {
-                const AngleRow& row = got.rows[k];
-                ASSERT_EQ(row.tick, static_cast<std::int64_t>(k));
-                ASSERT_TRUE(row.mode == 1 || row.mode == -1);
-                const bool good = std::isfinite(row.dtheta_arcsec) && std::isfinite(row.dtheta_final_arcsec) &&
-                                  row.sigma_arcsec >= 0.0 && std::isfinite(row.relock_arcsec) &&
-                                  std::isfinite(got.samples[k].angle_arcsec);
-                if (!good) ++bad;
-            }
-            EXPECT_EQ(bad, 0) << "method " << static_cast<int>(method) << " bridge " << static_cast<int>(bridge);
-            for (const GapReport& gap : got.gaps)
-                ASSERT_TRUE(std::isfinite(gap.dp_arcsec) && gap.sigma_sum_arcsec >= 0.0);
-        }
-}
-
 TEST(GyroCompensationLaw, AfterGarbageGoodRecordsGiveGoodRowsAgain) {
     for (const RelockMethod method : all_methods) {
         Random random{5};
@@ -245,21 +205,20 @@ TEST(GyroCompensationLaw, AfterGarbageGoodRecordsGiveGoodRowsAgain) {
 
 // What learns has learnt of garbage; it must find back to a rate that does not change.
 TEST(GyroCompensationLaw, WhatHasLearntOfGarbageFindsBack) {
-    for (const RelockMethod method : {RelockMethod::mean_square, RelockMethod::joint})
-        for (const BridgeMethod bridge : {BridgeMethod::automatic}) {
-            Random random{6};
-            const GyroCompensationConfig config = config_of(method, bridge);
-            GyroCompensationState state;
-            Delivered got;
-            for (int k = 0; k < 2'000; ++k) step_into(config, state, wild_half(random), got);
-            const Halves halves = switching_log(config, 1, 100, 12'000, 0.22, 32.63);
-            for (const HalfRecord& half : halves) step_into(config, state, half, got);
-            drain_into(config, state, got);
-            double worst = 0.0;
-            for (std::size_t k = 1'000 + 10'000; k < got.rows.size(); ++k)
-                worst = std::fmax(worst, std::fabs(got.rows[k].dtheta_final_arcsec - 32.63));
-            EXPECT_LT(worst, 2.0 * 3.263) << static_cast<int>(method) << ' ' << static_cast<int>(bridge);
-        }
+    for (const RelockMethod method : {RelockMethod::mean_square, RelockMethod::joint}) {
+        Random random{6};
+        const GyroCompensationConfig config = config_of(method, BridgeMethod::automatic);
+        GyroCompensationState state;
+        Delivered got;
+        for (int k = 0; k < 2'000; ++k) step_into(config, state, wild_half(random), got);
+        const Halves halves = switching_log(config, 1, 100, 12'000, 0.22, 32.63);
+        for (const HalfRecord& half : halves) step_into(config, state, half, got);
+        drain_into(config, state, got);
+        double worst = 0.0;
+        for (std::size_t k = 1'000 + 10'000; k < got.rows.size(); ++k)
+            worst = std::fmax(worst, std::fabs(got.rows[k].dtheta_final_arcsec - 32.63));
+        EXPECT_LT(worst, 2.0 * 3.263) << static_cast<int>(method);
+    }
 }
 
 // A mean square of the detuning that is finite, and whose false angle is too, but no sum of such angles.

@@ -215,6 +215,7 @@ RC_GTEST_PROP(GyroCompensationProperty, ACopyOfTheStateGoesOnWithTheSameBits, ()
     const GyroCompensationConfig config = any_config(any_bridge(), true);
     Halves halves = any_log(20, 2);
     spread_detuning(halves);
+    for (HalfRecord& half : halves) half.edge_offset_ticks = any(-170, 170);
     const auto cut = static_cast<std::size_t>(any(0, static_cast<int>(halves.size())));
     GyroCompensationState state;
     Delivered first;
@@ -314,7 +315,7 @@ GyroCompensationConfig any_checked_config() {
 
 RC_GTEST_PROP(GyroCompensationProperty, NothingThatComesOutIsNotANumberWhateverGoesIn, ()) {
     const GyroCompensationConfig config = any_checked_config();
-    const int n_halves = any(2, 200);
+    const int n_halves = any(2, 600);
     GyroCompensationState state;
     Delivered got;
     for (int k = 0; k < n_halves; ++k) step_into(config, state, any_half(), got);
@@ -324,7 +325,9 @@ RC_GTEST_PROP(GyroCompensationProperty, NothingThatComesOutIsNotANumberWhateverG
     for (const CompensationOutput& out : got.samples) {
         RC_ASSERT(std::isfinite(out.sample.dtheta_arcsec) && std::isfinite(out.angle_arcsec));
     }
+    std::int64_t tick = 0;
     for (const AngleRow& row : got.rows) {
+        RC_ASSERT(row.tick == tick++ && (row.mode == 1 || row.mode == -1));
         RC_ASSERT(std::isfinite(row.dtheta_arcsec) && std::isfinite(row.dtheta_final_arcsec));
         RC_ASSERT(row.sigma_arcsec >= 0.0 && std::isfinite(row.relock_arcsec));
     }

@@ -44,6 +44,12 @@ void open_loop(Halves& halves, int first_tick, int n_ticks) {
         halves[static_cast<unsigned>(k)].loop_closed = false;
 }
 
+Halves log_with_gap(int n_ticks) {
+    Halves halves = plain_log(n_ticks);
+    open_loop(halves, 10, 3);
+    return halves;
+}
+
 TEST(GyroCompensation, TwoHalvesMakeATickAndTheBiasCancels) {
     for (const int first_sign : {1, -1})
         for (const int mode : {1, -1}) {
@@ -107,18 +113,23 @@ TEST(GyroCompensation, AnOpenLoopOrAnInvalidHalfMakesAGap) {
         }
 }
 
+// Also where the helicity changes within a tick of the gap: it is said in that tick.
 TEST(GyroCompensation, ASwitchIsSaidAndReported) {
-    Halves halves = plain_log(40);
-    open_loop(halves, 10, 3);
-    for (std::size_t k = 22; k < halves.size(); ++k) halves[k].mode = -1;
-    const Delivered got = run(config_of(RelockMethod::none), halves);
-    for (unsigned k = 0; k < 40; ++k) EXPECT_EQ(has(got.rows[k].flags, flag_switching), k == 11 || k == 12) << k;
-    ASSERT_EQ(got.gaps.size(), 1u);
-    EXPECT_EQ(got.gaps[0].first_tick, 10);
-    EXPECT_EQ(got.gaps[0].n_ticks, 3);
-    EXPECT_TRUE(got.gaps[0].mode_changed);
-    EXPECT_EQ(got.gaps[0].mode_after, -1);
-    EXPECT_EQ(got.gaps[0].sign_after, -1);
+    for (const std::size_t first : {22u, 23u}) {
+        Halves halves = log_with_gap(40);
+        for (std::size_t k = first; k < halves.size(); ++k) halves[k].mode = -1;
+        const Delivered got = run(config_of(RelockMethod::none), halves);
+        for (unsigned k = 0; k < 40; ++k) {
+            EXPECT_EQ(has(got.rows[k].flags, flag_switching), k == 11 || k == 12) << k;
+            EXPECT_EQ(got.rows[k].mode, k < 11 ? 1 : -1);
+        }
+        ASSERT_EQ(got.gaps.size(), 1u);
+        EXPECT_EQ(got.gaps[0].first_tick, 10);
+        EXPECT_EQ(got.gaps[0].n_ticks, 3);
+        EXPECT_TRUE(got.gaps[0].mode_changed);
+        EXPECT_EQ(got.gaps[0].mode_after, -1);
+        EXPECT_EQ(got.gaps[0].sign_after, -1);
+    }
 }
 
 TEST(GyroCompensation, ATickWhoseHalvesDifferInHelicityIsOfUnknownSigma) {
@@ -154,8 +165,7 @@ TEST(GyroCompensation, CountsBeyondBeliefAreAGap) {
 
 TEST(GyroCompensation, WithoutDetuningTheTicksToBeCorrectedSaySo) {
     for (const auto method : {RelockMethod::detuning, RelockMethod::mean_square}) {
-        Halves halves = plain_log(60);
-        open_loop(halves, 10, 3);
+        Halves halves = log_with_gap(60);
         const Delivered got = run(config_of(method), halves);
         for (unsigned k = 0; k < 60; ++k) {
             EXPECT_EQ(has(got.rows[k].flags, flag_relock_uncorrected), k >= 13 && k < 33) << k;
@@ -168,8 +178,7 @@ TEST(GyroCompensation, WithoutDetuningTheTicksToBeCorrectedSaySo) {
 TEST(GyroCompensation, TickOneOfFrequencyWithoutATickTwoIsNotCorrected) {
     // Deficits of 2000, 1200 and 800 Hz: five, three and two counts a half.
     for (const int second_gap : {14, 100}) {
-        Halves halves = plain_log(second_gap == 14 ? 40 : 14);
-        open_loop(halves, 10, 3);
+        Halves halves = log_with_gap(second_gap == 14 ? 40 : 14);
         if (second_gap == 14) open_loop(halves, 14, 2);
         halves[26].counts -= 5;
         halves[27].counts += 5;
@@ -185,8 +194,7 @@ TEST(GyroCompensation, TickOneOfFrequencyIsCorrectedInItsRowAndPaidBackByTheLump
     for (const std::int64_t ticks : {1, 20}) {
         GyroCompensationConfig config = config_of(RelockMethod::frequency);
         config.relock.ticks = ticks;
-        Halves halves = plain_log(40);
-        open_loop(halves, 10, 3);
+        Halves halves = log_with_gap(40);
         for (const auto& [tick, lost] : {std::pair{13u, 10}, {14u, 5}}) {
             halves[2 * tick].counts -= lost;
             halves[2 * tick + 1].counts += lost;
@@ -213,20 +221,8 @@ TEST(GyroCompensation, TickOneOfFrequencyIsCorrectedInItsRowAndPaidBackByTheLump
     }
 }
 
-TEST(GyroCompensation, AHelicityThatChangesWithinATickOfAGapIsSaidInThatTick) {
-    Halves halves = plain_log(40);
-    open_loop(halves, 10, 3);
-    for (std::size_t k = 23; k < halves.size(); ++k) halves[k].mode = -1;
-    const Delivered got = run(config_of(RelockMethod::none), halves);
-    for (unsigned k = 0; k < 40; ++k) {
-        EXPECT_EQ(has(got.rows[k].flags, flag_switching), k == 11 || k == 12) << k;
-        EXPECT_EQ(got.rows[k].mode, k < 11 ? 1 : -1);
-    }
-}
-
 TEST(GyroCompensation, CountsOfAGapNeverEnterTheAngle) {
-    Halves halves = plain_log(40);
-    open_loop(halves, 10, 3);
+    Halves halves = log_with_gap(40);
     for (unsigned k = 20; k < 26; ++k) halves[k].counts = 1'000'000'007;
     GyroCompensationState state;
     for (const HalfRecord& half : halves) (void)step(config_of(RelockMethod::none), state, half);
@@ -238,8 +234,7 @@ TEST(GyroCompensation, CountsOfAGapNeverEnterTheAngle) {
 TEST(GyroCompensation, TheCorrectionTakesTheTemperatureOfTheMiddleAndAddsItsVariance) {
     GyroCompensationConfig config = config_of(RelockMethod::mean_square);
     config.gyro.temperature_coefficient_per_c = -1e-3;
-    Halves halves = plain_log(40);
-    open_loop(halves, 10, 3);
+    Halves halves = log_with_gap(40);
     halves[26].detuning_sq_lambda2 = 0.04;
     halves[27].detuning_sq_lambda2 = 0.01;
     halves[26].temperature_c = 50.0;

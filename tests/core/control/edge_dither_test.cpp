@@ -167,14 +167,6 @@ TEST(EdgeDither, TheSameSeedGivesTheSameEdgesAndAnotherOthers) {
     EXPECT_NE(a.up, c.up);
 }
 
-TEST(EdgeDither, GoesOnFromACopyOfItsState) {
-    EdgeDitherState s;
-    (void)run(config, s, 37);
-    EdgeDitherState copy = s;
-    EXPECT_EQ(run(config, s, 100).down, run(config, copy, 100).down);
-    EXPECT_EQ(s, copy);
-}
-
 // n_fast counts more in each half of a measurement of 128 periods: the rate is 2 K n/T.
 DitherLaw after(EdgeDitherState& s, double rate_arcsec_s, int n_measurements, int helicity, bool counted = true) {
     const double per_half = rate_arcsec_s * 0.0025 / 3.263;

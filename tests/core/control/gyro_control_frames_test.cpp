@@ -65,7 +65,7 @@ TEST_P(EitherLoop, FlagsNameWhatIsWrongWithAFrame) {
     EXPECT_EQ(bits([](SensorFrame&) {}), (Seen{0u, true}));
 }
 
-TEST_P(EitherLoop, UnusableLightRecordsCountsButNoDetuningNorDoesALostSign) {
+TEST_P(EitherLoop, WithoutUsableLightOrASignNoDetuningIsRecordedAndLightCostsNoCounts) {
     for (void (*const spoil)(SensorFrame&) :
          {+[](SensorFrame& f) { f.light_a.fill(std::nanf("")); }, +[](SensorFrame& f) { f.bias_sign = 0; },
           +[](SensorFrame& f) { f.polarity = 0; }}) {

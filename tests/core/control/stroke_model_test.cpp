@@ -170,15 +170,6 @@ TEST(StrokeModel, WhatWasNotConfirmedIsForgotten) {
     EXPECT_EQ(s.weight, before);
 }
 
-TEST(StrokeModel, ACopiedStateGoesOnLikeTheOriginal) {
-    Switches gyro;
-    gyro.piezo.hysteresis = 0.2;
-    for (int k = 0; k < 5; ++k) (void)gyro.next();
-    Switches copy = gyro;
-    EXPECT_EQ(copy.next(), gyro.next());
-    EXPECT_EQ(copy.state, gyro.state);
-}
-
 TEST(StrokeModel, NothingButFiniteNumbersStayWhateverComesIn) {
     StrokeModelState s = initial_state(config, Volts{not_a_number});
     const double inf = std::numeric_limits<double>::infinity();
