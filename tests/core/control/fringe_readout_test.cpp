@@ -238,17 +238,22 @@ TEST(FringeReadout, ACounterThatLostQuartersIsJoinedAnew) {
     }
 }
 
+void expect_skew(Electronics& e, double skew) {
+    e.skew_turns = skew;
+    e.learn();
+    bool skewed = false;
+    for (int k = 0; k < 20'000; ++k) skewed = e.at(k * 37.6180339887).skewed;
+    EXPECT_EQ(skewed, skew > 0.003) << skew;
+    EXPECT_NEAR(e.state.skew_turns, -skew, 0.0015);
+}
+
 TEST(FringeReadout, ASkewBetweenLatchAndSamplingIsReported) {
     for (const double lag : {0.0, 0.016}) {
         for (const double skew : {0.0, 0.0012, 0.0048, 0.03}) {
+            SCOPED_TRACE(lag);
             Electronics e;
             e.c.lag_turns = e.lag_turns = lag;
-            e.skew_turns = skew;
-            e.learn();
-            bool skewed = false;
-            for (int k = 0; k < 20'000; ++k) skewed = e.at(k * 37.6180339887).skewed;
-            EXPECT_EQ(skewed, skew > 0.003) << skew << " " << lag;
-            EXPECT_NEAR(e.state.skew_turns, -skew, 0.0015);
+            expect_skew(e, skew);
         }
     }
 }
@@ -263,12 +268,8 @@ TEST(FringeReadout, ARotationThatTurnsTheBeatBackIsNoSkew) {
             e.c.turned_back_turns = 2e-6;
             e.rotation_counts = counts;
             e.turned_back_turns = 2e-6 * 0.25 * static_cast<double>(counts * counts);
-            e.skew_turns = skew;
-            e.learn();
-            bool skewed = false;
-            for (int k = 0; k < 20'000; ++k) skewed = e.at(k * 37.6180339887).skewed;
-            EXPECT_EQ(skewed, skew > 0.003) << counts << " " << skew;
-            EXPECT_NEAR(e.state.skew_turns, -skew, 0.0015) << counts;
+            SCOPED_TRACE(counts);
+            expect_skew(e, skew);
         }
     }
 }

@@ -103,31 +103,27 @@ TEST(HalfWave, WithoutMeasurementsTheSigmaGrowsToThatOfThePresumedValue) {
     EXPECT_DOUBLE_EQ(sigma(s).value(), 4.0);
 }
 
+struct Place {
+    PiezoRange range;
+    double piezo_v;
+    int sign;  // 0: either
+    bool out_of_range = false;
+};
+
+// The room is what lies between the neighbour, 40 V away, and the end of the range, wherever that begins. Where neither keeps the
+// margin the roomier one is taken, and said.
 TEST(HalfWave, DirectionLeadsTowardsTheMiddleOfTheRange) {
-    constexpr PiezoRange range{};
-    EXPECT_EQ(choose_direction(range, Volts{120.0}, Volts{40.0}).sign, 1);
-    EXPECT_EQ(choose_direction(range, Volts{180.0}, Volts{40.0}).sign, -1);
-    EXPECT_EQ(choose_direction(range, Volts{5.0}, Volts{40.0}).sign, 1);
-    EXPECT_EQ(choose_direction(range, Volts{295.0}, Volts{40.0}).sign, -1);
-    EXPECT_FALSE(choose_direction(range, Volts{150.0}, Volts{40.0}).out_of_range);
-}
-
-// 80 V upwards, 40 V downwards: the room is what lies between the neighbour and the end of the range, wherever that begins.
-TEST(HalfWave, TheRoomDownwardsEndsWhereTheRangeBegins) {
+    constexpr PiezoRange whole{};
     constexpr PiezoRange raised{.min = Volts{100.0}, .max = Volts{300.0}, .margin = Volts{5.0}};
-    EXPECT_EQ(choose_direction(raised, Volts{180.0}, Volts{40.0}).sign, 1);
-    EXPECT_EQ(choose_direction(raised, Volts{220.0}, Volts{40.0}).sign, -1);
-}
-
-TEST(HalfWave, WhenNeitherNeighbourKeepsTheMarginTheRoomierIsTakenAndSaid) {
     constexpr PiezoRange narrow{.min = Volts{0.0}, .max = Volts{80.0}, .margin = Volts{5.0}};
-    const SwitchDirection up = choose_direction(narrow, Volts{38.0}, Volts{40.0});
-    EXPECT_EQ(up.sign, 1);
-    EXPECT_TRUE(up.out_of_range);
-    const SwitchDirection down = choose_direction(narrow, Volts{42.0}, Volts{40.0});
-    EXPECT_EQ(down.sign, -1);
-    EXPECT_TRUE(down.out_of_range);
-    EXPECT_FALSE(choose_direction(narrow, Volts{35.0}, Volts{40.0}).out_of_range);  // lands on the margin itself
+    for (const Place& place :
+         {Place{whole, 120.0, 1}, Place{whole, 180.0, -1}, Place{whole, 5.0, 1}, Place{whole, 295.0, -1},
+          Place{whole, 150.0, 0}, Place{raised, 180.0, 1}, Place{raised, 220.0, -1}, Place{narrow, 38.0, 1, true},
+          Place{narrow, 42.0, -1, true}, Place{narrow, 35.0, 0}}) {  // the last one lands on the margin itself
+        const SwitchDirection direction = choose_direction(place.range, Volts{place.piezo_v}, Volts{40.0});
+        if (place.sign != 0) EXPECT_EQ(direction.sign, place.sign) << place.piezo_v;
+        EXPECT_EQ(direction.out_of_range, place.out_of_range) << place.piezo_v;
+    }
 }
 
 }  // namespace zlg::core::half_wave_test

@@ -27,32 +27,31 @@ static_assert(check(SwitchScheduleConfig{.presumed = {.switch_error_arcsec = 0.0
 static_assert(check(SwitchScheduleConfig{.presumed = {1.0, nan}}) == SwitchScheduleFault::presumed);
 static_assert(check(SwitchScheduleConfig{.end_tick = -1}) == SwitchScheduleFault::end);
 
-// Ticks at which the loop opens, when the gyro is ready at all ticks but those of [busy_from, busy_to).
-std::vector<std::int64_t> openings(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t busy_from = 0,
-                                   std::int64_t busy_to = 0) {
-    SwitchScheduleState s = initial_state(c);
-    std::vector<std::int64_t> result;
-    for (std::int64_t tick = 1; tick < n_ticks; ++tick) {
+using Ticks = std::vector<std::int64_t>;
+
+// Ticks from `from` on at which the loop opens, when the gyro is ready at all of them but those of [busy_from, busy_to).
+Ticks openings(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t from, std::int64_t to,
+               std::int64_t busy_from = 0, std::int64_t busy_to = 0) {
+    Ticks result;
+    for (std::int64_t tick = from; tick < to; ++tick) {
         if (step(c, s, {.tick = tick, .ready = !(tick >= busy_from && tick < busy_to)}).open) result.push_back(tick);
     }
     return result;
 }
-
-TEST(SwitchSchedule, OpensOnTheGridFromAFullFirstSegment) {
-    EXPECT_EQ(openings({.interval_ticks = 7}, 30), (std::vector<std::int64_t>{7, 14, 21, 28}));
+Ticks openings(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t busy_from = 0,
+               std::int64_t busy_to = 0) {
+    SwitchScheduleState s = initial_state(c);
+    return openings(c, s, 1, n_ticks, busy_from, busy_to);
 }
 
-TEST(SwitchSchedule, AHalfFirstSegmentIsRoundedDownToTicks) {
-    EXPECT_EQ(openings({.interval_ticks = 7, .first_segment = FirstSegment::half}, 25),
-              (std::vector<std::int64_t>{3, 10, 17, 24}));
+TEST(SwitchSchedule, OpensOnTheGridFromAFullOrAHalfFirstSegmentRoundedDown) {
+    EXPECT_EQ(openings({.interval_ticks = 7}, 30), (Ticks{7, 14, 21, 28}));
+    EXPECT_EQ(openings({.interval_ticks = 7, .first_segment = FirstSegment::half}, 25), (Ticks{3, 10, 17, 24}));
 }
 
-TEST(SwitchSchedule, AnOpeningThatHadToWaitDoesNotMoveTheGrid) {
-    EXPECT_EQ(openings({.interval_ticks = 10}, 41, 18, 23), (std::vector<std::int64_t>{10, 23, 30, 40}));
-}
-
-TEST(SwitchSchedule, SeveralThatWaitAreOne) {
-    EXPECT_EQ(openings({.interval_ticks = 10}, 51, 18, 43), (std::vector<std::int64_t>{10, 43, 50}));
+TEST(SwitchSchedule, AnOpeningThatHadToWaitDoesNotMoveTheGridAndSeveralThatWaitAreOne) {
+    EXPECT_EQ(openings({.interval_ticks = 10}, 41, 18, 23), (Ticks{10, 23, 30, 40}));
+    EXPECT_EQ(openings({.interval_ticks = 10}, 51, 18, 43), (Ticks{10, 43, 50}));
 }
 
 TEST(SwitchSchedule, ALateOpeningIsSaidToBeLate) {
@@ -67,19 +66,11 @@ TEST(SwitchSchedule, ALateOpeningIsSaidToBeLate) {
     EXPECT_FALSE(in_time.late);
 }
 
-TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnew) {
+TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnewOneWithinAnIntervalDoesNot) {
     const SwitchScheduleConfig c{.interval_ticks = 10};
-    SwitchScheduleState s = initial_state(c);
-    EXPECT_TRUE(step(c, s, {.tick = 1003, .ready = true}).open);
-    for (std::int64_t tick = 1004; tick < 1013; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .ready = true}).open);
-    EXPECT_TRUE(step(c, s, {.tick = 1013, .ready = true}).open);
-}
-
-TEST(SwitchSchedule, AJumpWithinAnIntervalDoesNotMoveTheGrid) {
-    const SwitchScheduleConfig c{.interval_ticks = 10};
-    SwitchScheduleState s = initial_state(c);
-    EXPECT_TRUE(step(c, s, {.tick = 13, .ready = true}).open);
-    EXPECT_TRUE(step(c, s, {.tick = 20, .ready = true}).open);
+    SwitchScheduleState over = initial_state(c), within = over;
+    EXPECT_EQ(openings(c, over, 1003, 1014), (Ticks{1003, 1013}));
+    EXPECT_EQ(openings(c, within, 13, 21), (Ticks{13, 20}));
 }
 
 TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
@@ -291,52 +282,39 @@ TEST(SwitchSchedule, HeldNothingIsDueAndTheGridGoesOn) {
     const SwitchScheduleConfig c{.interval_ticks = 10};
     SwitchScheduleState s = initial_state(c);
     s.held = true;
-    for (std::int64_t tick = 1; tick < 25; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .ready = tick > 12}).open);
+    EXPECT_EQ(openings(c, s, 1, 25, 1, 13), Ticks{});
     s.held = false;
-    for (std::int64_t tick = 25; tick < 30; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
-    EXPECT_TRUE(step(c, s, {.tick = 30}).open);
+    EXPECT_EQ(openings(c, s, 25, 31), Ticks{30});
 }
 
 TEST(SwitchSchedule, HeldByBalanceItIsDueWhenReleased) {
     const SwitchScheduleConfig c{.kind = ScheduleKind::measured, .min_ticks = 10, .max_ticks = 20};
     SwitchScheduleState s = initial_state(c);
     s.held = true;
-    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    EXPECT_EQ(openings(c, s, 1, 100), Ticks{});
     s.held = false;
-    EXPECT_TRUE(step(c, s, {.tick = 100}).open);
+    EXPECT_EQ(openings(c, s, 100, 101), Ticks{100});
 }
 
-TEST(SwitchSchedule, AskedItOpensOnceWhenReadyHeldOrNot) {
+TEST(SwitchSchedule, AskedItOpensOnceWhenReadyHeldOrNotAndDoesNotMoveTheGrid) {
     for (const bool held : {false, true}) {
-        const SwitchScheduleConfig c{.interval_ticks = 1000};
+        const SwitchScheduleConfig c{.interval_ticks = 10};
         SwitchScheduleState s = initial_state(c);
         s.held = held;
         s.asked = true;
-        EXPECT_FALSE(step(c, s, {.tick = 1, .ready = false}).open);
-        EXPECT_TRUE(step(c, s, {.tick = 2}).open);
+        EXPECT_EQ(openings(c, s, 1, 4, 1, 2), Ticks{2});
         EXPECT_FALSE(s.asked);
         EXPECT_EQ(s.opened_tick, 2);
-        EXPECT_FALSE(step(c, s, {.tick = 3}).open);
+        EXPECT_EQ(openings(c, s, 4, 11), held ? Ticks{} : Ticks{10});
     }
-}
-
-TEST(SwitchSchedule, OneThatIsAskedForDoesNotMoveTheGrid) {
-    const SwitchScheduleConfig c{.interval_ticks = 10};
-    SwitchScheduleState s = initial_state(c);
-    s.asked = true;
-    EXPECT_TRUE(step(c, s, {.tick = 4}).open);
-    for (std::int64_t tick = 5; tick < 10; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
-    EXPECT_TRUE(step(c, s, {.tick = 10}).open);
 }
 
 TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
     SwitchScheduleConfig c{.interval_ticks = std::int64_t{1} << 40};
     SwitchScheduleState s = initial_state(c);
-    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    EXPECT_EQ(openings(c, s, 1, 100), Ticks{});
     c.interval_ticks = 10;
-    for (std::int64_t tick = 100; tick < 110; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
-    EXPECT_TRUE(step(c, s, {.tick = 110}).open);
-    EXPECT_FALSE(step(c, s, {.tick = 111}).open);
+    EXPECT_EQ(openings(c, s, 100, 112), Ticks{110});
 }
 
 }  // namespace zlg::core::switch_schedule_test

@@ -43,6 +43,13 @@ SyncDetectorOutput single(SyncDetectorState& s, const Light& light, int sign, bo
     return step(config, s, {.light_a = light.a, .light_b = {}, .sign = sign, .settled = settled});
 }
 
+// It has the level of light of 1000, by both beams.
+SyncDetectorState with_level() {
+    SyncDetectorState s;
+    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    return s;
+}
+
 TEST(SyncDetector, BothBeamsGiveMeanAndMeanSquareFromTheFirstHalf) {
     std::vector<double> ramp;
     double mean = 0.0;
@@ -110,12 +117,14 @@ TEST(SyncDetector, SampleNoiseAveragesAsTheRootOfTheirNumber) {
     EXPECT_NEAR(std::sqrt(sum_sq / n_halves), sigma, 0.05 * sigma);
 }
 
-TEST(SyncDetector, OneWayAndDarkLightAreNotTwoWay) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+TEST(SyncDetector, OneWayAndDarkLightAndOneDarkSampleAreNotTwoWay) {
+    SyncDetectorState s = with_level();
     const Light one_way{std::vector<float>(16, 1000.0f), std::vector<float>(16, 0.0f)};
     const Light other_way{std::vector<float>(16, 0.0f), std::vector<float>(16, 1000.0f)};
-    for (const Light& light : {one_way, other_way, light_of(steady(0.0), 1, 400.0), light_of(steady(0.0), 1, 0.0)}) {
+    Light one_dark_sample = light_of(steady(0.0), 1);
+    one_dark_sample.b[7] = 0.0f;
+    for (const Light& light :
+         {one_way, other_way, one_dark_sample, light_of(steady(0.0), 1, 400.0), light_of(steady(0.0), 1, 0.0)}) {
         const SyncDetectorOutput out = both(s, light, 1);
         EXPECT_TRUE(out.readable);
         EXPECT_FALSE(out.two_way || out.usable);
@@ -123,13 +132,6 @@ TEST(SyncDetector, OneWayAndDarkLightAreNotTwoWay) {
         EXPECT_EQ(out.mean_sq_lambda2, 0.0);
     }
     EXPECT_TRUE(both(s, light_of(steady(0.0), 1, 600.0), 1).two_way);
-}
-
-TEST(SyncDetector, OneDarkSampleSpoilsTheHalf) {
-    SyncDetectorState s;
-    Light light = light_of(steady(0.0), 1);
-    light.b[7] = 0.0f;
-    EXPECT_FALSE(both(s, light, 1).two_way);
 }
 
 TEST(SyncDetector, OneBeamNeedsItsLevelFirstThenReadsLikeTwo) {
@@ -201,8 +203,7 @@ TEST(SyncDetector, MoreLightIsLearntAnewLessNever) {
 }
 
 TEST(SyncDetector, ASingleFlashIsNotALevel) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    SyncDetectorState s = with_level();
     const double before = s.both.level;
     for (int half = 0; half < 3; ++half) (void)both(s, light_of(steady(0.0), 1, 1e6), 1, false);
     EXPECT_EQ(s.both.level, before);
@@ -251,8 +252,7 @@ TEST(SyncDetector, LightBelowTheFloorIsDarkFromTheStart) {
 }
 
 TEST(SyncDetector, WhatCannotBeReadIsSaidAndLeavesTheLevelAlone) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    SyncDetectorState s = with_level();
     const SyncDetectorState before = s;
     Light not_finite_a = light_of(steady(0.0), 1);
     not_finite_a.a[3] = std::numeric_limits<float>::quiet_NaN();
@@ -272,8 +272,7 @@ TEST(SyncDetector, WhatCannotBeReadIsSaidAndLeavesTheLevelAlone) {
 
 TEST(SyncDetector, FaintLightIsLearntOnlyWhileThereIsABeat) {
     for (const bool beats : {false, true}) {
-        SyncDetectorState s;
-        for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+        SyncDetectorState s = with_level();
         const Light faint = light_of(steady(0.0), 1, 300.0);
         const SyncDetectorInput in{.light_a = faint.a, .light_b = faint.b, .beats = beats};
         for (int half = 0; half < 64; ++half) EXPECT_FALSE(step(config, s, in).two_way) << half;
@@ -282,8 +281,7 @@ TEST(SyncDetector, FaintLightIsLearntOnlyWhileThereIsABeat) {
 }
 
 TEST(SyncDetector, ATenthOfTheLightIsDark) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    SyncDetectorState s = with_level();
     EXPECT_FALSE(both(s, light_of(steady(0.0), 1, 110.0), 1).dark);
     EXPECT_TRUE(both(s, light_of(steady(0.0), 1, 90.0), 1).dark);
 }
