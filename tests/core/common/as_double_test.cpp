@@ -1,6 +1,6 @@
 #include <zlg/core/common/as_double.hpp>
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
 namespace zlg::core::as_double_test {
 

@@ -1,14 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <vector>
 #include <zlg/core/compensation/relock_drift.hpp>
 #include <zlg/core/control/sync_detector.hpp>
 
 #include "common/expansive_curve.hpp"
+
+#include "support.hpp"
 
 namespace zlg::core::discriminator_curve_test {
 

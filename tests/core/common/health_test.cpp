@@ -1,10 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <limits>
-#include <set>
-#include <string>
 #include <zlg/core/health.hpp>
+
+#include <set>
+
+#include "support.hpp"
 
 namespace zlg::core::health_test {
 

@@ -1,13 +1,5 @@
 #include <zlg/core/common/maths_kernels.hpp>
 
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
-#include <zlg/core/common/maths.hpp>
-
 #include "compensation/compensation_support.hpp"
 
 namespace zlg::core::maths_kernels_test {

@@ -1,12 +1,5 @@
 #include <zlg/core/common/maths.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
 #include "compensation/compensation_support.hpp"
 
 // Errors of ordinary arguments are held in maths_accuracy.cpp.

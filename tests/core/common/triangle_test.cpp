@@ -1,10 +1,5 @@
 #include <zlg/core/common/triangle.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "compensation/compensation_support.hpp"
 
 namespace zlg::core::triangle_test {

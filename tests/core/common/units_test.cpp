@@ -1,9 +1,9 @@
 #include <zlg/core/units.hpp>
 
-#include <gtest/gtest.h>
-
 #include <concepts>
 #include <type_traits>
+
+#include "support.hpp"
 
 namespace zlg::core::units_test {
 

@@ -1,12 +1,6 @@
 #include <zlg/core/compensation/angle.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 #include "compensation_support.hpp"
 

@@ -1,9 +1,6 @@
 #include <zlg/core/compensation/border.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "support.hpp"
 
 namespace zlg::core::border_test {
 

@@ -1,9 +1,5 @@
 #include <zlg/core/compensation/compensation_constants.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 #include <initializer_list>
 
 #include "compensation_support.hpp"

@@ -1,12 +1,5 @@
 #include <zlg/core/compensation/edge_shift.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
 #include "compensation_support.hpp"
 
 namespace zlg::core::edge_shift_test {

@@ -1,20 +1,11 @@
 // Compensation of records whose bias edges were shifted against lock-in: as if they had stood still.
 #include <zlg/core/gyro_compensation.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 #include <zlg/core/control/edge_dither.hpp>
 
-#include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_edges_test {
 
-using namespace compensation_test;
 using namespace gyro_compensation_support;
 
 constexpr std::int64_t half_ticks = 25000;

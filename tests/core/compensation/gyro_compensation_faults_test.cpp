@@ -2,11 +2,6 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_faults_test {

@@ -2,18 +2,11 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
-
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_fringe_test {
 
 using namespace gyro_compensation_support;
-using compensation_test::Random;
 
 constexpr double scale = 3.263;
 

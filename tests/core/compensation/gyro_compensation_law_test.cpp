@@ -1,18 +1,10 @@
 // Laws of the whole compensation: on logs of a moving gyro that switches, on replayed logs, and on garbage.
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
-#include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_law_test {
 
-using namespace compensation_test;
 using namespace gyro_compensation_support;
 
 constexpr RelockMethod all_methods[] = {RelockMethod::none, RelockMethod::frequency, RelockMethod::detuning,

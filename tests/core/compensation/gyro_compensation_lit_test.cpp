@@ -2,12 +2,6 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_lit_test {

@@ -1,22 +1,12 @@
 // Properties of the whole compensation, on logs that RapidCheck makes up and makes small where one of them fails.
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <utility>
-#include <vector>
-
-#include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_properties_test {
 
-using namespace compensation_test;
 using namespace gyro_compensation_support;
 
 // Ticks that are measured and ticks of a gap, in turn.

@@ -2,17 +2,11 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_span_test {
 
 using namespace gyro_compensation_support;
-using compensation_test::Random;
 
 GyroCompensationConfig with(BridgeMethod method) {
     GyroCompensationConfig config;

@@ -1,9 +1,7 @@
 // A log starts with a closed loop, which may still settle.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include <zlg/core/gyro_compensation.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::gyro_compensation_start_test {
 

@@ -3,15 +3,12 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 #include "compensation_support.hpp"
 
 namespace gyro_compensation_support {
 
 using namespace zlg::core;
+using namespace compensation_test;
 
 using Halves = std::vector<HalfRecord>;
 

@@ -1,17 +1,9 @@
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-
-#include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
 namespace zlg::core::gyro_compensation_test {
 
-using namespace compensation_test;
 using namespace gyro_compensation_support;
 
 constexpr double scale_arcsec = 3.263;

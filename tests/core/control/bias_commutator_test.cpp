@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <zlg/core/control/bias_commutator.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::bias_commutator_test {
 

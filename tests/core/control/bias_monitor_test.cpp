@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <zlg/core/control/bias_monitor.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::bias_monitor_test {
 

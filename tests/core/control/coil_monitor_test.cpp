@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <utility>
 #include <zlg/core/control/coil_monitor.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::coil_monitor_test {
 

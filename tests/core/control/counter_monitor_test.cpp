@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <random>
 #include <zlg/core/control/counter_monitor.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::counter_monitor_test {
 

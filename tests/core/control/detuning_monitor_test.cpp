@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <zlg/core/control/detuning_monitor.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::detuning_monitor_test {
 

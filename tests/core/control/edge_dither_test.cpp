@@ -1,12 +1,6 @@
 #include <zlg/core/control/edge_dither.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "support.hpp"
 
 namespace zlg::core::edge_dither_test {
 

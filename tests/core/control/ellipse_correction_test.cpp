@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <zlg/core/control/ellipse_correction.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::ellipse_correction_test {
 

@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
 #include <zlg/core/control/frame_order.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::frame_order_test {
 

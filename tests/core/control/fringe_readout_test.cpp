@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
 #include <zlg/core/control/fringe_readout.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::fringe_readout_test {
 

@@ -1,9 +1,7 @@
 // Shifted edges of the bias, as commanded and as recorded.
-#include "gyro_control_support.hpp"
-
-#include <cmath>
-#include <cstdint>
 #include <zlg/core/gyro_compensation.hpp>
+
+#include "gyro_control_support.hpp"
 
 namespace zlg::core::test {
 namespace {

@@ -1,11 +1,5 @@
 #include "gyro_control_support.hpp"
 
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <random>
-#include <vector>
-
 namespace zlg::core::test::gyro_control_faults_test {
 
 // The bias of the plant is 150 counts a half, its chi 3.6, its light without noise.

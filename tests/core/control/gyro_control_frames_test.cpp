@@ -1,11 +1,6 @@
 // Single frames that were missed or are wrong: health bits, records, and the grid of switches.
 #include "gyro_control_support.hpp"
 
-#include <cmath>
-#include <random>
-#include <utility>
-#include <vector>
-
 namespace zlg::core::test {
 
 TEST_P(EitherLoop, AMissedFrameCostsOneHalfAndNoCounts) {

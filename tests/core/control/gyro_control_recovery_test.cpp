@@ -1,11 +1,6 @@
 // Recovery from darkness, from a stage that does not move, and from frames of garbage.
 #include "gyro_control_support.hpp"
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <random>
-
 namespace zlg::core::test {
 
 namespace {

@@ -1,7 +1,6 @@
 #include <zlg/core/control/gyro_control_state.hpp>
 
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
+#include "support.hpp"
 
 namespace zlg::core::gyro_control_state_test {
 

@@ -1,17 +1,10 @@
 #pragma once
 // Control and a small plant in closed loop, with either perimeter loop.
 
-#include "small_plant.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <utility>
-#include <vector>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/core/gyro_control.hpp>
+
+#include "small_plant.hpp"
+#include "support.hpp"
 
 namespace zlg::core::test {
 

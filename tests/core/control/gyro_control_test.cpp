@@ -1,9 +1,6 @@
 // The closed loop of a gyro without faults: switches, half-wave voltage, detuning, counts.
 #include "gyro_control_support.hpp"
 
-#include <cmath>
-#include <vector>
-
 namespace zlg::core::test {
 
 INSTANTIATE_TEST_SUITE_P(GyroControl, EitherLoop, testing::Values(LoopKind::analog, LoopKind::digital));

@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
 #include <zlg/core/control/half_wave.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::half_wave_test {
 

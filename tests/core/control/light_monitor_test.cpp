@@ -1,16 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <span>
-#include <utility>
-#include <vector>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/core/control/light_monitor.hpp>
 
 #include "common/expansive_curve.hpp"
+
+#include "support.hpp"
 
 namespace zlg::core::light_monitor_test {
 

@@ -1,9 +1,8 @@
 // The length of a gap, chosen by the light.
 
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <zlg/core/control/mode_switch.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::mode_switch_gap_test {
 

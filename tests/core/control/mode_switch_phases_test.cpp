@@ -1,8 +1,6 @@
 // The rows of the table in mode_switch.hpp, each at the half where it decides.
 #include "mode_switch_support.hpp"
 
-#include <gtest/gtest.h>
-
 namespace zlg::core::test::mode_switch_phases_test {
 
 using enum SwitchPhase;

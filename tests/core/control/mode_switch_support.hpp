@@ -1,13 +1,9 @@
 #pragma once
 // Feeds the sequencer of a switch half by half, on the clock of the ticks.
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <utility>
-#include <vector>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/core/control/mode_switch.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::test {
 

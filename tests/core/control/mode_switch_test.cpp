@@ -1,11 +1,6 @@
 // The start, what a switch starts from and what it measures.
 #include "mode_switch_support.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 namespace zlg::core::test::mode_switch_test {
 
 static_assert(check(config) == ModeSwitchFault::none);

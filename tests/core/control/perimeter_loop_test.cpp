@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <cmath>
 #include <zlg/core/control/perimeter_loop.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::perimeter_loop_test {
 

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
 #include <zlg/core/control/perimeter_loop.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::perimeter_relock_test {
 

@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <zlg/core/control/piezo_range.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::piezo_range_test {
 

@@ -1,11 +1,6 @@
 #include <zlg/core/control/reading_monitor.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
+#include "support.hpp"
 
 namespace zlg::core::reading_monitor_test {
 

@@ -5,10 +5,10 @@
 //
 //   y = kp U + drift,  centre m/2 nearest to y,  helicity (-1)^m,  dl = y - m/2,  kp = 0.5/half_wave
 
-#include <cmath>
-#include <cstdint>
 #include <zlg/core/control/perimeter_loop.hpp>
 #include <zlg/core/records.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::test {
 

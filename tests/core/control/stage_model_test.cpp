@@ -1,9 +1,6 @@
 #include "control/stage_model.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "support.hpp"
 
 namespace zlg::core::stage_model_test {
 

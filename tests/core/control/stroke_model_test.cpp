@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <zlg/core/control/stroke_model.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::stroke_model_test {
 

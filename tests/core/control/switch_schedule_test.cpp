@@ -1,12 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <numbers>
-#include <vector>
 #include <zlg/core/control/switch_schedule.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::switch_schedule_test {
 

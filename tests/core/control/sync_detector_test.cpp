@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
 #include <zlg/core/control/sync_detector.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::sync_detector_test {
 

@@ -1,9 +1,5 @@
 #include "compensation/estimate/counter_rounding.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "compensation/compensation_support.hpp"
 
 namespace zlg::core::counter_rounding_test {

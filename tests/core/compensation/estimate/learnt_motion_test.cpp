@@ -1,10 +1,5 @@
 #include <zlg/core/compensation/learnt_motion.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "compensation/compensation_support.hpp"
 
 namespace zlg::core::learnt_motion_test {

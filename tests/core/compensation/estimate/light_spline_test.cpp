@@ -1,10 +1,5 @@
 #include <zlg/core/compensation/light_spline.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "compensation/compensation_support.hpp"
 
 namespace zlg::core::light_spline_test {

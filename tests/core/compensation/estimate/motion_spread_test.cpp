@@ -1,7 +1,5 @@
 #include <zlg/core/compensation/motion_spread.hpp>
 
-#include <gtest/gtest.h>
-
 #include "compensation/compensation_support.hpp"
 
 namespace zlg::core::motion_spread_test {

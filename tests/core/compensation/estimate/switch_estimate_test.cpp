@@ -2,12 +2,7 @@
 
 #include <zlg/core/compensation/switch_estimate.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <span>
-#include <vector>
+#include "support.hpp"
 
 namespace zlg::core::switch_estimate_test {
 

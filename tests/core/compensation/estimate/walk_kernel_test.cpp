@@ -1,8 +1,6 @@
 #include <zlg/core/compensation/walk_kernel.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "support.hpp"
 
 namespace zlg::core::walk_kernel_test {
 
