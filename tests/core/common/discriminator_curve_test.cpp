@@ -90,7 +90,7 @@ TEST(DiscriminatorCurve, BeyondItsLastNodeItHolds) {
     const DiscriminatorCurve c = expansive_curve(20);
     EXPECT_EQ(true_detuning(c, 50.0).detuning_lambda, 0.24);
     EXPECT_EQ(true_detuning(c, -50.0).detuning_lambda, -0.24);
-    EXPECT_TRUE(std::isnan(true_detuning(c, std::numeric_limits<double>::quiet_NaN()).detuning_lambda));
+    EXPECT_TRUE(std::isnan(true_detuning(c, not_a_number).detuning_lambda));
 }
 
 // Unlike sides: to the left the curve of above, to the right one that is steeper.
@@ -174,13 +174,12 @@ TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
 
 TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrowAndSidesThatAreNone) {
     const auto fault = [](std::vector<double> x, std::vector<double> y) { return check(discriminator_curve(x, y)); };
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(fault({}, {}), CurveFault::none);
     EXPECT_EQ(fault({0.1}, {0.1}), CurveFault::none);
     EXPECT_EQ(fault({0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
     EXPECT_EQ(fault({0.1, 0.2}, {0.1, 0.05}), CurveFault::node);
     EXPECT_EQ(fault({-0.1, 0.2}, {0.1, 0.2}), CurveFault::node);
-    EXPECT_EQ(fault({0.1, nan}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({0.1, not_a_number}, {0.1, 0.2}), CurveFault::node);
     EXPECT_EQ(fault({0.1, 2000.0}, {0.1, 0.2}), CurveFault::node);
     EXPECT_EQ(fault({0.1}, {0.1, 0.2}), CurveFault::size);
     EXPECT_EQ(fault(std::vector<double>(32, 0.1), std::vector<double>(32, 0.1)), CurveFault::size);

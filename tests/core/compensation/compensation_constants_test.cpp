@@ -10,11 +10,7 @@ using namespace compensation_test;
 using Constants = CompensationConstants;
 using Fault = CompensationConstantsFault;
 
-Fault with(auto change) {
-    Constants gyro;
-    change(gyro);
-    return check(gyro);
-}
+constexpr Fault with(auto change) { return test::fault_of<Constants>(change); }
 
 void expect_fault(Fault fault, const std::function<void(Constants&, double)>& set, std::initializer_list<double> bad) {
     for (const double value : bad) {
@@ -75,12 +71,6 @@ TEST(CompensationConstants, TheBiasFollowsTheTemperature) {
     EXPECT_NEAR(bias_at(gyro, Celsius{35.0}).value(), 60e3 * 0.999, 1e-9);
     for (const double none : {not_a_number, infinite, -1.1e6, 1.7e308})
         EXPECT_EQ(bias_at(gyro, Celsius{none}).value(), 60e3) << none;
-}
-
-TEST(CompensationConstants, VariancesOfATick) {
-    const Constants gyro{.tick = Seconds{0.25}, .scale = Arcsec{3.0}, .random_walk = ArcsecPerRootSecond{2.0}};
-    EXPECT_EQ(rounding_arcsec2(gyro), 1.5);
-    EXPECT_EQ(walk_arcsec2(gyro), 1.0);
 }
 
 }  // namespace zlg::core::compensation_constants_test

@@ -52,20 +52,6 @@ struct WholeGyro {
     }
 };
 
-TEST(EdgeShift, AtRestTheKnownAreaIsAllThatIsCounted) {
-    for (const int first_sign : {1, -1}) {
-        for (const int mode : {1, -1}) {
-            WholeGyro gyro{.first_sign = first_sign, .mode = mode};
-            EdgeShiftState s;
-            Random random{2};
-            for (int k = 0; k < 1000; ++k) {
-                const EdgeShiftInput in = gyro.tick(random.index(-12499, 12499), random.index(-12499, 12499));
-                EXPECT_NEAR(step(config, s, in).value_arcsec, 0.0, 1e-9);
-            }
-        }
-    }
-}
-
 // The plateau fills the difference in length, not the mean over a half with its edges.
 TEST(EdgeShift, TheAreaIsThatOfThePlateau) {
     CompensationConstants edged = config;
@@ -77,8 +63,10 @@ TEST(EdgeShift, TheAreaIsThatOfThePlateau) {
 TEST(EdgeShift, AConstantRateIsTheSameInEveryTickWhateverTheEdgesDo) {
     CompensationConstants fine = config;
     fine.scale = Arcsec{3.263e-3};
-    for (const std::int64_t rate : {-7, 1, 3}) {
-        WholeGyro gyro{.rate = rate};
+    for (const WholeGyro& start : {WholeGyro{.rate = -7}, WholeGyro{.rate = 1}, WholeGyro{.rate = 3}, WholeGyro{},
+                                   WholeGyro{.first_sign = -1}, WholeGyro{.mode = -1}}) {
+        const std::int64_t rate = start.rate;
+        WholeGyro gyro = start;
         EdgeShiftState s;
         Random random{3};
         Quad sum = 0;

@@ -1,6 +1,6 @@
 // Compensation of records whose bias edges were shifted against lock-in: as if they had stood still.
-#include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/control/edge_dither.hpp>
+#include <zlg/core/gyro_compensation.hpp>
 
 #include "gyro_compensation_support.hpp"
 
@@ -125,15 +125,6 @@ TEST(GyroCompensationEdges, AShiftThatCannotBeMakesBothHalvesBesideItInvalid) {
             EXPECT_NEAR(got.rows[k].dtheta_final_arcsec, 3.263e-3 * 150000, 1e-9) << k;
         }
     }
-}
-
-TEST(GyroCompensationEdges, ChecksTheTimer) {
-    GyroCompensationConfig config;
-    config.gyro.timer = Hertz{0.0};
-    EXPECT_EQ(check(config), GyroCompensationFault::edges);
-    config = {};
-    config.gyro.plateau_ratio = 3.0;
-    EXPECT_EQ(check(config), GyroCompensationFault::edges);
 }
 
 }  // namespace zlg::core::gyro_compensation_edges_test

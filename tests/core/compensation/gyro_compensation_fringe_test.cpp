@@ -100,21 +100,6 @@ TEST(GyroCompensationFringe, WithoutAPlaceAHalfHasItsWholeCounts) {
                   scale * static_cast<double>(halves[2 * t].counts + halves[2 * t + 1].counts));
 }
 
-// A place out of range is none.
-TEST(GyroCompensationFringe, ADamagedPlaceIsNone) {
-    Halves bad = turning(300).halves();
-    Halves none = bad;
-    std::size_t k = 0;
-    for (const float value : {-1.0f, 65536.0f, 1e30f, std::numeric_limits<float>::infinity()}) {
-        bad[200 + 7 * k].fringe = value;
-        none[200 + 7 * k].fringe = unknown;
-        ++k;
-    }
-    const Delivered a = run({}, bad);
-    const Delivered b = run({}, none);
-    EXPECT_EQ(a.rows, b.rows);
-}
-
 // Halves that were missed: the sum over them is that of the two places beside them.
 TEST(GyroCompensationFringe, TheSumOverMissedHalvesIsThatOfThePlacesBesideThem) {
     const Places places = turning(600);

@@ -77,6 +77,15 @@ HalfRecord wild_half(Random& random) {
     return half;
 }
 
+// Rows of a thousand ticks of garbage and of the log after them.
+Delivered after_garbage(const GyroCompensationConfig& config, std::uint64_t seed, const Halves& halves) {
+    Random random{seed};
+    Halves all;
+    for (int k = 0; k < 2'000; ++k) all.push_back(wild_half(random));
+    all.insert(all.end(), halves.begin(), halves.end());
+    return run(config, all);
+}
+
 // Counts so fine that what is left of a false angle is not hidden by rounding.
 TEST(GyroCompensationLaw, EveryMethodGivesTheRotationOfASwitchingGyro) {
     for (const RelockMethod method : {RelockMethod::frequency, RelockMethod::detuning, RelockMethod::mean_square})
@@ -175,14 +184,9 @@ TEST(GyroCompensationLaw, ALogReplayedTwiceOrFromASnapshotGivesTheSameBits) {
 
 TEST(GyroCompensationLaw, AfterGarbageGoodRecordsGiveGoodRowsAgain) {
     for (const RelockMethod method : all_methods) {
-        Random random{5};
         const GyroCompensationConfig config = config_of(method);
-        GyroCompensationState state;
-        Delivered got;
-        for (int k = 0; k < 2'000; ++k) step_into(config, state, wild_half(random), got);
-        Halves halves = switching_log(config, 1, 60, 600, 0.22, 32.63);
-        for (const HalfRecord& half : halves) step_into(config, state, half, got);
-        drain_into(config, state, got);
+        const Halves halves = switching_log(config, 1, 60, 600, 0.22, 32.63);
+        const Delivered got = after_garbage(config, 5, halves);
         const Delivered alone = run(config, halves);
         // From the second interval on nothing of the garbage is within reach of any fit. A correction may still pay
         // back what rounding left of it.
@@ -198,14 +202,8 @@ TEST(GyroCompensationLaw, AfterGarbageGoodRecordsGiveGoodRowsAgain) {
 // What learns has learnt of garbage; it must find back to a rate that does not change.
 TEST(GyroCompensationLaw, WhatHasLearntOfGarbageFindsBack) {
     for (const RelockMethod method : {RelockMethod::mean_square, RelockMethod::joint}) {
-        Random random{6};
         const GyroCompensationConfig config = config_of(method, BridgeMethod::automatic);
-        GyroCompensationState state;
-        Delivered got;
-        for (int k = 0; k < 2'000; ++k) step_into(config, state, wild_half(random), got);
-        const Halves halves = switching_log(config, 1, 100, 12'000, 0.22, 32.63);
-        for (const HalfRecord& half : halves) step_into(config, state, half, got);
-        drain_into(config, state, got);
+        const Delivered got = after_garbage(config, 6, switching_log(config, 1, 100, 12'000, 0.22, 32.63));
         double worst = 0.0;
         for (std::size_t k = 1'000 + 10'000; k < got.rows.size(); ++k)
             worst = std::fmax(worst, std::fabs(got.rows[k].dtheta_final_arcsec - 32.63));

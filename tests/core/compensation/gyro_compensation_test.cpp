@@ -258,6 +258,11 @@ TEST(GyroCompensation, CheckPassesOnWhatItsPartsRefuse) {
     }
     config.gyro.random_walk = ArcsecPerRootSecond{0.0};
     EXPECT_EQ(check(config), GyroCompensationFault::none);
+    config.gyro.timer = Hertz{0.0};
+    EXPECT_EQ(check(config), GyroCompensationFault::edges);
+    config = {};
+    config.gyro.plateau_ratio = 3.0;
+    EXPECT_EQ(check(config), GyroCompensationFault::edges);
 }
 
 }  // namespace zlg::core::gyro_compensation_test

@@ -106,11 +106,7 @@ constexpr BiasCommutatorConfig dithered = [] {
 }();
 static_assert(check(dithered) == BiasCommutatorFault::none);
 
-constexpr BiasCommutatorFault dither_fault(auto change) {
-    BiasCommutatorConfig c = dithered;
-    change(c);
-    return check(c);
-}
+constexpr auto dither_fault(auto change) { return test::fault_of(change, dithered); }
 static_assert(dither_fault([](auto& c) { c.half_ticks = 24000; }) == BiasCommutatorFault::dither);
 static_assert(dither_fault([](auto& c) { c.dither.cycle_ticks = 0.0; }) == BiasCommutatorFault::dither);
 static_assert(dither_fault([](auto& c) { c.dither = {.method = DitherMethod::none, .half_ticks = 1}; }) ==

@@ -7,8 +7,7 @@ namespace zlg::core::bias_monitor_test {
 constexpr BiasMonitorConfig config{.presumed_counts = 150.0};
 static_assert(check(config) == BiasMonitorFault::none);
 static_assert(check(BiasMonitorConfig{.presumed_counts = -1.0}) == BiasMonitorFault::presumed);
-static_assert(check(BiasMonitorConfig{.presumed_counts = std::numeric_limits<double>::quiet_NaN()}) ==
-              BiasMonitorFault::presumed);
+static_assert(check(BiasMonitorConfig{.presumed_counts = not_a_number}) == BiasMonitorFault::presumed);
 
 // A counter that rounds down, under a bias and a rotation given in counts per half.
 class Counter {

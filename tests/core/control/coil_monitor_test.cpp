@@ -175,14 +175,4 @@ TEST(CoilMonitor, ACurrentThatWasReadTooHighIsTheOldOneAgain) {
     }
 }
 
-TEST(CoilMonitor, NoNumberThatCanArriveIsKept) {
-    Coil coil;
-    for (int k = 0; k < 2000; ++k) {
-        (void)step(config, coil.state, 1, k % 7 == 0 ? 1e308 : not_a_number);
-        (void)step(config, coil.state, -1, -std::numeric_limits<double>::infinity());
-        (void)coil.half();
-    }
-    EXPECT_TRUE(std::isfinite(coil.state.spread) && std::isfinite(coil.state.odd) && std::isfinite(coil.state.even));
-}
-
 }  // namespace zlg::core::coil_monitor_test

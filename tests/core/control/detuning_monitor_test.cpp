@@ -6,8 +6,7 @@ namespace zlg::core::detuning_monitor_test {
 
 constexpr DetuningMonitorConfig config{.max_change_lambda2 = 0.002, .relock_ticks = 20};
 static_assert(check(config) == DetuningMonitorFault::none);
-static_assert(check(DetuningMonitorConfig{.max_change_lambda2 = std::numeric_limits<double>::quiet_NaN()}) ==
-              DetuningMonitorFault::max_change);
+static_assert(check(DetuningMonitorConfig{.max_change_lambda2 = not_a_number}) == DetuningMonitorFault::max_change);
 static_assert(check(DetuningMonitorConfig{.relock_ticks = -1}) == DetuningMonitorFault::relock_ticks);
 
 struct Gyro {

@@ -4,7 +4,6 @@
 
 namespace zlg::core::edge_dither_test {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const EdgeDitherConfig config;
 
 // Shifts of the reversals that begin and end each half of positive bias, ticks.
@@ -57,21 +56,17 @@ double unevenness(const std::vector<std::int32_t>& ticks, double cycle_ticks) {
 
 TEST(EdgeDither, ChecksItsConfiguration) {
     EXPECT_EQ(check(config), EdgeDitherFault::none);
-    const auto fault = [](auto change) {
-        EdgeDitherConfig c;
-        change(c);
-        return check(c);
-    };
+    const auto fault = [](auto change) { return test::fault_of<EdgeDitherConfig>(change); };
     EXPECT_EQ(fault([](auto& c) { c.half_ticks = 7; }), EdgeDitherFault::half_ticks);
     EXPECT_EQ(fault([](auto& c) { c.half_ticks = (std::uint64_t{1} << 30) + 1; }), EdgeDitherFault::half_ticks);
     EXPECT_EQ(fault([](auto& c) { c.cycle_ticks = 0.9; }), EdgeDitherFault::cycle_ticks);
     EXPECT_EQ(fault([](auto& c) { c.cycle_ticks = 3126.0; }), EdgeDitherFault::cycle_ticks);
-    EXPECT_EQ(fault([](auto& c) { c.cycle_ticks = nan; }), EdgeDitherFault::cycle_ticks);
+    EXPECT_EQ(fault([](auto& c) { c.cycle_ticks = not_a_number; }), EdgeDitherFault::cycle_ticks);
     EXPECT_EQ(fault([](auto& c) { c.tick_s = 0.0; }), EdgeDitherFault::tick);
-    EXPECT_EQ(fault([](auto& c) { c.scale_arcsec = nan; }), EdgeDitherFault::scale);
+    EXPECT_EQ(fault([](auto& c) { c.scale_arcsec = not_a_number; }), EdgeDitherFault::scale);
     EXPECT_EQ(fault([](auto& c) { c.rate_periods = 0; }), EdgeDitherFault::rate_periods);
     EXPECT_EQ(fault([](auto& c) { c.random_above_arcsec_s = 39.0; }), EdgeDitherFault::rates);
-    EXPECT_EQ(fault([](auto& c) { c.paired_below_arcsec_s = nan; }), EdgeDitherFault::rates);
+    EXPECT_EQ(fault([](auto& c) { c.paired_below_arcsec_s = not_a_number; }), EdgeDitherFault::rates);
 }
 
 TEST(EdgeDither, PairedPeriodsStandHalfACycleApart) {

@@ -90,12 +90,4 @@ TEST(EllipseCorrection, ALineIsNoEllipse) {
     EXPECT_FALSE(state.learnt);
 }
 
-TEST(EllipseCorrection, WhatWasLearntIsForgotten) {
-    Photodiodes diodes;
-    EllipseCorrectionState state;
-    learn_many(state, diodes, 400);
-    forget(state);
-    EXPECT_EQ(state, EllipseCorrectionState{});
-}
-
 }  // namespace zlg::core::ellipse_correction_test

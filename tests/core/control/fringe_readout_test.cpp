@@ -12,8 +12,7 @@ static_assert(check(FringeReadoutConfig{.amplitude = 0.0}) == FringeReadoutFault
 static_assert(check(FringeReadoutConfig{.limit = 0.0}) == FringeReadoutFault::limit);
 static_assert(check(FringeReadoutConfig{.noise_turns = -1.0}) == FringeReadoutFault::noise);
 static_assert(check(FringeReadoutConfig{.lag_turns = 0.2}) == FringeReadoutFault::lag);
-static_assert(check(FringeReadoutConfig{.max_skew_turns = std::numeric_limits<double>::quiet_NaN()}) ==
-              FringeReadoutFault::max_skew);
+static_assert(check(FringeReadoutConfig{.max_skew_turns = not_a_number}) == FringeReadoutFault::max_skew);
 static_assert(check(FringeReadoutConfig{.turned_back_turns = -1.0}) == FringeReadoutFault::turned_back);
 
 // Electronics of a beat at a known phase: an ellipse, noise, a counter whose comparators lag by some turns.

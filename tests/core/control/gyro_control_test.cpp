@@ -164,17 +164,6 @@ TEST(GyroControl, OnlyAHalfThatWasClosedByCommandAndEchoMovesTheDigitalLoop) {
     EXPECT_EQ(echo_closed.actuator.set_point_v[0], preset_v);
 }
 
-TEST(GyroControl, TheFirstCommandIsTheStartOfTheConfiguration) {
-    GyroControlConfig c;
-    c.mode_switch.start_set_point = Volts{120.0};
-    c.mode_switch.start_polarity = -1;
-    const ActuatorFrame a = initial_actuator(c);
-    EXPECT_TRUE(a.loop_closed);
-    EXPECT_EQ(a.polarity, -1);
-    EXPECT_EQ(a.n_set_points, 1);
-    EXPECT_EQ(a.set_point_v[0], 120.0);
-}
-
 TEST(GyroControl, EitherBiasSignMayComeFirst) {
     Loop loop{config_of(LoopKind::analog)};
     for (int half = 0; half < 20; ++half) {

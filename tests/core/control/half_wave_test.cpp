@@ -4,16 +4,15 @@
 
 namespace zlg::core::half_wave_test {
 
-constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
 constexpr HalfWaveConfig config{};
 
 static_assert(check(config) == HalfWaveFault::none);
 static_assert(check(HalfWaveConfig{.presumed = Volts{0.0}}) == HalfWaveFault::presumed);
-static_assert(check(HalfWaveConfig{.presumed = Volts{nan_v}}) == HalfWaveFault::presumed);
+static_assert(check(HalfWaveConfig{.presumed = Volts{not_a_number}}) == HalfWaveFault::presumed);
 static_assert(check(HalfWaveConfig{.presumed_sigma_ratio = 1.0}) == HalfWaveFault::presumed_sigma);
 static_assert(check(HalfWaveConfig{.measurement_sigma = Volts{0.0}}) == HalfWaveFault::measurement_sigma);
 static_assert(check(HalfWaveConfig{.process_sigma = Volts{-1.0}}) == HalfWaveFault::process_sigma);
-static_assert(check(HalfWaveConfig{.gate = nan_v}) == HalfWaveFault::gate);
+static_assert(check(HalfWaveConfig{.gate = not_a_number}) == HalfWaveFault::gate);
 
 TEST(HalfWave, StartsFromThePresumedValueAndItsSigma) {
     const HalfWaveState s = initial_state(config);
@@ -63,7 +62,7 @@ TEST(HalfWave, OutliersAreRejectedAndSaid) {
     HalfWaveState s = initial_state(config);
     for (int k = 0; k < 20; ++k) (void)step(config, s, Volts{40.0});
     const double held_v = s.estimate_v;
-    for (const double wrong_v : {nan_v, 1.0 / 0.0, -1.0 / 0.0, 1e300, 0.0, -40.0, 42.0, 19.0, 81.0}) {
+    for (const double wrong_v : {not_a_number, 1.0 / 0.0, -1.0 / 0.0, 1e300, 0.0, -40.0, 42.0, 19.0, 81.0}) {
         const double before_v2 = s.variance_v2;
         EXPECT_TRUE(step(config, s, Volts{wrong_v}).rejected) << wrong_v;
         EXPECT_EQ(s.estimate_v, held_v);
@@ -96,7 +95,7 @@ TEST(HalfWave, AnotherModeIsNoNeighbourHoweverWideTheGate) {
 TEST(HalfWave, WithoutMeasurementsTheSigmaGrowsToThatOfThePresumedValue) {
     HalfWaveState s = initial_state(config);
     (void)step(config, s, Volts{40.0});
-    for (int k = 0; k < 10000; ++k) (void)step(config, s, Volts{nan_v});
+    for (int k = 0; k < 10000; ++k) (void)step(config, s, Volts{not_a_number});
     EXPECT_DOUBLE_EQ(sigma(s).value(), 4.0);
 }
 

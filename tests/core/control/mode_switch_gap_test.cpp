@@ -71,7 +71,7 @@ TEST(ModeSwitchGap, NeedsLightBothWaysAUsableDetuningAndAPiezoAtRest) {
     EXPECT_EQ(gap([](auto& in) { in.at_rest = false; }), 6);
     EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{0.06}; }), 6);
     EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{-0.06}; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{std::numeric_limits<double>::quiet_NaN()}; }), 6);
+    EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{not_a_number}; }), 6);
     EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{0.04}; }), 2);
 }
 

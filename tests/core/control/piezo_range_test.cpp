@@ -4,22 +4,21 @@
 
 namespace zlg::core::piezo_range_test {
 
-constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
 constexpr PiezoRange range{.min = Volts{-150.0}, .max = Volts{150.0}, .margin = Volts{10.0}};
 
 static_assert(check(PiezoRange{}) == PiezoRangeFault::none);
 static_assert(check(PiezoRange{.min = Volts{5.0}, .max = Volts{5.0}}) == PiezoRangeFault::ends);
-static_assert(check(PiezoRange{.min = Volts{nan_v}}) == PiezoRangeFault::ends);
+static_assert(check(PiezoRange{.min = Volts{not_a_number}}) == PiezoRangeFault::ends);
 static_assert(check(PiezoRange{.max = Volts{1e9}}) == PiezoRangeFault::ends);
 static_assert(check(PiezoRange{.margin = Volts{-1.0}}) == PiezoRangeFault::margin);
 static_assert(check(PiezoRange{.margin = Volts{150.0}}) == PiezoRangeFault::margin);
-static_assert(check(PiezoRange{.margin = Volts{nan_v}}) == PiezoRangeFault::margin);
+static_assert(check(PiezoRange{.margin = Volts{not_a_number}}) == PiezoRangeFault::margin);
 
 TEST(PiezoRange, ClampKeepsWhatIsInsideAndMovesTheRestToTheNearestEnd) {
     EXPECT_EQ(clamp(range, Volts{12.5}), Volts{12.5});
     EXPECT_EQ(clamp(range, Volts{-151.0}), Volts{-150.0});
     EXPECT_EQ(clamp(range, Volts{1e300}), Volts{150.0});
-    EXPECT_EQ(clamp(range, Volts{nan_v}), Volts{-150.0});
+    EXPECT_EQ(clamp(range, Volts{not_a_number}), Volts{-150.0});
 }
 
 TEST(PiezoRange, TheMarginBelongsToBothEnds) {
@@ -34,7 +33,7 @@ TEST(PiezoRange, AReadingMayLieOneRangeOutside) {
     EXPECT_FALSE(plausible(range, Volts{-451.0}));
     EXPECT_TRUE(plausible(range, Volts{449.0}));
     EXPECT_FALSE(plausible(range, Volts{451.0}));
-    EXPECT_FALSE(plausible(range, Volts{nan_v}));
+    EXPECT_FALSE(plausible(range, Volts{not_a_number}));
     EXPECT_FALSE(plausible(range, Volts{std::numeric_limits<double>::infinity()}));
 }
 

@@ -5,7 +5,6 @@
 namespace zlg::core::switch_schedule_test {
 
 using Limits = std::numeric_limits<std::int64_t>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(check(SwitchScheduleConfig{}) == SwitchScheduleFault::none);
 static_assert(check(SwitchScheduleConfig{.interval_ticks = 0}) == SwitchScheduleFault::interval);
@@ -18,7 +17,7 @@ static_assert(check(SwitchScheduleConfig{.min_ticks = 20, .max_ticks = 19}) == S
 static_assert(check(SwitchScheduleConfig{.max_ticks = Limits::max()}) == SwitchScheduleFault::limits);
 static_assert(check(SwitchScheduleConfig{.tick_s = 0.0}) == SwitchScheduleFault::tick);
 static_assert(check(SwitchScheduleConfig{.presumed = {.switch_error_arcsec = 0.0}}) == SwitchScheduleFault::presumed);
-static_assert(check(SwitchScheduleConfig{.presumed = {1.0, nan}}) == SwitchScheduleFault::presumed);
+static_assert(check(SwitchScheduleConfig{.presumed = {1.0, not_a_number}}) == SwitchScheduleFault::presumed);
 static_assert(check(SwitchScheduleConfig{.end_tick = -1}) == SwitchScheduleFault::end);
 
 using Ticks = std::vector<std::int64_t>;
@@ -130,7 +129,7 @@ TEST(SwitchSchedule, TheBalancedIntervalKeepsItsLimitsAndTakesOnlyAdviceThatIsOn
     EXPECT_EQ(balanced_interval(c, {1e-6, 1e6}, 1000), 100);
     EXPECT_EQ(balanced_interval(c, {1e6, 1e-6}, 1000), 100000);
     EXPECT_EQ(balanced_interval(c, {0.0, -1.0}, 50000), balanced_interval(c, {}, 50000));
-    EXPECT_EQ(balanced_interval(c, {nan, nan}, 50000), balanced_interval(c, {}, 50000));
+    EXPECT_EQ(balanced_interval(c, {not_a_number, not_a_number}, 50000), balanced_interval(c, {}, 50000));
     EXPECT_EQ(balanced_interval(c, {}, Limits::min()), 100);
     // Eight times the time, twice the interval; eight times the error, four times.
     EXPECT_NEAR(static_cast<double>(balanced_interval(c, {3.0, 0.5}, 400000)),
