@@ -44,6 +44,18 @@ inline Delivered run(const GyroCompensationConfig& config, const Halves& halves)
     return result;
 }
 
+// A bias of 150 counts a half, and a rotation; nothing else is measured.
+inline Halves biased_halves(int n, std::int64_t rotation_counts = 0) {
+    Halves halves;
+    for (int k = 0; k < n; ++k) {
+        const std::int8_t sign = k % 2 == 0 ? 1 : -1;
+        HalfRecord half{.half = k, .counts = rotation_counts + 150 * sign, .bias_sign = sign};
+        half.detuning_lambda = half.detuning_sq_lambda2 = half.piezo_v = half.temperature_c = not_a_number;
+        halves.push_back(half);
+    }
+    return halves;
+}
+
 // What a gyro records: rotation and bias, summed exactly and read by a counter that truncates.
 class Recorder {
 public:

@@ -18,18 +18,8 @@ GyroCompensationConfig config_of(RelockMethod relock, BridgeMethod bridge = Brid
     return config;
 }
 
-// Halves with nothing measured but counts: `rotation` counts a tick on top of the bias, none of the optional
-// quantities.
-Halves plain_log(int n_ticks, std::int64_t rotation = 18) {
-    Halves halves;
-    for (int k = 0; k < 2 * n_ticks; ++k) {
-        HalfRecord half{.half = k, .counts = rotation / 2 + (k % 2 == 0 ? bias_counts : -bias_counts)};
-        half.bias_sign = k % 2 == 0 ? std::int8_t{1} : std::int8_t{-1};
-        half.detuning_lambda = half.detuning_sq_lambda2 = half.piezo_v = half.temperature_c = not_a_number;
-        halves.push_back(half);
-    }
-    return halves;
-}
+// `rotation` counts a tick.
+Halves plain_log(int n_ticks, std::int64_t rotation = 18) { return biased_halves(2 * n_ticks, rotation / 2); }
 
 void open_loop(Halves& halves, int first_tick, int n_ticks) {
     for (int k = 2 * first_tick; k < 2 * (first_tick + n_ticks); ++k)

@@ -51,6 +51,12 @@ struct Electronics {
     }
     FringeReadoutOutput at(double turns) { return read(input(turns)); }
 
+    // It has learnt the ellipse.
+    static Electronics learnt() {
+        Electronics e;
+        e.learn();
+        return e;
+    }
     void learn() {
         for (int k = 0; k < 800; ++k) (void)at(k * 37.6180339887);
         ASSERT_TRUE(state.ellipse.learnt);
@@ -90,8 +96,7 @@ TEST(FringeReadout, CountAndPhaseAreOneNumberOnEitherSideOfABorder) {
 }
 
 TEST(FringeReadout, ThePlaceIsGoodToTheNoise) {
-    Electronics e;
-    e.learn();
+    Electronics e = Electronics::learnt();
     double sum = 0.0;
     constexpr int n = 4000;
     for (int k = 0; k < n; ++k) {
@@ -103,8 +108,7 @@ TEST(FringeReadout, ThePlaceIsGoodToTheNoise) {
 }
 
 TEST(FringeReadout, AnythingBadInOneSampleCostsThisSampleAlone) {
-    Electronics e;
-    e.learn();
+    Electronics e = Electronics::learnt();
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float inf = std::numeric_limits<float>::infinity();
     for (const float bad : {nan, inf, -inf, 2.0f, -1.95f}) {
@@ -127,8 +131,7 @@ TEST(FringeReadout, ADeadPhotodiodeIsSeenWithinATickAndCostsNoFringe) {
     for (const float shown : {0.0f, 0.3f}) {
         for (const bool noisy : {false, true}) {
             for (const bool second : {false, true}) {
-                Electronics e;
-                e.learn();
+                Electronics e = Electronics::learnt();
                 int n_wrong = 0;
                 for (int k = 0; k < 400; ++k) {
                     const double turns = 500.0 + k * 11.381966;
@@ -149,8 +152,7 @@ TEST(FringeReadout, ADeadPhotodiodeIsSeenWithinATickAndCostsNoFringe) {
 }
 
 TEST(FringeReadout, BothStuckAreSeenByTheComparators) {
-    Electronics e;
-    e.learn();
+    Electronics e = Electronics::learnt();
     const FringeReadoutInput first = e.input(70.1);
     int n_read = 0;
     for (int k = 0; k < 200; ++k) {
@@ -164,8 +166,7 @@ TEST(FringeReadout, BothStuckAreSeenByTheComparators) {
 
 // Once they were seen to be stuck they are, also while the comparators stand still.
 TEST(FringeReadout, BothStuckStayUnreadUntilTheyMove) {
-    Electronics e;
-    e.learn();
+    Electronics e = Electronics::learnt();
     FringeReadoutInput in = e.input(70.1);
     EXPECT_GE(e.read(in).fringe, 0);
     in.quarter = (in.quarter + 1) & 3;
@@ -175,8 +176,7 @@ TEST(FringeReadout, BothStuckStayUnreadUntilTheyMove) {
 }
 
 TEST(FringeReadout, NoiseFarBeyondThePresumedOneIsNotRead) {
-    Electronics e;
-    e.learn();
+    Electronics e = Electronics::learnt();
     e.noise = 0.2;
     int n_read = 0;
     for (int k = 0; k < 400; ++k) n_read += e.at(k * 3.7).fringe >= 0;
@@ -188,8 +188,7 @@ TEST(FringeReadout, NoiseFarBeyondThePresumedOneIsNotRead) {
 
 // Twice the amplitude by a new lamp, and other offsets: learnt anew.
 TEST(FringeReadout, PhotodiodesThatChangedForGoodAreLearntAnew) {
-    Electronics e;
-    e.learn();
+    Electronics e = Electronics::learnt();
     bool read = false;
     for (int k = 0; k < 4000; ++k) {
         FringeReadoutInput in = e.input(k * 3.7123);
@@ -204,16 +203,14 @@ TEST(FringeReadout, PhotodiodesThatChangedForGoodAreLearntAnew) {
 TEST(FringeReadout, AtRestItIsNotLearntAndOnceLearntItIsRead) {
     Electronics e;
     for (int k = 0; k < 3000; ++k) EXPECT_TRUE(std::isnan(e.at(k % 2 == 0 ? 150.2 : 0.2).fringe));
-    Electronics turned;
-    turned.learn();
+    Electronics turned = Electronics::learnt();
     for (int k = 0; k < 3000; ++k) EXPECT_GE(turned.at(k % 2 == 0 ? 150.2 : 0.2).fringe, 0);
 }
 
 // After a gap it is so in its last lit halves.
 TEST(FringeReadout, ACounterThatLostQuartersIsJoinedAnew) {
     for (const bool settled : {true, false}) {
-        Electronics e;
-        e.learn();
+        Electronics e = Electronics::learnt();
         int n_lost = 0;
         double offset = 0.0;
         for (int k = 0; k < 200; ++k) {

@@ -25,7 +25,9 @@ Loop running(LoopKind kind, int ticks = 200) {
     return gyro;
 }
 
-class Faults : public testing::TestWithParam<LoopKind> {};
+struct Faults : testing::TestWithParam<LoopKind> {
+    Loop gyro = running(GetParam());
+};
 // A counter that loses or gains counts at random, in halves with the loop open too.
 TEST_P(Faults, WhatAMonitorObjectsToIsNotValid) {
     constexpr std::uint32_t objections = health_bias_lost | health_helicity_reversed | health_counter_jump |
@@ -153,7 +155,6 @@ TEST_P(Faults, AGoodRunHasNoneAndAllIsValid) {
 }
 
 TEST_P(Faults, AModeHopIsFollowedByTheReferenceAndNoHalfOfItIsValid) {
-    Loop gyro = running(GetParam());
     const double before_v = gyro.plant.voltage_v;
     gyro.plant.drift_lambda += 0.503;
     gyro.ticks(200);
@@ -169,7 +170,6 @@ TEST_P(Faults, AModeHopIsFollowedByTheReferenceAndNoHalfOfItIsValid) {
 }
 
 TEST_P(Faults, NearAnEndOfTheRangeThePiezoIsLedAwayAndTheLockKept) {
-    Loop gyro = running(GetParam());
     for (int tick = 0; tick < 2000; ++tick) {
         gyro.plant.drift_lambda -= 3.0 / 2000.0;  // 240 V upwards
         gyro.ticks(1);
@@ -183,7 +183,6 @@ TEST_P(Faults, NearAnEndOfTheRangeThePiezoIsLedAwayAndTheLockKept) {
 }
 
 TEST_P(Faults, LightThatIsNotANumberCostsEightHalvesAndMovesNothing) {
-    Loop gyro = running(GetParam());
     gyro.ticks(400, [](SensorFrame& f) { f.light_a.fill(std::nanf("")); });
     EXPECT_LE(gyro.invalid(), 8);
     EXPECT_NE(gyro.seen & health_light_contradicted, 0u);
@@ -210,7 +209,6 @@ TEST_P(Faults, ALaserThatDiedIsBackAtOnceWhenItIsLit) {
 }
 
 TEST_P(Faults, LightThatStaysFaintIsTheNewLevelOnceTheBeatHasProvedIt) {
-    Loop gyro = running(GetParam());
     const auto faint = [](SensorFrame& f) { scale_light(f, 0.3f); };
     gyro.ticks(100, faint);
     EXPECT_LE(gyro.invalid(), 8);
@@ -221,7 +219,6 @@ TEST_P(Faults, LightThatStaysFaintIsTheNewLevelOnceTheBeatHasProvedIt) {
 }
 
 TEST_P(Faults, ARepeatedFrameIsTakenAsMissed) {
-    Loop gyro = running(GetParam());
     SensorFrame last;
     gyro.ticks(1, [&](SensorFrame& f) { last = f; });
     gyro.records.clear();
@@ -252,7 +249,6 @@ TEST_P(Faults, ALostCurrentAndAnUnevenOneAreNotValid) {
 }
 
 TEST_P(Faults, APushOfThePerimeterCostsOneTick) {
-    Loop gyro = running(GetParam());
     gyro.plant.drift_lambda += 0.1;
     gyro.ticks(100);
     EXPECT_NE(gyro.seen & health_detuning_unsteady, 0u);
@@ -261,7 +257,6 @@ TEST_P(Faults, APushOfThePerimeterCostsOneTick) {
 }
 
 TEST_P(Faults, MoreCountsThanAnyRateAreNotValid) {
-    Loop gyro = running(GetParam());
     gyro.plant.rate_counts = 2000.0;
     gyro.ticks(50);
     EXPECT_EQ(gyro.invalid(), 100);

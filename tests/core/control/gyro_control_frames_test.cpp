@@ -4,7 +4,6 @@
 namespace zlg::core::test {
 
 TEST_P(EitherLoop, AMissedFrameCostsOneHalfAndNoCounts) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(50);
     const std::int8_t sign_before = loop.records.back().bias_sign;
     const std::uint64_t reference = loop.plant.counter;
@@ -101,7 +100,6 @@ TEST_P(EitherLoop, SpoiltFramesInAndAroundASwitchDoNotMoveTheGrid) {
 
 // The frame tells what was in force, and the record obeys it.
 TEST_P(EitherLoop, TheRecordHasTheModeThatTheFrameEchoes) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(50);
     const HalfRecord r = loop.half([](SensorFrame& f) { f.polarity = -1; }).record;
     EXPECT_EQ(r.mode, -1);

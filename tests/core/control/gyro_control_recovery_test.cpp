@@ -71,7 +71,6 @@ void expect_sane(const GyroControlOutput& out, const GyroControlState& s) {
 }  // namespace
 
 TEST_P(EitherLoop, ADarkSecondIsSurvived) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(100);
     loop.plant.lamp_on = false;
     loop.ticks(200);  // the first switch falls into the dark
@@ -86,7 +85,6 @@ TEST_P(EitherLoop, ADarkSecondIsSurvived) {
 }
 
 TEST_P(EitherLoop, AStageThatDoesNotMoveLeadsBackToTheOldMode) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(199);
     loop.plant.stage_stuck = true;
     // While the old mode lases under the new reference, the detuning stays near zero: let it be seen elsewhere.
@@ -102,7 +100,6 @@ TEST_P(EitherLoop, AStageThatDoesNotMoveLeadsBackToTheOldMode) {
 }
 
 TEST_P(EitherLoop, ASearchFindsAModeWhenBothKnownPlacesAreLost) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(199);
     loop.plant.lamp_on = false;
     loop.ticks(100);
@@ -139,7 +136,6 @@ TEST_P(EitherLoop, AHundredThousandHalvesOfGarbageLeaveNoTraceOfThemselves) {
 }
 
 TEST_P(EitherLoop, AfterABurstOfGarbageTheGyroFindsItselfAgain) {
-    Loop loop{config_of(GetParam())};
     Garbage garbage;
     loop.ticks(150);
     for (int half = 300; half < 700; ++half) (void)loop.half([&](SensorFrame& f) { f = garbage.frame(half); });

@@ -97,6 +97,8 @@ public:
 };
 
 // Instantiated in gyro_control_test.cpp, as GyroControl/EitherLoop.
-class EitherLoop : public testing::TestWithParam<LoopKind> {};
+struct EitherLoop : testing::TestWithParam<LoopKind> {
+    Loop loop{config_of(GetParam())};
+};
 
 }  // namespace zlg::core::test

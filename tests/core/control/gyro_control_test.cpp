@@ -6,7 +6,6 @@ namespace zlg::core::test {
 INSTANTIATE_TEST_SUITE_P(GyroControl, EitherLoop, testing::Values(LoopKind::analog, LoopKind::digital));
 
 TEST_P(EitherLoop, SwitchesOnTheGridForExactlyTheGap) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(1100);
     const std::vector<std::pair<std::int64_t, int>> expected{{400, 6}, {800, 6}, {1200, 6}, {1600, 6}, {2000, 6}};
     EXPECT_EQ(loop.open_runs(), expected);
@@ -18,7 +17,6 @@ TEST_P(EitherLoop, SwitchesOnTheGridForExactlyTheGap) {
 }
 
 TEST_P(EitherLoop, HelicityAlternatesWithTheOpeningAndTheLaserFollows) {
-    Loop loop{config_of(GetParam())};
     for (int half = 0; half < 2200; ++half) {
         const HalfRecord r = loop.half().record;
         const int n_openings = half / 400;
@@ -55,7 +53,6 @@ TEST_P(EitherLoop, DetuningDecaysToNothingBetweenSwitches) {
 }
 
 TEST_P(EitherLoop, ASteadyDriftOfThePerimeterIsCarriedAndTheRangeIsKept) {
-    Loop loop{config_of(GetParam())};
     for (int tick = 0; tick < 6000; ++tick) {
         loop.plant.drift_lambda += 3.0 / 6000.0;  // 240 V in all, against a range of 300 V
         loop.ticks(1);
@@ -79,7 +76,6 @@ TEST_P(EitherLoop, CountsAddUpToTheCounterAcrossItsWrap) {
 }
 
 TEST_P(EitherLoop, AGoodRunIsHealthyOutsideItsSwitches) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(500);
     for (std::size_t half = 40; half < loop.health.size(); ++half) {
         const bool in_gap = !loop.records[half].loop_closed;
@@ -93,7 +89,6 @@ TEST_P(EitherLoop, AGoodRunIsHealthyOutsideItsSwitches) {
 }
 
 TEST_P(EitherLoop, OneBeamIsEnough) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(1100, [](SensorFrame& f) { f.has_light_b = false; });
     EXPECT_EQ(loop.events.size(), 5u);
     for (const SwitchEvent& e : loop.events) EXPECT_EQ(e.outcome, SwitchOutcome::switched);
@@ -128,7 +123,6 @@ TEST_P(EitherLoop, APointThatIsDueTooEarlyWaitsForTheLock) {
 }
 
 TEST_P(EitherLoop, TheLightLevelRestsWhileTheGyroSwitches) {
-    Loop loop{config_of(GetParam())};
     loop.ticks(200);
     const double before = loop.state.detector.both.level;
     while (loop.state.mode_switch.phase != SwitchPhase::tracking) {

@@ -91,6 +91,16 @@ private:
     std::normal_distribution<double> normal_;
 };
 
+constexpr LightMonitorConfig quiet{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
+
+// To a lock.
+Light on_the_way(double detuning_lambda) {
+    Light light;
+    light.settled = false;
+    light.detuning_lambda = detuning_lambda;
+    return light;
+}
+
 TEST(LightMonitor, OrdinaryLightIsLeftAsItIs) {
     Light light;
     for (int k = 0; k < 100000; ++k) {
@@ -119,11 +129,7 @@ TEST(LightMonitor, AConverterThatStandsStillIsSeenInTwoHalvesAndSteersNothing) {
     EXPECT_FALSE(light.half().stuck);
 
     LightMonitorState s;
-    const std::array<float, 16> still = [] {
-        std::array<float, 16> x{};
-        x.fill(870.0f);
-        return x;
-    }();
+    const std::vector<float> still(16, 870.0f);
     LightMonitorInput in{.light_a = still, .light_b = still, .two_way = true, .light = 1740.0, .usable = true};
     (void)step(config, s, in);
     EXPECT_FALSE(step(config, s, in).stuck);
@@ -169,14 +175,10 @@ TEST(LightMonitor, ABeamThatFadedLeavesTheDetuningAsTheMeanOfTwoHalves) {
 
 // There what a beam has lost stands in the mean square, times the detuning.
 TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
-    Light light;
-    light.settled = false;
-    light.detuning_lambda = 0.2;
+    Light light = on_the_way(0.2);
     for (int k = 0; k < 400; ++k) ASSERT_FALSE(light.half().unbalanced) << k;
     for (const double lost : {0.03, 0.1, 0.3}) {
-        Light fading;
-        fading.settled = false;
-        fading.detuning_lambda = 0.2;
+        Light fading = on_the_way(0.2);
         (void)fading.halves(10);
         fading.share_a = 1.0 - lost;
         const LightMonitorOutput out = fading.half();
@@ -191,11 +193,8 @@ TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
 // The field, the detuning and the isotopes change the light of a healthy laser by 0.3 %, however quiet its converters are.
 TEST(LightMonitor, LightThatFallsByAThirdOfAPercentIsNoFadedBeam) {
     for (const double lost : {0.003, 0.01}) {
-        Light light;
-        light.settled = false;
+        Light light = on_the_way(0.03);
         light.noise_lambda = 3e-4;
-        light.detuning_lambda = 0.03;
-        const LightMonitorConfig quiet{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
         for (int k = 0; k < 10; ++k) ASSERT_FALSE(light.half(quiet).unbalanced);
         light.share = 1.0 - lost;
         EXPECT_EQ(light.half(quiet).unbalanced, lost > 0.005) << lost;
@@ -206,7 +205,6 @@ TEST(LightMonitor, LightThatFallsByAThirdOfAPercentIsNoFadedBeam) {
 bool is_unbalanced_on_the_way(std::size_t n_samples, double start_lambda, double lost) {
     std::mt19937 random{7};
     std::normal_distribution<double> normal;
-    const LightMonitorConfig c{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
     LightMonitorState state;
     bool unbalanced = false;
     for (int h = 0; h < 6; ++h) {
@@ -222,7 +220,7 @@ bool is_unbalanced_on_the_way(std::size_t n_samples, double start_lambda, double
         }
         LightMonitorInput in = lit(a, b, sign, 0.01, 1e-4);
         in.closed = true;
-        unbalanced = unbalanced || step(c, state, in).unbalanced;
+        unbalanced = unbalanced || step(quiet, state, in).unbalanced;
     }
     return unbalanced;
 }
@@ -237,9 +235,7 @@ TEST(LightMonitor, AFastWayToALockIsNoFadedBeamHoweverFewTheSamples) {
 
 // Less than one jump shows above the noise.
 TEST(LightMonitor, ABeamThatFadedUnseenIsSeenByAFewJumps) {
-    Light light;
-    light.settled = false;
-    light.detuning_lambda = 0.2;
+    Light light = on_the_way(0.2);
     light.share_a = 0.992;
     EXPECT_TRUE(light.halves(12).unbalanced);
 }

@@ -79,18 +79,20 @@ TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
 
 // A gyro whose mode changes at every opening; the time in mode + over that in mode -, in ticks, after each tick.
 struct Course {
-    std::vector<std::int64_t> openings;
-    std::vector<std::int64_t> imbalance;
+    Ticks openings;
+    Ticks intervals;  // the first one, and after each opening
+    Ticks imbalance;
 };
 
 template <class Advice>
 Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, const Advice& advice, std::int8_t mode = 1) {
     SwitchScheduleState s = initial_state(c);
-    Course result;
+    Course result{.intervals = {s.interval_ticks}};
     std::int64_t sum = 0;
     for (std::int64_t tick = 0; tick < n_ticks; ++tick) {
         if (tick > 0 && step(c, s, {.tick = tick, .mode = mode, .advice = advice(tick)}).open) {
             result.openings.push_back(tick);
+            result.intervals.push_back(s.interval_ticks);
             mode = static_cast<std::int8_t>(-mode);
         }
         sum += mode;
@@ -102,6 +104,13 @@ Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, const Advice&
 Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int8_t mode = 1) {
     return course(
         c, n_ticks, [](std::int64_t) { return SwitchAdvice{}; }, mode);
+}
+
+auto jumping_advice(std::int64_t period_ticks, double low_arcsec, double high_arcsec) {
+    return [=](std::int64_t tick) {
+        return SwitchAdvice{.switch_error_arcsec = tick / period_ticks % 2 == 0 ? low_arcsec : high_arcsec,
+                            .magnetic_arcsec_s = 0.5};
+    };
 }
 
 SwitchScheduleConfig growing(FirstSegment first = FirstSegment::half) {
@@ -196,23 +205,20 @@ TEST(SwitchSchedule, AFullFirstSegmentPutsTheCentreAtHalfOfIt) {
 }
 
 TEST(SwitchSchedule, AdviceIsTakenWhereTheIntervalIsMeasured) {
-    SwitchScheduleConfig c = growing();
-    const auto quiet = [](std::int64_t) { return SwitchAdvice{.switch_error_arcsec = 0.3, .magnetic_arcsec_s = 0.5}; };
+    const SwitchScheduleConfig c = growing();
     // A tenth of the error: 10^(2/3) = 4.6 times as many switches.
-    const auto more = static_cast<double>(course(c, 400000, quiet).openings.size());
+    const auto more = static_cast<double>(course(c, 400000, jumping_advice(1, 0.3, 0.3)).openings.size());
     const auto fewer = static_cast<double>(course(c, 400000).openings.size());
     EXPECT_NEAR(more / fewer, 4.64, 0.4);
 }
 
 TEST(SwitchSchedule, AdviceThatJumpsDoesNotCarryTheSawtoothAway) {
     const SwitchScheduleConfig c = growing();
-    const auto jumping = [](std::int64_t tick) {
-        return SwitchAdvice{.switch_error_arcsec = tick / 7919 % 2 == 0 ? 0.5 : 8.0, .magnetic_arcsec_s = 0.5};
-    };
     // Alternating segments of the same lengths would add their differences up.
     const std::int64_t longest = balanced_interval(c, {8.0, 0.5}, 400000);
     std::int64_t farthest = 0;
-    for (const std::int64_t x : course(c, 400000, jumping).imbalance) farthest = std::max(farthest, std::abs(x));
+    for (const std::int64_t x : course(c, 400000, jumping_advice(7919, 0.5, 8.0)).imbalance)
+        farthest = std::max(farthest, std::abs(x));
     EXPECT_LE(farthest, longest / 2 + 1);
 }
 
@@ -250,24 +256,15 @@ TEST(SwitchSchedule, TheEndIsBalancedWhereItIsKnown) {
 // Whatever is advised.
 TEST(SwitchSchedule, FromSwitchToSwitchTheIntervalChangesByAFactorOfTwoAtMost) {
     const SwitchScheduleConfig c = growing();
-    const auto jumping = [](std::int64_t tick) {
-        return SwitchAdvice{.switch_error_arcsec = tick / 20011 % 2 == 0 ? 0.01 : 500.0, .magnetic_arcsec_s = 0.5};
-    };
-    SwitchScheduleState s = initial_state(c);
-    std::int8_t mode = 1;
-    std::int64_t shortest = s.interval_ticks, longest = shortest;
-    for (std::int64_t tick = 1; tick < 400000; ++tick) {
-        const std::int64_t before = s.interval_ticks;
-        if (!step(c, s, {.tick = tick, .mode = mode, .advice = jumping(tick)}).open) continue;
-        mode = static_cast<std::int8_t>(-mode);
-        EXPECT_LE(s.interval_ticks, 2 * before) << tick;
-        EXPECT_GE(2 * s.interval_ticks, before) << tick;
-        shortest = std::min(shortest, s.interval_ticks);
-        longest = std::max(longest, s.interval_ticks);
+    const Ticks intervals = course(c, 400000, jumping_advice(20011, 0.01, 500.0)).intervals;
+    for (std::size_t k = 1; k < intervals.size(); ++k) {
+        EXPECT_LE(intervals[k], 2 * intervals[k - 1]) << k;
+        EXPECT_GE(2 * intervals[k], intervals[k - 1]) << k;
     }
+    const auto [shortest, longest] = std::minmax_element(intervals.begin(), intervals.end());
     // It gets everywhere all the same.
-    EXPECT_LT(shortest, c.min_ticks);
-    EXPECT_GT(longest, 20 * c.min_ticks);
+    EXPECT_LT(*shortest, c.min_ticks);
+    EXPECT_GT(*longest, 20 * c.min_ticks);
 }
 
 // What is set from outside.

@@ -30,12 +30,16 @@ Light light_of(const std::vector<double>& dl_lambda, int sign, double level = 10
 
 std::vector<double> steady(double dl_lambda) { return std::vector<double>(16, dl_lambda); }
 
-SyncDetectorOutput both(SyncDetectorState& s, const Light& light, int sign, bool settled = true) {
-    return step(config, s, {.light_a = light.a, .light_b = light.b, .sign = sign, .settled = settled});
+SyncDetectorOutput both(SyncDetectorState& s, const Light& light, int sign, bool settled = true, bool has_b = true) {
+    return step(config, s,
+                {.light_a = light.a,
+                 .light_b = has_b ? std::span<const float>{light.b} : std::span<const float>{},
+                 .sign = sign,
+                 .settled = settled});
 }
 
 SyncDetectorOutput single(SyncDetectorState& s, const Light& light, int sign, bool settled = true) {
-    return step(config, s, {.light_a = light.a, .light_b = {}, .sign = sign, .settled = settled});
+    return both(s, light, sign, settled, false);
 }
 
 // It has the level of light of 1000, by both beams.
@@ -163,10 +167,7 @@ TEST(SyncDetector, TheLevelFollowsSettledLightWithItsTimeConstantAndNothingElse)
     for (const bool has_b : {true, false}) {
         SyncDetectorState s;
         const auto one_tick = [&s, has_b](double level, bool settled) {
-            for (const int sign : {1, -1}) {
-                const Light light = light_of(steady(0.05), sign, level);
-                (void)(has_b ? both(s, light, sign, settled) : single(s, light, sign, settled));
-            }
+            for (const int sign : {1, -1}) (void)both(s, light_of(steady(0.05), sign, level), sign, settled, has_b);
         };
         const auto level = [&s, has_b] { return has_b ? s.both.level : 2.0 * s.single.level; };
         for (int tick = 0; tick < 4; ++tick) one_tick(1000.0, false);
@@ -185,8 +186,7 @@ TEST(SyncDetector, MoreLightIsLearntAnewLessNever) {
             SyncDetectorOutput out;
             for (int half = 0; half < 2 * n_ticks; ++half) {
                 const int sign = half % 2 == 0 ? 1 : -1;
-                const Light light = light_of(steady(0.0), sign, level);
-                out = has_b ? both(s, light, sign) : single(s, light, sign);
+                out = both(s, light_of(steady(0.0), sign, level), sign, true, has_b);
             }
             return out;
         };
