@@ -55,9 +55,7 @@ TEST(DiscriminatorCurve, PassesThroughItsNodesAndIsOdd) {
 TEST(DiscriminatorCurve, ThirtyOneNodesAreGoodToFiveHundredThousandthsOfAWavelength) {
     EXPECT_LT(worst_error(expansive_curve(31)), 5e-5);
     EXPECT_GT(worst_error(expansive_curve(7)), 2e-4);
-}
-
-TEST(DiscriminatorCurve, HalfTheDistanceLeavesAnEighthOfTheError) {
+    // Half the distance leaves an eighth of the error.
     const double ratio = worst_error(expansive_curve(15)) / worst_error(expansive_curve(30));
     EXPECT_GT(ratio, 6.0);
     EXPECT_LT(ratio, 20.0);

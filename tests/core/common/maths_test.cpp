@@ -52,20 +52,19 @@ void expect_as_c_of_two(Ours ours, Theirs theirs) {
     both_signs(not_a_number, not_a_number);
 }
 
-#define ZLG_OURS(name) [](auto... x) { return maths::name(x...); }
-#define ZLG_THEIRS(name) [](auto... x) { return std::name(x...); }
+#define ZLG_OURS_AND_THEIRS(name) [](auto... x) { return maths::name(x...); }, [](auto... x) { return std::name(x...); }
 
 TEST(Maths, SpecialValuesAreThoseOfC) {
-    expect_as_c_of_one(ZLG_OURS(exp), ZLG_THEIRS(exp));
-    expect_as_c_of_one(ZLG_OURS(expm1), ZLG_THEIRS(expm1));
-    expect_as_c_of_one(ZLG_OURS(log), ZLG_THEIRS(log));
-    expect_as_c_of_one(ZLG_OURS(sin), ZLG_THEIRS(sin));
-    expect_as_c_of_one(ZLG_OURS(cos), ZLG_THEIRS(cos));
-    expect_as_c_of_one(ZLG_OURS(asin), ZLG_THEIRS(asin));
-    expect_as_c_of_one(ZLG_OURS(tanh), ZLG_THEIRS(tanh));
-    expect_as_c_of_two(ZLG_OURS(atan2), ZLG_THEIRS(atan2));
-    expect_as_c_of_two(ZLG_OURS(hypot), ZLG_THEIRS(hypot));
-    expect_as_c_of_two(ZLG_OURS(pow), ZLG_THEIRS(pow));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(exp));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(expm1));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(log));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(sin));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(cos));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(asin));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(tanh));
+    expect_as_c_of_two(ZLG_OURS_AND_THEIRS(atan2));
+    expect_as_c_of_two(ZLG_OURS_AND_THEIRS(hypot));
+    expect_as_c_of_two(ZLG_OURS_AND_THEIRS(pow));
 }
 
 TEST(Maths, SineAndCosineOfTurnsAreExactAtQuarters) {
@@ -130,17 +129,6 @@ TEST(Maths, HypotOfPythagoreanTriplesIsExact) {
     }
 }
 
-TEST(Maths, ExpUndoesLog) {
-    Random random{6};
-    for (int k = 0; k < 250'000; ++k) {
-        const double x = std::exp(random.uniform(-707.9, 708.9));
-        const double log_x = maths::log(x);
-        // A unit in the last place of the logarithm, an absolute error, becomes a relative one.
-        const double bound = std::nextafter(std::fabs(log_x), 1e4) - std::fabs(log_x) + 0x1p-52;
-        EXPECT_NEAR(maths::exp(log_x) / x, 1.0, bound) << x;
-    }
-}
-
 TEST(SquareRoot, IsTheNearestDouble) {
     Random random{7};
     for (int k = 0; k < 100'000; ++k) {
@@ -157,11 +145,7 @@ TEST(IsFinite, IsFalseForInfinitiesAndNotANumberOnly) {
     for (const double x : {0.0, -0.0, subnormal, 1.0, -1e300, largest, -largest}) EXPECT_TRUE(is_finite(x)) << x;
     for (const double x : {infinite, -infinite, not_a_number, -not_a_number}) EXPECT_FALSE(is_finite(x)) << x;
     static_assert(is_finite(3.263));
-}
-
-TEST(IsFinite, TheConstantInfinityExceedsEveryNumber) {
     EXPECT_GT(infinity, largest);
-    EXPECT_FALSE(is_finite(infinity));
 }
 
 TEST(TurnsOf, IsTheAngleInTurnsInEveryQuadrant) {

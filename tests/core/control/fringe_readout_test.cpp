@@ -95,18 +95,6 @@ TEST(FringeReadout, CountAndPhaseAreOneNumberOnEitherSideOfABorder) {
     }
 }
 
-TEST(FringeReadout, ThePlaceIsGoodToTheNoise) {
-    Electronics e = Electronics::learnt();
-    double sum = 0.0;
-    constexpr int n = 4000;
-    for (int k = 0; k < n; ++k) {
-        const double turns = k * 12.34567891;
-        const double off = place(e.at(turns)) - turns;
-        sum += off * off;
-    }
-    EXPECT_NEAR(std::sqrt(sum / n), 0.01 / tau, 0.15 * 0.01 / tau);
-}
-
 TEST(FringeReadout, AnythingBadInOneSampleCostsThisSampleAlone) {
     Electronics e = Electronics::learnt();
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -200,9 +188,7 @@ TEST(FringeReadout, PhotodiodesThatChangedForGoodAreLearntAnew) {
     EXPECT_TRUE(read);
 }
 
-TEST(FringeReadout, AtRestItIsNotLearntAndOnceLearntItIsRead) {
-    Electronics e;
-    for (int k = 0; k < 3000; ++k) EXPECT_TRUE(std::isnan(e.at(k % 2 == 0 ? 150.2 : 0.2).fringe));
+TEST(FringeReadout, OnceLearntItIsReadAtRest) {
     Electronics turned = Electronics::learnt();
     for (int k = 0; k < 3000; ++k) EXPECT_GE(turned.at(k % 2 == 0 ? 150.2 : 0.2).fringe, 0);
 }

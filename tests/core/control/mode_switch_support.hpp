@@ -30,18 +30,20 @@ class Sequence {
 public:
     explicit Sequence(const ModeSwitchConfig& c = config) : config_{c}, state{initial_state(c)} {}
 
-    ModeSwitchOutput half(const Half& seen, bool due = false) {
-        const ModeSwitchInput in{.due = due,
-                                 .tick_border = half_ % 2 == 1,
-                                 .next_tick = (half_ + 1) / 2,
-                                 .light_known = !seen.missed,
-                                 .two_way = !seen.dark && !seen.missed,
-                                 .usable = seen.usable && !seen.dark && !seen.missed,
-                                 .detuning = Wavelengths{seen.detuning_lambda},
-                                 .piezo = Volts{seen.read ? piezo_v : not_a_number},
-                                 .set_point = Volts{set_point_v},
-                                 .half_wave = Volts{half_wave_v},
-                                 .offset = Volts{offset_v}};
+    [[nodiscard]] ModeSwitchInput input(const Half& seen, bool due = false) const {
+        return {.due = due,
+                .tick_border = half_ % 2 == 1,
+                .next_tick = (half_ + 1) / 2,
+                .light_known = !seen.missed,
+                .two_way = !seen.dark && !seen.missed,
+                .usable = seen.usable && !seen.dark && !seen.missed,
+                .detuning = Wavelengths{seen.detuning_lambda},
+                .piezo = Volts{seen.read ? piezo_v : not_a_number},
+                .set_point = Volts{set_point_v},
+                .half_wave = Volts{half_wave_v},
+                .offset = Volts{offset_v}};
+    }
+    ModeSwitchOutput half(const ModeSwitchInput& in) {
         ++half_;
         const ModeSwitchOutput out = step(config_, state, in);
         if (out.event) {
@@ -50,6 +52,7 @@ public:
         }
         return out;
     }
+    ModeSwitchOutput half(const Half& seen, bool due = false) { return half(input(seen, due)); }
     void halves(int n, const Half& seen) {
         for (int k = 0; k < n; ++k) (void)half(seen);
     }

@@ -37,20 +37,6 @@ TEST(ModeSwitch, StartsClosedAtTheStartPointAndTracksAfterTheFirstLock) {
     EXPECT_EQ(q.n_events, 0);
 }
 
-TEST(ModeSwitch, HelicityAlternatesAndSoDoesTheStep) {
-    Sequence q;
-    q.track();
-    for (int n = 0; n < 6; ++n) {
-        q.open();
-        EXPECT_EQ(q.state.polarity, n % 2 == 0 ? -1 : 1);
-        EXPECT_EQ(q.state.set_point_v, n % 2 == 0 ? 120.0 : 160.0);
-        q.pass_gap();
-        q.piezo_v = q.state.set_point_v;
-        q.track();
-    }
-    EXPECT_EQ(q.n_events, 6);
-}
-
 TEST(ModeSwitch, UPlusIsTheMeanOfTheLastReadingsInLock) {
     Sequence q;
     q.track();

@@ -256,16 +256,4 @@ TEST(ReadingMonitor, NumbersBegunAnewBeginAnew) {
     EXPECT_EQ(next.counts, 10);
 }
 
-TEST(ReadingMonitor, TheCounterMayWrap) {
-    ReadingMonitorState state;
-    state.good = state.last = ~std::uint64_t{0} - 3;
-    ReadingMonitorInput in{.read = false, .countable = true, .reading = 0, .max_counts = static_cast<double>(limit)};
-    (void)step(state, in);
-    in.read = true;
-    in.reading = 6;
-    const ReadingMonitorOutput out = step(state, in);
-    EXPECT_EQ(out.span, 2);
-    EXPECT_EQ(out.counts, 10);
-}
-
 }  // namespace zlg::core::reading_monitor_test

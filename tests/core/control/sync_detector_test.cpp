@@ -97,25 +97,6 @@ TEST(SyncDetector, CommonNoiseOfTheLightCancelsBetweenTheBeams) {
     EXPECT_NEAR(both(s, light, 1).detuning.value(), 0.05, 1e-6);
 }
 
-TEST(SyncDetector, SampleNoiseAveragesAsTheRootOfTheirNumber) {
-    std::mt19937_64 random{3};
-    std::normal_distribution<double> noise{0.0, 0.0033};
-    SyncDetectorState s;
-    double sum = 0.0;
-    double sum_sq = 0.0;
-    constexpr int n_halves = 4000;
-    for (int half = 0; half < n_halves; ++half) {
-        std::vector<double> dl = steady(0.01);
-        for (double& x : dl) x += noise(random);
-        const double d = both(s, light_of(dl, 1), 1).detuning.value() - 0.01;
-        sum += d;
-        sum_sq += d * d;
-    }
-    const double sigma = 0.0033 / 4.0;
-    EXPECT_NEAR(sum / n_halves, 0.0, 4.0 * sigma / std::sqrt(n_halves));
-    EXPECT_NEAR(std::sqrt(sum_sq / n_halves), sigma, 0.05 * sigma);
-}
-
 TEST(SyncDetector, OneWayAndDarkLightAndOneDarkSampleAreNotTwoWay) {
     SyncDetectorState s = with_level();
     const Light one_way{std::vector<float>(16, 1000.0f), std::vector<float>(16, 0.0f)};
