@@ -124,16 +124,6 @@ TEST(Angle, AMeasuredTickLeavesTheRemainderAloneHoweverMuchItCounts) {
     EXPECT_EQ(angle.remainder_arcsec, before);
 }
 
-TEST(Angle, ABridgedTickEntersAsItWasDelivered) {
-    Angle angle;
-    angle.add(0, 3.263, 58.71);
-    EXPECT_EQ(angle.counts, 0);
-    EXPECT_EQ(angle.value_arcsec(3.263), 58.71);
-    angle.add(18, 3.263, 0.0);  // counts that were replaced by nothing
-    EXPECT_EQ(angle.counts, 18);
-    EXPECT_NEAR(angle.value_arcsec(3.263), 58.71, 1e-14);
-}
-
 TEST(Angle, WildCountsWrapAndComeBack) {
     constexpr std::int64_t wild = std::numeric_limits<std::int64_t>::max();
     Angle angle;

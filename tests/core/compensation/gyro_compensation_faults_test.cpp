@@ -58,10 +58,7 @@ TEST(FaultEdges, AHalfThatIsRefusedWithinItsTickLeavesTheOthersAlone) {
 
 TEST(FaultEdges, AMissedHalfIsNoFaultOfTheGyro) {
     Halves halves = at_rest(300, false);
-    halves[400].valid = false;
-    halves[401].counts += halves[400].counts;
-    halves[400].counts = 0;
-    halves[401].span = 2;
+    miss(halves, 400, 1);
     const Delivered all = run(without_walk(), halves);
     for (std::size_t t = 190; t < 210; ++t) EXPECT_NEAR(sigma_of(all, t), std::sqrt(of_count_arcsec2), 1e-3) << t;
 }
@@ -163,10 +160,7 @@ TEST(Uncorrected, AMissedHalfMovesNoPerimeter) {
     GyroCompensationConfig config = without_walk();
     config.relock = {.method = RelockMethod::none, .presumes = true};
     Halves halves = at_rest(300, false, 0.0);
-    halves[400].valid = false;
-    halves[401].counts += halves[400].counts;
-    halves[400].counts = 0;
-    halves[401].span = 2;
+    miss(halves, 400, 1);
     for (const AngleRow& row : run(config, halves).rows) EXPECT_EQ(row.flags & flag_relock_uncorrected, 0u) << row.tick;
 }
 

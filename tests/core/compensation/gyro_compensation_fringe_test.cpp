@@ -104,14 +104,8 @@ TEST(GyroCompensationFringe, WithoutAPlaceAHalfHasItsWholeCounts) {
 TEST(GyroCompensationFringe, TheSumOverMissedHalvesIsThatOfThePlacesBesideThem) {
     const Places places = turning(600);
     Halves halves = places.halves();
-    HalfRecord& next = halves[805];
-    for (std::size_t h = 800; h < 805; ++h) {
-        next.counts += halves[h].counts;
-        ++next.span;
-        halves[h].counts = 0;
-        halves[h].valid = false;
-        halves[h].fringe = unknown;
-    }
+    miss(halves, 800, 5);
+    for (std::size_t h = 800; h < 805; ++h) halves[h].fringe = unknown;
     const Delivered all = run({}, halves);
     double sum = 0.0;
     for (std::size_t t = 400; t < 403; ++t) sum += all.rows[t].dtheta_final_arcsec;

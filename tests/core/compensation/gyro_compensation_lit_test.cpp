@@ -58,14 +58,8 @@ TEST(GyroCompensationLit, TheyNarrowTheGap) {
 // Delivered and final values have the same sum, with lit halves too.
 TEST(GyroCompensationLit, TheSumsOfBothColumnsAreEqual) {
     const GyroCompensationConfig config = config_of(RelockMethod::mean_square);
-    const Delivered found = run(config, records(config, true));
-    double delivered = 0.0;
-    double final = 0.0;
-    for (const AngleRow& row : found.rows) {
-        delivered += row.dtheta_arcsec;
-        final += row.dtheta_final_arcsec;
-    }
-    EXPECT_NEAR(delivered, final, 1e-9);
+    const Sums sums = sums_of(run(config, records(config, true)), false);
+    EXPECT_NEAR(sums.delivered, sums.final, 1e-9);
 }
 
 // Lit halves that turn by nonsense are refused: the angle is that without them, to the last bit. It may be a rotation, and

@@ -24,39 +24,10 @@ Halves swing(const GyroCompensationConfig& config, std::int64_t ticks) {
     return halves;
 }
 
-// As a control records halves first .. first + n - 1 that were missed.
-void miss(Halves& halves, std::size_t first, std::size_t n) {
-    HalfRecord& next = halves[first + n];
-    for (std::size_t h = first; h < first + n; ++h) {
-        next.counts += halves[h].counts;
-        next.span += halves[h].span;
-        halves[h].counts = 0;
-        halves[h].span = 1;
-        halves[h].valid = false;
-    }
-}
-
 double count_sum(const Halves& halves) {
     std::int64_t sum = 0;
     for (const HalfRecord& half : halves) sum += half.counts;
     return 3.263 * static_cast<double>(sum);
-}
-
-struct Sums {
-    double delivered = 0.0, final = 0.0;
-};
-
-// Both sums, which must be equal at each correction.
-Sums sums_of(const Delivered& all, bool alone = true) {
-    Sums s;
-    for (const AngleRow& row : all.rows) {
-        s.delivered += row.dtheta_arcsec;
-        s.final += row.dtheta_final_arcsec;
-        if (alone && (row.flags & flag_correction) != 0) {
-            EXPECT_NEAR(s.delivered, s.final, 1e-9) << row.tick;
-        }
-    }
-    return s;
 }
 
 class Span : public testing::TestWithParam<BridgeMethod> {};

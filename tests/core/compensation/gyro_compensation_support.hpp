@@ -56,6 +56,35 @@ inline Halves biased_halves(int n, std::int64_t rotation_counts = 0) {
     return halves;
 }
 
+struct Sums {
+    double delivered = 0.0, final = 0.0;
+};
+
+// Both sums, which must be equal at each correction.
+inline Sums sums_of(const Delivered& all, bool alone = true) {
+    Sums s;
+    for (const AngleRow& row : all.rows) {
+        s.delivered += row.dtheta_arcsec;
+        s.final += row.dtheta_final_arcsec;
+        if (alone && (row.flags & flag_correction) != 0) {
+            EXPECT_NEAR(s.delivered, s.final, 1e-9) << row.tick;
+        }
+    }
+    return s;
+}
+
+// As a control records halves first .. first + n - 1 that were missed.
+inline void miss(Halves& halves, std::size_t first, std::size_t n) {
+    HalfRecord& next = halves[first + n];
+    for (std::size_t h = first; h < first + n; ++h) {
+        next.counts += halves[h].counts;
+        next.span += halves[h].span;
+        halves[h].counts = 0;
+        halves[h].span = 1;
+        halves[h].valid = false;
+    }
+}
+
 // What a gyro records: rotation and bias, summed exactly and read by a counter that truncates.
 class Recorder {
 public:

@@ -78,7 +78,6 @@ TEST(CoilMonitor, ACurrentThatIsNotMeasuredSaysNothing) {
         const CoilMonitorOutput out = step(config, s, k % 2 == 0 ? 1 : -1, k % 3 == 0 ? not_a_number : 0.0);
         ASSERT_FALSE(out.off || out.unbalanced);
     }
-    Coil coil;
     for (int k = 0; k < 1000; ++k) ASSERT_FALSE(step({}, s, 1, k % 2 == 0 ? 1.0 : 3.0).off);
 }
 

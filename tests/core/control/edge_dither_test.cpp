@@ -69,7 +69,7 @@ TEST(EdgeDither, ChecksItsConfiguration) {
     EXPECT_EQ(fault([](auto& c) { c.paired_below_arcsec_s = not_a_number; }), EdgeDitherFault::rates);
 }
 
-TEST(EdgeDither, PairedPeriodsStandHalfACycleApart) {
+TEST(EdgeDither, PairedPeriodsStandHalfACycleApartAndTheirHalvesAreAQuarterLongerAndShorterInTurn) {
     const Edges e = run(always(DitherLaw::paired), 4000);
     for (std::size_t i = 0; i < e.up.size(); i += 4) {
         EXPECT_EQ(e.up[i], e.up[i + 3]);
@@ -77,17 +77,11 @@ TEST(EdgeDither, PairedPeriodsStandHalfACycleApart) {
         EXPECT_NEAR(e.up[i + 1] - e.up[i], 0.5 * config.cycle_ticks, 1.0);
     }
     EXPECT_LT(unevenness(e.up, config.cycle_ticks), 0.06);
-}
-
-TEST(EdgeDither, PairedHalvesAreAQuarterCycleLongerAndShorterInTurn) {
-    const Edges e = run(always(DitherLaw::paired), 4000);
     int n_longer_first = 0;
     for (std::size_t i = 0; i < e.up.size(); ++i) {
         const std::int32_t swing = e.down[i] - e.up[i];
         EXPECT_NEAR(std::abs(swing), 0.25 * config.cycle_ticks, 1.0);
-        if (i % 4 != 0) {
-            EXPECT_EQ(swing > 0, e.down[i - 1] < e.up[i - 1]);
-        }
+        if (i % 4 != 0) EXPECT_EQ(swing > 0, e.down[i - 1] < e.up[i - 1]);
         if (i % 4 == 0 && swing > 0) ++n_longer_first;
     }
     EXPECT_NEAR(n_longer_first, 500, 80);  // of 1000 groups, five standard deviations

@@ -14,12 +14,6 @@ static_assert(check(HalfWaveConfig{.measurement_sigma = Volts{0.0}}) == HalfWave
 static_assert(check(HalfWaveConfig{.process_sigma = Volts{-1.0}}) == HalfWaveFault::process_sigma);
 static_assert(check(HalfWaveConfig{.gate = not_a_number}) == HalfWaveFault::gate);
 
-TEST(HalfWave, StartsFromThePresumedValueAndItsSigma) {
-    const HalfWaveState s = initial_state(config);
-    EXPECT_EQ(s.estimate_v, 40.0);
-    EXPECT_DOUBLE_EQ(sigma(s).value(), 4.0);
-}
-
 TEST(HalfWave, OneMeasurementIsTheWeightedMeanOfPresumedAndMeasured) {
     HalfWaveState s = initial_state(config);
     const HalfWaveOutput out = step(config, s, Volts{42.0});

@@ -106,7 +106,6 @@ TEST(StrokeModel, LearnsALoopThatItsPlaysDoNotDescribe) {
 TEST(StrokeModel, TheTurnBackSinceTheLastSwitchIsForeseen) {
     Switches gyro;
     gyro.piezo.hysteresis = 0.2;
-    double blind = 0.0;
     for (int k = 0; k < 24; ++k) {
         gyro.walk_v = 0.3 * k;
         const double miss = gyro.next();
@@ -117,7 +116,7 @@ TEST(StrokeModel, TheTurnBackSinceTheLastSwitchIsForeseen) {
     walked.hysteresis = straight.hysteresis = 0.2;
     for (Piezo* p : {&walked, &straight}) (void)p->length(190.0);
     const double turned = walked.length(183.0);
-    blind = (turned - walked.length(143.0)) - (straight.length(190.0) - straight.length(150.0));
+    const double blind = (turned - walked.length(143.0)) - (straight.length(190.0) - straight.length(150.0));
     EXPECT_GT(std::abs(blind), 0.008);
 }
 
