@@ -9,14 +9,13 @@ namespace zlg::core::discriminator_curve_test {
 
 static_assert(check(DiscriminatorCurve{}) == CurveFault::none);
 
+using test::expansive;
 using test::expansive_curve;
-
-double apparent(double dl) { return test::expansive(dl); }
 
 double worst_error(const DiscriminatorCurve& c) {
     double worst = 0.0;
     for (double dl = 0.0; dl < 0.24; dl += 1e-4) {
-        worst = std::max(worst, std::abs(true_detuning(c, apparent(dl)).detuning_lambda - dl));
+        worst = std::max(worst, std::abs(true_detuning(c, expansive(dl)).detuning_lambda - dl));
     }
     return worst;
 }
@@ -47,8 +46,8 @@ TEST(DiscriminatorCurve, PassesThroughItsNodesAndIsOdd) {
     ASSERT_EQ(check(c), CurveFault::none);
     for (int k = 1; k < 12; ++k) {
         const double dl = 0.24 * k / 12;
-        EXPECT_NEAR(true_detuning(c, apparent(dl)).detuning_lambda, dl, 1e-15);
-        EXPECT_EQ(true_detuning(c, -apparent(dl)).detuning_lambda, -true_detuning(c, apparent(dl)).detuning_lambda);
+        EXPECT_NEAR(true_detuning(c, expansive(dl)).detuning_lambda, dl, 1e-15);
+        EXPECT_EQ(true_detuning(c, -expansive(dl)).detuning_lambda, -true_detuning(c, expansive(dl)).detuning_lambda);
     }
 }
 
@@ -100,7 +99,7 @@ TEST(DiscriminatorCurve, EachSideMayHaveItsOwnNodes) {
     EXPECT_EQ(nodes_below(c), 31u);
     EXPECT_EQ(true_detuning(c, 0.0).detuning_lambda, 0.0);
     for (double dl = 1e-3; dl < 0.24; dl += 1e-3) {
-        EXPECT_NEAR(true_detuning(c, apparent(-dl)).detuning_lambda, -dl, 3e-4);
+        EXPECT_NEAR(true_detuning(c, expansive(-dl)).detuning_lambda, -dl, 3e-4);
         EXPECT_NEAR(true_detuning(c, right_apparent(dl)).detuning_lambda, dl, 3e-4);
     }
     double last = -1.0;
@@ -115,7 +114,7 @@ TEST(DiscriminatorCurve, EachSideMayHaveItsOwnNodes) {
 }
 
 TEST(DiscriminatorCurve, TwoEqualSidesAreTheMirroredOne) {
-    const DiscriminatorCurve both = expansive_curve(31, test::expansive, true);
+    const DiscriminatorCurve both = expansive_curve(31, expansive, true);
     const DiscriminatorCurve one = expansive_curve(31);
     for (double at = -3.0; at < 3.0; at += 0.0173)
         EXPECT_NEAR(true_detuning(both, at).detuning_lambda, true_detuning(one, at).detuning_lambda, 1e-5) << at;
@@ -123,12 +122,12 @@ TEST(DiscriminatorCurve, TwoEqualSidesAreTheMirroredOne) {
 
 // A half in which the detuning goes evenly from one value to another.
 SyncDetectorOutput detected(const SyncDetectorConfig& c, double from, double to, int sign,
-                            double (*right)(double) = test::expansive) {
+                            double (*right)(double) = expansive) {
     std::array<float, 16> a{};
     std::array<float, 16> b{};
     for (std::size_t k = 0; k < 16; ++k) {
         const double dl = from + (to - from) * (static_cast<double>(k) + 0.5) / 16.0;
-        const double signal = sign * 0.332 * (dl < 0.0 ? apparent(dl) : right(dl));
+        const double signal = sign * 0.332 * (dl < 0.0 ? expansive(dl) : right(dl));
         a[k] = static_cast<float>(1000.0 * (1.0 + signal));
         b[k] = static_cast<float>(1000.0 * (1.0 - signal));
     }
@@ -199,7 +198,7 @@ TEST(DiscriminatorCurve, TheDetectorReadsTrueDetuningsThroughIt) {
     ASSERT_EQ(check(with), SyncDetectorFault::none);
     for (const int sign : {1, -1}) {
         const SyncDetectorOutput linear = detected({}, -0.2, -0.2, sign);
-        EXPECT_NEAR(linear.detuning.value(), -apparent(0.2), 1e-5);
+        EXPECT_NEAR(linear.detuning.value(), -expansive(0.2), 1e-5);
         const SyncDetectorOutput read = detected(with, -0.2, -0.1, sign);
         EXPECT_NEAR(read.detuning.value(), -0.15, 2e-5);
         EXPECT_NEAR(read.mean_sq_lambda2, 0.15 * 0.15 + 0.01 / 12.0, 2e-5);

@@ -22,12 +22,10 @@ TEST(Health, AWordHoldsTheBitsThatWereSeenAndNoOther) {
 }
 
 TEST(Health, MoreCountsThanTheLimitAreBeyondItInEitherDirection) {
-    EXPECT_FALSE(is_beyond(1000, max_counts(config)));
-    EXPECT_FALSE(is_beyond(-1000, max_counts(config)));
-    EXPECT_TRUE(is_beyond(1001, max_counts(config)));
-    EXPECT_TRUE(is_beyond(-1001, max_counts(config)));
-    EXPECT_TRUE(is_beyond(std::numeric_limits<std::int64_t>::min(), max_counts(config)));
-    EXPECT_TRUE(is_beyond(std::numeric_limits<std::int64_t>::max(), max_counts(config)));
+    using Limits = std::numeric_limits<std::int64_t>;
+    for (const std::int64_t counts : {1000, -1000}) EXPECT_FALSE(is_beyond(counts, max_counts(config))) << counts;
+    for (const std::int64_t counts : {std::int64_t{1001}, std::int64_t{-1001}, Limits::min(), Limits::max()})
+        EXPECT_TRUE(is_beyond(counts, max_counts(config))) << counts;
 }
 
 TEST(Health, BitsHaveDistinctNamesInTheirOrder) {

@@ -10,10 +10,8 @@ const CompensationConstants config;
 constexpr std::int64_t tick_ticks = 50000;
 
 TEST(EdgeShift, AnEdgeCannotMoveByAQuarterOfATick) {
-    EXPECT_TRUE(is_possible(config, 12499));
-    EXPECT_TRUE(is_possible(config, -12499));
-    EXPECT_FALSE(is_possible(config, 12500));
-    EXPECT_FALSE(is_possible(config, -12500));
+    EXPECT_TRUE(is_possible(config, 12499) && is_possible(config, -12499));
+    EXPECT_FALSE(is_possible(config, 12500) || is_possible(config, -12500));
     const CompensationConstants slow{.tick = Seconds{0.005}, .timer = Hertz{1.0}};
     EXPECT_TRUE(is_possible(slow, 0));
     EXPECT_FALSE(is_possible(slow, 1));

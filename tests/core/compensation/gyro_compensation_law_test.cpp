@@ -19,6 +19,14 @@ GyroCompensationConfig config_of(RelockMethod relock, BridgeMethod bridge = Brid
     return config;
 }
 
+// Counts so fine that what is left of a false angle is not hidden by rounding.
+GyroCompensationConfig finely_counted(RelockMethod relock, BridgeMethod bridge) {
+    GyroCompensationConfig config = config_of(relock, bridge);
+    config.gyro.bias = Hertz{1e12};
+    config.gyro.scale = Arcsec{3.263 * 60e3 / 1e12};
+    return config;
+}
+
 // Mean of exp(-t/decay_ticks) over a half that starts at `start` ticks.
 double mean_decay(double start, double decay_ticks) {
     return std::exp(-start / decay_ticks) * (1.0 - std::exp(-0.5 / decay_ticks)) * 2.0 * decay_ticks;
@@ -86,14 +94,11 @@ Delivered after_garbage(const GyroCompensationConfig& config, std::uint64_t seed
     return run(config, all);
 }
 
-// Counts so fine that what is left of a false angle is not hidden by rounding.
 TEST(GyroCompensationLaw, EveryMethodGivesTheRotationOfASwitchingGyro) {
     for (const RelockMethod method : {RelockMethod::frequency, RelockMethod::detuning, RelockMethod::mean_square})
         for (const std::int8_t first_sign : {std::int8_t{1}, std::int8_t{-1}})
             for (const double miss : {0.22, -0.22}) {
-                GyroCompensationConfig config = config_of(method);
-                config.gyro.bias = Hertz{1e12};
-                config.gyro.scale = Arcsec{3.263 * 60e3 / 1e12};
+                const GyroCompensationConfig config = finely_counted(method, BridgeMethod::quadratic);
                 const double rotation = 37.2;
                 const Delivered got = run(config, switching_log(config, first_sign, 60, 600, miss, rotation));
                 for (const AngleRow& row : got.rows) {
@@ -112,9 +117,7 @@ TEST(GyroCompensationLaw, EveryMethodGivesTheRotationOfASwitchingGyro) {
 }
 
 TEST(GyroCompensationLaw, UncorrectedFalseAnglesAlternateAndHaveThePredictedSize) {
-    GyroCompensationConfig config = config_of(RelockMethod::none, BridgeMethod::none);
-    config.gyro.bias = Hertz{1e12};
-    config.gyro.scale = Arcsec{3.263 * 60e3 / 1e12};
+    const GyroCompensationConfig config = finely_counted(RelockMethod::none, BridgeMethod::none);
     const Delivered got = run(config, switching_log(config, 1, 60, 600, 0.22, 0.0));
     for (int gap = 1; gap < 10; ++gap) {
         double sum = 0.0;

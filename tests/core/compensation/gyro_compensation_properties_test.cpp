@@ -92,6 +92,8 @@ BridgeMethod any_bridge() { return static_cast<BridgeMethod>(any(0, 4)); }
 BridgeMethod any_fixed_bridge() { return static_cast<BridgeMethod>(any(0, 3)); }
 BridgeMethod any_polynomial() { return static_cast<BridgeMethod>(any(1, 3)); }
 
+bool near(double a, double b) { return std::fabs(a - b) < 1e-6; }
+
 // Rows scaled by a factor; sigma is not, because it speaks of the counter.
 bool is_scaled(const AngleRow& scaled, const AngleRow& row, double factor) {
     return scaled.dtheta_arcsec == factor * row.dtheta_arcsec &&
@@ -123,10 +125,9 @@ RC_GTEST_PROP(GyroCompensationProperty, RotationsAddUp, ()) {
     const Delivered of_b = run(config, log_of(plan, 3, b));
     const Delivered of_sum = run(config, log_of(plan, 3, sum));
     for (std::size_t k = 0; k < of_sum.rows.size(); ++k) {
-        RC_ASSERT(std::fabs(of_sum.rows[k].dtheta_arcsec - of_a.rows[k].dtheta_arcsec - of_b.rows[k].dtheta_arcsec) <
-                  1e-6);
-        RC_ASSERT(std::fabs(of_sum.rows[k].dtheta_final_arcsec - of_a.rows[k].dtheta_final_arcsec -
-                            of_b.rows[k].dtheta_final_arcsec) < 1e-6);
+        const AngleRow &got = of_sum.rows[k], &first = of_a.rows[k], &second = of_b.rows[k];
+        RC_ASSERT(near(got.dtheta_arcsec - first.dtheta_arcsec, second.dtheta_arcsec));
+        RC_ASSERT(near(got.dtheta_final_arcsec - first.dtheta_final_arcsec, second.dtheta_final_arcsec));
     }
 }
 
@@ -150,7 +151,7 @@ RC_GTEST_PROP(GyroCompensationProperty, PolynomialsOfTheOrderPassWithoutError, (
     for (std::size_t k = 0; k < got.rows.size(); ++k) {
         const AngleRow& row = got.rows[k];
         if ((row.flags & (flag_lower_order | flag_unrepaired)) != 0) continue;
-        RC_ASSERT(std::fabs(row.dtheta_final_arcsec - rotation(k)) < 1e-6);
+        RC_ASSERT(near(row.dtheta_final_arcsec, rotation(k)));
     }
 }
 
@@ -163,9 +164,9 @@ RC_GTEST_PROP(GyroCompensationProperty, ALogPlayedBackwardsHasItsFinalAnglesBack
     Delivered backward = run(config, halves);
     std::reverse(backward.rows.begin(), backward.rows.end());
     for (std::size_t k = 0; k < forward.rows.size(); ++k) {
-        RC_ASSERT(std::fabs(forward.rows[k].dtheta_final_arcsec - backward.rows[k].dtheta_final_arcsec) < 1e-6);
+        RC_ASSERT(near(forward.rows[k].dtheta_final_arcsec, backward.rows[k].dtheta_final_arcsec));
         // Equal to rounding.
-        RC_ASSERT(std::fabs(forward.rows[k].sigma_arcsec - backward.rows[k].sigma_arcsec) < 1e-6);
+        RC_ASSERT(near(forward.rows[k].sigma_arcsec, backward.rows[k].sigma_arcsec));
     }
 }
 

@@ -19,6 +19,13 @@ constexpr GyroControlConfig config_of(LoopKind kind) {
     return config_with([kind](GyroControlConfig& c) { c.loop.kind = kind; });
 }
 
+constexpr GyroControlConfig dithered(LoopKind kind, DitherMethod method) {
+    return config_with([&](GyroControlConfig& c) {
+        c.loop.kind = kind;
+        c.commutator.dither.method = method;
+    });
+}
+
 inline bool all_finite(const HalfRecord& r) {
     return std::isfinite(r.detuning_lambda) && std::isfinite(r.detuning_sq_lambda2) && std::isfinite(r.piezo_v) &&
            std::isfinite(r.temperature_c);

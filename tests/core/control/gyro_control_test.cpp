@@ -96,9 +96,7 @@ TEST_P(EitherLoop, OneBeamIsEnough) {
 }
 
 TEST_P(EitherLoop, ACopyOfTheStateGoesOnLikeTheOriginal) {
-    GyroControlConfig c = config_of(GetParam());
-    c.commutator.dither.method = DitherMethod::random;
-    Loop loop{c};
+    Loop loop{dithered(GetParam(), DitherMethod::random)};
     loop.ticks(199);
     GyroControlState copy = loop.state;
     for (int half = 0; half < 200; ++half) {

@@ -22,19 +22,13 @@ TEST(PiezoRange, ClampKeepsWhatIsInsideAndMovesTheRestToTheNearestEnd) {
 }
 
 TEST(PiezoRange, TheMarginBelongsToBothEnds) {
-    EXPECT_TRUE(near_end(range, Volts{-140.5}));
-    EXPECT_FALSE(near_end(range, Volts{-139.5}));
-    EXPECT_FALSE(near_end(range, Volts{139.5}));
-    EXPECT_TRUE(near_end(range, Volts{140.5}));
+    for (const double end : {-140.5, 140.5}) EXPECT_TRUE(near_end(range, Volts{end})) << end;
+    for (const double inside : {-139.5, 139.5}) EXPECT_FALSE(near_end(range, Volts{inside})) << inside;
 }
 
 TEST(PiezoRange, AReadingMayLieOneRangeOutside) {
-    EXPECT_TRUE(plausible(range, Volts{-449.0}));
-    EXPECT_FALSE(plausible(range, Volts{-451.0}));
-    EXPECT_TRUE(plausible(range, Volts{449.0}));
-    EXPECT_FALSE(plausible(range, Volts{451.0}));
-    EXPECT_FALSE(plausible(range, Volts{not_a_number}));
-    EXPECT_FALSE(plausible(range, Volts{std::numeric_limits<double>::infinity()}));
+    for (const double v : {-449.0, 449.0}) EXPECT_TRUE(plausible(range, Volts{v})) << v;
+    for (const double v : {-451.0, 451.0, not_a_number, infinity}) EXPECT_FALSE(plausible(range, Volts{v})) << v;
 }
 
 }  // namespace zlg::core::piezo_range_test

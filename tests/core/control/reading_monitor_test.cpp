@@ -220,12 +220,8 @@ TEST(ReadingMonitor, OfAnOpenLoopOrAnotherModeNothingIsTakenAcross) {
     for (const bool opens : {true, false}) {
         auto halves = turning(60, 3);
         for (std::size_t h = 20; h < 30; ++h) halves[h].read = false;
-        for (std::size_t h = opens ? 24 : 26; h < (opens ? 27u : 60u); ++h) {
-            if (opens)
-                halves[h].countable = false;
-            else
-                halves[h].mode = -1;
-        }
+        for (std::size_t h = 24; h < 27 && opens; ++h) halves[h].countable = false;
+        for (std::size_t h = 26; h < 60 && !opens; ++h) halves[h].mode = -1;
         const Readout all = run(halves);
         EXPECT_FALSE(all.out[30].trusted);
         EXPECT_EQ(all.out[31].span, 1);

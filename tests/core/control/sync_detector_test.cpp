@@ -136,12 +136,9 @@ TEST(SyncDetector, OneBeamIsTwoWayBetweenItsLimits) {
         SyncDetectorState copy = s;
         return single(copy, light_of(steady(0.0), 1, 2.0 * beam_a), 1).two_way;
     };
-    EXPECT_FALSE(two_way(0.0));
-    EXPECT_FALSE(two_way(249.0));
-    EXPECT_TRUE(two_way(251.0));
-    EXPECT_TRUE(two_way(749.0));
-    EXPECT_FALSE(two_way(751.0));
-    EXPECT_FALSE(two_way(1000.0));  // the other beam has gone out
+    // At 1000 the other beam has gone out.
+    for (const double beam_a : {0.0, 249.0, 751.0, 1000.0}) EXPECT_FALSE(two_way(beam_a)) << beam_a;
+    for (const double beam_a : {251.0, 749.0}) EXPECT_TRUE(two_way(beam_a)) << beam_a;
 }
 
 TEST(SyncDetector, TheLevelFollowsSettledLightWithItsTimeConstantAndNothingElse) {
