@@ -62,12 +62,6 @@ TEST(GyroCompensation, TwoHalvesMakeATickAndTheBiasCancels) {
         }
 }
 
-TEST(GyroCompensation, SigmaOfATickIsDifferencedRoundingAndRandomWalk) {
-    const Delivered got = run(config_of(RelockMethod::none), plain_log(5));
-    const double sigma = std::sqrt(scale_arcsec * scale_arcsec / 6.0 + 0.14 * 0.14 * 0.005);
-    for (const AngleRow& row : got.rows) EXPECT_NEAR(row.sigma_arcsec, sigma, 1e-12);
-}
-
 TEST(GyroCompensation, AnOddLastHalfIsDropped) {
     Halves halves = plain_log(30);
     const Delivered even = run(config_of(RelockMethod::frequency), halves);

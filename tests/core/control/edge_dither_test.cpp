@@ -10,6 +10,7 @@ const EdgeDitherConfig config;
 struct Edges {
     std::vector<std::int32_t> up;
     std::vector<std::int32_t> down;
+    EdgeDitherState state;
 };
 
 EdgeDitherConfig always(DitherLaw law) {
@@ -27,21 +28,16 @@ EdgeDitherOutput half(const EdgeDitherConfig& c, EdgeDitherState& s, int number,
 }
 
 // Runs with `counts` in every half, plus the bias's own; the first periods, in which the law is found, are left out.
-Edges run(const EdgeDitherConfig& c, EdgeDitherState& s, int n_periods, std::int64_t counts = 0) {
+Edges run(const EdgeDitherConfig& c, int n_periods, std::int64_t counts = 0) {
     Edges edges;
     for (int i = 0; i < n_periods + 132; ++i) {
-        const EdgeDitherOutput up = half(c, s, 0, 150 + counts);
-        const EdgeDitherOutput down = half(c, s, 1, -150 + counts);
+        const EdgeDitherOutput up = half(c, edges.state, 0, 150 + counts);
+        const EdgeDitherOutput down = half(c, edges.state, 1, -150 + counts);
         if (i < 132) continue;
         edges.up.push_back(up.edge_offset_ticks);
         edges.down.push_back(down.edge_offset_ticks);
     }
     return edges;
-}
-
-Edges run(const EdgeDitherConfig& c, int n_periods, std::int64_t counts = 0) {
-    EdgeDitherState s;
-    return run(c, s, n_periods, counts);
 }
 
 // Mean of cos and sin of the place in the turn: both vanish where it is uniform.
@@ -223,9 +219,9 @@ TEST(EdgeDither, ALawThatIsAskedForHoldsFromTheFirstEdgeAtAnyRate) {
 TEST(EdgeDither, NoMethodMovesNoEdge) {
     EdgeDitherConfig c = config;
     c.method = DitherMethod::none;
-    EdgeDitherState s;
-    for (const std::int32_t t : run(c, s, 100).up) EXPECT_EQ(t, 0);
-    EXPECT_EQ(s, EdgeDitherState{});
+    const Edges e = run(c, 100);
+    EXPECT_EQ(e.up, std::vector<std::int32_t>(100, 0));
+    EXPECT_EQ(e.state, EdgeDitherState{});
 }
 
 }  // namespace zlg::core::edge_dither_test

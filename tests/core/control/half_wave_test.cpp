@@ -37,21 +37,6 @@ TEST(HalfWave, SteadySigmaSolvesTheRiccatiEquation) {
     EXPECT_NEAR(s.variance_v2, posterior, 1e-12);
 }
 
-TEST(HalfWave, NoisyMeasurementsAreAveragedWithinTheStatedSigma) {
-    std::mt19937_64 random{7};
-    std::normal_distribution<double> noise{0.0, 0.3};
-    const HalfWaveConfig constant{.presumed = Volts{38.0}, .process_sigma = Volts{0.0}};
-    double sum_sq = 0.0;
-    constexpr int n_runs = 400;
-    for (int run = 0; run < n_runs; ++run) {
-        HalfWaveState s = initial_state(constant);
-        for (int k = 0; k < 25; ++k) (void)step(constant, s, Volts{40.0 + noise(random)});
-        sum_sq += (s.estimate_v - 40.0) * (s.estimate_v - 40.0);
-        ASSERT_NEAR(sigma(s).value(), 0.06, 0.001);
-    }
-    EXPECT_NEAR(std::sqrt(sum_sq / n_runs), 0.06, 0.009);  // sigma of an rms of 400 is 3.5 %
-}
-
 TEST(HalfWave, OutliersAreRejectedAndSaid) {
     HalfWaveState s = initial_state(config);
     for (int k = 0; k < 20; ++k) (void)step(config, s, Volts{40.0});
