@@ -49,14 +49,9 @@ TEST(Triangle, AFactorTimesItselfIsTheMatrixAndBothSystemsAreSolved) {
 
 TEST(Triangle, WhatIsNotPositiveDefiniteHasNoFactor) {
     std::vector<double> reciprocal(3);
-    std::vector<double> repeated{1, 1, 1};
-    EXPECT_FALSE(factorise(Triangle{repeated.data()}, reciprocal.data(), 2));
-    std::vector<double> negative{1, 2, 3};
-    EXPECT_FALSE(factorise(Triangle{negative.data()}, reciprocal.data(), 2));
-    std::vector<double> no_number{1, std::nan(""), 3};
-    EXPECT_FALSE(factorise(Triangle{no_number.data()}, reciprocal.data(), 2));
-    std::vector<double> endless{1, 0, compensation_test::infinite};
-    EXPECT_FALSE(factorise(Triangle{endless.data()}, reciprocal.data(), 2));
+    using Rows = std::vector<double>;
+    for (Rows rows : {Rows{1, 1, 1}, Rows{1, 2, 3}, Rows{1, not_a_number, 3}, Rows{1, 0, infinity}})
+        EXPECT_FALSE(factorise(Triangle{rows.data()}, reciprocal.data(), 2)) << rows[1];
 }
 
 }  // namespace zlg::core::triangle_test

@@ -38,8 +38,7 @@ struct Gyro {
         int open_until = 0;
         double deficit = 0.0;
         for (int k = 0; k < 2 * n_ticks; ++k) {
-            for (const int tick : switches) {
-                if (k != 2 * tick) continue;
+            if (k % 2 == 0 && std::ranges::count(switches, k / 2) > 0) {
                 mode = static_cast<std::int8_t>(-mode);
                 open_until = k + 6;
                 deficit = 1e-3 * static_cast<double>(deficit_per_mille);

@@ -48,11 +48,9 @@ public:
     LightMonitorOutput half(const LightMonitorConfig& c = config) {
         sign_ = -sign_;
         if (!stuck) shine();
-        double sum = 0.0;
-        double squares = 0.0;
+        double sum = 0.0, squares = 0.0;
         for (std::size_t k = 0; k < a_.size(); ++k) {
-            const double a = static_cast<double>(a_[k]);
-            const double b = static_cast<double>(b_[k]);
+            const double a = static_cast<double>(a_[k]), b = static_cast<double>(b_[k]);
             const double x = sign_ * (a - b) / (a + b) / slope;
             sum += x;
             squares += x * x;
@@ -85,8 +83,7 @@ private:
     }
 
     int sign_ = -1;
-    std::array<float, 16> a_{};
-    std::array<float, 16> b_{};
+    std::array<float, 16> a_{}, b_{};
     std::mt19937 random_{11};
     std::normal_distribution<double> normal_;
 };
@@ -134,8 +131,7 @@ TEST(LightMonitor, AConverterThatStandsStillIsSeenInTwoHalvesAndSteersNothing) {
     (void)step(config, s, in);
     EXPECT_FALSE(step(config, s, in).stuck);
     const LightMonitorOutput out = step(config, s, in);
-    EXPECT_TRUE(out.stuck);
-    EXPECT_FALSE(out.usable || out.has_mean_square);
+    EXPECT_TRUE(out.stuck && !out.usable && !out.has_mean_square);
 }
 
 TEST(LightMonitor, NoiseIsSeenInTwoHalvesAndMakesNoMeanSquare) {
@@ -163,14 +159,11 @@ TEST(LightMonitor, ABeamThatFadedLeavesTheDetuningAsTheMeanOfTwoHalves) {
     light.detuning_lambda = 0.01;
     light.share_a = 0.95;  // of 1.95: the reading is off by 0.077
     const LightMonitorOutput out = light.halves(12);
-    EXPECT_TRUE(out.unbalanced);
-    EXPECT_TRUE(out.usable);
-    EXPECT_FALSE(out.has_mean_square);
+    EXPECT_TRUE(out.unbalanced && out.usable && !out.has_mean_square);
     EXPECT_NEAR(out.detuning.value(), 0.01, 0.003);
     light.share_a = 1.0;
     const LightMonitorOutput again = light.halves(12);
-    EXPECT_FALSE(again.unbalanced);
-    EXPECT_TRUE(again.has_mean_square);
+    EXPECT_TRUE(!again.unbalanced && again.has_mean_square);
 }
 
 // There what a beam has lost stands in the mean square, times the detuning.
@@ -182,8 +175,7 @@ TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
         (void)fading.halves(10);
         fading.share_a = 1.0 - lost;
         const LightMonitorOutput out = fading.half();
-        EXPECT_TRUE(out.unbalanced) << lost;
-        EXPECT_FALSE(out.has_mean_square) << lost;
+        EXPECT_TRUE(out.unbalanced && !out.has_mean_square) << lost;
         // It has come back, but the loop has not locked yet.
         fading.share_a = 1.0;
         EXPECT_TRUE(fading.halves(8).unbalanced) << lost;
@@ -255,8 +247,7 @@ TEST(LightMonitor, ARotationThatChangesIsNoFadedBeam) {
     for (int k = 0; k < 40; ++k) {
         light.deficit_ratio = k % 2 == 0 ? 0.2 : -0.2;
         const LightMonitorOutput out = light.half();
-        EXPECT_FALSE(out.unbalanced) << k;
-        EXPECT_TRUE(out.has_mean_square) << k;
+        EXPECT_TRUE(!out.unbalanced && out.has_mean_square) << k;
     }
 }
 
@@ -265,8 +256,7 @@ TEST(LightMonitor, TheBeatOverrulesTheLightAfterEightHalvesUnlessItIsDark) {
     light.two_way = false;
     EXPECT_FALSE(light.halves(7).contradicted);
     const LightMonitorOutput out = light.half();
-    EXPECT_TRUE(out.contradicted);
-    EXPECT_FALSE(out.usable);
+    EXPECT_TRUE(out.contradicted && !out.usable);
     light.dark = true;
     EXPECT_FALSE(light.half().contradicted);
     light.dark = false;
@@ -294,8 +284,7 @@ TEST(LightMonitor, WhatItRemembersOfDamagedLightAreNumbers) {
     const std::array<float, 4> endless{std::numeric_limits<float>::infinity(), 1.0f, 1.0f, 1.0f};
     (void)step(config, state, {.light_a = damaged, .light_b = endless});
     EXPECT_EQ(state, LightMonitorState{state});
-    EXPECT_EQ(state.last_a, 0.0f);
-    EXPECT_EQ(state.last_b, 0.0f);
+    EXPECT_TRUE(state.last_a == 0.0f && state.last_b == 0.0f);
 }
 
 // A beam that fades and comes back within a few halves is still on its way in the first half that is lit again.
@@ -307,8 +296,7 @@ TEST(LightMonitor, TheFirstLightAfterADarkHalfIsNoDetuning) {
     light.two_way = true;
     light.share_a = 0.97;
     const LightMonitorOutput first = light.half();
-    EXPECT_TRUE(first.unbalanced);
-    EXPECT_FALSE(first.has_mean_square || first.usable);
+    EXPECT_TRUE(first.unbalanced && !first.has_mean_square && !first.usable);
     light.share_a = 1.0;
     (void)light.half();
     const LightMonitorOutput later = light.half();
