@@ -1,10 +1,8 @@
 #include <zlg/core/common/as_double.hpp>
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
-namespace as_double_test {
-
-using namespace zlg::core;
+namespace zlg::core::as_double_test {
 
 TEST(AsDouble, IsRoundedOnceLikeTheConversion) {
     for (const std::int64_t x : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{1} << 32, -(std::int64_t{1} << 32) - 1,
@@ -12,4 +10,4 @@ TEST(AsDouble, IsRoundedOnceLikeTheConversion) {
         EXPECT_EQ(as_double(x), static_cast<double>(x)) << x;
 }
 
-}  // namespace as_double_test
+}  // namespace zlg::core::as_double_test

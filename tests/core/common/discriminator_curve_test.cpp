@@ -1,39 +1,21 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <span>
-#include <vector>
-#include <zlg/core/common/discriminator_curve.hpp>
 #include <zlg/core/compensation/relock_drift.hpp>
 #include <zlg/core/control/sync_detector.hpp>
 
-namespace zlg::core {
-namespace discriminator_curve_test {
+#include "common/expansive_curve.hpp"
+
+#include "support.hpp"
+
+namespace zlg::core::discriminator_curve_test {
 
 static_assert(check(DiscriminatorCurve{}) == CurveFault::none);
 
-// An expansive discriminator: 1.05, 1.24, 1.8, 3.3 times its linear law at 0.05, 0.10, 0.15, 0.20 wavelength.
-double apparent(double dl) {
-    const double x2 = dl * dl;
-    return dl * (1.0 + 19.0 * x2 + 200.0 * x2 * x2 + 19000.0 * x2 * x2 * x2);
-}
-
-DiscriminatorCurve curve_of(int n) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int k = 1; k <= n; ++k) {
-        y.push_back(0.24 * k / n);
-        x.push_back(apparent(y.back()));
-    }
-    return discriminator_curve(x, y);
-}
+using test::expansive;
+using test::expansive_curve;
 
 double worst_error(const DiscriminatorCurve& c) {
     double worst = 0.0;
     for (double dl = 0.0; dl < 0.24; dl += 1e-4) {
-        worst = std::max(worst, std::abs(true_detuning(c, apparent(dl)).detuning_lambda - dl));
+        worst = std::max(worst, std::abs(true_detuning(c, expansive(dl)).detuning_lambda - dl));
     }
     return worst;
 }
@@ -60,22 +42,20 @@ TEST(DiscriminatorCurve, AStraightCurveLeavesTheMomentsAsTheyAre) {
 }
 
 TEST(DiscriminatorCurve, PassesThroughItsNodesAndIsOdd) {
-    const DiscriminatorCurve c = curve_of(12);
+    const DiscriminatorCurve c = expansive_curve(12);
     ASSERT_EQ(check(c), CurveFault::none);
     for (int k = 1; k < 12; ++k) {
         const double dl = 0.24 * k / 12;
-        EXPECT_NEAR(true_detuning(c, apparent(dl)).detuning_lambda, dl, 1e-15);
-        EXPECT_EQ(true_detuning(c, -apparent(dl)).detuning_lambda, -true_detuning(c, apparent(dl)).detuning_lambda);
+        EXPECT_NEAR(true_detuning(c, expansive(dl)).detuning_lambda, dl, 1e-15);
+        EXPECT_EQ(true_detuning(c, -expansive(dl)).detuning_lambda, -true_detuning(c, expansive(dl)).detuning_lambda);
     }
 }
 
 TEST(DiscriminatorCurve, ThirtyOneNodesAreGoodToFiveHundredThousandthsOfAWavelength) {
-    EXPECT_LT(worst_error(curve_of(31)), 5e-5);
-    EXPECT_GT(worst_error(curve_of(7)), 2e-4);
-}
-
-TEST(DiscriminatorCurve, HalfTheDistanceLeavesAnEighthOfTheError) {
-    const double ratio = worst_error(curve_of(15)) / worst_error(curve_of(30));
+    EXPECT_LT(worst_error(expansive_curve(31)), 5e-5);
+    EXPECT_GT(worst_error(expansive_curve(7)), 2e-4);
+    // Half the distance leaves an eighth of the error.
+    const double ratio = worst_error(expansive_curve(15)) / worst_error(expansive_curve(30));
     EXPECT_GT(ratio, 6.0);
     EXPECT_LT(ratio, 20.0);
 }
@@ -95,7 +75,7 @@ TEST(DiscriminatorCurve, IsMonotoneWhateverGrowsInItsNodes) {
 }
 
 TEST(DiscriminatorCurve, TheSlopeIsTheDerivative) {
-    const DiscriminatorCurve c = curve_of(20);
+    const DiscriminatorCurve c = expansive_curve(20);
     for (const double x : {-0.2, -0.05, 0.013, 0.1, 0.31}) {
         const double h = 1e-7;
         const double rise = true_detuning(c, x + h).detuning_lambda - true_detuning(c, x - h).detuning_lambda;
@@ -104,40 +84,23 @@ TEST(DiscriminatorCurve, TheSlopeIsTheDerivative) {
 }
 
 TEST(DiscriminatorCurve, BeyondItsLastNodeItHolds) {
-    const DiscriminatorCurve c = curve_of(20);
+    const DiscriminatorCurve c = expansive_curve(20);
     EXPECT_EQ(true_detuning(c, 50.0).detuning_lambda, 0.24);
     EXPECT_EQ(true_detuning(c, -50.0).detuning_lambda, -0.24);
-    EXPECT_TRUE(std::isnan(true_detuning(c, std::numeric_limits<double>::quiet_NaN()).detuning_lambda));
+    EXPECT_TRUE(std::isnan(true_detuning(c, not_a_number).detuning_lambda));
 }
 
 // Unlike sides: to the left the curve of above, to the right one that is steeper.
 double right_apparent(double dl) { return dl * (1.1 + 25.0 * dl * dl); }
 
-DiscriminatorCurve curve_of_both_sides(int n) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int k = -n; k <= n; ++k) {
-        if (k == 0) continue;
-        y.push_back(0.24 * k / n);
-        x.push_back(k < 0 ? apparent(y.back()) : right_apparent(y.back()));
-    }
-    return discriminator_curve(x, y);
-}
-
 TEST(DiscriminatorCurve, EachSideMayHaveItsOwnNodes) {
-    const DiscriminatorCurve c = curve_of_both_sides(31);
+    const DiscriminatorCurve c = expansive_curve(31, right_apparent, true);
     ASSERT_EQ(check(c), CurveFault::none);
     EXPECT_EQ(nodes_below(c), 31u);
     EXPECT_EQ(true_detuning(c, 0.0).detuning_lambda, 0.0);
     for (double dl = 1e-3; dl < 0.24; dl += 1e-3) {
-        EXPECT_NEAR(true_detuning(c, apparent(-dl)).detuning_lambda, -dl, 3e-4);
+        EXPECT_NEAR(true_detuning(c, expansive(-dl)).detuning_lambda, -dl, 3e-4);
         EXPECT_NEAR(true_detuning(c, right_apparent(dl)).detuning_lambda, dl, 3e-4);
-    }
-    double last = -1.0;
-    for (double x = -4.0; x < 1.0; x += 1e-3) {
-        const CurvePoint p = true_detuning(c, x);
-        EXPECT_GE(p.detuning_lambda, last);
-        last = p.detuning_lambda;
     }
     EXPECT_EQ(true_detuning(c, -50.0).detuning_lambda, -0.24);
     EXPECT_EQ(true_detuning(c, -50.0).slope, 0.0);
@@ -145,40 +108,34 @@ TEST(DiscriminatorCurve, EachSideMayHaveItsOwnNodes) {
 }
 
 TEST(DiscriminatorCurve, TwoEqualSidesAreTheMirroredOne) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int k = -31; k <= 31; ++k) {
-        if (k == 0) continue;
-        y.push_back(0.24 * k / 31);
-        x.push_back(apparent(y.back()));
-    }
-    const DiscriminatorCurve both = discriminator_curve(x, y);
-    const DiscriminatorCurve one = curve_of(31);
+    const DiscriminatorCurve both = expansive_curve(31, expansive, true);
+    const DiscriminatorCurve one = expansive_curve(31);
     for (double at = -3.0; at < 3.0; at += 0.0173)
         EXPECT_NEAR(true_detuning(both, at).detuning_lambda, true_detuning(one, at).detuning_lambda, 1e-5) << at;
 }
 
-TEST(DiscriminatorCurve, RefusesSidesThatAreNone) {
-    const auto fault = [](std::vector<double> x, std::vector<double> y) { return check(discriminator_curve(x, y)); };
-    EXPECT_EQ(fault({-0.2, -0.1}, {-0.2, -0.1}), CurveFault::size) << "the positive side is missing";
-    EXPECT_EQ(fault({-0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
-    EXPECT_EQ(fault({-0.1, 0.1, 0.05}, {-0.1, 0.1, 0.2}), CurveFault::node);
-    EXPECT_EQ(fault({-0.1, 0.1}, {-0.1, 0.1}), CurveFault::none);
+// A half in which the detuning goes evenly from one value to another.
+SyncDetectorOutput detected(const SyncDetectorConfig& c, double from, double to, int sign,
+                            double (*right)(double) = expansive) {
+    std::array<float, 16> a{};
+    std::array<float, 16> b{};
+    for (std::size_t k = 0; k < 16; ++k) {
+        const double dl = from + (to - from) * (static_cast<double>(k) + 0.5) / 16.0;
+        const double signal = sign * 0.332 * (dl < 0.0 ? expansive(dl) : right(dl));
+        a[k] = static_cast<float>(1000.0 * (1.0 + signal));
+        b[k] = static_cast<float>(1000.0 * (1.0 - signal));
+    }
+    SyncDetectorState s;
+    return step(c, s, {.light_a = a, .light_b = b, .sign = sign});
 }
 
 // The light turns with the sign of the half before it goes through a curve that is not odd.
 TEST(DiscriminatorCurve, TheSignOfAHalfTurnsTheSignalAndNotTheDetuning) {
     SyncDetectorConfig config;
-    config.curve = curve_of_both_sides(31);
+    config.curve = expansive_curve(31, right_apparent, true);
     for (const double dl : {-0.2, -0.05, 0.1}) {
-        const double signal = config.discriminator_per_lambda * (dl < 0.0 ? apparent(dl) : right_apparent(dl));
         for (const int sign : {1, -1}) {
-            std::array<float, 8> a{};
-            std::array<float, 8> b{};
-            a.fill(static_cast<float>(1.0 + sign * signal));
-            b.fill(static_cast<float>(1.0 - sign * signal));
-            SyncDetectorState state;
-            const SyncDetectorOutput out = step(config, state, {.light_a = a, .light_b = b, .sign = sign});
+            const SyncDetectorOutput out = detected(config, dl, dl, sign, right_apparent);
             ASSERT_TRUE(out.usable);
             EXPECT_NEAR(out.detuning.value(), dl, 4e-4) << sign;
         }
@@ -187,18 +144,21 @@ TEST(DiscriminatorCurve, TheSignOfAHalfTurnsTheSignalAndNotTheDetuning) {
 
 constexpr RelockDriftConfig by_mean_square{.method = RelockMethod::mean_square};
 
+RelockDriftOutput after_gap(const CompensationConstants& gyro, const RelockTick& tick) {
+    RelockDriftState state;
+    enter_gap(state);
+    return step(gyro, by_mean_square, state, tick);
+}
+
 // A bias that is largest at c: what a half lacks is chi <(dl - c)^2>.
 TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
     const CompensationConstants gyro{.bias = Hertz{60e3}, .chi = 3.6, .centre = Wavelengths{0.02}};
     const double first = 0.15, second = 0.06;
     for (const double side : {1.0, -1.0}) {
-        RelockDriftState state;
-        enter_gap(state);
-        const RelockDriftOutput out = step(gyro, by_mean_square, state,
-                                           {.detuning_first_lambda = side * first,
-                                            .detuning_second_lambda = side * second,
-                                            .detuning_sq_first_lambda2 = first * first,
-                                            .detuning_sq_second_lambda2 = second * second});
+        const RelockDriftOutput out = after_gap(gyro, {.detuning_first_lambda = side * first,
+                                                       .detuning_second_lambda = side * second,
+                                                       .detuning_sq_first_lambda2 = first * first,
+                                                       .detuning_sq_second_lambda2 = second * second});
         const double before = (side * first - 0.02) * (side * first - 0.02);
         const double after = (side * second - 0.02) * (side * second - 0.02);
         ASSERT_TRUE(out.tick.known);
@@ -206,52 +166,33 @@ TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
     }
 }
 
-TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrow) {
+TEST(DiscriminatorCurve, RefusesNodesThatDoNotGrowAndSidesThatAreNone) {
     const auto fault = [](std::vector<double> x, std::vector<double> y) { return check(discriminator_curve(x, y)); };
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(fault({}, {}), CurveFault::none);
     EXPECT_EQ(fault({0.1}, {0.1}), CurveFault::none);
     EXPECT_EQ(fault({0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
     EXPECT_EQ(fault({0.1, 0.2}, {0.1, 0.05}), CurveFault::node);
     EXPECT_EQ(fault({-0.1, 0.2}, {0.1, 0.2}), CurveFault::node);
-    EXPECT_EQ(fault({0.1, nan}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({0.1, not_a_number}, {0.1, 0.2}), CurveFault::node);
     EXPECT_EQ(fault({0.1, 2000.0}, {0.1, 0.2}), CurveFault::node);
     EXPECT_EQ(fault({0.1}, {0.1, 0.2}), CurveFault::size);
     EXPECT_EQ(fault(std::vector<double>(32, 0.1), std::vector<double>(32, 0.1)), CurveFault::size);
-    DiscriminatorCurve steep = curve_of(4);
+    EXPECT_EQ(fault({-0.2, -0.1}, {-0.2, -0.1}), CurveFault::size) << "the positive side is missing";
+    EXPECT_EQ(fault({-0.1, 0.1}, {0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({-0.1, 0.1, 0.05}, {-0.1, 0.1, 0.2}), CurveFault::node);
+    EXPECT_EQ(fault({-0.1, 0.1}, {-0.1, 0.1}), CurveFault::none);
+    DiscriminatorCurve steep = expansive_curve(4);
     steep.slope[2] = 10.0;
     EXPECT_EQ(check(steep), CurveFault::slope);
 }
 
-struct Half {
-    std::array<float, 16> a{};
-    std::array<float, 16> b{};
-};
-
-Half light(double from, double to, int sign) {
-    Half h;
-    for (std::size_t k = 0; k < 16; ++k) {
-        const double dl = from + (to - from) * (static_cast<double>(k) + 0.5) / 16.0;
-        const double signal = sign * 0.332 * apparent(dl);
-        h.a[k] = static_cast<float>(1000.0 * (1.0 + signal));
-        h.b[k] = static_cast<float>(1000.0 * (1.0 - signal));
-    }
-    return h;
-}
-
-SyncDetectorOutput detected(const SyncDetectorConfig& c, double from, double to, int sign) {
-    SyncDetectorState s;
-    const Half h = light(from, to, sign);
-    return step(c, s, {.light_a = h.a, .light_b = h.b, .sign = sign});
-}
-
 TEST(DiscriminatorCurve, TheDetectorReadsTrueDetuningsThroughIt) {
     SyncDetectorConfig with;
-    with.curve = curve_of(31);
+    with.curve = expansive_curve(31);
     ASSERT_EQ(check(with), SyncDetectorFault::none);
     for (const int sign : {1, -1}) {
         const SyncDetectorOutput linear = detected({}, -0.2, -0.2, sign);
-        EXPECT_NEAR(linear.detuning.value(), -apparent(0.2), 1e-5);
+        EXPECT_NEAR(linear.detuning.value(), -expansive(0.2), 1e-5);
         const SyncDetectorOutput read = detected(with, -0.2, -0.1, sign);
         EXPECT_NEAR(read.detuning.value(), -0.15, 2e-5);
         EXPECT_NEAR(read.mean_sq_lambda2, 0.15 * 0.15 + 0.01 / 12.0, 2e-5);
@@ -264,8 +205,6 @@ double relock_ratio(const SyncDetectorConfig& detector, const CompensationConsta
     const double end = 0.3 * miss;
     const SyncDetectorOutput first = detected(detector, miss, middle, 1);
     const SyncDetectorOutput second = detected(detector, middle, end, -1);
-    RelockDriftState s;
-    enter_gap(s);
     const RelockTick tick{.detuning_first_lambda = first.detuning.value(),
                           .detuning_second_lambda = second.detuning.value(),
                           .detuning_sq_first_lambda2 = first.mean_sq_lambda2,
@@ -273,16 +212,16 @@ double relock_ratio(const SyncDetectorConfig& detector, const CompensationConsta
                           .temperature_c = 20.0};
     const auto mean_sq = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
     const double rate_hz = 0.5 * 3.6 * 60e3 * (mean_sq(middle, end) - mean_sq(miss, middle));
-    return step(gyro, by_mean_square, s, tick).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
+    return after_gap(gyro, tick).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
 }
 
 TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
     const CompensationConstants plain{.light_noise = Wavelengths{0.0}};
     CompensationConstants late = plain;
-    late.record_curve = curve_of(31);
+    late.record_curve = expansive_curve(31);
     ASSERT_EQ(check(late), CompensationConstantsFault::none);
     SyncDetectorConfig with;
-    with.curve = curve_of(31);
+    with.curve = expansive_curve(31);
     for (const double miss : {0.05, 0.1, 0.2}) {
         EXPECT_NEAR(relock_ratio(with, plain, miss), 1.0, 2e-3) << miss;
         EXPECT_NEAR(relock_ratio({}, late, miss), 1.0, 0.03) << miss;
@@ -296,17 +235,11 @@ TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
                           .detuning_second_lambda = 0.06,
                           .detuning_sq_first_lambda2 = 0.1 * 0.1 + 9e-6,
                           .detuning_sq_second_lambda2 = 0.06 * 0.06 + 9e-6};
-    const auto variance = [&] {
-        RelockDriftState s;
-        enter_gap(s);
-        return step(c, by_mean_square, s, tick).tick.variance_arcsec2;
-    };
-    const double linear = variance();
+    const double linear = after_gap(c, tick).tick.variance_arcsec2;
     const std::array<double, 1> x = {1.0};
     const std::array<double, 1> half = {0.5};
     c.record_curve = discriminator_curve(x, half);  // a straight line of slope 1/2: dl and noise half as large
-    EXPECT_NEAR(variance() / linear, 1.0 / 16.0, 1e-9);
+    EXPECT_NEAR(after_gap(c, tick).tick.variance_arcsec2 / linear, 1.0 / 16.0, 1e-9);
 }
 
-}  // namespace discriminator_curve_test
-}  // namespace zlg::core
+}  // namespace zlg::core::discriminator_curve_test

@@ -1,13 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <limits>
-#include <set>
-#include <string>
 #include <zlg/core/health.hpp>
 
-namespace zlg::core {
-namespace health_test {
+#include <set>
+
+#include "support.hpp"
+
+namespace zlg::core::health_test {
 
 constexpr HealthConfig config{.counts_limit = 1000};
 static_assert(check(config) == HealthFault::none);
@@ -25,12 +22,10 @@ TEST(Health, AWordHoldsTheBitsThatWereSeenAndNoOther) {
 }
 
 TEST(Health, MoreCountsThanTheLimitAreBeyondItInEitherDirection) {
-    EXPECT_FALSE(is_beyond(1000, max_counts(config)));
-    EXPECT_FALSE(is_beyond(-1000, max_counts(config)));
-    EXPECT_TRUE(is_beyond(1001, max_counts(config)));
-    EXPECT_TRUE(is_beyond(-1001, max_counts(config)));
-    EXPECT_TRUE(is_beyond(std::numeric_limits<std::int64_t>::min(), max_counts(config)));
-    EXPECT_TRUE(is_beyond(std::numeric_limits<std::int64_t>::max(), max_counts(config)));
+    using Limits = std::numeric_limits<std::int64_t>;
+    for (const std::int64_t counts : {1000, -1000}) EXPECT_FALSE(is_beyond(counts, max_counts(config))) << counts;
+    for (const std::int64_t counts : {std::int64_t{1001}, std::int64_t{-1001}, Limits::min(), Limits::max()})
+        EXPECT_TRUE(is_beyond(counts, max_counts(config))) << counts;
 }
 
 TEST(Health, BitsHaveDistinctNamesInTheirOrder) {
@@ -50,5 +45,4 @@ TEST(Health, BitsHaveDistinctNamesInTheirOrder) {
     EXPECT_EQ(std::uint32_t{1} << (health_bit_names.size() - 1), health_fringe_skewed);
 }
 
-}  // namespace health_test
-}  // namespace zlg::core
+}  // namespace zlg::core::health_test

@@ -1,16 +1,8 @@
 #include <zlg/core/common/maths_kernels.hpp>
 
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
-#include <zlg/core/common/maths.hpp>
-
 #include "compensation/compensation_support.hpp"
 
-namespace maths_kernels_test {
+namespace zlg::core::maths_kernels_test {
 
 using namespace zlg::core::maths;
 using namespace compensation_test;
@@ -62,18 +54,4 @@ TEST(MathsKernels, MantissaAndExponentMakeTheNumber) {
     }
 }
 
-TEST(MathsKernels, QuadrantsTurnByRightAngles) {
-    const SinCos some{.sin = 0.25, .cos = 0.75};
-    const auto expect = [&](std::uint64_t quadrant, double sin, double cos) {
-        const SinCos turned = in_quadrant(some, quadrant);
-        EXPECT_EQ(turned.sin, sin) << quadrant;
-        EXPECT_EQ(turned.cos, cos) << quadrant;
-    };
-    expect(0, 0.25, 0.75);
-    expect(1, 0.75, -0.25);
-    expect(2, -0.25, -0.75);
-    expect(3, -0.75, 0.25);
-    expect(std::uint64_t{0} - 1, -0.75, 0.25);
-}
-
-}  // namespace maths_kernels_test
+}  // namespace zlg::core::maths_kernels_test

@@ -1,54 +1,22 @@
 #include <zlg/core/common/maths.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
 #include "compensation/compensation_support.hpp"
 
 // Errors of ordinary arguments are held in maths_accuracy.cpp.
 
-namespace maths_test {
+namespace zlg::core::maths_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 
-constexpr double smallest_subnormal = 0x1p-1074;
-constexpr double smallest_normal = 0x1p-1022;
+constexpr double subnormal = 0x1p-1074, normal = 0x1p-1022;  // the smallest ones
 constexpr double largest = 0x1.fffffffffffffp1023;
+constexpr double below_1 = 0x1.fffffffffffffp-1, above_1 = 0x1.0000000000001p+0;
+constexpr double half_odd = 0x1.fffffffffffffp+51, odd = 0x1.fffffffffffffp+52;  // the largest ones
 
 // Zeros, infinities, NaN, the borders of every range, whole numbers odd and even, small and beyond 2^53, and halves.
-constexpr std::array<double, 28> sizes{0.0,
-                                       smallest_subnormal,
-                                       0x1p-1023,
-                                       smallest_normal,
-                                       1e-300,
-                                       1e-20,
-                                       1e-5,
-                                       0.25,
-                                       0.5,
-                                       0.75,
-                                       0x1.fffffffffffffp-1,
-                                       1.0,
-                                       0x1.0000000000001p+0,
-                                       1.5,
-                                       2.0,
-                                       3.0,
-                                       4.0,
-                                       22.5,
-                                       709.0,
-                                       1023.0,
-                                       1075.0,
-                                       1e10,
-                                       0x1.fffffffffffffp+51,
-                                       0x1.fffffffffffffp+52,
-                                       0x1p+53,
-                                       1e300,
-                                       largest,
-                                       infinite};
+constexpr double sizes[] = {0.0,     subnormal, 0x1p-1023, normal, 1e-300,  1e-20, 1e-5,    0.25,    0.5,   0.75,
+                            below_1, 1.0,       above_1,   1.5,    2.0,     3.0,   4.0,     22.5,    709.0, 1023.0,
+                            1075.0,  1e10,      half_odd,  odd,    0x1p+53, 1e300, largest, infinite};
 
 // The value of the C library where it is special, and next to it elsewhere.
 void expect_as_c(double got, double expected, double x, double y) {
@@ -84,20 +52,19 @@ void expect_as_c_of_two(Ours ours, Theirs theirs) {
     both_signs(not_a_number, not_a_number);
 }
 
-#define ZLG_OURS(name) [](auto... x) { return maths::name(x...); }
-#define ZLG_THEIRS(name) [](auto... x) { return std::name(x...); }
+#define ZLG_OURS_AND_THEIRS(name) [](auto... x) { return maths::name(x...); }, [](auto... x) { return std::name(x...); }
 
 TEST(Maths, SpecialValuesAreThoseOfC) {
-    expect_as_c_of_one(ZLG_OURS(exp), ZLG_THEIRS(exp));
-    expect_as_c_of_one(ZLG_OURS(expm1), ZLG_THEIRS(expm1));
-    expect_as_c_of_one(ZLG_OURS(log), ZLG_THEIRS(log));
-    expect_as_c_of_one(ZLG_OURS(sin), ZLG_THEIRS(sin));
-    expect_as_c_of_one(ZLG_OURS(cos), ZLG_THEIRS(cos));
-    expect_as_c_of_one(ZLG_OURS(asin), ZLG_THEIRS(asin));
-    expect_as_c_of_one(ZLG_OURS(tanh), ZLG_THEIRS(tanh));
-    expect_as_c_of_two(ZLG_OURS(atan2), ZLG_THEIRS(atan2));
-    expect_as_c_of_two(ZLG_OURS(hypot), ZLG_THEIRS(hypot));
-    expect_as_c_of_two(ZLG_OURS(pow), ZLG_THEIRS(pow));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(exp));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(expm1));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(log));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(sin));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(cos));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(asin));
+    expect_as_c_of_one(ZLG_OURS_AND_THEIRS(tanh));
+    expect_as_c_of_two(ZLG_OURS_AND_THEIRS(atan2));
+    expect_as_c_of_two(ZLG_OURS_AND_THEIRS(hypot));
+    expect_as_c_of_two(ZLG_OURS_AND_THEIRS(pow));
 }
 
 TEST(Maths, SineAndCosineOfTurnsAreExactAtQuarters) {
@@ -155,21 +122,10 @@ TEST(Maths, PowersThatAreDoublesAreExact) {
 }
 
 TEST(Maths, HypotOfPythagoreanTriplesIsExact) {
-    for (const double scale : {smallest_subnormal, 0x1p-1030, 1.0, 0x1p1000}) {
+    for (const double scale : {subnormal, 0x1p-1030, 1.0, 0x1p1000}) {
         EXPECT_EQ(maths::hypot(3.0 * scale, -4.0 * scale), 5.0 * scale);
         EXPECT_EQ(maths::hypot(12.0 * scale, 5.0 * scale), 13.0 * scale);
         EXPECT_EQ(maths::hypot(20.0 * scale, 21.0 * scale), 29.0 * scale);
-    }
-}
-
-TEST(Maths, ExpUndoesLog) {
-    Random random{6};
-    for (int k = 0; k < 250'000; ++k) {
-        const double x = std::exp(random.uniform(-707.9, 708.9));
-        const double log_x = maths::log(x);
-        // A unit in the last place of the logarithm, an absolute error, becomes a relative one.
-        const double bound = std::nextafter(std::fabs(log_x), 1e4) - std::fabs(log_x) + 0x1p-52;
-        EXPECT_NEAR(maths::exp(log_x) / x, 1.0, bound) << x;
     }
 }
 
@@ -186,15 +142,10 @@ TEST(SquareRoot, IsTheNearestDouble) {
 }
 
 TEST(IsFinite, IsFalseForInfinitiesAndNotANumberOnly) {
-    for (const double x : {0.0, -0.0, smallest_subnormal, 1.0, -1e300, largest, -largest})
-        EXPECT_TRUE(is_finite(x)) << x;
+    for (const double x : {0.0, -0.0, subnormal, 1.0, -1e300, largest, -largest}) EXPECT_TRUE(is_finite(x)) << x;
     for (const double x : {infinite, -infinite, not_a_number, -not_a_number}) EXPECT_FALSE(is_finite(x)) << x;
     static_assert(is_finite(3.263));
-}
-
-TEST(IsFinite, TheConstantInfinityExceedsEveryNumber) {
     EXPECT_GT(infinity, largest);
-    EXPECT_FALSE(is_finite(infinity));
 }
 
 TEST(TurnsOf, IsTheAngleInTurnsInEveryQuadrant) {
@@ -213,10 +164,10 @@ TEST(TurnsOf, IsBelowOneTurn) {
     EXPECT_EQ(turns_of(0.0, 2.0), 0.25);
     EXPECT_EQ(turns_of(-3.0, 0.0), 0.5);
     EXPECT_EQ(turns_of(0.0, -4.0), 0.75);
-    for (const double y : {-1e-3, -1e-12, -1e-30, -smallest_subnormal}) {
+    for (const double y : {-1e-3, -1e-12, -1e-30, -subnormal}) {
         EXPECT_GE(turns_of(1.0, y), 0.0);
         EXPECT_LT(turns_of(1.0, y), 1.0);
     }
 }
 
-}  // namespace maths_test
+}  // namespace zlg::core::maths_test

@@ -1,13 +1,11 @@
 #include <zlg/core/units.hpp>
 
-#include <gtest/gtest.h>
-
 #include <concepts>
 #include <type_traits>
 
-namespace units_test {
+#include "support.hpp"
 
-using namespace zlg::core;
+namespace zlg::core::units_test {
 
 template <class A, class B>
 concept Addable = requires(A a, B b) {
@@ -75,4 +73,4 @@ TEST(Units, NothingIsOrderedWithNotANumber) {
     EXPECT_FALSE(nan >= Volts{0.0});
 }
 
-}  // namespace units_test
+}  // namespace zlg::core::units_test

@@ -1,12 +1,8 @@
 #include <zlg/core/compensation/border.hpp>
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
-#include <cmath>
-#include <limits>
-
-namespace zlg::core {
-namespace border_test {
+namespace zlg::core::border_test {
 
 HalfRecord ended_at(float fringe) {
     HalfRecord half;
@@ -65,5 +61,4 @@ TEST(Border, NeighboursShareNoMoreThanEitherHas) {
     EXPECT_EQ(shared_rounding(1.5, 2.0, infinity), 1.5);
 }
 
-}  // namespace border_test
-}  // namespace zlg::core
+}  // namespace zlg::core::border_test

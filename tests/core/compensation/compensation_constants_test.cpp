@@ -1,25 +1,16 @@
 #include <zlg/core/compensation/compensation_constants.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 #include <initializer_list>
 
 #include "compensation_support.hpp"
 
-namespace compensation_constants_test {
+namespace zlg::core::compensation_constants_test {
 
-using namespace zlg::core;
 using namespace compensation_test;
 using Constants = CompensationConstants;
 using Fault = CompensationConstantsFault;
 
-Fault with(auto change) {
-    Constants gyro;
-    change(gyro);
-    return check(gyro);
-}
+constexpr Fault with(auto change) { return test::fault_of<Constants>(change); }
 
 void expect_fault(Fault fault, const std::function<void(Constants&, double)>& set, std::initializer_list<double> bad) {
     for (const double value : bad) {
@@ -82,10 +73,4 @@ TEST(CompensationConstants, TheBiasFollowsTheTemperature) {
         EXPECT_EQ(bias_at(gyro, Celsius{none}).value(), 60e3) << none;
 }
 
-TEST(CompensationConstants, VariancesOfATick) {
-    const Constants gyro{.tick = Seconds{0.25}, .scale = Arcsec{3.0}, .random_walk = ArcsecPerRootSecond{2.0}};
-    EXPECT_EQ(rounding_arcsec2(gyro), 1.5);
-    EXPECT_EQ(walk_arcsec2(gyro), 1.0);
-}
-
-}  // namespace compensation_constants_test
+}  // namespace zlg::core::compensation_constants_test

@@ -1,12 +1,7 @@
 #pragma once
 // What the tests of the compensation share: random numbers that are the same on every machine, and wide arithmetic.
 
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <random>
-
-#include <zlg/core/common/maths.hpp>
+#include "support.hpp"
 
 namespace compensation_test {
 

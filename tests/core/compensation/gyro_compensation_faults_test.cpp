@@ -2,15 +2,9 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "gyro_compensation_support.hpp"
 
-namespace zlg::core {
-namespace gyro_compensation_faults_test {
+namespace zlg::core::gyro_compensation_faults_test {
 
 using namespace gyro_compensation_support;
 
@@ -26,16 +20,12 @@ GyroCompensationConfig without_walk() {
 }
 
 // At rest, with the light's noise as the mean square.
-Halves at_rest(int ticks, bool by_phase) {
-    Halves all;
-    for (int h = 0; h < 2 * ticks; ++h) {
-        HalfRecord r;
-        r.half = h;
-        r.bias_sign = h % 2 == 0 ? std::int8_t{1} : std::int8_t{-1};
-        r.counts = 150 * r.bias_sign;
-        r.detuning_sq_lambda2 = 1.1e-5;
+Halves at_rest(int ticks, bool by_phase, double mean_sq_lambda2 = 1.1e-5) {
+    Halves all = biased_halves(2 * ticks);
+    for (HalfRecord& r : all) {
+        r.detuning_lambda = 0.0;
+        r.detuning_sq_lambda2 = mean_sq_lambda2;
         if (by_phase) r.fringe = 32768.0f;
-        all.push_back(r);
     }
     return all;
 }
@@ -68,10 +58,7 @@ TEST(FaultEdges, AHalfThatIsRefusedWithinItsTickLeavesTheOthersAlone) {
 
 TEST(FaultEdges, AMissedHalfIsNoFaultOfTheGyro) {
     Halves halves = at_rest(300, false);
-    halves[400].valid = false;
-    halves[401].counts += halves[400].counts;
-    halves[400].counts = 0;
-    halves[401].span = 2;
+    miss(halves, 400, 1);
     const Delivered all = run(without_walk(), halves);
     for (std::size_t t = 190; t < 210; ++t) EXPECT_NEAR(sigma_of(all, t), std::sqrt(of_count_arcsec2), 1e-3) << t;
 }
@@ -130,8 +117,7 @@ TEST(FaultEdges, APushOfThePerimeterIsInSigmaByPhase) {
 TEST(Uncorrected, WhatAClosingLeavesIsInSigmaAndFlagged) {
     GyroCompensationConfig config = without_walk();
     config.relock = {.method = RelockMethod::none, .presumes = true};
-    Halves halves = at_rest(300, false);
-    for (HalfRecord& half : halves) half.detuning_sq_lambda2 = 0.0;
+    Halves halves = at_rest(300, false, 0.0);
     for (std::size_t h = 400; h < 406; ++h) halves[h].loop_closed = false;
     for (std::size_t h = 403; h < halves.size(); ++h) {
         halves[h].mode = -1;
@@ -158,8 +144,7 @@ TEST(Uncorrected, ALaterGapDoesNotHaveWhatAClosingLeft) {
     config.relock = {.method = RelockMethod::none, .presumes = true};
     double sigma[2] = {};
     for (const bool opened : {false, true}) {
-        Halves halves = at_rest(600, false);
-        for (HalfRecord& half : halves) half.detuning_sq_lambda2 = 0.0;
+        Halves halves = at_rest(600, false, 0.0);
         for (std::size_t h = 400; h < 406; ++h) halves[h].loop_closed = !opened;
         // Half of the tick is missing for good.
         halves[900].valid = false;
@@ -174,14 +159,9 @@ TEST(Uncorrected, ALaterGapDoesNotHaveWhatAClosingLeft) {
 TEST(Uncorrected, AMissedHalfMovesNoPerimeter) {
     GyroCompensationConfig config = without_walk();
     config.relock = {.method = RelockMethod::none, .presumes = true};
-    Halves halves = at_rest(300, false);
-    for (HalfRecord& half : halves) half.detuning_sq_lambda2 = 0.0;
-    halves[400].valid = false;
-    halves[401].counts += halves[400].counts;
-    halves[400].counts = 0;
-    halves[401].span = 2;
+    Halves halves = at_rest(300, false, 0.0);
+    miss(halves, 400, 1);
     for (const AngleRow& row : run(config, halves).rows) EXPECT_EQ(row.flags & flag_relock_uncorrected, 0u) << row.tick;
 }
 
-}  // namespace gyro_compensation_faults_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_compensation_faults_test

@@ -1,12 +1,11 @@
 // A log starts with a closed loop, which may still settle.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include <zlg/core/gyro_compensation.hpp>
 
-namespace zlg::core {
-namespace gyro_compensation_start_test {
+#include "gyro_compensation_support.hpp"
+
+namespace zlg::core::gyro_compensation_start_test {
+
+using namespace gyro_compensation_support;
 
 // Sigma of the first tick of a log at rest, whose halves have these mean squares of the detuning.
 double first_sigma(RelockMethod method, double first_sq, double second_sq) {
@@ -14,21 +13,12 @@ double first_sigma(RelockMethod method, double first_sq, double second_sq) {
     config.relock.method = method;
     config.gyro.random_walk = ArcsecPerRootSecond{0.0};
     config.bridge.method = BridgeMethod::constant;
-    GyroCompensationState state;
-    for (int h = 0; h < 60; ++h) {
-        HalfRecord half;
-        half.half = h;
-        half.bias_sign = h % 2 == 0 ? std::int8_t{1} : std::int8_t{-1};
-        half.mode = 1;
-        half.counts = h % 2 == 0 ? 150 : -150;
-        half.loop_closed = half.valid = true;
-        half.detuning_sq_lambda2 = h == 0 ? first_sq : h == 1 ? second_sq : 1.1e-5;
-        half.detuning_lambda = std::sqrt(half.detuning_sq_lambda2);
-        const CompensationOutput out = step(config, state, half);
-        if (out.has_sample && out.sample.has_final && out.sample.final_row.tick == 0)
-            return out.sample.final_row.sigma_arcsec;
-    }
-    return -1.0;
+    Halves halves = biased_halves(60);
+    for (HalfRecord& half : halves) half.detuning_sq_lambda2 = 1.1e-5;
+    halves[0].detuning_sq_lambda2 = first_sq;
+    halves[1].detuning_sq_lambda2 = second_sq;
+    for (HalfRecord& half : halves) half.detuning_lambda = std::sqrt(half.detuning_sq_lambda2);
+    return run(config, halves).rows.at(0).sigma_arcsec;
 }
 
 constexpr double of_rounding_arcsec2 = 3.263 * 3.263 / 6.0;
@@ -51,5 +41,4 @@ TEST(LogStart, ASettledLoopCostsNothing) {
     EXPECT_NEAR(first_sigma(RelockMethod::none, 2.6e-3, 2e-4), std::sqrt(of_rounding_arcsec2), 1e-12);
 }
 
-}  // namespace gyro_compensation_start_test
-}  // namespace zlg::core
+}  // namespace zlg::core::gyro_compensation_start_test

@@ -3,20 +3,12 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 #include "compensation_support.hpp"
 
 namespace gyro_compensation_support {
 
-using zlg::core::AngleRow;
-using zlg::core::CompensationOutput;
-using zlg::core::GapReport;
-using zlg::core::GyroCompensationConfig;
-using zlg::core::GyroCompensationState;
-using zlg::core::HalfRecord;
+using namespace zlg::core;
+using namespace compensation_test;
 
 using Halves = std::vector<HalfRecord>;
 
@@ -50,6 +42,47 @@ inline Delivered run(const GyroCompensationConfig& config, const Halves& halves)
     for (const HalfRecord& half : halves) step_into(config, state, half, result);
     drain_into(config, state, result);
     return result;
+}
+
+// A bias of 150 counts a half, and a rotation; nothing else is measured.
+inline Halves biased_halves(int n, std::int64_t rotation_counts = 0) {
+    Halves halves;
+    for (int k = 0; k < n; ++k) {
+        const std::int8_t sign = k % 2 == 0 ? 1 : -1;
+        HalfRecord half{.half = k, .counts = rotation_counts + 150 * sign, .bias_sign = sign};
+        half.detuning_lambda = half.detuning_sq_lambda2 = half.piezo_v = half.temperature_c = not_a_number;
+        halves.push_back(half);
+    }
+    return halves;
+}
+
+struct Sums {
+    double delivered = 0.0, final = 0.0;
+};
+
+// Both sums, which must be equal at each correction.
+inline Sums sums_of(const Delivered& all, bool alone = true) {
+    Sums s;
+    for (const AngleRow& row : all.rows) {
+        s.delivered += row.dtheta_arcsec;
+        s.final += row.dtheta_final_arcsec;
+        if (alone && (row.flags & flag_correction) != 0) {
+            EXPECT_NEAR(s.delivered, s.final, 1e-9) << row.tick;
+        }
+    }
+    return s;
+}
+
+// As a control records halves first .. first + n - 1 that were missed.
+inline void miss(Halves& halves, std::size_t first, std::size_t n) {
+    HalfRecord& next = halves[first + n];
+    for (std::size_t h = first; h < first + n; ++h) {
+        next.counts += halves[h].counts;
+        next.span += halves[h].span;
+        halves[h].counts = 0;
+        halves[h].span = 1;
+        halves[h].valid = false;
+    }
 }
 
 // What a gyro records: rotation and bias, summed exactly and read by a counter that truncates.

@@ -1,18 +1,13 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <zlg/core/control/bias_monitor.hpp>
 
-namespace zlg::core {
-namespace bias_monitor_test {
+#include "support.hpp"
+
+namespace zlg::core::bias_monitor_test {
 
 constexpr BiasMonitorConfig config{.presumed_counts = 150.0};
 static_assert(check(config) == BiasMonitorFault::none);
 static_assert(check(BiasMonitorConfig{.presumed_counts = -1.0}) == BiasMonitorFault::presumed);
-static_assert(check(BiasMonitorConfig{.presumed_counts = std::numeric_limits<double>::quiet_NaN()}) ==
-              BiasMonitorFault::presumed);
+static_assert(check(BiasMonitorConfig{.presumed_counts = not_a_number}) == BiasMonitorFault::presumed);
 
 // A counter that rounds down, under a bias and a rotation given in counts per half.
 class Counter {
@@ -20,6 +15,8 @@ public:
     double bias = 150.0;
     double rate = 0.0;
     bool settled = true;
+
+    explicit Counter(int halves = 0) { (void)after(halves); }
 
     BiasMonitorOutput half(const BiasMonitorConfig& c = config) {
         sign_ = static_cast<std::int8_t>(-sign_);
@@ -29,8 +26,15 @@ public:
         last_ = now;
         return step(c, state, {.counted = true, .counts = counts, .beat_sign = sign_, .settled = settled});
     }
-    void halves(int n) {
-        for (int k = 0; k < n; ++k) (void)half();
+    // The last of n halves; with a bias that it keeps.
+    BiasMonitorOutput after(int n) {
+        BiasMonitorOutput out;
+        for (int k = 0; k < n; ++k) out = half();
+        return out;
+    }
+    BiasMonitorOutput after(int n, double new_bias) {
+        bias = new_bias;
+        return after(n);
     }
 
     BiasMonitorState state;
@@ -44,8 +48,7 @@ private:
 TEST(BiasMonitor, LearnsTheBiasThatIsThereWhateverWasPresumed) {
     for (const double bias : {60.0, 150.0, 400.0}) {
         Counter counter;
-        counter.bias = bias;
-        counter.halves(200);
+        (void)counter.after(200, bias);
         EXPECT_NEAR(counter.state.bias_counts, bias, 0.5);
         const BiasMonitorOutput out = counter.half();
         EXPECT_TRUE(out.judged && out.in_band);
@@ -63,8 +66,7 @@ TEST(BiasMonitor, JudgesNothingWithoutABiasToTell) {
 
 TEST(BiasMonitor, NoOrdinaryRotationLeavesTheBand) {
     for (const double frequency_hz : {0.3, 7.03, 20.06, 100.3}) {
-        Counter counter;
-        counter.halves(100);
+        Counter counter{100};
         for (int k = 0; k < 20000; ++k) {
             counter.rate = 12000.0 * 0.0025 / 3.263 * std::sin(2.0 * 3.14159265 * frequency_hz * 0.0025 * k);
             ASSERT_TRUE(counter.half().in_band) << frequency_hz << " Hz, half " << k;
@@ -83,95 +85,74 @@ TEST(BiasMonitor, RotationAtTheHighestRateLeavesTheBiasInItsBand) {
 
 TEST(BiasMonitor, AGlitchIsSeenInItsHalf) {
     for (const double glitch : {-150.0, -40.0, 40.0, 150.0}) {
-        Counter counter;
-        counter.halves(100);
+        Counter counter{100};
         counter.rate = glitch;
         EXPECT_FALSE(counter.half().in_band) << glitch;
         counter.rate = 0.0;
-        counter.halves(3);
-        EXPECT_TRUE(counter.half().in_band) << glitch;
+        EXPECT_TRUE(counter.after(4).in_band) << glitch;
     }
 }
 
 TEST(BiasMonitor, TheOtherHelicityIsKnownAfterFourHalves) {
-    Counter counter;
-    counter.halves(100);
-    counter.bias = -150.0;
+    Counter counter{100};
     // The first half of the other sign beside one of the old is no bias at all.
-    EXPECT_TRUE(counter.half().lost);
+    EXPECT_TRUE(counter.after(1, -150.0).lost);
     for (int k = 0; k < 3; ++k) {
         const BiasMonitorOutput out = counter.half();
         EXPECT_FALSE(out.in_band || out.reversed) << k;
     }
     EXPECT_TRUE(counter.half().reversed);
-    counter.bias = 150.0;
-    EXPECT_FALSE(counter.half().reversed);
-    counter.halves(2);
-    EXPECT_TRUE(counter.half().in_band);
+    EXPECT_FALSE(counter.after(1, 150.0).reversed);
+    EXPECT_TRUE(counter.after(3).in_band);
     EXPECT_NEAR(counter.state.bias_counts, 150.0, 0.5);
 }
 
 TEST(BiasMonitor, ALostBiasIsNotLearntAndReturns) {
-    Counter counter;
-    counter.halves(100);
-    counter.bias = 0.0;
-    counter.halves(2);
+    Counter counter{100};
+    (void)counter.after(2, 0.0);
     for (int k = 0; k < 5000; ++k) {
         const BiasMonitorOutput out = counter.half();
         ASSERT_TRUE(out.lost && !out.in_band && !out.reversed);
     }
-    counter.bias = 150.0;
-    counter.halves(3);
-    EXPECT_TRUE(counter.half().in_band);
+    EXPECT_TRUE(counter.after(4, 150.0).in_band);
 }
 
 // Learnt while the current was faulty: what is presumed tells the better level from the worse one.
 TEST(BiasMonitor, ABiasThatWasLearntOfAFaultIsGivenUp) {
     for (const double part : {0.4, 0.7, 1.3}) {
         Counter counter;
-        counter.bias = 150.0 * part;
-        counter.halves(500);
+        (void)counter.after(500, 150.0 * part);
         EXPECT_NEAR(counter.state.bias_counts, 150.0 * part, 0.5);
-        counter.bias = 150.0;
-        counter.halves(50);
+        (void)counter.after(50, 150.0);
         for (int k = 0; k < 1000; ++k) ASSERT_TRUE(counter.half().in_band) << part << ", half " << k;
         EXPECT_NEAR(counter.state.bias_counts, 150.0, 0.5);
     }
 }
 
 TEST(BiasMonitor, AChangeForGoodIsLearntAfterASecondAndNotBefore) {
-    Counter counter;
-    counter.halves(500);
+    Counter counter{500};
     counter.bias = 120.0;
     for (int k = 0; k < 395; ++k) ASSERT_FALSE(counter.half().in_band);
-    counter.halves(20);
+    (void)counter.after(20);
     for (int k = 0; k < 1000; ++k) ASSERT_TRUE(counter.half().in_band);
-    counter.bias = 150.0;
-    counter.halves(50);
-    EXPECT_TRUE(counter.half().in_band) << "the way back is short";
+    EXPECT_TRUE(counter.after(51, 150.0).in_band) << "the way back is short";
 }
 
 // Each half is off by more than a twelfth of the one before: no level, however long it lasts.
 TEST(BiasMonitor, ABiasThatSwingsIsNoNewLevel) {
-    Counter counter;
-    counter.halves(500);
+    Counter counter{500};
     for (int k = 0; k < 1000; ++k) {
-        counter.bias = k % 2 == 0 ? 80.0 : 105.0;
-        counter.halves(2);
+        (void)counter.after(2, k % 2 == 0 ? 80.0 : 105.0);
         ASSERT_NEAR(counter.state.bias_counts, 150.0, 0.5) << k;
     }
 }
 
 // What is learnt is the mean: of the first 32 differences, and of the 400 of a new level.
 TEST(BiasMonitor, ALevelIsTheMeanOfWhatItWasLearntOf) {
-    Counter counter;
+    Counter counter{1};
     const auto jitter = [&counter](double level, int halves) {
-        for (int k = 0; k < halves; k += 4) {
-            counter.bias = k % 8 == 0 ? level - 4.0 : level + 4.0;
-            counter.halves(4);
-        }
+        for (int k = 0; k < halves; k += 4) (void)counter.after(4, k % 8 == 0 ? level - 4.0 : level + 4.0);
     };
-    counter.halves(1);
     jitter(150.0, 32);
     EXPECT_EQ(counter.state.n_learnt, 32);
     EXPECT_NEAR(counter.state.bias_counts, 150.0, 1.0);
@@ -181,47 +162,34 @@ TEST(BiasMonitor, ALevelIsTheMeanOfWhatItWasLearntOf) {
 
 TEST(BiasMonitor, ABiasThatWasNeverThereIsLost) {
     Counter counter;
-    counter.bias = 0.0;
-    counter.halves(100);
-    const BiasMonitorOutput out = counter.half();
+    const BiasMonitorOutput out = counter.after(101, 0.0);
     EXPECT_TRUE(out.lost);
     EXPECT_FALSE(out.judged);
 }
 
 TEST(BiasMonitor, OnTheWayToALockTheBiasMayLackAThird) {
-    Counter counter;
-    counter.halves(100);
+    Counter counter{100};
     counter.settled = false;
-    counter.bias = 110.0;
-    counter.halves(2);
-    EXPECT_TRUE(counter.half().in_band);
-    counter.bias = 60.0;
-    counter.halves(2);
-    EXPECT_FALSE(counter.half().in_band);
+    EXPECT_TRUE(counter.after(3, 110.0).in_band);
+    EXPECT_FALSE(counter.after(3, 60.0).in_band);
 }
 
 TEST(BiasMonitor, TheDeficitIsWhatTheBiasLacks) {
-    Counter counter;
-    counter.halves(1000);
-    counter.bias = 147.0;
-    counter.halves(3);
-    EXPECT_NEAR(counter.half().deficit_ratio, 0.02, 0.01);
+    Counter counter{1000};
+    EXPECT_NEAR(counter.after(4, 147.0).deficit_ratio, 0.02, 0.01);
 }
 
 TEST(BiasMonitor, ARotationThatCancelsTheBiasIsTheLockInZone) {
-    Counter counter;
-    counter.halves(100);
+    Counter counter{100};
     counter.rate = 148.0;
-    counter.halves(3);
+    (void)counter.after(3);
     EXPECT_NE(counter.half().near_rate, counter.half().near_rate);
     counter.rate = 130.0;
-    counter.halves(4);
-    EXPECT_FALSE(counter.half().near_rate || counter.half().near_rate);
+    EXPECT_FALSE(counter.after(5).near_rate || counter.half().near_rate);
 }
 
 TEST(BiasMonitor, HalvesThatWereNotCountedBreakTheRow) {
-    Counter counter;
-    counter.halves(100);
+    Counter counter{100};
     EXPECT_FALSE(step(config, counter.state, {.counted = false}).judged);
     EXPECT_FALSE(counter.half().judged);
     EXPECT_TRUE(counter.half().judged);
@@ -229,5 +197,4 @@ TEST(BiasMonitor, HalvesThatWereNotCountedBreakTheRow) {
     EXPECT_FALSE(step(config, counter.state, {.counted = true, .counts = most}).judged);
 }
 
-}  // namespace bias_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::bias_monitor_test

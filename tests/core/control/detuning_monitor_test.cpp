@@ -1,15 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <zlg/core/control/detuning_monitor.hpp>
 
-namespace zlg::core {
-namespace detuning_monitor_test {
+#include "support.hpp"
+
+namespace zlg::core::detuning_monitor_test {
 
 constexpr DetuningMonitorConfig config{.max_change_lambda2 = 0.002, .relock_ticks = 20};
 static_assert(check(config) == DetuningMonitorFault::none);
-static_assert(check(DetuningMonitorConfig{.max_change_lambda2 = std::numeric_limits<double>::quiet_NaN()}) ==
-              DetuningMonitorFault::max_change);
+static_assert(check(DetuningMonitorConfig{.max_change_lambda2 = not_a_number}) == DetuningMonitorFault::max_change);
 static_assert(check(DetuningMonitorConfig{.relock_ticks = -1}) == DetuningMonitorFault::relock_ticks);
 
 struct Gyro {
@@ -62,5 +59,4 @@ TEST(DetuningMonitor, NothingIsJudgedBeforeTheLockNorWithoutAMeasurement) {
     for (int k = 0; k < 100; ++k) EXPECT_FALSE(step({}, off, {k % 2 != 0, true, true, true, k % 2 == 0 ? 0.0 : 1.0}));
 }
 
-}  // namespace detuning_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::detuning_monitor_test

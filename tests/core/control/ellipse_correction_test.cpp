@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <zlg/core/control/ellipse_correction.hpp>
 
-namespace zlg::core {
-namespace ellipse_correction_test {
+#include "support.hpp"
+
+namespace zlg::core::ellipse_correction_test {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 
@@ -94,13 +90,4 @@ TEST(EllipseCorrection, ALineIsNoEllipse) {
     EXPECT_FALSE(state.learnt);
 }
 
-TEST(EllipseCorrection, WhatWasLearntIsForgotten) {
-    Photodiodes diodes;
-    EllipseCorrectionState state;
-    learn_many(state, diodes, 400);
-    forget(state);
-    EXPECT_EQ(state, EllipseCorrectionState{});
-}
-
-}  // namespace ellipse_correction_test
-}  // namespace zlg::core
+}  // namespace zlg::core::ellipse_correction_test

@@ -1,22 +1,9 @@
 // Shifted edges of the bias, as commanded and as recorded.
-#include "gyro_control_support.hpp"
-
-#include <cmath>
-#include <cstdint>
 #include <zlg/core/gyro_compensation.hpp>
 
+#include "gyro_control_support.hpp"
+
 namespace zlg::core::test {
-namespace {
-
-GyroControlConfig dithered(LoopKind kind, DitherMethod method) {
-    return config_with([&](GyroControlConfig& c) {
-        c.loop.kind = kind;
-        c.commutator.dither.method = method;
-    });
-}
-
-}  // namespace
-
 TEST_P(EitherLoop, EachRecordHoldsTheShiftThatWasCommandedForItsEnd) {
     Loop loop{dithered(GetParam(), DitherMethod::random)};
     std::int32_t commanded = loop.actuator.edge_offset_ticks;

@@ -1,17 +1,6 @@
-#include "small_plant.hpp"
+#include "gyro_control_support.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <random>
-#include <vector>
-#include <zlg/core/gyro_control.hpp>
-
-namespace zlg::core {
-namespace gyro_control_faults_test {
-
-using test::SmallPlant;
+namespace zlg::core::test::gyro_control_faults_test {
 
 // The bias of the plant is 150 counts a half, its chi 3.6, its light without noise.
 GyroControlConfig monitored(LoopKind kind) {
@@ -28,53 +17,25 @@ GyroControlConfig monitored(LoopKind kind) {
     return c;
 }
 
-class Gyro {
-public:
-    explicit Gyro(LoopKind kind) : config{monitored(kind)}, plant{kind} {
-        state = initial_state(config);
-        actuator = initial_actuator(config);
-    }
-    template <class Spoil>
-    void ticks(int n, Spoil spoil) {
-        for (int k = 0; k < 2 * n; ++k) {
-            SensorFrame frame = plant.advance(actuator);
-            frame.coil_current_a = frame.bias_sign * 1.0;
-            spoil(frame);
-            out = step(config, state, frame);
-            actuator = out.actuator;
-            records.push_back(out.record);
-            seen |= out.health;
-        }
-    }
-    void ticks(int n) {
-        ticks(n, [](SensorFrame&) {});
-    }
-    // Halves that were not valid since the last call, and no longer remembered.
-    int invalid() {
-        int n = 0;
-        for (const HalfRecord& r : records) n += !r.valid;
-        records.clear();
-        return n;
-    }
+// It has run for so many ticks, and nothing is recorded yet.
+Loop running(LoopKind kind, int ticks = 200) {
+    Loop gyro{monitored(kind)};
+    gyro.ticks(ticks);
+    gyro.records.clear();
+    return gyro;
+}
 
-    GyroControlConfig config;
-    SmallPlant plant;
-    GyroControlState state;
-    ActuatorFrame actuator;
-    GyroControlOutput out;
-    std::vector<HalfRecord> records;
-    std::uint32_t seen = 0;
+struct Faults : testing::TestWithParam<LoopKind> {
+    Loop gyro = running(GetParam());
 };
-
-class Faults : public testing::TestWithParam<LoopKind> {};
 // A counter that loses or gains counts at random, in halves with the loop open too.
 TEST_P(Faults, WhatAMonitorObjectsToIsNotValid) {
     constexpr std::uint32_t objections = health_bias_lost | health_helicity_reversed | health_counter_jump |
                                          health_counter_bit_stuck | health_frame_missed | health_sequence_error |
                                          health_sign_error;
-    Gyro gyro{GetParam()};
-    gyro.config.schedule.interval_ticks = 40;
-    gyro.state = initial_state(gyro.config);
+    GyroControlConfig config = monitored(GetParam());
+    config.schedule.interval_ticks = 40;
+    Loop gyro{config};
     std::mt19937 random{7};
     std::uint64_t lost = 0;
     int objected = 0;
@@ -97,9 +58,7 @@ TEST_P(Faults, WhatAMonitorObjectsToIsNotValid) {
 
 TEST_P(Faults, NumbersThatFallBackALittleCostHalfASecond) {
     for (const std::uint32_t behind : {1u, 5u, 8u}) {
-        Gyro gyro{GetParam()};
-        gyro.ticks(100);
-        (void)gyro.invalid();
+        Loop gyro = running(GetParam(), 100);
         gyro.ticks(1000, [&](SensorFrame& frame) { frame.sequence -= behind; });
         EXPECT_LT(gyro.invalid(), 210) << behind;
     }
@@ -107,9 +66,7 @@ TEST_P(Faults, NumbersThatFallBackALittleCostHalfASecond) {
 
 // As `frame_late`: the frame of the half before, for ten seconds.
 TEST_P(Faults, FramesThatAreLateAreNeverThoseOfTheirHalf) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(100);
-    (void)gyro.invalid();
+    Loop gyro = running(GetParam(), 100);
     SensorFrame before;
     bool first = true;
     gyro.ticks(2000, [&](SensorFrame& frame) {
@@ -123,7 +80,7 @@ TEST_P(Faults, FramesThatAreLateAreNeverThoseOfTheirHalf) {
 // The plant turns 50 counts in a half. The first frame holds a half, where two have passed.
 TEST_P(Faults, AFirstFrameThatIsLateHasNoCounts) {
     for (const int late : {1, 2, 5, 280}) {
-        Gyro gyro{GetParam()};
+        Loop gyro{monitored(GetParam())};
         SensorFrame before;
         int n = 0;
         gyro.ticks(400, [&](SensorFrame& frame) {
@@ -146,47 +103,28 @@ TEST_P(Faults, AFirstFrameThatIsLateHasNoCounts) {
 // random, of a gyro that stays lit and locked.
 TEST_P(Faults, NoCountIsLostWhateverTheMonitorsSay) {
     for (unsigned seed = 1; seed <= 6; ++seed) {
-        Gyro gyro{GetParam()};
+        Loop gyro{monitored(GetParam())};
         gyro.config.light_monitor.noise = Wavelengths{0.0021};
         std::mt19937 random{seed};
-        std::normal_distribution<float> normal;
-        const auto add_noise = [&](SensorFrame& frame, float part) {
-            for (float& x : frame.light_a) x *= 1.0f + part * normal(random);
-            for (float& x : frame.light_b) x *= 1.0f + part * normal(random);
-        };
-        gyro.ticks(100, [&](SensorFrame& frame) { add_noise(frame, 0.001f); });
+        gyro.ticks(100, [&](SensorFrame& frame) { add_noise(frame, random, 0.001f); });
         gyro.records.clear();
         const std::uint64_t start = gyro.plant.counter;
         int spoilt = 0;
         std::vector<std::uint64_t> readings;
+        const std::function<void(SensorFrame&)> faults[] = {
+            [](SensorFrame& f) { f.status |= frame_missed; },
+            [](SensorFrame& f) { f.bias_sign = 0; },
+            [](SensorFrame& f) { f.polarity = 0; },
+            [](SensorFrame& f) { f.timer_ticks += 5000; },
+            [&](SensorFrame& f) { readings.back() = f.counter += 40 + random() % 400; },
+            [&](SensorFrame& f) { add_noise(f, random, 0.05f); },
+            [](SensorFrame& f) { f.sequence -= 3; }};
         gyro.ticks(3000, [&](SensorFrame& frame) {
             readings.push_back(frame.counter);
-            add_noise(frame, 0.001f);
+            add_noise(frame, random, 0.001f);
             if (readings.size() > 5900 || random() % 12 != 0) return;
             ++spoilt;
-            switch (random() % 7) {
-                case 0:
-                    frame.status |= frame_missed;
-                    break;
-                case 1:
-                    frame.bias_sign = 0;
-                    break;
-                case 2:
-                    frame.polarity = 0;
-                    break;
-                case 3:
-                    frame.timer_ticks += 5000;
-                    break;
-                case 4:
-                    readings.back() = frame.counter += 40 + random() % 400;
-                    break;
-                case 5:
-                    add_noise(frame, 0.05f);
-                    break;
-                default:
-                    frame.sequence -= 3;
-                    break;
-            }
+            faults[random() % 7](frame);
         });
         std::int64_t sum = 0;
         std::int64_t covered = 0;
@@ -208,7 +146,7 @@ TEST_P(Faults, NoCountIsLostWhateverTheMonitorsSay) {
 INSTANTIATE_TEST_SUITE_P(GyroControl, Faults, testing::Values(LoopKind::analog, LoopKind::digital));
 
 TEST_P(Faults, AGoodRunHasNoneAndAllIsValid) {
-    Gyro gyro{GetParam()};
+    Loop gyro{monitored(GetParam())};
     gyro.ticks(30);
     gyro.seen = 0;
     gyro.ticks(2000);
@@ -217,9 +155,6 @@ TEST_P(Faults, AGoodRunHasNoneAndAllIsValid) {
 }
 
 TEST_P(Faults, AModeHopIsFollowedByTheReferenceAndNoHalfOfItIsValid) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(200);
-    gyro.records.clear();
     const double before_v = gyro.plant.voltage_v;
     gyro.plant.drift_lambda += 0.503;
     gyro.ticks(200);
@@ -227,7 +162,7 @@ TEST_P(Faults, AModeHopIsFollowedByTheReferenceAndNoHalfOfItIsValid) {
     EXPECT_EQ(gyro.actuator.polarity, -1);
     EXPECT_EQ(gyro.plant.helicity(), -1);
     EXPECT_NEAR(gyro.plant.voltage_v, before_v, 1.0);
-    EXPECT_EQ(gyro.state.mode_switch.phase, SwitchPhase::tracking);
+    EXPECT_TRUE(gyro.tracks());
     for (const HalfRecord& r : gyro.records) {
         ASSERT_TRUE(!r.valid || std::abs(r.bias_sign * r.mode * 150 + 50 - r.counts) < 3) << r.half;
     }
@@ -235,8 +170,6 @@ TEST_P(Faults, AModeHopIsFollowedByTheReferenceAndNoHalfOfItIsValid) {
 }
 
 TEST_P(Faults, NearAnEndOfTheRangeThePiezoIsLedAwayAndTheLockKept) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(200);
     for (int tick = 0; tick < 2000; ++tick) {
         gyro.plant.drift_lambda -= 3.0 / 2000.0;  // 240 V upwards
         gyro.ticks(1);
@@ -245,26 +178,22 @@ TEST_P(Faults, NearAnEndOfTheRangeThePiezoIsLedAwayAndTheLockKept) {
     EXPECT_NE(gyro.seen & health_recentring, 0u);
     EXPECT_EQ(gyro.seen & health_relock_failed, 0u);
     gyro.ticks(50);
-    EXPECT_EQ(gyro.state.mode_switch.phase, SwitchPhase::tracking);
+    EXPECT_TRUE(gyro.tracks());
     EXPECT_EQ(gyro.state.half_wave.n_accepted, 0);  // it teaches nothing
 }
 
 TEST_P(Faults, LightThatIsNotANumberCostsEightHalvesAndMovesNothing) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(200);
-    gyro.records.clear();
     gyro.ticks(400, [](SensorFrame& f) { f.light_a.fill(std::nanf("")); });
     EXPECT_LE(gyro.invalid(), 8);
     EXPECT_NE(gyro.seen & health_light_contradicted, 0u);
     gyro.ticks(50);
     EXPECT_EQ(gyro.invalid(), 0);
-    EXPECT_EQ(gyro.state.mode_switch.phase, SwitchPhase::tracking);
+    EXPECT_TRUE(gyro.tracks());
 }
 
 TEST_P(Faults, ALaserThatDiedIsBackAtOnceWhenItIsLit) {
     for (const int dark_ticks : {5, 50, 300}) {
-        Gyro gyro{GetParam()};
-        gyro.ticks(200);
+        Loop gyro = running(GetParam());
         gyro.plant.lamp_on = false;
         gyro.records.clear();
         // A dark counter counts what it likes.
@@ -275,18 +204,12 @@ TEST_P(Faults, ALaserThatDiedIsBackAtOnceWhenItIsLit) {
         gyro.records.clear();
         gyro.ticks(50);
         EXPECT_EQ(gyro.invalid(), 0) << dark_ticks;
-        EXPECT_EQ(gyro.state.mode_switch.phase, SwitchPhase::tracking);
+        EXPECT_TRUE(gyro.tracks());
     }
 }
 
 TEST_P(Faults, LightThatStaysFaintIsTheNewLevelOnceTheBeatHasProvedIt) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(200);
-    gyro.records.clear();
-    const auto faint = [](SensorFrame& f) {
-        for (float& x : f.light_a) x *= 0.3f;
-        for (float& x : f.light_b) x *= 0.3f;
-    };
+    const auto faint = [](SensorFrame& f) { scale_light(f, 0.3f); };
     gyro.ticks(100, faint);
     EXPECT_LE(gyro.invalid(), 8);
     gyro.seen = 0;
@@ -296,8 +219,6 @@ TEST_P(Faults, LightThatStaysFaintIsTheNewLevelOnceTheBeatHasProvedIt) {
 }
 
 TEST_P(Faults, ARepeatedFrameIsTakenAsMissed) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(200);
     SensorFrame last;
     gyro.ticks(1, [&](SensorFrame& f) { last = f; });
     gyro.records.clear();
@@ -317,9 +238,7 @@ TEST_P(Faults, ARepeatedFrameIsTakenAsMissed) {
 
 TEST_P(Faults, ALostCurrentAndAnUnevenOneAreNotValid) {
     for (const double other : {0.0, 0.98}) {
-        Gyro gyro{GetParam()};
-        gyro.ticks(200);
-        gyro.records.clear();
+        Loop gyro = running(GetParam());
         gyro.ticks(50, [&](SensorFrame& f) { f.coil_current_a = f.bias_sign > 0 ? 1.0 : -other; });
         EXPECT_GE(gyro.invalid(), 98) << other;
         gyro.ticks(50);
@@ -330,9 +249,6 @@ TEST_P(Faults, ALostCurrentAndAnUnevenOneAreNotValid) {
 }
 
 TEST_P(Faults, APushOfThePerimeterCostsOneTick) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(200);
-    gyro.records.clear();
     gyro.plant.drift_lambda += 0.1;
     gyro.ticks(100);
     EXPECT_NE(gyro.seen & health_detuning_unsteady, 0u);
@@ -341,9 +257,6 @@ TEST_P(Faults, APushOfThePerimeterCostsOneTick) {
 }
 
 TEST_P(Faults, MoreCountsThanAnyRateAreNotValid) {
-    Gyro gyro{GetParam()};
-    gyro.ticks(200);
-    gyro.records.clear();
     gyro.plant.rate_counts = 2000.0;
     gyro.ticks(50);
     EXPECT_EQ(gyro.invalid(), 100);
@@ -355,5 +268,4 @@ TEST_P(Faults, MoreCountsThanAnyRateAreNotValid) {
     EXPECT_EQ(gyro.invalid(), 0);
 }
 
-}  // namespace gyro_control_faults_test
-}  // namespace zlg::core
+}  // namespace zlg::core::test::gyro_control_faults_test

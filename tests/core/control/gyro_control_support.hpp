@@ -1,16 +1,10 @@
 #pragma once
 // Control and a small plant in closed loop, with either perimeter loop.
 
-#include "small_plant.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <utility>
-#include <vector>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/core/gyro_control.hpp>
+
+#include "small_plant.hpp"
+#include "support.hpp"
 
 namespace zlg::core::test {
 
@@ -25,9 +19,26 @@ constexpr GyroControlConfig config_of(LoopKind kind) {
     return config_with([kind](GyroControlConfig& c) { c.loop.kind = kind; });
 }
 
+constexpr GyroControlConfig dithered(LoopKind kind, DitherMethod method) {
+    return config_with([&](GyroControlConfig& c) {
+        c.loop.kind = kind;
+        c.commutator.dither.method = method;
+    });
+}
+
 inline bool all_finite(const HalfRecord& r) {
     return std::isfinite(r.detuning_lambda) && std::isfinite(r.detuning_sq_lambda2) && std::isfinite(r.piezo_v) &&
            std::isfinite(r.temperature_c);
+}
+
+inline void scale_light(SensorFrame& f, float part) {
+    for (float& x : f.light_a) x *= part;
+    for (float& x : f.light_b) x *= part;
+}
+inline void add_noise(SensorFrame& f, auto& random, float part) {
+    std::normal_distribution<float> normal;
+    for (float& x : f.light_a) x *= 1.0f + part * normal(random);
+    for (float& x : f.light_b) x *= 1.0f + part * normal(random);
 }
 
 // Control and a plant in closed loop; frames can be spoilt between the two.
@@ -47,6 +58,7 @@ public:
         actuator = out.actuator;
         records.push_back(out.record);
         health.push_back(out.health);
+        seen |= out.health;
         if (out.has_event) events.push_back(out.event);
         return out;
     }
@@ -71,6 +83,14 @@ public:
         }
         return runs;
     }
+    // Halves that were not valid since the last call, and no longer remembered.
+    int invalid() {
+        int n = 0;
+        for (const HalfRecord& r : records) n += !r.valid;
+        records.clear();
+        return n;
+    }
+    [[nodiscard]] bool tracks() const { return state.mode_switch.phase == SwitchPhase::tracking; }
 
     SmallPlant plant;
     GyroControlConfig config;
@@ -79,10 +99,13 @@ public:
     GyroControlOutput out;
     std::vector<HalfRecord> records;
     std::vector<std::uint32_t> health;
+    std::uint32_t seen = 0;  // of the health, in all halves
     std::vector<SwitchEvent> events;
 };
 
 // Instantiated in gyro_control_test.cpp, as GyroControl/EitherLoop.
-class EitherLoop : public testing::TestWithParam<LoopKind> {};
+struct EitherLoop : testing::TestWithParam<LoopKind> {
+    Loop loop{config_of(GetParam())};
+};
 
 }  // namespace zlg::core::test

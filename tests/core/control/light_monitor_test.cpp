@@ -1,23 +1,33 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <utility>
-#include <vector>
-#include <zlg/core/common/discriminator_curve.hpp>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/core/control/light_monitor.hpp>
 
-namespace zlg::core {
-namespace light_monitor_test {
+#include "common/expansive_curve.hpp"
+
+#include "support.hpp"
+
+namespace zlg::core::light_monitor_test {
 
 constexpr LightMonitorConfig config{.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
 static_assert(check(config) == LightMonitorFault::none);
 static_assert(check(LightMonitorConfig{.noise = Wavelengths{not_a_number}}) == LightMonitorFault::noise);
 static_assert(check(LightMonitorConfig{.bias_chi = -1.0}) == LightMonitorFault::bias_chi);
 static_assert(check(LightMonitorConfig{.max_gain = 0.5}) == LightMonitorFault::max_gain);
+
+constexpr double slope = 0.332;  // signal by wavelength
+
+// Light of both beams, as a detector reads it.
+LightMonitorInput lit(std::span<const float> a, std::span<const float> b, int sign, double detuning_lambda,
+                      double mean_sq_lambda2) {
+    return {.light_a = a,
+            .light_b = b,
+            .sign = sign,
+            .beats = true,
+            .two_way = true,
+            .light = 2000.0,
+            .signal_per_lambda = slope,
+            .usable = true,
+            .detuning = Wavelengths{detuning_lambda},
+            .mean_sq_lambda2 = mean_sq_lambda2};
+}
 
 // Two beams of 1000, their noise, and what a detector makes of them.
 class Light {
@@ -33,44 +43,36 @@ public:
     bool settled = true;
     double deficit_ratio = 0.0;
 
+    explicit Light(int n = 0) { (void)halves(n); }
+
     LightMonitorOutput half(const LightMonitorConfig& c = config) {
         sign_ = -sign_;
         if (!stuck) shine();
-        double sum = 0.0;
-        double squares = 0.0;
+        double sum = 0.0, squares = 0.0;
         for (std::size_t k = 0; k < a_.size(); ++k) {
-            const double a = static_cast<double>(a_[k]);
-            const double b = static_cast<double>(b_[k]);
+            const double a = static_cast<double>(a_[k]), b = static_cast<double>(b_[k]);
             const double x = sign_ * (a - b) / (a + b) / slope;
             sum += x;
             squares += x * x;
         }
-        return step(c, state,
-                    {.light_a = a_,
-                     .light_b = b_,
-                     .sign = sign_,
-                     .closed = true,
-                     .settled = settled,
-                     .beats = beats,
-                     .deficit_ratio = deficit_ratio,
-                     .two_way = two_way,
-                     .dark = dark,
-                     .light = 2000.0,
-                     .signal_per_lambda = slope,
-                     .usable = two_way,
-                     .detuning = Wavelengths{sum / 16.0},
-                     .mean_sq_lambda2 = squares / 16.0});
+        LightMonitorInput in = lit(a_, b_, sign_, sum / 16.0, squares / 16.0);
+        in.closed = true;
+        in.settled = settled;
+        in.beats = beats;
+        in.deficit_ratio = deficit_ratio;
+        in.two_way = in.usable = two_way;
+        in.dark = dark;
+        return step(c, state, in);
     }
     LightMonitorOutput halves(int n) {
-        for (int k = 1; k < n; ++k) (void)half();
-        return half();
+        LightMonitorOutput out;
+        for (int k = 0; k < n; ++k) out = half();
+        return out;
     }
 
     LightMonitorState state;
 
 private:
-    static constexpr double slope = 0.332;
-
     void shine() {
         const double noise = std::sqrt(2.0) * 1000.0 * slope * noise_lambda;
         for (std::size_t k = 0; k < a_.size(); ++k) {
@@ -81,11 +83,20 @@ private:
     }
 
     int sign_ = -1;
-    std::array<float, 16> a_{};
-    std::array<float, 16> b_{};
+    std::array<float, 16> a_{}, b_{};
     std::mt19937 random_{11};
     std::normal_distribution<double> normal_;
 };
+
+constexpr LightMonitorConfig quiet{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
+
+// To a lock.
+Light on_the_way(double detuning_lambda) {
+    Light light;
+    light.settled = false;
+    light.detuning_lambda = detuning_lambda;
+    return light;
+}
 
 TEST(LightMonitor, OrdinaryLightIsLeftAsItIs) {
     Light light;
@@ -108,30 +119,23 @@ TEST(LightMonitor, LightWithoutNoiseMayStandStill) {
 }
 
 TEST(LightMonitor, AConverterThatStandsStillIsSeenInTwoHalvesAndSteersNothing) {
-    Light light;
-    (void)light.halves(100);
+    Light light{100};
     light.stuck = true;
     (void)light.halves(17);  // its samples still differ within the half: it is held as a whole
     light.stuck = false;
     EXPECT_FALSE(light.half().stuck);
 
     LightMonitorState s;
-    const std::array<float, 16> still = [] {
-        std::array<float, 16> x{};
-        x.fill(870.0f);
-        return x;
-    }();
+    const std::vector<float> still(16, 870.0f);
     LightMonitorInput in{.light_a = still, .light_b = still, .two_way = true, .light = 1740.0, .usable = true};
     (void)step(config, s, in);
     EXPECT_FALSE(step(config, s, in).stuck);
     const LightMonitorOutput out = step(config, s, in);
-    EXPECT_TRUE(out.stuck);
-    EXPECT_FALSE(out.usable || out.has_mean_square);
+    EXPECT_TRUE(out.stuck && !out.usable && !out.has_mean_square);
 }
 
 TEST(LightMonitor, NoiseIsSeenInTwoHalvesAndMakesNoMeanSquare) {
-    Light light;
-    (void)light.halves(100);
+    Light light{100};
     light.noise_lambda = 0.045;
     int k = 0;
     while (!light.half().noisy) ASSERT_LT(++k, 10);
@@ -151,36 +155,27 @@ TEST(LightMonitor, APerimeterThatSwingsIsNoNoise) {
 }
 
 TEST(LightMonitor, ABeamThatFadedLeavesTheDetuningAsTheMeanOfTwoHalves) {
-    Light light;
-    (void)light.halves(100);
+    Light light{100};
     light.detuning_lambda = 0.01;
     light.share_a = 0.95;  // of 1.95: the reading is off by 0.077
     const LightMonitorOutput out = light.halves(12);
-    EXPECT_TRUE(out.unbalanced);
-    EXPECT_TRUE(out.usable);
-    EXPECT_FALSE(out.has_mean_square);
+    EXPECT_TRUE(out.unbalanced && out.usable && !out.has_mean_square);
     EXPECT_NEAR(out.detuning.value(), 0.01, 0.003);
     light.share_a = 1.0;
     const LightMonitorOutput again = light.halves(12);
-    EXPECT_FALSE(again.unbalanced);
-    EXPECT_TRUE(again.has_mean_square);
+    EXPECT_TRUE(!again.unbalanced && again.has_mean_square);
 }
 
 // There what a beam has lost stands in the mean square, times the detuning.
 TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
-    Light light;
-    light.settled = false;
-    light.detuning_lambda = 0.2;
+    Light light = on_the_way(0.2);
     for (int k = 0; k < 400; ++k) ASSERT_FALSE(light.half().unbalanced) << k;
     for (const double lost : {0.03, 0.1, 0.3}) {
-        Light fading;
-        fading.settled = false;
-        fading.detuning_lambda = 0.2;
+        Light fading = on_the_way(0.2);
         (void)fading.halves(10);
         fading.share_a = 1.0 - lost;
         const LightMonitorOutput out = fading.half();
-        EXPECT_TRUE(out.unbalanced) << lost;
-        EXPECT_FALSE(out.has_mean_square) << lost;
+        EXPECT_TRUE(out.unbalanced && !out.has_mean_square) << lost;
         // It has come back, but the loop has not locked yet.
         fading.share_a = 1.0;
         EXPECT_TRUE(fading.halves(8).unbalanced) << lost;
@@ -190,11 +185,8 @@ TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
 // The field, the detuning and the isotopes change the light of a healthy laser by 0.3 %, however quiet its converters are.
 TEST(LightMonitor, LightThatFallsByAThirdOfAPercentIsNoFadedBeam) {
     for (const double lost : {0.003, 0.01}) {
-        Light light;
-        light.settled = false;
+        Light light = on_the_way(0.03);
         light.noise_lambda = 3e-4;
-        light.detuning_lambda = 0.03;
-        const LightMonitorConfig quiet{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
         for (int k = 0; k < 10; ++k) ASSERT_FALSE(light.half(quiet).unbalanced);
         light.share = 1.0 - lost;
         EXPECT_EQ(light.half(quiet).unbalanced, lost > 0.005) << lost;
@@ -205,7 +197,6 @@ TEST(LightMonitor, LightThatFallsByAThirdOfAPercentIsNoFadedBeam) {
 bool is_unbalanced_on_the_way(std::size_t n_samples, double start_lambda, double lost) {
     std::mt19937 random{7};
     std::normal_distribution<double> normal;
-    const LightMonitorConfig c{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
     LightMonitorState state;
     bool unbalanced = false;
     for (int h = 0; h < 6; ++h) {
@@ -219,19 +210,9 @@ bool is_unbalanced_on_the_way(std::size_t n_samples, double start_lambda, double
             a.push_back(static_cast<float>(left * 1000.0 * (1.0 + signal) + noise()));
             b.push_back(static_cast<float>(1000.0 * (1.0 - signal) + noise()));
         }
-        unbalanced = unbalanced || step(c, state,
-                                        {.light_a = a,
-                                         .light_b = b,
-                                         .sign = sign,
-                                         .closed = true,
-                                         .beats = true,
-                                         .two_way = true,
-                                         .light = 2000.0,
-                                         .signal_per_lambda = 0.332,
-                                         .usable = true,
-                                         .detuning = Wavelengths{0.01},
-                                         .mean_sq_lambda2 = 1e-4})
-                                       .unbalanced;
+        LightMonitorInput in = lit(a, b, sign, 0.01, 1e-4);
+        in.closed = true;
+        unbalanced = unbalanced || step(quiet, state, in).unbalanced;
     }
     return unbalanced;
 }
@@ -246,17 +227,14 @@ TEST(LightMonitor, AFastWayToALockIsNoFadedBeamHoweverFewTheSamples) {
 
 // Less than one jump shows above the noise.
 TEST(LightMonitor, ABeamThatFadedUnseenIsSeenByAFewJumps) {
-    Light light;
-    light.settled = false;
-    light.detuning_lambda = 0.2;
+    Light light = on_the_way(0.2);
     light.share_a = 0.992;
     EXPECT_TRUE(light.halves(12).unbalanced);
 }
 
 TEST(LightMonitor, ADetuningThatTakesNothingFromTheBiasIsOfABeam) {
     for (const double deficit_ratio : {0.0, 3.6 * 0.12 * 0.12}) {
-        Light light;
-        (void)light.halves(100);
+        Light light{100};
         light.detuning_lambda = 0.12;
         light.deficit_ratio = deficit_ratio;
         EXPECT_EQ(light.halves(2).unbalanced, deficit_ratio == 0.0);
@@ -265,38 +243,26 @@ TEST(LightMonitor, ADetuningThatTakesNothingFromTheBiasIsOfABeam) {
 
 // It takes from the beat in one half what it adds in the next; the light knows nothing of it.
 TEST(LightMonitor, ARotationThatChangesIsNoFadedBeam) {
-    Light light;
-    (void)light.halves(100);
+    Light light{100};
     for (int k = 0; k < 40; ++k) {
         light.deficit_ratio = k % 2 == 0 ? 0.2 : -0.2;
         const LightMonitorOutput out = light.half();
-        EXPECT_FALSE(out.unbalanced) << k;
-        EXPECT_TRUE(out.has_mean_square) << k;
+        EXPECT_TRUE(!out.unbalanced && out.has_mean_square) << k;
     }
 }
 
 TEST(LightMonitor, TheBeatOverrulesTheLightAfterEightHalvesUnlessItIsDark) {
-    Light light;
-    (void)light.halves(100);
+    Light light{100};
     light.two_way = false;
     EXPECT_FALSE(light.halves(7).contradicted);
     const LightMonitorOutput out = light.half();
-    EXPECT_TRUE(out.contradicted);
-    EXPECT_FALSE(out.usable);
+    EXPECT_TRUE(out.contradicted && !out.usable);
     light.dark = true;
     EXPECT_FALSE(light.half().contradicted);
     light.dark = false;
     EXPECT_TRUE(light.halves(8).contradicted);
     light.beats = false;
     EXPECT_FALSE(light.half().contradicted);
-}
-
-TEST(LightMonitor, NoDetuningIsBeyondTheNextMode) {
-    Light light;
-    light.noise_lambda = 0.0033;
-    light.detuning_lambda = 0.6;
-    light.deficit_ratio = 10.0;
-    EXPECT_FALSE(light.halves(3).usable);
 }
 
 // The next mode is half a wavelength away, read with the noise: four deviations of 0.0033 beyond it.
@@ -318,8 +284,7 @@ TEST(LightMonitor, WhatItRemembersOfDamagedLightAreNumbers) {
     const std::array<float, 4> endless{std::numeric_limits<float>::infinity(), 1.0f, 1.0f, 1.0f};
     (void)step(config, state, {.light_a = damaged, .light_b = endless});
     EXPECT_EQ(state, LightMonitorState{state});
-    EXPECT_EQ(state.last_a, 0.0f);
-    EXPECT_EQ(state.last_b, 0.0f);
+    EXPECT_TRUE(state.last_a == 0.0f && state.last_b == 0.0f);
 }
 
 // A beam that fades and comes back within a few halves is still on its way in the first half that is lit again.
@@ -331,53 +296,31 @@ TEST(LightMonitor, TheFirstLightAfterADarkHalfIsNoDetuning) {
     light.two_way = true;
     light.share_a = 0.97;
     const LightMonitorOutput first = light.half();
-    EXPECT_TRUE(first.unbalanced);
-    EXPECT_FALSE(first.has_mean_square || first.usable);
+    EXPECT_TRUE(first.unbalanced && !first.has_mean_square && !first.usable);
     light.share_a = 1.0;
     (void)light.half();
     const LightMonitorOutput later = light.half();
     EXPECT_TRUE(later.has_mean_square && later.usable && !later.unbalanced);
 }
 
-// 1.05, 1.24, 1.8, 3.3 times its linear law at 0.05, 0.10, 0.15, 0.20 wavelength.
-double expansive(double dl) {
-    const double x2 = dl * dl;
-    return dl * (1.0 + 19.0 * x2 + 200.0 * x2 * x2 + 19000.0 * x2 * x2 * x2);
-}
-
 // A half on its way to a lock, of which the loop takes a part in every sample from `corner` on, through such a discriminator.
 LightMonitorOutput relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda,
                                   const LightMonitorConfig& c, std::mt19937& random) {
-    std::vector<double> x;
-    std::vector<double> y;
-    for (int k = 1; k <= 31; ++k) {
-        y.push_back(0.24 * k / 31);
-        x.push_back(expansive(y.back()));
-    }
-    const DiscriminatorCurve curve = discriminator_curve(x, y);
+    const DiscriminatorCurve curve = test::expansive_curve(31);
     std::normal_distribution<double> normal;
     std::array<float, 16> a{};
     std::array<float, 16> b{};
     double dl = start_lambda;
     for (std::size_t k = 0; k < a.size(); ++k) {
-        const double signal = 0.332 * (expansive(dl) + noise_lambda * normal(random));
+        const double signal = 0.332 * (test::expansive(dl) + noise_lambda * normal(random));
         a[k] = static_cast<float>(1000.0 * (1.0 + signal));
         b[k] = static_cast<float>(1000.0 * (1.0 - signal));
         if (k >= corner) dl *= 1.0 - part;
     }
     LightMonitorState state;
-    return step(c, state,
-                {.light_a = a,
-                 .light_b = b,
-                 .sign = 1,
-                 .beats = true,
-                 .two_way = true,
-                 .light = 2000.0,
-                 .signal_per_lambda = 0.332,
-                 .curve = &curve,
-                 .usable = true,
-                 .detuning = Wavelengths{0.1},
-                 .mean_sq_lambda2 = 0.01});
+    LightMonitorInput in = lit(a, b, 1, 0.1, 0.01);
+    in.curve = &curve;
+    return step(c, state, in);
 }
 
 // However quiet the converters are: the same motion is no noise, and noise is no motion.
@@ -400,5 +343,4 @@ TEST(LightMonitor, AFastWayToALockIsNoNoiseHoweverQuietTheLight) {
     }
 }
 
-}  // namespace light_monitor_test
-}  // namespace zlg::core
+}  // namespace zlg::core::light_monitor_test

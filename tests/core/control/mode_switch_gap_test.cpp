@@ -1,16 +1,12 @@
 // The length of a gap, chosen by the light.
+#include "mode_switch_support.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <zlg/core/control/mode_switch.hpp>
-
-namespace zlg::core {
-namespace mode_switch_gap_test {
+namespace zlg::core::test::mode_switch_gap_test {
 
 constexpr ModeSwitchConfig shortest(std::int32_t gap_min_ticks) {
-    return {
-        .gap_ticks = 3, .gap_min_ticks = gap_min_ticks, .settle_ticks = 4, .lock_timeout_ticks = 12, .dark_ticks = 2};
+    ModeSwitchConfig c = config;
+    c.gap_min_ticks = gap_min_ticks;
+    return c;
 }
 
 static_assert(check(shortest(0)) == ModeSwitchFault::none);
@@ -19,72 +15,51 @@ static_assert(check(shortest(4)) == ModeSwitchFault::ticks);
 static_assert(check(shortest(-1)) == ModeSwitchFault::ticks);
 static_assert(check(ModeSwitchConfig{.arrival_tolerance = Wavelengths{0.25}}) == ModeSwitchFault::tolerance);
 
-constexpr ModeSwitchInput arrived{.light_known = true,
-                                  .two_way = true,
-                                  .usable = true,
-                                  .at_rest = true,
-                                  .piezo = Volts{190.0},
-                                  .set_point = Volts{150.0},
-                                  .half_wave = Volts{40.0}};
+constexpr auto arrived = [](ModeSwitchInput&) {};
 
-// Halves of the gap, in the last of which and before, from `from` on, the light looks like `seen`.
-int gap_halves(const ModeSwitchConfig& c, const ModeSwitchInput& seen, int from = 0) {
-    ModeSwitchState s = initial_state(c);
-    int half = 0;
-    const auto feed = [&](ModeSwitchInput in, bool due) {
-        in.tick_border = half % 2 == 1;
-        in.next_tick = (half + 1) / 2;
-        in.due = due;
-        ++half;
-        return step(c, s, in).loop_closed;
-    };
-    for (int k = 0; k < 11; ++k) (void)feed(arrived, false);
-    EXPECT_FALSE(feed(arrived, true));
-    ModeSwitchInput dark = arrived;
-    dark.two_way = dark.usable = false;
+// Halves of a gap that may end after `gap_min_ticks`. From `from` on its light has arrived, but for a change.
+int gap_halves(std::int32_t gap_min_ticks, auto change, int from = 0) {
+    Sequence q{shortest(gap_min_ticks)};
+    q.to_open();
     for (int n = 1; n < 20; ++n) {
-        if (feed(n - 1 < from ? dark : seen, false)) return n;
+        ModeSwitchInput in = q.input(n > from ? locked : dark);
+        in.at_rest = true;
+        if (n > from) change(in);
+        if (q.half(in).loop_closed) return n;
     }
     return 0;
 }
 
 TEST(ModeSwitchGap, IsFixedUnlessASmallerOneIsAllowed) {
-    EXPECT_EQ(gap_halves(shortest(0), arrived), 6);
-    EXPECT_EQ(gap_halves(shortest(3), arrived), 6);
+    EXPECT_EQ(gap_halves(0, arrived), 6);
+    EXPECT_EQ(gap_halves(3, arrived), 6);
 }
 
 TEST(ModeSwitchGap, EndsAtTheFirstTickBorderAtWhichTheSwitchHasArrived) {
-    EXPECT_EQ(gap_halves(shortest(1), arrived), 2);
-    EXPECT_EQ(gap_halves(shortest(2), arrived), 4);
-    EXPECT_EQ(gap_halves(shortest(1), arrived, 2), 4);
-    EXPECT_EQ(gap_halves(shortest(1), arrived, 3), 4) << "the light of the last half decides";
-    EXPECT_EQ(gap_halves(shortest(1), arrived, 4), 6) << "never later than gap_ticks";
+    EXPECT_EQ(gap_halves(1, arrived), 2);
+    EXPECT_EQ(gap_halves(2, arrived), 4);
+    EXPECT_EQ(gap_halves(1, arrived, 2), 4);
+    EXPECT_EQ(gap_halves(1, arrived, 3), 4) << "the light of the last half decides";
+    EXPECT_EQ(gap_halves(1, arrived, 4), 6) << "never later than gap_ticks";
 }
 
 TEST(ModeSwitchGap, NeedsLightBothWaysAUsableDetuningAndAPiezoAtRest) {
-    const auto gap = [](auto change) {
-        ModeSwitchInput in = arrived;
-        change(in);
-        return gap_halves(shortest(1), in);
-    };
-    EXPECT_EQ(gap([](auto& in) { in.light_known = false; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.two_way = false; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.usable = false; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.at_rest = false; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{0.06}; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{-0.06}; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{std::numeric_limits<double>::quiet_NaN()}; }), 6);
-    EXPECT_EQ(gap([](auto& in) { in.detuning = Wavelengths{0.04}; }), 2);
+    EXPECT_EQ(gap_halves(1, [](auto& in) { in.light_known = false; }), 6);
+    EXPECT_EQ(gap_halves(1, [](auto& in) { in.two_way = false; }), 6);
+    EXPECT_EQ(gap_halves(1, [](auto& in) { in.usable = false; }), 6);
+    EXPECT_EQ(gap_halves(1, [](auto& in) { in.at_rest = false; }), 6);
+    for (const auto& [detuning_lambda, n] : {std::pair{0.06, 6}, {-0.06, 6}, {not_a_number, 6}, {0.04, 2}})
+        EXPECT_EQ(gap_halves(1, [&](auto& in) { in.detuning = Wavelengths{detuning_lambda}; }), n) << detuning_lambda;
 }
 
 TEST(ModeSwitchGap, JudgesWhereTheDetuningLeadsNotWhereItWas) {
-    ModeSwitchInput in = arrived;
-    in.detuning = Wavelengths{-0.07};
-    in.in_flight = Wavelengths{0.06};
-    EXPECT_EQ(gap_halves(shortest(1), in), 2);
-    in.detuning = Wavelengths{0.01};
-    EXPECT_EQ(gap_halves(shortest(1), in), 6);
+    for (const auto& [detuning_lambda, n] : {std::pair{-0.07, 2}, {0.01, 6}}) {
+        const auto in_flight = [&](ModeSwitchInput& in) {
+            in.detuning = Wavelengths{detuning_lambda};
+            in.in_flight = Wavelengths{0.06};
+        };
+        EXPECT_EQ(gap_halves(1, in_flight), n) << detuning_lambda;
+    }
 }
 
-}  // namespace mode_switch_gap_test
-}  // namespace zlg::core
+}  // namespace zlg::core::test::mode_switch_gap_test

@@ -1,14 +1,7 @@
 // The start, what a switch starts from and what it measures.
 #include "mode_switch_support.hpp"
 
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <cmath>
-#include <utility>
-
-namespace zlg::core::test {
-namespace mode_switch_test {
+namespace zlg::core::test::mode_switch_test {
 
 static_assert(check(config) == ModeSwitchFault::none);
 static_assert(check(ModeSwitchConfig{}) == ModeSwitchFault::none);
@@ -33,142 +26,161 @@ TEST(ModeSwitch, TheOffsetIsAddedToAMoveInEitherDirection) {
 
 TEST(ModeSwitch, StartsClosedAtTheStartPointAndTracksAfterTheFirstLock) {
     Sequence q;
-    const ModeSwitchOutput first = q.half(Seen::locked);
+    const ModeSwitchOutput first = q.half(locked);
     EXPECT_TRUE(first.loop_closed);
     EXPECT_EQ(first.polarity, 1);
     EXPECT_EQ(first.set_point, Volts{150.0});
-    q.halves(6, Seen::locked);
+    q.halves(6, locked);
     EXPECT_EQ(q.state.phase, SwitchPhase::settling);
-    (void)q.half(Seen::locked);  // the eighth: four ticks
+    (void)q.half(locked);  // the eighth: four ticks
     EXPECT_EQ(q.state.phase, SwitchPhase::tracking);
     EXPECT_EQ(q.n_events, 0);
 }
 
-TEST(ModeSwitch, HelicityAlternatesAndSoDoesTheStep) {
-    Sequence q;
-    q.to_tracking();
-    int polarity = 1;
-    for (int n = 0; n < 6; ++n) {
-        (void)q.half(Seen::locked);
-        (void)q.half(Seen::locked, true);
-        EXPECT_EQ(q.state.polarity, -polarity);
-        polarity = -polarity;
-        EXPECT_EQ(q.state.set_point_v, n % 2 == 0 ? 120.0 : 160.0);
-        q.halves(6, Seen::dark);
-        q.piezo_v = q.state.set_point_v;
-        q.halves(8, Seen::locked);
-    }
-    EXPECT_EQ(q.n_events, 6);
-}
-
 TEST(ModeSwitch, UPlusIsTheMeanOfTheLastReadingsInLock) {
     Sequence q;
-    q.to_tracking();
-    for (const double v : {100.0, 151.0, 152.0, 153.0, 154.0, 155.0, 156.0}) {
-        q.piezo_v = v;
-        (void)q.half(Seen::locked);
-    }
-    q.piezo_v = 290.0;
-    (void)q.half(Seen::dark);  // not in lock: does not count
-    q.piezo_v = 157.0;
-    (void)q.half(Seen::locked);
-    q.piezo_v = 1e9;  // not of this stage: does not count either
-    (void)q.half(Seen::locked);
-    q.piezo_v = 158.0;
-    (void)q.half(Seen::locked);
-    (void)q.half(Seen::missed, true);
+    q.track();
+    const auto read = [&q](double piezo_v, const Half& seen) {
+        q.piezo_v = piezo_v;
+        (void)q.half(seen);
+    };
+    for (const double v : {100.0, 151.0, 152.0, 153.0, 154.0, 155.0, 156.0}) read(v, locked);
+    read(290.0, dark);  // not in lock: does not count
+    read(157.0, locked);
+    read(1e9, locked);  // not of this stage: does not count either
+    read(158.0, locked);
+    (void)q.half(missed, true);
     EXPECT_NEAR(q.state.good_v, 154.5, 1e-12);
     EXPECT_NEAR(q.state.set_point_v, 114.5, 1e-12);
 }
 
-TEST(ModeSwitch, WithoutReadingsTheCommandStandsInAndNothingIsMeasured) {
-    Sequence q;
-    q.piezo_v = not_a_number;
-    q.set_point_v = 130.0;
-    q.to_open();
-    EXPECT_EQ(q.state.set_point_v, 170.0);
-    q.halves(6, Seen::dark);
-    q.piezo_v = 170.0;
-    q.halves(8, Seen::locked);
-    EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
-    EXPECT_FALSE(q.event.has_half_wave);
+struct Unmeasured {
+    const char* claim;
+    Halves before;
+    Half last;  // of the tick at whose end the loop opens
+    double set_point_v;
+    Halves after;
+};
+
+TEST(ModeSwitch, WithoutFreshReadingsOfBothSidesNothingIsMeasured) {
+    for (const Unmeasured& row : std::vector<Unmeasured>{
+             {"without readings the command stands in", {{8, unread}}, unread, 170.0, {{8, locked}}},
+             {"stale ones are good enough to steer", {{8, locked}, {100, missed}}, missed, 120.0, {{8, locked}}},
+             {"those from before the switch are none from after it", {{8, locked}}, locked, 120.0, {{8, unread}}},
+             {"nor are stale ones", {{8, locked}}, locked, 120.0, {{1, locked}, {10, missed}, {7, unread}}}}) {
+        SCOPED_TRACE(row.claim);
+        Sequence q;
+        q.set_point_v = 130.0;
+        q.halves(row.before);
+        q.open(row.last);
+        EXPECT_EQ(q.state.set_point_v, row.set_point_v);
+        q.pass_gap(row.last.missed ? missed : dark);
+        q.piezo_v = row.set_point_v;
+        q.halves(row.after);
+        EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
+        EXPECT_EQ(q.n_events, 1);
+        EXPECT_FALSE(q.event.has_half_wave);
+    }
 }
 
-TEST(ModeSwitch, StaleReadingsAreGoodEnoughToSteerNotToMeasure) {
-    Sequence q;
-    q.to_tracking();
-    q.halves(100, Seen::missed);
-    (void)q.half(Seen::missed);
-    (void)q.half(Seen::missed, true);
-    EXPECT_EQ(q.state.set_point_v, 120.0);
-    q.halves(6, Seen::missed);
-    q.halves(8, Seen::locked);
-    EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
-    EXPECT_FALSE(q.event.has_half_wave);
+TEST(ModeSwitch, AReadingIsFreshForFourTicksAndNoLonger) {
+    // 8 halves after the last reading, the one before the opening included; and 9, of which one was locked but unread.
+    for (const int age : {8, 9, 10}) {
+        Sequence s;
+        s.track();
+        s.halves({{1, locked}, {1, age == 9 ? unread : locked}, {age == 9 ? 6 : age - 2, missed}});
+        s.open(missed);
+        EXPECT_EQ(s.state.good_measured, age == 8) << age;
+    }
 }
 
-TEST(ModeSwitch, ReadingsFromBeforeTheSwitchAreNotOnesFromAfterIt) {
-    Sequence q;
-    q.to_settling();
-    q.piezo_v = not_a_number;
-    q.halves(8, Seen::locked);
-    EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
-    EXPECT_FALSE(q.event.has_half_wave);
+TEST(ModeSwitch, OneReadingIsEnough) {
+    Sequence s;
+    s.halves(8, unread);
+    s.expect(SwitchPhase::tracking);
+    s.piezo_v = 163.0;
+    s.halves({{1, locked}, {1, unread}});
+    s.open(unread);
+    EXPECT_TRUE(s.state.good_measured);
+    EXPECT_EQ(s.state.good_v, 163.0);
 }
 
-TEST(ModeSwitch, AStaleReadingAfterTheSwitchMeasuresNothing) {
-    Sequence q;
-    q.to_settling();
-    q.piezo_v = 120.0;
-    (void)q.half(Seen::locked);
-    q.halves(10, Seen::missed);
-    q.piezo_v = not_a_number;
-    q.halves(7, Seen::locked);
-    EXPECT_EQ(q.event.outcome, SwitchOutcome::switched);
-    EXPECT_FALSE(q.event.has_half_wave);
+TEST(ModeSwitch, TheHalfWaveVoltageIsAMagnitudeHoweverSmall) {
+    for (const double step_v : {40.0, 0.5, 0.0, -0.5, -40.0}) {
+        Sequence s;
+        s.to_settling();
+        s.piezo_v = 160.0 + step_v;
+        s.track();
+        ASSERT_EQ(s.event.outcome, SwitchOutcome::switched);
+        ASSERT_TRUE(s.event.has_half_wave);
+        EXPECT_EQ(s.event.half_wave_v, std::fabs(step_v));
+        EXPECT_EQ(s.event.direction, step_v < 0.0 ? -1 : 1);
+        EXPECT_FALSE(std::signbit(s.event.half_wave_v));
+    }
 }
 
-TEST(ModeSwitch, AMissedFirstHalfHasNoMiss) {
-    Sequence q;
-    q.to_settling();
-    (void)q.half(Seen::missed);
-    q.halves(8, Seen::locked);
-    EXPECT_FALSE(q.event.has_miss);
-    EXPECT_EQ(q.event.miss_lambda, 0.0);
+TEST(ModeSwitch, ADetuningThatWasNotMeasuredIsNoLock) {
+    for (const Half& half : {Half{.usable = false}, Half{.detuning_lambda = not_a_number},
+                             Half{.detuning_lambda = std::numeric_limits<double>::infinity()}}) {
+        Sequence s;
+        s.halves(20, half);
+        EXPECT_EQ(s.state.n_locked, 0);
+        EXPECT_EQ(s.state.n_lost, 0);
+        EXPECT_FALSE(s.state.smoothing);
+        EXPECT_EQ(s.state.detuning_lambda, 0.0);
+    }
 }
 
+// Every half is outside the tolerance of 0.02 by itself, their mean is not.
 TEST(ModeSwitch, NoiseOfSingleHalvesDoesNotPreventALock) {
     Sequence q;
     q.to_settling();
-    ModeSwitchInput in;
-    in.light_known = in.two_way = in.usable = true;
-    in.half_wave = Volts{40.0};
-    in.piezo = Volts{120.0};
-    // Every half is outside the tolerance of 0.02 by itself, their mean is not.
-    in.detuning = Wavelengths{0.03};
-    for (int half = 0; half < 24 && q.state.phase == SwitchPhase::settling; ++half) {
-        in.tick_border = half % 2 == 1;
-        (void)step(config, q.state, in);
-        in.detuning = -1.0 * in.detuning;
-    }
+    for (int half = 0; half < 24 && q.state.phase == SwitchPhase::settling; ++half)
+        (void)q.half({.detuning_lambda = half % 2 == 0 ? 0.03 : -0.03});
     EXPECT_EQ(q.state.phase, SwitchPhase::tracking);
+}
+
+TEST(ModeSwitch, AMissBelongsToItsOwnSwitch) {
+    Sequence s;
+    s.to_settling();
+    s.halves({{1, {.detuning_lambda = 0.01}}, {7, locked}});
+    s.expect(SwitchPhase::tracking);
+    EXPECT_TRUE(s.event.has_miss);
+    EXPECT_EQ(s.event.miss_lambda, 0.01);
+    s.open();
+    s.pass_gap();
+    (void)s.half(missed);
+    s.track();
+    EXPECT_FALSE(s.event.has_miss);
+    EXPECT_EQ(s.event.miss_lambda, 0.0);
+}
+
+// A half-wave voltage of 200 V leads out of the range from 160 V on both sides.
+TEST(ModeSwitch, OutOfRangeBelongsToItsOwnSwitch) {
+    Sequence s;
+    s.half_wave_v = 200.0;
+    s.to_settling();
+    s.track();
+    EXPECT_EQ(s.event.outcome, SwitchOutcome::switched);
+    EXPECT_TRUE(s.event.out_of_range);
+    s.halves(24, dark);
+    s.expect(SwitchPhase::returning);
+    s.pass_gap();
+    s.track();
+    EXPECT_EQ(s.event.outcome, SwitchOutcome::returned);
+    EXPECT_FALSE(s.event.out_of_range);
 }
 
 TEST(ModeSwitch, OutOfRangeIsSaidAndTheSetPointStaysInside) {
     constexpr ModeSwitchConfig narrow{.range = {.min = Volts{0.0}, .max = Volts{60.0}, .margin = Volts{5.0}},
                                       .start_set_point = Volts{30.0}};
     static_assert(check(narrow) == ModeSwitchFault::none);
-    ModeSwitchState s = initial_state(narrow);
-    ModeSwitchInput in;
-    in.light_known = in.two_way = in.usable = true;
-    in.half_wave = Volts{40.0};
-    in.piezo = Volts{29.0};
-    for (int half = 0; half < 40; ++half) (void)step(narrow, s, in);
-    in.due = in.tick_border = true;
-    (void)step(narrow, s, in);
-    EXPECT_EQ(s.set_point_v, 60.0);
-    EXPECT_TRUE(s.out_of_range);
+    Sequence s{narrow};
+    s.piezo_v = 29.0;
+    s.halves(40, locked);
+    s.open();
+    EXPECT_EQ(s.state.set_point_v, 60.0);
+    EXPECT_TRUE(s.state.out_of_range);
 }
 
-}  // namespace mode_switch_test
-}  // namespace zlg::core::test
+}  // namespace zlg::core::test::mode_switch_test

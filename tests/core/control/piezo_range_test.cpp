@@ -1,44 +1,34 @@
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <zlg/core/control/piezo_range.hpp>
 
-namespace zlg::core {
-namespace piezo_range_test {
+#include "support.hpp"
 
-constexpr double nan_v = std::numeric_limits<double>::quiet_NaN();
+namespace zlg::core::piezo_range_test {
+
 constexpr PiezoRange range{.min = Volts{-150.0}, .max = Volts{150.0}, .margin = Volts{10.0}};
 
 static_assert(check(PiezoRange{}) == PiezoRangeFault::none);
 static_assert(check(PiezoRange{.min = Volts{5.0}, .max = Volts{5.0}}) == PiezoRangeFault::ends);
-static_assert(check(PiezoRange{.min = Volts{nan_v}}) == PiezoRangeFault::ends);
+static_assert(check(PiezoRange{.min = Volts{not_a_number}}) == PiezoRangeFault::ends);
 static_assert(check(PiezoRange{.max = Volts{1e9}}) == PiezoRangeFault::ends);
 static_assert(check(PiezoRange{.margin = Volts{-1.0}}) == PiezoRangeFault::margin);
 static_assert(check(PiezoRange{.margin = Volts{150.0}}) == PiezoRangeFault::margin);
-static_assert(check(PiezoRange{.margin = Volts{nan_v}}) == PiezoRangeFault::margin);
+static_assert(check(PiezoRange{.margin = Volts{not_a_number}}) == PiezoRangeFault::margin);
 
 TEST(PiezoRange, ClampKeepsWhatIsInsideAndMovesTheRestToTheNearestEnd) {
     EXPECT_EQ(clamp(range, Volts{12.5}), Volts{12.5});
     EXPECT_EQ(clamp(range, Volts{-151.0}), Volts{-150.0});
     EXPECT_EQ(clamp(range, Volts{1e300}), Volts{150.0});
-    EXPECT_EQ(clamp(range, Volts{nan_v}), Volts{-150.0});
+    EXPECT_EQ(clamp(range, Volts{not_a_number}), Volts{-150.0});
 }
 
 TEST(PiezoRange, TheMarginBelongsToBothEnds) {
-    EXPECT_TRUE(near_end(range, Volts{-140.5}));
-    EXPECT_FALSE(near_end(range, Volts{-139.5}));
-    EXPECT_FALSE(near_end(range, Volts{139.5}));
-    EXPECT_TRUE(near_end(range, Volts{140.5}));
+    for (const double end : {-140.5, 140.5}) EXPECT_TRUE(near_end(range, Volts{end})) << end;
+    for (const double inside : {-139.5, 139.5}) EXPECT_FALSE(near_end(range, Volts{inside})) << inside;
 }
 
 TEST(PiezoRange, AReadingMayLieOneRangeOutside) {
-    EXPECT_TRUE(plausible(range, Volts{-449.0}));
-    EXPECT_FALSE(plausible(range, Volts{-451.0}));
-    EXPECT_TRUE(plausible(range, Volts{449.0}));
-    EXPECT_FALSE(plausible(range, Volts{451.0}));
-    EXPECT_FALSE(plausible(range, Volts{nan_v}));
-    EXPECT_FALSE(plausible(range, Volts{std::numeric_limits<double>::infinity()}));
+    for (const double v : {-449.0, 449.0}) EXPECT_TRUE(plausible(range, Volts{v})) << v;
+    for (const double v : {-451.0, 451.0, not_a_number, infinity}) EXPECT_FALSE(plausible(range, Volts{v})) << v;
 }
 
-}  // namespace piezo_range_test
-}  // namespace zlg::core
+}  // namespace zlg::core::piezo_range_test

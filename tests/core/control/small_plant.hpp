@@ -5,10 +5,10 @@
 //
 //   y = kp U + drift,  centre m/2 nearest to y,  helicity (-1)^m,  dl = y - m/2,  kp = 0.5/half_wave
 
-#include <cmath>
-#include <cstdint>
 #include <zlg/core/control/perimeter_loop.hpp>
 #include <zlg/core/records.hpp>
+
+#include "support.hpp"
 
 namespace zlg::core::test {
 
@@ -61,6 +61,7 @@ public:
         f.loop_closed = a.loop_closed;
         f.piezo_v = voltage_v;
         f.temperature_c = 25.0;
+        f.coil_current_a = sign * 1.0;
         ++half_;
         return f;
     }

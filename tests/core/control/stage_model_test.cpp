@@ -1,12 +1,8 @@
 #include "control/stage_model.hpp"
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-namespace zlg::core {
-namespace stage_model_test {
+namespace zlg::core::stage_model_test {
 
 constexpr double half_s = 0.0025;
 constexpr PiezoRange range{};
@@ -63,5 +59,4 @@ TEST(StageModel, NoSetPointLeavesTheRange) {
     EXPECT_NEAR(move.end_v, 300.0, 3.0 * std::exp(-2.5) + 1e-9);
 }
 
-}  // namespace stage_model_test
-}  // namespace zlg::core
+}  // namespace zlg::core::stage_model_test

@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <zlg/core/control/stroke_model.hpp>
 
-namespace zlg::core {
-namespace stroke_model_test {
+#include "support.hpp"
+
+namespace zlg::core::stroke_model_test {
 
 constexpr StrokeModelConfig config{};
 
@@ -112,7 +106,6 @@ TEST(StrokeModel, LearnsALoopThatItsPlaysDoNotDescribe) {
 TEST(StrokeModel, TheTurnBackSinceTheLastSwitchIsForeseen) {
     Switches gyro;
     gyro.piezo.hysteresis = 0.2;
-    double blind = 0.0;
     for (int k = 0; k < 24; ++k) {
         gyro.walk_v = 0.3 * k;
         const double miss = gyro.next();
@@ -123,7 +116,7 @@ TEST(StrokeModel, TheTurnBackSinceTheLastSwitchIsForeseen) {
     walked.hysteresis = straight.hysteresis = 0.2;
     for (Piezo* p : {&walked, &straight}) (void)p->length(190.0);
     const double turned = walked.length(183.0);
-    blind = (turned - walked.length(143.0)) - (straight.length(190.0) - straight.length(150.0));
+    const double blind = (turned - walked.length(143.0)) - (straight.length(190.0) - straight.length(150.0));
     EXPECT_GT(std::abs(blind), 0.008);
 }
 
@@ -171,15 +164,6 @@ TEST(StrokeModel, WhatWasNotConfirmedIsForgotten) {
     EXPECT_EQ(s.weight, before);
 }
 
-TEST(StrokeModel, ACopiedStateGoesOnLikeTheOriginal) {
-    Switches gyro;
-    gyro.piezo.hysteresis = 0.2;
-    for (int k = 0; k < 5; ++k) (void)gyro.next();
-    Switches copy = gyro;
-    EXPECT_EQ(copy.next(), gyro.next());
-    EXPECT_EQ(copy.state, gyro.state);
-}
-
 TEST(StrokeModel, NothingButFiniteNumbersStayWhateverComesIn) {
     StrokeModelState s = initial_state(config, Volts{not_a_number});
     const double inf = std::numeric_limits<double>::infinity();
@@ -200,5 +184,4 @@ TEST(StrokeModel, NothingButFiniteNumbersStayWhateverComesIn) {
     }
 }
 
-}  // namespace stroke_model_test
-}  // namespace zlg::core
+}  // namespace zlg::core::stroke_model_test

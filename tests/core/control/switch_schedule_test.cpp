@@ -1,18 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <numbers>
-#include <vector>
 #include <zlg/core/control/switch_schedule.hpp>
 
-namespace zlg::core {
-namespace switch_schedule_test {
+#include "support.hpp"
+
+namespace zlg::core::switch_schedule_test {
 
 using Limits = std::numeric_limits<std::int64_t>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 static_assert(check(SwitchScheduleConfig{}) == SwitchScheduleFault::none);
 static_assert(check(SwitchScheduleConfig{.interval_ticks = 0}) == SwitchScheduleFault::interval);
@@ -25,35 +17,34 @@ static_assert(check(SwitchScheduleConfig{.min_ticks = 20, .max_ticks = 19}) == S
 static_assert(check(SwitchScheduleConfig{.max_ticks = Limits::max()}) == SwitchScheduleFault::limits);
 static_assert(check(SwitchScheduleConfig{.tick_s = 0.0}) == SwitchScheduleFault::tick);
 static_assert(check(SwitchScheduleConfig{.presumed = {.switch_error_arcsec = 0.0}}) == SwitchScheduleFault::presumed);
-static_assert(check(SwitchScheduleConfig{.presumed = {1.0, nan}}) == SwitchScheduleFault::presumed);
+static_assert(check(SwitchScheduleConfig{.presumed = {1.0, not_a_number}}) == SwitchScheduleFault::presumed);
 static_assert(check(SwitchScheduleConfig{.end_tick = -1}) == SwitchScheduleFault::end);
 
-// Ticks at which the loop opens, when the gyro is ready at all ticks but those of [busy_from, busy_to).
-std::vector<std::int64_t> openings(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t busy_from = 0,
-                                   std::int64_t busy_to = 0) {
-    SwitchScheduleState s = initial_state(c);
-    std::vector<std::int64_t> result;
-    for (std::int64_t tick = 1; tick < n_ticks; ++tick) {
+using Ticks = std::vector<std::int64_t>;
+
+// Ticks from `from` on at which the loop opens, when the gyro is ready at all of them but those of [busy_from, busy_to).
+Ticks openings(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t from, std::int64_t to,
+               std::int64_t busy_from = 0, std::int64_t busy_to = 0) {
+    Ticks result;
+    for (std::int64_t tick = from; tick < to; ++tick) {
         if (step(c, s, {.tick = tick, .ready = !(tick >= busy_from && tick < busy_to)}).open) result.push_back(tick);
     }
     return result;
 }
-
-TEST(SwitchSchedule, OpensOnTheGridFromAFullFirstSegment) {
-    EXPECT_EQ(openings({.interval_ticks = 7}, 30), (std::vector<std::int64_t>{7, 14, 21, 28}));
+Ticks openings(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int64_t busy_from = 0,
+               std::int64_t busy_to = 0) {
+    SwitchScheduleState s = initial_state(c);
+    return openings(c, s, 1, n_ticks, busy_from, busy_to);
 }
 
-TEST(SwitchSchedule, AHalfFirstSegmentIsRoundedDownToTicks) {
-    EXPECT_EQ(openings({.interval_ticks = 7, .first_segment = FirstSegment::half}, 25),
-              (std::vector<std::int64_t>{3, 10, 17, 24}));
+TEST(SwitchSchedule, OpensOnTheGridFromAFullOrAHalfFirstSegmentRoundedDown) {
+    EXPECT_EQ(openings({.interval_ticks = 7}, 30), (Ticks{7, 14, 21, 28}));
+    EXPECT_EQ(openings({.interval_ticks = 7, .first_segment = FirstSegment::half}, 25), (Ticks{3, 10, 17, 24}));
 }
 
-TEST(SwitchSchedule, AnOpeningThatHadToWaitDoesNotMoveTheGrid) {
-    EXPECT_EQ(openings({.interval_ticks = 10}, 41, 18, 23), (std::vector<std::int64_t>{10, 23, 30, 40}));
-}
-
-TEST(SwitchSchedule, SeveralThatWaitAreOne) {
-    EXPECT_EQ(openings({.interval_ticks = 10}, 51, 18, 43), (std::vector<std::int64_t>{10, 43, 50}));
+TEST(SwitchSchedule, AnOpeningThatHadToWaitDoesNotMoveTheGridAndSeveralThatWaitAreOne) {
+    EXPECT_EQ(openings({.interval_ticks = 10}, 41, 18, 23), (Ticks{10, 23, 30, 40}));
+    EXPECT_EQ(openings({.interval_ticks = 10}, 51, 18, 43), (Ticks{10, 43, 50}));
 }
 
 TEST(SwitchSchedule, ALateOpeningIsSaidToBeLate) {
@@ -68,19 +59,11 @@ TEST(SwitchSchedule, ALateOpeningIsSaidToBeLate) {
     EXPECT_FALSE(in_time.late);
 }
 
-TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnew) {
+TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnewOneWithinAnIntervalDoesNot) {
     const SwitchScheduleConfig c{.interval_ticks = 10};
-    SwitchScheduleState s = initial_state(c);
-    EXPECT_TRUE(step(c, s, {.tick = 1003, .ready = true}).open);
-    for (std::int64_t tick = 1004; tick < 1013; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .ready = true}).open);
-    EXPECT_TRUE(step(c, s, {.tick = 1013, .ready = true}).open);
-}
-
-TEST(SwitchSchedule, AJumpWithinAnIntervalDoesNotMoveTheGrid) {
-    const SwitchScheduleConfig c{.interval_ticks = 10};
-    SwitchScheduleState s = initial_state(c);
-    EXPECT_TRUE(step(c, s, {.tick = 13, .ready = true}).open);
-    EXPECT_TRUE(step(c, s, {.tick = 20, .ready = true}).open);
+    SwitchScheduleState over = initial_state(c), within = over;
+    EXPECT_EQ(openings(c, over, 1003, 1014), (Ticks{1003, 1013}));
+    EXPECT_EQ(openings(c, within, 13, 21), (Ticks{13, 20}));
 }
 
 TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
@@ -96,18 +79,20 @@ TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
 
 // A gyro whose mode changes at every opening; the time in mode + over that in mode -, in ticks, after each tick.
 struct Course {
-    std::vector<std::int64_t> openings;
-    std::vector<std::int64_t> imbalance;
+    Ticks openings;
+    Ticks intervals;  // the first one, and after each opening
+    Ticks imbalance;
 };
 
 template <class Advice>
 Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, const Advice& advice, std::int8_t mode = 1) {
     SwitchScheduleState s = initial_state(c);
-    Course result;
+    Course result{.intervals = {s.interval_ticks}};
     std::int64_t sum = 0;
     for (std::int64_t tick = 0; tick < n_ticks; ++tick) {
         if (tick > 0 && step(c, s, {.tick = tick, .mode = mode, .advice = advice(tick)}).open) {
             result.openings.push_back(tick);
+            result.intervals.push_back(s.interval_ticks);
             mode = static_cast<std::int8_t>(-mode);
         }
         sum += mode;
@@ -119,6 +104,13 @@ Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, const Advice&
 Course course(const SwitchScheduleConfig& c, std::int64_t n_ticks, std::int8_t mode = 1) {
     return course(
         c, n_ticks, [](std::int64_t) { return SwitchAdvice{}; }, mode);
+}
+
+auto jumping_advice(std::int64_t period_ticks, double low_arcsec, double high_arcsec) {
+    return [=](std::int64_t tick) {
+        return SwitchAdvice{.switch_error_arcsec = tick / period_ticks % 2 == 0 ? low_arcsec : high_arcsec,
+                            .magnetic_arcsec_s = 0.5};
+    };
 }
 
 SwitchScheduleConfig growing(FirstSegment first = FirstSegment::half) {
@@ -146,7 +138,7 @@ TEST(SwitchSchedule, TheBalancedIntervalKeepsItsLimitsAndTakesOnlyAdviceThatIsOn
     EXPECT_EQ(balanced_interval(c, {1e-6, 1e6}, 1000), 100);
     EXPECT_EQ(balanced_interval(c, {1e6, 1e-6}, 1000), 100000);
     EXPECT_EQ(balanced_interval(c, {0.0, -1.0}, 50000), balanced_interval(c, {}, 50000));
-    EXPECT_EQ(balanced_interval(c, {nan, nan}, 50000), balanced_interval(c, {}, 50000));
+    EXPECT_EQ(balanced_interval(c, {not_a_number, not_a_number}, 50000), balanced_interval(c, {}, 50000));
     EXPECT_EQ(balanced_interval(c, {}, Limits::min()), 100);
     // Eight times the time, twice the interval; eight times the error, four times.
     EXPECT_NEAR(static_cast<double>(balanced_interval(c, {3.0, 0.5}, 400000)),
@@ -213,23 +205,20 @@ TEST(SwitchSchedule, AFullFirstSegmentPutsTheCentreAtHalfOfIt) {
 }
 
 TEST(SwitchSchedule, AdviceIsTakenWhereTheIntervalIsMeasured) {
-    SwitchScheduleConfig c = growing();
-    const auto quiet = [](std::int64_t) { return SwitchAdvice{.switch_error_arcsec = 0.3, .magnetic_arcsec_s = 0.5}; };
+    const SwitchScheduleConfig c = growing();
     // A tenth of the error: 10^(2/3) = 4.6 times as many switches.
-    const auto more = static_cast<double>(course(c, 400000, quiet).openings.size());
+    const auto more = static_cast<double>(course(c, 400000, jumping_advice(1, 0.3, 0.3)).openings.size());
     const auto fewer = static_cast<double>(course(c, 400000).openings.size());
     EXPECT_NEAR(more / fewer, 4.64, 0.4);
 }
 
 TEST(SwitchSchedule, AdviceThatJumpsDoesNotCarryTheSawtoothAway) {
     const SwitchScheduleConfig c = growing();
-    const auto jumping = [](std::int64_t tick) {
-        return SwitchAdvice{.switch_error_arcsec = tick / 7919 % 2 == 0 ? 0.5 : 8.0, .magnetic_arcsec_s = 0.5};
-    };
     // Alternating segments of the same lengths would add their differences up.
     const std::int64_t longest = balanced_interval(c, {8.0, 0.5}, 400000);
     std::int64_t farthest = 0;
-    for (const std::int64_t x : course(c, 400000, jumping).imbalance) farthest = std::max(farthest, std::abs(x));
+    for (const std::int64_t x : course(c, 400000, jumping_advice(7919, 0.5, 8.0)).imbalance)
+        farthest = std::max(farthest, std::abs(x));
     EXPECT_LE(farthest, longest / 2 + 1);
 }
 
@@ -267,24 +256,15 @@ TEST(SwitchSchedule, TheEndIsBalancedWhereItIsKnown) {
 // Whatever is advised.
 TEST(SwitchSchedule, FromSwitchToSwitchTheIntervalChangesByAFactorOfTwoAtMost) {
     const SwitchScheduleConfig c = growing();
-    const auto jumping = [](std::int64_t tick) {
-        return SwitchAdvice{.switch_error_arcsec = tick / 20011 % 2 == 0 ? 0.01 : 500.0, .magnetic_arcsec_s = 0.5};
-    };
-    SwitchScheduleState s = initial_state(c);
-    std::int8_t mode = 1;
-    std::int64_t shortest = s.interval_ticks, longest = shortest;
-    for (std::int64_t tick = 1; tick < 400000; ++tick) {
-        const std::int64_t before = s.interval_ticks;
-        if (!step(c, s, {.tick = tick, .mode = mode, .advice = jumping(tick)}).open) continue;
-        mode = static_cast<std::int8_t>(-mode);
-        EXPECT_LE(s.interval_ticks, 2 * before) << tick;
-        EXPECT_GE(2 * s.interval_ticks, before) << tick;
-        shortest = std::min(shortest, s.interval_ticks);
-        longest = std::max(longest, s.interval_ticks);
+    const Ticks intervals = course(c, 400000, jumping_advice(20011, 0.01, 500.0)).intervals;
+    for (std::size_t k = 1; k < intervals.size(); ++k) {
+        EXPECT_LE(intervals[k], 2 * intervals[k - 1]) << k;
+        EXPECT_GE(2 * intervals[k], intervals[k - 1]) << k;
     }
+    const auto [shortest, longest] = std::minmax_element(intervals.begin(), intervals.end());
     // It gets everywhere all the same.
-    EXPECT_LT(shortest, c.min_ticks);
-    EXPECT_GT(longest, 20 * c.min_ticks);
+    EXPECT_LT(*shortest, c.min_ticks);
+    EXPECT_GT(*longest, 20 * c.min_ticks);
 }
 
 // What is set from outside.
@@ -292,53 +272,39 @@ TEST(SwitchSchedule, HeldNothingIsDueAndTheGridGoesOn) {
     const SwitchScheduleConfig c{.interval_ticks = 10};
     SwitchScheduleState s = initial_state(c);
     s.held = true;
-    for (std::int64_t tick = 1; tick < 25; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick, .ready = tick > 12}).open);
+    EXPECT_EQ(openings(c, s, 1, 25, 1, 13), Ticks{});
     s.held = false;
-    for (std::int64_t tick = 25; tick < 30; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
-    EXPECT_TRUE(step(c, s, {.tick = 30}).open);
+    EXPECT_EQ(openings(c, s, 25, 31), Ticks{30});
 }
 
 TEST(SwitchSchedule, HeldByBalanceItIsDueWhenReleased) {
     const SwitchScheduleConfig c{.kind = ScheduleKind::measured, .min_ticks = 10, .max_ticks = 20};
     SwitchScheduleState s = initial_state(c);
     s.held = true;
-    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    EXPECT_EQ(openings(c, s, 1, 100), Ticks{});
     s.held = false;
-    EXPECT_TRUE(step(c, s, {.tick = 100}).open);
+    EXPECT_EQ(openings(c, s, 100, 101), Ticks{100});
 }
 
-TEST(SwitchSchedule, AskedItOpensOnceWhenReadyHeldOrNot) {
+TEST(SwitchSchedule, AskedItOpensOnceWhenReadyHeldOrNotAndDoesNotMoveTheGrid) {
     for (const bool held : {false, true}) {
-        const SwitchScheduleConfig c{.interval_ticks = 1000};
+        const SwitchScheduleConfig c{.interval_ticks = 10};
         SwitchScheduleState s = initial_state(c);
         s.held = held;
         s.asked = true;
-        EXPECT_FALSE(step(c, s, {.tick = 1, .ready = false}).open);
-        EXPECT_TRUE(step(c, s, {.tick = 2}).open);
+        EXPECT_EQ(openings(c, s, 1, 4, 1, 2), Ticks{2});
         EXPECT_FALSE(s.asked);
         EXPECT_EQ(s.opened_tick, 2);
-        EXPECT_FALSE(step(c, s, {.tick = 3}).open);
+        EXPECT_EQ(openings(c, s, 4, 11), held ? Ticks{} : Ticks{10});
     }
-}
-
-TEST(SwitchSchedule, OneThatIsAskedForDoesNotMoveTheGrid) {
-    const SwitchScheduleConfig c{.interval_ticks = 10};
-    SwitchScheduleState s = initial_state(c);
-    s.asked = true;
-    EXPECT_TRUE(step(c, s, {.tick = 4}).open);
-    for (std::int64_t tick = 5; tick < 10; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
-    EXPECT_TRUE(step(c, s, {.tick = 10}).open);
 }
 
 TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
     SwitchScheduleConfig c{.interval_ticks = std::int64_t{1} << 40};
     SwitchScheduleState s = initial_state(c);
-    for (std::int64_t tick = 1; tick < 100; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open);
+    EXPECT_EQ(openings(c, s, 1, 100), Ticks{});
     c.interval_ticks = 10;
-    for (std::int64_t tick = 100; tick < 110; ++tick) EXPECT_FALSE(step(c, s, {.tick = tick}).open) << tick;
-    EXPECT_TRUE(step(c, s, {.tick = 110}).open);
-    EXPECT_FALSE(step(c, s, {.tick = 111}).open);
+    EXPECT_EQ(openings(c, s, 100, 112), Ticks{110});
 }
 
-}  // namespace switch_schedule_test
-}  // namespace zlg::core
+}  // namespace zlg::core::switch_schedule_test

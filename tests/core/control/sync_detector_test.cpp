@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
 #include <zlg/core/control/sync_detector.hpp>
 
-namespace zlg::core {
-namespace sync_detector_test {
+#include "support.hpp"
+
+namespace zlg::core::sync_detector_test {
 
 constexpr SyncDetectorConfig config{};
 static_assert(check(config) == SyncDetectorFault::none);
@@ -36,12 +30,23 @@ Light light_of(const std::vector<double>& dl_lambda, int sign, double level = 10
 
 std::vector<double> steady(double dl_lambda) { return std::vector<double>(16, dl_lambda); }
 
-SyncDetectorOutput both(SyncDetectorState& s, const Light& light, int sign, bool settled = true) {
-    return step(config, s, {.light_a = light.a, .light_b = light.b, .sign = sign, .settled = settled});
+SyncDetectorOutput both(SyncDetectorState& s, const Light& light, int sign, bool settled = true, bool has_b = true) {
+    return step(config, s,
+                {.light_a = light.a,
+                 .light_b = has_b ? std::span<const float>{light.b} : std::span<const float>{},
+                 .sign = sign,
+                 .settled = settled});
 }
 
 SyncDetectorOutput single(SyncDetectorState& s, const Light& light, int sign, bool settled = true) {
-    return step(config, s, {.light_a = light.a, .light_b = {}, .sign = sign, .settled = settled});
+    return both(s, light, sign, settled, false);
+}
+
+// It has the level of light of 1000, by both beams.
+SyncDetectorState with_level() {
+    SyncDetectorState s;
+    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    return s;
 }
 
 TEST(SyncDetector, BothBeamsGiveMeanAndMeanSquareFromTheFirstHalf) {
@@ -92,31 +97,14 @@ TEST(SyncDetector, CommonNoiseOfTheLightCancelsBetweenTheBeams) {
     EXPECT_NEAR(both(s, light, 1).detuning.value(), 0.05, 1e-6);
 }
 
-TEST(SyncDetector, SampleNoiseAveragesAsTheRootOfTheirNumber) {
-    std::mt19937_64 random{3};
-    std::normal_distribution<double> noise{0.0, 0.0033};
-    SyncDetectorState s;
-    double sum = 0.0;
-    double sum_sq = 0.0;
-    constexpr int n_halves = 4000;
-    for (int half = 0; half < n_halves; ++half) {
-        std::vector<double> dl = steady(0.01);
-        for (double& x : dl) x += noise(random);
-        const double d = both(s, light_of(dl, 1), 1).detuning.value() - 0.01;
-        sum += d;
-        sum_sq += d * d;
-    }
-    const double sigma = 0.0033 / 4.0;
-    EXPECT_NEAR(sum / n_halves, 0.0, 4.0 * sigma / std::sqrt(n_halves));
-    EXPECT_NEAR(std::sqrt(sum_sq / n_halves), sigma, 0.05 * sigma);
-}
-
-TEST(SyncDetector, OneWayAndDarkLightAreNotTwoWay) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+TEST(SyncDetector, OneWayAndDarkLightAndOneDarkSampleAreNotTwoWay) {
+    SyncDetectorState s = with_level();
     const Light one_way{std::vector<float>(16, 1000.0f), std::vector<float>(16, 0.0f)};
     const Light other_way{std::vector<float>(16, 0.0f), std::vector<float>(16, 1000.0f)};
-    for (const Light& light : {one_way, other_way, light_of(steady(0.0), 1, 400.0), light_of(steady(0.0), 1, 0.0)}) {
+    Light one_dark_sample = light_of(steady(0.0), 1);
+    one_dark_sample.b[7] = 0.0f;
+    for (const Light& light :
+         {one_way, other_way, one_dark_sample, light_of(steady(0.0), 1, 400.0), light_of(steady(0.0), 1, 0.0)}) {
         const SyncDetectorOutput out = both(s, light, 1);
         EXPECT_TRUE(out.readable);
         EXPECT_FALSE(out.two_way || out.usable);
@@ -124,13 +112,6 @@ TEST(SyncDetector, OneWayAndDarkLightAreNotTwoWay) {
         EXPECT_EQ(out.mean_sq_lambda2, 0.0);
     }
     EXPECT_TRUE(both(s, light_of(steady(0.0), 1, 600.0), 1).two_way);
-}
-
-TEST(SyncDetector, OneDarkSampleSpoilsTheHalf) {
-    SyncDetectorState s;
-    Light light = light_of(steady(0.0), 1);
-    light.b[7] = 0.0f;
-    EXPECT_FALSE(both(s, light, 1).two_way);
 }
 
 TEST(SyncDetector, OneBeamNeedsItsLevelFirstThenReadsLikeTwo) {
@@ -155,22 +136,16 @@ TEST(SyncDetector, OneBeamIsTwoWayBetweenItsLimits) {
         SyncDetectorState copy = s;
         return single(copy, light_of(steady(0.0), 1, 2.0 * beam_a), 1).two_way;
     };
-    EXPECT_FALSE(two_way(0.0));
-    EXPECT_FALSE(two_way(249.0));
-    EXPECT_TRUE(two_way(251.0));
-    EXPECT_TRUE(two_way(749.0));
-    EXPECT_FALSE(two_way(751.0));
-    EXPECT_FALSE(two_way(1000.0));  // the other beam has gone out
+    // At 1000 the other beam has gone out.
+    for (const double beam_a : {0.0, 249.0, 751.0, 1000.0}) EXPECT_FALSE(two_way(beam_a)) << beam_a;
+    for (const double beam_a : {251.0, 749.0}) EXPECT_TRUE(two_way(beam_a)) << beam_a;
 }
 
 TEST(SyncDetector, TheLevelFollowsSettledLightWithItsTimeConstantAndNothingElse) {
     for (const bool has_b : {true, false}) {
         SyncDetectorState s;
         const auto one_tick = [&s, has_b](double level, bool settled) {
-            for (const int sign : {1, -1}) {
-                const Light light = light_of(steady(0.05), sign, level);
-                (void)(has_b ? both(s, light, sign, settled) : single(s, light, sign, settled));
-            }
+            for (const int sign : {1, -1}) (void)both(s, light_of(steady(0.05), sign, level), sign, settled, has_b);
         };
         const auto level = [&s, has_b] { return has_b ? s.both.level : 2.0 * s.single.level; };
         for (int tick = 0; tick < 4; ++tick) one_tick(1000.0, false);
@@ -189,8 +164,7 @@ TEST(SyncDetector, MoreLightIsLearntAnewLessNever) {
             SyncDetectorOutput out;
             for (int half = 0; half < 2 * n_ticks; ++half) {
                 const int sign = half % 2 == 0 ? 1 : -1;
-                const Light light = light_of(steady(0.0), sign, level);
-                out = has_b ? both(s, light, sign) : single(s, light, sign);
+                out = both(s, light_of(steady(0.0), sign, level), sign, true, has_b);
             }
             return out;
         };
@@ -202,8 +176,7 @@ TEST(SyncDetector, MoreLightIsLearntAnewLessNever) {
 }
 
 TEST(SyncDetector, ASingleFlashIsNotALevel) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    SyncDetectorState s = with_level();
     const double before = s.both.level;
     for (int half = 0; half < 3; ++half) (void)both(s, light_of(steady(0.0), 1, 1e6), 1, false);
     EXPECT_EQ(s.both.level, before);
@@ -252,8 +225,7 @@ TEST(SyncDetector, LightBelowTheFloorIsDarkFromTheStart) {
 }
 
 TEST(SyncDetector, WhatCannotBeReadIsSaidAndLeavesTheLevelAlone) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    SyncDetectorState s = with_level();
     const SyncDetectorState before = s;
     Light not_finite_a = light_of(steady(0.0), 1);
     not_finite_a.a[3] = std::numeric_limits<float>::quiet_NaN();
@@ -273,8 +245,7 @@ TEST(SyncDetector, WhatCannotBeReadIsSaidAndLeavesTheLevelAlone) {
 
 TEST(SyncDetector, FaintLightIsLearntOnlyWhileThereIsABeat) {
     for (const bool beats : {false, true}) {
-        SyncDetectorState s;
-        for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+        SyncDetectorState s = with_level();
         const Light faint = light_of(steady(0.0), 1, 300.0);
         const SyncDetectorInput in{.light_a = faint.a, .light_b = faint.b, .beats = beats};
         for (int half = 0; half < 64; ++half) EXPECT_FALSE(step(config, s, in).two_way) << half;
@@ -283,11 +254,9 @@ TEST(SyncDetector, FaintLightIsLearntOnlyWhileThereIsABeat) {
 }
 
 TEST(SyncDetector, ATenthOfTheLightIsDark) {
-    SyncDetectorState s;
-    for (int half = 0; half < 8; ++half) (void)both(s, light_of(steady(0.0), 1), 1);
+    SyncDetectorState s = with_level();
     EXPECT_FALSE(both(s, light_of(steady(0.0), 1, 110.0), 1).dark);
     EXPECT_TRUE(both(s, light_of(steady(0.0), 1, 90.0), 1).dark);
 }
 
-}  // namespace sync_detector_test
-}  // namespace zlg::core
+}  // namespace zlg::core::sync_detector_test

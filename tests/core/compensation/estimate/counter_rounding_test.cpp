@@ -1,16 +1,11 @@
 #include "compensation/estimate/counter_rounding.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "compensation/compensation_support.hpp"
 
-namespace counter_rounding_test {
+namespace zlg::core::counter_rounding_test {
 
 using compensation_test::Random;
 using compensation_test::Statistics;
-using zlg::core::rounding_law;
 
 TEST(CounterRounding, IsTheFourierSeriesOfTheSecondBernoulliPolynomial) {
     for (double x = -3.0; x < 3.0; x += 0.0737) {
@@ -51,4 +46,4 @@ TEST(CounterRounding, BeyondThePrecisionOfANumberNoFractionIsKnown) {
     EXPECT_NEAR(rounding_law(1e15 + 0.5, 0.0), -1.0 / 24.0, 1e-15);
 }
 
-}  // namespace counter_rounding_test
+}  // namespace zlg::core::counter_rounding_test

@@ -1,20 +1,10 @@
 #include <zlg/core/compensation/learnt_motion.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "compensation/compensation_support.hpp"
 
-namespace learnt_motion_test {
+namespace zlg::core::learnt_motion_test {
 
 using compensation_test::Random;
-using zlg::core::block_halves;
-using zlg::core::LearntMotion;
-using zlg::core::moment_place;
-using zlg::core::part_halves;
-using zlg::core::start;
 
 constexpr double forget_ticks = 3000.0;
 
@@ -51,50 +41,38 @@ void expect_equal(const LearntMotion& memory, const std::vector<std::vector<doub
                 << i << ' ' << j;
 }
 
-void add_all(LearntMotion& memory, const std::vector<double>& x, std::int64_t first_half) {
+// What halves from `first_half` on have taught; the run ends with them, or goes on.
+LearntMotion learnt(int length, const std::vector<double>& x, std::int64_t first_half = 0, bool ends = true) {
+    LearntMotion memory;
+    start(memory, length, 1);
     for (std::size_t s = 0; s < x.size(); ++s)
         add(memory, first_half + static_cast<std::int64_t>(s), true, x[s], forget_ticks);
+    if (ends) add(memory, first_half + static_cast<std::int64_t>(x.size()), false, 0.0, forget_ticks);
+    return memory;
 }
 
 TEST(LearntMotion, HoldsTheProductsOfAllWindowsOfARun) {
     for (const int length : {8, 20, 62}) {
-        LearntMotion memory;
-        start(memory, length, 1);
         const auto x = some_motion(10 * part_halves, 3);
-        add_all(memory, x, 0);
-        add(memory, 10 * part_halves, false, 0.0, forget_ticks);
+        const LearntMotion memory = learnt(length, x);
         EXPECT_EQ(memory.moments.n_windows, 10 * part_halves - length + 1);
         expect_equal(memory, direct(x, 0, x.size(), static_cast<unsigned>(length)));
     }
 }
 
 TEST(LearntMotion, HalvesThatBeginAPartWithoutEndingItAreNotIn) {
-    LearntMotion whole;
-    LearntMotion more;
-    start(whole, 20, 1);
-    start(more, 20, 1);
     const auto x = some_motion(4 * part_halves + 9, 5);
-    add_all(whole, {x.begin(), x.begin() + 4 * part_halves}, 0);
-    add_all(more, x, 0);
-    add(whole, 0, false, 0.0, forget_ticks);
-    add(more, 0, false, 0.0, forget_ticks);
-    EXPECT_EQ(whole.moments, more.moments);
+    EXPECT_EQ(learnt(20, {x.begin(), x.begin() + 4 * part_halves}).moments, learnt(20, x).moments);
 }
 
 TEST(LearntMotion, ARunThatBeginsWithinAPartLosesNothingOfIt) {
-    LearntMotion memory;
-    start(memory, 8, 1);
     const auto x = some_motion(part_halves + 5, 6);
-    add_all(memory, x, 3 * part_halves - 5);
-    add(memory, 4 * part_halves, false, 0.0, forget_ticks);
-    expect_equal(memory, direct(x, 0, x.size(), 8));
+    expect_equal(learnt(8, x, 3 * part_halves - 5), direct(x, 0, x.size(), 8));
 }
 
 TEST(LearntMotion, WindowsThatStraddleBlocksCount) {
-    LearntMotion memory;
-    start(memory, 20, 1);
     const auto x = some_motion(2 * block_halves, 7);
-    add_all(memory, x, 0);
+    const LearntMotion memory = learnt(20, x, 0, false);
     const double first = block_halves - 19, second = block_halves;
     const double keep = std::exp(-0.5 * second / forget_ticks);
     EXPECT_NEAR(memory.moments.n_windows, keep * first + second, 1e-9);
@@ -106,13 +84,7 @@ TEST(LearntMotion, WindowsThatStraddleBlocksCount) {
 }
 
 TEST(LearntMotion, AShortRunTeachesNothing) {
-    LearntMotion memory;
-    start(memory, 62, 1);
-    add_all(memory, some_motion(3 * part_halves, 8), 0);
-    add(memory, 3 * part_halves, false, 0.0, forget_ticks);
-    LearntMotion nothing;
-    start(nothing, 62, 1);
-    EXPECT_EQ(memory.moments, nothing.moments);
+    EXPECT_EQ(learnt(62, some_motion(3 * part_halves, 8)).moments, learnt(62, {}).moments);
 }
 
-}  // namespace learnt_motion_test
+}  // namespace zlg::core::learnt_motion_test

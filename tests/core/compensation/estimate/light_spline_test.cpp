@@ -1,22 +1,10 @@
 #include <zlg/core/compensation/light_spline.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "compensation/compensation_support.hpp"
 
-namespace light_spline_test {
+namespace zlg::core::light_spline_test {
 
 using compensation_test::Random;
-using zlg::core::add;
-using zlg::core::light_basis;
-using zlg::core::LightBasis;
-using zlg::core::LightFit;
-using zlg::core::LightSums;
-using zlg::core::span_of;
-using zlg::core::values_at;
 
 // Samples of a course of the detuning over all halves.
 template <class Course>
@@ -131,4 +119,4 @@ TEST(LightSpline, NoSampleIsNoFit) {
     EXPECT_FALSE(LightFit(sums, 0.0033).is_known());
 }
 
-}  // namespace light_spline_test
+}  // namespace zlg::core::light_spline_test

@@ -1,13 +1,10 @@
 #include <zlg/core/compensation/motion_spread.hpp>
 
-#include <gtest/gtest.h>
-
 #include "compensation/compensation_support.hpp"
 
-namespace motion_spread_test {
+namespace zlg::core::motion_spread_test {
 
 using compensation_test::Random;
-using zlg::core::MotionSpread;
 
 // Halves of independent noise about a rate: a tick has the variance of two, a second difference that of 1 + 4 + 1.
 TEST(MotionSpread, TellsTheVariancesOfTicksAndOfSecondDifferences) {
@@ -33,4 +30,4 @@ TEST(MotionSpread, ATickThatIsNotSettledTeachesNothing) {
     EXPECT_EQ(spread.tick_arcsec2, before.tick_arcsec2);
 }
 
-}  // namespace motion_spread_test
+}  // namespace zlg::core::motion_spread_test

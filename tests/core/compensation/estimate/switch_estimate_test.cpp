@@ -2,16 +2,9 @@
 
 #include <zlg/core/compensation/switch_estimate.hpp>
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
-#include <cmath>
-#include <memory>
-#include <span>
-#include <vector>
-
-namespace switch_estimate_test {
-
-using namespace zlg::core;
+namespace zlg::core::switch_estimate_test {
 
 constexpr double rate = 7.5;  // arcsec in a half
 constexpr int gap_halves = 6;
@@ -194,4 +187,4 @@ TEST(SwitchEstimate, AReadingThatIsNotFiniteIsNotBelieved) {
     EXPECT_EQ(found.scale, RelockScale{});
 }
 
-}  // namespace switch_estimate_test
+}  // namespace zlg::core::switch_estimate_test

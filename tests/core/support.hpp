@@ -1,0 +1,33 @@
+#pragma once
+// What every test of the core includes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <zlg/core/common/maths.hpp>
+
+namespace zlg::core::test {
+
+// What `check` says of a configuration that was changed.
+template <class Config>
+constexpr auto fault_of(auto change, Config c = {}) {
+    change(c);
+    return check(c);
+}
+
+}  // namespace zlg::core::test
