@@ -61,8 +61,8 @@ TEST(GyroCompensationLit, AChiThatIsATenthOffRefusesNone) {
     GyroCompensationConfig wrong = right;
     wrong.gyro.chi *= 1.1;
     const Halves halves = records(right, true, 0.0, 0.16);
-    const GapReport usual = outcome(right, halves).all.gaps.at(0);
-    EXPECT_LT(outcome(wrong, halves).all.gaps.at(0).sigma_sum_arcsec, 1.5 * usual.sigma_sum_arcsec);
+    const GapReport usual = run(right, halves).gaps.at(0);
+    EXPECT_LT(run(wrong, halves).gaps.at(0).sigma_sum_arcsec, 1.5 * usual.sigma_sum_arcsec);
 }
 
 // Delivered and final values have the same sum, with lit halves too.
