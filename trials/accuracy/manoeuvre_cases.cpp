@@ -117,47 +117,68 @@ double over_best_polynomial(const ManoeuvreFigures& figures) {
 
 namespace {
 
-const std::vector<std::string>& compared_methods() {
-    static const std::vector<std::string> names{method_name::automatic, method_name::constant, method_name::linear,
-                                                method_name::quadratic};
-    return names;
+std::vector<AccuracyMethod> compared_methods(const GyroLaw& gyro) {
+    return methods_for(config_of(gyro),
+                       {method_name::automatic, method_name::constant, method_name::linear, method_name::quadratic});
+}
+
+// The estimate with all of its bank, and without one member after the other.
+std::vector<AccuracyMethod> reduced_banks(const GyroLaw& gyro) {
+    const AccuracyMethod whole = methods_for(config_of(gyro), {method_name::automatic}).front();
+    std::vector<AccuracyMethod> all{whole};
+    for (std::size_t k = 0; k < whole.bank.size(); ++k) {
+        all.push_back(whole);
+        all.back().bank.erase(all.back().bank.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    return all;
 }
 
 // By part of the trials, then by kind, method and gap.
 using Parts = std::vector<std::vector<std::vector<std::vector<SwitchError>>>>;
 
-ManoeuvreFigures figures_of_kind(const Base& base, const Kind& kind, std::size_t k, const Parts& parts) {
+ManoeuvreFigures figures_of_kind(const Base& base, const Kind& kind, std::size_t k,
+                                 const std::vector<AccuracyMethod>& methods, const Parts& parts) {
     ManoeuvreFigures f{.base = base.name,
                        .manoeuvre = kind.name,
                        .is_ramp = kind.manoeuvre.law == ManoeuvreLaw::ramp,
                        .duration_s = kind.manoeuvre.duration_s,
                        .methods = {}};
-    for (std::size_t m = 0; m < compared_methods().size(); ++m) {
+    for (std::size_t m = 0; m < methods.size(); ++m) {
         std::vector<SwitchError> of_kind;
         for (const auto& part : parts) of_kind.insert(of_kind.end(), part[k][m].begin(), part[k][m].end());
-        f.methods.push_back({.method = compared_methods()[m],
-                             .of_paper = is_of_paper(compared_methods()[m]),
+        f.methods.push_back({.method = methods[m].name,
+                             .of_paper = is_of_paper(methods[m].name),
                              .whole = figures_of(of_kind),
                              .relock = {}});
     }
     return f;
 }
 
-std::vector<ManoeuvreFigures> measure(const std::vector<Change>& all, int gaps, std::uint64_t seed, int threads) {
-    const auto n_parts = static_cast<std::size_t>((gaps + gaps_of_trial - 1) / gaps_of_trial);
+using MethodsOf = std::vector<AccuracyMethod>(const GyroLaw&);
+
+// How much of the motion each trial learns, and how many gaps it then has.
+struct Learning {
+    std::int64_t ticks = 3000;
+    int gaps = gaps_of_trial;
+};
+
+std::vector<ManoeuvreFigures> measure(const std::vector<Change>& all, MethodsOf& methods_of, const Learning& learning,
+                                      int gaps, std::uint64_t seed, int threads) {
+    const auto n_parts = static_cast<std::size_t>((gaps + learning.gaps - 1) / learning.gaps);
     std::vector<Parts> errors(all.size(), Parts(n_parts));
     numeric::in_parallel(all.size() * n_parts, threads, [&](std::size_t job) {
         const Change& of = all[job / n_parts];
-        ManoeuvreTrial trial{.gyro = of.base.gyro, .motion = of.base.motion, .manoeuvres = {}, .gaps = gaps_of_trial};
+        ManoeuvreTrial trial{.gyro = of.base.gyro, .motion = of.base.motion, .manoeuvres = {}, .gaps = learning.gaps};
+        trial.learn_ticks = learning.ticks;
         trial.seed = (seed << 40) + job;
         for (const Kind& k : of.kinds) trial.manoeuvres.push_back(k.manoeuvre);
-        errors[job / n_parts][job % n_parts] =
-            run_manoeuvres(trial, methods_for(config_of(of.base.gyro), compared_methods()));
+        errors[job / n_parts][job % n_parts] = run_manoeuvres(trial, methods_of(of.base.gyro));
     });
     std::vector<ManoeuvreFigures> figures;
     for (std::size_t b = 0; b < all.size(); ++b)
         for (std::size_t k = 0; k < all[b].kinds.size(); ++k)
-            figures.push_back(figures_of_kind(all[b].base, all[b].kinds[k], k, errors[b]));
+            figures.push_back(
+                figures_of_kind(all[b].base, all[b].kinds[k], k, methods_of(all[b].base.gyro), errors[b]));
     return figures;
 }
 
@@ -166,11 +187,30 @@ std::vector<ManoeuvreFigures> measure(const std::vector<Change>& all, int gaps, 
 std::vector<ManoeuvreFigures> measure_manoeuvres(int gaps, bool quick, std::uint64_t seed, int threads) {
     std::vector<Change> all;
     for (Base& base : bases(quick)) all.push_back({std::move(base), kinds(quick)});
-    return measure(all, gaps, seed + (std::uint64_t{7} << 24), threads);
+    return measure(all, compared_methods, {}, gaps, seed + (std::uint64_t{7} << 24), threads);
 }
 
 std::vector<ManoeuvreFigures> measure_changes(int gaps, bool quick, std::uint64_t seed, int threads) {
-    return measure(changes(quick), gaps, seed + (std::uint64_t{11} << 24), threads);
+    return measure(changes(quick), compared_methods, {}, gaps, seed + (std::uint64_t{11} << 24), threads);
+}
+
+std::vector<ManoeuvreFigures> measure_members(int gaps, std::uint64_t seed, int threads) {
+    std::vector<Change> known;
+    std::vector<Change> first;
+    for (const Base& base : bases(true)) {
+        known.push_back({base, kinds(true)});
+        first.push_back({base, {{"first gap", {.rate_arcsec_s = 0.0}}}});
+    }
+    for (const char* readout : readouts)
+        first.push_back(
+            {{fmt::format("flat to 20 Hz, {}", readout), gyro_of(readout), {.bands = {{0.0, 20.0, 8485.0}}}},
+             {{"first gap", {.rate_arcsec_s = 0.0}}}});
+    std::vector<ManoeuvreFigures> all = measure(known, reduced_banks, {}, gaps, seed, threads);
+    for (const std::int64_t ticks : {0, 40}) {
+        const auto of_first = measure(first, reduced_banks, {.ticks = ticks, .gaps = 1}, gaps, seed + 1, threads);
+        all.insert(all.end(), of_first.begin(), of_first.end());
+    }
+    return all;
 }
 
 }  // namespace zlg::trials

@@ -23,7 +23,18 @@ constexpr double place_ticks = 8.0;
 constexpr std::int64_t step_ticks = 11;
 
 struct Compensation {
+    explicit Compensation(const AccuracyMethod& method) : config{method.config}, bank{method.bank} {
+        state.bridge.background.worker.is_background = true;
+    }
+
+    core::CompensationOutput take(const SyntheticHalf& half) {
+        const core::CompensationOutput out = core::step(config, state, half.record, half.light);
+        if (out.has_sample) core::work(config, state, nullptr, bank);
+        return out;
+    }
+
     core::GyroCompensationConfig config;
+    std::vector<core::BankMember> bank;
     core::GyroCompensationState state{};
 };
 
@@ -103,7 +114,7 @@ private:
     }
 
     void take(const SyntheticHalf& half, Compensation& c, SwitchError& error) {
-        const core::CompensationOutput out = core::step(c.config, c.state, half.record, half.light);
+        const core::CompensationOutput out = c.take(half);
         if (!out.has_sample) return;
         if (out.sample.has_final) add(out.sample.final_row, error);
         if (out.sample.has_gap && out.sample.gap.first_tick == opening_)
@@ -137,7 +148,7 @@ struct Common {
         for (int h = 0; h < 2; ++h) {
             const SyntheticHalf half = gyro.advance();
             rounding_arcsec = half.rounding_arcsec;
-            for (Compensation& c : compensations) (void)core::step(c.config, c.state, half.record, half.light);
+            for (Compensation& c : compensations) (void)c.take(half);
         }
         ++tick;
     }
@@ -158,7 +169,7 @@ double manoeuvre_angle(ManoeuvreLaw law, double duration_s, double t_s) {
 std::vector<std::vector<std::vector<SwitchError>>> run_manoeuvres(const ManoeuvreTrial& trial,
                                                                   const std::vector<AccuracyMethod>& methods) {
     Common common{.gyro = {trial.gyro, trial.motion, trial.seed}, .compensations = {}};
-    for (const AccuracyMethod& m : methods) common.compensations.push_back({m.config});
+    for (const AccuracyMethod& m : methods) common.compensations.emplace_back(m);
     while (common.tick < trial.learn_ticks) common.advance();
     std::vector<std::vector<std::vector<SwitchError>>> errors(trial.manoeuvres.size());
     for (auto& of_manoeuvre : errors) of_manoeuvre.resize(methods.size());

@@ -14,6 +14,7 @@ namespace zlg::trials {
 struct AccuracyMethod {
     std::string name;
     core::GyroCompensationConfig config;
+    std::vector<core::BankMember> bank{core::motion_bank.begin(), core::motion_bank.end()};  // of its estimates
 };
 
 struct SwitchTrial {

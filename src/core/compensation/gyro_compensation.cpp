@@ -382,8 +382,9 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
     return {};
 }
 
-void work(const GyroCompensationConfig& config, GyroCompensationState& state, Pause pause) noexcept {
-    work(config.gyro, bridge_of(config), state.bridge, pause);
+void work(const GyroCompensationConfig& config, GyroCompensationState& state, Pause pause,
+          std::span<const BankMember> bank) noexcept {
+    work(config.gyro, bridge_of(config), state.bridge, pause, bank);
 }
 
 DrainOutput drain(const GyroCompensationConfig& config, GyroCompensationState& state) noexcept {

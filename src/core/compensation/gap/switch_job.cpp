@@ -66,8 +66,8 @@ void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
 
 }  // namespace
 
-void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-          Pause pause) noexcept {
+void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, Pause pause,
+          std::span<const BankMember> bank) noexcept {
     BackgroundWork& background = state.background;
     const MotionMoments& moments = background.motion.moments;
     // Those that there were before a switch may have been asked for.
@@ -75,7 +75,7 @@ void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapB
     for (SwitchJob* job = nullptr; (job = next_job(background)) != nullptr; n_ticks = taken(background.n_ticks)) {
         learn_until(config, state, static_cast<std::uint32_t>(job->asked_at));
         job->learnt = moments.n_windows >= few_windows;
-        job->found = estimate(gyro, job->plan.window, moments, job->scale, background.room, motion_bank, pause);
+        job->found = estimate(gyro, job->plan.window, moments, job->scale, background.room, bank, pause);
         correct_late(gyro, *job);
         if (!hand_over_if(job->state, JobState::asked, JobState::done)) hand_over(job->state, JobState::free);
     }

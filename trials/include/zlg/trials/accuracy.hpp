@@ -175,6 +175,10 @@ struct Accuracy {
 // gaps  of each kind.
 [[nodiscard]] std::vector<ManoeuvreFigures> measure_manoeuvres(int gaps, bool quick, std::uint64_t seed, int threads);
 
+// The same families, and first gaps some 20 and 60 ticks after the start, each with the whole bank of the estimate and then without
+// one member of it after the other (motion_bank.hpp).
+[[nodiscard]] std::vector<ManoeuvreFigures> measure_members(int gaps, std::uint64_t seed, int threads);
+
 // The motion is another one from the opening of the gap on; `manoeuvre` says which.
 [[nodiscard]] std::vector<ManoeuvreFigures> measure_changes(int gaps, bool quick, std::uint64_t seed, int threads);
 

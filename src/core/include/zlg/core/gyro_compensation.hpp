@@ -100,7 +100,8 @@ struct CompensationOutput {
                                       const HalfRecord& half, LightSamples light = {}) noexcept;
 
 // What a half-period leaves to the background, where it does (gap_bridge.hpp).
-void work(const GyroCompensationConfig& config, GyroCompensationState& state, Pause pause = nullptr) noexcept;
+void work(const GyroCompensationConfig& config, GyroCompensationState& state, Pause pause = nullptr,
+          std::span<const BankMember> bank = motion_bank) noexcept;
 
 // The log has ended: one more report of a gap or final row at each call, until there is neither. An odd last half is
 // dropped.

@@ -20,6 +20,8 @@
 // Law: after each correction the delivered and the final values have the same sum, but for gaps whose correction is
 // still pending.
 
+#include <span>
+
 #include <zlg/core/compensation/gap_bridge_config.hpp>
 #include <zlg/core/compensation/gap_bridge_state.hpp>
 #include <zlg/core/compensation/gap_tick.hpp>
@@ -37,8 +39,10 @@ namespace zlg::core {
 
 // What the half-periods have asked for, and what can be learnt by now. `step` does it itself, but where the background does: there it
 // is to be called between the half-periods, by one caller, whom `step` may interrupt.
+//
+// bank  members of the estimate: a trial may hand fewer.
 void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-          Pause pause = nullptr) noexcept;
+          Pause pause = nullptr, std::span<const BankMember> bank = motion_bank) noexcept;
 
 struct DrainOutput {
     bool has_row = false, has_gap = false;
