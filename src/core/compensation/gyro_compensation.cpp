@@ -159,8 +159,7 @@ void learn_bias(GyroCompensationState& state, double half_excess_arcsec, int sig
 void read_record(const CompensationConstants& gyro, const HalfRecord& half, HalfReading& reading) noexcept {
     const RecordedSquare recorded = recorded_square(gyro, half);
     if (!recorded.known) return;
-    const double unit =
-        0.5 * gyro.chi * bias_at(gyro, Celsius{half.temperature_c}).value() * gyro.scale.value() * gyro.tick.value();
+    const double unit = arcsec_per_lambda2(gyro, bias_at(gyro, Celsius{half.temperature_c}));
     reading.false_arcsec = -reading.sign * unit * recorded.mean_sq_lambda2;
     reading.false_arcsec2 = static_cast<float>(square(unit) * recorded.variance_lambda4);
     if (!is_finite(reading.false_arcsec + reading.false_arcsec2)) {

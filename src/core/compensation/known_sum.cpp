@@ -31,17 +31,16 @@ void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& 
     const CountedStretch known =
         step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
     if (known.n_ticks == 0) return;
-    const double arcsec_per_lambda2 = 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
-    const double drift_arcsec = arcsec_per_lambda2 * known.fall_lambda2;
+    const double unit = arcsec_per_lambda2(gyro, bias);
+    const double drift_arcsec = unit * known.fall_lambda2;
     const double rounding = rounding_arcsec2(gyro, known.start_border, borders.end);
     double drift_variance = drift_arcsec * drift_arcsec;
     tick.known_ticks = known.n_ticks;
     tick.known_arcsec = known.angle_arcsec;
     const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
     if (settles && known.seen) {
-        tick.known_arcsec += arcsec_per_lambda2 * known.deficit_lambda2;
-        drift_variance = law_part * law_part * drift_variance +
-                         arcsec_per_lambda2 * arcsec_per_lambda2 * known.deficit_variance_lambda4;
+        tick.known_arcsec += unit * known.deficit_lambda2;
+        drift_variance = law_part * law_part * drift_variance + unit * unit * known.deficit_variance_lambda4;
     }
     tick.known_is_rough = settles;
     tick.known_drift_arcsec2 = drift_variance;

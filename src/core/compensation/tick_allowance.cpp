@@ -34,8 +34,7 @@ void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& 
                     const RelockTick& read, TickInput& tick) noexcept {
     if (relock.armed && relock.since_gap < config.ticks) return;
     const double change_lambda2 = read.detuning_sq_second_lambda2 - read.detuning_sq_first_lambda2;
-    const double shown_arcsec =
-        0.5 * gyro.chi * gyro.bias.value() * gyro.scale.value() * gyro.tick.value() * change_lambda2;
+    const double shown_arcsec = arcsec_per_lambda2(gyro, gyro.bias) * change_lambda2;
     const bool moves = is_moving(gyro, read);
     if (!moves && shown_arcsec * shown_arcsec <= hidden_part * tick.variance_arcsec2) return;
     if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return;

@@ -61,6 +61,11 @@ enum class CompensationConstantsFault : unsigned char {
     return gyro.random_walk.value() * gyro.random_walk.value() * gyro.tick.value();
 }
 
+// u = chi f0 K T/2: false angle of a tick for each square of a wavelength by which the mean squares of its halves differ.
+[[nodiscard]] constexpr double arcsec_per_lambda2(const CompensationConstants& gyro, Hertz bias) noexcept {
+    return 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
+}
+
 // f0 at a temperature; one beyond +-1e6 is none, like NaN: at the reference temperature.
 [[nodiscard]] Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept;
 
