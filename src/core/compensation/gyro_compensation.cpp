@@ -76,30 +76,27 @@ RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& seco
 // Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide it.
 constexpr double other_loop_part = 0.3;
 
-double other_loop_arcsec2(const RelockDriftConfig& config, bool with_phase, double false_arcsec) noexcept {
-    if (!with_phase || config.method != RelockMethod::frequency) return 0.0;
-    return other_loop_part * other_loop_part * false_arcsec * false_arcsec;
+std::uint32_t flag_of(const FalseAngle& angle) noexcept {
+    return angle.known ? flag_relock_corrected : flag_relock_uncorrected;
 }
 
 void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, TickInput& tick) noexcept {
-    tick.settled = !relock.due;
-    if (relock.tick.known) {
-        tick.value_arcsec -= relock.tick.value_arcsec;
+    // With nothing but a presumption the motion is learnt from all ticks.
+    tick.settled = !relock.due || config.presumes;
+    if (relock.due && !relock.waiting) {
+        const bool other_loop = tick.with_phase && config.method == RelockMethod::frequency;
         tick.relock_arcsec = relock.tick.value_arcsec;
-        tick.variance_arcsec2 += relock.tick.variance_arcsec2;
-        tick.variance_arcsec2 += other_loop_arcsec2(config, tick.with_phase, relock.tick.value_arcsec);
+        tick.value_arcsec -= tick.relock_arcsec;
         tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
-        tick.flags |= flag_relock_corrected;
-    } else if (relock.due && !relock.waiting) {
-        tick.flags |= flag_relock_uncorrected;
-        tick.variance_arcsec2 += relock.tick.variance_arcsec2;
-        tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
+        tick.variance_arcsec2 +=
+            tick.relock_variance_arcsec2 + (other_loop ? square(other_loop_part * tick.relock_arcsec) : 0.0);
+        tick.flags |= flag_of(relock.tick);
     }
     if (!relock.first_due) return;
     tick.amend_previous = true;
     tick.amend_arcsec = -relock.first.value_arcsec;
     tick.amend_variance_arcsec2 = relock.first.variance_arcsec2;
-    tick.amend_flags = relock.first.known ? flag_relock_corrected : flag_relock_uncorrected;
+    tick.amend_flags = flag_of(relock.first);
 }
 
 // A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later one.
@@ -113,13 +110,8 @@ void give_up_first(TickInput& tick) noexcept {
 
 // What lock-in takes from the halves, given back to the tick. The counter shows the beat of each half.
 void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
-                       const Borders& borders, double turn_counts, TickInput& tick) noexcept {
+                       const Borders& borders, TickInput& tick) noexcept {
     const double scale = config.gyro.scale.value();
-    if (!(config.lock_in.threshold.value() > 0.0)) {
-        tick.common_arcsec2 = scale * scale * unknown_loss_counts2(config.gyro, config.lock_in, turn_counts);
-        tick.variance_arcsec2 += tick.common_arcsec2;
-        return;
-    }
     const Border middle = border_of(first);
     const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in,
                                             counts_and_parts(first.counts, parts_between(borders.start, middle)),
@@ -246,16 +238,6 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
     return subtracted;
 }
 
-// Nothing can be subtracted: the motion is learnt from all ticks, and the switch is as uncertain as these together.
-void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& relock, TickInput& tick) noexcept {
-    if (relock.due)
-        state.uncorrected_arcsec2 += relock.tick.variance_arcsec2;
-    else if (state.bridge.n_pending == 0)
-        state.uncorrected_arcsec2 = 0.0;  // the angle of its gap has it; a later gap has not
-    tick.relock_to_come_arcsec2 = state.uncorrected_arcsec2;
-    tick.settled = true;
-}
-
 // What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the perimeter or
 // the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
@@ -273,17 +255,17 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     if (tick.measured) {
         tick.with_phase = borders.start.is_known() && border_of(first).is_known() && borders.end.is_known();
         note_phase(state, tick.with_phase);
-        give_back_lock_in(config, first, second, borders, state.edges.turn_counts, tick);
+        give_back_lock_in(config, first, second, borders, tick);
         const double excess = known_excess(shifted, borders, first);
         const RelockTick read = relock_tick(tick.sign, first, second, excess, tick.with_phase);
         allow_for_push(config.gyro, config.relock, state.relock, read, tick);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
         apply(config.relock, relock, tick);
-        if (state.refused) allow_for_end(config.gyro, tick);
-        const std::int64_t to_come = config.relock.ticks - state.relock.since_gap;
-        if (relock.tick.known && to_come > 0)
-            tick.relock_to_come_arcsec2 = as_double(to_come) * relock.tick.variance_arcsec2;
-        if (config.relock.presumes) leave_uncorrected(state, relock, tick);
+        if (state.refused) {
+            // The fault may have ended in its first half.
+            tick.variance_arcsec2 += unseen_arcsec2(config.gyro);
+            tick.relock_variance_arcsec2 += unseen_arcsec2(config.gyro);
+        }
         half_excess = config.gyro.scale.value() * (as_double(first.counts - second.counts) - excess);
         if (tick.settled) learn_bias(state, half_excess, tick.sign);
         half_excess -= 2.0 * tick.sign * state.bias_arcsec;
@@ -292,12 +274,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     } else {
         const bool moves = !(first.loop_closed && second.loop_closed);
         // What is not corrected is uncertain only where the perimeter may have moved.
-        if (!config.relock.presumes || moves || is_refused(first) || is_refused(second)) {
-            enter_gap(state.relock, moves);
-            state.uncorrected_arcsec2 = 0.0;
-        }
-        state.bridge.relock_ticks = config.relock.ticks;
-        tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
+        if (!config.relock.presumes || moves || is_refused(first) || is_refused(second)) enter_gap(state.relock);
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);
             // After `break_off`: it sets the edges again where it knows the sum.
@@ -305,7 +282,11 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         }
         if (state.first_waits) give_up_first(tick);
         state.first_waits = false;
-        if (is_refused(first) && !state.bridge.gap.open) allow_for_onset(config.gyro, tick);
+        if (is_refused(first) && !state.bridge.gap.open) {
+            // The fault may have begun in the last half before the one in which a monitor saw it.
+            tick.amend_previous = true;
+            tick.amend_variance_arcsec2 = unseen_arcsec2(config.gyro);
+        }
     }
     // The counts of a half that was missed go over into the next one, which then is not measured.
     state.refused = second.loop_closed && !second.valid;

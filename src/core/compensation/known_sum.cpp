@@ -11,9 +11,8 @@ constexpr double law_part = 0.03;
 
 // What lock-in takes from the known sum of a gap's ticks, at their mean rate, given back to it.
 void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts, Hertz bias, TickInput& tick) noexcept {
-    const bool is_known = config.lock_in.threshold.value() > 0.0;
-    const LostCounts lost = is_known ? lost_to_lock_in(config.gyro, config.lock_in, turn_counts, bias)
-                                     : LostCounts{0.0, unknown_loss_counts2(config.gyro, config.lock_in, turn_counts)};
+    const double turn = 0.5 * turn_counts, of_bias = 0.5 * bias.value() * config.gyro.tick.value();
+    const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in, turn + of_bias, turn - of_bias);
     const double arcsec = config.gyro.scale.value() * as_double(tick.known_ticks);
     const double scale = config.gyro.scale.value();
     tick.variance_arcsec2 += scale * scale * lost.variance;

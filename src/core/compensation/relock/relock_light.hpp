@@ -21,7 +21,6 @@ inline constexpr double max_detuning_lambda = 1e3;
 
 struct DetuningSamples {
     std::int32_t n = 0;                            // 0: the light cannot be used
-    double weight = 1.0;                           // noise variance of the configuration over that of these samples
     std::array<double, max_light_samples> lambda;  // the first n
 };
 
