@@ -7,7 +7,7 @@
 namespace zlg::core {
 namespace {
 
-// Square of the number of standard deviations from which on a false angle that no correction subtracts is taken to be real.
+// Square of the number of standard deviations of a settled tick from which on a false angle is taken to be real.
 constexpr double unsubtracted_gate_sq = 9.0;
 
 // Part of the variance of a tick up to which a false angle is not looked for.
@@ -26,15 +26,16 @@ double unseen_arcsec2(const CompensationConstants& gyro) noexcept {
 void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& relock,
                     const RelockTick& read, TickInput& tick) noexcept {
     if (relock.armed && relock.since_gap < config.ticks) return;
-    const double change_lambda2 = read.detuning_sq_second_lambda2 - read.detuning_sq_first_lambda2;
-    const double shown_arcsec = arcsec_per_lambda2(gyro, gyro.bias) * change_lambda2;
-    if (square(shown_arcsec) <= hidden_part * tick.variance_arcsec2) return;
     if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return;
+    const double unit = arcsec_per_lambda2(gyro, gyro.bias);
+    const double change_lambda2 = read.detuning_sq_second_lambda2 - read.detuning_sq_first_lambda2;
+    if (square(unit * change_lambda2) <= hidden_part * tick.variance_arcsec2) return;
     RelockDriftState closing{.armed = true};
-    const FalseAngle residual = step(gyro, config, closing, read).tick;
-    if (!residual.known) return;
-    const double sq = square(residual.value_arcsec);
-    if (sq > unsubtracted_gate_sq * residual.variance_arcsec2) tick.variance_arcsec2 += sq;
+    const FalseAngle left = step(gyro, config, closing, read).tick;
+    // Of the difference of two mean squares of n samples of noise.
+    const double settled_arcsec2 = 4.0 * square(unit * square(gyro.light_noise.value())) / gyro.light_samples;
+    if (left.known && square(left.value_arcsec) > unsubtracted_gate_sq * settled_arcsec2)
+        tick.variance_arcsec2 += square(left.value_arcsec) + left.variance_arcsec2;
 }
 
 }  // namespace zlg::core

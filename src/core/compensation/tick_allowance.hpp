@@ -9,8 +9,8 @@
 namespace zlg::core {
 
 // Before the first gap of a log, and later than `relock_ticks` after one, no false angle is subtracted. Where the light shows
-// one beyond its noise, because the loop still settled or the perimeter was pushed, the variance contains its square. It is
-// found by a trial step from the state just after a gap.
+// one beyond its noise, because the loop still settled or the perimeter was pushed, the variance contains its square and
+// the noise of the light. It is found by a trial step from the state just after a gap.
 void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& relock,
                     const RelockTick& read, TickInput& tick) noexcept;
 
