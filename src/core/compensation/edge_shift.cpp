@@ -3,16 +3,13 @@
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
 // A temperature that is damage would make this of the bias, and the area overflow.
 constexpr double max_plateau_hz = 1e15;
-
-double believed_plateau_hz(const CompensationConstants& gyro, Hertz bias) noexcept {
-    const double plateau_hz = gyro.plateau_ratio * bias.value();
-    return plateau_hz < max_plateau_hz && plateau_hz > -max_plateau_hz ? plateau_hz : 0.0;
-}
 
 void follow(EdgeShiftState& state, double turn_counts, double beyond_arcsec) noexcept {
     state.follows = true;
@@ -42,7 +39,8 @@ bool is_possible(const CompensationConstants& gyro, std::int32_t edge_offset_tic
 }
 
 double plateau_per_tick(const CompensationConstants& gyro, Hertz bias) noexcept {
-    return believed_plateau_hz(gyro, bias) / gyro.timer.value();
+    const double plateau_hz = gyro.plateau_ratio * bias.value();
+    return is_within(plateau_hz, -max_plateau_hz, max_plateau_hz) ? plateau_hz / gyro.timer.value() : 0.0;
 }
 
 EdgeShiftOutput step(const CompensationConstants& gyro, EdgeShiftState& state, const EdgeShiftInput& input) noexcept {

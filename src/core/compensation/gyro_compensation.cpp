@@ -121,11 +121,6 @@ void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& f
     tick.variance_arcsec2 += tick.common_arcsec2;
 }
 
-// The samples that the estimate of a switch reads: the paper's methods know what the records tell.
-LightSamples samples_for(const GyroCompensationConfig& config, LightSamples light) noexcept {
-    return config.relock.method == RelockMethod::joint ? light : LightSamples{};
-}
-
 // Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and no spline goes through that: these
 // halves are read by their records.
 bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_closed && half.valid && half.span == 1; }
@@ -133,7 +128,7 @@ bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_clo
 void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                 LightSamples light, int k) noexcept {
     if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.relock.ticks < 1) return;
-    step(config.gyro, config.profile, state.bridge.light, half, samples_for(config, light), is_measured(half),
+    step(config.gyro, config.profile, state.bridge.light, half, light, is_measured(half),
          2 * state.bridge.next_tick + k, static_cast<int>(2 * config.relock.ticks));
 }
 
@@ -152,12 +147,11 @@ void read_record(const CompensationConstants& gyro, const HalfRecord& half, Half
     const RecordedSquare recorded = recorded_square(gyro, half);
     if (!recorded.known) return;
     const double unit = arcsec_per_lambda2(gyro, bias_at(gyro, Celsius{half.temperature_c}));
-    reading.false_arcsec = -reading.sign * unit * recorded.mean_sq_lambda2;
-    reading.false_arcsec2 = static_cast<float>(square(unit) * recorded.variance_lambda4);
-    if (!is_finite(reading.false_arcsec + reading.false_arcsec2)) {
-        reading.false_arcsec = 0.0;
-        reading.false_arcsec2 = -1.0F;
-    }
+    const double angle = -reading.sign * unit * recorded.mean_sq_lambda2;
+    const auto variance = static_cast<float>(square(unit) * recorded.variance_lambda4);
+    if (!is_finite(angle + variance)) return;
+    reading.false_arcsec = angle;
+    reading.false_arcsec2 = variance;
 }
 
 // The halves of a measured tick: what it turned, and half of what the first one turned more.
@@ -314,17 +308,10 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
 }
 
 GyroCompensationFault fault_of(CompensationConstantsFault fault) noexcept {
-    switch (fault) {
-        case CompensationConstantsFault::none:
-            return GyroCompensationFault::none;
-        case CompensationConstantsFault::timer:
-        case CompensationConstantsFault::plateau_ratio:
-            return GyroCompensationFault::edges;
-        case CompensationConstantsFault::random_walk:
-            return GyroCompensationFault::random_walk;
-        default:
-            return GyroCompensationFault::relock;
-    }
+    if (fault == CompensationConstantsFault::none) return GyroCompensationFault::none;
+    if (fault == CompensationConstantsFault::edges) return GyroCompensationFault::edges;
+    const bool of_walk = fault == CompensationConstantsFault::random_walk;
+    return of_walk ? GyroCompensationFault::random_walk : GyroCompensationFault::relock;
 }
 
 }  // namespace

@@ -31,22 +31,7 @@ struct CompensationConstants {
     DiscriminatorCurve control_curve{};  // that they have come through already: it scales their noise
 };
 
-enum class CompensationConstantsFault : unsigned char {
-    none,
-    tick,
-    scale,
-    random_walk,
-    bias,
-    chi,
-    temperature,
-    centre,
-    timer,
-    plateau_ratio,
-    light_noise,
-    light_samples,
-    fringe_noise,
-    curve
-};
+enum class CompensationConstantsFault : unsigned char { none, tick, scale, random_walk, bias, edges, light };
 
 [[nodiscard]] CompensationConstantsFault check(const CompensationConstants& gyro) noexcept;
 

@@ -23,7 +23,7 @@ namespace zlg::core {
 // A shift that leaves both halves beside it some time: less than a quarter of a tick.
 [[nodiscard]] bool is_possible(const CompensationConstants& gyro, std::int32_t edge_offset_ticks) noexcept;
 
-// Counts that the bias makes in one tick of the timer, on its plateau. f0 counts as 0 from 1e15 on.
+// Counts that the bias makes in one tick of the timer, on its plateau. Beyond 1e15 Hz it counts as 0.
 [[nodiscard]] double plateau_per_tick(const CompensationConstants& gyro, Hertz bias) noexcept;
 
 struct EdgeShiftState {
@@ -44,7 +44,7 @@ struct EdgeShiftInput {
     int sign_second = -1;
     std::int32_t offset_middle_ticks = 0;  // of the reversal that ends the first half; possible
     std::int32_t offset_end_ticks = 0;     // of the one that ends the second
-    Hertz bias{60e3};                      // f0, mean over an even half; counts as 0 from 1e15 on
+    Hertz bias{60e3};                      // f0, mean over an even half
 };
 
 struct EdgeShiftOutput {
