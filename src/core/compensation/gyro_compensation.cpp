@@ -58,21 +58,6 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
     return tick;
 }
 
-RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second, double known_excess_counts,
-                       bool with_phase) noexcept {
-    return {.sign = sign,
-            .counts_first = first.counts,
-            .counts_second = second.counts,
-            .known_excess_counts = known_excess_counts,
-            .detuning_first_lambda = first.detuning_lambda,
-            .detuning_second_lambda = second.detuning_lambda,
-            .detuning_sq_first_lambda2 = first.detuning_sq_lambda2,
-            .detuning_sq_second_lambda2 = second.detuning_sq_lambda2,
-            // Sampled at the end of the first half: the middle of the tick.
-            .temperature_c = first.temperature_c,
-            .with_phase = with_phase};
-}
-
 // Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide it.
 constexpr double other_loop_part = 0.3;
 
@@ -251,7 +236,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         note_phase(state, tick.with_phase);
         give_back_lock_in(config, first, second, borders, tick);
         const double excess = known_excess(shifted, borders, first);
-        const RelockTick read = relock_tick(tick.sign, first, second, excess, tick.with_phase);
+        const RelockTick read{first, second, excess, tick.with_phase};
         allow_for_push(config.gyro, config.relock, state.relock, read, tick);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
         apply(config.relock, relock, tick);

@@ -28,7 +28,7 @@ void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& 
     if (relock.armed && relock.since_gap < config.ticks) return;
     if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return;
     const double unit = arcsec_per_lambda2(gyro, gyro.bias);
-    const double change_lambda2 = read.detuning_sq_second_lambda2 - read.detuning_sq_first_lambda2;
+    const double change_lambda2 = read.second.detuning_sq_lambda2 - read.first.detuning_sq_lambda2;
     if (square(unit * change_lambda2) <= hidden_part * tick.variance_arcsec2) return;
     RelockDriftState closing{.armed = true};
     const FalseAngle left = step(gyro, config, closing, read).tick;

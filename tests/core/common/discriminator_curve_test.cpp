@@ -194,11 +194,9 @@ TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
     for (const double side : {1.0, -1.0}) {
         RelockDriftState state;
         enter_gap(state);
-        const RelockDriftOutput out = step(gyro, by_mean_square, state,
-                                           {.detuning_first_lambda = side * first,
-                                            .detuning_second_lambda = side * second,
-                                            .detuning_sq_first_lambda2 = first * first,
-                                            .detuning_sq_second_lambda2 = second * second});
+        const HalfRecord one{.detuning_lambda = side * first, .detuning_sq_lambda2 = first * first};
+        const HalfRecord other{.detuning_lambda = side * second, .detuning_sq_lambda2 = second * second};
+        const RelockDriftOutput out = step(gyro, by_mean_square, state, {one, other});
         const double before = (side * first - 0.02) * (side * first - 0.02);
         const double after = (side * second - 0.02) * (side * second - 0.02);
         ASSERT_TRUE(out.tick.known);
@@ -266,14 +264,15 @@ double relock_ratio(const SyncDetectorConfig& detector, const CompensationConsta
     const SyncDetectorOutput second = detected(detector, middle, end, -1);
     RelockDriftState s;
     enter_gap(s);
-    const RelockTick tick{.detuning_first_lambda = first.detuning.value(),
-                          .detuning_second_lambda = second.detuning.value(),
-                          .detuning_sq_first_lambda2 = first.mean_sq_lambda2,
-                          .detuning_sq_second_lambda2 = second.mean_sq_lambda2,
+    const auto read = [](const SyncDetectorOutput& half) {
+        return HalfRecord{.detuning_lambda = half.detuning.value(),
+                          .detuning_sq_lambda2 = half.mean_sq_lambda2,
                           .temperature_c = 20.0};
+    };
+    const HalfRecord halves[] = {read(first), read(second)};
     const auto mean_sq = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
     const double rate_hz = 0.5 * 3.6 * 60e3 * (mean_sq(middle, end) - mean_sq(miss, middle));
-    return step(gyro, by_mean_square, s, tick).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
+    return step(gyro, by_mean_square, s, {halves[0], halves[1]}).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
 }
 
 TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
@@ -292,14 +291,12 @@ TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
 
 TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
     CompensationConstants c{.light_noise = Wavelengths{0.003}};
-    const RelockTick tick{.detuning_first_lambda = 0.1,
-                          .detuning_second_lambda = 0.06,
-                          .detuning_sq_first_lambda2 = 0.1 * 0.1 + 9e-6,
-                          .detuning_sq_second_lambda2 = 0.06 * 0.06 + 9e-6};
+    const HalfRecord first{.detuning_lambda = 0.1, .detuning_sq_lambda2 = 0.1 * 0.1 + 9e-6};
+    const HalfRecord second{.detuning_lambda = 0.06, .detuning_sq_lambda2 = 0.06 * 0.06 + 9e-6};
     const auto variance = [&] {
         RelockDriftState s;
         enter_gap(s);
-        return step(c, by_mean_square, s, tick).tick.variance_arcsec2;
+        return step(c, by_mean_square, s, {first, second}).tick.variance_arcsec2;
     };
     const double linear = variance();
     const std::array<double, 1> x = {1.0};

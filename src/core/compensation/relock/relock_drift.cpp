@@ -13,12 +13,14 @@ namespace {
 constexpr double max_false_angle_arcsec = 1e30;
 
 Hertz bias_of(const CompensationConstants& g, const RelockTick& t) noexcept {
-    return bias_at(g, Celsius{t.temperature_c});
+    return bias_at(g, Celsius{t.first.temperature_c});
 }
+
+int sign_of(const RelockTick& t) noexcept { return t.first.bias_sign * t.first.mode; }
 
 // s K T: the false angle of one tick from its false rate, with the sign of the first half.
 double arcsec_per_hz(const CompensationConstants& g, const RelockTick& t) noexcept {
-    return t.sign * g.scale.value() * g.tick.value();
+    return sign_of(t) * g.scale.value() * g.tick.value();
 }
 
 FalseAngle false_angle(double value_arcsec, double variance_arcsec2) noexcept {
@@ -26,19 +28,13 @@ FalseAngle false_angle(double value_arcsec, double variance_arcsec2) noexcept {
     return possible && is_finite(variance_arcsec2) ? FalseAngle{true, value_arcsec, variance_arcsec2} : FalseAngle{};
 }
 
-// One half as the curve sees it. `detuning` alone does not need the mean square: NaN then stands for no motion.
-TrueMoments first_half(const CompensationConstants& g, const RelockTick& t) noexcept {
-    return true_moments(g.record_curve, t.detuning_first_lambda, t.detuning_sq_first_lambda2,
-                        square(g.light_noise.value()));
-}
-
-TrueMoments second_half(const CompensationConstants& g, const RelockTick& t) noexcept {
-    return true_moments(g.record_curve, t.detuning_second_lambda, t.detuning_sq_second_lambda2,
-                        square(g.light_noise.value()));
+// As the curve sees a half. `detuning` alone does not need the mean square: NaN then stands for no motion.
+TrueMoments moments(const CompensationConstants& g, const HalfRecord& half) noexcept {
+    return true_moments(g.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, square(g.light_noise.value()));
 }
 
 FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const TrueMoments first_seen = first_half(g, t), second_seen = second_half(g, t);
+    const TrueMoments first_seen = moments(g, t.first), second_seen = moments(g, t.second);
     const double first = about(g.centre, first_seen);
     const double second = about(g.centre, second_seen);
     if (!(first >= 0.0 && second >= 0.0 && first + second > 0.0)) return {};
@@ -47,12 +43,12 @@ FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t) n
     const double s2 = square(g.light_noise.value()) * 0.5 * (noise_gain(g, first_seen) + noise_gain(g, second_seen));
     const double above = first + second - 2.0 * s2;
     const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 4.0 * s2 * s2) / g.light_samples;
-    const double unit = t.sign * arcsec_per_lambda2(g, bias_of(g, t));
+    const double unit = sign_of(t) * arcsec_per_lambda2(g, bias_of(g, t));
     return false_angle(unit * (second - first), square(unit) * variance);
 }
 
 FalseAngle by_detuning(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const TrueMoments first_seen = first_half(g, t), second_seen = second_half(g, t);
+    const TrueMoments first_seen = moments(g, t.first), second_seen = moments(g, t.second);
     const double first = first_seen.mean_lambda;
     const double second = second_seen.mean_lambda;
     const double rho = second / first;
@@ -63,18 +59,18 @@ FalseAngle by_detuning(const CompensationConstants& g, const RelockTick& t) noex
     const double by_first = first_seen.slope * (sum * (2.0 * log_rho - sum / first) + centre);
     const double by_second = second_seen.slope * (sum * (2.0 * log_rho + sum / second) - centre);
     const double s2 = square(g.light_noise.value()) / g.light_samples;
-    const double unit = 0.5 * t.sign * arcsec_per_lambda2(g, bias_of(g, t));
+    const double unit = 0.5 * sign_of(t) * arcsec_per_lambda2(g, bias_of(g, t));
     return false_angle(unit * (log_rho * sum * sum - centre * (second - first)),
                        square(unit) * (square(by_first) + square(by_second)) * s2);
 }
 
 // <dl^2> of the first half; negative where the light does not show it.
 double seen_lambda2(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const TrueMoments seen = first_half(g, t);
-    const bool squared = t.detuning_sq_first_lambda2 > 0.0;
+    const TrueMoments seen = moments(g, t.first);
+    const bool squared = t.first.detuning_sq_lambda2 > 0.0;
     // Where the detuning falls thirtyfold within the half, the square of its mean is about half of its mean square.
     const double sq = squared ? about(g.centre, seen) : 2.0 * square(seen.mean_lambda - g.centre.value());
-    const bool measured = squared || t.detuning_first_lambda != 0.0;
+    const bool measured = squared || t.first.detuning_lambda != 0.0;
     return measured && is_within(sq, 0.0, square(max_detuning.value())) ? sq : -1.0;
 }
 
@@ -92,8 +88,8 @@ FalseAngle or_missing(FalseAngle found, double most_arcsec) noexcept {
 }
 
 double deficit_hz(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const double difference = as_double(t.counts_first) - as_double(t.counts_second);
-    return t.sign * (difference - t.known_excess_counts) / g.tick.value() - bias_of(g, t).value();
+    const double difference = as_double(t.first.counts) - as_double(t.second.counts);
+    return sign_of(t) * (difference - t.known_excess_counts) / g.tick.value() - bias_of(g, t).value();
 }
 
 // The false angle of a tick from its own deficit, with another's, by whose ratio q is found.

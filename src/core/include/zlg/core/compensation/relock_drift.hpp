@@ -18,6 +18,7 @@
 
 #include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/methods.hpp>
+#include <zlg/core/records.hpp>
 #include <zlg/core/units.hpp>
 
 namespace zlg::core {
@@ -35,18 +36,13 @@ enum class RelockDriftFault : unsigned char { none, ticks };
     return c.ticks >= 0 ? RelockDriftFault::none : RelockDriftFault::ticks;
 }
 
-// One measured tick, its halves in order of time.
+// One measured tick, its halves in order of time. A detuning of NaN or 0 was not measured; the temperature is that of the first
+// half, sampled in the middle of the tick.
 struct RelockTick {
-    int sign = 1;  // bias_sign * mode in the first half
-    std::int64_t counts_first = 0;
-    std::int64_t counts_second = 0;
-    double known_excess_counts = 0.0;    // part of first minus second that is not the bias (gyro_compensation.cpp)
-    double detuning_first_lambda = 0.0;  // NaN or 0 where not measured
-    double detuning_second_lambda = 0.0;
-    double detuning_sq_first_lambda2 = 0.0;
-    double detuning_sq_second_lambda2 = 0.0;
-    double temperature_c = 0.0;  // NaN where not measured: the reference temperature
-    bool with_phase = false;     // the places within the count are in `known_excess_counts`
+    const HalfRecord& first;
+    const HalfRecord& second;
+    double known_excess_counts = 0.0;  // part of first minus second that is not the bias (gyro_compensation.cpp)
+    bool with_phase = false;           // the places within the count are in it
 };
 
 struct RelockDriftState {
