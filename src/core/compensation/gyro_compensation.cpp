@@ -29,17 +29,6 @@ void sanitise(const GyroCompensationConfig& config, GyroCompensationState& state
     if (half.span < 1) half.span = 1;
 }
 
-EdgeShiftInput edge_input(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
-                          const Borders& borders) noexcept {
-    return {.counts = first.counts + second.counts,
-            .parts = parts_between(borders.start, borders.end),
-            .sign_first = first.bias_sign * first.mode,
-            .sign_second = second.bias_sign * second.mode,
-            .offset_middle_ticks = first.edge_offset_ticks,
-            .offset_end_ticks = second.edge_offset_ticks,
-            .bias = bias_at(gyro, Celsius{first.temperature_c})};
-}
-
 TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
                    const Borders& borders, double value_arcsec) noexcept {
     TickInput tick;
@@ -48,7 +37,8 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
     tick.value_arcsec = value_arcsec;
     tick.variance_arcsec2 = rounding_arcsec2(gyro, borders.start, borders.end) + walk_arcsec2(gyro);
     tick.mode = second.mode;
-    tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
+    tick.half[0].sign = tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
+    tick.half[1].sign = static_cast<std::int8_t>(second.bias_sign * second.mode);
     if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
     if (!(first.valid && second.valid)) tick.flags |= flag_invalid;
     if (tick.measured && first.mode != second.mode) {
@@ -86,12 +76,6 @@ void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, Tic
 
 // A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later one.
 bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !half.valid && half.counts != 0; }
-
-// `frequency` corrects tick 1 with the help of tick 2. Where there is none, tick 1 stays uncorrected and is flagged.
-void give_up_first(TickInput& tick) noexcept {
-    tick.amend_previous = true;
-    tick.amend_flags = flag_relock_uncorrected;
-}
 
 // What lock-in takes from the halves, given back to the tick. The counter shows the beat of each half.
 void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
@@ -227,7 +211,8 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     const Borders borders{state.border, border_of(second)};
     state.border = borders.end;
     const EdgeShiftState edges_before = state.edges;
-    const EdgeShiftOutput shifted = step(config.gyro, state.edges, edge_input(config.gyro, first, second, borders));
+    const std::int32_t parts = parts_between(borders.start, borders.end);
+    const EdgeShiftOutput shifted = step(config.gyro, state.edges, first, second, parts);
     TickInput tick = assemble(config.gyro, first, second, borders, shifted.value_arcsec);
     take_light(config, state, second, light, 1);
     double half_excess = 0.0;
@@ -259,22 +244,18 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
             // After `break_off`: it sets the edges again where it knows the sum.
             set_known_sum(config, state, first, second, borders, edges_before, tick);
         }
-        if (state.first_waits) give_up_first(tick);
+        // The fault may have begun in the last half before the one in which a monitor saw it.
+        const bool may_have_begun = is_refused(first) && !state.bridge.gap.open;
+        if (may_have_begun) tick.amend_variance_arcsec2 = unseen_arcsec2(config.gyro);
+        // `frequency` corrects tick 1 with the help of tick 2. Where there is none, tick 1 stays uncorrected.
+        if (state.first_waits) tick.amend_flags = flag_relock_uncorrected;
+        tick.amend_previous = may_have_begun || state.first_waits;
         state.first_waits = false;
-        if (is_refused(first) && !state.bridge.gap.open) {
-            // The fault may have begun in the last half before the one in which a monitor saw it.
-            tick.amend_previous = true;
-            tick.amend_variance_arcsec2 = unseen_arcsec2(config.gyro);
-        }
     }
     // The counts of a half that was missed go over into the next one, which then is not measured.
     state.refused = second.loop_closed && !second.valid;
     tick.value_arcsec -= magnetic_arcsec(config, state, tick);
     if (is_estimated(config.bridge)) {
-        for (int k = 0; k < 2; ++k) {
-            const HalfRecord& half = k == 0 ? first : second;
-            tick.half[static_cast<unsigned>(k)].sign = static_cast<std::int8_t>(half.bias_sign * half.mode);
-        }
         const Border middle = border_of(first);
         if (tick.measured) {
             read_halves(config, first, second, half_excess, tick);
@@ -286,8 +267,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};
     remember(state.switch_errors, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
-    const std::int32_t parts = tick.measured ? parts_between(borders.start, borders.end) : 0;
-    state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, parts);
+    state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, tick.measured ? parts : 0);
     out.angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value());
     return out;
 }

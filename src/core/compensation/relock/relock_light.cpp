@@ -88,15 +88,15 @@ double noise_gain(const CompensationConstants& gyro, const TrueMoments& seen) no
 }
 
 RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
+    if (is_refused(gyro, half)) return {};
     const double noise_sq = square(light_noise_lambda(gyro));
-    const bool is_refused = noise_sq > 0.0 && half.detuning_sq_lambda2 <= 0.0;
     const TrueMoments seen = true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise_sq);
     const double from_centre = about(gyro.centre, seen);
     if (!(from_centre >= 0.0 && from_centre < square(max_detuning_lambda))) return {};
     const double s2 = noise_sq * noise_gain(gyro, seen);
     const double above = from_centre - s2;
     const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 2.0 * s2 * s2) / gyro.light_samples;
-    if (is_refused || !is_finite(variance)) return {.refused = is_refused};
+    if (!is_finite(variance)) return {};
     return {.known = true, .mean_sq_lambda2 = above, .variance_lambda4 = variance};
 }
 
