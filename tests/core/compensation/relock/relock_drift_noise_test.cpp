@@ -52,13 +52,8 @@ TEST(RelockDriftNoise, MeanSquareStatesItsVariance) {
 }
 
 DiscriminatorCurve straight(double slope) {
-    DiscriminatorCurve curve{.n_nodes = 3};
-    for (unsigned k = 0; k < 3; ++k) {
-        curve.apparent_lambda[k] = 0.5 * (k - 1.0);
-        curve.detuning_lambda[k] = slope * curve.apparent_lambda[k];
-        curve.slope[k] = slope;
-    }
-    return curve;
+    const double apparent[] = {0.5}, detuning[] = {0.5 * slope};
+    return discriminator_curve(apparent, detuning);
 }
 
 double mean_square_variance(double noise_lambda, double own_slope, double control_slope) {
@@ -66,15 +61,13 @@ double mean_square_variance(double noise_lambda, double own_slope, double contro
     config.gyro.light_noise = Wavelengths{noise_lambda};
     if (own_slope > 0.0) config.gyro.record_curve = straight(own_slope);
     if (control_slope > 0.0) config.gyro.control_curve = straight(control_slope);
-    EXPECT_EQ(check(config.gyro), CompensationConstantsFault::none);
     RelockDriftState state{.armed = true};
-    const Tick tick{.detuning_first_lambda = 0.1,
-                    .detuning_second_lambda = 0.08,
-                    .detuning_sq_first_lambda2 = 0.0102,
-                    .detuning_sq_second_lambda2 = 0.0065};
-    const FalseAngle found = step(config, state, tick).tick;
-    EXPECT_TRUE(found.known);
-    return found.variance_arcsec2;
+    return step(config, state,
+                {.detuning_first_lambda = 0.1,
+                 .detuning_second_lambda = 0.08,
+                 .detuning_sq_first_lambda2 = 0.0102,
+                 .detuning_sq_second_lambda2 = 0.0065})
+        .tick.variance_arcsec2;
 }
 
 // Light that has come through a curve, here or already in the control, has noise that the curve has made larger: once.
