@@ -121,6 +121,19 @@ TEST(RelockDrift, EveryMethodFindsTheFalseAngleOfAnExponentialLoop) {
                 }
 }
 
+TEST(RelockDrift, FalseAnglesOfConsecutiveSwitchesHaveOppositeSigns) {
+    for (const double dl0 : {0.2, -0.2})
+        for (const RelockMethod method : all_methods) {
+            const ExponentialLoop loop{dl0, 3.5};
+            const Configured config = fine(method);
+            RelockDriftState state;
+            enter_gap(state);
+            EXPECT_LT(corrected_arcsec(config, state, loop, 1, 1), 0.0);
+            enter_gap(state);
+            EXPECT_GT(corrected_arcsec(config, state, loop, 1, -1), 0.0);
+        }
+}
+
 TEST(RelockDrift, DetuningIsEquation13InItsLongForm) {
     Random random{1};
     const Configured c = fine(RelockMethod::detuning, 60e3);
