@@ -35,7 +35,7 @@ PART_OF = {
                      "trigonometric", "turns_of"], "relock_drift"),
     "as_double": "relock_drift",
     "gyro_control_state": "gyro_control",
-    **dict.fromkeys(["relock_profile_config", "relock_light"], "switch_light"),
+    "relock_light": "switch_light",
 }
 MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "stroke_model", "mode_switch", "switch_schedule", "bias_commutator",

@@ -179,10 +179,7 @@ void add_run(const LockInGyro& g, const core::LockInConfig& config, int n, doubl
     for (int i = 0; i < n; ++i) {
         const double plain = share / (n * g.tick_s) * run.tick() - share / n * g.rate_arcsec_s;
         const double first = run.seen_first(), second = run.seen_second();
-        const core::LostCounts lost =
-            config.threshold.value() > 0.0
-                ? core::lost_to_lock_in(gyro, config, first, second)
-                : core::LostCounts{.variance = core::unknown_loss_counts2(gyro, config, first + second)};
+        const core::LostCounts lost = core::lost_to_lock_in(gyro, config, first, second);
         sum.plain_arcsec_s += plain;
         sum.left_arcsec_s += plain + to_rate * lost.value;
         sum.sigma_arcsec_s += to_rate * std::sqrt(lost.variance);

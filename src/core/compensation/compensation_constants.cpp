@@ -7,8 +7,6 @@
 namespace zlg::core {
 namespace {
 
-bool is_positive(double x, double max) noexcept { return x > 0.0 && x <= max; }
-
 // No gyro is that warm or cold; beyond it the product with a coefficient need not be a number.
 constexpr double max_temperature_c = 1e6;
 
@@ -19,19 +17,18 @@ CompensationConstantsFault check(const CompensationConstants& g) noexcept {
     using Fault = CompensationConstantsFault;
     if (!is_within(g.tick.value(), 1e-9, 1e9)) return Fault::tick;
     if (!is_within(g.scale.value(), 1e-9, 1e9)) return Fault::scale;
-    if (!is_positive(g.bias.value(), 1e15)) return Fault::bias;
-    if (!is_within(g.chi, 0.0, 1e6)) return Fault::chi;
-    if (!is_within(g.temperature_coefficient_per_c, -1.0, 1.0)) return Fault::temperature;
-    if (!is_within(g.reference_temperature.value(), -max_temperature_c, max_temperature_c)) return Fault::temperature;
-    if (!is_within(g.centre.value(), -max_centre.value(), max_centre.value())) return Fault::centre;
-    if (!is_within(g.timer.value(), 1.0, 1e15)) return Fault::timer;
-    if (!is_within(g.plateau_ratio, 1.0, 2.0)) return Fault::plateau_ratio;
-    if (!is_within(g.light_noise.value(), 0.0, 10.0)) return Fault::light_noise;
-    if (!(g.light_samples >= 1)) return Fault::light_samples;
-    if (!is_within(g.fringe_noise_counts, 0.0, 1.0)) return Fault::fringe_noise;
-    if (check(g.record_curve) != CurveFault::none || check(g.control_curve) != CurveFault::none) return Fault::curve;
     if (!is_within(g.random_walk.value(), 0.0, 1e6)) return Fault::random_walk;
-    return Fault::none;
+    const bool bias = g.bias.value() > 0.0 && g.bias.value() <= 1e15 && is_within(g.chi, 0.0, 1e6) &&
+                      is_within(g.temperature_coefficient_per_c, -1.0, 1.0) &&
+                      is_within(g.reference_temperature.value(), -max_temperature_c, max_temperature_c) &&
+                      is_within(g.centre.value(), -max_centre.value(), max_centre.value());
+    if (!bias) return Fault::bias;
+    const bool edges = is_within(g.timer.value(), 1.0, 1e15) && is_within(g.plateau_ratio, 1.0, 2.0);
+    if (!edges) return Fault::edges;
+    const bool light = is_within(g.light_noise.value(), 0.0, 10.0) && g.light_samples >= 1 &&
+                       is_within(g.fringe_noise_counts, 0.0, 1.0) && check(g.record_curve) == CurveFault::none &&
+                       check(g.control_curve) == CurveFault::none;
+    return light ? Fault::none : Fault::light;
 }
 
 Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept {

@@ -3,16 +3,13 @@
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
 // A temperature that is damage would make this of the bias, and the area overflow.
 constexpr double max_plateau_hz = 1e15;
-
-double believed_plateau_hz(const CompensationConstants& gyro, Hertz bias) noexcept {
-    const double plateau_hz = gyro.plateau_ratio * bias.value();
-    return plateau_hz < max_plateau_hz && plateau_hz > -max_plateau_hz ? plateau_hz : 0.0;
-}
 
 void follow(EdgeShiftState& state, double turn_counts, double beyond_arcsec) noexcept {
     state.follows = true;
@@ -42,22 +39,25 @@ bool is_possible(const CompensationConstants& gyro, std::int32_t edge_offset_tic
 }
 
 double plateau_per_tick(const CompensationConstants& gyro, Hertz bias) noexcept {
-    return believed_plateau_hz(gyro, bias) / gyro.timer.value();
+    const double plateau_hz = gyro.plateau_ratio * bias.value();
+    return is_within(plateau_hz, -max_plateau_hz, max_plateau_hz) ? plateau_hz / gyro.timer.value() : 0.0;
 }
 
-EdgeShiftOutput step(const CompensationConstants& gyro, EdgeShiftState& state, const EdgeShiftInput& input) noexcept {
-    const double counts = counts_and_parts(input.counts, input.parts);
+EdgeShiftOutput step(const CompensationConstants& gyro, EdgeShiftState& state, const HalfRecord& first,
+                     const HalfRecord& second, std::int32_t parts) noexcept {
+    const double counts = counts_and_parts(first.counts + second.counts, parts);
     const double counted_arcsec = gyro.scale.value() * counts;
-    const std::int64_t start = state.offset_ticks, middle = input.offset_middle_ticks, end = input.offset_end_ticks;
-    state.offset_ticks = input.offset_end_ticks;
+    const std::int64_t start = state.offset_ticks, middle = first.edge_offset_ticks, end = second.edge_offset_ticks;
+    state.offset_ticks = second.edge_offset_ticks;
     if (start == 0 && middle == 0 && end == 0) {
         follow(state, counts, 0.0);
         return {.value_arcsec = counted_arcsec};
     }
-    const std::int64_t first = middle - start;
-    const std::int64_t second = end - middle;
-    const double per_tick = plateau_per_tick(gyro, input.bias);
-    const double area = per_tick * static_cast<double>(input.sign_first * first + input.sign_second * second);
+    // With the signs of the bias: by so many ticks of the timer either half is longer.
+    const std::int64_t one = first.bias_sign * first.mode * (middle - start);
+    const std::int64_t other = second.bias_sign * second.mode * (end - middle);
+    const double per_tick = plateau_per_tick(gyro, bias_at(gyro, Celsius{first.temperature_c}));
+    const double area = per_tick * static_cast<double>(one + other);
 
     // Of a tick: a time of so many ticks of the timer.
     const auto part = [&](std::int64_t t) { return static_cast<double>(t) / (gyro.tick.value() * gyro.timer.value()); };
@@ -69,8 +69,7 @@ EdgeShiftOutput step(const CompensationConstants& gyro, EdgeShiftState& state, c
     EdgeShiftOutput out;
     out.value_arcsec =
         sum(state.residual_arcsec, counted_arcsec, -gyro.scale.value() * area, given_arcsec, -beyond_arcsec);
-    out.known_excess_counts = per_tick * static_cast<double>(input.sign_first * first - input.sign_second * second) +
-                              turn * part(first - second);
+    out.known_excess_counts = per_tick * static_cast<double>(one - other) + turn * part(2 * middle - start - end);
     follow(state, turn, beyond_arcsec);
     return out;
 }

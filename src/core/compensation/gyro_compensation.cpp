@@ -29,17 +29,6 @@ void sanitise(const GyroCompensationConfig& config, GyroCompensationState& state
     if (half.span < 1) half.span = 1;
 }
 
-EdgeShiftInput edge_input(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
-                          const Borders& borders) noexcept {
-    return {.counts = first.counts + second.counts,
-            .parts = parts_between(borders.start, borders.end),
-            .sign_first = first.bias_sign * first.mode,
-            .sign_second = second.bias_sign * second.mode,
-            .offset_middle_ticks = first.edge_offset_ticks,
-            .offset_end_ticks = second.edge_offset_ticks,
-            .bias = bias_at(gyro, Celsius{first.temperature_c})};
-}
-
 TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
                    const Borders& borders, double value_arcsec) noexcept {
     TickInput tick;
@@ -48,7 +37,8 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
     tick.value_arcsec = value_arcsec;
     tick.variance_arcsec2 = rounding_arcsec2(gyro, borders.start, borders.end) + walk_arcsec2(gyro);
     tick.mode = second.mode;
-    tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
+    tick.half[0].sign = tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
+    tick.half[1].sign = static_cast<std::int8_t>(second.bias_sign * second.mode);
     if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
     if (!(first.valid && second.valid)) tick.flags |= flag_invalid;
     if (tick.measured && first.mode != second.mode) {
@@ -58,68 +48,39 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
     return tick;
 }
 
-RelockTick relock_tick(int sign, const HalfRecord& first, const HalfRecord& second, double known_excess_counts,
-                       bool with_phase) noexcept {
-    return {.sign = sign,
-            .counts_first = first.counts,
-            .counts_second = second.counts,
-            .known_excess_counts = known_excess_counts,
-            .detuning_first_lambda = first.detuning_lambda,
-            .detuning_second_lambda = second.detuning_lambda,
-            .detuning_sq_first_lambda2 = first.detuning_sq_lambda2,
-            .detuning_sq_second_lambda2 = second.detuning_sq_lambda2,
-            // Sampled at the end of the first half: the middle of the tick.
-            .temperature_c = first.temperature_c,
-            .with_phase = with_phase};
-}
-
 // Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide it.
 constexpr double other_loop_part = 0.3;
 
-double other_loop_arcsec2(const RelockDriftConfig& config, bool with_phase, double false_arcsec) noexcept {
-    if (!with_phase || config.method != RelockMethod::frequency) return 0.0;
-    return other_loop_part * other_loop_part * false_arcsec * false_arcsec;
+std::uint32_t flag_of(const FalseAngle& angle) noexcept {
+    return angle.known ? flag_relock_corrected : flag_relock_uncorrected;
 }
 
 void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, TickInput& tick) noexcept {
-    tick.settled = !relock.due;
-    if (relock.tick.known) {
-        tick.value_arcsec -= relock.tick.value_arcsec;
+    // With nothing but a presumption the motion is learnt from all ticks.
+    tick.settled = !relock.due || config.presumes;
+    if (relock.due && !relock.waiting) {
+        const bool other_loop = tick.with_phase && config.method == RelockMethod::frequency;
         tick.relock_arcsec = relock.tick.value_arcsec;
-        tick.variance_arcsec2 += relock.tick.variance_arcsec2;
-        tick.variance_arcsec2 += other_loop_arcsec2(config, tick.with_phase, relock.tick.value_arcsec);
+        tick.value_arcsec -= tick.relock_arcsec;
         tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
-        tick.flags |= flag_relock_corrected;
-    } else if (relock.due && !relock.waiting) {
-        tick.flags |= flag_relock_uncorrected;
-        tick.variance_arcsec2 += relock.tick.variance_arcsec2;
-        tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
+        tick.variance_arcsec2 +=
+            tick.relock_variance_arcsec2 + (other_loop ? square(other_loop_part * tick.relock_arcsec) : 0.0);
+        tick.flags |= flag_of(relock.tick);
     }
     if (!relock.first_due) return;
     tick.amend_previous = true;
     tick.amend_arcsec = -relock.first.value_arcsec;
     tick.amend_variance_arcsec2 = relock.first.variance_arcsec2;
-    tick.amend_flags = relock.first.known ? flag_relock_corrected : flag_relock_uncorrected;
+    tick.amend_flags = flag_of(relock.first);
 }
 
 // A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later one.
 bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !half.valid && half.counts != 0; }
 
-// `frequency` corrects tick 1 with the help of tick 2. Where there is none, tick 1 stays uncorrected and is flagged.
-void give_up_first(TickInput& tick) noexcept {
-    tick.amend_previous = true;
-    tick.amend_flags = flag_relock_uncorrected;
-}
-
 // What lock-in takes from the halves, given back to the tick. The counter shows the beat of each half.
 void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
-                       const Borders& borders, double turn_counts, TickInput& tick) noexcept {
+                       const Borders& borders, TickInput& tick) noexcept {
     const double scale = config.gyro.scale.value();
-    if (!(config.lock_in.threshold.value() > 0.0)) {
-        tick.common_arcsec2 = scale * scale * unknown_loss_counts2(config.gyro, config.lock_in, turn_counts);
-        tick.variance_arcsec2 += tick.common_arcsec2;
-        return;
-    }
     const Border middle = border_of(first);
     const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in,
                                             counts_and_parts(first.counts, parts_between(borders.start, middle)),
@@ -129,11 +90,6 @@ void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& f
     tick.variance_arcsec2 += tick.common_arcsec2;
 }
 
-// The samples that the estimate of a switch reads: the paper's methods know what the records tell.
-LightSamples samples_for(const GyroCompensationConfig& config, LightSamples light) noexcept {
-    return config.relock.method == RelockMethod::joint ? light : LightSamples{};
-}
-
 // Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and no spline goes through that: these
 // halves are read by their records.
 bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_closed && half.valid && half.span == 1; }
@@ -141,7 +97,7 @@ bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_clo
 void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                 LightSamples light, int k) noexcept {
     if (!is_estimated(config.bridge) || config.relock.method != RelockMethod::joint || config.relock.ticks < 1) return;
-    step(config.gyro, config.profile, state.bridge.light, half, samples_for(config, light), is_measured(half),
+    step(config.gyro, config.profile, state.bridge.light, half, light, is_measured(half),
          2 * state.bridge.next_tick + k, static_cast<int>(2 * config.relock.ticks));
 }
 
@@ -159,14 +115,12 @@ void learn_bias(GyroCompensationState& state, double half_excess_arcsec, int sig
 void read_record(const CompensationConstants& gyro, const HalfRecord& half, HalfReading& reading) noexcept {
     const RecordedSquare recorded = recorded_square(gyro, half);
     if (!recorded.known) return;
-    const double unit =
-        0.5 * gyro.chi * bias_at(gyro, Celsius{half.temperature_c}).value() * gyro.scale.value() * gyro.tick.value();
-    reading.false_arcsec = -reading.sign * unit * recorded.mean_sq_lambda2;
-    reading.false_arcsec2 = static_cast<float>(square(unit) * recorded.variance_lambda4);
-    if (!is_finite(reading.false_arcsec + reading.false_arcsec2)) {
-        reading.false_arcsec = 0.0;
-        reading.false_arcsec2 = -1.0F;
-    }
+    const double unit = arcsec_per_lambda2(gyro, bias_at(gyro, Celsius{half.temperature_c}));
+    const double angle = -reading.sign * unit * recorded.mean_sq_lambda2;
+    const auto variance = static_cast<float>(square(unit) * recorded.variance_lambda4);
+    if (!is_finite(angle + variance)) return;
+    reading.false_arcsec = angle;
+    reading.false_arcsec2 = variance;
 }
 
 // The halves of a measured tick: what it turned, and half of what the first one turned more.
@@ -247,16 +201,6 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
     return subtracted;
 }
 
-// Nothing can be subtracted: the motion is learnt from all ticks, and the switch is as uncertain as these together.
-void leave_uncorrected(GyroCompensationState& state, const RelockDriftOutput& relock, TickInput& tick) noexcept {
-    if (relock.due)
-        state.uncorrected_arcsec2 += relock.tick.variance_arcsec2;
-    else if (state.bridge.n_pending == 0)
-        state.uncorrected_arcsec2 = 0.0;  // the angle of its gap has it; a later gap has not
-    tick.relock_to_come_arcsec2 = state.uncorrected_arcsec2;
-    tick.settled = true;
-}
-
 // What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the perimeter or
 // the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
@@ -267,24 +211,25 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     const Borders borders{state.border, border_of(second)};
     state.border = borders.end;
     const EdgeShiftState edges_before = state.edges;
-    const EdgeShiftOutput shifted = step(config.gyro, state.edges, edge_input(config.gyro, first, second, borders));
+    const std::int32_t parts = parts_between(borders.start, borders.end);
+    const EdgeShiftOutput shifted = step(config.gyro, state.edges, first, second, parts);
     TickInput tick = assemble(config.gyro, first, second, borders, shifted.value_arcsec);
     take_light(config, state, second, light, 1);
     double half_excess = 0.0;
     if (tick.measured) {
         tick.with_phase = borders.start.is_known() && border_of(first).is_known() && borders.end.is_known();
         note_phase(state, tick.with_phase);
-        give_back_lock_in(config, first, second, borders, state.edges.turn_counts, tick);
+        give_back_lock_in(config, first, second, borders, tick);
         const double excess = known_excess(shifted, borders, first);
-        const RelockTick read = relock_tick(tick.sign, first, second, excess, tick.with_phase);
+        const RelockTick read{first, second, excess, tick.with_phase};
         allow_for_push(config.gyro, config.relock, state.relock, read, tick);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
         apply(config.relock, relock, tick);
-        if (state.refused) allow_for_end(config.gyro, tick);
-        const std::int64_t to_come = config.relock.ticks - state.relock.since_gap;
-        if (relock.tick.known && to_come > 0)
-            tick.relock_to_come_arcsec2 = as_double(to_come) * relock.tick.variance_arcsec2;
-        if (config.relock.presumes) leave_uncorrected(state, relock, tick);
+        if (state.refused) {
+            // The fault may have ended in its first half.
+            tick.variance_arcsec2 += unseen_arcsec2(config.gyro);
+            tick.relock_variance_arcsec2 += unseen_arcsec2(config.gyro);
+        }
         half_excess = config.gyro.scale.value() * (as_double(first.counts - second.counts) - excess);
         if (tick.settled) learn_bias(state, half_excess, tick.sign);
         half_excess -= 2.0 * tick.sign * state.bias_arcsec;
@@ -293,29 +238,24 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     } else {
         const bool moves = !(first.loop_closed && second.loop_closed);
         // What is not corrected is uncertain only where the perimeter may have moved.
-        if (!config.relock.presumes || moves || is_refused(first) || is_refused(second)) {
-            enter_gap(state.relock, moves);
-            state.uncorrected_arcsec2 = 0.0;
-        }
-        state.bridge.relock_ticks = config.relock.ticks;
-        tick.walk_of_switch_arcsec2 = as_double(config.relock.ticks) * walk_arcsec2(config.gyro);
+        if (!config.relock.presumes || moves || is_refused(first) || is_refused(second)) enter_gap(state.relock);
         if (config.bridge.method != BridgeMethod::none) {
             break_off(state.edges);
             // After `break_off`: it sets the edges again where it knows the sum.
             set_known_sum(config, state, first, second, borders, edges_before, tick);
         }
-        if (state.first_waits) give_up_first(tick);
+        // The fault may have begun in the last half before the one in which a monitor saw it.
+        const bool may_have_begun = is_refused(first) && !state.bridge.gap.open;
+        if (may_have_begun) tick.amend_variance_arcsec2 = unseen_arcsec2(config.gyro);
+        // `frequency` corrects tick 1 with the help of tick 2. Where there is none, tick 1 stays uncorrected.
+        if (state.first_waits) tick.amend_flags = flag_relock_uncorrected;
+        tick.amend_previous = may_have_begun || state.first_waits;
         state.first_waits = false;
-        if (is_refused(first) && !state.bridge.gap.open) allow_for_onset(config.gyro, tick);
     }
     // The counts of a half that was missed go over into the next one, which then is not measured.
     state.refused = second.loop_closed && !second.valid;
     tick.value_arcsec -= magnetic_arcsec(config, state, tick);
     if (is_estimated(config.bridge)) {
-        for (int k = 0; k < 2; ++k) {
-            const HalfRecord& half = k == 0 ? first : second;
-            tick.half[static_cast<unsigned>(k)].sign = static_cast<std::int8_t>(half.bias_sign * half.mode);
-        }
         const Border middle = border_of(first);
         if (tick.measured) {
             read_halves(config, first, second, half_excess, tick);
@@ -327,24 +267,16 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};
     remember(state.switch_errors, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
-    const std::int32_t parts = tick.measured ? parts_between(borders.start, borders.end) : 0;
-    state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, parts);
+    state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, tick.measured ? parts : 0);
     out.angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value());
     return out;
 }
 
 GyroCompensationFault fault_of(CompensationConstantsFault fault) noexcept {
-    switch (fault) {
-        case CompensationConstantsFault::none:
-            return GyroCompensationFault::none;
-        case CompensationConstantsFault::timer:
-        case CompensationConstantsFault::plateau_ratio:
-            return GyroCompensationFault::edges;
-        case CompensationConstantsFault::random_walk:
-            return GyroCompensationFault::random_walk;
-        default:
-            return GyroCompensationFault::relock;
-    }
+    if (fault == CompensationConstantsFault::none) return GyroCompensationFault::none;
+    if (fault == CompensationConstantsFault::edges) return GyroCompensationFault::edges;
+    const bool of_walk = fault == CompensationConstantsFault::random_walk;
+    return of_walk ? GyroCompensationFault::random_walk : GyroCompensationFault::relock;
 }
 
 }  // namespace

@@ -11,9 +11,8 @@ constexpr double law_part = 0.03;
 
 // What lock-in takes from the known sum of a gap's ticks, at their mean rate, given back to it.
 void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts, Hertz bias, TickInput& tick) noexcept {
-    const bool is_known = config.lock_in.threshold.value() > 0.0;
-    const LostCounts lost = is_known ? lost_to_lock_in(config.gyro, config.lock_in, turn_counts, bias)
-                                     : LostCounts{0.0, unknown_loss_counts2(config.gyro, config.lock_in, turn_counts)};
+    const double turn = 0.5 * turn_counts, of_bias = 0.5 * bias.value() * config.gyro.tick.value();
+    const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in, turn + of_bias, turn - of_bias);
     const double arcsec = config.gyro.scale.value() * as_double(tick.known_ticks);
     const double scale = config.gyro.scale.value();
     tick.variance_arcsec2 += scale * scale * lost.variance;
@@ -31,17 +30,16 @@ void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& 
     const CountedStretch known =
         step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
     if (known.n_ticks == 0) return;
-    const double arcsec_per_lambda2 = 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
-    const double drift_arcsec = arcsec_per_lambda2 * known.fall_lambda2;
+    const double unit = arcsec_per_lambda2(gyro, bias);
+    const double drift_arcsec = unit * known.fall_lambda2;
     const double rounding = rounding_arcsec2(gyro, known.start_border, borders.end);
     double drift_variance = drift_arcsec * drift_arcsec;
     tick.known_ticks = known.n_ticks;
     tick.known_arcsec = known.angle_arcsec;
     const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
     if (settles && known.seen) {
-        tick.known_arcsec += arcsec_per_lambda2 * known.deficit_lambda2;
-        drift_variance = law_part * law_part * drift_variance +
-                         arcsec_per_lambda2 * arcsec_per_lambda2 * known.deficit_variance_lambda4;
+        tick.known_arcsec += unit * known.deficit_lambda2;
+        drift_variance = law_part * law_part * drift_variance + unit * unit * known.deficit_variance_lambda4;
     }
     tick.known_is_rough = settles;
     tick.known_drift_arcsec2 = drift_variance;

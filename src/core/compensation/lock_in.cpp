@@ -31,26 +31,17 @@ double lost_on_plateau(double beat, double threshold) noexcept {
 }
 
 double lost(const Beats& b, double threshold) noexcept {
-    if (!(threshold > 0.0)) return 0.0;
     const double plateaus = lost_on_plateau(b.first, threshold) + lost_on_plateau(b.second, threshold);
     const double ratio = threshold / (size(b.turn) > b.bias ? size(b.turn) : b.bias);
     return (1.0 - 2.0 * b.edge_ratio) * plateaus + 2.0 * b.edge_ratio * ratio * ratio * b.turn;
 }
 
-LostCounts lost_counts(const LockInConfig& config, double half_s, const Beats& b) noexcept {
-    const double threshold = config.threshold.value() * half_s;
-    const double largest = threshold + config.sigma.value() * half_s;
-    LostCounts out{.value = lost(b, threshold)};
-    out.variance = square(lost(b, largest) - out.value);
-    const double standing = largest + reading_counts;
-    if (size(b.first) < standing || size(b.second) < standing) out.variance += square(largest);
-    return is_finite(out.value + out.variance) ? out : LostCounts{.variance = infinity};
-}
-
-Beats beats_of(const CompensationConstants& gyro, double tick_counts) noexcept {
-    return {.edge_ratio = 1.0 - 1.0 / gyro.plateau_ratio,
-            .turn = 0.5 * tick_counts,
-            .bias = gyro.plateau_ratio * gyro.bias.value() * 0.5 * gyro.tick.value()};
+// Square of what a threshold as large as its sigma would take. Without the edges, and with 1 - (r/f0)^2 kept from 0 by the width of
+// the locked rates: a half that stands may lack twice its root.
+double likely_loss_sq(const Beats& b, double sigma) noexcept {
+    const double ratio = sigma / b.bias;
+    const double x = b.turn / b.bias;
+    return square(b.bias * ratio * ratio * x) / (square(1.0 - x * x) + 4.0 * ratio * ratio);
 }
 
 }  // namespace
@@ -62,32 +53,25 @@ LockInFault check(const LockInConfig& config) noexcept {
 
 LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig& config, double first_counts,
                            double second_counts) noexcept {
-    Beats b = beats_of(gyro, first_counts + second_counts);
-    b.first = gyro.plateau_ratio * (first_counts - b.edge_ratio * b.turn);
-    b.second = gyro.plateau_ratio * (second_counts - b.edge_ratio * b.turn);
-    return lost_counts(config, 0.5 * gyro.tick.value(), b);
-}
-
-LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig& config, double tick_counts,
-                           Hertz bias) noexcept {
-    Beats b = beats_of(gyro, tick_counts);
-    const double plateau = gyro.plateau_ratio * bias.value() * 0.5 * gyro.tick.value();
-    b.first = b.turn + plateau;
-    b.second = b.turn - plateau;
-    return lost_counts(config, 0.5 * gyro.tick.value(), b);
-}
-
-double unknown_loss_counts2(const CompensationConstants& gyro, const LockInConfig& config,
-                            double tick_counts) noexcept {
-    if (!(config.sigma.value() > 0.0)) return 0.0;
     const double half_s = 0.5 * gyro.tick.value();
-    const double bias = gyro.plateau_ratio * gyro.bias.value() * half_s;
-    const double threshold = config.sigma.value() * half_s / bias;
-    const double x = 0.5 * tick_counts / bias;
-    const double from_bias_sq = square(1.0 - x * x) + 4.0 * threshold * threshold;
-    const double loss = bias * threshold * threshold * x;
-    const double loss_sq = loss * loss / from_bias_sq;
-    return is_finite(loss_sq) ? loss_sq : infinity;
+    const double edge_ratio = 1.0 - 1.0 / gyro.plateau_ratio;
+    const double turn = 0.5 * (first_counts + second_counts);
+    const Beats b{.first = gyro.plateau_ratio * (first_counts - edge_ratio * turn),
+                  .second = gyro.plateau_ratio * (second_counts - edge_ratio * turn),
+                  .edge_ratio = edge_ratio,
+                  .turn = turn,
+                  .bias = gyro.plateau_ratio * gyro.bias.value() * half_s};
+    const double threshold = config.threshold.value() * half_s, sigma = config.sigma.value() * half_s;
+    LostCounts out;
+    if (threshold > 0.0) {
+        const double largest = threshold + sigma, standing = largest + reading_counts;
+        out.value = lost(b, threshold);
+        out.variance = square(lost(b, largest) - out.value);
+        if (size(b.first) < standing || size(b.second) < standing) out.variance += square(largest);
+    } else if (sigma > 0.0) {
+        out.variance = likely_loss_sq(b, sigma);
+    }
+    return is_finite(out.value + out.variance) ? out : LostCounts{.variance = infinity};
 }
 
 }  // namespace zlg::core

@@ -9,15 +9,12 @@
 namespace zlg::core {
 
 // Before the first gap of a log, and later than `relock_ticks` after one, no false angle is subtracted. Where the light shows
-// one beyond its noise, because the loop still settled or the perimeter was pushed, the variance contains its square. It is
-// found by a trial step from the state just after a gap. Where the perimeter moves, the noise of what is found is contained, too.
+// one beyond its noise, because the loop still settled or the perimeter was pushed, the variance contains its square and
+// the noise of the light. It is found by a trial step from the state just after a gap.
 void allow_for_push(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& relock,
                     const RelockTick& read, TickInput& tick) noexcept;
 
-// A fault may have begun in the last half before the one in which a monitor saw it.
-void allow_for_onset(const CompensationConstants& gyro, TickInput& tick) noexcept;
-
-// It may end in the first half after those.
-void allow_for_end(const CompensationConstants& gyro, TickInput& tick) noexcept;
+// What the half before or behind those that a monitor refused may hold of their fault.
+[[nodiscard]] double unseen_arcsec2(const CompensationConstants& gyro) noexcept;
 
 }  // namespace zlg::core

@@ -144,10 +144,10 @@ TEST(DiscriminatorCurve, TheSignOfAHalfTurnsTheSignalAndNotTheDetuning) {
 
 constexpr RelockDriftConfig by_mean_square{.method = RelockMethod::mean_square};
 
-RelockDriftOutput after_gap(const CompensationConstants& gyro, const RelockTick& tick) {
+RelockDriftOutput after_gap(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second) {
     RelockDriftState state;
     enter_gap(state);
-    return step(gyro, by_mean_square, state, tick);
+    return step(gyro, by_mean_square, state, {first, second});
 }
 
 // A bias that is largest at c: what a half lacks is chi <(dl - c)^2>.
@@ -155,10 +155,9 @@ TEST(DiscriminatorCurve, TheCorrectionIsThatOfTheSquareFromTheLargestBias) {
     const CompensationConstants gyro{.bias = Hertz{60e3}, .chi = 3.6, .centre = Wavelengths{0.02}};
     const double first = 0.15, second = 0.06;
     for (const double side : {1.0, -1.0}) {
-        const RelockDriftOutput out = after_gap(gyro, {.detuning_first_lambda = side * first,
-                                                       .detuning_second_lambda = side * second,
-                                                       .detuning_sq_first_lambda2 = first * first,
-                                                       .detuning_sq_second_lambda2 = second * second});
+        const HalfRecord one{.detuning_lambda = side * first, .detuning_sq_lambda2 = first * first};
+        const HalfRecord other{.detuning_lambda = side * second, .detuning_sq_lambda2 = second * second};
+        const RelockDriftOutput out = after_gap(gyro, one, other);
         const double before = (side * first - 0.02) * (side * first - 0.02);
         const double after = (side * second - 0.02) * (side * second - 0.02);
         ASSERT_TRUE(out.tick.known);
@@ -205,14 +204,14 @@ double relock_ratio(const SyncDetectorConfig& detector, const CompensationConsta
     const double end = 0.3 * miss;
     const SyncDetectorOutput first = detected(detector, miss, middle, 1);
     const SyncDetectorOutput second = detected(detector, middle, end, -1);
-    const RelockTick tick{.detuning_first_lambda = first.detuning.value(),
-                          .detuning_second_lambda = second.detuning.value(),
-                          .detuning_sq_first_lambda2 = first.mean_sq_lambda2,
-                          .detuning_sq_second_lambda2 = second.mean_sq_lambda2,
+    const auto read = [](const SyncDetectorOutput& half) {
+        return HalfRecord{.detuning_lambda = half.detuning.value(),
+                          .detuning_sq_lambda2 = half.mean_sq_lambda2,
                           .temperature_c = 20.0};
+    };
     const auto mean_sq = [](double a, double b) { return (a * a + a * b + b * b) / 3.0; };
     const double rate_hz = 0.5 * 3.6 * 60e3 * (mean_sq(middle, end) - mean_sq(miss, middle));
-    return after_gap(gyro, tick).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
+    return after_gap(gyro, read(first), read(second)).tick.value_arcsec / (3.263 * 0.005 * rate_hz);
 }
 
 TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
@@ -231,15 +230,14 @@ TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
 
 TEST(DiscriminatorCurve, LightNoiseGrowsByTheSlope) {
     CompensationConstants c{.light_noise = Wavelengths{0.003}};
-    const RelockTick tick{.detuning_first_lambda = 0.1,
-                          .detuning_second_lambda = 0.06,
-                          .detuning_sq_first_lambda2 = 0.1 * 0.1 + 9e-6,
-                          .detuning_sq_second_lambda2 = 0.06 * 0.06 + 9e-6};
-    const double linear = after_gap(c, tick).tick.variance_arcsec2;
+    const HalfRecord first{.detuning_lambda = 0.1, .detuning_sq_lambda2 = 0.1 * 0.1 + 9e-6};
+    const HalfRecord second{.detuning_lambda = 0.06, .detuning_sq_lambda2 = 0.06 * 0.06 + 9e-6};
+    const auto variance = [&] { return after_gap(c, first, second).tick.variance_arcsec2; };
+    const double linear = variance();
     const std::array<double, 1> x = {1.0};
     const std::array<double, 1> half = {0.5};
     c.record_curve = discriminator_curve(x, half);  // a straight line of slope 1/2: dl and noise half as large
-    EXPECT_NEAR(after_gap(c, tick).tick.variance_arcsec2 / linear, 1.0 / 16.0, 1e-9);
+    EXPECT_NEAR(variance() / linear, 1.0 / 16.0, 1e-9);
 }
 
 }  // namespace zlg::core::discriminator_curve_test

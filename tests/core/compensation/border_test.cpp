@@ -48,12 +48,6 @@ TEST(Border, TheVarianceOfATickIsThatOfItsTwoReadings) {
     EXPECT_DOUBLE_EQ(rounding_arcsec2(gyro, true), 2.0 * phase);
 }
 
-TEST(Border, AStepHasTheVarianceOfAReading) {
-    EXPECT_EQ(step_arcsec(gyro, false), 3.0);
-    const double step = step_arcsec(gyro, true);
-    EXPECT_DOUBLE_EQ(step * step / 6.0, rounding_arcsec2(gyro, true));
-}
-
 TEST(Border, NeighboursShareNoMoreThanEitherHas) {
     EXPECT_EQ(shared_rounding(1.5, 2.0, 3.0), 1.5);
     EXPECT_EQ(shared_rounding(1.5, 2.0, 0.1), 0.1);

@@ -37,18 +37,18 @@ TEST(CompensationConstants, CheckNamesTheFirstBadField) {
     expect_fault(Fault::random_walk, [](auto& g, double x) { g.random_walk = ArcsecPerRootSecond{x}; },
                  {-0.1, 1.1e6, nan, inf});
     expect_fault(Fault::bias, [](auto& g, double x) { g.bias = Hertz{x}; }, {0.0, -60e3, 1e300, nan, inf});
-    expect_fault(Fault::chi, [](auto& g, double x) { g.chi = x; }, {-0.1, 1.1e6, nan, inf});
-    expect_fault(Fault::temperature, [](auto& g, double x) { g.temperature_coefficient_per_c = x; },
+    expect_fault(Fault::bias, [](auto& g, double x) { g.chi = x; }, {-0.1, 1.1e6, nan, inf});
+    expect_fault(Fault::bias, [](auto& g, double x) { g.temperature_coefficient_per_c = x; },
                  {-1.1, 1.1, nan, inf, -inf});
-    expect_fault(Fault::temperature, [](auto& g, double x) { g.reference_temperature = Celsius{x}; },
+    expect_fault(Fault::bias, [](auto& g, double x) { g.reference_temperature = Celsius{x}; },
                  {-1.1e6, 1.1e6, nan, inf, -inf});
-    expect_fault(Fault::centre, [](auto& g, double x) { g.centre = Wavelengths{x}; }, {-1.1, 1.1, nan});
-    expect_fault(Fault::timer, [](auto& g, double x) { g.timer = Hertz{x}; }, {0.5, 2e15, nan});
-    expect_fault(Fault::plateau_ratio, [](auto& g, double x) { g.plateau_ratio = x; }, {0.99, 2.01, nan});
-    expect_fault(Fault::light_noise, [](auto& g, double x) { g.light_noise = Wavelengths{x}; }, {-0.1, 10.1, nan, inf});
-    expect_fault(Fault::light_samples, [](auto& g, double x) { g.light_samples = static_cast<int>(x); }, {0.0, -1.0});
-    expect_fault(Fault::curve, [](auto& g, double x) { g.record_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
-    expect_fault(Fault::curve, [](auto& g, double x) { g.control_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
+    expect_fault(Fault::bias, [](auto& g, double x) { g.centre = Wavelengths{x}; }, {-1.1, 1.1, nan});
+    expect_fault(Fault::edges, [](auto& g, double x) { g.timer = Hertz{x}; }, {0.5, 2e15, nan});
+    expect_fault(Fault::edges, [](auto& g, double x) { g.plateau_ratio = x; }, {0.99, 2.01, nan});
+    expect_fault(Fault::light, [](auto& g, double x) { g.light_noise = Wavelengths{x}; }, {-0.1, 10.1, nan, inf});
+    expect_fault(Fault::light, [](auto& g, double x) { g.light_samples = static_cast<int>(x); }, {0.0, -1.0});
+    expect_fault(Fault::light, [](auto& g, double x) { g.record_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
+    expect_fault(Fault::light, [](auto& g, double x) { g.control_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
 }
 
 // Sums of ticks with wilder numbers than these leave the range of a double.

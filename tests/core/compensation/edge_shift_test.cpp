@@ -9,6 +9,24 @@ using namespace compensation_test;
 const CompensationConstants config;
 constexpr std::int64_t tick_ticks = 50000;
 
+struct EdgeShiftInput {
+    std::int64_t counts = 0;  // of both halves
+    int sign_first = 1;
+    int sign_second = -1;
+    std::int32_t offset_middle_ticks = 0, offset_end_ticks = 0;
+    Hertz bias{60e3};
+};
+
+EdgeShiftOutput step(CompensationConstants gyro, EdgeShiftState& state, const EdgeShiftInput& in) {
+    gyro.bias = in.bias;
+    const HalfRecord first{.counts = in.counts,
+                           .temperature_c = not_a_number,
+                           .mode = static_cast<std::int8_t>(in.sign_first),
+                           .edge_offset_ticks = in.offset_middle_ticks};
+    const HalfRecord second{.mode = static_cast<std::int8_t>(in.sign_second), .edge_offset_ticks = in.offset_end_ticks};
+    return step(gyro, state, first, second, 0);
+}
+
 TEST(EdgeShift, AnEdgeCannotMoveByAQuarterOfATick) {
     EXPECT_TRUE(is_possible(config, 12499) && is_possible(config, -12499));
     EXPECT_FALSE(is_possible(config, 12500) || is_possible(config, -12500));

@@ -84,7 +84,8 @@ TEST(FaultEdges, ASwitchHoldsTheUnknownLockInOfItsTicks) {
         for (std::size_t h = 600; h < 606; ++h) halves[h].loop_closed = halves[h].valid = false;
         const Delivered all = run(config, halves);
         const auto in_tick = static_cast<double>(2 * rate);
-        const double common = scale * std::sqrt(unknown_loss_counts2(config.gyro, config.lock_in, in_tick));
+        const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in, 0.5 * in_tick, 0.5 * in_tick);
+        const double common = scale * std::sqrt(lost.variance);
         const double ratio = static_cast<double>(rate) / 150.0;
         // Adler's, of 0.75 counts in a half, to the second order: (1/2) (L/f0)^2 r T/(1 - (r/f0)^2).
         const double adler = 0.5 * 0.005 * 0.005 * in_tick / (1.0 - ratio * ratio);

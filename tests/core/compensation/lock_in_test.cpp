@@ -70,30 +70,20 @@ TEST(LostToLockIn, WithEdgesTheScaleErrorIsThatOfTheFormula) {
     }
 }
 
-TEST(LostToLockIn, TheSumOfATickAndItsBiasTellTheSame) {
-    const CompensationConstants gyro = gyro_of(60e3, 50e-6);
-    for (const double turn_counts : {0.0, 10.0, -250.0, 280.0, 400.0}) {
-        const double plateau = gyro.bias.value() * 0.5 * tick_s;
-        const double first = 0.5 * turn_counts + plateau, second = 0.5 * turn_counts - plateau;
-        const LostCounts by_halves = lost_to_lock_in(gyro, known(300.0, 20.0), first, second);
-        const LostCounts by_sum = lost_to_lock_in(gyro, known(300.0, 20.0), turn_counts, gyro.bias);
-        EXPECT_NEAR(by_halves.value, by_sum.value, 1e-12);
-        EXPECT_NEAR(by_halves.variance, by_sum.variance, 1e-12);
-    }
-}
-
 TEST(LostToLockIn, OfAnUnknownThresholdTheLikelyLossIsTheVariance) {
     const CompensationConstants gyro = gyro_of(60e3);
-    EXPECT_EQ(unknown_loss_counts2(gyro, {}, 288.0), 0.0);
-    EXPECT_EQ(unknown_loss_counts2(gyro, known(0.0, 300.0), 0.0), 0.0);
+    EXPECT_EQ(lost_to_lock_in(gyro, {}, 294.0, -6.0).variance, 0.0);
+    EXPECT_EQ(lost_to_lock_in(gyro, known(0.0, 300.0), 150.0, -150.0).variance, 0.0);
     for (const double x : {-0.96, 0.1, 0.5, 0.9, 0.96, 1.04, 2.0}) {
         const double first = 150.0 * (x + 1.0), second = 150.0 * (x - 1.0);
         const double likely = lost_to_lock_in(gyro, known(300.0), first, second).value;
-        const double variance = unknown_loss_counts2(gyro, known(0.0, 300.0), first + second);
-        EXPECT_NEAR(std::sqrt(variance) / std::abs(likely), 1.0, 0.02) << x;
+        const LostCounts unknown = lost_to_lock_in(gyro, known(0.0, 300.0), first, second);
+        EXPECT_EQ(unknown.value, 0.0);
+        EXPECT_NEAR(std::sqrt(unknown.variance) / std::abs(likely), 1.0, 0.02) << x;
     }
     // One half stands still, and lacks up to its threshold.
-    EXPECT_NEAR(std::sqrt(unknown_loss_counts2(gyro, known(0.0, 300.0), 300.0)), 0.5 * 300.0 * 0.5 * tick_s, 1e-3);
+    EXPECT_NEAR(std::sqrt(lost_to_lock_in(gyro, known(0.0, 300.0), 300.0, 0.0).variance), 0.5 * 300.0 * 0.5 * tick_s,
+                1e-3);
 }
 
 TEST(LostToLockIn, AThresholdThatIsOffByItsSigmaLeavesOneSigma) {
@@ -134,18 +124,16 @@ TEST(LostToLockIn, EveryInputGivesNumbersOrAnInfiniteVariance) {
         for (const CompensationConstants& gyro : {gyro_of(60e3), tiny}) {
             for (const LockInConfig& config : {known(0.0, 0.0), known(1e9, 1e9), known(1e-300, 1e-300)}) {
                 for (const LostCounts& lost :
-                     {lost_to_lock_in(gyro, config, counts, -counts), lost_to_lock_in(gyro, config, counts, counts),
-                      lost_to_lock_in(gyro, config, counts, Hertz{counts})}) {
+                     {lost_to_lock_in(gyro, config, counts, -counts), lost_to_lock_in(gyro, config, counts, counts)}) {
                     EXPECT_TRUE(std::isfinite(lost.value));
                     EXPECT_GE(lost.variance, 0.0);
                     const bool is_possible = std::isfinite(counts) && gyro.bias.value() > 1.0;
                     if (is_possible) EXPECT_TRUE(std::isfinite(lost.variance));
                     if (config.threshold.value() > 0.0 && !std::isfinite(counts)) EXPECT_EQ(lost.variance, infinite);
                 }
-                const double unknown = unknown_loss_counts2(gyro, config, counts);
-                EXPECT_GE(unknown, 0.0);
+                const double unknown = lost_to_lock_in(gyro, known(0.0, config.sigma.value()), counts, 1.0).variance;
                 if (std::isnan(counts)) EXPECT_EQ(unknown, config.sigma.value() > 0.0 ? infinite : 0.0);
-                EXPECT_EQ(unknown_loss_counts2(gyro, known(0.0), counts), 0.0);
+                EXPECT_EQ(lost_to_lock_in(gyro, known(0.0), counts, 1.0).variance, 0.0);
             }
         }
     }

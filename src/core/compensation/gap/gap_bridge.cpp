@@ -137,11 +137,21 @@ void end_gap(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     state.gap = OpenGap{};
 }
 
-// Variance of what the re-lock adds to the angle of a switch behind the points of a fit.
-double relock_beyond(const GapBridgeState& state, const Gap& gap, std::int64_t end, int n_after) noexcept {
-    double sum = state.relock_to_come_arcsec2 + state.walk_of_switch_arcsec2;
-    for (std::int64_t tick = gap.first_tick + gap.n + n_after; tick < end; ++tick)
-        if (at(state, tick).measured) sum += at(state, tick).relock_variance_arcsec2;
+// Variance of what the re-lock ticks add to the angle of a switch: the random walk, the corrections from tick `from` on, those
+// after `end` as far as the last one tells, and all that is missing where nothing is subtracted.
+double relock_beyond(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
+                     const Gap& gap, std::int64_t from, std::int64_t end) noexcept {
+    const std::int64_t first = gap.first_tick + gap.n;
+    double sum = as_double(config.relock_ticks) * walk_arcsec2(gyro);
+    for (std::int64_t tick = first; tick < end; ++tick) {
+        const HistoryTick& entry = at(state, tick);
+        const bool is_missing = config.relock == RelockMethod::none && (entry.row.flags & flag_relock_uncorrected) != 0;
+        if (entry.measured && (tick >= from || is_missing)) sum += entry.relock_variance_arcsec2;
+    }
+    const std::int64_t to_come = first + config.relock_ticks - end;
+    const HistoryTick& last = at(state, end - 1);
+    if (to_come > 0 && (last.row.flags & flag_relock_corrected) != 0)
+        sum += as_double(to_come) * last.relock_variance_arcsec2;
     return sum;
 }
 
@@ -152,8 +162,9 @@ ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, G
              std::int64_t end, GapReport& report) noexcept {
     const int order = order_of(config.method);
     const GapSums sums = sums_of(gyro, config, state, gap, end, order);
+    const std::int64_t behind = gap.first_tick + gap.n + config.points_after;
     report.sigma_sum_arcsec =
-        deviation(sums.angle_variance_arcsec2 + relock_beyond(state, gap, end, config.points_after));
+        deviation(sums.angle_variance_arcsec2 + relock_beyond(gyro, config, state, gap, behind, end));
     std::uint32_t gained = gap.has_before ? std::uint32_t{flag_interpolated} : 0u;
     // Also where the polynomial stands in for an estimate.
     if (is_estimated(config) || sums.fit.order() < order) gained |= flag_lower_order;
@@ -172,12 +183,12 @@ ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, G
 
 // An error that the points beside a gap have in common goes over to each of its ticks, and with those of the re-lock into the
 // angle of the switch, all with one sign.
-void widen_in_common(GapBridgeState& state, const Gap& gap, GapReport& report) noexcept {
+void widen_in_common(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, GapReport& report) noexcept {
     for (std::int64_t j = 0; j < gap.n; ++j) {
         double& sigma = at(state, gap.first_tick + j).row.sigma_arcsec;
         sigma = square_root(sigma * sigma + state.common_arcsec2);
     }
-    const double n_ticks = as_double(gap.n + state.relock_ticks);
+    const double n_ticks = as_double(gap.n + config.relock_ticks);
     report.sigma_sum_arcsec = square_root(square(report.sigma_sum_arcsec) + n_ticks * n_ticks * state.common_arcsec2);
 }
 
@@ -219,14 +230,14 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     if (is_known(gap))
         report.sigma_sum_arcsec = deviation(gap.known_variance_arcsec2);
     else if (is_short && state.common_arcsec2 > 0.0)
-        widen_in_common(state, gap, report);
+        widen_in_common(config, state, gap, report);
     report.dp_arcsec = -difference.value();
     pending.correction_arcsec.add(difference.high);
     pending.correction_arcsec.add(difference.low);
     // What the ticks behind the estimate add to the angle of the switch.
     if (is_estimate && !is_known(gap))
         report.sigma_sum_arcsec =
-            deviation(square(report.sigma_sum_arcsec) + state.relock_to_come_arcsec2 + state.walk_of_switch_arcsec2);
+            deviation(square(report.sigma_sum_arcsec) + relock_beyond(gyro, config, state, gap, end, end));
     return gap.has_before;
 }
 
@@ -325,12 +336,10 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         .settled = input.settled,
         .with_phase = input.with_phase,
         .by_phase = state.with_phase};
-    state.relock_to_come_arcsec2 = input.relock_to_come_arcsec2;
     if (input.measured) {
         state.common_arcsec2 = input.common_arcsec2;
         add_measured_tick(gyro, config, state, input, tick);
     } else {
-        state.walk_of_switch_arcsec2 = input.walk_of_switch_arcsec2;
         add_gap_tick(gyro, config, state, input, tick);
     }
 

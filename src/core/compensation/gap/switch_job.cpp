@@ -52,7 +52,7 @@ void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
         job.plan.n_late = 0;
         return;
     }
-    const double unit = 0.5 * gyro.chi * gyro.bias.value() * gyro.scale.value() * gyro.tick.value();
+    const double unit = arcsec_per_lambda2(gyro, gyro.bias);
     int h = window.n_halves - window.light_start;
     for (unsigned k = 0; k < static_cast<unsigned>(job.plan.n_late); ++k, h += 2) {
         const LightHalf first = fit.half(h);

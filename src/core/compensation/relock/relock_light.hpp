@@ -21,7 +21,6 @@ inline constexpr double max_detuning_lambda = 1e3;
 
 struct DetuningSamples {
     std::int32_t n = 0;                            // 0: the light cannot be used
-    double weight = 1.0;                           // noise variance of the configuration over that of these samples
     std::array<double, max_light_samples> lambda;  // the first n
 };
 
@@ -37,10 +36,14 @@ void read_samples(const CompensationConstants& gyro, const RelockProfileConfig& 
 // control.
 [[nodiscard]] double noise_gain(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
 
+// By the control, which records 0: neither the square nor the light is usable.
+[[nodiscard]] constexpr bool is_refused(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
+    return gyro.light_noise.value() > 0.0 && half.detuning_sq_lambda2 <= 0.0;
+}
+
 // Mean square of a half and its variance, from the record.
 struct RecordedSquare {
     bool known = false;
-    bool refused = false;          // by the control, which records 0: neither the square nor the light is usable
     double mean_sq_lambda2 = 0.0;  // without that of the noise
     double variance_lambda4 = 0.0;
 };

@@ -15,7 +15,7 @@ void step(const CompensationConstants& gyro, const RelockProfileConfig& config, 
     if (!begins && (state.n_samples == 0 || state.n_halves == state.sums.basis.halves)) return;
     DetuningSamples samples;
     samples.n = 0;
-    if (!recorded_square(gyro, half).refused) read_samples(gyro, config, half, light, samples);
+    if (!is_refused(gyro, half)) read_samples(gyro, config, half, light, samples);
     if (begins) {
         state.first_half = index;
         state.n_halves = 0;

@@ -79,13 +79,13 @@ TEST(LearningBridge, AToneIsLearntAndItsSigmaIsTrue) {
 
 // The random walk of the re-lock ticks stays in the angle of a switch: in its sigma, and in nothing else.
 TEST(LearningBridge, SigmaOfASwitchHoldsTheRandomWalkAfterIt) {
-    constexpr double walk_arcsec2 = 0.7;
+    const double walk_arcsec2 = 20.0 * 0.14 * 0.14 * 0.005;
     for (const BridgeMethod method : {BridgeMethod::quadratic, BridgeMethod::automatic}) {
         const Log log = counted(6000, 3, tone);
-        Log walking = log;
-        for (TickInput& tick : walking) tick.walk_of_switch_arcsec2 = walk_arcsec2;
+        GapBridgeConfig longer = learning(method);
+        longer.relock_ticks = 20;
         const Delivered without = run(learning(method), log, fine);
-        const Delivered with = run(learning(method), walking, fine);
+        const Delivered with = run(longer, log, fine);
         EXPECT_EQ(with.rows, without.rows);
         ASSERT_EQ(with.gaps.size(), without.gaps.size());
         ASSERT_GT(with.gaps.size(), 30u);

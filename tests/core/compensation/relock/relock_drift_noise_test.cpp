@@ -1,10 +1,11 @@
-// The variance that the re-lock correction states, against trials with noise.
+// The variance that the re-lock correction states, against trials with noise and the law of small errors.
 #include <zlg/core/compensation/relock_drift.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
@@ -18,59 +19,41 @@ using namespace relock_drift_support;
 constexpr int n_trials = 20'000;  // the scatter of a variance is then 1 %
 constexpr double tolerance = 0.05;
 
-// Mean and mean square of noisy samples of dl0 exp(-t/tau) over half `half` of the decay, as the electronics make them.
-void sample_half(Random& random, const Configured& c, double dl0, double half, double& mean, double& square) {
-    mean = square = 0.0;
-    for (int k = 0; k < c.gyro.light_samples; ++k) {
-        const double t_ticks = 0.5 * (half + (k + 0.5) / c.gyro.light_samples);
-        const double sample = dl0 * std::exp(-t_ticks / 3.5) + c.gyro.light_noise.value() * random.normal();
-        mean += sample / c.gyro.light_samples;
-        square += sample * sample / c.gyro.light_samples;
+// Mean square of noisy samples of dl0 exp(-t/tau) over a half of the decay, as the electronics make them.
+double sampled_square(Random& random, const CompensationConstants& gyro, double dl0, double half) {
+    double sum = 0.0;
+    for (int k = 0; k < gyro.light_samples; ++k) {
+        const double t_ticks = 0.5 * (half + (k + 0.5) / gyro.light_samples);
+        const double sample = dl0 * std::exp(-t_ticks / 3.5) + gyro.light_noise.value() * random.normal();
+        sum += sample * sample / gyro.light_samples;
     }
-}
-
-// Ratio of the variance found to the mean variance stated.
-double ratio_with_light_noise(RelockMethod method, double dl0, int light_samples) {
-    Random random{static_cast<std::uint64_t>(light_samples) + 7};
-    Configured config = configured(method);
-    config.gyro.light_samples = light_samples;
-    Statistics angle;
-    Statistics stated;
-    for (int trial = 0; trial < n_trials; ++trial) {
-        RelockTick tick;
-        sample_half(random, config, dl0, 0.0, tick.detuning_first_lambda, tick.detuning_sq_first_lambda2);
-        sample_half(random, config, dl0, 1.0, tick.detuning_second_lambda, tick.detuning_sq_second_lambda2);
-        RelockDriftState state{.armed = true};
-        const FalseAngle out = step(config, state, tick).tick;
-        EXPECT_TRUE(out.known);
-        angle.add(out.value_arcsec);
-        stated.add(out.variance_arcsec2);
-    }
-    return angle.variance() / stated.mean();
+    return sum;
 }
 
 TEST(RelockDriftNoise, MeanSquareStatesItsVariance) {
     for (const double dl0 : {0.22, -0.1, 0.02, 0.01})
-        for (const int light_samples : {1, 16, 25})
-            EXPECT_NEAR(ratio_with_light_noise(RelockMethod::mean_square, dl0, light_samples), 1.0, tolerance)
-                << dl0 << ' ' << light_samples;
-}
-
-TEST(RelockDriftNoise, DetuningStatesItsVariance) {
-    for (const double dl0 : {0.22, -0.1, 0.05})
-        for (const int light_samples : {16, 64})
-            EXPECT_NEAR(ratio_with_light_noise(RelockMethod::detuning, dl0, light_samples), 1.0, tolerance)
-                << dl0 << ' ' << light_samples;
+        for (const int light_samples : {1, 16, 25}) {
+            Random random{static_cast<std::uint64_t>(light_samples) + 7};
+            Configured config = configured(RelockMethod::mean_square);
+            config.gyro.light_samples = light_samples;
+            Statistics angle;
+            Statistics stated;
+            for (int trial = 0; trial < n_trials; ++trial) {
+                RelockDriftState state{.armed = true};
+                const Tick tick{.detuning_sq_first_lambda2 = sampled_square(random, config.gyro, dl0, 0.0),
+                                .detuning_sq_second_lambda2 = sampled_square(random, config.gyro, dl0, 1.0)};
+                const FalseAngle out = step(config, state, tick).tick;
+                EXPECT_TRUE(out.known);
+                angle.add(out.value_arcsec);
+                stated.add(out.variance_arcsec2);
+            }
+            EXPECT_NEAR(angle.variance() / stated.mean(), 1.0, tolerance) << dl0 << ' ' << light_samples;
+        }
 }
 
 DiscriminatorCurve straight(double slope) {
-    DiscriminatorCurve curve{.n_nodes = 3};
-    for (unsigned k = 0; k < 3; ++k) {
-        curve.apparent_lambda[k] = 0.5 * (k - 1.0);
-        curve.detuning_lambda[k] = slope * curve.apparent_lambda[k];
-        curve.slope[k] = slope;
-    }
-    return curve;
+    const double apparent[] = {0.5}, detuning[] = {0.5 * slope};
+    return discriminator_curve(apparent, detuning);
 }
 
 double mean_square_variance(double noise_lambda, double own_slope, double control_slope) {
@@ -78,15 +61,13 @@ double mean_square_variance(double noise_lambda, double own_slope, double contro
     config.gyro.light_noise = Wavelengths{noise_lambda};
     if (own_slope > 0.0) config.gyro.record_curve = straight(own_slope);
     if (control_slope > 0.0) config.gyro.control_curve = straight(control_slope);
-    EXPECT_EQ(check(config.gyro), CompensationConstantsFault::none);
     RelockDriftState state{.armed = true};
-    const RelockTick tick{.detuning_first_lambda = 0.1,
-                          .detuning_second_lambda = 0.08,
-                          .detuning_sq_first_lambda2 = 0.0102,
-                          .detuning_sq_second_lambda2 = 0.0065};
-    const FalseAngle found = step(config, state, tick).tick;
-    EXPECT_TRUE(found.known);
-    return found.variance_arcsec2;
+    return step(config, state,
+                {.detuning_first_lambda = 0.1,
+                 .detuning_second_lambda = 0.08,
+                 .detuning_sq_first_lambda2 = 0.0102,
+                 .detuning_sq_second_lambda2 = 0.0065})
+        .tick.variance_arcsec2;
 }
 
 // Light that has come through a curve, here or already in the control, has noise that the curve has made larger: once.
@@ -125,65 +106,56 @@ TEST(RelockDriftNoise, DetuningStatesItsVarianceWhereverTheCentreLies) {
             }
 }
 
-// Free-running counter, read at the ends of the halves of an exponential re-lock, with a random start and rotation.
-class CountedRelock {
-public:
-    CountedRelock(Random& random, const Configured& c, double dl0)
-        : config_{c}, dl0_{dl0}, phase_{random.uniform(0.0, 1.0)}, rotation_hz_{random.uniform(-4000.0, 4000.0)} {}
+// Ticks 1..i of a decaying deficit with a count so fine that derivatives by it are differences of one of a thousand.
+struct Decay {
+    Configured config{.gyro = {.bias = Hertz{1e12}}, .relock = {.method = RelockMethod::frequency}};
+    std::vector<std::int64_t> difference;  // c_first - c_second
 
-    RelockTick next_tick() {
-        RelockTick tick{.temperature_c = not_a_number};
-        tick.counts_first = advance(1.0);
-        tick.counts_second = advance(-1.0);
-        return tick;
+    explicit Decay(int i) {
+        for (int k = 1; k <= i; ++k) difference.push_back(std::llround(0.005 * (1e12 - 1e11 * std::pow(0.6, k))));
     }
 
-private:
-    std::int64_t advance(double sign) {
-        const auto before = std::floor(phase_);
-        const double half_s = 0.5 * config_.gyro.tick.value();
-        const double decay = std::exp(-half_ / 3.5);  // of dl^2, which decays over two halves of tau
-        const double mean_square = dl0_ * dl0_ * decay * 3.5 * (1.0 - std::exp(-1.0 / 3.5));
-        phase_ += half_s * (rotation_hz_ + sign * config_.gyro.bias.value() * (1.0 - config_.gyro.chi * mean_square));
-        half_ += 1.0;
-        return static_cast<std::int64_t>(std::floor(phase_) - before);
-    }
-
-    Configured config_;
-    double dl0_;
-    double phase_;
-    double rotation_hz_;
-    double half_ = 0.0;
-};
-
-struct CountNoise {
-    Statistics angle;
-    Statistics stated;
-
-    void add(const FalseAngle& out) {
-        EXPECT_TRUE(out.known);
-        angle.add(out.value_arcsec);
-        stated.add(out.variance_arcsec2);
-    }
-    double ratio() const { return angle.variance() / stated.mean(); }
-};
-
-TEST(RelockDriftNoise, FrequencyStatesItsVariance) {
-    Random random{1};
-    Configured config = configured(RelockMethod::frequency);
-    config.gyro.bias = Hertz{6e5};  // rounding small beside the deficits, so that the law is linear in it
-    CountNoise by_tick[5];          // the first is that of tick 1
-    for (int trial = 0; trial < n_trials; ++trial) {
-        CountedRelock relock{random, config, 0.22};
+    RelockDriftOutput last() const {
         RelockDriftState state{.armed = true};
-        (void)step(config, state, relock.next_tick());
-        for (unsigned i = 2; i <= 5; ++i) {
-            const RelockDriftOutput out = step(config, state, relock.next_tick());
-            if (i == 2) by_tick[0].add(out.first);
-            by_tick[i - 1].add(out.tick);
-        }
+        RelockDriftOutput out;
+        for (const std::int64_t d : difference)
+            out = step(config, state, {.counts_first = d, .temperature_c = not_a_number});
+        return out;
     }
-    for (unsigned i = 1; i <= 5; ++i) EXPECT_NEAR(by_tick[i - 1].ratio(), 1.0, tolerance) << "tick " << i;
+};
+
+double tick_value(const RelockDriftOutput& out) { return out.tick.value_arcsec; }
+double first_value(const RelockDriftOutput& out) { return out.first.value_arcsec; }
+
+// By the count difference of tick k, from 0.
+double slope(const Decay& decay, std::size_t k, double (*value)(const RelockDriftOutput&)) {
+    constexpr std::int64_t few = 100'000;
+    Decay less = decay;
+    Decay more = decay;
+    less.difference[k] -= few;
+    more.difference[k] += few;
+    return (value(more.last()) - value(less.last())) / (2.0 * few);
+}
+
+// c_first - c_second = 2 r_1 - r_0 - r_2 of the readings r at the borders of the halves; each is rounded uniformly.
+double variance_by_readings(double by_first_tick, double by_this_tick, bool neighbours) {
+    const double a = by_first_tick;
+    const double b = by_this_tick;
+    if (neighbours) return (a * a + 4.0 * a * a + (a + b) * (a + b) + 4.0 * b * b + b * b) / 12.0;
+    return 6.0 * (a * a + b * b) / 12.0;
+}
+
+TEST(RelockDriftNoise, FrequencyStatesTheVarianceOfTheRoundingOfEveryReading) {
+    for (const int i : {2, 3, 5}) {
+        const Decay decay{i};
+        const double by_first = slope(decay, 0, tick_value);
+        const double by_last = slope(decay, static_cast<std::size_t>(i) - 1, tick_value);
+        const double expected = variance_by_readings(by_first, by_last, i == 2);
+        EXPECT_NEAR(decay.last().tick.variance_arcsec2 / expected, 1.0, 1e-5) << "tick " << i;
+    }
+    const Decay two{2};
+    const double expected = variance_by_readings(slope(two, 0, first_value), slope(two, 1, first_value), true);
+    EXPECT_NEAR(two.last().first.variance_arcsec2 / expected, 1.0, 1e-5);
 }
 
 }  // namespace relock_drift_noise_test

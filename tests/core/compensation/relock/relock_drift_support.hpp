@@ -3,6 +3,8 @@
 
 #include <zlg/core/compensation/relock_drift.hpp>
 
+#include <cstdint>
+
 namespace relock_drift_support {
 
 struct Configured {
@@ -14,9 +16,26 @@ inline Configured configured(zlg::core::RelockMethod method, std::int64_t ticks 
     return {.relock = {.method = method, .ticks = ticks}};
 }
 
-inline zlg::core::RelockDriftOutput step(const Configured& c, zlg::core::RelockDriftState& state,
-                                         const zlg::core::RelockTick& tick) {
-    return step(c.gyro, c.relock, state, tick);
+struct Tick {
+    int sign = 1;
+    std::int64_t counts_first = 0, counts_second = 0;
+    double known_excess_counts = 0.0;
+    double detuning_first_lambda = 0.0, detuning_second_lambda = 0.0;
+    double detuning_sq_first_lambda2 = 0.0, detuning_sq_second_lambda2 = 0.0;
+    double temperature_c = 0.0;
+    bool with_phase = false;
+};
+
+inline zlg::core::RelockDriftOutput step(const Configured& c, zlg::core::RelockDriftState& state, const Tick& t) {
+    const zlg::core::HalfRecord first{.counts = t.counts_first,
+                                      .detuning_lambda = t.detuning_first_lambda,
+                                      .detuning_sq_lambda2 = t.detuning_sq_first_lambda2,
+                                      .temperature_c = t.temperature_c,
+                                      .mode = static_cast<std::int8_t>(t.sign)};
+    const zlg::core::HalfRecord second{.counts = t.counts_second,
+                                       .detuning_lambda = t.detuning_second_lambda,
+                                       .detuning_sq_lambda2 = t.detuning_sq_second_lambda2};
+    return step(c.gyro, c.relock, state, {first, second, t.known_excess_counts, t.with_phase});
 }
 
 }  // namespace relock_drift_support

@@ -64,11 +64,10 @@ struct SwitchErrors {
 
 struct GyroCompensationState {
     bool has_first = false;
-    HalfRecord first{};                // the half that waits for the other one of its tick
-    bool first_waits = false;          // the last tick was tick 1 of `frequency`
-    double uncorrected_arcsec2 = 0.0;  // variance of the false angles since the last gap, where none are subtracted
-    bool refused = false;              // the last half was closed, and not valid
-    Border border{};                   // at the end of the last half
+    HalfRecord first{};        // the half that waits for the other one of its tick
+    bool first_waits = false;  // the last tick was tick 1 of `frequency`
+    bool refused = false;      // the last half was closed, and not valid
+    Border border{};           // at the end of the last half
     std::int32_t n_with_phase =
         0;  // measured ticks with the place within the count at both ends less those without, 0..32
     bool start_unknown = false;  // the reversal that begins the next half is recorded where none can have been

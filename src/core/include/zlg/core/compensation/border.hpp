@@ -11,7 +11,6 @@
 #include <cstdint>
 
 #include <zlg/core/common/as_double.hpp>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/records.hpp>
 
@@ -66,12 +65,6 @@ private:
     if (!from.is_known() && !to.is_known()) return rounding_arcsec2(gyro);
     return gyro.scale.value() * gyro.scale.value() *
            (reading_counts2(gyro, from.is_known()) + reading_counts2(gyro, to.is_known()));
-}
-
-// The step of a rounding of that variance: a count, where there is no phase.
-[[nodiscard]] inline double step_arcsec(const CompensationConstants& gyro, bool with_phase) noexcept {
-    if (!with_phase) return gyro.scale.value();
-    return gyro.scale.value() * square_root(12.0 * reading_counts2(gyro, true));
 }
 
 // What two neighbouring ticks share of their rounding, twice the size of their covariance: no more than either has.

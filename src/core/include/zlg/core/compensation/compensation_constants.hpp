@@ -31,22 +31,7 @@ struct CompensationConstants {
     DiscriminatorCurve control_curve{};  // that they have come through already: it scales their noise
 };
 
-enum class CompensationConstantsFault : unsigned char {
-    none,
-    tick,
-    scale,
-    random_walk,
-    bias,
-    chi,
-    temperature,
-    centre,
-    timer,
-    plateau_ratio,
-    light_noise,
-    light_samples,
-    fringe_noise,
-    curve
-};
+enum class CompensationConstantsFault : unsigned char { none, tick, scale, random_walk, bias, edges, light };
 
 [[nodiscard]] CompensationConstantsFault check(const CompensationConstants& gyro) noexcept;
 
@@ -59,6 +44,11 @@ enum class CompensationConstantsFault : unsigned char {
 // Variance of a tick by the random walk of the angle.
 [[nodiscard]] constexpr double walk_arcsec2(const CompensationConstants& gyro) noexcept {
     return gyro.random_walk.value() * gyro.random_walk.value() * gyro.tick.value();
+}
+
+// u = chi f0 K T/2: false angle of a tick for each square of a wavelength by which the mean squares of its halves differ.
+[[nodiscard]] constexpr double arcsec_per_lambda2(const CompensationConstants& gyro, Hertz bias) noexcept {
+    return 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
 }
 
 // f0 at a temperature; one beyond +-1e6 is none, like NaN: at the reference temperature.

@@ -16,6 +16,7 @@
 
 #include <zlg/core/compensation/angle.hpp>
 #include <zlg/core/compensation/compensation_constants.hpp>
+#include <zlg/core/records.hpp>
 #include <zlg/core/units.hpp>
 
 namespace zlg::core {
@@ -23,7 +24,7 @@ namespace zlg::core {
 // A shift that leaves both halves beside it some time: less than a quarter of a tick.
 [[nodiscard]] bool is_possible(const CompensationConstants& gyro, std::int32_t edge_offset_ticks) noexcept;
 
-// Counts that the bias makes in one tick of the timer, on its plateau. f0 counts as 0 from 1e15 on.
+// Counts that the bias makes in one tick of the timer, on its plateau. Beyond 1e15 Hz it counts as 0.
 [[nodiscard]] double plateau_per_tick(const CompensationConstants& gyro, Hertz bias) noexcept;
 
 struct EdgeShiftState {
@@ -36,25 +37,17 @@ struct EdgeShiftState {
     friend bool operator==(const EdgeShiftState&, const EdgeShiftState&) = default;
 };
 
-// One tick, its halves in order of time.
-struct EdgeShiftInput {
-    std::int64_t counts = 0;  // of both halves
-    std::int32_t parts = 0;   // of a count beyond them: 1/65536
-    int sign_first = 1;       // bias_sign * mode
-    int sign_second = -1;
-    std::int32_t offset_middle_ticks = 0;  // of the reversal that ends the first half; possible
-    std::int32_t offset_end_ticks = 0;     // of the one that ends the second
-    Hertz bias{60e3};                      // f0, mean over an even half; counts as 0 from 1e15 on
-};
-
 struct EdgeShiftOutput {
     double value_arcsec = 0.0;         // P: without shifts exactly scale * counts
     double known_excess_counts = 0.0;  // of the first half over the second by what they differ in length
 };
 
-// gyro  passed `check`.
-[[nodiscard]] EdgeShiftOutput step(const CompensationConstants& gyro, EdgeShiftState& state,
-                                   const EdgeShiftInput& input) noexcept;
+// One tick, its halves in order of time.
+//
+// gyro   passed `check`.
+// parts  of a count beyond the counts: 1/65536.
+[[nodiscard]] EdgeShiftOutput step(const CompensationConstants& gyro, EdgeShiftState& state, const HalfRecord& first,
+                                   const HalfRecord& second, std::int32_t parts) noexcept;
 
 // The tick before was not measured: the next one uses its own rate for the time between its even and its shifted start.
 void break_off(EdgeShiftState& state) noexcept;

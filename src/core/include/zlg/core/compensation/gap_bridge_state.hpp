@@ -73,10 +73,7 @@ struct GapBridgeState {
     // the gap it steps: an estimate across it would take the step for a false angle or for motion.
     double magnetic_arcsec = 0.0;
     double magnetic_variance_arcsec2 = 0.0;
-    double relock_to_come_arcsec2 = 0.0;  // variance of the re-lock corrections still to come
-    double walk_of_switch_arcsec2 = 0.0;  // as in TickInput
     double common_arcsec2 = 0.0;          // of the last measured tick, as in TickInput
-    std::int64_t relock_ticks = 0;        // after a gap, that belong to its switch
     bool with_phase = false;              // the readings have the place within the count (note_phase)
     ExactSum rounding_residual_arcsec{};  // sum of the rounding errors of the corrections so far
     MotionSpread spread{};

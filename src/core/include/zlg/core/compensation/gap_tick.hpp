@@ -30,13 +30,10 @@ struct TickInput {
     double relock_arcsec = 0.0;            // the correction in it
     double relock_variance_arcsec2 = 0.0;  // its variance, a part of the whole
     std::array<HalfReading, 2> half{};     // of `automatic`
-    double relock_to_come_arcsec2 = 0.0;   // variance of the corrections after this one, as far as this one tells
-    // Of a tick of a gap: variance of the random walk in the re-lock ticks after it.
-    double walk_of_switch_arcsec2 = 0.0;
-    double common_arcsec2 = 0.0;  // part of the variance that all ticks at an even rate have in common
-    bool settled = true;          // re-lock is over: the tick shows the motion alone
-    bool with_phase = false;      // the place within the count is known at both ends and in the middle
-    bool known_is_rough = false;  // the known sum; the motion around the gap may tell more (gap_known.hpp)
+    double common_arcsec2 = 0.0;           // part of the variance that all ticks at an even rate have in common
+    bool settled = true;                   // re-lock is over: the tick shows the motion alone
+    bool with_phase = false;               // the place within the count is known at both ends and in the middle
+    bool known_is_rough = false;           // the known sum; the motion around the gap may tell more (gap_known.hpp)
     std::int8_t mode = 1;
     std::int8_t sign = 1;  // bias_sign * mode in its first half
     std::uint32_t flags = 0;

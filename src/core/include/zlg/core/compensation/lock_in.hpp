@@ -36,20 +36,11 @@ struct LostCounts {
     double variance = 0.0;  // of that, the same from tick to tick at an even rate: over n ticks n^2 of it
 };
 
-// Of one tick, by the counts of its halves with their parts, where the threshold is known. Where the numbers overflow, 0 with an
-// infinite variance.
+// Of one tick, by the counts of its halves with their parts. Where the threshold is not known, 0 with the variance of what one as
+// large as its sigma would take, by the presumed bias; where the numbers overflow, 0 with an infinite variance.
 //
 // config, gyro  passed `check`.
 [[nodiscard]] LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig& config,
                                          double first_counts, double second_counts) noexcept;
-
-// The same of a tick of which only the sum of both halves is known, and the bias.
-[[nodiscard]] LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig& config,
-                                         double tick_counts, Hertz bias) noexcept;
-
-// What a threshold as large as its sigma would take from a tick, counts^2: the variance where the threshold is not known. By the presumed
-// bias, without the edges, with 1 - (r/f0)^2 kept from 0 by the width of the locked rates: a half that stands may lack twice its root.
-[[nodiscard]] double unknown_loss_counts2(const CompensationConstants& gyro, const LockInConfig& config,
-                                          double tick_counts) noexcept;
 
 }  // namespace zlg::core

@@ -18,6 +18,7 @@
 
 #include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/core/methods.hpp>
+#include <zlg/core/records.hpp>
 #include <zlg/core/units.hpp>
 
 namespace zlg::core {
@@ -35,28 +36,20 @@ enum class RelockDriftFault : unsigned char { none, ticks };
     return c.ticks >= 0 ? RelockDriftFault::none : RelockDriftFault::ticks;
 }
 
-// One measured tick, its halves in order of time.
+// One measured tick, its halves in order of time. A detuning of NaN or 0 was not measured; the temperature is that of the first
+// half, sampled in the middle of the tick.
 struct RelockTick {
-    int sign = 1;  // bias_sign * mode in the first half
-    std::int64_t counts_first = 0;
-    std::int64_t counts_second = 0;
-    double known_excess_counts = 0.0;    // part of first minus second that is not the bias (gyro_compensation.cpp)
-    double detuning_first_lambda = 0.0;  // NaN or 0 where not measured
-    double detuning_second_lambda = 0.0;
-    double detuning_sq_first_lambda2 = 0.0;
-    double detuning_sq_second_lambda2 = 0.0;
-    double temperature_c = 0.0;  // NaN where not measured: the reference temperature
-    bool with_phase = false;     // the places within the count are in `known_excess_counts`
+    const HalfRecord& first;
+    const HalfRecord& second;
+    double known_excess_counts = 0.0;  // part of first minus second that is not the bias (gyro_compensation.cpp)
+    bool with_phase = false;           // the places within the count are in it
 };
 
 struct RelockDriftState {
-    std::int64_t since_gap = 0;     // index i of the last tick after a gap; 0: no gap yet, or in one
-    bool armed = false;             // a gap has been seen and its ticks are not used up
-    double first_deficit_hz = 0.0;  // f_1 - f0
-    double first_max_hz = 0.0;      // false rate that tick 1 can have, by the detuning before it
-    double last_sq_lambda2 =
-        -1.0;  // mean square of the detuning in the last half that has one; negative: none since it moved
-    std::int64_t n_unknown = 0;  // ticks since then without one
+    std::int64_t since_gap = 0;      // index i of the last tick after a gap; 0: no gap yet, or in one
+    bool armed = false;              // a gap has been seen and its ticks are not used up
+    double first_deficit_hz = 0.0;   // f_1 - f0
+    double first_most_arcsec = 0.0;  // false angle that tick 1 may have
 
     friend bool operator==(const RelockDriftState&, const RelockDriftState&) = default;
 };
@@ -81,17 +74,14 @@ struct RelockDriftOutput {
 };
 
 // A tick in a gap: the next measured tick is i = 1.
-//
-// moves  the loop was open, or the mode changed: the detuning before does not bound the one after.
-void enter_gap(RelockDriftState& state, bool moves = true) noexcept;
+void enter_gap(RelockDriftState& state) noexcept;
 
 // A measured tick.
 //
 // return  what to subtract. `known` is false where the data do not allow a correction (no detuning, or a ratio outside
-//         (0, 1)): what is missing is then as large as the last detuning that is known lets it be, or half of what
-//         `max_detuning` does; tick n after that has no more than a part 1/(2n - 1) of it, however the loop settles.
-//         With `frequency` it is no larger than the tick's own deficit f_i - f0 either, but where the detuning is known and the
-//         reading exact: there an acceleration may hide the deficit. No number in it is ever NaN.
+//         (0, 1)): what is missing is then as large as the light of its first half lets it be, or without light as half of what
+//         `max_detuning` does, of which tick i has no more than a part 1/(2i - 1), however the loop settles.
+//         With `frequency` it is no larger than the tick's own deficit f_i - f0 either. No number in it is ever NaN.
 [[nodiscard]] RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfig& config,
                                      RelockDriftState& state, const RelockTick& tick) noexcept;
 

@@ -12,6 +12,10 @@ struct RelockProfileConfig {
 
 enum class RelockProfileFault : unsigned char { none, discriminator, curve };
 
-[[nodiscard]] RelockProfileFault check(const RelockProfileConfig& config) noexcept;
+[[nodiscard]] constexpr RelockProfileFault check(const RelockProfileConfig& c) noexcept {
+    const double size = c.discriminator_per_lambda < 0.0 ? -c.discriminator_per_lambda : c.discriminator_per_lambda;
+    if (!(size >= 1e-6 && size <= 1e6)) return RelockProfileFault::discriminator;
+    return check(c.curve) == CurveFault::none ? RelockProfileFault::none : RelockProfileFault::curve;
+}
 
 }  // namespace zlg::core
