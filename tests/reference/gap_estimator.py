@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-EVERYWHERE, BESIDE = (lambda lo, hi, length: (0, length)), (lambda lo, hi, length: (lo - 4, hi + 4))
+EVERYWHERE, BESIDE = (lambda lo, hi, length: (0, length)), (lambda lo, hi, length: (lo - 8, hi + 8))
 AFTER = lambda halves: lambda lo, hi, length: (hi + halves, length)
 BANK = [(2, EVERYWHERE), (3, EVERYWHERE), (2, BESIDE), (2, AFTER(2)), (2, AFTER(4)), (2, AFTER(8))]
 SIZES = 10.0 ** np.arange(-0.5, 11.6, 1.5)

@@ -24,7 +24,7 @@ struct BankMember {
 
 inline constexpr std::array<BankMember, 6> motion_bank{{{2, WalkPlace::everywhere, 0},
                                                         {3, WalkPlace::everywhere, 0},
-                                                        {2, WalkPlace::beside, 4},
+                                                        {2, WalkPlace::beside, 8},
                                                         {2, WalkPlace::after, 2},
                                                         {2, WalkPlace::after, 4},
                                                         {2, WalkPlace::after, 8}}};
