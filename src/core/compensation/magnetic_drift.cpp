@@ -64,8 +64,8 @@ void start(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
 }
 
 // Up to the present tick. The trend fades, its integral goes into Om, the integral of that into M.
-void predict(const MagneticDriftConfig& c, MagneticDriftState& s, double time_s) noexcept {
-    const double tau_s = c.thermal_time.value();
+void predict(const MagneticDriftConfig& c, MagneticDriftState& s, double tick_s) noexcept {
+    const double time_s = s.pending_ticks * tick_s, tau_s = c.thermal_time.value();
     const double lost = -maths::expm1(-time_s / tau_s), gained_s = tau_s * lost;
     const double signed_s = s.mode * time_s, gained_s2 = s.mode * tau_s * (time_s - gained_s);
     auto& x = s.estimate;
@@ -165,22 +165,25 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
     if (!credible) state.segment = {};
     const std::int8_t mode = tick.measured && credible ? tick.mode : std::int8_t{0};
     const bool ends = mode != state.mode;
-    if (ends || state.pending_ticks >= block_ticks) {
-        predict(config, state, state.pending_ticks * tick_s);
-        if (ends && state.segment.n_ticks >= min_ticks) update(gyro, state);
+    if (ends) {
+        predict(config, state, tick_s);
+        if (state.segment.n_ticks >= min_ticks) update(gyro, state);
+        state.segment = {};
+        state.mode = mode;
+    }
+    if (++state.pending_ticks >= block_ticks || ends) {
+        predict(config, state, tick_s);
         const double unknown = known_sq * drift_variance(state) / square(state.estimate[of_drift]);
         const double trust = 1.0 - unknown - contradiction(config, state);
         state.trust = trust > 0.0 ? trust : 0.0;
     }
-    if (ends) state.segment = {};
-    state.mode = mode;
-    const double before = state.pending_ticks++;
     if (mode == 0) return 0.0;
     accumulate(state.segment, tick.angle_arcsec);
     if (config.method != MagneticMethod::estimate) return 0.0;
-    const double now = mode * state.estimate[of_drift] * tick_s;
-    const double past = state.trust * (state.estimate[of_angle] + before * now) - state.subtracted_arcsec;
-    const double due = state.trust * now + past_correction_gain * past;
+    const double rate = mode * state.estimate[of_drift];
+    const double angle = state.estimate[of_angle] + state.pending_ticks * tick_s * rate;
+    const double now = state.trust * tick_s * rate;
+    const double due = now + past_correction_gain * (state.trust * angle - now - state.subtracted_arcsec);
     state.subtracted_arcsec += due;
     return due;
 }
