@@ -229,18 +229,6 @@ TEST(MagneticDrift, ACalibrationThatIsContradictedIsNotOverruled) {
     EXPECT_EQ(in_step.state.trust, 0.0);
 }
 
-TEST(MagneticDrift, ItStandsBackWhereTheRateOfTheBaseWalks) {
-    for (const double step_arcsec_s : {1.0, 10.0, 1000.0})
-        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-            std::mt19937_64 random{seed};
-            std::normal_distribution<> normal;
-            double rate = 0.0;
-            const auto base = [&](double) { return rate += step_arcsec_s * std::sqrt(tick_s) * normal(random); };
-            const Outcome got = run({.base_arcsec_s = base}, config_of(), 3600.0);
-            EXPECT_LE(got.worst_left_arcsec, 1.05 * got.worst_without_arcsec) << step_arcsec_s;
-        }
-}
-
 TEST(MagneticDrift, ATurnDoesNotShakeWhatIsKnown) {
     const auto base = [](double t) { return t > 2000.0 && t < 2010.0 ? 9.0 * 3600.0 : 0.05; };
     const Outcome got = run({.base_arcsec_s = base}, config_of(), 3600.0);
