@@ -204,16 +204,6 @@ TEST(MagneticDrift, ARotationThatJumpsWithTheSwitchesIsBoundedByWhatIsPresumed) 
         }
 }
 
-TEST(MagneticDrift, ARotationThatJumpsBesideTheSwitchesIsSeen) {
-    // A tenth of the interval late: the curvature is 0.37 of the amplitude.
-    for (const double amplitude : {1.0, 2.0, 5.0, 30.0}) {
-        const auto base = [=](double t) { return square_wave(amplitude, 45.0, 4.5, t); };
-        const Outcome got = run({.base_arcsec_s = base}, config_of(), 3600.0);
-        EXPECT_EQ(got.state.trust, 0.0) << amplitude;
-        EXPECT_LE(got.worst_left_arcsec, 1.05 * got.worst_without_arcsec) << amplitude;
-    }
-}
-
 TEST(MagneticDrift, ACalibrationThatIsContradictedIsNotOverruled) {
     // Whether the calibration is wrong or the base moves in step, is not known.
     MagneticDriftConfig c = config_of();
