@@ -9,26 +9,23 @@
 // from one segment to the next, the alternation of y shows Om. A Kalman filter has the states
 //
 //   b      steps from segment to segment, by a variance of twice the larger of s^2 and u_k^2: u_k the motion of the
-//   base, the
-//          innovation or the curvature of the rate in segment k beyond what noise and P explain, s its running mean  (2)
+//          base, that is the innovation or the curvature of the rate in segment k beyond what noise and P explain, s its
+//          running mean                                                                                          (2)
 //   Om, v  Om' = v, v' = -v/thermal_time: exact for a warming A (1 - exp(-t/thermal_time)), other laws by process noise
 //
 // and M, M' = m Om, the magnetic angle since the start: not a state, but its covariance with the states is known, so
-// that
-// each segment corrects it for the whole past. What was subtracted wrongly while Om was badly known does not stay.
+// that each segment corrects it for the whole past. What was subtracted wrongly while Om was badly known does not stay.
 //
-// A rotation of the base that turns its sign with the mode has the mean rates of a drift, but a drift is steady
-// within a
-// segment, and its innovations do not alternate. With c_k = m_k times half the innovation, or times the curvature of
-// the
-// rate in segment k, and w_k = 1/r_k, older segments fading over 32,
+// A rotation of the base that turns its sign with the mode has the mean rates of a drift, but a drift is steady within
+// a segment, and its innovations do not alternate. With c_k = m_k times half the innovation, or times the curvature of
+// the rate in segment k, and w_k = 1/r_k, older segments fading over 32,
 //
 //   C = sum w_k c_k/sum w_k,   Var C = sum (w_k c_k)^2/(sum w_k)^2,
 //   sigma^2 = P of Om + 16 sum over both of max(C^2 - 16 Var C, 0)                                               (3)
 //
-// What is not in step leaves a C within a few of its standard deviations. The mean rate of a sine is about as large
-// as its
-// C, that of a square wave that jumps 0.08 of a segment beside the switch four times as large: four times is presumed.
+// What is not in step leaves a C within a few of its standard deviations. The mean rate of a sine is about as large as
+// its C, that of a square wave that jumps 0.08 of a segment beside the switch four times as large: four times is
+// presumed.
 //
 // Method: Kalman filter with innovation-based adaptation (Maybeck, Stochastic Models, Estimation and Control, vol. 2,
 // 1982, ch. 10); self-normalised sums (de la Pena, Lai and Shao, 2009). Figures: docs/long_runs.md.
@@ -100,12 +97,10 @@ struct MagneticTick {
 //   angle subtracted = trust M,
 //   trust = 1 - 16 sigma^2/Om^2 - (d^2 - 4 sigma_p^2)/(5 sigma_p^2), each at least 0                             (4)
 //
-// with d the distance of Om from what was presumed, sigma_p the standard deviation of the
-// presumed drift, of its warming by now and of its random walk. So it acts where the drift is known to a quarter of
-// itself and
-// lies within 2 sigma_p of what was presumed; beyond 3 sigma_p it does not. What trust and M were wrong by in the
-// past is
-// corrected over some seconds. Segments between which the base changes by more than 300 arcsec/s are not compared.
+// with d the distance of Om from what was presumed, sigma_p the standard deviation of the presumed drift, of its warming
+// by now and of its random walk. So it acts where the drift is known to a quarter of itself and lies within 2 sigma_p of
+// what was presumed; beyond 3 sigma_p it does not. What trust and M were wrong by in the past is corrected over some
+// seconds. Segments between which the base changes by more than 300 arcsec/s are not compared.
 //
 // config  passed `check`.
 // state   from MagneticDriftState{}.
@@ -123,8 +118,7 @@ struct MagneticTick {
 // sigma^2 of (3), (arcsec/s)^2.
 [[nodiscard]] double drift_variance(const MagneticDriftState& state) noexcept;
 
-// The drift that remains in the angle, rms, arcsec/s; 0 where it is not trusted: a schedule then takes what is
-// presumed.
+// The drift that remains in the angle, rms, arcsec/s; 0 where it is not trusted: a schedule then takes the presumed one.
 [[nodiscard]] double remaining_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept;
 
 }  // namespace zlg::core
