@@ -9,8 +9,8 @@
 // from one segment to the next, the alternation of y shows Om. A Kalman filter has the states
 //
 //   b      steps from segment to segment, by a variance of twice the larger of s^2 and u_k^2: u_k the motion of the
-//          base, that is the innovation or the curvature of the rate in segment k beyond what noise and P explain, s its
-//          running mean                                                                                          (2)
+//          base, that is the innovation or the curvature of the rate in segment k beyond what noise and P explain, s
+//          its running mean                                                                                        (2)
 //   Om, v  Om' = v, v' = -v/thermal_time: exact for a warming A (1 - exp(-t/thermal_time)), other laws by process noise
 //
 // and M, M' = m Om, the magnetic angle since the start: not a state, but its covariance with the states is known, so
@@ -97,9 +97,9 @@ struct MagneticTick {
 //   angle subtracted = trust M,
 //   trust = 1 - 16 sigma^2/Om^2 - (d^2 - 4 sigma_p^2)/(5 sigma_p^2), each at least 0                             (4)
 //
-// with d the distance of Om from what was presumed, sigma_p the standard deviation of the presumed drift, of its warming
-// by now and of its random walk. So it acts where the drift is known to a quarter of itself and lies within 2 sigma_p of
-// what was presumed; beyond 3 sigma_p it does not. What trust and M were wrong by in the past is corrected over some
+// with d the distance of Om from what was presumed, sigma_p the standard deviation of the presumed drift, of its
+// warming by now and of its random walk. So it acts where the drift is known to a quarter of itself and lies within
+// 2 sigma_p of what was presumed; beyond 3 sigma_p it does not. What trust and M were wrong by in the past is corrected over some
 // seconds. Segments between which the base changes by more than 300 arcsec/s are not compared.
 //
 // config  passed `check`.
@@ -118,7 +118,7 @@ struct MagneticTick {
 // sigma^2 of (3), (arcsec/s)^2.
 [[nodiscard]] double drift_variance(const MagneticDriftState& state) noexcept;
 
-// The drift that remains in the angle, rms, arcsec/s; 0 where it is not trusted: a schedule then takes the presumed one.
+// The drift that remains in the angle, rms, arcsec/s; 0 where it is not trusted, and a schedule presumes one.
 [[nodiscard]] double remaining_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept;
 
 }  // namespace zlg::core
