@@ -99,8 +99,8 @@ struct MagneticTick {
 //
 // with d the distance of Om from what was presumed, sigma_p the standard deviation of the presumed drift, of its
 // warming by now and of its random walk. So it acts where the drift is known to a quarter of itself and lies within
-// 2 sigma_p of what was presumed; beyond 3 sigma_p it does not. What trust and M were wrong by in the past is corrected over some
-// seconds. Segments between which the base changes by more than 300 arcsec/s are not compared.
+// 2 sigma_p of what was presumed; beyond 3 sigma_p it does not. What trust and M were wrong by in the past is
+// corrected over some seconds. Segments between which the base changes by more than 300 arcsec/s are not compared.
 //
 // config  passed `check`.
 // state   from MagneticDriftState{}.
