@@ -159,6 +159,26 @@ std::vector<DriftFigures> figures_of(const DriftCampaign& campaign, const std::v
 
 }  // namespace
 
+std::vector<DriftGyro> over_tones(int n, std::uint64_t seed) {
+    std::vector<DriftGyro> gyros;
+    chance::Draw draw{seed, chance::Cause::drift_motion};
+    DriftMethod alone{"joint, auto", {.relock = core::RelockMethod::joint, .magnetic = core::MagneticMethod::none}};
+    DriftMethod magnetic{"joint, auto, magnetic", alone.compensation};
+    magnetic.compensation.magnetic = core::MagneticMethod::estimate;
+    for (int k = 0; k < n; ++k) {
+        config::Config c;
+        c.drift.magnetic_arcsec_s = c.drift.magnetic_thermal_arcsec_s = 0.0;
+        const double hz = draw.within(10.0, 60.0), amplitude = 1000.0 * std::pow(20.0, draw.uniform());
+        c.motion.frequency_hz = {hz};
+        c.motion.amplitude_arcsec_s = {amplitude};
+        c.switching.interval_s = draw.within(8.0, 20.0);
+        gyros.push_back({fmt::format("{:.2f} Hz, {:.0f} arcsec/s, {:.2f} s", hz, amplitude, c.switching.interval_s),
+                         c,
+                         {alone, magnetic}});
+    }
+    return gyros;
+}
+
 std::vector<DriftFigures> run(const DriftCampaign& campaign) {
     const auto seeds = static_cast<std::size_t>(campaign.seeds);
     std::vector<RunOfGyro> runs(campaign.gyros.size() * seeds);

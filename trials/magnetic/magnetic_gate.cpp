@@ -67,8 +67,7 @@ GateResult judge(const MagneticGate& gate, const MovingBase& base, std::uint64_t
     const auto count = static_cast<double>(n);
     return {.without_arcsec = std::sqrt(without_sq / count),
             .with_arcsec = std::sqrt(with_sq / count),
-            .error_arcsec_s = std::abs(state.filter.estimate[of_drift] - drift),
-            .sigma_arcsec_s = sigma_arcsec_s(gate.estimator, state),
+            .error_arcsec_s = std::abs(state.estimate[of_drift] - drift),
             .trust = state.trust};
 }
 

@@ -84,8 +84,10 @@ int main(int argc, char** argv) {
     app.add_option("SECONDS", end_s)->check(CLI::PositiveNumber);
     app.add_option("THREADS", campaign.threads)->check(CLI::PositiveNumber);
     app.add_option("BASE", base)->check(CLI::IsMember({"vibration", "rest"}));
-    app.add_option("PART", part, "plain: the paper's compensation at fixed intervals; measured, fixed: parts of ours")
-        ->check(CLI::IsMember({"plain", "measured", "fixed", "ours", "all"}));
+    app.add_option(
+           "PART", part,
+           "plain: the paper's compensation at fixed intervals; measured, fixed: parts of ours; tones: 200 drawn")
+        ->check(CLI::IsMember({"plain", "measured", "fixed", "ours", "tones", "all"}));
     app.add_option("--interval", intervals_s, "of ours at a fixed one, s; repeatable")->check(CLI::PositiveNumber);
     app.add_option("--set", sets, "section.key=value, of all gyros; repeatable")->allow_extra_args(false);
     app.add_option("--first-seed", campaign.first_seed);
@@ -102,6 +104,7 @@ int main(int argc, char** argv) {
         if (part == "measured" || ours) add_measured(campaign.gyros, c);
         if (ours) add_ended(campaign.gyros, c);
         if (part == "fixed" || ours) add_fixed(campaign.gyros, c, intervals_s);
+        if (part == "tones") campaign.gyros = trials::over_tones(200, campaign.first_seed);
         print_all(campaign);
         return 0;
     });

@@ -192,11 +192,9 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
     if (!tick.measured) {
         // In the angle of a tick.
         const double tick_s = by_phase ? config.gyro.tick.value() : 0.0;
-        const MagneticFilterState& filter = state.magnetic.filter;
-        const double trusted = trusted_arcsec_s(state.magnetic), untrusted = filter.estimate[of_drift] - trusted;
-        const double variance = filter.covariance[of_drift][of_drift] + untrusted * untrusted;
-        state.bridge.magnetic_arcsec = (trusted - state.magnetic.trust * filter.estimate[of_drift]) * tick_s;
-        state.bridge.magnetic_variance_arcsec2 = variance * tick_s * tick_s;
+        const double left = 1.0 - taken_out(config.magnetic, state.magnetic);
+        state.bridge.magnetic_arcsec = left * state.magnetic.estimate[of_drift] * tick_s;
+        state.bridge.magnetic_variance_arcsec2 = state.magnetic.covariance[of_drift][of_drift] * square(tick_s);
     }
     return subtracted;
 }

@@ -20,121 +20,130 @@ constexpr std::int64_t min_ticks = 100;
 // No gyro turns faster.
 constexpr double fastest_arcsec_s = 1e7;
 
-// Standard deviations of the drift at which the method begins to act: (3). docs/long_runs.md has the bases on which it
-// was judged.
-constexpr double min_sigmas = 4.0;
+// Q of the filter: Om is a random walk of 0.02 arcsec/s in an hour, and its trend v one that changes by 0.3 arcsec/s in
+// 3000 s over 3000 s. Set by hand and judged on the bases of docs/long_runs.md.
+constexpr double drift_noise = 0.02 * 0.02 / 3600.0;
+constexpr double trend_noise = (0.3 / 3000.0) * (0.3 / 3000.0) / 3000.0;
 
-// sigma_p of (3) from what was presumed up to which the estimate is trusted in full, and from which on not at all.
-constexpr double near_sigmas = 2.0;
-constexpr double far_sigmas = 3.0;
+// Segments over which the scatter of the base is averaged.
+constexpr double scatter_memory = 12.0;
 
-// The drift as presumed, without what the segments have shown.
-struct Presumed {
-    double drift_arcsec_s = 0.0;
-    double variance = 0.0;
-};
+// Beyond this motion a segment holds no information on a drift of some arcsec/s.
+constexpr double max_motion_arcsec_s = 300.0;
 
-Presumed presumed_at(const MagneticDriftConfig& c, double age_s) noexcept {
-    const double warmed = 1.0 - maths::exp(-age_s / c.thermal_time.value());
-    const double sigma = c.presumed_sigma_arcsec_s, warming = c.warming_sigma_arcsec_s * warmed;
-    return {.drift_arcsec_s = c.presumed_arcsec_s + c.warming_arcsec_s * warmed,
-            .variance = sigma * sigma + warming * warming + wander_variance(age_s, c.thermal_time.value())};
+// Variance of the curvature over that of the mean, for a walk.
+constexpr double curvature_noise = 21.0;
+
+// Of (3).
+constexpr double fading = 1.0 - 1.0 / 32.0;
+constexpr double gate_sq = 16.0;
+constexpr double shape_sq = 16.0;
+
+// Of (4). docs/long_runs.md has the bases on which they were judged.
+constexpr double known_sq = 16.0;
+constexpr double near_sq = 4.0;
+constexpr double far_sq = 9.0;
+
+// Growth of the variance of what was presumed, (arcsec/s)^2 a second: by Q 0.2 arcsec/s in an hour.
+constexpr double wander = 1e-5;
+
+double larger(double a, double b) noexcept { return a > b ? a : b; }
+
+// h^T x of the states; M is not observed.
+template <class Vector>
+double product(const MagneticVector& h, const Vector& x) noexcept {
+    return h[of_base] * x[of_base] + h[of_drift] * x[of_drift] + h[of_trend] * x[of_trend];
 }
 
 void start(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
     const double tau_s = c.thermal_time.value();
     s.started = true;
-    s.filter.estimate[of_drift] = c.presumed_arcsec_s;
-    s.filter.estimate[of_trend] = c.warming_arcsec_s / tau_s;
-    s.filter.covariance[of_drift][of_drift] = c.presumed_sigma_arcsec_s * c.presumed_sigma_arcsec_s;
-    s.filter.covariance[of_trend][of_trend] = (c.warming_sigma_arcsec_s / tau_s) * (c.warming_sigma_arcsec_s / tau_s);
+    s.estimate = {0.0, c.presumed_arcsec_s, c.warming_arcsec_s / tau_s, 0.0};
+    s.covariance[of_drift][of_drift] = square(c.presumed_sigma_arcsec_s);
+    s.covariance[of_trend][of_trend] = square(c.warming_sigma_arcsec_s / tau_s);
 }
 
-// Variance of the drift by the motion in step that the segments show.
-double motion_variance(const MagneticFilterState& f) noexcept {
-    const double interval_s = f.in_step.interval_s;
-    return seen_in_step(f.in_step, f.covariance[of_trend][of_trend] * interval_s * interval_s);
-}
-
-// sigma^2 of (3).
-double shown_variance(const MagneticFilterState& f) noexcept {
-    return f.covariance[of_drift][of_drift] + mismatch_sq(f.in_step) + motion_variance(f);
-}
-
-// 0..1: how far the drift contradicts what was presumed.
-double contradiction(const Presumed& presumed, double drift) noexcept {
-    const double distance = drift - presumed.drift_arcsec_s;
-    const double over = distance * distance - near_sigmas * near_sigmas * presumed.variance;
-    const double range = (far_sigmas * far_sigmas - near_sigmas * near_sigmas) * presumed.variance;
-    if (!(over > 0.0)) return 0.0;
-    return over < range ? over / range : 1.0;
-}
-
-// (3), as far as the segments go.
-double share_of(const MagneticDriftState& s) noexcept {
-    const double drift_sq = s.filter.estimate[of_drift] * s.filter.estimate[of_drift];
-    const double unknown = min_sigmas * min_sigmas * shown_variance(s.filter);
-    return unknown < drift_sq ? 1.0 - unknown / drift_sq : 0.0;
-}
-
-void update_trust(const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
-    const double drift = s.filter.estimate[of_drift];
-    s.share = share_of(s);
-    const bool acts = c.method == MagneticMethod::estimate && s.share > 0.0;
-    s.trust = acts ? s.share * (1.0 - contradiction(presumed_at(c, s.age_s), drift)) : 0.0;
-    s.due_arcsec = s.trust * s.filter.estimate[of_angle];
-}
-
-// Predict up to the present tick.
-void predict_to_now(const CompensationConstants& gyro, const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
-    if (s.pending_ticks == 0) return;
-    const double time_s = static_cast<double>(s.pending_ticks) * gyro.tick.value();
-    predict(s.filter, s.mode, time_s, c.thermal_time.value());
+// Up to the present tick. The trend fades, its integral goes into Om, the integral of that into M.
+void predict(const MagneticDriftConfig& c, MagneticDriftState& s, double tick_s) noexcept {
+    const double time_s = s.pending_ticks * tick_s, tau_s = c.thermal_time.value();
+    const double lost = -maths::expm1(-time_s / tau_s), gained_s = tau_s * lost;
+    const double signed_s = s.mode * time_s, gained_s2 = s.mode * tau_s * (time_s - gained_s);
+    auto& x = s.estimate;
+    auto& p = s.covariance;
+    x[of_angle] += signed_s * x[of_drift] + gained_s2 * x[of_trend];
+    x[of_drift] += gained_s * x[of_trend];
+    x[of_trend] -= lost * x[of_trend];
+    for (unsigned i = 0; i < magnetic_states; ++i) {
+        p[of_angle][i] += signed_s * p[of_drift][i] + gained_s2 * p[of_trend][i];
+        p[of_drift][i] += gained_s * p[of_trend][i];
+        p[of_trend][i] -= lost * p[of_trend][i];
+    }
+    for (MagneticVector& row : p) {
+        row[of_drift] += gained_s * row[of_trend];
+        row[of_trend] -= lost * row[of_trend];
+    }
+    p[of_drift][of_drift] += drift_noise * time_s;
+    p[of_trend][of_trend] += trend_noise * time_s;
     s.age_s += time_s;
     s.pending_ticks = 0;
-    update_trust(c, s);
 }
 
-void end_segment(const CompensationConstants& gyro, const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
-    predict_to_now(gyro, c, s);
-    if (s.mode != 0 && s.segment.n_ticks >= min_ticks) {
-        const double tick_s = gyro.tick.value();
-        update(s.filter,
-               {.mode = static_cast<double>(s.mode),
-                .length_s = static_cast<double>(s.segment.n_ticks) * tick_s,
-                .rate = rate_of(s.segment, tick_s),
-                .variance = mean_rate_variance(s.segment, tick_s, gyro.random_walk.value(), gyro.scale.value())});
-        update_trust(c, s);
+// What the segment says by its shape and by its innovation on motion in step.
+void note_in_step(MagneticDriftState& s, double weight, const std::array<double, 2>& c) noexcept {
+    s.weight = fading * s.weight + weight;
+    for (unsigned i = 0; i < c.size(); ++i) {
+        s.sum[i] = fading * s.sum[i] + weight * c[i];
+        s.square_sum[i] = square(fading) * s.square_sum[i] + square(weight * c[i]);
     }
-    s.segment = {};
-    s.mode = 0;
 }
 
-void begin_segment(MagneticDriftState& s, std::int8_t mode) noexcept {
-    if (s.last_mode == -mode) {
-        if (s.switched_s > 0.0) note_switch(s.filter.in_step, s.age_s - s.switched_s);
-        s.switched_s = s.age_s;
+// With the segment that has just ended.
+void update(const CompensationConstants& gyro, MagneticDriftState& s) noexcept {
+    const double tick_s = gyro.tick.value(), m = s.mode;
+    const SegmentRate rate = rate_of(s.segment, tick_s);
+    const double noise = mean_rate_variance(s.segment, tick_s, gyro.random_walk.value(), gyro.scale.value());
+    const double length_s = static_cast<double>(s.segment.n_ticks) * tick_s;
+    const MagneticVector h{s.base_known ? 1.0 : 0.0, m, -0.5 * m * length_s};
+    std::array<double, magnetic_parts> ph{};
+    for (unsigned i = 0; i < magnetic_parts; ++i) ph[i] = product(h, s.covariance[i]);
+    const double innovation = rate.mean_arcsec_s - product(h, s.estimate);
+    const double explained = product(h, ph) + noise;
+    if (!s.base_known) {
+        s.base_known = true;
+        s.estimate[of_base] = innovation;
+        for (unsigned i = of_drift; i < magnetic_parts; ++i) s.covariance[i][of_base] = -ph[i];
+        for (unsigned i = of_drift; i < magnetic_states; ++i) s.covariance[of_base][i] = -ph[i];
+        s.covariance[of_base][of_base] = explained;
+        return;
     }
-    s.last_mode = mode;
+    const double between = square(innovation) - explained;
+    const double within = square(rate.curvature_arcsec_s) - curvature_noise * noise;
+    const double motion_sq = larger(larger(between, within), 0.0), motion = square_root(motion_sq);
+    s.base_known = motion < max_motion_arcsec_s;
+    if (!s.base_known) return;
+    // A single turn of the base is no scatter: only its own segment is discounted.
+    const double most = 5.0 * s.scatter_arcsec_s + 0.1;
+    if (s.n_compared < scatter_memory) s.n_compared += 1.0;
+    s.scatter_arcsec_s += ((motion < most ? motion : most) - s.scatter_arcsec_s) / s.n_compared;
+    const double base = 2.0 * larger(motion_sq, square(s.scatter_arcsec_s));
+    note_in_step(s, 1.0 / noise, {0.5 * m * innovation, m * rate.curvature_arcsec_s});
+    s.covariance[of_base][of_base] += base;
+    ph[of_base] += base;
+    for (unsigned i = 0; i < magnetic_parts; ++i) {
+        const double gain = ph[i] / (explained + base);
+        s.estimate[i] += gain * innovation;
+        for (unsigned j = 0; j < magnetic_states; ++j) s.covariance[i][j] -= gain * ph[j];
+    }
 }
 
-bool is_credible(const CompensationConstants& gyro, const MagneticTick& tick) noexcept {
-    return size(tick.angle_arcsec) <= fastest_arcsec_s * gyro.tick.value();
-}
-
-double subtract(const CompensationConstants& gyro, const MagneticDriftConfig& c, MagneticDriftState& s) noexcept {
-    if (c.method != MagneticMethod::estimate) return 0.0;
-    const double tick_s = gyro.tick.value();
-    // First-order growth since the last prediction, bounded however short the thermal time; the next prediction
-    // corrects the rest.
-    const double pending_s = static_cast<double>(s.pending_ticks) * tick_s;
-    const double effective_s = pending_s / (1.0 + pending_s / c.thermal_time.value());
-    const double drift = s.filter.estimate[of_drift] + s.filter.estimate[of_trend] * effective_s;
-    const double now = s.trust * static_cast<double>(s.mode) * drift * tick_s;
-    const double past = past_correction_gain * (s.due_arcsec - s.subtracted_arcsec);
-    s.due_arcsec += now;
-    s.subtracted_arcsec += now + past;
-    return now + past;
+// 0 where the drift is what was presumed, 1 and more where it is not.
+double contradiction(const MagneticDriftConfig& c, const MagneticDriftState& s) noexcept {
+    const double warmed = -maths::expm1(-s.age_s / c.thermal_time.value());
+    const double distance = s.estimate[of_drift] - c.presumed_arcsec_s - c.warming_arcsec_s * warmed;
+    const double variance =
+        square(c.presumed_sigma_arcsec_s) + square(c.warming_sigma_arcsec_s * warmed) + wander * s.age_s;
+    const double beyond = square(distance) - near_sq * variance;
+    return beyond > 0.0 ? beyond / ((far_sq - near_sq) * variance) : 0.0;
 }
 
 }  // namespace
@@ -151,44 +160,44 @@ MagneticDriftFault check(const MagneticDriftConfig& c) noexcept {
 double step(const CompensationConstants& gyro, const MagneticDriftConfig& config, MagneticDriftState& state,
             const MagneticTick& tick) noexcept {
     if (!state.started) start(config, state);
-    const bool credible = is_credible(gyro, tick);
+    const double tick_s = gyro.tick.value();
+    const bool credible = size(tick.angle_arcsec) <= fastest_arcsec_s * tick_s;
     if (!credible) state.segment = {};
-    const bool measured = tick.measured && credible && tick.mode != 0;
-    const std::int8_t mode = measured ? tick.mode : std::int8_t{0};
-    if (mode != state.mode) {
-        end_segment(gyro, config, state);
-        if (mode != 0) begin_segment(state, mode);
+    const std::int8_t mode = tick.measured && credible ? tick.mode : std::int8_t{0};
+    const bool ends = mode != state.mode;
+    if (ends) {
+        predict(config, state, tick_s);
+        if (state.segment.n_ticks >= min_ticks) update(gyro, state);
+        state.segment = {};
+        state.mode = mode;
     }
-    state.mode = mode;
-    if (++state.pending_ticks >= block_ticks) predict_to_now(gyro, config, state);
+    if (++state.pending_ticks >= block_ticks || ends) {
+        predict(config, state, tick_s);
+        const double unknown = known_sq * drift_variance(state) / square(state.estimate[of_drift]);
+        const double trust = 1.0 - unknown - contradiction(config, state);
+        state.trust = trust > 0.0 ? trust : 0.0;
+    }
     if (mode == 0) return 0.0;
     accumulate(state.segment, tick.angle_arcsec);
-    return subtract(gyro, config, state);
+    if (config.method != MagneticMethod::estimate) return 0.0;
+    const double rate = mode * state.estimate[of_drift];
+    const double angle = state.estimate[of_angle] + state.pending_ticks * tick_s * rate;
+    const double now = state.trust * tick_s * rate;
+    const double due = now + past_correction_gain * (state.trust * angle - now - state.subtracted_arcsec);
+    state.subtracted_arcsec += due;
+    return due;
 }
 
-double trusted_arcsec_s(const MagneticDriftState& state) noexcept {
-    const double drift = state.filter.estimate[of_drift];
-    const double unknown = min_sigmas * min_sigmas * state.filter.covariance[of_drift][of_drift];
-    return state.started && unknown < drift * drift ? drift - unknown / drift : 0.0;
-}
-
-double sigma_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept {
-    const MagneticFilterState& f = state.filter;
-    const Presumed presumed = presumed_at(config, state.age_s);
-    const double distance = f.estimate[of_drift] - presumed.drift_arcsec_s;
-    // All that motion can have done to a drift that was presumed rightly, and what is open where the two contradict.
-    const double most = presumed.variance + distance * distance;
-    const double least = contradiction(presumed, f.estimate[of_drift]) * most;
-    const double motion = motion_variance(f) + unseen_in_step(f.in_step);
-    const double open = motion < most ? motion : most;
-    return square_root(f.covariance[of_drift][of_drift] + mismatch_sq(f.in_step) + (open > least ? open : least));
+double drift_variance(const MagneticDriftState& s) noexcept {
+    double seen = 0.0;
+    for (unsigned i = 0; i < s.sum.size(); ++i) seen += larger(square(s.sum[i]) - gate_sq * s.square_sum[i], 0.0);
+    return s.covariance[of_drift][of_drift] + (seen > 0.0 ? shape_sq * seen / square(s.weight) : 0.0);
 }
 
 double remaining_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept {
-    if (config.method == MagneticMethod::none || state.share == 0.0) return 0.0;
-    const double residual = (1.0 - state.trust) * state.filter.estimate[of_drift];
-    const double wrong_sq = state.trust * state.trust * shown_variance(state.filter);
-    return square_root(residual * residual + wrong_sq);
+    if (config.method == MagneticMethod::none || state.trust == 0.0) return 0.0;
+    const double taken = taken_out(config, state);
+    return square_root(square((1.0 - taken) * state.estimate[of_drift]) + square(taken) * drift_variance(state));
 }
 
 }  // namespace zlg::core

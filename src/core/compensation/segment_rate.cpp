@@ -25,16 +25,11 @@ SegmentRate rate_of(const SegmentRateState& state, double tick_s) noexcept {
         power *= n;
         moment *= 30.0 / (n * tick_s) / power;
     }
-    // u^2 (1 - u)^2 = u^2 - 2 u^3 + u^4: weighted means of 1, u and u^2, then of 1, x and x^2.
+    // u^2 (1 - u)^2 = u^2 - 2 u^3 + u^4: weighted means of 1, and of x^2 = (2 u - 1)^2.
     const double mean = m[0] - 2.0 * m[1] + m[2];
-    const double of_u = m[1] - 2.0 * m[2] + m[3];
-    const double of_u2 = m[2] - 2.0 * m[3] + m[4];
-    const double of_x = 2.0 * of_u - mean;
-    const double of_x2 = 4.0 * (of_u2 - of_u) + mean;
-    // Projections on the orthogonal functions x/2 and x^2 - 1/7, over their weighted mean squares.
-    return {.mean_arcsec_s = mean,
-            .change_arcsec_s = 2.0 * 7.0 * of_x,
-            .curvature_arcsec_s = 147.0 / 4.0 * (of_x2 - mean / 7.0)};
+    const double of_x2 = 4.0 * (m[2] - 2.0 * m[3] + m[4] - (m[1] - 2.0 * m[2] + m[3])) + mean;
+    // The projection on x^2 - 1/7, over its weighted mean square.
+    return {.mean_arcsec_s = mean, .curvature_arcsec_s = 147.0 / 4.0 * (of_x2 - mean / 7.0)};
 }
 
 double mean_rate_variance(const SegmentRateState& state, double tick_s, double walk_arcsec_sqrt_s,

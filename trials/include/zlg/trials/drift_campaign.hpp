@@ -35,6 +35,9 @@ struct DriftCampaign {
     int threads = 1;
 };
 
+// Gyros without a magnetic drift over pure tones, 10 to 60 Hz, 1000 to 20 000 arcsec/s, 8 to 20 s from switch to switch: `joint` without the magnetic estimate and with it.
+[[nodiscard]] std::vector<DriftGyro> over_tones(int n, std::uint64_t seed);
+
 // Of one method, over all seeds.
 struct DriftAtTime {
     double time_s = 0.0;

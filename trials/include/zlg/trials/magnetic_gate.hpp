@@ -41,7 +41,6 @@ struct GateResult {
     double without_arcsec = 0.0;  // rms of the magnetic angle
     double with_arcsec = 0.0;     // of what the estimator leaves
     double error_arcsec_s = 0.0;  // of the drift, at the end
-    double sigma_arcsec_s = 0.0;
     double trust = 0.0;
 };
 

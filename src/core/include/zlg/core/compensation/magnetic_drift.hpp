@@ -1,28 +1,39 @@
 #pragma once
 // The drift that changes its sign with the mode: estimated from segment to segment, and subtracted from the angle.
 //
-// Segment k, in mode m_k = +1 or -1, has the mean rate
+// Segment k, in mode m_k = +1 or -1, of length L, has the mean rate (segment_rate.hpp)
 //
-//   y_k = b_k + m_k Om(t_k) + noise                                                                      (1)
+//   y_k = b_k + m_k (Om - v L/2) + noise,  variance r_k                                                          (1)
 //
-// b the rotation of the base with all drift that is the same in both modes, unknown, and Om the magnetic drift. Where b
-// changes little from one segment to the next, the alternation of y shows Om. A Kalman filter holds
+// Om and v at its end, b the rotation of the base with all drift that is the same in both modes. Where b changes little
+// from one segment to the next, the alternation of y shows Om. A Kalman filter has the states
 //
-//   b      a random walk over the segments, whose step is estimated from the innovations (adaptive process noise)
+//   b      steps from segment to segment, by a variance of twice the larger of s^2 and u_k^2: u_k the motion of the
+//          base, that is the innovation or the curvature of the rate in segment k beyond what noise and P explain, s
+//          its running mean                                                                                        (2)
 //   Om, v  Om' = v, v' = -v/thermal_time: exact for a warming A (1 - exp(-t/thermal_time)), other laws by process noise
-//   M      M' = m Om, the magnetic angle since the start                                                 (2)
 //
-// with (1) as its measurement. M is correlated with Om, so each segment corrects M for the whole past as well: what was
-// subtracted wrongly while Om was badly known does not stay. The share `trust` of M is subtracted from the measured
-// ticks, a correction of the past over some seconds.
+// and M, M' = m Om, the magnetic angle since the start: not a state, but its covariance with the states is known, so
+// that each segment corrects it for the whole past. What was subtracted wrongly while Om was badly known does not stay.
 //
-// Method: Kalman filter with augmented states and innovation-based adaptation (Maybeck, Stochastic Models, Estimation
-// and Control, vol. 2, 1982, ch. 10). Figures: docs/long_runs.md.
+// A rotation of the base that turns its sign with the mode has the mean rates of a drift, but a drift is steady within
+// a segment, and its innovations do not alternate. With c_k = m_k times half the innovation, or times the curvature of
+// the rate in segment k, and w_k = 1/r_k, older segments fading over 32,
+//
+//   C = sum w_k c_k/sum w_k,   Var C = sum (w_k c_k)^2/(sum w_k)^2,
+//   sigma^2 = P of Om + 16 sum over both of max(C^2 - 16 Var C, 0)                                               (3)
+//
+// What is not in step leaves a C within a few of its standard deviations. The mean rate of a sine is about as large as
+// its C, that of a square wave that jumps 0.08 of a segment beside the switch four times as large: four times is
+// presumed.
+//
+// Method: Kalman filter with innovation-based adaptation (Maybeck, Stochastic Models, Estimation and Control, vol. 2,
+// 1982, ch. 10); self-normalised sums (de la Pena, Lai and Shao, 2009). Figures: docs/long_runs.md.
 
+#include <array>
 #include <cstdint>
 
 #include <zlg/core/compensation/compensation_constants.hpp>
-#include <zlg/core/compensation/magnetic_filter.hpp>
 #include <zlg/core/compensation/segment_rate.hpp>
 #include <zlg/core/units.hpp>
 
@@ -48,19 +59,29 @@ enum class MagneticDriftFault : unsigned char { none, presumed, warming };
 // Asked whatever the method: by phase every one uses the numbers.
 [[nodiscard]] MagneticDriftFault check(const MagneticDriftConfig& config) noexcept;
 
+enum MagneticPart : unsigned char { of_base, of_drift, of_trend, of_angle };
+
+inline constexpr unsigned magnetic_states = 3;
+inline constexpr unsigned magnetic_parts = 4;
+
+using MagneticVector = std::array<double, magnetic_states>;
+
 struct MagneticDriftState {
     bool started = false;
     SegmentRateState segment{};
-    std::int8_t mode = 0;            // of the last tick; 0 in a gap
-    std::int32_t pending_ticks = 0;  // since the filter was at the present
-    std::int8_t last_mode = 0;       // that was measured
-    double age_s = 0.0;              // of the filter
-    double switched_s = 0.0;         // age at the last switch; 0: none yet
-    MagneticFilterState filter{};
-    double share = 0.0;              // 0..1: (3)
-    double trust = 0.0;              // 0..1: (3), the part of M that is subtracted
-    double due_arcsec = 0.0;         // trust M, by now
-    double subtracted_arcsec = 0.0;  // so far
+    std::int8_t mode = 0;                                     // of the last tick; 0 in a gap
+    std::int32_t pending_ticks = 0;                           // since the filter was at the present
+    double age_s = 0.0;                                       // of the filter
+    bool base_known = false;                                  // by the last segment
+    std::array<double, magnetic_parts> estimate{};            // b, Om: arcsec/s, v: arcsec/s^2, M: arcsec
+    std::array<MagneticVector, magnetic_parts> covariance{};  // of each with the states
+    double n_compared = 2.0;                                  // segments that s stands for
+    double scatter_arcsec_s = 0.5;                            // s of (2); at first that of a quiet laboratory
+    double weight = 0.0;                                      // sum of w of (3)
+    std::array<double, 2> sum{};                              // of w c
+    std::array<double, 2> square_sum{};                       // of (w c)^2
+    double trust = 0.0;                                       // 0..1: (4)
+    double subtracted_arcsec = 0.0;                           // so far
 
     friend constexpr bool operator==(const MagneticDriftState&, const MagneticDriftState&) = default;
 };
@@ -73,35 +94,31 @@ struct MagneticTick {
 
 // Advance by one tick. A gap, or a change of the mode, ends a segment.
 //
-//   share = 1 - 16 sigma^2/Om^2, not below 0;    trust = share where Om is within 2 sigma_p of what was presumed,
-//   0 beyond 3 sigma_p, by the square of the distance between                                            (3)
+//   angle subtracted = trust M,
+//   trust = 1 - 16 sigma^2/Om^2 - (d^2 - 4 sigma_p^2)/(5 sigma_p^2), each at least 0                             (4)
 //
-// so it acts only where the drift is known to a quarter of itself: base motion that looks like drift increases the
-// scatter of the innovations, and that increases sigma; so does motion in step with the switches (motion_in_step.hpp). A
-// rotation in step that jumps with the switches is bounded by sigma_p alone, the standard deviation of the presumed drift,
-// of its warming by now and of its random walk. Segments whose rate scatters by more than 300 arcsec/s are not used.
+// with d the distance of Om from what was presumed, sigma_p the standard deviation of the presumed drift, of its
+// warming by now and of its random walk. So it acts where the drift is known to a quarter of itself and lies within
+// 2 sigma_p of what was presumed; beyond 3 sigma_p it does not. What trust and M were wrong by in the past is
+// corrected over some seconds. Segments between which the base changes by more than 300 arcsec/s are not compared.
 //
 // config  passed `check`.
 // state   from MagneticDriftState{}.
 // return  the angle to subtract from this tick, arcsec: 0 in a gap, and where the method does not act.
 // errors  an angle that is not finite, or of a rate above 1e7 arcsec/s, ends the segment, which is dropped.
-// cost    ten multiplications a tick; every 1024 ticks, and where a segment ends, products of 4 x 4 matrices.
+// cost    ten multiplications a tick; every 1024 ticks, and where a segment ends, some 60 multiplications.
 [[nodiscard]] double step(const CompensationConstants& gyro, const MagneticDriftConfig& config,
                           MagneticDriftState& state, const MagneticTick& tick) noexcept;
 
-// The rate that alternates with the mode, drift or motion in step, as far as the filter knows it: its estimate times
-// 1 - 16 sigma^2/Om^2, sigma that of the filter alone, whatever the method and what was presumed.
-[[nodiscard]] double trusted_arcsec_s(const MagneticDriftState& state) noexcept;
+// The part of Om that is subtracted.
+[[nodiscard]] constexpr double taken_out(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept {
+    return config.method == MagneticMethod::estimate ? state.trust : 0.0;
+}
 
-// Standard deviation of the drift: that of (3), with what a rotation in step could be unseen (motion_in_step.hpp). On a
-// regular grid that is all that was presumed, and the distance from it; where the two contradict each other, sigma spans
-// both.
-[[nodiscard]] double sigma_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept;
+// sigma^2 of (3), (arcsec/s)^2.
+[[nodiscard]] double drift_variance(const MagneticDriftState& state) noexcept;
 
-// The drift that remains in the angle, rms: all of it where nothing is subtracted. As a schedule asks for it, that is without
-// what could be there unseen.
-//
-// return  arcsec/s; 0 before the drift is known to a quarter of itself.
+// The drift that remains in the angle, rms, arcsec/s; 0 where it is not trusted, and a schedule presumes one.
 [[nodiscard]] double remaining_arcsec_s(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept;
 
 }  // namespace zlg::core

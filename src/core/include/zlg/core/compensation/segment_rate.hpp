@@ -1,6 +1,5 @@
 #pragma once
-// Mean rate over a segment of unknown length, blind to oscillations and to its own ends; change and curvature of the
-// rate in it.
+// Mean rate over a segment of unknown length, blind to oscillations and to its own ends; curvature of the rate in it.
 //
 // Weighted least squares of a parabola, with a weight that vanishes smoothly at both ends: a window in the sense of
 // spectral analysis (Harris, Proc. IEEE 66 (1978) 51). The weight is a polynomial in time, so that five running sums of
@@ -27,9 +26,9 @@ void accumulate(SegmentRateState& state, double angle_arcsec) noexcept;
 //   rate(x) = mean + change x/2 + curvature (x^2 - 1/7)
 //
 // The three functions are orthogonal with this weight: the weighted mean of x^2 is 1/7, that of (x^2 - 1/7)^2 is 4/147.
+// Nobody asks for the change.
 struct SegmentRate {
     double mean_arcsec_s = 0.0;
-    double change_arcsec_s = 0.0;     // from start to end
     double curvature_arcsec_s = 0.0;  // of the ends over the middle
 };
 
@@ -43,8 +42,7 @@ struct SegmentRate {
 [[nodiscard]] SegmentRate rate_of(const SegmentRateState& state, double tick_s) noexcept;
 
 // Variance of the mean on a base at rest: 10/7 W^2/L of an angle random walk W, and 120/7 (c^2/12)/(n L^2) of n ticks
-// that are rounded to counts c, as if independent. That of change and curvature is at most 21 times as large for a
-// walk.
+// that are rounded to counts c, as if independent.
 //
 // return  (arcsec/s)^2; infinite for a segment without a tick.
 [[nodiscard]] double mean_rate_variance(const SegmentRateState& state, double tick_s, double walk_arcsec_sqrt_s,
