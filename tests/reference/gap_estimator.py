@@ -16,9 +16,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-EVERYWHERE, BESIDE = (lambda lo, hi, length: (0, length)), (lambda lo, hi, length: (lo - 8, hi + 8))
+EVERYWHERE = lambda lo, hi, length: (0, length)
+BESIDE = lambda halves: lambda lo, hi, length: (lo - halves, hi + halves)
 AFTER = lambda halves: lambda lo, hi, length: (hi + halves, length)
-BANK = [(2, EVERYWHERE), (3, EVERYWHERE), (2, BESIDE), (2, AFTER(2)), (2, AFTER(4)), (2, AFTER(8))]
+BANK = [(2, EVERYWHERE), (3, EVERYWHERE), (2, BESIDE(4)), (2, BESIDE(8)), (2, BESIDE(16)), (2, AFTER(2))]
 SIZES = 10.0 ** np.arange(-0.5, 11.6, 1.5)
 SHARES = 0.8, 0.4, 0.2, 0.1, 0.05, 0.02, 0.0
 KNOTS = np.r_[np.arange(17), 20, 24, 28, 34, 40]

@@ -166,6 +166,8 @@ INSTANTIATE_TEST_SUITE_P(Readouts, CloseGaps, testing::Values("x1", "phase"));
 TEST(LitHalves, APulseThatContradictsThemIsInSigma) {
     for (const char* readout : {"x1", "phase"}) {
         Trial trial = learnt({readout, core::RelockMethod::joint, core::BridgeMethod::automatic, 3, 3, {}}, 5);
+        // As the switches before have shown chi f0 (a tenth off at the first one, which then may take the pulse for that).
+        trial.state.bridge.scale.variance = 1e-5;
         for (const double size : {18.0, 25.0, 40.0})
             for (int at = 3; at <= 4; ++at) {
                 const Errors e = errors_of(trial, 77, far_away, {0.5 * size, 0.5 * size}, at);

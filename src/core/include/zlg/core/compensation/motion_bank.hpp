@@ -24,10 +24,10 @@ struct BankMember {
 
 inline constexpr std::array<BankMember, 6> motion_bank{{{2, WalkPlace::everywhere, 0},
                                                         {3, WalkPlace::everywhere, 0},
+                                                        {2, WalkPlace::beside, 4},
                                                         {2, WalkPlace::beside, 8},
-                                                        {2, WalkPlace::after, 2},
-                                                        {2, WalkPlace::after, 4},
-                                                        {2, WalkPlace::after, 8}}};
+                                                        {2, WalkPlace::beside, 16},
+                                                        {2, WalkPlace::after, 2}}};
 
 // Variances of a member, in units of the variance of a half that its neighbours do not foretell: 10^-0.5 to 10^11.5, 10^1.5 apart.
 inline constexpr std::array<double, 9> motion_sizes{0.31622776601683794, 10.0,       316.22776601683796, 10000.0,
