@@ -111,12 +111,12 @@ int larger(int a, int b) noexcept {
 }
 """
 TEST = """#include <gtest/gtest.h>
-#include "compensation/relock/relock.hpp"
+#include "control/relock.hpp"
 TEST(Larger, IsTheFirstWhereItIsLarger) { EXPECT_EQ(larger(2, 1), 2); }
 """
 SECOND_TEST = "TEST(Larger, IsTheSecondWhereThatIsLarger) { EXPECT_EQ(larger(1, 2), 2); }\n"
 EQUIVALENT = """[[equivalent]]
-file = "src/core/compensation/relock/relock_drift.cpp"
+file = "src/core/control/perimeter_loop.cpp"
 function = "larger"
 line = "return a > b ? a : b;"
 change = "`>` -> `>=`"
@@ -124,7 +124,7 @@ why = "of two equal numbers either is the larger"
 """
 
 
-SURVIVOR = "src/core/compensation/relock/relock_drift.cpp\tlarger\t1\t`>` -> `>=`\treturn a > b ? a : b;\n"
+SURVIVOR = "src/core/control/perimeter_loop.cpp\tlarger\t1\t`>` -> `>=`\treturn a > b ? a : b;\n"
 
 
 class Mutate(TreeTest):
@@ -134,9 +134,9 @@ class Mutate(TreeTest):
         for name in ("mutate", "mutation_operators.py", "mutation_programs.py"):
             shutil.copy(TOOLS / name, self.root / "tools" / name)
         (self.root / "src" / "core" / "include").mkdir(parents=True)
-        self.write("src/core/compensation/relock/relock.hpp", "int larger(int a, int b) noexcept;\n")
-        self.write("src/core/compensation/relock/relock_drift.cpp", SOURCE)
-        self.write("tests/core/relock_drift_test.cpp", TEST + SECOND_TEST)
+        self.write("src/core/control/relock.hpp", "int larger(int a, int b) noexcept;\n")
+        self.write("src/core/control/perimeter_loop.cpp", SOURCE)
+        self.write("tests/core/perimeter_loop_test.cpp", TEST + SECOND_TEST)
 
     def mutate(self, *arguments):
         command = [sys.executable, self.root / "tools" / "mutate", *arguments]
@@ -146,26 +146,26 @@ class Mutate(TreeTest):
         return (self.root / "tests" / "mutants" / "survivors.txt").read_text(encoding="utf-8")
 
     def test_a_mutant_that_no_test_notices_is_named_unless_it_is_proved_equivalent(self):
-        answer = self.mutate("relock_drift")
-        self.assert_refused(answer, "survived: src/core/compensation/relock/relock_drift.cpp:3: `>` -> `>=`   in larger")
+        answer = self.mutate("perimeter_loop")
+        self.assert_refused(answer, "survived: src/core/control/perimeter_loop.cpp:3: `>` -> `>=`   in larger")
         self.assertEqual(answer.stdout.count("survived: "), 1, answer.stdout)
         self.write("tests/mutants/equivalent.toml", EQUIVALENT)
-        self.assert_good(self.mutate("relock_drift"))
+        self.assert_good(self.mutate("perimeter_loop"))
 
     def test_a_weak_test_lets_more_survive(self):
-        self.write("tests/core/relock_drift_test.cpp", TEST)
-        self.assert_refused(self.mutate("relock_drift"), "`?` -> `|| true ?`")
+        self.write("tests/core/perimeter_loop_test.cpp", TEST)
+        self.assert_refused(self.mutate("perimeter_loop"), "`?` -> `|| true ?`")
 
     def test_a_known_survivor_is_none_that_is_new(self):
         self.write("tests/mutants/survivors.txt", SURVIVOR)
-        for arguments in (["relock_drift"], ["--sample", "40"]):
+        for arguments in (["perimeter_loop"], ["--sample", "40"]):
             self.assert_good(self.mutate(*arguments))
             self.assertEqual(self.survivors(), SURVIVOR)
 
     def test_a_survivor_that_is_killed_or_gone_is_taken_out_of_the_list(self):
         killed = SURVIVOR.replace("`>` -> `>=`", "`>` -> `<=`")
         gone = SURVIVOR.replace("return a", "return  a")
-        for arguments in (["relock_drift"], ["--sample", "40"]):
+        for arguments in (["perimeter_loop"], ["--sample", "40"]):
             self.write("tests/mutants/survivors.txt", SURVIVOR + killed + gone)
             answer = self.mutate(*arguments)
             self.assert_good(answer)
@@ -174,7 +174,7 @@ class Mutate(TreeTest):
 
     def test_what_survives_in_a_new_module_is_added_where_it_is_asked(self):
         (self.root / "tests" / "mutants").mkdir()
-        self.assert_good(self.mutate("relock_drift", "--add"))
+        self.assert_good(self.mutate("perimeter_loop", "--add"))
         self.assertEqual(self.survivors(), SURVIVOR)
 
     def test_the_day_is_the_seed_and_is_printed(self):
@@ -183,13 +183,13 @@ class Mutate(TreeTest):
 
     def test_a_list_that_is_wrong_is_refused(self):
         self.write("tests/mutants/equivalent.toml", EQUIVALENT + EQUIVALENT.replace("`>` -> `>=`", "`>` -> `<=`"))
-        self.assert_refused(self.mutate("relock_drift"), "listed as equivalent, but killed")
+        self.assert_refused(self.mutate("perimeter_loop"), "listed as equivalent, but killed")
         self.write("tests/mutants/equivalent.toml", EQUIVALENT + EQUIVALENT.replace("a > b", "a >> b"))
         self.assert_refused(self.mutate(), "listed as equivalent, but no mutant")
 
     def test_tests_that_fail_without_a_mutant_prove_nothing(self):
-        self.write("tests/core/relock_drift_test.cpp", TEST.replace("larger(2, 1), 2", "larger(2, 1), 1"))
-        answer = self.mutate("relock_drift")
+        self.write("tests/core/perimeter_loop_test.cpp", TEST.replace("larger(2, 1), 2", "larger(2, 1), 1"))
+        answer = self.mutate("perimeter_loop")
         self.assertEqual(answer.returncode, 1)
         self.assertIn("fail on the core as it is", answer.stderr)
 
