@@ -29,7 +29,8 @@ const CaseFigures* find_case(CaseGroup group, const std::string& name) {
 // Every criterion at once, each by its own words: a limit is broken only where chance does not explain it.
 void meets_what_is_wanted() {
     // What is weak (docs/accuracy.md). Where one is mended its line must go.
-    const std::set<std::string> known_misses{"tracked vehicle: at most 1 % beyond 3 sigma",
+    const std::set<std::string> known_misses{"false angle, every loop: bias at most 0.2\"",
+                                             "tracked vehicle: at most 1 % beyond 3 sigma",
                                              "another motion from the gap on: NEV at most 3"};
     for (const Criterion& c : quick().criteria)
         EXPECT_EQ(c.verdict == Verdict::missed, known_misses.contains(c.wanted))
