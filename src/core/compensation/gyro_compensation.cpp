@@ -194,7 +194,7 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
         const double tick_s = by_phase ? config.gyro.tick.value() : 0.0;
         const double left = 1.0 - taken_out(config.magnetic, state.magnetic);
         state.bridge.magnetic_arcsec = left * state.magnetic.estimate[of_drift] * tick_s;
-        state.bridge.magnetic_variance_arcsec2 = state.magnetic.covariance[of_drift][of_drift] * square(tick_s);
+        state.bridge.magnetic_variance_arcsec2 = drift_variance(state.magnetic) * square(tick_s);
     }
     return subtracted;
 }

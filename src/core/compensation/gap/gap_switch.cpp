@@ -64,7 +64,9 @@ public:
         const bool is_own = light.first_half >= 2 * gap.first_tick && light.first_half < 2 * (end_of_gap_ + 1);
         if (!gap.moves) {
             plan_.light = HalfLight::ticks;
-        } else if (is_joint() && is_own && is_complete(light) && config.relock_ticks > 0) {
+        } else if (config.relock_ticks == 0) {
+            plan_.light = HalfLight::none;
+        } else if (is_joint() && is_own && is_complete(light)) {
             plan_.light = HalfLight::spline;
             window_.light = light.sums;
             window_.light_start = static_cast<int>(light.first_half - 2 * first_tick_);
@@ -259,8 +261,8 @@ private:
         const bool corrects = wanted && plan_.light != HalfLight::ticks;
         const bool by_records = corrects && plan_.light == HalfLight::records;
         const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0F && entry.half[1].false_arcsec2 >= 0.0F);
-        const bool is_corrected =
-            plan_.light == HalfLight::ticks && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
+        // By the paper's equation; or by nobody, and then the false angle alternates from half to half, and a tick has little of it.
+        const bool is_corrected = !corrects && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
         if (!has_halves(entry) || !known || is_corrected) {
             add_tick_as_it_is(tick);
             window_.row[static_cast<unsigned>(window_.n_rows - 1)].wanted = wanted;

@@ -21,7 +21,8 @@ void step(const CompensationConstants& gyro, const RelockProfileConfig& config, 
         state.n_halves = 0;
         state.n_samples = samples.n;
         state.sums = LightSums{};
-        if (samples.n > 0) state.sums.basis = light_basis(halves);
+        // The ticks that are corrected begin with a whole one.
+        if (samples.n > 0) state.sums.basis = light_basis(halves + static_cast<int>(index % 2));
     }
     if (samples.n == 0 || samples.n != state.n_samples) {
         state.n_samples = 0;

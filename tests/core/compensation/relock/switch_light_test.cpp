@@ -40,12 +40,12 @@ TEST(SwitchLight, GathersTheHalvesFromTheFirstOneThatCounts) {
     SwitchLight state;
     for (int h = 0; h < 5; ++h) take(state, half_at(0.3), true, h);
     EXPECT_EQ(state.first_half, -1) << "no gap yet";
-    for (int h = 5; h < 11; ++h) take(state, half_at(0.3), false, h);
+    for (int h = 5; h < 12; ++h) take(state, half_at(0.3), false, h);
     for (int h = 0; h < 60; ++h) {
         EXPECT_EQ(is_complete(state), h >= halves);
-        take(state, half_at(0.1), true, 11 + h);
+        take(state, half_at(0.1), true, 12 + h);
     }
-    EXPECT_EQ(state.first_half, 11);
+    EXPECT_EQ(state.first_half, 12);
     const LightFit fit{state.sums, 1e-6};
     ASSERT_TRUE(fit.is_known());
     for (int h = 0; h < halves; ++h) EXPECT_NEAR(fit.angle(fit.half(h)), 0.01, 1e-6);
@@ -62,14 +62,24 @@ TEST(SwitchLight, AnotherGapBeginsItAnew) {
     EXPECT_EQ(state.first_half, 10);
 }
 
+// The first whole tick after it is the first one that is corrected: so many of these, to the end of the last.
+TEST(SwitchLight, OneThatBeginsWithinATickHasAHalfMore) {
+    SwitchLight state;
+    take(state, half_at(0.3), false, 2);
+    for (int h = 3; h < 3 + halves; ++h) take(state, half_at(0.1), true, h);
+    EXPECT_FALSE(is_complete(state));
+    take(state, half_at(0.1), true, 3 + halves);
+    EXPECT_TRUE(is_complete(state));
+}
+
 // A complete one is kept until the next one begins: its gap may still wait for its estimate.
 TEST(SwitchLight, IsKeptThroughTheNextGap) {
     SwitchLight state;
-    take(state, half_at(0.3), false, 0);
-    for (int h = 1; h <= halves; ++h) take(state, half_at(0.1), true, h);
-    for (int h = 0; h < 6; ++h) take(state, half_at(0.3), false, 41 + h);
+    take(state, half_at(0.3), false, 1);
+    for (int h = 2; h < 2 + halves; ++h) take(state, half_at(0.1), true, h);
+    for (int h = 0; h < 6; ++h) take(state, half_at(0.3), false, 42 + h);
     EXPECT_TRUE(is_complete(state));
-    EXPECT_EQ(state.first_half, 1);
+    EXPECT_EQ(state.first_half, 2);
 }
 
 TEST(SwitchLight, LightThatCannotBeReadIsNotComplete) {

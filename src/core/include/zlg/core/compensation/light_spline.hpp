@@ -8,7 +8,7 @@
 //
 // x are the samples, A the basis at their times, s^2 their variance: that of the residuals of the knots alone (g = 0) where it is
 // larger than the configured one. c^T P c is the integral of (1 + t)^3 times the square of the third derivative, t in half-periods:
-// the longer a loop has been closed the slower it moves. It is taken as white noise, of the size that the samples make likeliest
+// the longer a loop has been closed the slower it moves. It is taken as white noise: g is a hundredth of the one that the samples make likeliest
 // (Wahba, Spline Models for Observational Data, 1990, ch. 4.8). So a slow loop is smoothed over many halves, and a fast one by its
 // knots. The trace of (2) takes off what the noise of the light adds to a mean square. (3) is the covariance of two quadratic
 // forms of a Gaussian vector (Searle, Linear Models, 1971, ch. 2.5). Basis: de Boor, A Practical Guide to Splines, ch. X.
@@ -78,7 +78,7 @@ public:
     // light_sd_lambda  configured noise of one sample.
     LightFit(const LightSums& sums, double light_sd_lambda) noexcept;
 
-    // False where there is no sample, or without noise too few for the knots.
+    // False where there is no sample.
     [[nodiscard]] bool is_known() const noexcept { return known_; }
     [[nodiscard]] LightHalf half(int h) const noexcept;
     // (2), without the sign of the bias.
