@@ -1,12 +1,8 @@
 #include <zlg/core/compensation/counted_stretch.hpp>
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
-#include <cmath>
-#include <vector>
-
-namespace zlg::core {
-namespace counted_stretch_test {
+namespace zlg::core::counted_stretch_test {
 
 constexpr CompensationConstants config{};
 
@@ -112,5 +108,4 @@ TEST(CountedStretch, ShiftedEdgesTakeTheirArea) {
     EXPECT_NEAR(out.angle_arcsec, 3.263 * (100 - 2 * 0.15), 1e-9);
 }
 
-}  // namespace counted_stretch_test
-}  // namespace zlg::core
+}  // namespace zlg::core::counted_stretch_test

@@ -1,18 +1,6 @@
-#include <zlg/core/gyro_compensation.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-
-#include "compensation_support.hpp"
 #include "gyro_compensation_support.hpp"
 
-namespace gyro_compensation_magnetic_test {
-
-using namespace zlg::core;
-using namespace gyro_compensation_support;
+namespace gyro_compensation_support::magnetic_test {
 
 constexpr double tick_s = 0.05;
 constexpr double scale_arcsec = 0.01;
@@ -97,4 +85,4 @@ TEST(GyroCompensationMagnetic, ARefusedEstimatorIsAFault) {
     EXPECT_EQ(check(config), GyroCompensationFault::magnetic);
 }
 
-}  // namespace gyro_compensation_magnetic_test
+}  // namespace gyro_compensation_support::magnetic_test

@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-#include <zlg/core/common/maths.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <random>
-
 #include <zlg/core/compensation/magnetic_drift.hpp>
 
-namespace zlg::core {
-namespace magnetic_drift_test {
+#include "support.hpp"
+
+namespace zlg::core::magnetic_drift_test {
 
 constexpr double tick_s = 0.05;  // long ticks: fewer of them
 
@@ -29,21 +19,14 @@ constexpr CompensationConstants constants{
     .tick = Seconds{tick_s}, .scale = Arcsec{0.8}, .random_walk = ArcsecPerRootSecond{0.14}};
 
 TEST(MagneticDrift, WhatIsNoNumberIsRefused) {
-    EXPECT_EQ(check(config_of()), MagneticDriftFault::none);
-    MagneticDriftConfig c = config_of();
-    c.presumed_sigma_arcsec_s = not_a_number;
-    EXPECT_EQ(check(c), MagneticDriftFault::presumed);
-    c.method = MagneticMethod::none;
-    EXPECT_EQ(check(c), MagneticDriftFault::presumed);
-    c = config_of();
-    c.presumed_arcsec_s = -1e7;
-    EXPECT_EQ(check(c), MagneticDriftFault::presumed);
-    c = config_of();
-    c.warming_sigma_arcsec_s = -1.0;
-    EXPECT_EQ(check(c), MagneticDriftFault::warming);
-    c = config_of();
-    c.thermal_time = Seconds{0.0};
-    EXPECT_EQ(check(c), MagneticDriftFault::warming);
+    using enum MagneticDriftFault;
+    const auto fault = [](auto change) { return test::fault_of(change, config_of()); };
+    EXPECT_EQ(check(config_of()), none);
+    EXPECT_EQ(fault([](auto& c) { c.presumed_sigma_arcsec_s = not_a_number; }), presumed);
+    EXPECT_EQ(check({.method = MagneticMethod::none, .presumed_sigma_arcsec_s = not_a_number}), presumed);
+    EXPECT_EQ(fault([](auto& c) { c.presumed_arcsec_s = -1e7; }), presumed);
+    EXPECT_EQ(fault([](auto& c) { c.warming_sigma_arcsec_s = -1.0; }), warming);
+    EXPECT_EQ(fault([](auto& c) { c.thermal_time = Seconds{0.0}; }), warming);
 }
 
 // A tone has no field in it, however its periods lie to the switches: what is read is 20.06 Hz in whole counts.
@@ -283,5 +266,4 @@ TEST(MagneticDrift, NothingThatIsReadMakesTheStateNotFinite) {
     }
 }
 
-}  // namespace magnetic_drift_test
-}  // namespace zlg::core
+}  // namespace zlg::core::magnetic_drift_test

@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <random>
-
 #include <zlg/core/compensation/segment_rate.hpp>
 
-namespace zlg::core {
-namespace segment_rate_test {
+#include "support.hpp"
+
+namespace zlg::core::segment_rate_test {
 
 constexpr double tick_s = 0.005;
 
@@ -31,20 +24,17 @@ TEST(SegmentRate, AConstantRateIsFound) {
     }
 }
 
-TEST(SegmentRate, ASteadyChangeHasTheMeanOfTheMiddle) {
-    const double length_s = 9000 * tick_s;
-    const SegmentRate got = rate_of_motion([](double t) { return 2.0 * t + 0.5 * 0.3 * t * t; }, 9000);
-    EXPECT_NEAR(got.mean_arcsec_s, 2.0 + 0.3 * length_s / 2.0, 1e-6);
-    EXPECT_NEAR(got.curvature_arcsec_s, 0.0, 1e-5);
-}
-
-TEST(SegmentRate, ABendIsTheRateOfTheEndsOverThatOfTheMiddle) {
-    const double length_s = 9000 * tick_s;
+TEST(SegmentRate, ASteadyChangeHasTheMeanOfTheMiddleAndABendTheRateOfTheEndsOverThatOfTheMiddle) {
+    constexpr double length_s = 9000 * tick_s;
+    const auto steady = [](double t) { return 2.0 * t + 0.5 * 0.3 * t * t; };
     // rate 4 x^2, x = 2 t/L - 1
-    const auto angle = [&](double t) { return 4.0 * length_s / 6.0 * std::pow(2.0 * t / length_s - 1.0, 3.0); };
-    const SegmentRate got = rate_of_motion(angle, 9000);
-    EXPECT_NEAR(got.mean_arcsec_s, 4.0 / 7.0, 1e-6);
-    EXPECT_NEAR(got.curvature_arcsec_s, 4.0, 1e-5);
+    const auto bend = [](double t) { return 4.0 * length_s / 6.0 * std::pow(2.0 * t / length_s - 1.0, 3.0); };
+    const auto expect = [](const SegmentRate& got, double mean, double curvature) {
+        EXPECT_NEAR(got.mean_arcsec_s, mean, 1e-6);
+        EXPECT_NEAR(got.curvature_arcsec_s, curvature, 1e-5);
+    };
+    expect(rate_of_motion(steady, 9000), 2.0 + 0.3 * length_s / 2.0, 0.0);
+    expect(rate_of_motion(bend, 9000), 4.0 / 7.0, 4.0);
 }
 
 TEST(SegmentRate, OfAnOscillationLittleIsLeft) {
@@ -96,5 +86,4 @@ TEST(SegmentRate, AnEmptySegmentKnowsNothing) {
     EXPECT_EQ(mean_rate_variance({}, tick_s, 0.14, 3.0), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace segment_rate_test
-}  // namespace zlg::core
+}  // namespace zlg::core::segment_rate_test

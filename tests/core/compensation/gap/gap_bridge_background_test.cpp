@@ -1,37 +1,10 @@
 // The estimates of switches beside the half-periods: whenever they are made in time, the angles are the same; and what happens where
 // they are not.
-
-#include <zlg/core/compensation/gap_bridge.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "gap_bridge_support.hpp"
 
-namespace gap_bridge_background_test {
-
-using namespace gap_bridge_support;
-using compensation_test::Random;
-using zlg::core::BridgeMethod;
-using zlg::core::flag_lower_order;
-using zlg::core::ticks_to_correction;
+namespace zlg::core::gap_bridge_support::background_test {
 
 const GapBridgeConfig automatic{.method = BridgeMethod::automatic};
-
-// Counts of a tone of 20.06 Hz, with a gap of three ticks in every 150.
-Log tone_with_gaps(int n_ticks) {
-    const auto place = [](double edge) { return std::floor(95.2 * std::cos(0.63 * edge)); };
-    Log log;
-    for (int t = 0; t < n_ticks; ++t) {
-        TickInput tick = measured_tick(place(t + 1) - place(t));
-        tick.half[0] = {.read = true, .sign = 1, .angle_arcsec = place(t + 0.5) - place(t)};
-        tick.half[1] = {.read = true, .sign = -1, .angle_arcsec = place(t + 1) - place(t + 0.5)};
-        tick.measured = t % 150 < 147;
-        log.push_back(tick);
-    }
-    return log;
-}
 
 // Worked in the background, after each tick for which `works` is true.
 template <class Works>
@@ -54,7 +27,7 @@ void expect_same(const Delivered& a, const Delivered& b) {
 }
 
 TEST(BackgroundWork, TheTimeAtWhichItIsDoneIsOfNoAccount) {
-    const Log log = tone_with_gaps(6000);
+    const Log log = counted(6000, 3, tone);
     const Delivered at_once = run(automatic, log);
     Random random{7};
     std::size_t next = 0;
@@ -69,7 +42,7 @@ TEST(BackgroundWork, TheTimeAtWhichItIsDoneIsOfNoAccount) {
 }
 
 TEST(BackgroundWork, AnEstimateThatIsNotReadyIsCountedAndThePolynomialStandsIn) {
-    const Log log = tone_with_gaps(3000);
+    const Log log = counted(3000, 3, tone);
     GapBridgeState state;
     // Not in the second half of the log.
     const Delivered got = run_apart(log, state, [](std::size_t t) { return t < 1500; });
@@ -81,7 +54,7 @@ TEST(BackgroundWork, AnEstimateThatIsNotReadyIsCountedAndThePolynomialStandsIn) 
 }
 
 TEST(BackgroundWork, ARecordOfALateEstimateIsObeyed) {
-    Log log = tone_with_gaps(3000);
+    Log log = counted(3000, 3, tone);
     GapBridgeState state;
     // The background is away for a while: one gap, at tick 1497, misses its estimate.
     const Delivered live = run_apart(log, state, [](std::size_t t) { return t < 1500 || t > 1530; });
@@ -92,7 +65,7 @@ TEST(BackgroundWork, ARecordOfALateEstimateIsObeyed) {
 
 // Two gaps miss theirs, one after the other; what comes later is estimated as if nothing had been.
 TEST(BackgroundWork, ALateEstimateLeavesItsPlace) {
-    Log log = tone_with_gaps(6000);
+    Log log = counted(6000, 3, tone);
     GapBridgeState state;
     const Delivered live =
         run_apart(log, state, [](std::size_t t) { return (t <= 1500 || t >= 1530) && (t <= 1650 || t >= 1680); });
@@ -102,4 +75,4 @@ TEST(BackgroundWork, ALateEstimateLeavesItsPlace) {
     expect_same(live, run(automatic, log));
 }
 
-}  // namespace gap_bridge_background_test
+}  // namespace zlg::core::gap_bridge_support::background_test

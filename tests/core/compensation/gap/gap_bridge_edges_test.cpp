@@ -1,34 +1,8 @@
 // Borders of the bridge that random logs do not meet: a state of many years, the last tick of a gap that is not too long,
 // amendments where no gap is.
-#include <zlg/core/compensation/gap_bridge.hpp>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <initializer_list>
-
-#include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace gap_bridge_edges_test {
-
-using namespace zlg::core;
-using namespace compensation_test;
-using namespace gap_bridge_support;
-
-Log measured(int n, double value_arcsec = 10.0) {
-    return Log(static_cast<std::size_t>(n), measured_tick(value_arcsec));
-}
-
-Log joined(std::initializer_list<Log> parts) {
-    Log log;
-    for (const Log& part : parts) log.insert(log.end(), part.begin(), part.end());
-    return log;
-}
-
-Log gap(int n) { return Log(static_cast<std::size_t>(n), gap_tick()); }
+namespace zlg::core::gap_bridge_support::edges_test {
 
 TEST(GapBridgeEdges, TheHelicityBeforeAGapIsThatOfItsLastTick) {
     Log log = measured(4);
@@ -42,40 +16,25 @@ TEST(GapBridgeEdges, TheHelicityBeforeAGapIsThatOfItsLastTick) {
     EXPECT_FALSE(got.gaps[0].mode_changed);
 }
 
-// With 4 points the constant has the weights 1/4: the sum of three neighbouring covariances of -count^2/12, twice.
+// With 4 points the constant has the weights 1/4: the sum of three neighbouring covariances of -count^2/12, twice. A
+// line through 3 points, one tick ahead, is (-2/3, 1/3, 4/3): with unequal weights it matters which neighbours are
+// meant. Ticks with the phase at both ends among others without share at most what the better one has; exact ticks
+// share nothing, whatever a count is.
 TEST(GapBridgeEdges, TheSigmaOfAnExtrapolationHoldsTheSharedRounding) {
-    const GapBridgeConfig config{.method = BridgeMethod::constant};
-    const Delivered got = run(config, joined({measured(4), gap(2)}), {.scale = Arcsec{3.0}});
-    const double variance = 4.0 * 1.8 / 16.0 - 3.0 * 2.0 * (9.0 / 12.0) / 16.0;
-    for (const unsigned k : {4u, 5u}) EXPECT_NEAR(got.rows[k].sigma_arcsec, std::sqrt(variance), 1e-14);
-}
-
-// With unequal weights it matters which neighbours are meant: a line through 3 points, one tick ahead, is
-// (-2/3, 1/3, 4/3).
-TEST(GapBridgeEdges, TheSigmaOfAnExtrapolationPairsEachPointWithTheOneBefore) {
-    const GapBridgeConfig config{.method = BridgeMethod::linear, .extrapolation_points = 3};
-    const Delivered got = run(config, joined({measured(3), gap(1)}), {.scale = Arcsec{3.0}});
-    const double squares = (4.0 + 1.0 + 16.0) / 9.0;
-    const double neighbours = (-2.0 + 4.0) / 9.0;
-    EXPECT_NEAR(got.rows[3].sigma_arcsec, std::sqrt(1.8 * squares - 2.0 * (9.0 / 12.0) * neighbours), 1e-14);
-}
-
-// Exact ticks have no error, and share none whatever a count is.
-TEST(GapBridgeEdges, ASigmaIsZeroWhereNothingErrs) {
-    Log log = joined({measured(4), gap(2)});
-    for (TickInput& tick : log) tick.variance_arcsec2 = 0.0;
-    const GapBridgeConfig config{.method = BridgeMethod::constant};
-    EXPECT_EQ(run(config, log, {.scale = Arcsec{0.0}}).rows[4].sigma_arcsec, 0.0);
-    EXPECT_EQ(run(config, log, {.scale = Arcsec{3.0}}).rows[4].sigma_arcsec, 0.0);
-}
-
-// Ticks with the phase at both ends among others without: what two of them share is at most what the better one has.
-TEST(GapBridgeEdges, TicksOfUnequalReadingsShareWhatTheBetterOneHas) {
-    Log log = joined({measured(4), gap(1)});
-    log[1].variance_arcsec2 = log[2].variance_arcsec2 = 0.01;
-    const GapBridgeConfig config{.method = BridgeMethod::constant};
-    const double variance = (2.0 * 1.8 + 2.0 * 0.01 - 3.0 * 0.01) / 16.0;
-    EXPECT_NEAR(run(config, log, {.scale = Arcsec{3.0}}).rows[4].sigma_arcsec, std::sqrt(variance), 1e-14);
+    const GapBridgeConfig constant{.method = BridgeMethod::constant};
+    const GapBridgeConfig linear{.method = BridgeMethod::linear, .extrapolation_points = 3};
+    const auto expect = [](const GapBridgeConfig& config, const std::vector<double>& points, double scale, double of) {
+        Log log;
+        for (const double v : points) log.push_back({.value_arcsec = 10.0, .variance_arcsec2 = v});
+        const int n = config.method == BridgeMethod::constant ? 2 : 1;
+        const Delivered got = run(config, joined({log, gap(n)}), {.scale = Arcsec{scale}});
+        for (std::size_t k = log.size(); k < got.rows.size(); ++k)
+            EXPECT_NEAR(got.rows[k].sigma_arcsec, std::sqrt(of), of > 0.0 ? 1e-14 : 0.0);
+    };
+    expect(constant, {1.8, 1.8, 1.8, 1.8}, 3.0, (4.0 * 1.8 - 3.0 * 2.0 * 9.0 / 12.0) / 16.0);
+    expect(linear, {1.8, 1.8, 1.8}, 3.0, (1.8 * (4.0 + 1.0 + 16.0) - 2.0 * (9.0 / 12.0) * (-2.0 + 4.0)) / 9.0);
+    expect(constant, {1.8, 0.01, 0.01, 1.8}, 3.0, (2.0 * 1.8 + 2.0 * 0.01 - 3.0 * 0.01) / 16.0);
+    for (const double scale : {0.0, 3.0}) expect(constant, {0.0, 0.0, 0.0, 0.0}, scale, 0.0);
 }
 
 TEST(GapBridgeEdges, ASwitchAddsItsFlagToThoseOfTheTick) {
@@ -194,4 +153,4 @@ TEST(GapBridgeEdges, EqualGapsHaveEqualReportsHoweverManyCameBefore) {
     for (const GapReport& report : got.gaps) EXPECT_EQ(report.sigma_sum_arcsec, got.gaps[0].sigma_sum_arcsec);
 }
 
-}  // namespace gap_bridge_edges_test
+}  // namespace zlg::core::gap_bridge_support::edges_test

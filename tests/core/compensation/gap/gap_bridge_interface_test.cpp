@@ -1,21 +1,7 @@
 // How the bridge is drained, and what it does with a tick that becomes final one tick later.
-#include <zlg/core/compensation/gap_bridge.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-
-#include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace gap_bridge_interface_test {
-
-using namespace zlg::core;
-using namespace compensation_test;
-using namespace gap_bridge_support;
-
-bool has(std::uint32_t flags, AngleFlag flag) { return (flags & flag) != 0; }
+namespace zlg::core::gap_bridge_support::interface_test {
 
 TEST(GapBridgeInterface, OrdersAreThoseOfTheNames) {
     EXPECT_EQ(order_of(BridgeMethod::none), 0);
@@ -128,4 +114,4 @@ TEST(GapBridgeInterface, AnAmendmentReachesTheExtrapolationOfTheNextGap) {
     for (const unsigned k : {13u, 14u}) EXPECT_NEAR(got.rows[k].dtheta_arcsec, 5.0, 1e-12);
 }
 
-}  // namespace gap_bridge_interface_test
+}  // namespace zlg::core::gap_bridge_support::interface_test

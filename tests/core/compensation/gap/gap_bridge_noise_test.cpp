@@ -1,22 +1,7 @@
 // The sigma that the bridge states, against a free-running counter that truncates a motion of random phase.
-#include <zlg/core/compensation/gap_bridge.hpp>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
-#include "compensation/compensation_support.hpp"
 #include "gap_bridge_support.hpp"
 
-namespace gap_bridge_noise_test {
-
-using namespace zlg::core;
-using namespace compensation_test;
-using namespace gap_bridge_support;
+namespace zlg::core::gap_bridge_support::noise_test {
 
 constexpr int n_trials = 5'000;  // the scatter of a sigma is then 1 %
 constexpr double tolerance = 0.1;
@@ -98,21 +83,16 @@ void expect_stated_sigma(const Case& c) {
     EXPECT_NEAR(scatter.sum.mean(), 0.0, 5.0 * sum / std::sqrt(1.0 * n_trials));
 }
 
+// For other points, too, and with the random walk.
 TEST(GapBridgeNoise, SigmaIsThatOfADifferencedRounding) {
-    for (const auto method : {BridgeMethod::constant, BridgeMethod::linear, BridgeMethod::quadratic})
+    for (const auto method : {BridgeMethod::constant, BridgeMethod::linear, BridgeMethod::quadratic}) {
         for (const int gap_ticks : {1, 3, 6, 16}) expect_stated_sigma({.method = method, .gap_ticks = gap_ticks});
-}
-
-TEST(GapBridgeNoise, SigmaIsThatOfADifferencedRoundingForOtherPoints) {
+        expect_stated_sigma({.method = method, .walk_arcsec = 5.0});
+    }
     expect_stated_sigma({.points_before = 4, .points_after = 1});
     expect_stated_sigma({.points_before = 1, .points_after = 4});
     expect_stated_sigma({.points_before = 8, .points_after = 8});
     expect_stated_sigma({.method = BridgeMethod::linear, .points_before = 1, .points_after = 1});
-}
-
-TEST(GapBridgeNoise, SigmaHoldsTheRandomWalk) {
-    for (const auto method : {BridgeMethod::constant, BridgeMethod::linear, BridgeMethod::quadratic})
-        expect_stated_sigma({.method = method, .walk_arcsec = 5.0});
 }
 
 // Equal noise without a shared rounding: the factors that the weights alone give.
@@ -198,21 +178,16 @@ TEST(GapBridgeNoise, SigmaOfAFirstGapOfOneTickIsThatOfItsTick) {
     EXPECT_GT(n_more, 0);
 }
 
-TEST(GapBridgeNoise, AnUnknownSigmaOfAPointMakesThatOfTheGapUnknown) {
-    Log log(30, measured_tick(1.0));
-    log[13].variance_arcsec2 = infinite;
-    for (unsigned k = 10; k < 13; ++k) log[k] = gap_tick();
-    const Delivered got = run({}, log);
-    for (unsigned k = 10; k < 13; ++k) EXPECT_TRUE(std::isinf(got.rows[k].sigma_arcsec));
-    EXPECT_TRUE(std::isinf(got.gaps.at(0).sigma_sum_arcsec));
-}
-
-// The straight line through four ticks gives the second of them no weight in the first tick of a gap.
+// Of a point, it makes that of the gap unknown; and the straight line through four ticks gives the second of them no
+// weight in the first tick of a gap.
 TEST(GapBridgeNoise, AnUnknownSigmaSpreadsEvenWhereItsWeightIsZero) {
-    Log log(30, measured_tick(1.0));
-    log[26].variance_arcsec2 = infinite;
-    log[29] = gap_tick();
-    EXPECT_TRUE(std::isinf(run({.method = BridgeMethod::linear}, log).rows[29].sigma_arcsec));
+    Log log = joined({measured(10), gap(3), measured(16), gap(1)});
+    log[13].variance_arcsec2 = log[26].variance_arcsec2 = infinite;
+    for (const auto method : {BridgeMethod::linear, BridgeMethod::quadratic}) {
+        const Delivered got = run({.method = method}, log);
+        for (const unsigned k : {10u, 11u, 12u, 29u}) EXPECT_TRUE(std::isinf(got.rows[k].sigma_arcsec)) << k;
+        EXPECT_TRUE(std::isinf(got.gaps.at(0).sigma_sum_arcsec));
+    }
 }
 
-}  // namespace gap_bridge_noise_test
+}  // namespace zlg::core::gap_bridge_support::noise_test

@@ -1,46 +1,10 @@
 #include <zlg/core/compensation/gap_bridge_state.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include <zlg/core/compensation/gap_bridge.hpp>
-
 #include "gap_bridge_support.hpp"
 
-namespace gap_bridge_state_test {
-
-using namespace gap_bridge_support;
-using compensation_test::Random;
-using zlg::core::Arcsec;
-using zlg::core::BridgeMethod;
-using zlg::core::flag_lower_order;
+namespace zlg::core::gap_bridge_support::state_test {
 
 constexpr CompensationConstants fine{.scale = Arcsec{1.0}};
-
-GapBridgeConfig learning(BridgeMethod method) {
-    GapBridgeConfig config;
-    config.method = method;
-    return config;
-}
-
-// A tone of 20.06 Hz, or what `rate` makes of the tick, read by a counter, with a gap of n ticks in every 150.
-template <class Angle>
-Log counted(int n_ticks, int n_gap, Angle&& angle) {
-    Log log;
-    for (int t = 0; t < n_ticks; ++t) {
-        const double middle = std::floor(angle(t + 0.5));
-        TickInput tick = measured_tick(std::floor(angle(t + 1)) - std::floor(angle(t)));
-        tick.half[0] = {.read = true, .sign = 1, .angle_arcsec = middle - std::floor(angle(t))};
-        tick.half[1] = {.read = true, .sign = -1, .angle_arcsec = std::floor(angle(t + 1)) - middle};
-        tick.variance_arcsec2 = 1.0 / 6.0;
-        if (t % 150 >= 150 - n_gap) tick.measured = false;
-        log.push_back(tick);
-    }
-    return log;
-}
-
-double tone(double edge) { return 95.2 * std::cos(2.0 * 3.141592653589793 * 20.06 * 0.005 * edge); }
 
 struct Errors {
     double mean_sq = 0.0, nev = 0.0;
@@ -69,8 +33,8 @@ Errors errors_of(const Delivered& got, const Log& log) {
 TEST(LearningBridge, AToneIsLearntAndItsSigmaIsTrue) {
     for (const int n_gap : {1, 3, 9}) {
         const Log log = counted(24000, n_gap, tone);
-        const Errors quadratic = errors_of(run(learning(BridgeMethod::quadratic), log, fine), log);
-        const Errors learnt = errors_of(run(learning(BridgeMethod::automatic), log, fine), log);
+        const Errors quadratic = errors_of(run({.method = BridgeMethod::quadratic}, log, fine), log);
+        const Errors learnt = errors_of(run({.method = BridgeMethod::automatic}, log, fine), log);
         EXPECT_LT(learnt.mean_sq, 0.5 * quadratic.mean_sq) << n_gap;
         EXPECT_LT(learnt.mean_sq, 0.5) << n_gap;
         EXPECT_NEAR(learnt.nev, 0.8, 0.55) << n_gap;
@@ -82,10 +46,8 @@ TEST(LearningBridge, SigmaOfASwitchHoldsTheRandomWalkAfterIt) {
     const double walk_arcsec2 = 20.0 * 0.14 * 0.14 * 0.005;
     for (const BridgeMethod method : {BridgeMethod::quadratic, BridgeMethod::automatic}) {
         const Log log = counted(6000, 3, tone);
-        GapBridgeConfig longer = learning(method);
-        longer.relock_ticks = 20;
-        const Delivered without = run(learning(method), log, fine);
-        const Delivered with = run(longer, log, fine);
+        const Delivered without = run({.method = method}, log, fine);
+        const Delivered with = run({.method = method, .relock_ticks = 20}, log, fine);
         EXPECT_EQ(with.rows, without.rows);
         ASSERT_EQ(with.gaps.size(), without.gaps.size());
         ASSERT_GT(with.gaps.size(), 30u);
@@ -101,7 +63,7 @@ TEST(LearningBridge, SumsAreEqualWhateverTheLog) {
         Log log = random_log(random, random.index(1, 900));
         // The last corrections are due within 24 ticks, in a measured one.
         for (int k = 0; k < 40; ++k) log.push_back(measured_tick(random.uniform(-60.0, 60.0)));
-        const GapBridgeConfig config = learning(BridgeMethod::automatic);
+        const GapBridgeConfig config{.method = BridgeMethod::automatic};
         const Delivered got = run(config, log, fine);
         ASSERT_EQ(got.rows.size(), log.size());
         long double difference = 0.0L;
@@ -116,7 +78,7 @@ TEST(LearningBridge, AnEstimateWithoutALearntMotionSaysSo) {
     const Log log = counted(60, 0, [](double edge) { return 3.0 * edge; });
     Log early = log;
     for (std::size_t t = 20; t < 23; ++t) early[t].measured = false;
-    const Delivered got = run(learning(BridgeMethod::automatic), early, fine);
+    const Delivered got = run({.method = BridgeMethod::automatic}, early, fine);
     ASSERT_EQ(got.gaps.size(), 1u);
     for (std::size_t t = 20; t < 23; ++t) {
         EXPECT_TRUE(got.rows[t].flags & flag_lower_order);
@@ -130,8 +92,8 @@ TEST(LearningBridge, AJourneyThatBeginsAfterRestIsNotBridgedAsRest) {
         return edge < 9000 ? 0.0213 * edge : 0.0213 * edge + tone(edge) - tone(9000);
     };
     const Log log = counted(12000, 3, angle_at);
-    const Errors quadratic = errors_of(run(learning(BridgeMethod::quadratic), log, fine), log);
-    const Errors automatic = errors_of(run(learning(BridgeMethod::automatic), log, fine), log);
+    const Errors quadratic = errors_of(run({.method = BridgeMethod::quadratic}, log, fine), log);
+    const Errors automatic = errors_of(run({.method = BridgeMethod::automatic}, log, fine), log);
     EXPECT_LT(automatic.mean_sq, 1.21 * quadratic.mean_sq);
     EXPECT_LT(automatic.nev, 3.0);
 }
@@ -151,7 +113,7 @@ TEST(LearningBridge, TicksOfARampAreWithinTheirSigma) {
             return 0.0213 * edge + 0.5 * slope * since * since;
         };
         const Log log = counted(n_ticks + 60, 3, ramp);
-        const Delivered got = run(learning(BridgeMethod::automatic), log, fine);
+        const Delivered got = run({.method = BridgeMethod::automatic}, log, fine);
         const GapReport& gap = got.gaps.back();
         ASSERT_EQ(gap.first_tick, n_ticks - 3);
         double sum_of_sigmas = 0.0;
@@ -166,7 +128,7 @@ TEST(LearningBridge, TicksOfARampAreWithinTheirSigma) {
 
 TEST(LearningBridge, AStateIsAPlainValue) {
     Random random{12};
-    const GapBridgeConfig config = learning(BridgeMethod::automatic);
+    const GapBridgeConfig config{.method = BridgeMethod::automatic};
     const Log log = random_log(random, 1500);
     GapBridgeState state;
     for (std::size_t t = 0; t < 700; ++t) (void)step(fine, config, state, log[t]);
@@ -179,4 +141,4 @@ TEST(LearningBridge, AStateIsAPlainValue) {
     EXPECT_LT(sizeof(GapBridgeState), 200u * 1024u);
 }
 
-}  // namespace gap_bridge_state_test
+}  // namespace zlg::core::gap_bridge_support::state_test

@@ -3,21 +3,11 @@
 
 #include <zlg/core/compensation/gap_bridge.hpp>
 
-#include <cstdint>
-#include <vector>
-
 #include "compensation/compensation_support.hpp"
 
-namespace gap_bridge_support {
+namespace zlg::core::gap_bridge_support {
 
-using zlg::core::AngleRow;
-using zlg::core::AngleSample;
-using zlg::core::CompensationConstants;
-using zlg::core::GapBridgeConfig;
-using zlg::core::GapBridgeFault;
-using zlg::core::GapBridgeState;
-using zlg::core::GapReport;
-using zlg::core::TickInput;
+using namespace compensation_test;
 
 using Log = std::vector<TickInput>;
 
@@ -30,7 +20,7 @@ struct Delivered {
 inline void drain_into(const GapBridgeConfig& config, GapBridgeState& state, Delivered& result,
                        const CompensationConstants& gyro = {}) {
     for (;;) {
-        const zlg::core::DrainOutput out = drain(gyro, config, state);
+        const DrainOutput out = drain(gyro, config, state);
         if (out.has_gap) result.gaps.push_back(out.gap);
         if (out.has_row) result.rows.push_back(out.row);
         if (!out.has_gap && !out.has_row) return;
@@ -62,10 +52,42 @@ inline TickInput gap_tick(std::int8_t mode = 1) {
     return {.measured = false, .value_arcsec = junk_arcsec, .variance_arcsec2 = 1.8, .mode = mode};
 }
 
-inline GapBridgeConfig random_config(compensation_test::Random& random) {
+inline bool has(std::uint32_t flags, AngleFlag flag) { return (flags & flag) != 0; }
+
+inline Log measured(int n, double value_arcsec = 10.0) {
+    return Log(static_cast<std::size_t>(n), measured_tick(value_arcsec));
+}
+
+inline Log joined(std::initializer_list<Log> parts) {
+    Log log;
+    for (const Log& part : parts) log.insert(log.end(), part.begin(), part.end());
+    return log;
+}
+
+inline Log gap(int n) { return Log(static_cast<std::size_t>(n), gap_tick()); }
+
+// The angle at the edges of the ticks as a counter reads it, with a gap of n ticks in every 150.
+inline Log counted(int n_ticks, int n_gap, const std::function<double(double)>& angle) {
+    Log log;
+    for (int t = 0; t < n_ticks; ++t) {
+        const double middle = std::floor(angle(t + 0.5));
+        TickInput tick = measured_tick(std::floor(angle(t + 1)) - std::floor(angle(t)));
+        tick.half[0] = {.read = true, .sign = 1, .angle_arcsec = middle - std::floor(angle(t))};
+        tick.half[1] = {.read = true, .sign = -1, .angle_arcsec = std::floor(angle(t + 1)) - middle};
+        tick.variance_arcsec2 = 1.0 / 6.0;
+        if (t % 150 >= 150 - n_gap) tick.measured = false;
+        log.push_back(tick);
+    }
+    return log;
+}
+
+// 20.06 Hz.
+inline double tone(double edge) { return 95.2 * std::cos(2.0 * 3.141592653589793 * 20.06 * 0.005 * edge); }
+
+inline GapBridgeConfig random_config(Random& random) {
     for (;;) {
         GapBridgeConfig config;
-        config.method = static_cast<zlg::core::BridgeMethod>(random.index(0, 3));
+        config.method = static_cast<BridgeMethod>(random.index(0, 3));
         config.extrapolation_points = random.index(1, 8);
         config.points_before = random.index(1, 8);
         config.points_after = random.index(1, 8);
@@ -74,7 +96,7 @@ inline GapBridgeConfig random_config(compensation_test::Random& random) {
 }
 
 // Rough motion with gaps of all lengths at all distances; some first ticks after a gap are amended one tick later.
-inline Log random_log(compensation_test::Random& random, int n_ticks) {
+inline Log random_log(Random& random, int n_ticks) {
     Log log;
     const double gap_chance = random.uniform(0.005, 0.6);
     const int longest = random.chance(0.3) ? 150 : random.index(1, 16);
@@ -103,4 +125,4 @@ inline Log random_log(compensation_test::Random& random, int n_ticks) {
     return log;
 }
 
-}  // namespace gap_bridge_support
+}  // namespace zlg::core::gap_bridge_support

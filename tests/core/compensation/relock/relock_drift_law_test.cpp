@@ -1,21 +1,7 @@
 // When a tick is corrected, when it cannot be, and what `check` refuses.
-#include <zlg/core/compensation/relock_drift.hpp>
-
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <utility>
-
-#include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
 
-namespace relock_drift_law_test {
-
-using namespace zlg::core;
-using namespace compensation_test;
-using namespace relock_drift_support;
+namespace zlg::core::relock_drift_support::drift_law_test {
 
 // A tick with a deficit of `deficit_hz` below 60 kHz, and usable detunings.
 Tick tick_of(double deficit_hz) {
@@ -135,7 +121,7 @@ TEST(RelockDriftLaw, NothingIsCorrectedBeforeTheFirstGapOrWithoutAMethod) {
 }
 
 TEST(RelockDriftLaw, ExactlyTheTicksAskedForAreDue) {
-    for (const auto method : {RelockMethod::frequency, RelockMethod::detuning, RelockMethod::mean_square})
+    for (const auto method : all_methods)
         for (const std::int64_t ticks : {0, 1, 2, 3, 20}) {
             RelockDriftState state;
             for (int gap = 0; gap < 3; ++gap) {  // every gap starts anew, whatever was left of the last
@@ -202,17 +188,12 @@ TEST(RelockDriftLaw, DetuningNeedsARatioBetweenZeroAndOneAndMeanSquareTwoSquares
         }
     for (const double second : {0.0, 0.1, 0.11, -0.08}) means(0.1, second);
     for (const double first : {0.0, -0.1}) means(first, 0.08);
-    means(0.0, 0.0);
-    means(1e308, 1e307);
-    means(1000.0, 500.0);
-    means(-1000.0, -500.0);
-    squares(0.0, 0.0);
-    squares(-0.01, 0.02);
-    squares(0.02, -0.01);
-    squares(1e308, 0.0);
     // A thousand wavelengths are too many.
-    squares(4e5, 6e5);
-    squares(6e5, 5e5);
+    for (const auto& [first, second] : {std::pair{0.0, 0.0}, {1e308, 1e307}, {1000.0, 500.0}, {-1000.0, -500.0}})
+        means(first, second);
+    for (const auto& [first, second] :
+         {std::pair{0.0, 0.0}, {-0.01, 0.02}, {0.02, -0.01}, {1e308, 0.0}, {4e5, 6e5}, {6e5, 5e5}})
+        squares(first, second);
 }
 
 TEST(RelockDriftLaw, NoNumberInTheOutputIsEverNotANumber) {
@@ -270,4 +251,4 @@ TEST(RelockDriftLaw, AFalseAngleBeyondBeliefIsNotUsed) {
         }
 }
 
-}  // namespace relock_drift_law_test
+}  // namespace zlg::core::relock_drift_support::drift_law_test

@@ -1,20 +1,7 @@
 // The variance that the re-lock correction states, against trials with noise and the law of small errors.
-#include <zlg/core/compensation/relock_drift.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
 
-namespace relock_drift_noise_test {
-
-using namespace zlg::core;
-using namespace compensation_test;
-using namespace relock_drift_support;
+namespace zlg::core::relock_drift_support::drift_noise_test {
 
 constexpr int n_trials = 20'000;  // the scatter of a variance is then 1 %
 constexpr double tolerance = 0.05;
@@ -158,4 +145,4 @@ TEST(RelockDriftNoise, FrequencyStatesTheVarianceOfTheRoundingOfEveryReading) {
     EXPECT_NEAR(two.last().first.variance_arcsec2 / expected, 1.0, 1e-5);
 }
 
-}  // namespace relock_drift_noise_test
+}  // namespace zlg::core::relock_drift_support::drift_noise_test

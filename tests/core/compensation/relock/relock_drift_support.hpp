@@ -3,16 +3,21 @@
 
 #include <zlg/core/compensation/relock_drift.hpp>
 
-#include <cstdint>
+#include "compensation/compensation_support.hpp"
 
-namespace relock_drift_support {
+namespace zlg::core::relock_drift_support {
+
+using namespace compensation_test;
+
+inline constexpr RelockMethod all_methods[] = {RelockMethod::frequency, RelockMethod::detuning,
+                                               RelockMethod::mean_square};
 
 struct Configured {
-    zlg::core::CompensationConstants gyro{};
-    zlg::core::RelockDriftConfig relock{};
+    CompensationConstants gyro{};
+    RelockDriftConfig relock{};
 };
 
-inline Configured configured(zlg::core::RelockMethod method, std::int64_t ticks = 20) {
+inline Configured configured(RelockMethod method, std::int64_t ticks = 20) {
     return {.relock = {.method = method, .ticks = ticks}};
 }
 
@@ -26,16 +31,16 @@ struct Tick {
     bool with_phase = false;
 };
 
-inline zlg::core::RelockDriftOutput step(const Configured& c, zlg::core::RelockDriftState& state, const Tick& t) {
-    const zlg::core::HalfRecord first{.counts = t.counts_first,
-                                      .detuning_lambda = t.detuning_first_lambda,
-                                      .detuning_sq_lambda2 = t.detuning_sq_first_lambda2,
-                                      .temperature_c = t.temperature_c,
-                                      .mode = static_cast<std::int8_t>(t.sign)};
-    const zlg::core::HalfRecord second{.counts = t.counts_second,
-                                       .detuning_lambda = t.detuning_second_lambda,
-                                       .detuning_sq_lambda2 = t.detuning_sq_second_lambda2};
+inline RelockDriftOutput step(const Configured& c, RelockDriftState& state, const Tick& t) {
+    const HalfRecord first{.counts = t.counts_first,
+                           .detuning_lambda = t.detuning_first_lambda,
+                           .detuning_sq_lambda2 = t.detuning_sq_first_lambda2,
+                           .temperature_c = t.temperature_c,
+                           .mode = static_cast<std::int8_t>(t.sign)};
+    const HalfRecord second{.counts = t.counts_second,
+                            .detuning_lambda = t.detuning_second_lambda,
+                            .detuning_sq_lambda2 = t.detuning_sq_second_lambda2};
     return step(c.gyro, c.relock, state, {first, second, t.known_excess_counts, t.with_phase});
 }
 
-}  // namespace relock_drift_support
+}  // namespace zlg::core::relock_drift_support

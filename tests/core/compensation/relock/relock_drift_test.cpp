@@ -1,20 +1,6 @@
-#include <zlg/core/compensation/relock_drift.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-
-#include "compensation/compensation_support.hpp"
 #include "relock_drift_support.hpp"
 
-namespace relock_drift_test {
-
-using namespace zlg::core;
-using namespace compensation_test;
-using namespace relock_drift_support;
-
-constexpr RelockMethod all_methods[] = {RelockMethod::frequency, RelockMethod::detuning, RelockMethod::mean_square};
+namespace zlg::core::relock_drift_support::drift_test {
 
 // A bias so high that the rounding of counts is beyond the digits looked at.
 constexpr double fine_bias_hz = 1e13;
@@ -205,4 +191,4 @@ TEST(RelockDrift, TemperatureMovesTheBiasByItsLaw) {
         }
 }
 
-}  // namespace relock_drift_test
+}  // namespace zlg::core::relock_drift_support::drift_test

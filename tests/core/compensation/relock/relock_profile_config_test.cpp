@@ -1,12 +1,8 @@
 #include <zlg/core/compensation/relock_profile_config.hpp>
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
-#include <limits>
-
-namespace relock_profile_config_test {
-
-using namespace zlg::core;
+namespace zlg::core::relock_profile_config_test {
 
 TEST(RelockProfileConfig, CheckRefusesWhatIsMeaningless) {
     EXPECT_EQ(check(RelockProfileConfig{}), RelockProfileFault::none);
@@ -15,4 +11,4 @@ TEST(RelockProfileConfig, CheckRefusesWhatIsMeaningless) {
     EXPECT_EQ(check(RelockProfileConfig{.curve = {.n_nodes = 1}}), RelockProfileFault::curve);
 }
 
-}  // namespace relock_profile_config_test
+}  // namespace zlg::core::relock_profile_config_test

@@ -1,13 +1,8 @@
 #include <zlg/core/compensation/switch_light.hpp>
 
-#include <gtest/gtest.h>
+#include "support.hpp"
 
-#include <cmath>
-#include <vector>
-
-namespace switch_light_test {
-
-using namespace zlg::core;
+namespace zlg::core::switch_light_test {
 
 constexpr double discriminator = 0.332;
 constexpr int halves = 40;
@@ -36,14 +31,22 @@ void take(SwitchLight& state, const Half& half, bool counts, std::int64_t index)
          halves);
 }
 
+// A gap in the halves from..to-1, or light at one detuning in them.
+void in_gap(SwitchLight& state, int from, int to) {
+    for (int h = from; h < to; ++h) take(state, half_at(0.3), false, h);
+}
+void lit(SwitchLight& state, int from, int to, double detuning_lambda = 0.1) {
+    for (int h = from; h < to; ++h) take(state, half_at(detuning_lambda), true, h);
+}
+
 TEST(SwitchLight, GathersTheHalvesFromTheFirstOneThatCounts) {
     SwitchLight state;
-    for (int h = 0; h < 5; ++h) take(state, half_at(0.3), true, h);
+    lit(state, 0, 5, 0.3);
     EXPECT_EQ(state.first_half, -1) << "no gap yet";
-    for (int h = 5; h < 12; ++h) take(state, half_at(0.3), false, h);
+    in_gap(state, 5, 12);
     for (int h = 0; h < 60; ++h) {
         EXPECT_EQ(is_complete(state), h >= halves);
-        take(state, half_at(0.1), true, 12 + h);
+        lit(state, 12 + h, 13 + h);
     }
     EXPECT_EQ(state.first_half, 12);
     const LightFit fit{state.sums, 1e-6};
@@ -51,35 +54,29 @@ TEST(SwitchLight, GathersTheHalvesFromTheFirstOneThatCounts) {
     for (int h = 0; h < halves; ++h) EXPECT_NEAR(fit.angle(fit.half(h)), 0.01, 1e-6);
 }
 
+// And a complete one is kept until the next one begins: its gap may still wait for its estimate.
 TEST(SwitchLight, AnotherGapBeginsItAnew) {
     SwitchLight state;
-    take(state, half_at(0.3), false, 0);
-    for (int h = 1; h < 9; ++h) take(state, half_at(0.2), true, h);
-    take(state, half_at(0.3), false, 9);
+    in_gap(state, 0, 1);
+    lit(state, 1, 9, 0.2);
+    in_gap(state, 9, 10);
     EXPECT_FALSE(is_complete(state));
-    for (int h = 10; h < 10 + halves; ++h) take(state, half_at(0.1), true, h);
-    EXPECT_TRUE(is_complete(state));
-    EXPECT_EQ(state.first_half, 10);
+    lit(state, 10, 10 + halves);
+    for (int gap = 0; gap < 2; ++gap) {
+        EXPECT_TRUE(is_complete(state));
+        EXPECT_EQ(state.first_half, 10);
+        in_gap(state, 50, 56);
+    }
 }
 
 // The first whole tick after it is the first one that is corrected: so many of these, to the end of the last.
 TEST(SwitchLight, OneThatBeginsWithinATickHasAHalfMore) {
     SwitchLight state;
-    take(state, half_at(0.3), false, 2);
-    for (int h = 3; h < 3 + halves; ++h) take(state, half_at(0.1), true, h);
+    in_gap(state, 2, 3);
+    lit(state, 3, 3 + halves);
     EXPECT_FALSE(is_complete(state));
-    take(state, half_at(0.1), true, 3 + halves);
+    lit(state, 3 + halves, 4 + halves);
     EXPECT_TRUE(is_complete(state));
-}
-
-// A complete one is kept until the next one begins: its gap may still wait for its estimate.
-TEST(SwitchLight, IsKeptThroughTheNextGap) {
-    SwitchLight state;
-    take(state, half_at(0.3), false, 1);
-    for (int h = 2; h < 2 + halves; ++h) take(state, half_at(0.1), true, h);
-    for (int h = 0; h < 6; ++h) take(state, half_at(0.3), false, 42 + h);
-    EXPECT_TRUE(is_complete(state));
-    EXPECT_EQ(state.first_half, 2);
 }
 
 TEST(SwitchLight, LightThatCannotBeReadIsNotComplete) {
@@ -95,4 +92,4 @@ TEST(SwitchLight, LightThatCannotBeReadIsNotComplete) {
     }
 }
 
-}  // namespace switch_light_test
+}  // namespace zlg::core::switch_light_test
