@@ -1,5 +1,6 @@
 #include <zlg/core/compensation/angle.hpp>
 
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "compensation_support.hpp"

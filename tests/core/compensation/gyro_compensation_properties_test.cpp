@@ -1,6 +1,7 @@
 // Properties of the whole compensation, on logs that RapidCheck makes up and makes small where one of them fails.
 #include <zlg/core/gyro_compensation.hpp>
 
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "gyro_compensation_support.hpp"

@@ -1,4 +1,5 @@
 // Laws of the fit at random points: against normal equations solved in 113 bits, and as properties.
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <zlg/core/compensation/polynomial_fit.hpp>
 
