@@ -49,13 +49,14 @@ TEST(ModeSwitchGap, NeedsLightBothWaysAUsableDetuningAndAPiezoAtRest) {
     EXPECT_EQ(gap_halves(1, [](auto& in) { in.usable = false; }), 6);
     EXPECT_EQ(gap_halves(1, [](auto& in) { in.at_rest = false; }), 6);
     for (const auto& [detuning_lambda, n] : {std::pair{0.06, 6}, {-0.06, 6}, {not_a_number, 6}, {0.04, 2}})
-        EXPECT_EQ(gap_halves(1, [&](auto& in) { in.detuning = Wavelengths{detuning_lambda}; }), n) << detuning_lambda;
+        EXPECT_EQ(gap_halves(1, [dl = detuning_lambda](auto& in) { in.detuning = Wavelengths{dl}; }), n)
+            << detuning_lambda;
 }
 
 TEST(ModeSwitchGap, JudgesWhereTheDetuningLeadsNotWhereItWas) {
     for (const auto& [detuning_lambda, n] : {std::pair{-0.07, 2}, {0.01, 6}}) {
-        const auto in_flight = [&](ModeSwitchInput& in) {
-            in.detuning = Wavelengths{detuning_lambda};
+        const auto in_flight = [dl = detuning_lambda](ModeSwitchInput& in) {
+            in.detuning = Wavelengths{dl};
             in.in_flight = Wavelengths{0.06};
         };
         EXPECT_EQ(gap_halves(1, in_flight), n) << detuning_lambda;
