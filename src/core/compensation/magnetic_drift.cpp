@@ -21,7 +21,7 @@ constexpr std::int64_t min_ticks = 100;
 constexpr double fastest_arcsec_s = 1e7;
 
 // Q of the filter: Om is a random walk of 0.02 arcsec/s in an hour, and its trend v one that changes by 0.3 arcsec/s in
-// 3000 s over 3000 s. Set by hand and judged on the bases of docs/long_runs.md.
+// 3000 s over 3000 s. Set by hand and judged on the bases of docs/drift.md.
 constexpr double drift_noise = 0.02 * 0.02 / 3600.0;
 constexpr double trend_noise = (0.3 / 3000.0) * (0.3 / 3000.0) / 3000.0;
 
@@ -39,7 +39,7 @@ constexpr double fading = 1.0 - 1.0 / 32.0;
 constexpr double gate_sq = 16.0;
 constexpr double shape_sq = 16.0;
 
-// Of (4). docs/long_runs.md has the bases on which they were judged.
+// Of (4). docs/drift.md has the bases on which they were judged.
 constexpr double known_sq = 16.0;
 constexpr double near_sq = 4.0;
 constexpr double far_sq = 9.0;

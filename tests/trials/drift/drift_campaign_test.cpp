@@ -92,7 +92,7 @@ TEST(DriftCampaign, KnowsTheWalkOfTheGyro) {
     EXPECT_GT(with.rms_less_walk_arcsec_s, 0.0);
 }
 
-// Of the paper's gyro by phase, over 20.06 Hz; docs/long_runs.md has the figures of 36 000 s.
+// Of the paper's gyro by phase, over 20.06 Hz; docs/drift.md has the figures of 36 000 s.
 TEST(DriftCampaign, ByPhaseASwitchHasNoErrorWithTheSignOfTheFalseAngle) {
     config::Config c;
     c.gyro.readout = config::Readout::phase;

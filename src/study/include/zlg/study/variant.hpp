@@ -21,7 +21,7 @@ namespace zlg::study {
 // with r the rounding of the counter, counter less phase, at the end of the tick before the gap and of the last tick: the
 // next ticks give the latter back, and the former is part of the final angle before. Both edges of the gap keep theirs.
 // m Om is the magnetic drift in the mode m of a measured tick. In the gap it counts as nothing: the mean of the modes
-// before and after. The random walk of these ticks is not known to anyone and stays in. docs/accuracy_campaign.md has the same.
+// before and after. The random walk of these ticks is not known to anyone and stays in. docs/accuracy.md has the same.
 struct SwitchError {
     SwitchWindow window;
     double error_arcsec = 0.0;

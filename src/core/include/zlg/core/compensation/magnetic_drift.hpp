@@ -28,7 +28,7 @@
 // presumed.
 //
 // Method: Kalman filter with innovation-based adaptation (Maybeck, Stochastic Models, Estimation and Control, vol. 2,
-// 1982, ch. 10); self-normalised sums (de la Pena, Lai and Shao, 2009). Figures: docs/long_runs.md.
+// 1982, ch. 10); self-normalised sums (de la Pena, Lai and Shao, 2009). Figures: docs/drift.md.
 
 #include <array>
 #include <cstdint>
