@@ -1,4 +1,4 @@
-"""The recipes of docs/cluster.md, as they stand there, in a Slurm of this machine's own."""
+"""The recipes of docs/sweep.md, as they stand there, in a Slurm of this machine's own."""
 
 import re
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 from private_slurm import CannotStart, PrivateSlurm
 from ways import ROOT, SWEEP, environment, has_ranks, on_threads, run
 
-DOCUMENT = (ROOT / "docs" / "cluster.md").read_text()
+DOCUMENT = (ROOT / "docs" / "sweep.md").read_text()
 BLOCKS = re.findall(r"^```bash\n(.*?)^```$", DOCUMENT, re.MULTILINE | re.DOTALL)
 SCRIPTS = {re.match(r"#!/bin/bash\n# (\S+)\n", block)[1]: block for block in BLOCKS if block.startswith("#!")}
 COMMANDS = [block for block in BLOCKS if not block.startswith("#!")]

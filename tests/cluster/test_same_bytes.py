@@ -136,7 +136,7 @@ def wait_for_the_end(call, was_killed):
         call.wait(20 if was_killed else 120)
     except subprocess.TimeoutExpired:
         # After a kill within MPI_Init, mpirun of OpenMPI 4.1.4 can end all ranks and then wait for ever for a lock of its own,
-        # in PMIx_server_finalize; a program that calls MPI_Init and sleeps is enough for it (docs/cluster.md).
+        # in PMIx_server_finalize; a program that calls MPI_Init and sleeps is enough for it (docs/sweep.md).
         assert was_killed and not ranks_of(call)
         kill(call.pid)
         call.wait()

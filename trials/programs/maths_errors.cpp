@@ -1,4 +1,4 @@
-// The table of errors of the core's elementary functions, for docs/decisions/0001-own-mathematics.md.
+// The table of errors of the core's elementary functions, for docs/decisions.md.
 
 #include <map>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
 // Random numbers by address: each is a function of where it belongs, not of how many were drawn before it. See
-// docs/chance.md.
+// docs/same_run.md.
 //
 // The generator is Philox4x32-10 (philox.hpp). Its key is the seed; its counter of 128 bits is
 //

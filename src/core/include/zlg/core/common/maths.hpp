@@ -1,6 +1,6 @@
 #pragma once
 // Elementary functions that give the same bits on every machine: additions, multiplications, divisions, square roots and
-// operations on the bits only, each rounded as IEEE 754 says. docs/decisions/0001-own-mathematics.md has their errors.
+// operations on the bits only, each rounded as IEEE 754 says. docs/decisions.md has their errors.
 
 namespace zlg::core {
 
