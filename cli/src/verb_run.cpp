@@ -239,7 +239,7 @@ void add_run(CLI::App& program) {
         program.add_subcommand("run", "twin and core in closed loop: logs, summary and report into a folder");
     add_config_argument(*verb, *options);
     verb->add_option("--format", options->format, "format of the logs (h5)");
-    verb->add_option("--logs", options->logs, "which logs stay (all): an hour of the paper's gyro takes 113 MB");
+    verb->add_option("--logs", options->logs, "which logs stay (all)");
     verb->add_flag("--lab", options->lab, "also write the lab page, to which the report links with this configuration");
     add_light_option(*verb, *options);
     add_processor_options(*verb, options->processor);

@@ -14,7 +14,7 @@ namespace {
 
 using config::Fidelity;
 
-// A part of the campaign of docs/reliability.md: twelve averaged gyros and four lasers.
+// A part of the campaign of docs/accuracy.md: twelve averaged gyros and four lasers.
 const std::vector<GyroOutcome>& sample() {
     static const std::vector<GyroOutcome> outcomes =
         run(GyroCampaign{.gyros = 16,

@@ -20,7 +20,7 @@ namespace zlg::deviations {
 //   mtotdev, htotdev: only pieces without a gap.
 //
 // accuracy  1e-12 of the definition, relative, also of a rate that walks at random
-// cost      10^7 samples, 93 taus: see docs/performance.md
+// cost      10^7 samples, 93 taus: see docs/reliability.md
 // errors    SeriesError: an option out of its range, a factor below 1, no tau with a term.
 [[nodiscard]] DeviationCurve deviation(const AngleRecord& record, DeviationKind kind,
                                        std::span<const std::int64_t> factors, const DeviationOptions& options = {});
