@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What is left of the false angle of a re-lock where the discriminator is corrected by its slope alone, by the curve of the laser, and by a
-curve from logs, as a share of it: the table of docs/calibration.md.
+curve from logs, as a share of it.
 
 usage: bench/relock_curve.py [--zlg PROGRAM] [--switches N]
 
