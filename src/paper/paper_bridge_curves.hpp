@@ -26,7 +26,6 @@ inline constexpr std::array sum_orders{0, 2};
 
 // What one figure varies: the gap at a place of its axis, the places of its curves, and the experiments on the axis.
 struct Axis {
-    std::string label;
     Region region = Region::extremum;
     std::function<BridgeCase(double)> case_at;
     std::vector<double> shown;
