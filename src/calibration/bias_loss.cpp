@@ -51,7 +51,7 @@ RelockBorders borders_of(const RelockView& view, const BiasLaw& law, std::size_t
     return borders;
 }
 
-numeric::Estimate judged(double chi, double sigma, const BiasLoss& loss) {
+numeric::Estimate chi_of(double chi, double sigma, const BiasLoss& loss) {
     const numeric::Estimate e = numeric::estimated(chi, sigma);
     constexpr double max_chi2_per_dof = 1000.0;
     if (e.determined && !(loss.chi2_per_dof <= max_chi2_per_dof))
@@ -99,7 +99,7 @@ std::string why_useless(const Relocks& relocks) {
 }
 
 void solve(const std::vector<RelockBorders>& all, BiasLoss& loss) {
-    const LossFit fit = fit_losses(all, Laws::distinct);
+    const LossFit fit = fit_losses(all, numeric::Laws::distinct);
     loss.chi2_per_dof = fit.chi2_per_dof;
     const double factor = numeric::widened(1.0, static_cast<double>(loss.n_relocks) - 2.0);
     const double variance = loss.n_relocks >= min_relocks_of_loss
@@ -107,7 +107,7 @@ void solve(const std::vector<RelockBorders>& all, BiasLoss& loss) {
                                 : std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * fit.inverse(0, 0);
     const double sigma = std::fmax(std::sqrt(variance), resolution(loss));
     loss.deficit_counts *= std::abs(fit.coefficient[0]);
-    loss.chi = judged(fit.coefficient[0], sigma, loss);
+    loss.chi = chi_of(fit.coefficient[0], sigma, loss);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <zlg/numeric/cluster_fit.hpp>
 
-#include "cluster_fit.hpp"
 #include "relock_view.hpp"
 
 namespace zlg::calibration {
@@ -28,7 +28,7 @@ constexpr double min_stepped_fall = 0.13;
 
 // Logged mean detunings of one re-lock against columns of travel, as sums of products; less what the noise of the
 // readings adds.
-struct Travel : Cluster {
+struct Travel : numeric::Cluster {
     double squares = 0.0;  // of the detunings
     std::int64_t n = 0;
 
@@ -113,7 +113,7 @@ struct Fit {
 
 template <class MakeCluster>
 Fit fit(const Relocks& relocks, const HalfWaveLaw& law, MakeCluster make) {
-    std::vector<Cluster> clusters;
+    std::vector<numeric::Cluster> clusters;
     double squares = 0.0;
     double n = 0.0;
     for (const RelockView& view : relocks.views) {
@@ -125,9 +125,9 @@ Fit fit(const Relocks& relocks, const HalfWaveLaw& law, MakeCluster make) {
     }
     Fit result{.n_relocks = std::ssize(clusters)};
     if (result.n_relocks < min_relocks_of_scale) return result;
-    const ClusterFit found = fit_clusters(clusters);
+    const numeric::ClusterFit found = numeric::fit_clusters(clusters);
     const auto dof = static_cast<double>(result.n_relocks - found.coefficient.size());
-    for (const Cluster& c : clusters) squares -= found.coefficient.dot(c.products);
+    for (const numeric::Cluster& c : clusters) squares -= found.coefficient.dot(c.products);
     result.scale = found.coefficient[0];
     result.sigma = numeric::widened(std::sqrt(found.covariance(0, 0)), dof);
     result.rms_lambda = std::sqrt(std::max(0.0, squares) / n);

@@ -86,7 +86,7 @@ Fit best_fit(const Relocks& relocks, const BiasLaw& law, Eigen::Index n_laws, do
     best.residual = std::numeric_limits<double>::infinity();
     for (const double place : places) {
         const double x0 = place * farthest_lambda;
-        LossFit fit = fit_losses(borders_of(relocks, law, n_laws, x0), Laws::alike);
+        LossFit fit = fit_losses(borders_of(relocks, law, n_laws, x0), numeric::Laws::alike);
         fit.covariance += fit.repeated_covariance;
         if (fit.residual < best.residual) best = {std::move(fit), x0};
     }

@@ -62,8 +62,8 @@ void take_repeated(const std::vector<RelockBorders>& all, LossFit& fit) {
 
 }  // namespace
 
-LossFit fit_losses(const std::vector<RelockBorders>& all, Laws laws) {
-    std::vector<Cluster> clusters;
+LossFit fit_losses(const std::vector<RelockBorders>& all, numeric::Laws laws) {
+    std::vector<numeric::Cluster> clusters;
     for (const RelockBorders& b : all) {
         clusters.push_back({b.x.transpose() * b.x, b.x.transpose() * b.y});
         clusters.back().information(0, 0) -= b.noise;

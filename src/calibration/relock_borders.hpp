@@ -14,8 +14,8 @@
 #include <Eigen/Core>
 
 #include <zlg/calibration/bias_law.hpp>
+#include <zlg/numeric/cluster_fit.hpp>
 
-#include "cluster_fit.hpp"
 #include "relock_view.hpp"
 
 namespace zlg::calibration {
@@ -41,13 +41,13 @@ using LossLaws = std::function<void(const core::HalfRecord&, Eigen::Ref<Eigen::R
 
 // The loss of bias by these laws, and the parity, from the borders of all re-locks. Rounding that does not scatter from one
 // re-lock of a kind to the next is an unknown that all of them share.
-struct LossFit : ClusterFit {
+struct LossFit : numeric::ClusterFit {
     double residual = 0.0;                // sum of squares
     double chi2_per_dof = 0.0;            // over rounding and light noise
     double repeated_ratio = 0.0;          // part of the variance of rounding that is the same after every re-lock
     Eigen::MatrixXd repeated_covariance;  // what that adds
 };
 
-[[nodiscard]] LossFit fit_losses(const std::vector<RelockBorders>& all, Laws laws);
+[[nodiscard]] LossFit fit_losses(const std::vector<RelockBorders>& all, numeric::Laws laws);
 
 }  // namespace zlg::calibration

@@ -10,7 +10,7 @@
 
 #include "paper_claims_parts.hpp"
 #include "paper_parts.hpp"
-#include "paper_readings.hpp"
+#include "paper_trial.hpp"
 
 namespace zlg::paper {
 namespace {

@@ -4,7 +4,7 @@
 #include <zlg/design/switching_interval.hpp>
 
 #include "paper_claims_parts.hpp"
-#include "paper_readings.hpp"
+#include "paper_trial.hpp"
 
 namespace zlg::paper {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "paper_curves.hpp"
 #include "paper_parts.hpp"
-#include "paper_readings.hpp"
+#include "paper_trial.hpp"
 #include "paper_words.hpp"
 
 namespace zlg::paper {

@@ -1,8 +1,8 @@
-#include "cluster_fit.hpp"
+#include <zlg/numeric/cluster_fit.hpp>
 
 #include <Eigen/Dense>
 
-namespace zlg::calibration {
+namespace zlg::numeric {
 
 ClusterFit fit_clusters(const std::vector<Cluster>& clusters, Laws laws) {
     Cluster total = clusters.front();
@@ -26,4 +26,4 @@ ClusterFit fit_clusters(const std::vector<Cluster>& clusters, Laws laws) {
     return fit;
 }
 
-}  // namespace zlg::calibration
+}  // namespace zlg::numeric
