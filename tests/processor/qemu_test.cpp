@@ -127,10 +127,6 @@ TEST(QemuProcessor, ends_with_a_program_that_is_killed) {
     fs::remove(program + ".pid");
 }
 
-TEST(QemuProcessor, finds_no_image_where_there_is_none) {
-    EXPECT_THROW((void)processor::image_beside("/proc"), QemuError);
-}
-
 TEST(QemuProcessor, gives_the_bits_of_this_program_switch_by_switch) {
     const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
