@@ -1,6 +1,5 @@
 #include <zlg/processor/qemu.hpp>
 
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <system_error>
