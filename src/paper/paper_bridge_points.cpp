@@ -38,7 +38,6 @@ public:
                 .slow_rate_arcsec_s = noise_rate_arcsec_s,
                 .switches = task_.switches_per_point,
                 .seed = static_cast<std::uint64_t>(task_.config.run.seed) % (1ULL << 50) * seeds_per_run + n_made_++,
-                .points = {},
                 .base = task_.config};
     }
 

@@ -31,8 +31,7 @@ struct SubstitutionExperiment {
     double slow_rate_arcsec_s = 0.0;
     int switches = 2000;     // 100..100 000
     std::uint64_t seed = 1;  // of the twin and of the phases
-    design::Points points{};
-    config::Config base{};  // its run, switching, motion, compensation points and perimeter miss are not used
+    config::Config base{};   // its run, switching, motion and perimeter miss are not used, nor its points
 };
 
 // One number of a fit: measured, standard error (0 where there is none), theory.
