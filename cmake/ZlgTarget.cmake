@@ -48,6 +48,22 @@ function(zlg_in_batches target size)
     endif()
 endfunction()
 
+# zlg_texts(source header namespace FILE...): files as raw strings, without indentation and lines of comment, in a source to be compiled.
+# The header, found in the folder of the caller, declares them: "page.css" is page_css.
+function(zlg_texts source header namespace)
+    set(texts "#include <${header}>\n")
+    foreach(name ${ARGN})
+        file(READ ${name} text)
+        string(REGEX REPLACE "\n +" "\n" text "\n${text}")
+        string(REGEX REPLACE "\n//[^\n]*" "" text "${text}")
+        string(REGEX REPLACE "^\n" "" text "${text}")
+        string(REGEX REPLACE "[.-]" _ variable ${name})
+        string(APPEND texts "const char* const ${namespace}::${variable} = R\"=====(${text})=====\";\n")
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${name})
+    endforeach()
+    file(CONFIGURE OUTPUT ${source} CONTENT "@texts@" @ONLY)
+endfunction()
+
 # zlg_quick_to_compile(target): what spends its time in other libraries is compiled with -O1, in two thirds of the time.
 function(zlg_quick_to_compile target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

@@ -85,8 +85,6 @@ constexpr std::array kinds{
     Kind{"--out", "PATH"},
     Kind{"--format", "h5|csv"},
     Kind{"--logs", "none|angles|all"},
-    Kind{"--image", "FILE.elf"},
-    Kind{"--processor", "host|qemu"},
     Kind{"--wire", "FILE"},
     Kind{"RAW", "FILE"},
     Kind{"FILE", ""},

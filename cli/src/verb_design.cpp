@@ -44,7 +44,6 @@ json run_json(const study::RunLine& r) {
     j["corrected_9"] = roots_json(r.corrected_roots);
     j["printed_9"] = roots_json(r.roots_as_printed);
     j["half_first_segment"] = fields_json(r.half_first_segment);
-    j["growing"] = {{"interval_s", r.growing_interval_s}, {"drift_arcsec_s", r.growing_drift_arcsec_s}};
     return j;
 }
 
@@ -110,15 +109,14 @@ std::string substitution_text(const study::DesignResult& result) {
 
 std::string run_length_text(const study::DesignResult& result) {
     std::string text = fmt::format(
-        "\nthe corrected budget at its best interval, and other policies, arcsec/s\n{:>10}{:>10}{:>10}{:>10}"
-        "{:>10}   half first segment     growing\n",
+        "\nthe corrected budget at its best interval, and another policy, arcsec/s\n{:>10}{:>10}{:>10}{:>10}"
+        "{:>10}   half first segment\n",
         "run, s", "non-mag.", "quasi", "sawtooth", "switches");
     for (const auto& r : result.runs)
-        text +=
-            fmt::format("{:>10.6g}{:>10.4f}{:>10.4f}{:>10.4f}{:>10.4f}   {:.4f} at {:<10.4g}{:.4f} to {:.4g} s\n",
-                        r.run_s, r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s,
-                        r.terms.sawtooth_arcsec_s, r.terms.switch_errors_arcsec_s, r.half_first_segment.drift_arcsec_s,
-                        r.half_first_segment.interval_s, r.growing_drift_arcsec_s, r.growing_interval_s);
+        text += fmt::format("{:>10.6g}{:>10.4f}{:>10.4f}{:>10.4f}{:>10.4f}   {:.4f} at {:.4g} s\n", r.run_s,
+                            r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s, r.terms.sawtooth_arcsec_s,
+                            r.terms.switch_errors_arcsec_s, r.half_first_segment.drift_arcsec_s,
+                            r.half_first_segment.interval_s);
     return text;
 }
 

@@ -10,7 +10,6 @@
 #include <zlg/core/health.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/raw_log.hpp>
-#include <zlg/processor/qemu.hpp>
 #include <zlg/recorded/motion.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -33,32 +32,6 @@
 
 namespace zlg::cli {
 namespace {
-
-// Which processor runs the core: this program, or the image of the gyro's own.
-struct ProcessorOptions {
-    std::string processor = "host";
-    std::string image;  // empty: the one beside the program
-};
-
-void add_processor_options(CLI::App& verb, ProcessorOptions& options) {
-    verb.add_option("--processor", options.processor,
-                    "what runs the core: this program (host), or the image of the gyro's processor in lock step");
-    verb.add_option("--image", options.image, "of that processor; default: the one built with this program");
-}
-
-// return  null for the host.
-//
-// errors  UsageError for an unknown processor, or an image for the host; processor::QemuError.
-std::unique_ptr<rig::Processor> make_processor(const ProcessorOptions& options) {
-    if (options.processor == "host") {
-        if (!options.image.empty()) throw UsageError{"--image: is for --processor qemu"};
-        return nullptr;
-    }
-    if (options.processor != "qemu")
-        throw UsageError{fmt::format("--processor {}: allowed are host and qemu", options.processor)};
-    const std::string image = options.image.empty() ? processor::image_beside(program_folder()) : options.image;
-    return std::make_unique<processor::QemuProcessor>(processor::QemuOptions{.image = image});
-}
 
 using nlohmann::json;
 
@@ -104,7 +77,6 @@ std::string text(const study::Resolved& resolved, const study::RunResult& result
 }
 
 struct RunOptions : Options {
-    ProcessorOptions processor;
     std::string format = "h5";
     std::string logs = "all";
     bool lab = false;
@@ -128,12 +100,11 @@ KeptLogs kept_logs(const RunOptions& options) {
 }
 
 study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, const RunOptions& options,
-                          rig::Processor* processor, const Interruptible& interruptible) {
+                          const Interruptible& interruptible) {
     Progress progress{files.raw() != nullptr ? files.raw_part() : files.angles_part()};
     study::RunTask task{.config = resolved.config,
                         .warnings = resolved.warnings,
                         .threads = options.threads,
-                        .processor = processor,
                         .on_record =
                             [&](const core::HalfRecord& record, const core::LightSamples& light) {
                                 interruptible.check();
@@ -158,14 +129,13 @@ double bytes_a_tick(const RunOptions& options, logs::LogFormat format, int light
 }
 
 // The least that a run does of a tick. A file is not read again for it.
-void advance(const config::Config& config, const twin::Motion& motion, rig::Processor* processor, std::int64_t ticks) {
-    rig::ClosedLoop loop{config, motion, processor};
+void advance(const config::Config& config, const twin::Motion& motion, std::int64_t ticks) {
+    rig::ClosedLoop loop{config, motion};
     for (std::int64_t half = 0; half < 2 * ticks; ++half) (void)loop.advance();
 }
 
 // A motion file may be a pipe, which can be read once.
-void announce_run(const config::Config& config, const RunOptions& options, logs::LogFormat format, int light_samples,
-                  rig::Processor* processor) {
+void announce_run(const config::Config& config, const RunOptions& options, logs::LogFormat format, int light_samples) {
     const bool has_file = config.motion.kind == config::MotionKind::file;
     if (has_file && !std::filesystem::is_regular_file(config.motion.path)) return;
     const twin::Motion motion = recorded::motion(config);
@@ -173,10 +143,10 @@ void announce_run(const config::Config& config, const RunOptions& options, logs:
               .bytes_a_tick = bytes_a_tick(options, format, light_samples),
               .out = options.out},
              [&](std::int64_t ticks) {
-                 if (has_file) return advance(config, motion, processor, ticks);
+                 if (has_file) return advance(config, motion, ticks);
                  config::Config beginning = config;
                  beginning.run.duration_s = static_cast<double>(ticks) * config.gyro.tick_s;
-                 (void)study::run({.config = beginning, .threads = options.threads, .processor = processor});
+                 (void)study::run({.config = beginning, .threads = options.threads});
              });
 }
 
@@ -205,8 +175,7 @@ void run(const RunOptions& options) {
     const study::Resolved resolved = resolve(load_config(options));
     const config::Config& config = resolved.config;
     const std::string lab = asked_lab_page(options, config);
-    const std::unique_ptr<rig::Processor> processor = make_processor(options.processor);
-    announce_run(config, options, format, logged_light_samples(options, config, format), processor.get());
+    announce_run(config, options, format, logged_light_samples(options, config, format));
     const Interruptible interruptible;
     std::string raw_part;
     std::string angles_part;
@@ -216,7 +185,7 @@ void run(const RunOptions& options) {
         if (!lab.empty()) files.add_lab(lab, options.force);
         raw_part = files.raw_part();
         angles_part = files.angles_part();
-        const study::RunResult result = run_into(files, resolved, options, processor.get(), interruptible);
+        const study::RunResult result = run_into(files, resolved, options, interruptible);
         for (const std::string& warning : std::span{result.warnings}.subspan(resolved.warnings.size()))
             complain("warning: " + warning);
         const std::string summary = pretty(summary_json(config, result));
@@ -242,7 +211,6 @@ void add_run(CLI::App& program) {
     verb->add_option("--logs", options->logs, "which logs stay (all)");
     verb->add_flag("--lab", options->lab, "also write the lab page, to which the report links with this configuration");
     add_light_option(*verb, *options);
-    add_processor_options(*verb, options->processor);
     add_run_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { run(*options); });

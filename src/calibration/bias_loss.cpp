@@ -5,9 +5,7 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
 
-#include "cluster_scatter.hpp"
 #include "relock_borders.hpp"
 
 namespace zlg::calibration {
@@ -30,64 +28,30 @@ struct LightNoise {
 // So many clusters give a scatter to be relied on.
 constexpr std::int64_t min_relocks_of_loss = 8;
 
-// The borders of one re-lock: columns of the loss per unit of chi and of parity.
-struct Borders : RelockBorders {
-    double noise_z = 0.0;  // what light noise adds to the sum of squares of the loss about its mean
-
-    Borders(const RelockView& view, const BiasLaw& law, std::size_t transient);
-};
-
-Borders::Borders(const RelockView& view, const BiasLaw& law, std::size_t transient) {
+// The borders of one re-lock with the mean square as the loss per unit of chi.
+RelockBorders borders_of(const RelockView& view, const BiasLaw& law, std::size_t transient) {
     const LightNoise light{view.log->square};
     const Eigen::Index n = halves_used(view, transient);
     const auto kept = static_cast<Eigen::Index>(transient + 1);
     Eigen::Index h = 0;
-    const auto loss_of = [&](const core::HalfRecord& r, Eigen::Ref<Eigen::RowVectorXd> loss) {
-        const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c);
-        loss[0] = r.detuning_sq_lambda2 - light.square_lambda2;
-        // This half stands in all observations behind it: in all rows k > h, and in the rest's means by their share.
-        const double rows = static_cast<double>(kept + 2);
-        const double behind = h < kept ? static_cast<double>(kept - 1 - h) + 2.0
-                                       : 2.0 * static_cast<double>(n - h) / static_cast<double>(n + 1 - kept);
-        const double behind_sq = h < kept ? behind : 0.5 * behind * behind;
-        noise_z += light.variance_of(loss[0]) * cycles * cycles * (behind_sq - behind * behind / rows);
-        ++h;
-    };
-    RelockBorders::operator=(relock_borders(view, law, transient, 1, loss_of));
+    double noise = 0.0;
+    RelockBorders borders =
+        relock_borders(view, law, transient, 1, [&](const core::HalfRecord& r, Eigen::Ref<Eigen::RowVectorXd> loss) {
+            const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c);
+            loss[0] = r.detuning_sq_lambda2 - light.square_lambda2;
+            // This half stands in all observations behind it: in all rows k > h, and in the rest's means by their share.
+            const double rows = static_cast<double>(kept + 2);
+            const double behind = h < kept ? static_cast<double>(kept - 1 - h) + 2.0
+                                           : 2.0 * static_cast<double>(n - h) / static_cast<double>(n + 1 - kept);
+            const double behind_sq = h < kept ? behind : 0.5 * behind * behind;
+            noise += light.variance_of(loss[0]) * cycles * cycles * (behind_sq - behind * behind / rows);
+            ++h;
+        });
+    borders.noise = noise;
+    return borders;
 }
 
-struct Sums {
-    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();  // information, less what light noise adds
-    Eigen::Vector2d c = Eigen::Vector2d::Zero();
-};
-
-Sums sums_of(const Borders& b) {
-    Sums s{b.x.transpose() * b.x, b.x.transpose() * b.y};
-    s.a(0, 0) -= b.noise_z;
-    return s;
-}
-
-Eigen::Matrix2d scatter_covariance(const std::vector<Sums>& clusters, const Eigen::Matrix2d& inverse,
-                                   const Eigen::Vector2d& solution) {
-    const Eigen::Matrix2d meat =
-        cluster_scatter(clusters, [&](const Sums& s) -> Eigen::Vector2d { return s.c - s.a * solution; });
-    const auto n = static_cast<double>(clusters.size());
-    const double factor = numeric::widened(1.0, n - 2.0);
-    return factor * factor * n / (n - 2.0) * (inverse * meat * inverse);
-}
-
-// Of the residuals about what rounding and light noise make of them.
-double chi2_per_dof(const std::vector<Borders>& all, const Eigen::Vector2d& solution) {
-    double found = 0.0;
-    double expected = -2.0 * rounding_counts2;
-    for (const Borders& b : all) {
-        found += (b.y - b.x * solution).squaredNorm();
-        expected += rounding_counts2 * static_cast<double>(b.y.size() - 1) + solution[0] * solution[0] * b.noise_z;
-    }
-    return found / expected;
-}
-
-numeric::Estimate judged(double chi, double sigma, const BiasLoss& loss) {
+numeric::Estimate chi_of(double chi, double sigma, const BiasLoss& loss) {
     const numeric::Estimate e = numeric::estimated(chi, sigma);
     constexpr double max_chi2_per_dof = 1000.0;
     if (e.determined && !(loss.chi2_per_dof <= max_chi2_per_dof))
@@ -134,25 +98,16 @@ std::string why_useless(const Relocks& relocks) {
     return {};
 }
 
-void solve(const std::vector<Borders>& all, BiasLoss& loss) {
-    std::vector<Sums> clusters;
-    Sums total;
-    for (const Borders& b : all) {
-        clusters.push_back(sums_of(b));
-        total.a += clusters.back().a;
-        total.c += clusters.back().c;
-    }
-    const Eigen::Matrix2d inverse = total.a.inverse();
-    const Eigen::Vector2d solution = inverse * total.c;
-    loss.chi2_per_dof = chi2_per_dof(all, solution);
-    const Eigen::Matrix2d covariance =
-        loss.n_relocks >= min_relocks_of_loss
-            ? Eigen::Matrix2d{scatter_covariance(clusters, inverse, solution) +
-                              inverse * repeated_rounding({all.begin(), all.end()}, solution).covariance * inverse}
-            : Eigen::Matrix2d{std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * inverse};
-    const double sigma = std::fmax(std::sqrt(covariance(0, 0)), resolution(loss));
-    loss.deficit_counts *= std::abs(solution[0]);
-    loss.chi = judged(solution[0], sigma, loss);
+void solve(const std::vector<RelockBorders>& all, BiasLoss& loss) {
+    const LossFit fit = fit_losses(all, numeric::Laws::distinct);
+    loss.chi2_per_dof = fit.chi2_per_dof;
+    const double factor = numeric::widened(1.0, static_cast<double>(loss.n_relocks) - 2.0);
+    const double variance = loss.n_relocks >= min_relocks_of_loss
+                                ? factor * factor * fit.covariance(0, 0) + fit.repeated_covariance(0, 0)
+                                : std::fmax(1.0, loss.chi2_per_dof) * rounding_counts2 * fit.inverse(0, 0);
+    const double sigma = std::fmax(std::sqrt(variance), resolution(loss));
+    loss.deficit_counts *= std::abs(fit.coefficient[0]);
+    loss.chi = chi_of(fit.coefficient[0], sigma, loss);
 }
 
 }  // namespace
@@ -171,9 +126,9 @@ BiasLoss find_bias_loss(std::span<const LabLog> logs, const BiasLaw& law) {
         loss.n_relocks = 0;
         loss.chi = numeric::refused(useless);
     } else {
-        std::vector<Borders> all;
+        std::vector<RelockBorders> all;
         for (const RelockView& view : relocks.views) {
-            all.emplace_back(view, law, relocks.transient_halves);
+            all.push_back(borders_of(view, law, relocks.transient_halves));
             loss.deficit_counts += 0.5 * view.log->tick_s * law.bias_hz.value * relocks.first_square_lambda2 /
                                    static_cast<double>(relocks.views.size());
         }

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
+#include <zlg/numeric/cluster_fit.hpp>
 
-#include "cluster_scatter.hpp"
 #include "relock_view.hpp"
 
 namespace zlg::calibration {
@@ -29,29 +28,21 @@ constexpr double min_stepped_fall = 0.13;
 
 // Logged mean detunings of one re-lock against columns of travel, as sums of products; less what the noise of the
 // readings adds.
-struct Cluster {
-    Eigen::MatrixXd xx;
-    Eigen::VectorXd xy;
-    double yy = 0.0;
+struct Travel : numeric::Cluster {
+    double squares = 0.0;  // of the detunings
     std::int64_t n = 0;
 
-    explicit Cluster(Eigen::Index columns)
-        : xx{Eigen::MatrixXd::Zero(columns, columns)}, xy{Eigen::VectorXd::Zero(columns)} {}
+    explicit Travel(Eigen::Index columns)
+        : Cluster{Eigen::MatrixXd::Zero(columns, columns), Eigen::VectorXd::Zero(columns)} {}
 
     void add(const Eigen::VectorXd& x, const Eigen::VectorXd& noise, double y) {
-        xx += x * x.transpose();
-        xx.diagonal() -= noise;
-        xy += x * y;
-        yy += y * y;
+        information += x * x.transpose();
+        information.diagonal() -= noise;
+        products += x * y;
+        squares += y * y;
         ++n;
     }
-    void add(const Cluster& other) {
-        xx += other.xx;
-        xy += other.xy;
-        yy += other.yy;
-        n += other.n;
-    }
-    [[nodiscard]] bool is_finite() const { return n > 0 && xx.allFinite() && xy.allFinite(); }
+    [[nodiscard]] bool is_finite() const { return n > 0 && information.allFinite() && products.allFinite(); }
 };
 
 // Voltages above that of rest, which goes on drifting as it does in the settled segment.
@@ -76,9 +67,9 @@ struct Readings {
 // Against one column of mean voltage per half, whose variance is `noise` times that of a reading. The first half begins
 // before the loop is closed, so the first cubic begins with its end.
 template <class Mean>
-Cluster smooth_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient, double noise, Mean mean) {
+Travel smooth_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient, double noise, Mean mean) {
     const Readings r{view};
-    Cluster c{1};
+    Travel c{1};
     for (std::size_t h = 2; h < transient && h + 1 < r.halves.size(); ++h) {
         const double lambda_per_v = 0.5 / law.at_v(r.halves[h].temperature_c);
         c.add(Eigen::VectorXd::Constant(1, lambda_per_v * mean(r, h)),
@@ -88,22 +79,22 @@ Cluster smooth_cluster(const RelockView& view, const HalfWaveLaw& law, std::size
     return c;
 }
 
-Cluster cubic_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient) {
+Travel cubic_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient) {
     return smooth_cluster(view, law, transient, cubic_noise, [](const Readings& r, std::size_t h) {
         return (13.0 * (r.v(h - 1) + r.v(h)) - r.v(h - 2) - r.v(h + 1)) / 24.0;
     });
 }
 
-Cluster straight_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient) {
+Travel straight_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient) {
     return smooth_cluster(view, law, transient, 0.5,
                           [](const Readings& r, std::size_t h) { return 0.5 * (r.v(h - 1) + r.v(h)); });
 }
 
 // A voltage that is commanded half by half: it goes from the one reading to the next in a way that is always the same,
 // so its mean lies anywhere between them, the second unknown.
-Cluster stepped_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient) {
+Travel stepped_cluster(const RelockView& view, const HalfWaveLaw& law, std::size_t transient) {
     const Readings r{view};
-    Cluster c{2};
+    Travel c{2};
     for (std::size_t h = 1; h < transient; ++h) {
         const double lambda_per_v = 0.5 / law.at_v(r.halves[h].temperature_c);
         const double noise = r.variance_v2 * lambda_per_v * lambda_per_v;
@@ -121,27 +112,25 @@ struct Fit {
 };
 
 template <class MakeCluster>
-Fit fit(const Relocks& relocks, const HalfWaveLaw& law, Eigen::Index columns, MakeCluster make) {
-    std::vector<Cluster> clusters;
-    Cluster total{columns};
+Fit fit(const Relocks& relocks, const HalfWaveLaw& law, MakeCluster make) {
+    std::vector<numeric::Cluster> clusters;
+    double squares = 0.0;
+    double n = 0.0;
     for (const RelockView& view : relocks.views) {
-        const Cluster c = make(view, law, relocks.transient_halves);
+        const Travel c = make(view, law, relocks.transient_halves);
         if (!c.is_finite()) continue;
         clusters.push_back(c);
-        total.add(c);
+        squares += c.squares;
+        n += static_cast<double>(c.n);
     }
     Fit result{.n_relocks = std::ssize(clusters)};
     if (result.n_relocks < min_relocks_of_scale) return result;
-    const Eigen::MatrixXd inverse = total.xx.inverse();
-    const Eigen::VectorXd solution = inverse * total.xy;
-    const Eigen::MatrixXd scores =
-        cluster_scatter(clusters, [&](const Cluster& c) -> Eigen::VectorXd { return c.xy - c.xx * solution; });
-    const auto n = static_cast<double>(clusters.size());
-    const auto dof = n - static_cast<double>(columns);
-    const Eigen::MatrixXd covariance = inverse * scores * inverse * (n / dof);
-    result.scale = solution[0];
-    result.sigma = numeric::widened(std::sqrt(covariance(0, 0)), dof);
-    result.rms_lambda = std::sqrt(std::max(0.0, total.yy - solution.dot(total.xy)) / static_cast<double>(total.n));
+    const numeric::ClusterFit found = numeric::fit_clusters(clusters);
+    const auto dof = static_cast<double>(result.n_relocks - found.coefficient.size());
+    for (const numeric::Cluster& c : clusters) squares -= found.coefficient.dot(c.products);
+    result.scale = found.coefficient[0];
+    result.sigma = numeric::widened(std::sqrt(found.covariance(0, 0)), dof);
+    result.rms_lambda = std::sqrt(std::max(0.0, squares) / n);
     return result;
 }
 
@@ -154,7 +143,7 @@ DetuningScale find_detuning_scale(std::span<const LabLog> logs, const HalfWaveLa
         return result;
     }
     const Relocks relocks{logs};
-    const Fit f = stepped_voltage ? fit(relocks, law, 2, stepped_cluster) : fit(relocks, law, 1, cubic_cluster);
+    const Fit f = stepped_voltage ? fit(relocks, law, stepped_cluster) : fit(relocks, law, cubic_cluster);
     result.n_relocks = f.n_relocks;
     if (result.n_relocks < min_relocks_of_scale) {
         result.scale = numeric::refused(
@@ -170,7 +159,7 @@ DetuningScale find_detuning_scale(std::span<const LabLog> logs, const HalfWaveLa
         return result;
     }
     const double of_ruler = f.scale * law.half_wave_v.sigma / law.half_wave_v.value;
-    const double corrected = stepped_voltage ? 0.0 : f.scale - fit(relocks, law, 1, straight_cluster).scale;
+    const double corrected = stepped_voltage ? 0.0 : f.scale - fit(relocks, law, straight_cluster).scale;
     if (std::abs(corrected) > max_correction * std::abs(f.scale)) {
         result.scale = numeric::refused(fmt::format(
             "the re-lock is over within {} halves: its course within one is not seen (the cubic corrects by {:.2g} %, "

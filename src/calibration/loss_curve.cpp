@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "cluster_scatter.hpp"
 #include "relock_borders.hpp"
 
 namespace zlg::calibration {
@@ -56,13 +55,8 @@ Terms terms(double x, double x0) {
     return t;
 }
 
-struct Fit {
+struct Fit : LossFit {
     double x0 = 0.0;
-    Eigen::VectorXd coefficient;  // of the terms, and of parity
-    Eigen::MatrixXd covariance;
-    double residual = std::numeric_limits<double>::infinity();
-    double chi2_per_dof = 0.0;
-    double repeats = 0.0;  // part of the variance of rounding that is the same after every re-lock
 
     [[nodiscard]] Eigen::Index n() const { return coefficient.size() - 1; }
     [[nodiscard]] double loss(double x) const { return terms(x, x0).head(n()).dot(coefficient.head(n())); }
@@ -72,37 +66,6 @@ struct Fit {
         return std::sqrt(t.dot(covariance.topLeftCorner(n(), n()) * t));
     }
 };
-
-Fit fitted(const std::vector<RelockBorders>& all) {
-    const Eigen::Index columns = all.front().x.cols();
-    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(columns, columns);
-    Eigen::VectorXd products = Eigen::VectorXd::Zero(columns);
-    Fit fit;
-    for (const RelockBorders& b : all) {
-        information += b.x.transpose() * b.x;
-        products += b.x.transpose() * b.y;
-    }
-    // The terms resemble each other: by the pseudo-inverse a combination that the logs do not determine stays small.
-    const Eigen::MatrixXd inverse = information.completeOrthogonalDecomposition().pseudoInverse();
-    fit.coefficient = inverse * products;
-    double dof = -static_cast<double>(columns);
-    fit.residual = 0.0;
-    for (const RelockBorders& b : all) {
-        fit.residual += (b.y - b.x * fit.coefficient).squaredNorm();
-        dof += static_cast<double>(b.y.size() - 1);
-    }
-    const Eigen::MatrixXd scatter = cluster_scatter(all, [&](const RelockBorders& b) -> Eigen::VectorXd {
-        const Eigen::VectorXd left = b.y - b.x * fit.coefficient;
-        return b.x.transpose() * left;
-    });
-    const double n = static_cast<double>(all.size());
-    const RepeatedRounding repeated = repeated_rounding(all, fit.coefficient);
-    fit.repeats = repeated.ratio;
-    fit.chi2_per_dof = fit.residual / (dof * rounding_counts2);
-    const Eigen::MatrixXd all_scatter = n / (n - static_cast<double>(columns)) * scatter + repeated.covariance;
-    fit.covariance = inverse * all_scatter * inverse;
-    return fit;
-}
 
 std::vector<RelockBorders> borders_of(const Relocks& relocks, const BiasLaw& law, Eigen::Index n_laws, double x0) {
     std::vector<RelockBorders> all;
@@ -120,12 +83,12 @@ std::vector<RelockBorders> borders_of(const Relocks& relocks, const BiasLaw& law
 
 Fit best_fit(const Relocks& relocks, const BiasLaw& law, Eigen::Index n_laws, double farthest_lambda) {
     Fit best;
+    best.residual = std::numeric_limits<double>::infinity();
     for (const double place : places) {
         const double x0 = place * farthest_lambda;
-        Fit fit = fitted(borders_of(relocks, law, n_laws, x0));
-        if (!(fit.residual < best.residual)) continue;
-        best = std::move(fit);
-        best.x0 = x0;
+        LossFit fit = fit_losses(borders_of(relocks, law, n_laws, x0), numeric::Laws::alike);
+        fit.covariance += fit.repeated_covariance;
+        if (fit.residual < best.residual) best = {std::move(fit), x0};
     }
     return best;
 }
@@ -171,7 +134,7 @@ std::string fault_of(const Fit& fit, double last_lambda) {
     if (!(fit.chi2_per_dof <= max_chi2_per_dof))
         return fmt::format("the residuals of the re-locks are {:.3g} times what rounding makes, allowed is up to {:g}",
                            fit.chi2_per_dof, max_chi2_per_dof);
-    if (fit.repeats > max_repeated_ratio)
+    if (fit.repeated_ratio > max_repeated_ratio)
         return "the counter rounds alike after every switch; a slow rotation at a known rate would tell";
     const Bend bend{fit, last_lambda};
     if (!(bend.ratio > min_bend_ratio && bend.in_sigmas > min_bend_sigmas))

@@ -43,12 +43,10 @@ struct Kind {
     [[nodiscard]] double scatter() const { return n > 0.0 ? squares - residual.squaredNorm() / n : 0.0; }
 };
 
-}  // namespace
-
-RepeatedRounding repeated_rounding(const std::vector<RelockBorders>& all, const Eigen::VectorXd& coefficient) {
+void take_repeated(const std::vector<RelockBorders>& all, LossFit& fit) {
     std::array<Kind, 4> kinds;
-    for (const RelockBorders& b : all) kinds[static_cast<std::size_t>(b.kind)].add(b, coefficient);
-    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(coefficient.size(), coefficient.size());
+    for (const RelockBorders& b : all) kinds[static_cast<std::size_t>(b.kind)].add(b, fit.coefficient);
+    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(fit.coefficient.size(), fit.coefficient.size());
     double scatter = 0.0;
     double dof = 0.0;
     for (const Kind& kind : kinds) {
@@ -58,8 +56,28 @@ RepeatedRounding repeated_rounding(const std::vector<RelockBorders>& all, const 
         dof += (kind.n - 1.0) * static_cast<double>(kind.x.rows() - 1);
     }
     const double scattered = dof > 0.0 ? scatter / dof : 0.0;
-    const double ratio = std::max(0.0, 1.0 - scattered / rounding_counts2);
-    return {ratio, ratio * rounding_counts2 * shared};
+    fit.repeated_ratio = std::max(0.0, 1.0 - scattered / rounding_counts2);
+    fit.repeated_covariance = fit.repeated_ratio * rounding_counts2 * (fit.inverse * shared * fit.inverse);
+}
+
+}  // namespace
+
+LossFit fit_losses(const std::vector<RelockBorders>& all, numeric::Laws laws) {
+    std::vector<numeric::Cluster> clusters;
+    for (const RelockBorders& b : all) {
+        clusters.push_back({b.x.transpose() * b.x, b.x.transpose() * b.y});
+        clusters.back().information(0, 0) -= b.noise;
+    }
+    LossFit fit{fit_clusters(clusters, laws)};
+    double expected = -rounding_counts2 * static_cast<double>(fit.coefficient.size());
+    for (const RelockBorders& b : all) {
+        fit.residual += (b.y - b.x * fit.coefficient).squaredNorm();
+        expected +=
+            rounding_counts2 * static_cast<double>(b.y.size() - 1) + fit.coefficient[0] * fit.coefficient[0] * b.noise;
+    }
+    fit.chi2_per_dof = fit.residual / expected;
+    take_repeated(all, fit);
+    return fit;
 }
 
 Eigen::Index halves_used(const RelockView& view, std::size_t transient) {

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <zlg/calibration/bias_law.hpp>
+#include <zlg/numeric/cluster_fit.hpp>
 
 #include "relock_view.hpp"
 
@@ -24,7 +25,8 @@ inline constexpr double rounding_counts2 = 1.0 / 12.0;  // of one border
 struct RelockBorders {
     Eigen::VectorXd y;
     Eigen::MatrixXd x;
-    int kind = 0;  // of the re-lock: helicity and first sign of the bias
+    int kind = 0;        // of the re-lock: helicity and first sign of the bias
+    double noise = 0.0;  // what light noise adds to the sum of squares of the first law's column
 };
 
 // As long again as the transient for the rest: every half of it brings light noise.
@@ -37,13 +39,15 @@ using LossLaws = std::function<void(const core::HalfRecord&, Eigen::Ref<Eigen::R
 [[nodiscard]] RelockBorders relock_borders(const RelockView& view, const BiasLaw& law, std::size_t transient,
                                            Eigen::Index n_laws, const LossLaws& losses);
 
-// Rounding that does not scatter from one re-lock of a kind to the next: an unknown that all of them share.
-struct RepeatedRounding {
-    double ratio = 0.0;          // of the variance of rounding
-    Eigen::MatrixXd covariance;  // of the sum of x^T y over all
+// The loss of bias by these laws, and the parity, from the borders of all re-locks. Rounding that does not scatter from one
+// re-lock of a kind to the next is an unknown that all of them share.
+struct LossFit : numeric::ClusterFit {
+    double residual = 0.0;                // sum of squares
+    double chi2_per_dof = 0.0;            // over rounding and light noise
+    double repeated_ratio = 0.0;          // part of the variance of rounding that is the same after every re-lock
+    Eigen::MatrixXd repeated_covariance;  // what that adds
 };
 
-[[nodiscard]] RepeatedRounding repeated_rounding(const std::vector<RelockBorders>& all,
-                                                 const Eigen::VectorXd& coefficient);
+[[nodiscard]] LossFit fit_losses(const std::vector<RelockBorders>& all, numeric::Laws laws);
 
 }  // namespace zlg::calibration

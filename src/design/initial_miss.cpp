@@ -51,28 +51,4 @@ double voltage_of_miss_v(double miss_lambda, double half_wave_v) {
     return miss_lambda * half_wave_v / move_lambda;
 }
 
-double TwoModeDetector::operator()(double detuning_lambda) const {
-    const double dl = std::abs(detuning_lambda);
-    if (dl > dark_from_lambda && dl < dark_to_lambda) return 0.0;
-    return std::copysign(per_lambda * std::min(dl, 0.5 - dl), detuning_lambda);
-}
-
-double capture_range_lambda(const Detector& detector, double threshold) {
-    require_not_negative("capture range", "threshold", threshold);
-    constexpr int n_steps = 2500;
-    const auto pulls = [&](double dl) { return detector(dl) > threshold && detector(-dl) < -threshold; };
-    int first = 1;
-    while (first < n_steps && !pulls(0.5 * first / n_steps)) ++first;
-    if (first == n_steps) return 0.0;
-    int last = first;
-    while (last < n_steps && pulls(0.5 * (last + 1) / n_steps)) ++last;
-    double inside = 0.5 * last / n_steps;
-    double outside = std::min(0.5, 0.5 * (last + 1) / n_steps);
-    while (outside - inside > 1e-10) {
-        const double middle = 0.5 * (inside + outside);
-        (pulls(middle) ? inside : outside) = middle;
-    }
-    return inside;
-}
-
 }  // namespace zlg::design

@@ -23,7 +23,7 @@ struct Candidate {
 Candidate candidate(const OrderQuestion& question, int order) {
     Substitution s = question.substitution;
     s.order = order;
-    return {ErrorResponse(s), sum_gain(s, question.noise)};
+    return {ErrorResponse(s), sum_gain(s, TickNoise::white)};
 }
 
 int highest_order(const OrderQuestion& question) {

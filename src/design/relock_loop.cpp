@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "range_check.hpp"
@@ -19,9 +18,6 @@ void check(const RelockLoop& loop, double miss_lambda, int n_ticks) {
     require(loop.limit_lambda > 0.0, where, "limit_lambda", loop.limit_lambda, "a number above 0, or infinity");
     require_not_negative(where, "rc_s", loop.rc_s);
     require(loop.slew_lambda_s > 0.0, where, "slew_lambda_s", loop.slew_lambda_s, "a number above 0, or infinity");
-    require(loop.delay_s >= 0.0 && loop.delay_s <= 10.0 * loop.tick_s, where, "delay_s", loop.delay_s, "0..10 T");
-    require(loop.mirror_hz > 0.0, where, "mirror_hz", loop.mirror_hz, "a number above 0, or infinity");
-    require_positive(where, "mirror_zeta", loop.mirror_zeta);
     require(std::abs(miss_lambda) <= 0.5, where, "miss_lambda", miss_lambda, "-0.5..0.5");
     require(n_ticks >= 1 && n_ticks <= 10000, where, "n_ticks", n_ticks, "1..10000");
 }
@@ -33,7 +29,7 @@ void check(const BiasLaw& law) {
 }
 
 // Integrals of dl and dl^2 travel with the state, so the means over a half are as exact as the motion.
-enum Member : std::size_t { command, voltage, position, velocity, sum, sum_square, n_members };
+enum Member : std::size_t { command, voltage, sum, sum_square, n_members };
 using State = std::array<double, n_members>;
 
 State advanced(const State& s, const State& slope, double by) {
@@ -44,20 +40,18 @@ State advanced(const State& s, const State& slope, double by) {
 
 // Of a half. Classical Runge-Kutta of fourth order loses its order at the corners that limiter and slew put inside a
 // step, so that short simulations have 4000 steps a tick; from 1000 ticks on fewer, down to 1000, bound the cost. A
-// time constant is parted into 100 steps or more, and the mirror's period into 2 pi/0.02 = 314.
+// time constant is parted into 100 steps or more.
 double steps_a_half(const RelockLoop& loop, int n_ticks) {
     constexpr double long_ticks = 1000.0;
     const double grid = 4000.0 / std::max(1.0, n_ticks / long_ticks);
     double step = std::min(loop.tick_s / std::max(1000.0, grid), loop.tau_s / 200.0);
     if (loop.rc_s > 0.0) step = std::min(step, loop.rc_s / 100.0);
-    if (std::isfinite(loop.mirror_hz)) step = std::min(step, 0.02 / (2.0 * std::numbers::pi * loop.mirror_hz));
     return std::ceil(0.5 * loop.tick_s / step);
 }
 
 class Simulation {
 public:
-    Simulation(const RelockLoop& loop, double miss_lambda, int n_ticks)
-        : loop_{loop}, miss_{miss_lambda}, mirror_rad_s_{2.0 * std::numbers::pi * loop.mirror_hz} {
+    Simulation(const RelockLoop& loop, double miss_lambda, int n_ticks) : loop_{loop}, miss_{miss_lambda} {
         const double steps = steps_a_half(loop, n_ticks);
         require(steps <= 1e6, where, "steps a half", steps, "at most 1e6: a time constant is too short for the tick");
         steps_a_half_ = static_cast<int>(steps);
@@ -78,37 +72,13 @@ public:
     }
 
 private:
-    [[nodiscard]] double height(const State& s) const {
-        if (std::isfinite(loop_.mirror_hz)) return s[position];
-        return loop_.rc_s > 0.0 ? s[voltage] : s[command];
-    }
+    [[nodiscard]] double detuning(const State& s) const { return miss_ - (loop_.rc_s > 0.0 ? s[voltage] : s[command]); }
 
-    [[nodiscard]] double detuning(const State& s) const { return miss_ - height(s); }
-
-    // Output of the detector at `fraction` of the step that begins now, interpolated between past steps for a delay.
-    [[nodiscard]] double detected(const State& s, double fraction) const {
-        if (loop_.delay_s == 0.0) return detuning(s);
-        const auto& past = trace_.detuning_lambda;
-        const double now = static_cast<double>(past.size() - 1) + fraction;
-        const double at = now - loop_.delay_s / step_s_;
-        if (at <= 0.0) return miss_;
-        const auto below = static_cast<std::size_t>(at);
-        if (below + 1 >= past.size()) return past.back();  // a delay shorter than the step
-        const double part = at - std::floor(at);
-        return (1.0 - part) * past[below] + part * past[below + 1];
-    }
-
-    [[nodiscard]] State slope(const State& s, double fraction) const {
+    [[nodiscard]] State slope(const State& s) const {
         State d{};
-        d[command] = std::clamp(detected(s, fraction), -loop_.limit_lambda, loop_.limit_lambda) / loop_.tau_s;
+        d[command] = std::clamp(detuning(s), -loop_.limit_lambda, loop_.limit_lambda) / loop_.tau_s;
         if (loop_.rc_s > 0.0) {
             d[voltage] = std::clamp((s[command] - s[voltage]) / loop_.rc_s, -loop_.slew_lambda_s, loop_.slew_lambda_s);
-        }
-        if (std::isfinite(loop_.mirror_hz)) {
-            const double drive = loop_.rc_s > 0.0 ? s[voltage] : s[command];
-            d[position] = s[velocity];
-            d[velocity] =
-                mirror_rad_s_ * (mirror_rad_s_ * (drive - s[position]) - 2.0 * loop_.mirror_zeta * s[velocity]);
         }
         d[sum] = detuning(s);
         d[sum_square] = d[sum] * d[sum];
@@ -116,10 +86,10 @@ private:
     }
 
     void step() {
-        const State a = slope(state_, 0.0);
-        const State b = slope(advanced(state_, a, 0.5 * step_s_), 0.5);
-        const State c = slope(advanced(state_, b, 0.5 * step_s_), 0.5);
-        const State d = slope(advanced(state_, c, step_s_), 1.0);
+        const State a = slope(state_);
+        const State b = slope(advanced(state_, a, 0.5 * step_s_));
+        const State c = slope(advanced(state_, b, 0.5 * step_s_));
+        const State d = slope(advanced(state_, c, step_s_));
         for (std::size_t k = 0; k < n_members; ++k) {
             state_[k] += step_s_ / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]);
         }
@@ -128,7 +98,6 @@ private:
 
     RelockLoop loop_;
     double miss_;
-    double mirror_rad_s_;
     int steps_a_half_ = 0;
     double step_s_ = 0.0;
     State state_{};

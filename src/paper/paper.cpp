@@ -9,7 +9,7 @@
 #include <zlg/study/run.hpp>
 
 #include "paper_parts.hpp"
-#include "paper_text.hpp"
+#include "paper_words.hpp"
 
 namespace zlg::paper {
 namespace {
@@ -30,26 +30,15 @@ SubstitutionFigures substitution_of(const PaperTask& task) {
     return paper_figures_8_to_11(rest);
 }
 
+constexpr std::array verdicts{Verdict::agrees, Verdict::misprint, Verdict::wrong, Verdict::not_supported};
+
 auto number_of(const std::vector<Claim>& claims, Verdict v) { return std::ranges::count(claims, v, &Claim::verdict); }
 
-std::string verdict_of(const std::vector<Claim>& claims) {
-    return fmt::format(
-        "Of {} claims of the paper {} agree with what is computed here, {} have a misprint, {} are wrong and {} are "
-        "not supported.",
-        claims.size(), number_of(claims, Verdict::agrees), number_of(claims, Verdict::misprint),
-        number_of(claims, Verdict::wrong), number_of(claims, Verdict::not_supported));
-}
-
 report::Section claims_section(const std::vector<Claim>& claims) {
-    report::Table table{.caption = "What the paper says, and what came of it.",
-                        .header = {"where", "claim", "verdict", "finding"}};
-    for (const Claim& c : claims) table.rows.push_back({c.where, c.claim, verdict_name(c.verdict), c.finding});
-    return {
-        .heading = "Claims of the paper",
-        .paragraphs = {fmt::format("{} claims, verdicts: {}. A misprint leaves the argument intact; what is wrong does "
-                                   "not follow; what is not supported could be neither derived nor reproduced.",
-                                   claims.size(), verdict_counts(claims))},
-        .tables = {std::move(table)}};
+    std::vector<std::vector<std::string>> rows;
+    for (const Claim& c : claims) rows.push_back({c.where, c.claim, verdict_name(c.verdict), c.finding});
+    return item_of("claims", {claims.size(), verdict_counts(claims)}, {table_of("claims.table", std::move(rows))}, {})
+        .section;
 }
 
 }  // namespace
@@ -61,7 +50,7 @@ const char* verdict_name(Verdict verdict) {
 
 std::string verdict_counts(const std::vector<Claim>& claims) {
     std::string text;
-    for (const Verdict v : {Verdict::agrees, Verdict::misprint, Verdict::wrong, Verdict::not_supported})
+    for (const Verdict v : verdicts)
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", verdict_name(v), number_of(claims, v));
     return text;
 }
@@ -82,15 +71,11 @@ Paper recompute_paper(const PaperTask& task) {
 }
 
 report::Page paper_page(const Paper& paper) {
-    report::Page page{
-        .title = "The paper recomputed: a Zeeman laser gyro with switching of longitudinal modes",
-        .verdict = verdict_of(paper.claims),
-        .lead = sentence(
-            "The paper of 2014: its claims and what came of them, then every figure and table in its order: our "
-            "curves, the printed formula where it differs, and points measured on the digital twin. {} points "
-            "against theory: chi-square per point {:.2f}.",
-            paper.degrees_of_freedom, paper.chi2_per_dof),
-        .numbered = false};
+    Values numbers{paper.claims.size()};
+    for (const Verdict v : verdicts) numbers.emplace_back(number_of(paper.claims, v));
+    numbers.insert(numbers.end(), {paper.degrees_of_freedom, paper.chi2_per_dof});
+    const std::vector<std::string> text = words("page", numbers);
+    report::Page page{.title = text.at(0), .verdict = text.at(1), .lead = text.at(2), .numbered = false};
     page.sections.push_back(claims_section(paper.claims));
     for (const PaperItem& item : paper.items) page.sections.push_back(item.section);
     page.sections.push_back(study::how_made("paper", paper.config));

@@ -1,7 +1,5 @@
 #include "paper_bridge_curves.hpp"
 
-#include <fmt/format.h>
-
 #include <zlg/design/taylor.hpp>
 
 namespace zlg::paper {
@@ -10,15 +8,47 @@ namespace {
 using design::Fit;
 using report::Series;
 
-const char* order_name(int order) { return order_names[static_cast<std::size_t>(order)]; }
-
-// The component of the axis' own region.
-Series region_points(Look look, const Axis& axis, Fit fit, int order) {
-    return twin_points(std::move(look), axis.measured, axis.results, fit, order,
-                       [&](const SubstitutionPoint& p) { return measured(p, axis.region); });
+double zero(const BridgeCase&, int) { return 0.0; }
+double exact(const BridgeCase& c, int order) { return exact_error_arcsec(c, Fit::interpolation, order); }
+double live(const BridgeCase& c, int order) { return exact_error_arcsec(c, Fit::extrapolation, order); }
+double leading_law(const BridgeCase& c, int order) {
+    const design::Tone tone{.amplitude_arcsec_s = c.amplitude_arcsec_s, .frequency_hz = c.frequency_hz};
+    return -design::leading_error_arcsec(tone, order, c.n, c.tick_s);
 }
 
+constexpr Row at_crossing[] = {{"theory, any order: 0", 0, 0, false, zero},
+                               {"series as printed, cubic term 1", 2, 1, true, series_error_as_printed_arcsec},
+                               {"series, cubic term 4/3", 2, 2, true, series_error_arcsec},
+                               {"twin, constant = linear", 0, 3},
+                               {"twin, quadratic", 2, 4}};
+constexpr Row twin_alone[] = {at_crossing[0], at_crossing[3], at_crossing[4]};
+constexpr Row at_extremum[] = {{"constant = linear", 0, 0, false, exact},
+                               {"quadratic", 2, 1, false, exact},
+                               {"series, linear", 0, 0, true, series_error_arcsec},
+                               {"series, quadratic", 2, 1, true, series_error_arcsec},
+                               {"twin, constant = linear", 0, 0},
+                               {"twin, quadratic", 2, 1}};
+constexpr Row by_leading_laws[] = {{"constant = linear", 0, 0, false, exact},
+                                   {"quadratic", 2, 1, false, exact},
+                                   {"leading law, constant = linear", 0, 0, true, leading_law},
+                                   {"leading law, quadratic", 2, 1, true, leading_law},
+                                   {"twin, constant = linear", 0, 0},
+                                   {"twin, quadratic", 2, 1}};
+constexpr Row in_real_time[] = {{"constant", 0, 0, false, live},
+                                {"linear", 1, 1, false, live},
+                                {"quadratic", 2, 2, false, live},
+                                {"twin, constant", 0, 0, false, nullptr, Fit::extrapolation},
+                                {"twin, linear", 1, 1, false, nullptr, Fit::extrapolation},
+                                {"twin, quadratic", 2, 2, false, nullptr, Fit::extrapolation}};
+
 }  // namespace
+
+std::span<const Row> corrected(Region region) {
+    return region == Region::crossing ? std::span{at_crossing} : std::span<const Row>{at_extremum};
+}
+std::span<const Row> leading() { return by_leading_laws; }
+std::span<const Row> twin_at_crossing() { return twin_alone; }
+std::span<const Row> delivered() { return in_real_time; }
 
 Series twin_points(Look look, const std::vector<double>& x, const std::vector<SubstitutionResult>& results, Fit fit,
                    int order, const std::function<Measured(const SubstitutionPoint&)>& of) {
@@ -38,56 +68,17 @@ std::vector<double> each(const std::vector<SubstitutionResult>& results,
     return all;
 }
 
-void add_exact(const Axis& axis, SeriesList& all) {
-    for (const int order : sum_orders)
-        all.push_back(curve({sum_order_name(order), order / 2}, axis.shown,
-                            [&](double x) { return exact_error_arcsec(axis.case_at(x), Fit::interpolation, order); }));
-}
-
-void add_leading_laws(const Axis& axis, SeriesList& all) {
-    for (const int order : sum_orders)
-        all.push_back(
-            curve({fmt::format("leading law, {}", sum_order_name(order)), order / 2, true}, axis.shown, [&](double x) {
-                const BridgeCase c = axis.case_at(x);
-                const design::Tone tone{.amplitude_arcsec_s = c.amplitude_arcsec_s, .frequency_hz = c.frequency_hz};
-                return -design::leading_error_arcsec(tone, order, c.n, c.tick_s);
-            }));
-}
-
-void add_twin(const Axis& axis, int first_colour, SeriesList& all) {
-    for (const int order : sum_orders)
-        all.push_back(region_points({fmt::format("twin, {}", sum_order_name(order)), first_colour + order / 2}, axis,
-                                    Fit::interpolation, order));
-}
-
-SeriesList corrected(const Axis& axis) {
-    SeriesList all;
-    const auto series = [&](int order) {
-        return [&, order](double x) { return series_error_arcsec(axis.case_at(x), order); };
-    };
-    if (axis.region == Region::crossing) {
-        all.push_back(curve({theory_of_crossing, 0}, axis.shown, [](double) { return 0.0; }));
-        all.push_back(curve({"series as printed, cubic term 1", 1, true}, axis.shown,
-                            [&](double x) { return series_error_as_printed_arcsec(axis.case_at(x), 2); }));
-        all.push_back(curve({"series, cubic term 4/3", 2, true}, axis.shown, series(2)));
-        add_twin(axis, 3, all);
-    } else {
-        add_exact(axis, all);
-        all.push_back(curve({"series, linear", 0, true}, axis.shown, series(0)));
-        all.push_back(curve({"series, quadratic", 1, true}, axis.shown, series(2)));
-        add_twin(axis, 0, all);
+std::vector<Series> drawn(const Axis& axis, std::span<const Row> rows) {
+    const Region region = axis.case_at(axis.shown.front()).region;
+    std::vector<Series> all;
+    for (const Row& row : rows) {
+        const Look look{row.name, row.colour, row.dashed};
+        if (row.of)
+            all.push_back(curve(look, axis.shown, [&](double x) { return row.of(axis.case_at(x), row.order); }));
+        else
+            all.push_back(twin_points(look, axis.measured, axis.results, row.fit, row.order,
+                                      [region](const SubstitutionPoint& p) { return measured(p, region); }));
     }
-    return all;
-}
-
-SeriesList delivered(const Axis& axis) {
-    SeriesList all;
-    for (int order = 0; order < 3; ++order)
-        all.push_back(curve({order_name(order), order}, axis.shown,
-                            [&](double x) { return exact_error_arcsec(axis.case_at(x), Fit::extrapolation, order); }));
-    for (int order = 0; order < 3; ++order)
-        all.push_back(
-            region_points({fmt::format("twin, {}", order_name(order)), order}, axis, Fit::extrapolation, order));
     return all;
 }
 

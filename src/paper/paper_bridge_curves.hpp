@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,27 +27,33 @@ inline constexpr std::array sum_orders{0, 2};
 
 // What one figure varies: the gap at a place of its axis, the places of its curves, and the experiments on the axis.
 struct Axis {
-    std::string label;
-    Region region = Region::extremum;
     std::function<BridgeCase(double)> case_at;
     std::vector<double> shown;
     const std::vector<SubstitutionResult>& results;
     std::vector<double> measured;  // the places of the results
 };
 
-using SeriesList = std::vector<report::Series>;
+// One series of a figure: the error of a gap by theory or by the print, or the twin's points of a fit.
+struct Row {
+    const char* name;
+    int order = 0;
+    int colour = 0;
+    bool dashed = false;
+    double (*of)(const BridgeCase&, int order) = nullptr;  // null: the points
+    design::Fit fit = design::Fit::interpolation;          // of the points
+};
 
-// The error that stays in the angle, of both orders: exact, as the leading term at low frequency, on the twin.
-void add_exact(const Axis& axis, SeriesList& all);
-void add_leading_laws(const Axis& axis, SeriesList& all);
-void add_twin(const Axis& axis, int first_colour, SeriesList& all);
+[[nodiscard]] std::vector<report::Series> drawn(const Axis& axis, std::span<const Row> rows);
 
-// Theory, the series (20), and the twin. Where the rate passes zero theory is 0, and the print has another series.
-[[nodiscard]] SeriesList corrected(const Axis& axis);
+// The error that stays in the angle: theory, the series (20), and the twin. Where the rate passes zero theory is 0, and the
+// print has another series.
+[[nodiscard]] std::span<const Row> corrected(Region region);
 
-// Three curves and their points: what is delivered in real time, extrapolated from four ticks.
-[[nodiscard]] SeriesList delivered(const Axis& axis);
+// The same without the print: exact, as the leading term at low frequency, on the twin; and the twin alone at a zero crossing.
+[[nodiscard]] std::span<const Row> leading();
+[[nodiscard]] std::span<const Row> twin_at_crossing();
 
-inline constexpr const char* theory_of_crossing = "theory, any order: 0";
+// What is delivered in real time, extrapolated from four ticks.
+[[nodiscard]] std::span<const Row> delivered();
 
 }  // namespace zlg::paper

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <iterator>
 
 #include <zlg/design/taylor.hpp>
 
@@ -37,7 +38,6 @@ public:
                 .slow_rate_arcsec_s = noise_rate_arcsec_s,
                 .switches = task_.switches_per_point,
                 .seed = static_cast<std::uint64_t>(task_.config.run.seed) % (1ULL << 50) * seeds_per_run + n_made_++,
-                .points = {},
                 .base = task_.config};
     }
 
@@ -121,6 +121,17 @@ Measured measured(const SubstitutionPoint& point, Region region) {
 const SubstitutionPoint& point_of(const SubstitutionResult& result, design::Fit fit, int order) {
     const auto& points = fit == design::Fit::interpolation ? result.interpolation : result.extrapolation;
     return points[static_cast<std::size_t>(order)];
+}
+
+SubstitutionFigures paper_figures_8_to_11(const PaperTask& task) {
+    const BridgePoints points = measure_bridge(task);
+    const ChiSquare agreement = agreement_of_all(points);
+    SubstitutionFigures out{
+        .items = paper_figure_8(points), .chi2_per_dof = agreement.per_dof, .degrees_of_freedom = agreement.dof};
+    std::vector<PaperItem> more = paper_figures_9_and_10(points);
+    out.items.insert(out.items.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    out.items.push_back(paper_figure_11(task, points));
+    return out;
 }
 
 }  // namespace zlg::paper

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <zlg/design/substitution_noise.hpp>
-#include <zlg/paper/paper.hpp>
 
 #include "paper_trial.hpp"
+#include "paper_words.hpp"
 
 namespace zlg::paper {
 
@@ -22,15 +22,12 @@ namespace zlg::paper {
     return design::sum_gain({fit, order, paper_gap_ticks}, design::TickNoise::white);
 }
 
-using Claims = std::vector<Claim> (*)();
+using Findings = std::vector<Finding> (*)();
 
-[[nodiscard]] std::vector<Claim> joined(std::initializer_list<Claims> parts);
+[[nodiscard]] std::vector<Finding> joined(std::initializer_list<Findings> parts);
 
-[[nodiscard]] std::vector<Claim> claims_of_abstract();
-[[nodiscard]] std::vector<Claim> claims_of_laser();         // eqs (1), (2), the perimeter loop
-[[nodiscard]] std::vector<Claim> claims_of_drift();         // eqs (3) to (9), figures 3 to 5
-[[nodiscard]] std::vector<Claim> claims_of_relock();        // eqs (10) to (13), tables 1 and 2
-[[nodiscard]] std::vector<Claim> claims_of_substitution();  // eqs (14) to (20), figures 6 to 11
-[[nodiscard]] std::vector<Claim> claims_of_conclusions();
+[[nodiscard]] std::vector<Finding> claims_of_drift();         // eqs (3) to (9), figures 3 to 5
+[[nodiscard]] std::vector<Finding> claims_of_relock();        // eqs (10) to (13), tables 1 and 2
+[[nodiscard]] std::vector<Finding> claims_of_substitution();  // eqs (14) to (20), figures 6 to 11
 
 }  // namespace zlg::paper

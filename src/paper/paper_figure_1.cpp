@@ -1,4 +1,4 @@
-// Figure 1: the bias and the detuning signal, as signals of the twin.
+// Figures 1 and 2: drawings, and the bias and the detuning signal as signals of the twin.
 
 #include <cmath>
 
@@ -6,7 +6,9 @@
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/twin.hpp>
 
+#include "paper_files.hpp"
 #include "paper_parts.hpp"
+#include "paper_words.hpp"
 
 namespace zlg::paper {
 namespace {
@@ -59,14 +61,7 @@ Figure beat_figure(const config::Config& config) {
         before = after;
     }
     add_point(beat, 1e3 * half_s * shown_halves, beat.y.back());
-    return {.id = "figure-1-beat",
-            .title = "The bias of the twin",
-            .caption =
-                "Rate of the counter over each half of the tick, gyro at rest, no detuning. The two halves of a tick "
-                "cancel in its angle and leave the rotation.",
-            .x_label = "time, ms",
-            .y_label = "rate of the counter, kHz",
-            .series = {std::move(beat)}};
+    return worded({.id = "figure-1-beat", .series = {std::move(beat)}});
 }
 
 Series light_of(const config::Config& config, double detuning_lambda) {
@@ -85,18 +80,6 @@ Series light_of(const config::Config& config, double detuning_lambda) {
         }
     }
     return s;
-}
-
-Figure light_figure(const config::Config& config) {
-    return {.id = "figure-1-light",
-            .title = "The detuning signal of the twin",
-            .caption =
-                "Samples of the light over the same time. Off the centre of the gain contour the beams differ, with "
-                "the sign of the bias: a modulation of period T. Its phase tells the side, and turns over with the "
-                "helicity of the mode.",
-            .x_label = "time, ms",
-            .y_label = "difference of the beams over their sum, %",
-            .series = {light_of(config, 0.05), light_of(config, 0.0), light_of(config, -0.05)}};
 }
 
 Series law_of_bias(const config::Gyro& gyro) {
@@ -125,62 +108,23 @@ Series counted_bias(const config::Config& config) {
     return seen;
 }
 
-Figure frequency_figure(const config::Config& config) {
-    return {.id = "figure-1-frequency",
-            .title = "Bias frequency against detuning",
-            .caption =
-                "Why a gyro that is not yet tuned lies: while the detuning goes down, the two halves of a tick have "
-                "different bias.",
-            .x_label = "detuning, wavelengths",
-            .y_label = "bias frequency, kHz",
-            .series = {law_of_bias(config.gyro), counted_bias(config)}};
-}
-
-Diagram bias_diagram() {
-    return {
-        .id = "figure-1",
-        .title = "How the bias and the detuning signal come about",
-        .caption =
-            "s is the sign of the field, p the helicity of the mode, \u0394\u03BB the detuning. Shaded: done by "
-            "the processor.",
-        .height = 386,
-        .boxes =
-            {{.lines = {"Bias", "commutator"}, .left = 6, .top = 6, .width = 156, .height = 64, .shaded = true},
-             {.lines = {"Field in the", "discharge"}, .left = 262, .top = 6, .width = 156, .height = 64},
-             {.lines = {"Zeeman effect:", "gain contours", "of the beams", "move apart"},
-              .left = 518,
-              .top = 6,
-              .width = 156,
-              .height = 284},
-             {.lines = {"Light of", "the beams"}, .left = 262, .top = 116, .width = 156, .height = 64},
-             {.lines = {"Synchronous", "detector"}, .left = 6, .top = 116, .width = 156, .height = 64, .shaded = true},
-             {.lines = {"Beat of", "the beams"}, .left = 262, .top = 226, .width = 156, .height = 64},
-             {.lines = {"Counter"}, .left = 6, .top = 226, .width = 156, .height = 64},
-             {.lines = {"Perimeter"}, .left = 518, .top = 336, .width = 156, .height = 44}},
-        .arrows = {{.from = {162, 38}, .to = {262, 38}, .label = "\u00B1 current"},
-                   {.from = {418, 38}, .to = {518, 38}, .label = "s = \u00B11"},
-                   {.from = {84, 70}, .to = {84, 116}, .label = "s p"},
-                   {.from = {518, 148}, .to = {418, 148}, .label = "s p \u0394\u03BB"},
-                   {.from = {262, 148}, .to = {162, 148}, .label = "samples"},
-                   {.from = {518, 258}, .to = {418, 258}, .label = "s p f"},
-                   {.from = {262, 258}, .to = {162, 258}, .label = "fringes"},
-                   {.from = {596, 336}, .to = {596, 290}, .label = "\u0394\u03BB"}}};
-}
-
 }  // namespace
 
 PaperItem paper_figure_1(const PaperTask& task) {
-    return {
-        .number = "figure 1",
-        .section = {
-            .heading = "Figure 1: the bias and the detuning signal",
-            .paragraphs = {"In print a sketch of signals; here the block diagram and the signals of the twin.",
-                           "Agrees: bias and modulation as described. Does not: (1) divides by the Zeeman shift and "
-                           "puts c in the numerator. The amplitude is proportional to the detuning times the shift, so "
-                           "only A = K \u0394\u03BB is used, with the helicity in the sign. The signal has the period "
-                           "T of the bias, not half of it: at T/2 there is only what is left on the centre."},
-            .figures = {beat_figure(task.config), light_figure(task.config), frequency_figure(task.config)},
-            .diagrams = {bias_diagram()}}};
+    const config::Config& c = task.config;
+    PaperItem item =
+        item_of("figure 1", {}, {},
+                {beat_figure(c),
+                 worded({.id = "figure-1-light", .series = {light_of(c, 0.05), light_of(c, 0.0), light_of(c, -0.05)}}),
+                 worded({.id = "figure-1-frequency", .series = {law_of_bias(c.gyro), counted_bias(c)}})});
+    item.section.diagrams = {report::diagram_of(figure_1_svg)};
+    return item;
+}
+
+PaperItem paper_figure_2() {
+    PaperItem item = item_of("figure 2", {}, {table_of("figure 2.table", {})}, {});
+    item.section.diagrams = {report::diagram_of(figure_2_svg)};
+    return item;
 }
 
 }  // namespace zlg::paper

@@ -6,7 +6,7 @@
 #include <zlg/design/substitution_noise.hpp>
 
 #include "paper_bridge_curves.hpp"
-#include "paper_text.hpp"
+#include "paper_words.hpp"
 
 namespace zlg::paper {
 namespace {
@@ -45,14 +45,7 @@ void add_order(Figure& figure, const PaperTask& task, const BridgePoints& points
 }
 
 Figure corrected_figure(const PaperTask& task, const BridgePoints& points) {
-    Figure figure{.id = "figure-11",
-                  .title = "Noise of the corrected gap",
-                  .caption =
-                      "Three standard deviations of the sum over the gap. White noise and the rounding of the count "
-                      "have the same size in one tick. The twin has rounding, light noise and random walk.",
-                  .x_label = "replaced ticks n",
-                  .y_label = "3 sigma of the gap, arcsec",
-                  .log_y = true};
+    Figure figure = worded({.id = "figure-11", .log_y = true});
     for (const int order : sum_orders)
         add_order(figure, task, points, Fit::interpolation, order, order / 2, sum_order_name(order));
     figure.series.push_back(curve({"constant as printed, A\u221An/2", 2, true}, lengths_of(points), [&](double n) {
@@ -63,12 +56,7 @@ Figure corrected_figure(const PaperTask& task, const BridgePoints& points) {
 }
 
 Figure delivered_figure(const PaperTask& task, const BridgePoints& points) {
-    Figure figure{.id = "figure-11-delivered",
-                  .title = "Noise of what is delivered in real time",
-                  .caption = "The same for the extrapolation (14) from the four ticks before the gap.",
-                  .x_label = "replaced ticks n",
-                  .y_label = "3 sigma of the gap, arcsec",
-                  .log_y = true};
+    Figure figure = worded({.id = "figure-11-delivered", .log_y = true});
     for (int order = 0; order < 3; ++order)
         add_order(figure, task, points, Fit::extrapolation, order, order, order_names[static_cast<std::size_t>(order)]);
     return figure;
@@ -79,26 +67,24 @@ double ratio(Fit fit, int order, double n, TickNoise noise) {
 }
 
 report::Table ratio_table(const BridgePoints& points) {
-    report::Table table{
-        .caption = "How many times noisier than the constant: white noise / rounding of the count / twin.",
-        .header = {"n", "corrected, quadratic", "in real time, linear", "in real time, quadratic"}};
+    std::vector<std::vector<std::string>> rows;
     for (const SubstitutionResult& result : points.of_noise) {
         const int n = result.interpolation[0].n;
-        std::vector<std::string> row{fmt::format("{}", n)};
+        rows.push_back({fmt::format("{}", n)});
         for (const auto& [fit, order] :
              {std::pair{Fit::interpolation, 2}, std::pair{Fit::extrapolation, 1}, std::pair{Fit::extrapolation, 2}})
-            row.push_back(sentence("{:.2f} / {:.2f} / {:.2f}", ratio(fit, order, n, TickNoise::white),
-                                   ratio(fit, order, n, TickNoise::counter),
-                                   point_of(result, fit, order).rms.arcsec / point_of(result, fit, 0).rms.arcsec));
-        table.rows.push_back(std::move(row));
+            rows.back().push_back(
+                filled("{:.2f} / {:.2f} / {:.2f}",
+                       {ratio(fit, order, n, TickNoise::white), ratio(fit, order, n, TickNoise::counter),
+                        point_of(result, fit, order).rms.arcsec / point_of(result, fit, 0).rms.arcsec}));
     }
-    return table;
+    return table_of("figure 11.ratios", std::move(rows));
 }
 
 std::string range_of_ratio(const BridgePoints& points, Fit fit, int order) {
     const std::vector<double> x = lengths_of(points);
-    return sentence("{:.2f} to {:.2f}", ratio(fit, order, x.front(), TickNoise::white),
-                    ratio(fit, order, x.back(), TickNoise::white));
+    return filled("{:.2f} to {:.2f}",
+                  {ratio(fit, order, x.front(), TickNoise::white), ratio(fit, order, x.back(), TickNoise::white)});
 }
 
 // --- the twin's points of figures 8 to 11 against theory ------------------------------------------------------------
@@ -138,16 +124,13 @@ Agreement agreement(const BridgePoints& points, const Estimator& e) {
 }
 
 report::Table agreement_table(const BridgePoints& points) {
-    report::Table table{.caption =
-                            "All points of figures 8 to 11: squared deviation from theory over squared standard error, "
-                            "per point (number of points). The estimators of one experiment share its noise.",
-                        .header = {"estimator", "motion, both regions", "noise"}};
-    const auto cell = [](const ChiSquare& chi2) { return sentence("{:.2f} ({})", chi2.per_dof, chi2.dof); };
+    std::vector<std::vector<std::string>> rows;
+    const auto cell = [](const ChiSquare& chi2) { return filled("{:.2f} ({})", {chi2.per_dof, chi2.dof}); };
     for (const Estimator& e : estimators) {
         const Agreement a = agreement(points, e);
-        table.rows.push_back({e.name, cell(a.motion), cell(a.noise)});
+        rows.push_back({e.name, cell(a.motion), cell(a.noise)});
     }
-    return table;
+    return table_of("figure 11.agreement", std::move(rows));
 }
 
 }  // namespace
@@ -172,34 +155,18 @@ PaperItem paper_figure_11(const PaperTask& task, const BridgePoints& points) {
     const auto gap_arcsec = [&](int order, TickNoise noise) {
         return three_sigma * design::sum_gain(substitution(Fit::interpolation, order, paper_gap_ticks), noise);
     };
-    PaperItem item{.number = "figure 11",
-                   .section = {.heading = "Figure 11: noise against the number of replaced ticks"}};
-    item.section.paragraphs = {
-        sentence("Noise: one count is {} arcsec, so a tick is off by {:.2f} arcsec rms and {:.2f} arcsec at 3 sigma, "
-                 "triangular within one count. Print names half a count, {:.2f} arcsec, as the amplitude A of a tick; "
-                 "the law below takes 3 sigma for A, which is the reading kinder to it.",
-                 lsb_arcsec, tick_sigma_arcsec(task), three_sigma, 0.5 * lsb_arcsec),
-        "Agrees: the constant is the quietest, and the parabola the worse the longer the gap.",
-        sentence(
-            "Does not: the n replaced ticks share one mean, so their errors add up directly and 3 sigma is An/2, not "
-            "A\u221An/2: {:.2f} arcsec instead of {:.2f} at three ticks of white noise. Rounding is not white: errors "
-            "of neighbouring ticks have opposite signs in part, which helps equal weights and hurts alternating ones. "
-            "The constant comes down from {:.2f} to {:.2f} arcsec, the parabola goes up from {:.2f} to {:.2f}.",
-            design::constant_noise_arcsec(three_sigma, paper_gap_ticks),
-            design::constant_noise_as_printed_arcsec(three_sigma, paper_gap_ticks), gap_arcsec(0, TickNoise::white),
-            gap_arcsec(0, TickNoise::counter), gap_arcsec(2, TickNoise::white), gap_arcsec(2, TickNoise::counter)),
-        fmt::format("Does not: print finds the straight line 1.8 to 2.5 times noisier than the constant, the parabola "
-                    "8 to 35 times. In the corrected sum the straight line is the constant, and the parabola is {} "
-                    "times noisier for 1 to {} ticks. Extrapolated, the line is {} and the parabola {} times noisier. "
-                    "No single reading gives both of the printed ranges; near the first is the corrected parabola at "
-                    "up to three ticks, near the second the extrapolated one.",
-                    range_of_ratio(points, Fit::interpolation, 2), points.of_noise.size(),
-                    range_of_ratio(points, Fit::extrapolation, 1), range_of_ratio(points, Fit::extrapolation, 2)),
-        "The last table holds the twin against theory in all points of figures 8 to 11. About 1 is what chance "
-        "allows."};
-    item.section.tables = {ratio_table(points), agreement_table(points)};
-    item.section.figures = {corrected_figure(task, points), delivered_figure(task, points)};
-    return item;
+    return item_of(
+        "figure 11",
+        {lsb_arcsec, tick_sigma_arcsec(task), three_sigma, 0.5 * lsb_arcsec,
+         // does not:
+         design::constant_noise_arcsec(three_sigma, paper_gap_ticks),
+         design::constant_noise_as_printed_arcsec(three_sigma, paper_gap_ticks), gap_arcsec(0, TickNoise::white),
+         gap_arcsec(0, TickNoise::counter), gap_arcsec(2, TickNoise::white), gap_arcsec(2, TickNoise::counter),
+         // does not, either:
+         range_of_ratio(points, Fit::interpolation, 2), points.of_noise.size(),
+         range_of_ratio(points, Fit::extrapolation, 1), range_of_ratio(points, Fit::extrapolation, 2)},
+        {ratio_table(points), agreement_table(points)},
+        {corrected_figure(task, points), delivered_figure(task, points)});
 }
 
 }  // namespace zlg::paper

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include <zlg/report/number_text.hpp>
+
 #include "paper_parts.hpp"
-#include "paper_text.hpp"
+#include "paper_words.hpp"
 
 namespace zlg::paper {
 namespace {
@@ -52,36 +54,29 @@ Figure figure_of(const Gap& gap) {
         add_point(final_value, at.j, at.tick.final_arcsec);
     }
     if (!live.x.empty()) add_point(live, live.x.back() + 1.0, live.y.back());
-    return {.id = "figure-6",
-            .title = "Readings replaced through one switch",
-            .caption =
-                "Angle of each tick. Tick 1 is the first without light in both directions. What the counter reads "
-                "there means nothing and is not drawn.",
-            .x_label = "tick j",
-            .y_label = "angle of the tick, arcsec",
-            .series = {std::move(truth), std::move(read), std::move(final_value), std::move(live)},
-            .bands = {{0.5, gap.n + 0.5, "gap"}}};
+    return worded({.id = "figure-6",
+                   .series = {std::move(truth), std::move(read), std::move(final_value), std::move(live)},
+                   .bands = {{0.5, gap.n + 0.5, "gap"}}});
 }
 
-report::Table table_of(const Gap& gap) {
-    report::Table table{.caption = "The ticks of the gap and the one that takes the difference, arcsec.",
-                        .header = {"tick j", "extrapolated (14)", "final (15)", "true", "final minus true"}};
-    const auto add = [&table](std::string name, double extrapolated, double final_arcsec, double true_arcsec) {
-        table.rows.push_back({std::move(name), sentence("{:.2f}", extrapolated), sentence("{:.2f}", final_arcsec),
-                              sentence("{:.2f}", true_arcsec), sentence("{:.2f}", final_arcsec - true_arcsec)});
+report::Table ticks_table(const Gap& gap) {
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&rows](std::string name, const study::MagnifiedTick& tick) {
+        rows.push_back({std::move(name), fixed_number(tick.dtheta_arcsec, 2), fixed_number(tick.final_arcsec, 2),
+                        fixed_number(tick.true_arcsec, 2), fixed_number(tick.final_arcsec - tick.true_arcsec, 2)});
     };
     study::MagnifiedTick sum;
     for (const Numbered& at : gap.ticks) {
         if (!in_gap(gap, at)) continue;
-        add(fmt::format("{}", at.j), at.tick.dtheta_arcsec, at.tick.final_arcsec, at.tick.true_arcsec);
+        add(fmt::format("{}", at.j), at.tick);
         sum.dtheta_arcsec += at.tick.dtheta_arcsec;
         sum.final_arcsec += at.tick.final_arcsec;
         sum.true_arcsec += at.tick.true_arcsec;
     }
-    add("sum", sum.dtheta_arcsec, sum.final_arcsec, sum.true_arcsec);
-    table.rows.push_back(
-        {"\u0394P (16), sum of (14) less (15)", sentence("{:.2f}", sum.dtheta_arcsec - sum.final_arcsec), "", "", ""});
-    return table;
+    add("sum", sum);
+    rows.push_back(
+        {"\u0394P (16), sum of (14) less (15)", fixed_number(sum.dtheta_arcsec - sum.final_arcsec, 2), "", "", ""});
+    return table_of("figure 6.table", std::move(rows));
 }
 
 // Sum of (14) less (15) over the gap, and the tick that holds the correction (17): the one outside the gap whose
@@ -105,23 +100,9 @@ std::string correction(const Gap& gap) {
 }  // namespace
 
 PaperItem paper_figure_6(const study::RunResult& run) {
-    PaperItem item{.number = "figure 6", .section = {.heading = "Figure 6: replacing the readings of a switch"}};
     const Gap gap = gap_of(run);
-    if (gap.n == 0) {
-        item.section.paragraphs = {"The run holds no whole switch that could be shown."};
-        return item;
-    }
-    item.section.paragraphs = {
-        "The first switch of the same run of the twin as figure 3, compensated as configured. In print the figure is a "
-        "sketch without numbers.",
-        fmt::format("Agrees: the four steps are as described. {} The final values depend on the ticks on either side "
-                    "alone, so that the error (18) does not depend on what was extrapolated.",
-                    correction(gap)),
-        "Beyond the print: the first ticks after the gap are read falsely until the perimeter has settled, by much "
-        "more than the interpolation errs. They are points of (15), so their correction has to come first."};
-    item.section.tables = {table_of(gap)};
-    item.section.figures = {figure_of(gap)};
-    return item;
+    if (gap.n == 0) return item_of("figure 6", {}, {}, {}, "figure 6.none");
+    return item_of("figure 6", {correction(gap)}, {ticks_table(gap)}, {figure_of(gap)});
 }
 
 }  // namespace zlg::paper

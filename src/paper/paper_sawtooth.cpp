@@ -5,12 +5,13 @@
 
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/magnetic_angle.hpp>
+#include <zlg/report/number_text.hpp>
 #include <zlg/study/design_study.hpp>
 #include <zlg/study/run_page.hpp>
 
 #include "paper_curves.hpp"
 #include "paper_parts.hpp"
-#include "paper_text.hpp"
+#include "paper_words.hpp"
 
 namespace zlg::paper {
 namespace {
@@ -101,102 +102,75 @@ Series computed_curve(const study::Curve& angle, const std::vector<Segment>& seg
 }
 
 report::Table sawtooth_table(const Sawtooth& measured, const Sawtooth& computed, double interval) {
-    report::Table table{
-        .caption = sentence("The sawtooth on the twin. An amplitude is the interval of {} s times the rate of a flank "
-                            "against the slope of the whole.",
-                            interval),
-        .header = {"", "measured on the twin", "computed"}};
-    const auto row = [&](const char* name, double a, double b, int decimals) {
-        table.rows.push_back({name, report::fixed_number(a, decimals), report::fixed_number(b, decimals)});
+    const auto row = [](const char* name, double a, double b, int decimals) {
+        return std::vector{std::string{name}, report::fixed_number(a, decimals), report::fixed_number(b, decimals)};
     };
-    row("amplitude, first segment, arcsec", interval * measured.first_arcsec_s, interval * computed.first_arcsec_s, 1);
-    row("amplitude, last segment, arcsec", interval * measured.last_arcsec_s, interval * computed.last_arcsec_s, 1);
-    row("amplitude, mean of the run, arcsec", interval * measured.mean_arcsec_s, interval * computed.mean_arcsec_s, 1);
-    row("slope between switches, deg/h", measured.slope_arcsec_s, computed.slope_arcsec_s, 4);
-    return table;
+    return table_of("figure 3.table",
+                    {row("amplitude, first segment, arcsec", interval * measured.first_arcsec_s,
+                         interval * computed.first_arcsec_s, 1),
+                     row("amplitude, last segment, arcsec", interval * measured.last_arcsec_s,
+                         interval * computed.last_arcsec_s, 1),
+                     row("amplitude, mean of the run, arcsec", interval * measured.mean_arcsec_s,
+                         interval * computed.mean_arcsec_s, 1),
+                     row("slope between switches, deg/h", measured.slope_arcsec_s, computed.slope_arcsec_s, 4)},
+                    {interval});
 }
 
-std::string agreement(const Sawtooth& measured, const Sawtooth& computed, double interval) {
+std::vector<std::string> sawtooth_text(const PaperTask& task, const study::RunResult& run,
+                                       const study::VariantResult& switched, const Sawtooth& measured,
+                                       const Sawtooth& computed, double interval) {
     constexpr double tolerance = 0.05;
     const double miss = std::abs(measured.mean_arcsec_s - computed.mean_arcsec_s);
     const bool agree = miss <= tolerance * std::abs(computed.mean_arcsec_s);
-    return sentence(
-        "{}: the amplitude should be the interval times the magnetic drift; it is {:.1f} arcsec measured and {:.1f} "
-        "computed. The slope between switches should be the non-magnetic drift with a trace of the quasi-non-magnetic "
-        "one; it is {:.4f} and {:.4f} deg/h.",
-        agree ? "Agrees" : "Does not agree", interval * measured.mean_arcsec_s, interval * computed.mean_arcsec_s,
-        measured.slope_arcsec_s, computed.slope_arcsec_s);
-}
-
-std::string disagreement(const PaperTask& task, const study::RunResult& run, const study::VariantResult& switched,
-                         const Sawtooth& computed, double interval) {
     const double run_s = static_cast<double>(run.ticks) * run.tick_s;
     const double bound = design::drift_bound_arcsec_s(study::drift_case(task.config, run_s), std::min(interval, run_s));
-    return sentence(
-        "Does not: the amplitude is no constant, for the magnetic drift follows the warm-up of the gyro, here from "
-        "{:.1f} to {:.1f} arcsec. And the steps at the switches do not add up with one sign as eq (3) has it: at the "
-        "end the error is {:.1f} arcsec or {:.3f} deg/h, where (3) with {} arcsec per switch allows {:.3f} deg/h. Eq "
-        "(3) "
-        "is a bound, not an estimate.",
-        interval * computed.first_arcsec_s, interval * computed.last_arcsec_s, switched.angle_error_arcsec,
-        std::abs(switched.angle_error_arcsec) / run_s, task.config.design.switch_error_arcsec, bound);
-}
-
-report::Figure error_figure(std::string id, std::string title, std::string caption) {
-    return {.id = std::move(id),
-            .title = std::move(title),
-            .caption = std::move(caption),
-            .x_label = "time, s",
-            .y_label = "final minus true angle, arcsec"};
+    return words("figure 3.sawtooth",
+                 {agree ? "Agrees" : "Does not agree", interval * measured.mean_arcsec_s,
+                  interval * computed.mean_arcsec_s, measured.slope_arcsec_s, computed.slope_arcsec_s,
+                  interval * computed.first_arcsec_s, interval * computed.last_arcsec_s, switched.angle_error_arcsec,
+                  std::abs(switched.angle_error_arcsec) / run_s, task.config.design.switch_error_arcsec, bound});
 }
 
 report::Figure sawtooth_figure(const PaperTask& task, const study::RunResult& run) {
-    report::Figure figure = error_figure("figure-3", "Angle error P(t), figure 3 of the paper",
-                                         "The sign of the magnetic drift changes with the mode: a sawtooth of "
-                                         "amplitude interval times magnetic drift, on "
-                                         "the slope of the non-magnetic drift. Computed is the drift alone, without "
-                                         "noise and without errors of switches.");
+    report::Figure figure = worded({.id = "figure-3"});
     const auto* switched = run.variant("configured");
     if (switched == nullptr) return figure;
     const design::GyroDrift gyro = study::drift_case(task.config, 1.0).gyro;
-    figure.series = {study::curve_of(*switched, "twin"), computed_curve(switched->curve, segments_of(task, run), gyro)};
-    figure.series.push_back(curve({"non-magnetic drift", -1, true}, switched->curve.t_s,
-                                  [&](double t_s) { return gyro.nonmagnetic_arcsec_s * t_s; }));
+    figure.series = {study::curve_of(*switched, "twin"), computed_curve(switched->curve, segments_of(task, run), gyro),
+                     curve({"non-magnetic drift", -1, true}, switched->curve.t_s,
+                           [&](double t_s) { return gyro.nonmagnetic_arcsec_s * t_s; })};
     return figure;
 }
 
 report::Figure one_mode_figure(const study::RunResult& run) {
-    report::Figure figure = error_figure("figure-3-one-mode", "The same with the gyro that is never switched",
-                                         "In one mode the magnetic drift adds up without end.");
+    report::Figure figure = worded({.id = "figure-3-one-mode"});
     if (const auto* v = run.variant("one_mode")) figure.series.push_back(study::curve_of(*v, "one mode"));
     if (const auto* v = run.variant("configured")) figure.series.push_back(study::curve_of(*v, "switched"));
     return figure;
 }
 
-void judge(const PaperTask& task, const study::RunResult& run, const study::VariantResult& switched,
-           report::Section& section) {
+// What the sawtooth of the run has to say, where there is one.
+void add_sawtooth(const PaperTask& task, const study::RunResult& run, report::Section& section) {
+    const auto* switched = run.variant("configured");
+    if (switched == nullptr) return;
     const std::vector<Rates> rates =
-        rates_of(segments_of(task, run), switched.curve, study::drift_case(task.config, 1.0).gyro);
-    if (rates.empty()) {
-        section.paragraphs.push_back("The run is too short to tell the amplitude of the sawtooth.");
-        return;
+        rates_of(segments_of(task, run), switched->curve, study::drift_case(task.config, 1.0).gyro);
+    std::vector<std::string> text = words("figure 3.short");
+    if (!rates.empty()) {
+        const double interval = interval_s(task, run);
+        const Sawtooth measured = sawtooth(rates, &Rates::measured_arcsec_s);
+        const Sawtooth computed = sawtooth(rates, &Rates::computed_arcsec_s);
+        text = sawtooth_text(task, run, *switched, measured, computed, interval);
+        section.tables.push_back(sawtooth_table(measured, computed, interval));
     }
-    const double interval = interval_s(task, run);
-    const Sawtooth measured = sawtooth(rates, &Rates::measured_arcsec_s);
-    const Sawtooth computed = sawtooth(rates, &Rates::computed_arcsec_s);
-    section.paragraphs.push_back(agreement(measured, computed, interval));
-    section.paragraphs.push_back(disagreement(task, run, switched, computed, interval));
-    section.tables.push_back(sawtooth_table(measured, computed, interval));
+    section.paragraphs.insert(section.paragraphs.end(), text.begin(), text.end());
 }
 
 }  // namespace
 
 PaperItem paper_figure_3(const PaperTask& task, const study::RunResult& run) {
-    PaperItem item{.number = "figure 3", .section = {.heading = "Figure 3: angle error against time of operation"}};
-    item.section.paragraphs = {
-        "Computed from the records of one run of the twin. In print the figure is a sketch without numbers."};
-    if (const auto* switched = run.variant("configured")) judge(task, run, *switched, item.section);
-    item.section.figures = {sawtooth_figure(task, run), one_mode_figure(run)};
+    PaperItem item = item_of("figure 3", {}, {}, {sawtooth_figure(task, run), one_mode_figure(run)});
+    add_sawtooth(task, run, item.section);
     return item;
 }
 

@@ -4,9 +4,10 @@
 #include <numeric>
 
 #include <zlg/design/relock_tables.hpp>
+#include <zlg/report/number_text.hpp>
 
 #include "paper_parts.hpp"
-#include "paper_text.hpp"
+#include "paper_words.hpp"
 
 namespace zlg::paper {
 namespace {
@@ -56,7 +57,7 @@ constexpr PrintedTable printed_1{1, design::table1_computed_arcsec_s, "2131", "1
 constexpr PrintedTable printed_2{2, design::table2_computed_arcsec_s, "2131", "166", "43", "3.3", "", ""};
 
 std::string beside(double ours, const char* printed) {
-    const std::string number = sentence("{:.2f}", ours);
+    const std::string number = report::fixed_number(ours, 2);
     return *printed == '\0' ? number : fmt::format("{} (printed {})", number, printed);
 }
 
@@ -66,20 +67,16 @@ report::Table printed_table(const PrintedTable& printed, const study::RunResult&
     const std::vector<double> twin = twin_drift(run);
     const bool whole = twin.size() == design::table_ticks;
     const double twin_sum = std::accumulate(twin.begin(), twin.end(), 0.0);
-    report::Table table{
-        .caption = fmt::format("Table {} of the paper: false drift after re-lock, deg/h. The sums are recomputed from "
-                               "the four rows. Twin: its true false drift, averaged over the switches of a run.",
-                               printed.number),
-        .header = {"tick", "measured", "computed", "left", "twin"}};
+    std::vector<std::vector<std::string>> rows;
+    const auto whole_number = [](double x) { return report::fixed_number(x, 0); };
     for (std::size_t i = 0; i < design::table_ticks; ++i) {
         const bool corrected = i > 0 || printed.number == 2;
-        table.rows.push_back({fmt::format("{}", i + 1), sentence("{:.0f}", measured_arcsec_s[i]),
-                              corrected ? sentence("{:.0f}", printed.computed_deg_h[i]) : "not corrected",
-                              sentence("{:.0f}", left.residual_arcsec_s[i]),
-                              i < twin.size() ? sentence("{:.0f}", twin[i]) : "-"});
+        rows.push_back({fmt::format("{}", i + 1), whole_number(measured_arcsec_s[i]),
+                        corrected ? whole_number(printed.computed_deg_h[i]) : "not corrected",
+                        whole_number(left.residual_arcsec_s[i]), i < twin.size() ? whole_number(twin[i]) : "-"});
     }
     const auto sums = [&](const char* name, const std::string& measured, const std::string& residual, double of_twin) {
-        table.rows.push_back({name, measured, "", residual, whole ? sentence("{:.2f}", of_twin) : "-"});
+        rows.push_back({name, measured, "", residual, whole ? report::fixed_number(of_twin, 2) : "-"});
     };
     sums("mean", beside(raw.mean_arcsec_s, printed.mean_measured), beside(left.mean_arcsec_s, printed.mean_left),
          twin_sum / design::table_ticks);
@@ -88,28 +85,24 @@ report::Table printed_table(const PrintedTable& printed, const study::RunResult&
     sums("angle without tick 1, arcsec", beside(raw.angle_without_first_arcsec, printed.rest_measured),
          beside(left.angle_without_first_arcsec, printed.rest_left),
          whole ? design::table_tick_s * (twin_sum - twin[0]) : 0.0);
-    return table;
+    return table_of("table.printed", std::move(rows), {printed.number});
 }
 
 // --- loops fitted to the measured drift ------------------------------------------------------------------------------
 
 report::Table model_table(const Fits& fits, const char* equation, Correction correction) {
-    report::Table table{
-        .caption = fmt::format("Loops fitted to the measured drift, and what {} computes from their own "
-                               "signals, deg/h; by (11) tick 1 is corrected with the q of tick 2.",
-                               equation),
-        .header = {"loop", "tick 1", "tick 2", "tick 3", "tick 4", "angle, arcsec"}};
+    std::vector<std::vector<std::string>> rows;
     for (const RelockFit& fit : fits) {
         const auto add = [&](const std::string& name, const TickDrifts& drift, int decimals) {
-            std::vector<std::string>& row = table.rows.emplace_back(1, name);
-            for (const double x : drift) row.push_back(sentence("{:.0f}", x));
+            std::vector<std::string>& row = rows.emplace_back(1, name);
+            for (const double x : drift) row.push_back(report::fixed_number(x, 0));
             row.push_back(report::fixed_number(angle_arcsec(drift), decimals));
         };
         add(fmt::format("{}: false drift", fit.name), fit.drift_arcsec_s, 1);
         add(fmt::format("by {}", equation), correction(fit.model), 1);
         add("left", left_by(correction, fit).residual_arcsec_s, 2);
     }
-    return table;
+    return table_of("table.loops", std::move(rows), {equation});
 }
 
 template <class Drifts>
@@ -120,14 +113,8 @@ Series ticks_series(std::string name, const Drifts& drift, report::Mark mark) {
 }
 
 report::Figure decay_figure(const Fits& fits, const study::RunResult& run) {
-    report::Figure figure{.id = "table-1-decay",
-                          .title = "False drift after re-lock",
-                          .caption =
-                              "Points: measured in the paper, and the twin. Lines: loops of four kinds, each with "
-                              "its constants by least squares; they join the means over ticks.",
-                          .x_label = "tick after the loop is closed",
-                          .y_label = "false drift, deg/h",
-                          .series = {ticks_series("measured", measured_arcsec_s, report::Mark::points)}};
+    report::Figure figure =
+        worded({.id = "table-1-decay", .series = {ticks_series("measured", measured_arcsec_s, report::Mark::points)}});
     for (const RelockFit& fit : fits)
         figure.series.push_back(ticks_series(std::string{fit.name}, fit.drift_arcsec_s, report::Mark::line));
     figure.series.push_back(ticks_series("twin", twin_drift(run), report::Mark::points));
@@ -142,17 +129,11 @@ report::Figure residual_figure(const RelockFit& fit) {
         return summarise(measured_arcsec_s, computed).residual_arcsec_s;
     };
     using enum report::Mark;
-    return {.id = "table-2-left",
-            .title = "What the corrections leave",
-            .caption =
-                "Points: the last columns of both tables in print. Lines: the same formulas on the fitted loop that "
-                "slews with an exponential tail. Tick 1 of the correction by frequency is left as it is.",
-            .x_label = "tick after the loop is closed",
-            .y_label = "drift left, deg/h",
-            .series = {ticks_series("table 1, by frequency", printed(design::table1_computed_arcsec_s), points),
-                       ticks_series("table 2, by detuning", printed(design::table2_computed_arcsec_s), points),
-                       ticks_series("(11) on the fitted loop", by_frequency, line),
-                       ticks_series("(13) on the fitted loop", by_detuning, line)}};
+    return worded({.id = "table-2-left",
+                   .series = {ticks_series("table 1, by frequency", printed(design::table1_computed_arcsec_s), points),
+                              ticks_series("table 2, by detuning", printed(design::table2_computed_arcsec_s), points),
+                              ticks_series("(11) on the fitted loop", by_frequency, line),
+                              ticks_series("(13) on the fitted loop", by_detuning, line)}});
 }
 
 // --- the text --------------------------------------------------------------------------------------------------------
@@ -167,81 +148,53 @@ std::string list_of(const Fits& fits) {
 std::string per_switch(const study::RunResult& run, const std::string& name) {
     for (const study::VariantResult& v : run.variants)
         if (v.name == name && v.switch_error)
-            return sentence(
-                " In the run of the twin this correction leaves {:.1f} arcsec per switch in the mean, the gap's own "
-                "error included.",
-                v.switch_error->mean_arcsec);
+            return " " + words("table.per switch", {v.switch_error->mean_arcsec}).front();
     return "";
 }
 
 std::string sum_of_twin(const study::RunResult& run) {
     const std::vector<double> twin = twin_drift(run);
     if (twin.size() < design::table_ticks) return "";
-    return fmt::format(" The four ticks of the twin make {:.1f} arcsec, those of the table {:.1f}.",
-                       design::table_tick_s * std::accumulate(twin.begin(), twin.end(), 0.0),
-                       angle_arcsec(measured_arcsec_s));
+    return " " + words("table.of the twin", {design::table_tick_s * std::accumulate(twin.begin(), twin.end(), 0.0),
+                                             angle_arcsec(measured_arcsec_s)})
+                     .front();
 }
 
-std::vector<std::string> text_of_table_1(const Fits& fits, const study::RunResult& run) {
+Values numbers_of_table_1(const Fits& fits, const study::RunResult& run) {
     const auto tau = design::local_time_constants_s(measured_arcsec_s);
     const RelockFit& fit = fits[slew_tail];
     const auto left = left_by(design::corrected_by_frequency_arcsec_s, fit);
     const TickDrifts& rest = left.residual_arcsec_s;
     const auto printed = summarise(measured_arcsec_s, design::table1_computed_arcsec_s);
-    return {
-        sentence(
-            "Agrees: the arithmetic of the table, but for a mean of {:.2f} that is printed as 1362. A loop that slews "
-            "and ends in an exponential tail not only has the measured drift, it also fails under (11) as the table "
-            "does: by {:.0f}, {:.0f} and {:.0f} deg/h on ticks 2 to 4, where the table leaves {:.0f}, {:.0f} and "
-            "{:.0f}.",
-            printed.mean_arcsec_s, rest[1], rest[2], rest[3], printed.residual_arcsec_s[1],
-            printed.residual_arcsec_s[2], printed.residual_arcsec_s[3]) +
-            sum_of_twin(run),
-        fmt::format(
-            "Does not: the exponential of (10). From tick to tick its time constant would have to be {:.1f}, {:.1f} "
-            "and {:.1f} ms. Rms difference of the fits from the measured drift, deg/h: {}.",
-            1e3 * tau[0], 1e3 * tau[1], 1e3 * tau[2], list_of(fits)),
-        fmt::format(
-            "Nor need tick 1 be given up: as soon as tick 2 is measured, its q corrects tick 1 as well. On that "
-            "loop what is left falls from {:.1f} to {:.1f} arcsec.",
-            angle_arcsec({fit.drift_arcsec_s[0], rest[1], rest[2], rest[3]}), left.angle_arcsec) +
+    return {printed.mean_arcsec_s, rest[1], rest[2], rest[3], printed.residual_arcsec_s[1],
+            printed.residual_arcsec_s[2], printed.residual_arcsec_s[3], sum_of_twin(run),
+            // does not:
+            1e3 * tau[0], 1e3 * tau[1], 1e3 * tau[2], list_of(fits),
+            // nor need tick 1 be given up:
+            angle_arcsec({fit.drift_arcsec_s[0], rest[1], rest[2], rest[3]}), left.angle_arcsec,
             per_switch(run, "relock_frequency")};
 }
 
-std::vector<std::string> text_of_table_2(const RelockFit& fit, const study::RunResult& run) {
+Values numbers_of_table_2(const RelockFit& fit, const study::RunResult& run) {
     const auto printed = summarise(measured_arcsec_s, design::table2_computed_arcsec_s);
-    return {
-        fmt::format("Agrees: the arithmetic, and that the detuning corrects better than the frequency. The reason is "
-                    "less that it can begin with tick 1 than that each tick brings its own ratio of halves: (13) "
-                    "hardly notices that the loop is no exponential, and leaves {:.2f} arcsec on the fitted one.",
-                    left_by(design::corrected_by_detuning_arcsec_s, fit).angle_arcsec) +
-            per_switch(run, "relock_detuning"),
-        fmt::format("Does not: the {:.1f} arcsec in print flatter the method, for residuals of both signs cancel in "
-                    "the sum. Their rms is {:.0f} deg/h, far above what the shape of the loop explains; the paper "
-                    "does not name the cause.",
-                    printed.angle_arcsec, printed.rms_arcsec_s)};
+    return {left_by(design::corrected_by_detuning_arcsec_s, fit).angle_arcsec, per_switch(run, "relock_detuning"),
+            printed.angle_arcsec, printed.rms_arcsec_s};
 }
 
 }  // namespace
 
 PaperItem paper_table_1(const PaperTask&, const study::RunResult& run) {
     const Fits fits = fitted_loops();
-    return {.number = "table 1",
-            .section = {.heading = "Table 1: false drift after re-lock, corrected by the bias frequency",
-                        .paragraphs = text_of_table_1(fits, run),
-                        .tables = {printed_table(printed_1, run),
-                                   model_table(fits, "(11)", design::corrected_by_frequency_arcsec_s)},
-                        .figures = {decay_figure(fits, run)}}};
+    return item_of("table 1", numbers_of_table_1(fits, run),
+                   {printed_table(printed_1, run), model_table(fits, "(11)", design::corrected_by_frequency_arcsec_s)},
+                   {decay_figure(fits, run)});
 }
 
 PaperItem paper_table_2(const PaperTask&, const study::RunResult& run) {
     const Fits fits = fitted_loops();
-    return {.number = "table 2",
-            .section = {.heading = "Table 2: false drift after re-lock, corrected by the detuning",
-                        .paragraphs = text_of_table_2(fits[slew_tail], run),
-                        .tables = {printed_table(printed_2, run),
-                                   model_table(fits, "(13)", design::corrected_by_detuning_arcsec_s)},
-                        .figures = {residual_figure(fits[slew_tail])}}};
+    return item_of("table 2", numbers_of_table_2(fits[slew_tail], run),
+                   {printed_table(printed_2, run), model_table(fits, "(13)", design::corrected_by_detuning_arcsec_s)},
+                   {residual_figure(fits[slew_tail])});
 }
 
 }  // namespace zlg::paper

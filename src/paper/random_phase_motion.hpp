@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <zlg/paper/substitution_setup.hpp>
+#include <zlg/paper/substitution_experiment.hpp>
 
 namespace zlg::paper {
 

@@ -56,9 +56,10 @@ config::Config gyro_of(const SubstitutionExperiment& e, const SwitchGrid& grid) 
     c.piezo.slew_v_s = std::max(c.piezo.slew_v_s, 2.0 * c.piezo.half_wave_v / gap_s);
     c.piezo.rc_s = std::min(c.piezo.rc_s, gap_s / 20.0);
     c.switching = {.interval_s = static_cast<double>(grid.interval_ticks) * grid.tick_s, .gap_ticks = grid.n};
-    c.compensation.extrapolation_points = e.points.extrapolation;
-    c.compensation.points_before = e.points.before;
-    c.compensation.points_after = e.points.after;
+    constexpr design::Points of_the_paper;
+    c.compensation.extrapolation_points = of_the_paper.extrapolation;
+    c.compensation.points_before = of_the_paper.before;
+    c.compensation.points_after = of_the_paper.after;
     return c;
 }
 

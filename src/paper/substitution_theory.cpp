@@ -142,7 +142,7 @@ TakenDrift taken_drift(const SubstitutionExperiment& e, const SwitchGrid& grid, 
 
 SubstitutionTheory substitution_theory(const SubstitutionExperiment& e, const SwitchGrid& grid, design::Fit fit,
                                        int order) {
-    const design::Substitution s{.fit = fit, .order = order, .n = grid.n, .points = e.points, .tick_s = grid.tick_s};
+    const design::Substitution s{.fit = fit, .order = order, .n = grid.n, .tick_s = grid.tick_s};
     const Weights w{design::positions(s), design::sum_weights(s)};
     const Swing swing{e};
     const std::complex<double> answer = swing.amplitude_arcsec_s * design::ErrorResponse(s)(swing.frequency_hz);

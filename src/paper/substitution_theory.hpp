@@ -3,7 +3,7 @@
 // (design::ErrorResponse), and its noise by the covariance of what it is made of. Roundings of a counter are uniform and
 // correlated by the motion between the readings (Widrow and Kollar, Quantization Noise, 2008).
 
-#include <zlg/paper/substitution_setup.hpp>
+#include <zlg/paper/substitution_experiment.hpp>
 
 #include "random_phase_motion.hpp"
 

@@ -36,7 +36,7 @@ std::string rows(const Series& series) {
 }  // namespace
 
 std::string svg_file(const Figure& figure) { return document(svg(figure)); }
-std::string svg_file(const Diagram& diagram) { return document(svg(diagram)); }
+std::string svg_file(const Diagram& diagram) { return diagram.file; }
 
 std::string csv(const Figure& figure) {
     std::string out = comment("figure", figure.title) + comment("caption", figure.caption) +

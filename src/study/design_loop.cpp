@@ -217,8 +217,6 @@ LoopLine loop_line(const config::Config& config) {
     line.stability_note = is_digital(config) ? "two samples a tick and a stage that follows at once"
                                              : "a detector sampled once a tick that acts one tick later";
     line.miss = design::initial_miss(miss_causes(config));
-    line.capture_lambda =
-        design::capture_range_lambda(design::TwoModeDetector{.per_lambda = config.gyro.discriminator_per_lambda}, 0.0);
     add_relock(config, line);
     return line;
 }

@@ -59,17 +59,15 @@ std::string root_text(const design::Roots& roots) {
 report::Table run_table(const DesignResult& result) {
     report::Table t{
         .caption =
-            "The terms of the corrected budget at its best interval, and other policies: a first segment of half "
-            "the length, an interval that grows with the time since start.",
+            "The terms of the corrected budget at its best interval, and another policy: a first segment of half the "
+            "length.",
         .header = {"run, s", "non-magnetic, deg/h", "quasi-non-magnetic", "sawtooth", "switches", "root of (9c), s",
-                   "root of printed (9), s", "half first segment: interval, s", "drift, deg/h",
-                   "growing: interval at the end, s", "drift, deg/h"}};
+                   "root of printed (9), s", "half first segment: interval, s", "drift, deg/h"}};
     for (const RunLine& r : result.runs)
         t.rows.push_back(report::row(r.run_s, r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s,
                                      r.terms.sawtooth_arcsec_s, r.terms.switch_errors_arcsec_s,
                                      root_text(r.corrected_roots), root_text(r.roots_as_printed),
-                                     r.half_first_segment.interval_s, r.half_first_segment.drift_arcsec_s,
-                                     r.growing_interval_s, r.growing_drift_arcsec_s));
+                                     r.half_first_segment.interval_s, r.half_first_segment.drift_arcsec_s));
     return t;
 }
 

@@ -23,8 +23,6 @@ RunLine run_line(const config::Config& config, double switch_error, double run_s
     line.half_first_segment = design::worst_case_optimum(task, design::FirstSegment::half);
     line.corrected_roots = design::corrected_roots(task);
     line.roots_as_printed = design::roots_as_printed(task);
-    line.growing_interval_s = design::growing_interval_s(task, design::growth_best);
-    line.growing_drift_arcsec_s = design::growing_drift_arcsec_s(task, design::growth_best);
     return line;
 }
 

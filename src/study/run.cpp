@@ -52,8 +52,7 @@ public:
     // The first half of a tick, while its frame and its light are there.
     void first_half(const rig::LoopHalf& first, const core::SensorFrame& sensor, const core::LightSamples& light) {
         fingerprint_.take(first, sensor);
-        for (Variant& v : variants_)
-            if (is_stepped(v)) v.replay.take(first.record, light);
+        for (Variant& v : variants_) v.replay.take(first.record, light);
     }
 
     void tick(std::int64_t tick, const rig::LoopHalf& first, const rig::LoopHalf& second,
@@ -74,8 +73,7 @@ public:
         }
         for (Variant& v : variants_) {
             rig::hand_over(
-                step_here_or_outside(v, tick, second, light_second),
-                [&](const core::AngleRow& row) { take_row(v, row); },
+                stepped(v, tick, second, light_second), [&](const core::AngleRow& row) { take_row(v, row); },
                 [&](const core::GapReport& gap) { take_gap(v, gap); });
         }
     }
@@ -84,10 +82,7 @@ public:
         for (Variant& v : variants_) {
             const auto on_row = [&](const core::AngleRow& row) { take_row(v, row); };
             const auto on_gap = [&](const core::GapReport& gap) { take_gap(v, gap); };
-            if (is_outside(v))
-                rig::hand_over_rest([this] { return task_.processor->drain(); }, on_row, on_gap);
-            else
-                v.replay.end(on_row, on_gap);
+            v.replay.end(on_row, on_gap);
         }
     }
 
@@ -120,25 +115,13 @@ private:
         }
     }
 
-    // Its compensation runs in an outside processor (RunTask::processor).
-    [[nodiscard]] bool is_outside(const Variant& v) const { return task_.processor != nullptr && is_configured(v); }
-
-    // Its compensation runs here. For the meter that includes one of an outside processor which subtracts magnetic
-    // drift: only its rows are known, and what it subtracts is found by the same compensation beside it.
-    [[nodiscard]] bool is_stepped(const Variant& v) const {
-        return !is_outside(v) || v.replay.config().magnetic.method == core::MagneticMethod::estimate;
-    }
-
-    core::AngleSample step_here_or_outside(Variant& v, std::int64_t tick, const rig::LoopHalf& second,
-                                           const core::LightSamples& light) {
-        core::AngleSample sample;
-        if (is_stepped(v)) {
-            const double before_arcsec = v.replay.state().magnetic.subtracted_arcsec;
-            sample = v.replay.take(second.record, light).sample;
-            v.taken_out_arcsec[static_cast<std::size_t>(tick) % v.taken_out_arcsec.size()] =
-                v.replay.state().magnetic.subtracted_arcsec - before_arcsec;
-        }
-        return is_outside(v) ? second.compensation.value_or(core::CompensationOutput{}).sample : sample;
+    static core::AngleSample stepped(Variant& v, std::int64_t tick, const rig::LoopHalf& second,
+                                     const core::LightSamples& light) {
+        const double before_arcsec = v.replay.state().magnetic.subtracted_arcsec;
+        const core::AngleSample sample = v.replay.take(second.record, light).sample;
+        v.taken_out_arcsec[static_cast<std::size_t>(tick) % v.taken_out_arcsec.size()] =
+            v.replay.state().magnetic.subtracted_arcsec - before_arcsec;
+        return sample;
     }
 
     void take_gap(const Variant& v, const core::GapReport& gap) {
@@ -278,7 +261,7 @@ rig::LoopHalf advance(rig::ClosedLoop& loop, const RunTask& task) {
 }
 
 void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t ticks, RunResult& result) {
-    rig::ClosedLoop loop{task.config, motion, task.processor};
+    rig::ClosedLoop loop{task.config, motion};
     Experiment experiment{task, ticks};
     // About two hundred reports, and one every 100 000 ticks at least.
     const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);

@@ -11,6 +11,7 @@ from support import ROOT, ZLG
 PROGRAM = ZLG.parent / "zlg_physics_pictures"
 PICTURES = ROOT / "docs" / "pictures"
 PAGE = ROOT / "docs" / "physics.md"
+DRAWN_BY_HAND = "chain.svg"
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
@@ -43,11 +44,12 @@ class Pictures(unittest.TestCase):
             self.assertLessEqual(abs(float(a) - float(b)), allowed(a), f"{a} and {b}; {renew}")
 
     def test_the_folder_holds_what_the_program_makes(self):
-        self.assertEqual({p.name for p in PICTURES.iterdir()} | {"numbers.md"}, {p.name for p in self.made.iterdir()})
+        named = {p.name for p in PICTURES.iterdir()} - {DRAWN_BY_HAND} | {"numbers.md"}
+        self.assertEqual(named, {p.name for p in self.made.iterdir()})
 
     def test_every_committed_picture_is_what_the_program_draws(self):
         pictures = sorted(p.name for p in self.made.glob("*.svg"))
-        self.assertEqual(len(pictures), 9)
+        self.assertEqual(len(pictures), 8)
         for name in pictures:
             with self.subTest(name):
                 self.assert_same(name, (PICTURES / name).read_text(), lambda _: 0.5)  # of 680 units of width

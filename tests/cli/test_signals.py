@@ -11,9 +11,8 @@ import time
 import unittest
 
 from line_of import Gyro
-from support import CliTest, ROOT, ZLG, run, wait_until
+from support import CliTest, ZLG, run, wait_until
 
-IMAGE = ROOT / "build" / "release" / "firmware" / "zlg_gyro.elf"
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 # Of the processor; the clock may be slower, for the machine may be busy with other things.
@@ -164,10 +163,6 @@ class Signals(CliTest):
         # What is computed after the recording looks for no signal.
         self.check(["run", "--duration", 400, "--set", "switching.interval_s=1", "--out", "d"], 1.0,
                    ("d/raw.h5.part", "d/angles.h5.part"))
-
-    @unittest.skipUnless(IMAGE.exists(), "no image of the processor was built")
-    def test_run_on_the_emulated_processor(self):
-        self.check(["run", "--duration", 4000, "--processor", "qemu", "--out", "d"], 1.0, ("d/raw.h5.part", "d/angles.h5.part"))
 
     def test_simulate(self):
         self.check(["simulate", "--duration", 40000, "--out", "r.h5", "--wire", "w.bin"], 0.7, ("r.h5.part",))

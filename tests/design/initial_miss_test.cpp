@@ -78,29 +78,6 @@ TEST(InitialMiss, TheMissOfTheTablesNeedsAboutEighteenVolts) {
     EXPECT_NEAR(voltage_of_miss_v(0.22, 40.0), 17.6, 1e-12);
 }
 
-TEST(CaptureRange, ADetectorOfTwoModesPullsInFromAllOfItsHalfLessTheOffset) {
-    EXPECT_NEAR(capture_range_lambda(TwoModeDetector{}, 0.0), 0.5, 1e-9);
-    for (const double offset : {0.01, 0.05, 0.1}) {
-        EXPECT_NEAR(capture_range_lambda(TwoModeDetector{0.66}, offset), 0.5 - offset / 0.66, 1e-9);
-    }
-    EXPECT_EQ(capture_range_lambda(TwoModeDetector{0.66}, 0.2), 0.0);
-}
-
-TEST(CaptureRange, ADarkGapEndsIt) {
-    EXPECT_NEAR(capture_range_lambda(TwoModeDetector{0.66, 0.228, 0.273}, 0.01), 0.228, 1e-9);
-}
-
-TEST(CaptureRange, AnUnequalDetectorCapturesFromTheWeakerSide) {
-    const auto detector = [](double dl) { return dl > 0.0 ? dl * (0.4 - dl) : dl * (0.3 + dl); };
-    EXPECT_NEAR(capture_range_lambda(detector, 0.0), 0.3, 1e-9);
-}
-
-// An expansive curve has its zeros in the same places.
-TEST(CaptureRange, TheCurveBetweenTheZerosDoesNotMatter) {
-    const auto expansive = [](double dl) { return 0.66 * dl * (1.0 + 20.0 * dl * dl) * (0.5 - std::abs(dl)); };
-    EXPECT_NEAR(capture_range_lambda(expansive, 0.0), 0.5, 1e-9);
-}
-
 TEST(InitialMiss, RefusesWhatIsOutOfRange) {
     const auto with = [](auto change) {
         MissCauses c;
@@ -114,7 +91,6 @@ TEST(InitialMiss, RefusesWhatIsOutOfRange) {
     EXPECT_THROW((void)initial_miss(with([](auto& c) { c.dwell_s = 0.001; })), DesignError);
     EXPECT_THROW((void)initial_miss(with([](auto& c) { c.creep_ratio_per_decade = -0.1; })), DesignError);
     EXPECT_THROW((void)voltage_of_miss_v(0.2, 0.0), DesignError);
-    EXPECT_THROW((void)capture_range_lambda(TwoModeDetector{}, -1.0), DesignError);
 }
 
 }  // namespace

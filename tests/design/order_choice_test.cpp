@@ -141,16 +141,6 @@ TEST(OrderChoice, TheMapIsTheChoiceAtEachPointAndRisesWithAmplitude) {
     EXPECT_EQ(map[4][4], 4);
 }
 
-TEST(OrderChoice, CounterNoiseMovesTheCrossingByItsOwnGains) {
-    OrderQuestion q;
-    q.noise = TickNoise::counter;
-    // Squares of the gains: 1.125 for the constant, and edges -e_-2 (-1), 3.5, 2.5 on either side for the quadratic.
-    const double quadratic = (1.0 + 3.5 * 3.5 + 2.5 * 2.5);
-    const double white = (14.5 - 2.25);
-    EXPECT_NEAR(*crossing_ratio(q, 0, 2, 10.0) / *crossing_ratio(papers, 0, 2, 10.0),
-                std::sqrt((quadratic - 1.125) / white), 1e-12);
-}
-
 TEST(OrderChoice, RefusesWhatIsOutOfRange) {
     OrderQuestion q;
     q.highest_order = 5;

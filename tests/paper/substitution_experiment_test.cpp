@@ -109,20 +109,6 @@ TEST(SubstitutionExperiment, notices_a_theory_that_is_wrong_by_5_percent) {
     EXPECT_GT(paper::rms_chi2_per_dof(points).per_dof, 8.0);
 }
 
-TEST(SubstitutionExperiment, measures_the_errors_that_polynomials_have_by_algebra) {
-    // 2 + 2 points, gap centred on an extremum: from the weights in exact fractions.
-    constexpr std::array constant{26.03, 77.57, 154.51};
-    constexpr std::array quadratic{1.44, 8.19, 26.85};
-    for (std::size_t n = 1; n <= 3; ++n) {
-        const auto& r = fast_oscillation().at(n - 1).interpolation;
-        EXPECT_NEAR(r[0].extremum.arcsec, -constant[n - 1], 4.0 * r[0].extremum.error + 0.005) << n;
-        EXPECT_NEAR(r[2].extremum.arcsec, -quadratic[n - 1], 4.0 * r[2].extremum.error + 0.005) << n;
-        EXPECT_NEAR(r[0].crossing.arcsec, 0.0, 4.0 * r[0].crossing.error) << n;
-        EXPECT_NEAR(r[2].crossing.arcsec, 0.0, 4.0 * r[2].crossing.error) << n;
-        EXPECT_LT(r[2].extremum.error, 0.25);
-    }
-}
-
 TEST(SubstitutionExperiment, measures_the_worst_errors_of_extrapolation) {
     constexpr std::array<std::array<double, 3>, 3> worst{{{74, 50, 23}, {165, 153, 98}, {259, 312, 260}}};
     for (std::size_t n = 1; n <= 3; ++n)
@@ -180,17 +166,6 @@ TEST(SubstitutionExperiment, light_noise_comes_in_through_the_re_lock_correction
     const double noise = std::hypot(3.0 * count_arcsec / std::sqrt(48.0), std::sqrt(2.0) * 0.75 * correction);
     EXPECT_NEAR(r.interpolation[0].noise.theory, noise, 1e-3 * noise);
     EXPECT_NEAR(r.interpolation[0].rms.arcsec, noise, 4.0 * r.interpolation[0].rms.error);
-}
-
-TEST(SubstitutionExperiment, takes_other_points) {
-    auto e = experiment(1, 20.0, 12000.0, 10);
-    e.points = {.extrapolation = 3, .before = 1, .after = 2};
-    const auto p = result_of(e).extrapolation[2];
-    // A quadratic goes exactly through three points: the error is the third difference of the ticks -2..1, whose size for
-    // an oscillation is 8 sin^3(w T/2) times that of a tick.
-    const double half = std::numbers::pi * 20.0 * paper_tick_s;
-    const double size = 12000.0 * paper_tick_s * std::sin(half) / half * 8.0 * std::pow(std::sin(half), 3);
-    EXPECT_NEAR(std::hypot(p.extremum.arcsec, p.crossing.arcsec), size, 4.0 * p.extremum.error);
 }
 
 TEST(SubstitutionExperiment, same_bits_on_any_number_of_threads) {

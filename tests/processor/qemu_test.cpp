@@ -10,6 +10,7 @@
 #include <thread>
 
 #include <pthread.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -100,8 +101,30 @@ TEST(QemuProcessor, gives_up_an_emulator_that_hangs_and_ends_it) {
     fs::remove(program);
 }
 
-TEST(QemuProcessor, finds_no_image_where_there_is_none) {
-    EXPECT_THROW((void)processor::image_beside("/proc"), QemuError);
+TEST(QemuProcessor, ends_with_a_program_that_is_killed) {
+    const std::string program = script("outlives", "echo $$ >$0.new; mv $0.new $0.pid; exec sleep 1000");
+    const pid_t owner = fork();
+    if (owner == 0) {
+        (void)complaint({.image = "/proc/self/exe", .program = program});
+        _exit(0);
+    }
+    const auto waited_for = [](const auto& is_so) {
+        for (int k = 0; k < 1000 && !is_so(); ++k) usleep(10'000);
+        return is_so();
+    };
+    ASSERT_TRUE(waited_for([&] { return fs::exists(program + ".pid"); }));
+    std::string pid;
+    std::ifstream{program + ".pid"} >> pid;
+    kill(owner, SIGKILL);
+    waitpid(owner, nullptr, 0);
+    // One that has ended and that nobody has asked for has no words.
+    EXPECT_TRUE(waited_for([&] {
+        std::string words;
+        std::ifstream{"/proc/" + pid + "/cmdline"} >> words;
+        return words.empty();
+    }));
+    fs::remove(program);
+    fs::remove(program + ".pid");
 }
 
 TEST(QemuProcessor, gives_the_bits_of_this_program_switch_by_switch) {

@@ -93,8 +93,7 @@ TEST(Html, every_colour_of_a_drawing_has_another_in_the_dark) {
         f.series.back().y = {-1.0, 1.0};
     }
     f.bands = {{0.2, 0.4, "gap"}};
-    zlg::report::Diagram diagram{.id = "d", .boxes = {{}, {.shaded = true}}, .arrows = {{{0, 0}, {0, 9}, "a"}}};
-    p.sections[0].diagrams = {diagram};
+    p.sections[0].diagrams = {{.id = "d", .file = "<svg><rect fill=\"#dce9f3\" stroke=\"#444\"/></svg>"}};
     const std::string text = html(p);
     const std::string dark =
         text.substr(text.find("prefers-color-scheme"), text.find("</style>") - text.find("prefers-color-scheme"));
@@ -249,11 +248,8 @@ TEST(Html, an_empty_table_is_left_out) {
 
 TEST(Html, diagrams_stand_before_the_figures_and_share_their_numbers_and_ids) {
     Page p = page(1);
-    zlg::report::Diagram diagram;
-    diagram.id = "drift";
-    diagram.title = "Blocks";
-    diagram.boxes.emplace_back();
-    p.sections[0].diagrams = {diagram};
+    p.sections[0].diagrams = {
+        {.id = "drift", .title = "Blocks", .caption = "", .file = "<?xml?>\n<svg id=\"drift\"></svg>\n"}};
     const auto body = page_body(html(p));
     const auto drawings = markup::all(body, "svg");
     ASSERT_EQ(drawings.size(), 2U);

@@ -8,8 +8,7 @@ from trees import TreeTest
 EXCUSED = ("core/records", "core/methods", "core/compensation/gap_tick", "core/compensation/motion_bank", "core/compensation/switch_job",
            "core/compensation/switch_window", "core/common/handover", "deviations/variance_law", "config/config", "logs/error", "logs/settings", "logs/raw_layout", "logs/angle_layout",
            "rig/processor", "firmware/port",
-           "firmware/half_period", "chance/causes", "twin/twin_half", "study/axis", "study/design_lines", "paper/paper_item",
-           "paper/substitution_setup")
+           "firmware/half_period", "chance/causes", "twin/twin_half", "study/axis", "study/design_lines", "paper/paper_item")
 
 
 class CheckMirror(TreeTest):

@@ -64,7 +64,7 @@ void add_discriminator(PhysicsPictures& made) {
     const twin::FourWave laser{twin::LaserConfig{}};
     const double slope = twin::averaged_laser(laser, field_g).discriminator_per_lambda;
     const twin::DiscriminatorCurve curve = twin::discriminator_curve(laser, field_g);
-    made.pictures.push_back({"discriminator", {}, {both_helicities(laser, slope), inverse(curve, slope)}});
+    made.pictures.push_back({"discriminator", {both_helicities(laser, slope), inverse(curve, slope)}});
     std::vector<double> growth;
     for (const double dl : {0.05, 0.10, 0.15, 0.20})
         growth.push_back(laser.at(dl, field_g).discriminator() / (slope * dl));
@@ -96,7 +96,7 @@ void add_field(PhysicsPictures& made) {
         bias_hz.push_back(laser.at(0.0, field_g).left.bias_hz);
         per_lambda.push_back(slope_at(laser, field_g));
     }
-    made.pictures.push_back({"field", {}, {std::move(bias), std::move(slope)}});
+    made.pictures.push_back({"field", {std::move(bias), std::move(slope)}});
     read(made, "bias f0 at 15 G, G/mu = 1.1, 1.2, 1.3", bias_hz, 0, "Hz");
     read(made, "slope of the discriminator at 15 G, G/mu = 1.1, 1.2, 1.3", per_lambda, 3, "1/wavelength");
 }

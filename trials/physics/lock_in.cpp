@@ -186,7 +186,7 @@ Figure random_walk() {
 }  // namespace
 
 void add_lock_in(PhysicsPictures& made) {
-    made.pictures.push_back({"dead_zone", {}, {dead_zone(), dynamic_zone(), random_walk()}});
+    made.pictures.push_back({"dead_zone", {dead_zone(), dynamic_zone(), random_walk()}});
     const Gyro usual;
     read(made, "largest slip of a reversal at f_L = 300 Hz", {slip_rad(usual)}, 4, "rad");
     std::vector<double> found;

@@ -11,7 +11,6 @@
 
 namespace zlg::trials {
 
-[[nodiscard]] Picture chain_picture();
 void add_waves(PhysicsPictures& made);
 void add_bias(PhysicsPictures& made);
 void add_discriminator(PhysicsPictures& made);

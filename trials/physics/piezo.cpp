@@ -165,7 +165,7 @@ Series misses(double error, int n) {
 void add_piezo(PhysicsPictures& made) {
     Figure loop = loops(made);
     Figure growth = creep(made);
-    made.pictures.push_back({"piezo", {}, {std::move(loop), std::move(growth)}});
+    made.pictures.push_back({"piezo", {std::move(loop), std::move(growth)}});
 }
 
 void add_misses(PhysicsPictures& made) {
@@ -186,7 +186,7 @@ void add_misses(PhysicsPictures& made) {
     }
     read(made, "miss of the first switch, U_lambda/2 wrong by 0, 5, 20 %", first, 3, "wavelength");
     read(made, "miss of the tenth switch", tenth, 3, "wavelength");
-    made.pictures.push_back({"misses", {}, {std::move(figure)}});
+    made.pictures.push_back({"misses", {std::move(figure)}});
 }
 
 }  // namespace zlg::trials

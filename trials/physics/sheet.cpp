@@ -42,7 +42,6 @@ constexpr std::string_view dark_mode =
 
 PhysicsPictures physics_pictures() {
     PhysicsPictures made;
-    made.pictures.push_back(chain_picture());
     add_waves(made);
     add_bias(made);
     add_discriminator(made);
@@ -57,7 +56,6 @@ PhysicsPictures physics_pictures() {
 std::string svg_file(const Picture& picture) {
     constexpr std::string_view tag = "<svg";
     std::vector<std::string> elements;
-    for (const report::Diagram& diagram : picture.diagrams) elements.push_back(report::svg(diagram));
     for (const report::Figure& figure : picture.panels) elements.push_back(report::svg(figure));
     Size sheet;
     std::string body;

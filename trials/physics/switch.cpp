@@ -158,7 +158,6 @@ void add_switch(PhysicsPictures& made) {
     while (halves[usable - 1].record.valid) --usable;
     made.pictures.push_back(
         {"switch",
-         {},
          {std::move(panels.volts), std::move(panels.detuning), std::move(panels.light), std::move(panels.counts)}});
     read(made, "switch: nearest mode changes after", {hop_ms}, 1, "ms");
     read(made, "switch: every half valid again after", {half_ms * static_cast<double>(usable - opening)}, 1, "ms");

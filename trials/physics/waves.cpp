@@ -55,7 +55,7 @@ void add_waves(PhysicsPictures& made) {
         for (std::size_t i = 0; i < 4; ++i) add_point(figure.series[i], p, values[i] / laser.centre_intensity());
     }
     for (const twin::LaserZone& zone : zones) figure.bands.push_back({zone.from_lambda, zone.to_lambda, name_of(zone)});
-    made.pictures.push_back({"waves", {}, {std::move(figure)}});
+    made.pictures.push_back({"waves", {std::move(figure)}});
 
     std::vector<double> edges;
     for (std::size_t k = 1; k < zones.size(); ++k) edges.push_back(zones[k].from_lambda);
@@ -89,7 +89,7 @@ void add_bias(PhysicsPictures& made) {
         add_point(residual.series[0], dl, 100.0 * (bias_hz - parabola_hz) / law.bias_hz);
         if (std::abs(dl) <= 0.2) worst = std::max(worst, std::abs(bias_hz - parabola_hz) / law.bias_hz);
     }
-    made.pictures.push_back({"bias", {}, {std::move(bias), std::move(residual)}});
+    made.pictures.push_back({"bias", {std::move(bias), std::move(residual)}});
     read(made, "chi, fitted within 0.1 wavelength", {law.bias_chi}, 3, "1/wavelength^2");
     read(made, "largest departure of the bias from that parabola within 0.2 wavelength", {100.0 * worst}, 2, "% of f0");
 }

@@ -50,7 +50,7 @@ TEST(PhysicsPictures, ShowWhatTheModelIsKnownFor) {
         EXPECT_TRUE(names.insert(picture.name).second) << picture.name;
         for (const report::Figure& figure : picture.panels) expect_drawable(figure, ids);
     }
-    EXPECT_EQ(names.size(), 9U);
+    EXPECT_EQ(names.size(), 8U);
 
     // Published edges of the zones at 15 G.
     const auto& zones = panel(made, "waves").bands;
@@ -83,8 +83,8 @@ TEST(PhysicsPictures, StackTheirPanelsOnAGroundOfTheReadersMode) {
                           .y_label = "y, m",
                           .series = {{.name = "s", .x = {0.0, 1.0}, .y = {0.0, 1.0}, .y_error = {}}},
                           .bands = {}};
-    const std::string one = svg_file(Picture{"one", {}, {figure}});
-    const std::string two = svg_file(Picture{"two", {}, {figure, figure}});
+    const std::string one = svg_file(Picture{"one", {figure}});
+    const std::string two = svg_file(Picture{"two", {figure, figure}});
     const auto height = [](const std::string& svg) {
         const std::string key = "height=\"";
         return std::atof(svg.c_str() + svg.find(key) + key.size());

@@ -4,15 +4,13 @@
 #include <string>
 #include <vector>
 
-#include <zlg/report/diagram.hpp>
 #include <zlg/report/figure.hpp>
 
 namespace zlg::trials {
 
-// One drawing: diagrams above figures, one below the other.
+// One drawing: figures one below the other.
 struct Picture {
     std::string name;  // of its file, without suffix
-    std::vector<report::Diagram> diagrams;
     std::vector<report::Figure> panels;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
-// The detuning at which the perimeter loop is closed after a switch, part by part, and whether the detector pulls it
-// in.
+// The detuning at which the perimeter loop is closed after a switch, part by part.
 //
 // A switch moves the piezo by U_lambda/2, half a wavelength, open loop. In wavelengths, as bounds:
 //
@@ -11,7 +10,6 @@
 //   creep       c/2 * log10(dwell/settling):   U_lambda/2 is learnt after the dwell, the miss arises after the settling
 
 #include <array>
-#include <functional>
 #include <string_view>
 
 namespace zlg::design {
@@ -43,25 +41,5 @@ struct InitialMiss {
 
 // Error of the voltage that makes a miss: miss_lambda U_lambda/2 / 0.5.
 [[nodiscard]] double voltage_of_miss_v(double miss_lambda, double half_wave_v);
-
-// Signal of the detector by detuning, positive where it drives towards the centre from a positive detuning.
-using Detector = std::function<double(double)>;
-
-// A detector of slope `per_lambda`, linear about the own mode (0) and about the other (0.5, of opposite helicity), with
-// no light in dark_from..dark_to: a triangle that pulls in from all of 0..0.5 less the dark gap.
-struct TwoModeDetector {
-    double per_lambda = 0.66;
-    double dark_from_lambda = 0.5;  // 0.5: no dark gap
-    double dark_to_lambda = 0.5;
-
-    double operator()(double detuning_lambda) const;
-};
-
-// The largest |dl| from which the signal stays above `threshold` down to the detuning at which it balances it: what the
-// electronics' offset or noise needs. Without an offset 0.5 less the dark gap; with offset e, 0.5 - e/slope.
-//
-// return    0 if the signal nowhere exceeds the threshold. threshold >= 0.
-// accuracy  1e-9; the detector is scanned in steps of 1/5000 wavelength from 0 to 0.5.
-[[nodiscard]] double capture_range_lambda(const Detector& detector, double threshold);
 
 }  // namespace zlg::design

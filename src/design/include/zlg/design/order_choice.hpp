@@ -1,7 +1,7 @@
 #pragma once
 // Which order of the substituting polynomial leaves the smallest error, by motion and noise.
 //
-//   rms^2 = (A |H|)^2 / 2 + (g sigma)^2       motion of random phase, noise of a tick of rms sigma through the gain g
+//   rms^2 = (A |H|)^2 / 2 + (g sigma)^2       motion of random phase, white noise of rms sigma a tick through the gain g
 //
 // With points symmetric about the gap orders 2m and 2m + 1 give the same sum; the lower of equals is chosen.
 
@@ -17,7 +17,6 @@ inline constexpr int n_orders = 5;
 // What to compare: the order in it is ignored. Orders from 0 to `highest_order` that its points allow, at most 4.
 struct OrderQuestion {
     Substitution substitution{};
-    TickNoise noise = TickNoise::white;
     int highest_order = 2;  // 0..4, lowered to the number of points less 1
 };
 

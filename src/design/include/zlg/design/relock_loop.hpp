@@ -1,11 +1,9 @@
 #pragma once
 // The perimeter loop from its closing to the centre of the mode, by simulation, and the false angle it makes meanwhile.
 //
-//   d(cmd)/dt = clip(dl(t - D), +-limit)/tau     d(hv)/dt = clip((cmd - hv)/RC, +-slew)
-//   mirror'' = w_m^2 (hv - mirror) - 2 zeta w_m mirror'     dl = miss - mirror
+//   d(cmd)/dt = clip(dl, +-limit)/tau     d(hv)/dt = clip((cmd - hv)/RC, +-slew)     dl = miss - hv
 //
-// The limiter is electronics behind the tap of the light samples, which are never limited. Before closing the detector
-// has seen the miss. Time runs from the closing; a tick is two halves of T/2 with the bias of opposite signs.
+// The limiter is electronics behind the tap of the light samples, which are never limited. Time runs from the closing; a tick is two halves of T/2 with the bias of opposite signs.
 
 #include <limits>
 #include <vector>
@@ -20,9 +18,6 @@ struct RelockLoop {
     double limit_lambda = 0.09;   // > 0; none: no limiter
     double rc_s = 0.001;          // >= 0; 0: the stage follows at once
     double slew_lambda_s = 50.0;  // > 0; none: no limit
-    double delay_s = 0.0;         // >= 0, at most 10 T; 0.75 T for a detector that averages over a period
-    double mirror_hz = none;      // > 0; none: rigid
-    double mirror_zeta = 0.05;    // > 0
 };
 
 // How the detuning becomes false rotation: f = f0 (1 - chi dl^2), one count of scale.
@@ -45,7 +40,7 @@ struct RelockTrace {
 
 // n_ticks from the closing. |miss_lambda| <= 0.5, 1..10000 ticks.
 //
-// accuracy  1e-9 of the miss for a smooth loop; 1e-7 wavelength where limiter, slew or delay put corners inside steps, 2e-6 from
+// accuracy  1e-9 of the miss for a smooth loop; 1e-7 wavelength where limiter or slew put corners inside steps, 2e-6 from
 //           4000 ticks on.
 // errors    DesignError for a number out of range.
 [[nodiscard]] RelockTrace simulate_relock(const RelockLoop& loop, double miss_lambda, int n_ticks);

@@ -37,7 +37,7 @@ struct LoopLine {
     double false_angle_arcsec = 0.0;
     double false_angle_law_arcsec = 0.0;  // (T/4) G(0+)
     design::InitialMiss miss;
-    double capture_lambda = 0.0;
+    double capture_lambda = 0.5;  // a detector of two modes pulls in from everywhere between them
 };
 
 }  // namespace zlg::study

@@ -6,7 +6,6 @@
 
 #include <zlg/config/config.hpp>
 #include <zlg/design/drift_budget.hpp>
-#include <zlg/design/growing_interval.hpp>
 #include <zlg/design/interval_formula.hpp>
 #include <zlg/design/order_choice.hpp>
 #include <zlg/design/switching_interval.hpp>
@@ -31,8 +30,6 @@ struct RunLine {
     design::Optimum half_first_segment;  // worst case
     design::Roots corrected_roots;       // (9c)
     design::Roots roots_as_printed;      // (9)
-    double growing_interval_s = 0.0;     // at the end of the run
-    double growing_drift_arcsec_s = 0.0;
 };
 
 struct DesignResult {

@@ -13,7 +13,6 @@
 
 #include <zlg/config/config.hpp>
 #include <zlg/core/records.hpp>
-#include <zlg/rig/processor.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/study/switch_table.hpp>
 #include <zlg/study/variant.hpp>
@@ -59,9 +58,6 @@ struct RunTask {
     config::Config config;
     std::vector<std::string> warnings;  // of the configuration, for the result
     int threads = 1;
-    // Runs the core of the gyro that switches, and its configured compensation; null: this program does. The gyro of
-    // one mode and the other compensations always run here.
-    rig::Processor* processor = nullptr;
     // Names of the variants that are computed beside `configured`, one_mode and magnetic_estimate among them; unset: all. A run of
     // `configured` alone costs a fraction. What is computed has the same bits whatever else is.
     std::optional<std::vector<std::string>> variants;

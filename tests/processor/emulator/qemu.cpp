@@ -1,6 +1,5 @@
 #include <zlg/processor/qemu.hpp>
 
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <system_error>
@@ -187,16 +186,5 @@ core::DrainOutput QemuProcessor::drain() { return link_->ask(Request::drain).dra
 firmware::GyroState QemuProcessor::state() { return link_->ask(Request::state).state; }
 
 std::uint32_t QemuProcessor::stack_used_bytes() { return link_->ask(Request::state).stack_used_bytes; }
-
-std::string image_beside(const std::string& program_folder) {
-    const std::filesystem::path folder{program_folder};
-    const std::array places{folder / "../firmware/zlg_gyro.elf", folder / "../share/zlg/zlg_gyro.elf"};
-    std::error_code error;
-    for (const auto& place : places)
-        if (std::filesystem::is_regular_file(place, error)) return place.lexically_normal();
-    throw QemuError{
-        fmt::format("no image of the processor: neither {} nor {} is a file; build it (arm-none-eabi-g++ is needed)",
-                    places[0].lexically_normal().string(), places[1].lexically_normal().string())};
-}
 
 }  // namespace zlg::processor

@@ -52,9 +52,4 @@ private:
         first_ticks_;  // stamp of the first frame since the start, which comes with the first pulse
 };
 
-// Where the image lies beside a program that was built with it.
-//
-// errors  QemuError where there is none: says which places were looked at.
-[[nodiscard]] std::string image_beside(const std::string& program_folder);
-
 }  // namespace zlg::processor
