@@ -209,7 +209,7 @@ void report_light(const Observation& o, HealthWord& word) noexcept {
     word.set(health_light_unusable, o.fresh && !o.light.readable);
     word.set(health_light_stuck, o.monitored.stuck);
     word.set(health_light_noisy, o.monitored.noisy || o.monitored.withheld);
-    word.set(health_light_unbalanced, o.monitored.unbalanced);
+    word.set(health_light_unbalanced, o.monitored.unbalanced || o.balance_changed);
     word.set(health_light_contradicted, o.monitored.contradicted);
     word.set(health_detuning_unsteady, o.unsteady);
 }

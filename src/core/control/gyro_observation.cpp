@@ -1,5 +1,7 @@
 #include "gyro_observation.hpp"
 
+#include <array>
+
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
@@ -81,10 +83,18 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
     }
     const std::size_t n = frame.n_light <= max_light_samples ? frame.n_light : 0;
     const std::span light_a = std::span{frame.light_a}.first(n);
-    const std::span light_b = frame.has_light_b ? std::span{frame.light_b}.first(n) : std::span<const float>{};
+    std::array<float, max_light_samples> room;
+    const std::span light_b = frame.has_light_b ? balanced(s.light_balance, std::span{frame.light_b}.first(n), room)
+                                                : std::span<const float>{};
     const int sign = o.commuted.sign * o.polarity;
     const bool beats = o.bias.judged && o.bias.in_band;
     o.light = step(c.detector, s.detector, {light_a, light_b, sign, o.settled && !s.light_spoilt, beats});
+    LightBalanceInput balance{.is_first = s.half % 2 == 0,
+                              .is_read = o.loop_closed && o.follows && o.light.usable && !light_b.empty() &&
+                                         !o.commuted.sign_error && !o.polarity_error,
+                              .signal = o.light.signal,
+                              .light = o.light.light,
+                              .signal_per_lambda = c.detector.discriminator_per_lambda};
     o.monitored = step(c.light_monitor, s.light_monitor,
                        {.light_a = light_a,
                         .light_b = light_b,
@@ -98,9 +108,13 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
                         .light = o.light.light,
                         .signal_per_lambda = c.detector.discriminator_per_lambda,
                         .curve = &c.detector.curve,
+                        .unknown_lambda2 = o.settled ? 0.0 : unknown_jump_lambda2(s.light_balance, balance),
                         .usable = o.light.usable && !o.commuted.sign_error && !o.polarity_error,
                         .detuning = o.light.detuning,
                         .mean_sq_lambda2 = o.light.mean_sq_lambda2});
+    balance.is_read = balance.is_read && !o.monitored.stuck && !o.monitored.noisy;
+    balance.jump = o.monitored.jump;
+    o.balance_changed = learn(c.light_balance, s.light_balance, balance);
     o.detuning_usable = o.monitored.usable;
     o.lit = o.light.two_way || o.monitored.contradicted;
     s.light_spoilt = o.monitored.stuck || o.monitored.noisy || o.monitored.unbalanced || o.monitored.contradicted;

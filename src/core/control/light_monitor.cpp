@@ -90,7 +90,7 @@ void balance(const LightMonitorConfig& c, LightMonitorState& s, const LightMonit
     if (s.has_last) weigh_beams(c, s, in);
     // In a settled gyro light returns unevenly: at first one beam is brighter than the other.
     out.returns = s.was_dark && in.settled;
-    out.unbalanced = s.is_unbalanced || out.returns;
+    out.unbalanced = s.is_unbalanced || out.returns || out.jump.is_large;
     s.was_dark = false;
     if (out.unbalanced) {
         out.detuning = Wavelengths{0.5 * (in.detuning.value() + s.last_lambda)};
@@ -226,8 +226,10 @@ double bend_lambda(std::size_t n_samples, double change_lambda, double change_be
 // The detuning does not jump where the bias is reversed, but the error by a faded beam changes its sign there. Far from a
 // lock the mean square holds twice that error times the detuning, so that even a small error must be found.
 //
-// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma.
-bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in) noexcept {
+// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma, and what an offset of the
+//         photodiodes that is not known yet may make of it.
+bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in,
+           DetuningJump& seen_jump) noexcept {
     const bool seen = in.closed && in.light_a.size() >= line_samples && !in.light_b.empty();
     const bool follows = seen && s.has_end;
     const double before_lambda = s.end_lambda;
@@ -242,7 +244,7 @@ bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitor
     if (!follows) return false;
     constexpr double lines_sq = 1.01;  // variance of the difference of two ends over that of a sample
     const double allowed = bend_lambda(in.light_a.size(), change_lambda, change_before_lambda);
-    const double noise_sq = lines_sq * ends.slope_sq * c.noise.value() * c.noise.value();
+    const double noise_sq = ends.slope_sq * lines_sq * square(c.noise.value());
     const double jump = in.sign * (ends.first_lambda - before_lambda);
     constexpr double weight = 0.4;  // a quarter of the variance
     s.jump_lambda += weight * (jump - s.jump_lambda);
@@ -250,7 +252,13 @@ bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitor
         const double over = (x < 0.0 ? -x : x) - allowed;
         return over > 0.0 && over * over > jump_deviations * jump_deviations * variance;
     };
-    return exceeds(jump, noise_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq);
+    seen_jump = {.known = true,
+                 .is_large = exceeds(jump, noise_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq),
+                 .lambda = jump,
+                 .variance_lambda2 = noise_sq + square(allowed),
+                 .slope_sq = ends.slope_sq};
+    const double unknown_sq = ends.slope_sq * in.unknown_lambda2;
+    return exceeds(jump, noise_sq + unknown_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq + unknown_sq);
 }
 
 // Less light at the end of this half than at the start of the half before means that a beam has faded: on the way to a
@@ -307,7 +315,7 @@ LightMonitorOutput step(const LightMonitorConfig& config, LightMonitorState& sta
     // Only on the way to a lock: a settled gyro has cheaper tests.
     const bool is_whole = watches && input.usable && !out.withheld && !input.settled;
     if (!is_whole) state.has_end = false;
-    if (is_whole && (jumps(config, state, input) || (input.closed && fades(config, input, before))))
+    if (is_whole && (jumps(config, state, input, out.jump) || (input.closed && fades(config, input, before))))
         state.is_unbalanced = true;
     // After a contradiction the beams must first be seen to be balanced.
     if (out.contradicted) state.is_unbalanced = true;

@@ -159,6 +159,7 @@ void detect_both(const SyncDetectorConfig& c, SyncDetectorState& s, const SyncDe
     if (balanced) observe(c, s.both, out.light, in.settled && out.two_way, 2.0 * c.level_ticks);
     learn_faint(s.both, out.light, in.beats && balanced && !out.two_way);
     if (!out.two_way) return;
+    out.signal = both.signal.sum() / static_cast<double>(in.light_a.size());
     if (c.curve.n_nodes == 0) {
         deliver(both.signal, signed_slope(c, in), in.light_a.size(), out);
     } else {

@@ -81,12 +81,24 @@ struct LightMonitorInput {
     double light = 0.0;                         // by the detector: sum of both beams, or the one; mean over the half
     double signal_per_lambda = 0.332;           // of the detector, at the centre,
     const DiscriminatorCurve* curve = nullptr;  // and away from it; none: linear
+    double unknown_lambda2 =
+        0.0;  // variance of a jump of the detuning, by what is not known of the photodiodes; at the centre
     bool usable = false;
     Wavelengths detuning{};
     double mean_sq_lambda2 = 0.0;
 };
 
+// Of the detuning where the bias is reversed, on the way to a lock.
+struct DetuningJump {
+    bool known = false;
+    bool is_large = false;          // it, or its smoothed value, exceeds 8 sigma
+    double lambda = 0.0;            // times the sign of the bias behind it
+    double variance_lambda2 = 0.0;  // by the noise of the light, and by the bend of the way
+    double slope_sq = 1.0;          // of the curve
+};
+
 struct LightMonitorOutput {
+    DetuningJump jump{};
     bool stuck = false;         // all samples of a beam are the same, also of the half before
     bool noisy = false;         // six times the noise of a sample
     bool unbalanced = false;    // one beam has faded against the other

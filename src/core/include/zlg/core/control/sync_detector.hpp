@@ -64,6 +64,7 @@ struct SyncDetectorOutput {
     Wavelengths detuning{};        // mean over the half; 0 unless usable
     double mean_sq_lambda2 = 0.0;  // mean of the squared samples; 0 unless usable
     double light = 0.0;            // mean over the half: the sum of both beams, or the one; 0 unless readable
+    double signal = 0.0;           // mean of (A - B)/(A + B); 0 unless usable, or with one beam
     bool readable = false;         // there are samples, and all are finite
     bool two_way = false;          // light in both directions throughout the half
     bool dark = false;             // a sample of a beam is below a tenth of its share of the level
