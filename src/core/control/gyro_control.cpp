@@ -204,12 +204,12 @@ void report_frame(const SensorFrame& frame, const Observation& o, HealthWord& wo
     word.set(health_temperature_not_finite, o.fresh && !is_finite(frame.temperature_c));
 }
 
-void report_light(const Observation& o, HealthWord& word) noexcept {
+void report_light(const GyroControlState& s, const Observation& o, HealthWord& word) noexcept {
     word.set(health_light_lost, o.fresh && o.light.readable && !o.light.two_way);
     word.set(health_light_unusable, o.fresh && !o.light.readable);
     word.set(health_light_stuck, o.monitored.stuck);
     word.set(health_light_noisy, o.monitored.noisy || o.monitored.withheld);
-    word.set(health_light_unbalanced, o.monitored.unbalanced || o.balance_changed);
+    word.set(health_light_unbalanced, o.monitored.unbalanced || s.light_balance.changes);
     word.set(health_light_contradicted, o.monitored.contradicted);
     word.set(health_detuning_unsteady, o.unsteady);
 }
@@ -278,7 +278,7 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
 
     HealthWord word;
     report_frame(frame, seen, word);
-    report_light(seen, word);
+    report_light(state, seen, word);
     report_counts(state, seen, word);
     if (config.fringe.reads) report_fringe(seen, word);
     report_phase(state, phase, word);

@@ -36,7 +36,6 @@ struct Observation {
     CoilMonitorOutput coil;
     SyncDetectorOutput light;
     LightMonitorOutput monitored;
-    bool balance_changed = false;  // of the photodiodes
     bool detuning_usable = false;
     bool has_mean_square = false;  // to be recorded
     Volts piezo{not_a_number};

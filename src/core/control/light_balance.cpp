@@ -7,95 +7,90 @@
 namespace zlg::core {
 namespace {
 
+// Ticks of the mean of w, and those after which it is compared with the slower one: 2 s of 5 ms, a hundredth of the noise of a half.
+constexpr double memory_ticks = 400.0;
+
+constexpr double max_change = 0.0133;
+
 // A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
 constexpr double max_weight = 100.0;
 
 // Change of S over a tick up to which the detuning stands: what it falls by from half to half is then nothing in a mean.
 constexpr double max_fall = 0.01;
 
-void learn_from(const LightBalanceConfig& config, LightBalanceState& state, const LightBalanceInput& in) noexcept {
-    if (state.n_ticks < config.slow_ticks) state.n_ticks += 1.0;
-    const double n = state.n_ticks < config.memory_ticks ? state.n_ticks : config.memory_ticks;
-    const double odd = limited(0.5 * (state.last_signal + in.signal), 0.5) / n;
-    const double weight = state.weight * (1.0 + odd) / (1.0 - odd);
-    if (weight < max_weight && weight > 1.0 / max_weight) state.weight = weight;
-    state.level += (in.light - state.level) / n;
-    state.slow_weight += (state.weight - state.slow_weight) / state.n_ticks;
-}
-
-// h from which on the kinks of a digital loop, of .002 wavelength, are not taken for an offset. Of light that hardly falls with the
-// detuning an offset does less.
+// h from which on the kinks of a digital loop, of .002 wavelength, are not taken for an offset. Of light that hardly falls
+// with the detuning an offset does less.
 constexpr double min_change = 0.1;
 
-// That of photodiodes whose dark light nobody has subtracted, before a jump was seen.
+// An offset of photodiodes whose dark light nobody has subtracted, before a jump was seen.
 constexpr double presumed_offset = 0.03;
 
 // What an offset may change by from one re-lock to the next, as a variance.
 constexpr double offset_wander = 1e-10;
 
-// Jumps of so many times their deviation, together, say that what is known of the offset was presumed too well. Of fifty jumps, ten
-// re-locks: an offset of .004.
+// Jumps that are together so many times their deviation say that the offset was presumed to be known too well: of fifty jumps,
+// ten re-locks, an offset of .004.
 constexpr double surprise_sq = 16.0;
 constexpr double forgotten = 0.02;
 
-// A half's part of the sum of (2).
-double form_of(const LightBalanceState& state, const LightBalanceInput& in) noexcept {
-    if (!(in.light > 0.0 && state.level > 0.0)) return 0.0;
-    return 0.5 * (1.0 + in.signal) * (state.level / in.light - 1.0 + in.signal);
+// Of the sum of (2), for F' = 1.
+double form_of(double level, double signal, double light) noexcept {
+    return 0.5 * (1.0 + signal) * (level / light - 1.0 + signal);
 }
 
-double change_per_offset(const LightBalanceState& state, const LightBalanceInput& in) noexcept {
-    return (state.last_form + form_of(state, in)) / in.signal_per_lambda;
+double jump_per_offset(const LightBalanceState& s, const BalancedHalf& half, double signal_per_lambda) noexcept {
+    if (!(s.has_last && s.level > 0.0 && s.last_light > 0.0 && half.light > 0.0)) return 0.0;
+    return (form_of(s.level, s.last_signal, s.last_light) + form_of(s.level, half.signal, half.light)) /
+           signal_per_lambda;
 }
 
-void learn_offset(LightBalanceState& state, const LightBalanceInput& in) noexcept {
-    const double h = square_root(in.jump.slope_sq) * change_per_offset(state, in);
+void learn_weight(const LightBalanceConfig& config, LightBalanceState& s, const BalancedHalf& half) noexcept {
+    if (s.n_ticks < config.slow_ticks) s.n_ticks += 1.0;
+    const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
+    const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5) / n;
+    const double weight = s.weight * (1.0 + odd) / (1.0 - odd);
+    if (weight < max_weight && weight > 1.0 / max_weight) s.weight = weight;
+    s.level += (half.light - s.level) / n;
+    s.slow_weight += (s.weight - s.slow_weight) / s.n_ticks;
+    s.changes = s.n_ticks >= memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
+}
+
+}  // namespace
+
+double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& half,
+                            double signal_per_lambda) noexcept {
+    const double unseen = 1.0 / (state.weights + 1.0 / square(presumed_offset));
+    return unseen * square(jump_per_offset(state, half, signal_per_lambda));
+}
+
+void learn_offset(LightBalanceState& state, const BalancedHalf& half, const DetuningJump& jump,
+                  double signal_per_lambda) noexcept {
+    const double h = square_root(jump.slope_sq) * jump_per_offset(state, half, signal_per_lambda);
     if (!(size(h) > min_change)) return;
-    const double weight = h / in.jump.variance_lambda2;
-    state.jumps = (1.0 - forgotten) * state.jumps + weight * in.jump.lambda;
+    const double weight = h / jump.variance_lambda2;
+    state.jumps = (1.0 - forgotten) * state.jumps + weight * jump.lambda;
     state.weights = (1.0 - forgotten) * state.weights + weight * h;
     if (square(state.jumps) > surprise_sq * state.weights * (1.0 + state.variance * state.weights)) {
         state.variance = square(state.jumps / state.weights);
         state.jumps = state.weights = 0.0;
     }
-    const double gain = state.variance * h / (square(h) * state.variance + in.jump.variance_lambda2);
+    const double gain = state.variance * h / (square(h) * state.variance + jump.variance_lambda2);
     const double half_level = 0.5 * state.level / state.weight;  // of B
-    const double more = limited(-gain * in.jump.lambda, 0.2) * half_level;
+    const double more = limited(-gain * jump.lambda, 0.2) * half_level;
     if (!is_finite(more)) return;
-    state.variance *= 1.0 - gain * h;
-    state.variance += offset_wander;
+    state.variance += offset_wander - gain * h * state.variance;
     state.offset += more;
     // The beams stay equal at the centre.
     state.weight *= half_level / (half_level - more);
 }
 
-}  // namespace
-
-std::span<const float> balanced(const LightBalanceState& state, std::span<const float> beam_b,
-                                std::span<float, max_light_samples> room) noexcept {
-    const auto weight = static_cast<float>(state.weight);
-    const auto beyond = static_cast<float>(state.weight * state.offset);
-    for (std::size_t k = 0; k < beam_b.size(); ++k) room[k] = weight * beam_b[k] - beyond;
-    return room.first(beam_b.size());
-}
-
-double unknown_jump_lambda2(const LightBalanceState& state, const LightBalanceInput& input) noexcept {
-    const double unseen = 1.0 / (state.weights + 1.0 / square(presumed_offset));
-    return state.has_last ? unseen * square(change_per_offset(state, input)) : 0.0;
-}
-
-bool learn(const LightBalanceConfig& config, LightBalanceState& state, const LightBalanceInput& input) noexcept {
-    if (state.has_last && input.is_read) {
-        const bool stands = size(input.signal - state.former_signal) < max_fall;
-        if (!input.is_first && stands) learn_from(config, state, input);
-        if (input.jump.known && state.level > 0.0) learn_offset(state, input);
-    }
-    state.has_last = input.is_read;
-    state.former_signal = input.is_read ? state.last_signal : 1.0;
-    state.last_signal = input.signal;
-    state.last_form = form_of(state, input);
-    return state.n_ticks >= config.memory_ticks &&
-           size(state.weight - state.slow_weight) > config.max_change * state.slow_weight;
+void follow(const LightBalanceConfig& config, LightBalanceState& state, const BalancedHalf& half) noexcept {
+    const bool stands = size(half.signal - state.former_signal) < max_fall;
+    if (!half.is_first && half.is_read && state.has_last && stands) learn_weight(config, state, half);
+    state.former_signal = half.is_read ? state.last_signal : 1.0;
+    state.has_last = half.is_read;
+    state.last_signal = half.signal;
+    state.last_light = half.light;
 }
 
 }  // namespace zlg::core

@@ -52,12 +52,24 @@ struct SyncDetectorState {
     friend constexpr bool operator==(const SyncDetectorState&, const SyncDetectorState&) = default;
 };
 
+// Beam B as it is compared with beam A: w (B - o) of light_balance.hpp.
+struct BeamWeight {
+    double weight = 1.0;
+    double beyond = 0.0;  // w o
+
+    template <class Number>
+    [[nodiscard]] constexpr Number of(Number beam_b) const noexcept {
+        return weight * beam_b - beyond;
+    }
+};
+
 struct SyncDetectorInput {
     std::span<const float> light_a{};  // 1..64 samples of the half
     std::span<const float> light_b{};  // as many, or none: one beam only
     int sign = 1;                      // bias_sign * polarity in force during the half: +1 or -1
-    bool settled = false;              // loop closed and settled: the level may follow the light
-    bool beats = false;                // the counts show the bias: there is light in both directions
+    BeamWeight weight_b{};
+    bool settled = false;  // loop closed and settled: the level may follow the light
+    bool beats = false;    // the counts show the bias: there is light in both directions
 };
 
 struct SyncDetectorOutput {
