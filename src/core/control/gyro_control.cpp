@@ -269,7 +269,9 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     learn_stroke(config, state, seen, was_closed, sequenced);
     const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
 
-    GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.event.has_value()};
+    GyroControlOutput out{.record = recorded(state, seen),
+                          .switch_waits = state.schedule.waiting,
+                          .has_event = sequenced.event.has_value()};
     if (sequenced.event) out.event = *sequenced.event;
     command(sequenced.loop_closed, sequenced.polarity, regulated, out.actuator);
     out.actuator.edge_offset_ticks =
