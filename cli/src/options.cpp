@@ -116,8 +116,8 @@ study::Resolved resolve(const config::Config& config) {
     return resolved;
 }
 
-void refuse_a_run_without_switches(const rig::SwitchTally& tally) {
-    if (!tally.none_succeeded()) return;
+void refuse_a_run_that_lacks_switches(const rig::SwitchTally& tally) {
+    if (!tally.lacks_many()) return;
     explain_exit(rig::sentence(tally));
     throw CLI::RuntimeError{result_says_no};
 }

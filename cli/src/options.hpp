@@ -74,7 +74,7 @@ void warn_uncorrected(const rig::Replay& replay, const std::string& log_path);
 [[nodiscard]] study::Resolved resolve(const config::Config& config);
 
 // The end of a verb whose gyro was to switch and never did: one line on standard error, and exit 1.
-void refuse_a_run_without_switches(const rig::SwitchTally& tally);
+void refuse_a_run_that_lacks_switches(const rig::SwitchTally& tally);
 
 // errors  UsageError where both are the same file; `option` names the output.
 void refuse_own_input(const std::string& input, const std::string& output, const char* option = "--out");

@@ -59,6 +59,7 @@ json summary_json(const config::Config& config, const study::RunResult& result) 
             {"fingerprint", result.fingerprint},
             {"switches", result.switches.size()},
             {"switches_failed", result.tally.failed},
+            {"switches_withheld", result.tally.withheld},
             {"ticks_as_whole_counts", result.whole_count_ticks},
             {"warnings", result.warnings},
             {"relock_false_drift_deg_h", result.relock_false_drift_deg_h},
@@ -197,7 +198,7 @@ void run(const RunOptions& options) {
     } catch (...) {
         rethrow_with({raw_part, angles_part});
     }
-    refuse_a_run_without_switches(tally);
+    refuse_a_run_that_lacks_switches(tally);
 }
 
 }  // namespace

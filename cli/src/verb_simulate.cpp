@@ -128,10 +128,11 @@ void simulate(const SimulateOptions& options) {
         print(pretty(nlohmann::json{{"raw", options.out},
                                     {"halves", 2 * ticks},
                                     {"duration_s", duration_s},
-                                    {"switches_failed", count.tally().failed}}));
+                                    {"switches_failed", count.tally().failed},
+                                    {"switches_withheld", count.tally().withheld}}));
     else
         print(fmt::format("{}: {} half-periods, {} s\n", printable(options.out), 2 * ticks, duration_s));
-    refuse_a_run_without_switches(count.tally());
+    refuse_a_run_that_lacks_switches(count.tally());
 }
 
 }  // namespace

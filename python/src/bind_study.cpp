@@ -50,6 +50,7 @@ py::dict run(const config::Config& config, const std::vector<std::string>& warni
     d["ticks"] = result.ticks;
     d["fingerprint"] = result.fingerprint;
     d["switches_failed"] = result.tally.failed;
+    d["switches_withheld"] = result.tally.withheld;
     d["none_succeeded"] = result.tally.none_succeeded();
     d["warnings"] = result.warnings;
     d["variants"] = variants;

@@ -86,6 +86,8 @@ class RunResult(Shown):
     relock_false_drift_deg_h: NDArray[np.float64]
     #: after which the gyro went back, had to be searched for, or held nothing
     switches_failed: int
+    #: were due when the gyro was not ready, and until the next one
+    switches_withheld: int
     #: switches were due, and the gyro holds the mode of none
     none_succeeded: bool
     #: what contradicts itself in the configuration

@@ -206,6 +206,17 @@ const Key table[] = {
     {"piezo", "adc_noise_v", "V", "noise of the voltage that is read back",
      Real{at<&C::piezo, &Piezo::adc_noise_v>, non_negative}},
 
+    {"light", "gain_b", "", "photodiode of beam B over that of beam A at t = 0",
+     Real{at<&C::light, &Light::gain_b>, {.min = 0.01, .max = 100.0}}},
+    {"light", "gain_drift_per_h", "1/h", "drift of gain_b: at t it is gain_b (1 + gain_drift_per_h t)",
+     Real{at<&C::light, &Light::gain_drift_per_h>, {.min = -1e3, .max = 1e3}}},
+    {"light", "offset_a", "", "of the photodiode of beam A, over the mean light at t = 0",
+     Real{at<&C::light, &Light::offset_a>, diode_offset}},
+    {"light", "offset_b", "", "of the photodiode of beam B, over the mean light at t = 0",
+     Real{at<&C::light, &Light::offset_b>, diode_offset}},
+    {"light", "power_decay_per_h", "1/h", "both beams fall as exp(-power_decay_per_h t)",
+     Real{at<&C::light, &Light::power_decay_per_h>, {.min = 0.0, .max = 1e3}}},
+
     {"photodiodes", "offset_cosine", "", "offset of the cosine's photodiode, over the amplitude of the beat",
      Real{at<&C::photodiodes, &Photodiodes::offset_cosine>, diode_offset}},
     {"photodiodes", "offset_sine", "", "offset of the sine's photodiode, over the amplitude of the beat",

@@ -67,6 +67,7 @@ twin::TwinConfig twin_config(const config::Config& config) {
             .drift = config.drift,
             .perimeter = config.perimeter,
             .piezo = config.piezo,
+            .light = config.light,
             .photodiodes = config.photodiodes,
             .laser = config.laser,
             .counter_max_hz = counter_max_hz(config.gyro),

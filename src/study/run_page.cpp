@@ -49,7 +49,7 @@ report::Table variant_table(const RunResult& result) {
 
 std::vector<std::string> result_text(const RunResult& result) {
     std::vector<std::string> text = result.warnings;
-    if (result.tally.failed > 0) text.push_back(rig::sentence(result.tally));
+    if (result.tally.failed + result.tally.withheld > 0) text.push_back(rig::sentence(result.tally));
     if (const std::int64_t n = result.variants.back().unrepaired; n > 0)
         text.push_back(
             fmt::format("{} of {} switches have a gap that no bridge repairs, for it is too long or has no good ticks "

@@ -25,9 +25,8 @@ std::string end_of(const RunResult& result) {
 }
 
 std::string without_switch(const config::Config& config, const RunResult& result) {
-    if (result.tally.failed > 0)
-        return fmt::format("None of {} succeeded: {}", switches(static_cast<std::size_t>(result.tally.failed)),
-                           end_of(result));
+    if (const std::int64_t due = result.tally.due(); due > 0)
+        return fmt::format("None of {} succeeded: {}", switches(static_cast<std::size_t>(due)), end_of(result));
     const bool is_due = config.switching.interval_s < duration_s(result);
     const std::string why = config.switching.schedule == config::Schedule::fixed && !is_due
                                 ? fmt::format(", for the interval is {} s", short_number(config.switching.interval_s))
@@ -42,6 +41,7 @@ std::string with_switches(const RunResult& result) {
     std::string text = switches(result.switches.size());
     if (best.unrepaired > 0) text += fmt::format(", {} with a gap that no bridge repairs", best.unrepaired);
     if (result.tally.failed > 0) text += fmt::format(", {} more failed", result.tally.failed);
+    if (result.tally.withheld > 0) text += fmt::format(", {} more were due and withheld", result.tally.withheld);
     if (!best.switch_error) return text + "; none can be judged: " + end_of(result);
     text += fmt::format("; a switch costs {} arcsec rms as configured", short_number(best.switch_error->rms_arcsec));
     if (as_read != nullptr && as_read->switch_error)

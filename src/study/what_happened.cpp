@@ -24,7 +24,7 @@ std::string length_and_switches(const config::Config& config, const RunResult& r
     const std::size_t n = result.switches.size();
     std::string text = fmt::format("{} s, {}", duration_s(result), number_of(n, "switch"));
     const bool is_fixed = config.switching.schedule == config::Schedule::fixed;
-    if (n == 0 && result.tally.failed == 0 && is_fixed && duration_s(result) <= config.switching.interval_s)
+    if (n == 0 && result.tally.due() == 0 && is_fixed && duration_s(result) <= config.switching.interval_s)
         text += fmt::format(": the run is shorter than switching.interval_s = {:g}, so there is no error of a switch",
                             config.switching.interval_s);
     else if (n > 0 && n < few_switches)

@@ -32,7 +32,8 @@ void judge(Row& row, const study::RunResult& result, const std::vector<Metric>& 
         row.status = status;
         row.reason = one_line(reason);
     };
-    if (result.tally.none_succeeded()) return fail(Status::lost, rig::sentence(result.tally));
+    if (result.tally.none_succeeded() || (result.tally.withheld > 0 && result.tally.lacks_many()))
+        return fail(Status::lost, rig::sentence(result.tally));
     for (std::size_t k = 0; k < metrics.size(); ++k) {
         if (std::isfinite(row.metrics[k])) continue;
         const std::string& name = metrics[k].name;

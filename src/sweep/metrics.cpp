@@ -62,6 +62,7 @@ Getters all_getters() {
         {"ticks", [](const Result& r) { return static_cast<double>(r.ticks); }},
         {"switches", [](const Result& r) { return static_cast<double>(r.switches.size()); }},
         {"switches_failed", [](const Result& r) { return static_cast<double>(r.tally.failed); }},
+        {"switches_withheld", [](const Result& r) { return static_cast<double>(r.tally.withheld); }},
         {"ticks_as_whole_counts", [](const Result& r) { return static_cast<double>(r.whole_count_ticks); }},
         {"ticks_invalid", [](const Result& r) { return static_cast<double>(r.invalid_ticks); }},
     };

@@ -134,7 +134,7 @@ void AveragedGyro::see_fringe(int bias_sign, TwinHalf& half) {
     LatchedBeat beat{.turns = counter_.fraction(), .quarter = static_cast<std::uint64_t>(4.0 * counter_.fraction())};
     if (mode.two_way()) {
         const LightParts left = housing_.light_is_faulty() ? housing_.light_at(half_s) : LightParts{};
-        beat.amplitude = std::sqrt(left.a * left.b);
+        beat.amplitude = housing_.power() * std::sqrt(left.a * left.b);
         beat.plateau_hz = bias_sign * mode.helicity() * plateau_hz();
         beat.rotation_hz = half.truth.dtheta_arcsec / config_.gyro.scale_arcsec / half_s;
     }

@@ -78,6 +78,7 @@ Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> si
       adc_noise_{config.seed, chance::Cause::adc},
       coil_adc_{-coil_adc_range_a, coil_adc_range_a, coil_adc_bits},
       coil_noise_{config.seed, chance::Cause::coil},
+      photodiodes_{config.light},
       counter_limit_{config.counter_max_hz},
       warming_{half_s_, config.drift.thermal_time_s},
       faults_{config.faults},
@@ -168,6 +169,7 @@ void Housing::end_half(const core::ActuatorFrame& actuator, std::uint64_t counte
     sensor.has_light_b = true;
     half.truth.perimeter_v = perimeter_.voltage_v();
     read_slow(sensor, half.truth.perimeter_v);
+    photodiodes_.see(0.5 * (start_s() + end_s()), sensor);
     if (!faults_.is_empty()) frame_faults_.act(faults_.active(), index_, half_s_, sensor);
     ++index_;
 }

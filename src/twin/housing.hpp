@@ -7,6 +7,7 @@
 #include <zlg/twin/twin_config.hpp>
 #include <zlg/twin/twin_half.hpp>
 
+#include "beam_photodiodes.hpp"
 #include "converters.hpp"
 #include "counter_limit.hpp"
 #include "faults/fault_frame.hpp"
@@ -54,6 +55,9 @@ public:
     // What faults do in the half entered.
     [[nodiscard]] bool light_is_faulty() const { return faults_.dims_light(); }
     [[nodiscard]] LightParts light_at(double since_start_s) const;
+    [[nodiscard]] double power() const {
+        return photodiodes_.power(end_s());
+    }  // of the light at the end, over that at t = 0
     [[nodiscard]] double turned_arcsec(double from_s, double to_s) const;  // beyond the motion
 
 private:
@@ -72,6 +76,7 @@ private:
     NoiseAhead<1> adc_noise_;
     Converter coil_adc_;
     NoiseAhead<1> coil_noise_;
+    BeamPhotodiodes photodiodes_;
     CounterLimit counter_limit_;
     Warming warming_;
     FaultPlan faults_;

@@ -142,7 +142,7 @@ void LaserGyro::see_fringe(TwinHalf& half) {
     const Signals z = beats_.signals();
     fringe_photodiodes_.sample(housing_.index(),
                                {.turns = core::maths::atan2(z.s, z.c) / (2.0 * std::numbers::pi),
-                                .amplitude = core::maths::hypot(z.s, z.c),
+                                .amplitude = housing_.power() * core::maths::hypot(z.s, z.c),
                                 .quarter = beats_.beats().latch_quarters(),
                                 .plateau_hz = housing_.bias_sign() * followed_ * reference_.plateau_hz,
                                 .rotation_hz = half.truth.dtheta_arcsec / fringe_arcsec_ / housing_.half_s()},

@@ -204,12 +204,12 @@ void report_frame(const SensorFrame& frame, const Observation& o, HealthWord& wo
     word.set(health_temperature_not_finite, o.fresh && !is_finite(frame.temperature_c));
 }
 
-void report_light(const Observation& o, HealthWord& word) noexcept {
+void report_light(const GyroControlState& s, const Observation& o, HealthWord& word) noexcept {
     word.set(health_light_lost, o.fresh && o.light.readable && !o.light.two_way);
     word.set(health_light_unusable, o.fresh && !o.light.readable);
     word.set(health_light_stuck, o.monitored.stuck);
     word.set(health_light_noisy, o.monitored.noisy || o.monitored.withheld);
-    word.set(health_light_unbalanced, o.monitored.unbalanced);
+    word.set(health_light_unbalanced, o.monitored.unbalanced || s.light_balance.changes);
     word.set(health_light_contradicted, o.monitored.contradicted);
     word.set(health_detuning_unsteady, o.unsteady);
 }
@@ -269,7 +269,9 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     learn_stroke(config, state, seen, was_closed, sequenced);
     const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
 
-    GyroControlOutput out{.record = recorded(state, seen), .has_event = sequenced.event.has_value()};
+    GyroControlOutput out{.record = recorded(state, seen),
+                          .switch_waits = state.schedule.waiting,
+                          .has_event = sequenced.event.has_value()};
     if (sequenced.event) out.event = *sequenced.event;
     command(sequenced.loop_closed, sequenced.polarity, regulated, out.actuator);
     out.actuator.edge_offset_ticks =
@@ -278,7 +280,7 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
 
     HealthWord word;
     report_frame(frame, seen, word);
-    report_light(seen, word);
+    report_light(state, seen, word);
     report_counts(state, seen, word);
     if (config.fringe.reads) report_fringe(seen, word);
     report_phase(state, phase, word);

@@ -82,12 +82,20 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
     const std::size_t n = frame.n_light <= max_light_samples ? frame.n_light : 0;
     const std::span light_a = std::span{frame.light_a}.first(n);
     const std::span light_b = frame.has_light_b ? std::span{frame.light_b}.first(n) : std::span<const float>{};
+    const BeamWeight weight_b = weight_of(s.light_balance);
     const int sign = o.commuted.sign * o.polarity;
     const bool beats = o.bias.judged && o.bias.in_band;
-    o.light = step(c.detector, s.detector, {light_a, light_b, sign, o.settled && !s.light_spoilt, beats});
+    o.light = step(c.detector, s.detector, {light_a, light_b, sign, weight_b, o.settled && !s.light_spoilt, beats});
+    BalancedHalf half{.is_first = s.half % 2 == 0,
+                      .is_read = o.loop_closed && o.follows && o.light.usable && !light_b.empty() &&
+                                 !o.commuted.sign_error && !o.polarity_error,
+                      .signal = o.light.signal,
+                      .light = o.light.light};
+    const double per_lambda = c.detector.discriminator_per_lambda;
     o.monitored = step(c.light_monitor, s.light_monitor,
                        {.light_a = light_a,
                         .light_b = light_b,
+                        .weight_b = weight_b,
                         .sign = sign,
                         .closed = o.loop_closed,
                         .settled = o.settled,
@@ -96,11 +104,15 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
                         .two_way = o.light.two_way,
                         .dark = o.light.dark,
                         .light = o.light.light,
-                        .signal_per_lambda = c.detector.discriminator_per_lambda,
+                        .signal_per_lambda = per_lambda,
                         .curve = &c.detector.curve,
+                        .unknown_lambda2 = o.settled ? 0.0 : unknown_jump_lambda2(s.light_balance, half, per_lambda),
                         .usable = o.light.usable && !o.commuted.sign_error && !o.polarity_error,
                         .detuning = o.light.detuning,
                         .mean_sq_lambda2 = o.light.mean_sq_lambda2});
+    half.is_read = half.is_read && !o.monitored.stuck && !o.monitored.noisy;
+    if (o.monitored.has_jump && half.is_read) learn_offset(s.light_balance, half, s.light_monitor.jump, per_lambda);
+    follow(c.light_balance, s.light_balance, half);
     o.detuning_usable = o.monitored.usable;
     o.lit = o.light.two_way || o.monitored.contradicted;
     s.light_spoilt = o.monitored.stuck || o.monitored.noisy || o.monitored.unbalanced || o.monitored.contradicted;

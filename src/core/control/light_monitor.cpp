@@ -90,7 +90,7 @@ void balance(const LightMonitorConfig& c, LightMonitorState& s, const LightMonit
     if (s.has_last) weigh_beams(c, s, in);
     // In a settled gyro light returns unevenly: at first one beam is brighter than the other.
     out.returns = s.was_dark && in.settled;
-    out.unbalanced = s.is_unbalanced || out.returns;
+    out.unbalanced = s.is_unbalanced || out.returns || out.jumps;
     s.was_dark = false;
     if (out.unbalanced) {
         out.detuning = Wavelengths{0.5 * (in.detuning.value() + s.last_lambda)};
@@ -115,12 +115,13 @@ double noise_lambda2(const LightMonitorInput& in) noexcept {
     const float* const beam_a = in.light_a.data();
     const float* const beam_b = both ? in.light_b.data() : beam_a;
     // On the way to a lock the light changes by much from sample to sample, but evenly: second differences remove that.
-    const auto second_difference = [beam_a, beam_b, both](std::size_t k) {
+    const double weight = in.weight_b.weight;
+    const auto second_difference = [beam_a, beam_b, both, weight](std::size_t k) {
         const auto rise = [](const float* x) { return static_cast<double>(x[1]) - static_cast<double>(x[0]); };
         const double a = rise(beam_a + k);
         const double next_a = rise(beam_a + k + 1);
         if (!both) return 2.0 * next_a - 2.0 * a;
-        return (next_a - rise(beam_b + k + 1)) - (a - rise(beam_b + k));
+        return (next_a - a) - weight * (rise(beam_b + k + 1) - rise(beam_b + k));
     };
     const double first = second_difference(0);
     const double middle = second_difference(n / 2 - 1);
@@ -138,7 +139,7 @@ constexpr std::size_t min_motion_samples = 5;
 CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
     const double a = static_cast<double>(in.light_a[k]);
     const bool both = !in.light_b.empty();
-    const double b = both ? static_cast<double>(in.light_b[k]) : in.light;
+    const double b = both ? in.weight_b.of(static_cast<double>(in.light_b[k])) : in.light;
     const double signal = (a - b) / (both ? a + b : b);
     const double apparent_lambda = in.sign * signal / in.signal_per_lambda;
     return in.curve == nullptr ? CurvePoint{.detuning_lambda = apparent_lambda}
@@ -226,8 +227,10 @@ double bend_lambda(std::size_t n_samples, double change_lambda, double change_be
 // The detuning does not jump where the bias is reversed, but the error by a faded beam changes its sign there. Far from a
 // lock the mean square holds twice that error times the detuning, so that even a small error must be found.
 //
-// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma.
-bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in) noexcept {
+// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma, and what an offset of the
+//         photodiodes that is not known yet may make of it.
+bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in,
+           LightMonitorOutput& out) noexcept {
     const bool seen = in.closed && in.light_a.size() >= line_samples && !in.light_b.empty();
     const bool follows = seen && s.has_end;
     const double before_lambda = s.end_lambda;
@@ -242,7 +245,7 @@ bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitor
     if (!follows) return false;
     constexpr double lines_sq = 1.01;  // variance of the difference of two ends over that of a sample
     const double allowed = bend_lambda(in.light_a.size(), change_lambda, change_before_lambda);
-    const double noise_sq = lines_sq * ends.slope_sq * c.noise.value() * c.noise.value();
+    const double noise_sq = ends.slope_sq * lines_sq * square(c.noise.value());
     const double jump = in.sign * (ends.first_lambda - before_lambda);
     constexpr double weight = 0.4;  // a quarter of the variance
     s.jump_lambda += weight * (jump - s.jump_lambda);
@@ -250,7 +253,11 @@ bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitor
         const double over = (x < 0.0 ? -x : x) - allowed;
         return over > 0.0 && over * over > jump_deviations * jump_deviations * variance;
     };
-    return exceeds(jump, noise_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq);
+    s.jump = {jump, noise_sq + square(allowed), ends.slope_sq};
+    out.has_jump = true;
+    out.jumps = exceeds(jump, noise_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq);
+    const double unknown_sq = ends.slope_sq * in.unknown_lambda2;
+    return exceeds(jump, noise_sq + unknown_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq + unknown_sq);
 }
 
 // Less light at the end of this half than at the start of the half before means that a beam has faded: on the way to a
@@ -262,7 +269,7 @@ bool fades(const LightMonitorConfig& c, const LightMonitorInput& in, double befo
     if (!(before > 0.0) || n < line_samples || in.light_b.empty()) return false;
     double sum = 0.0;
     for (std::size_t k = n - line_samples; k < n; ++k) {
-        sum += static_cast<double>(in.light_a[k]) + static_cast<double>(in.light_b[k]);
+        sum += static_cast<double>(in.light_a[k]) + in.weight_b.of(static_cast<double>(in.light_b[k]));
     }
     constexpr double n_samples = static_cast<double>(line_samples);
     const double lost_ratio = 1.0 - sum / (n_samples * before);
@@ -298,7 +305,8 @@ LightMonitorOutput step(const LightMonitorConfig& config, LightMonitorState& sta
                            .detuning = input.detuning,
                            .mean_sq_lambda2 = input.mean_sq_lambda2};
     const bool watches = config.noise >= min_noise;
-    const double before = state.has_end ? static_cast<double>(state.last_a) + static_cast<double>(state.last_b) : 0.0;
+    const double before =
+        state.has_end ? static_cast<double>(state.last_a) + input.weight_b.of(static_cast<double>(state.last_b)) : 0.0;
     out.contradicted =
         debounced(state.n_contradicted, input.beats && !input.two_way && !input.dark, contradicted_debounce);
     if (watches && !input.light_a.empty())
@@ -307,7 +315,7 @@ LightMonitorOutput step(const LightMonitorConfig& config, LightMonitorState& sta
     // Only on the way to a lock: a settled gyro has cheaper tests.
     const bool is_whole = watches && input.usable && !out.withheld && !input.settled;
     if (!is_whole) state.has_end = false;
-    if (is_whole && (jumps(config, state, input) || (input.closed && fades(config, input, before))))
+    if (is_whole && (jumps(config, state, input, out) || (input.closed && fades(config, input, before))))
         state.is_unbalanced = true;
     // After a contradiction the beams must first be seen to be balanced.
     if (out.contradicted) state.is_unbalanced = true;

@@ -111,21 +111,21 @@ BothBeams survey(const SyncDetectorInput& in) noexcept {
     const float* const a = in.light_a.data();
     const float* const b = in.light_b.data();
     const std::size_t n = in.light_a.size();
-    Pair weakest = Pair{static_cast<double>(a[0]), static_cast<double>(b[0])};
+    Pair weakest = Pair{static_cast<double>(a[0]), in.weight_b.of(static_cast<double>(b[0]))};
     Pair light{};
     BothBeams both;
     std::size_t k = 0;
 #pragma GCC unroll 4
     for (; k + 1 < n; k += 2) {
         const Pair x = load(a + k);
-        const Pair y = load(b + k);
+        const Pair y = in.weight_b.of(load(b + k));
         weakest = lesser(weakest, lesser(x, y));
         const Pair sum = x + y;
         light += sum;
         both.signal.add((x - y) / sum);
     }
     if (k < n) {
-        const Pair last{static_cast<double>(a[k]), static_cast<double>(b[k])};
+        const Pair last{static_cast<double>(a[k]), in.weight_b.of(static_cast<double>(b[k]))};
         weakest = lesser(weakest, last);
         const double sum = last[0] + last[1];
         light += Pair{sum, 0.0};
@@ -140,7 +140,7 @@ BothBeams survey(const SyncDetectorInput& in) noexcept {
 Moments both_through_curve(const SyncDetectorConfig& c, const SyncDetectorInput& in) noexcept {
     return through_curve(c, in, [&in](std::size_t k) {
         const double a = static_cast<double>(in.light_a[k]);
-        const double b = static_cast<double>(in.light_b[k]);
+        const double b = in.weight_b.of(static_cast<double>(in.light_b[k]));
         return (a - b) / (a + b);
     });
 }
@@ -159,6 +159,7 @@ void detect_both(const SyncDetectorConfig& c, SyncDetectorState& s, const SyncDe
     if (balanced) observe(c, s.both, out.light, in.settled && out.two_way, 2.0 * c.level_ticks);
     learn_faint(s.both, out.light, in.beats && balanced && !out.two_way);
     if (!out.two_way) return;
+    out.signal = both.signal.sum() / static_cast<double>(in.light_a.size());
     if (c.curve.n_nodes == 0) {
         deliver(both.signal, signed_slope(c, in), in.light_a.size(), out);
     } else {

@@ -44,12 +44,12 @@ double apparent(const DiscriminatorCurve& curve, double detuning_lambda) noexcep
     return 0.5 * (low + high);
 }
 
-// The light of beam A at zero detuning.
-double level_of_a(const CompensationConstants& gyro, const RelockProfileConfig& c, const HalfRecord& half, int sign,
-                  double mean_a) noexcept {
+// The mean light signal of a half, by its recorded detuning: that of both beams as the control has balanced them.
+double recorded_signal(const CompensationConstants& gyro, const RelockProfileConfig& c,
+                       const HalfRecord& half) noexcept {
     const bool is_apparent = gyro.record_curve.n_nodes > 0;
     const double x = is_apparent ? half.detuning_lambda : apparent(c.curve, half.detuning_lambda);
-    return mean_a / (1.0 + sign * c.discriminator_per_lambda * x);
+    return half.bias_sign * half.mode * c.discriminator_per_lambda * x;
 }
 
 }  // namespace
@@ -61,17 +61,20 @@ void read_samples(const CompensationConstants& gyro, const RelockProfileConfig& 
     const bool has_b = !light.b.empty();
     if (n < min_samples || n > static_cast<std::size_t>(max_light_samples) || (has_b && light.b.size() != n)) return;
     const bool may_stand_still = !(size(light_noise_lambda(gyro) * c.discriminator_per_lambda) > min_noise_ratio);
-    const int sign = half.bias_sign * half.mode;
     const double mean_a = good_mean(light.a, may_stand_still);
-    const double level = has_b ? good_mean(light.b, may_stand_still) : level_of_a(gyro, c, half, sign, mean_a);
-    if (!(level > 0.0 && is_finite(mean_a + level))) return;
+    const double mean_b = has_b ? good_mean(light.b, may_stand_still) : 1.0;
+    if (!(mean_a > 0.0 && mean_b > 0.0 && is_finite(mean_a + mean_b))) return;
+    const double seen = recorded_signal(gyro, c, half);
+    // Of beam A alone the level; of both beams, which photodiodes show unequally, the weight of B.
+    const double level = has_b ? mean_a / mean_b * (1.0 - seen) / (1.0 + seen) : mean_a / (1.0 + seen);
+    if (!(level > 0.0)) return;
+    const double per_lambda = half.bias_sign * half.mode * c.discriminator_per_lambda;
     bool possible = true;
     bool on_curve = false;
     for (std::size_t k = 0; k < n; ++k) {
         const double a = static_cast<double>(light.a[k]);
-        const double b = has_b ? static_cast<double>(light.b[k]) : 0.0;
-        const double signal = has_b ? (a - b) / (a + b) : a / level - 1.0;
-        const double x = sign / c.discriminator_per_lambda * signal;
+        const double b = has_b ? level * static_cast<double>(light.b[k]) : 0.0;
+        const double x = (has_b ? (a - b) / (a + b) : a / level - 1.0) / per_lambda;
         const CurvePoint at = true_detuning(c.curve, x);
         possible &= is_within(x, -max_detuning_lambda, max_detuning_lambda);
         on_curve |= at.slope > 0.0;

@@ -24,8 +24,10 @@ struct DetuningSamples {
     std::array<double, max_light_samples> lambda;  // the first n
 };
 
-//   both beams   dl = sign F((A - B)/(A + B)/K)
-//   beam A       dl = sign F((A/level - 1)/K),  level = mean(A)/(1 + sign K x),  x: apparent, of the recorded mean
+//   both beams   dl = sign F((A - w B)/(A + w B)/K),  w = mean(A)/mean(B) (1 - sign K x)/(1 + sign K x)
+//   beam A       dl = sign F((A/level - 1)/K),        level = mean(A)/(1 + sign K x)
+//
+// with the recorded mean x of the half, apparent: what the control has balanced the photodiodes by is in it.
 //
 // Damage, and light of another mode: a sample that is not finite or not positive, a beam whose samples are all the same
 // although there is noise, detunings beyond the curve or beyond any perimeter.

@@ -29,6 +29,7 @@ using twin::Readout;
 using Schedule = core::ScheduleKind;
 using Drift = twin::DriftConfig;
 using Laser = twin::LaserConfig;
+using Light = twin::LightConfig;
 using Photodiodes = twin::PhotodiodesConfig;
 
 enum class LastSegment { any, half };
@@ -121,6 +122,7 @@ struct Config {
     Drift drift;
     Perimeter perimeter;
     Piezo piezo;
+    Light light;
     Photodiodes photodiodes;
     Switching switching;
     Compensation compensation;

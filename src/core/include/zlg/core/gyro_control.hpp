@@ -11,10 +11,11 @@
 namespace zlg::core {
 
 struct GyroControlOutput {
-    ActuatorFrame actuator{};  // in force from the start of the next half
-    HalfRecord record{};       // of the half just latched; every number finite but a fringe that is not known
-    std::uint32_t health = 0;  // of the half just latched, a sum of HealthBit
-    bool has_event = false;    // a switch, a return or a search ended in a lock
+    ActuatorFrame actuator{};   // in force from the start of the next half
+    HalfRecord record{};        // of the half just latched; every number finite but a fringe that is not known
+    std::uint32_t health = 0;   // of the half just latched, a sum of HealthBit
+    bool switch_waits = false;  // one is due, and the gyro is not ready for it
+    bool has_event = false;     // a switch, a return or a search ended in a lock
     SwitchEvent event{};
 };
 

@@ -16,7 +16,7 @@ namespace zlg::sweep {
 enum class Status : std::int64_t {
     good,
     refused,     // the drawn values make no gyro, or one beyond the range of its counter
-    lost,        // every switch that was tried has failed
+    lost,        // every switch that was due has failed, or more than one in ten, of which some were withheld
     no_switch,   // a metric of the switches, and none of them was completed and repaired
     not_finite,  // a metric is no finite number
 };

@@ -42,6 +42,17 @@ struct GyroConfig {
     Readout readout = Readout::counts;
 };
 
+// [light]: the photodiodes of the two beams, and the power that they see. In units of the mean light of beam A at t = 0:
+//
+//   A' = A p + offset_a,  B' = B p gain_b (1 + gain_drift t) + offset_b,  p = exp(-power_decay t)
+struct LightConfig {
+    double gain_b = 1.0;            // of the photodiode of beam B over that of A, at t = 0
+    double gain_drift_per_h = 0.0;  // of that, relative
+    double offset_a = 0.0;
+    double offset_b = 0.0;
+    double power_decay_per_h = 0.0;
+};
+
 // Of the converter of the photodiodes of the beat, over the beat's amplitude at the centre; both signs.
 inline constexpr double photodiode_range = 2.0;
 

@@ -22,6 +22,7 @@ struct TwinConfig {
     DriftConfig drift{};
     PerimeterConfig perimeter{};
     PiezoConfig piezo{};
+    LightConfig light{};
     PhotodiodesConfig photodiodes{};
 
     // Of fidelity laser alone, which in turn takes its bias, chi and discriminator from the gas and its random walk from lock-in:

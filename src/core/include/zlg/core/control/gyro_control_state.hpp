@@ -12,6 +12,7 @@
 #include <zlg/core/control/frame_order.hpp>
 #include <zlg/core/control/fringe_readout.hpp>
 #include <zlg/core/control/half_wave.hpp>
+#include <zlg/core/control/light_balance.hpp>
 #include <zlg/core/control/light_monitor.hpp>
 #include <zlg/core/control/mode_switch.hpp>
 #include <zlg/core/control/perimeter_loop.hpp>
@@ -37,6 +38,7 @@ struct GyroControlConfig {
     BiasMonitorConfig bias_monitor{};
     CoilMonitorConfig coil_monitor{};
     CounterMonitorConfig counter_monitor{};
+    LightBalanceConfig light_balance{};
     LightMonitorConfig light_monitor{};
     DetuningMonitorConfig detuning_monitor{};
     FringeReadoutConfig fringe{};
@@ -71,7 +73,8 @@ enum class GyroControlFault : unsigned char {
     if (check(c.commutator) != BiasCommutatorFault::none) return GyroControlFault::commutator;
     if (check(c.health) != HealthFault::none) return GyroControlFault::health;
     if (check(c.bias_monitor) != BiasMonitorFault::none || check(c.coil_monitor) != CoilMonitorFault::none ||
-        check(c.light_monitor) != LightMonitorFault::none || check(c.detuning_monitor) != DetuningMonitorFault::none) {
+        check(c.light_balance) != LightBalanceFault::none || check(c.light_monitor) != LightMonitorFault::none ||
+        check(c.detuning_monitor) != DetuningMonitorFault::none) {
         return GyroControlFault::monitors;
     }
     if (!(temperature_c > -1e6 && temperature_c < 1e6)) return GyroControlFault::temperature;
@@ -109,6 +112,7 @@ struct GyroControlState {
     CoilMonitorState coil_monitor{};
     CounterMonitorState counter_monitor{};
     ReadingMonitorState reading_monitor{};
+    LightBalanceState light_balance{};
     LightMonitorState light_monitor{};
     DetuningMonitorState detuning_monitor{};
     FringeReadoutState fringe{};

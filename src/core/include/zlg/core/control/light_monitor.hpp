@@ -25,6 +25,7 @@
 #include <span>
 
 #include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/control/sync_detector.hpp>
 #include <zlg/core/units.hpp>
 
 namespace zlg::core {
@@ -47,6 +48,15 @@ enum class LightMonitorFault : unsigned char { none, noise, bias_chi, max_gain }
     return LightMonitorFault::none;
 }
 
+// Of the detuning where the bias is reversed, on the way to a lock.
+struct DetuningJump {
+    double lambda = 0.0;            // times the sign of the bias behind it
+    double variance_lambda2 = 0.0;  // by the noise of the light, and by the bend of the way
+    double slope_sq = 1.0;          // of the curve
+
+    friend constexpr bool operator==(const DetuningJump&, const DetuningJump&) = default;
+};
+
 struct LightMonitorState {
     float last_a = 0.0f;  // first sample of the half before
     float last_b = 0.0f;
@@ -64,6 +74,7 @@ struct LightMonitorState {
     bool has_end = false;        // the half before was closed and good
     float change_lambda = 0.0f;  // size of the detuning's change in it
     double jump_lambda = 0.0;    // from half to half where the bias is reversed, smoothed
+    DetuningJump jump{};         // the last one
 
     friend constexpr bool operator==(const LightMonitorState&, const LightMonitorState&) = default;
 };
@@ -71,6 +82,7 @@ struct LightMonitorState {
 struct LightMonitorInput {
     std::span<const float> light_a{};  // as they were given to the detector
     std::span<const float> light_b{};
+    BeamWeight weight_b{};
     int sign = 1;                               // bias_sign * polarity in force during the half: +1 or -1
     bool closed = false;                        // the loop; the light is that of one mode
     bool settled = false;                       // and locked
@@ -81,12 +93,16 @@ struct LightMonitorInput {
     double light = 0.0;                         // by the detector: sum of both beams, or the one; mean over the half
     double signal_per_lambda = 0.332;           // of the detector, at the centre,
     const DiscriminatorCurve* curve = nullptr;  // and away from it; none: linear
+    double unknown_lambda2 =
+        0.0;  // variance of a jump of the detuning, by what is not known of the photodiodes; at the centre
     bool usable = false;
     Wavelengths detuning{};
     double mean_sq_lambda2 = 0.0;
 };
 
 struct LightMonitorOutput {
+    bool has_jump = false;      // from the half before to this one, and
+    bool jumps = false;         // it, or its smoothed value, exceeds 8 sigma
     bool stuck = false;         // all samples of a beam are the same, also of the half before
     bool noisy = false;         // six times the noise of a sample
     bool unbalanced = false;    // one beam has faded against the other

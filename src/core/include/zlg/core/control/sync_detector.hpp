@@ -52,18 +52,31 @@ struct SyncDetectorState {
     friend constexpr bool operator==(const SyncDetectorState&, const SyncDetectorState&) = default;
 };
 
+// Beam B as it is compared with beam A: w (B - o) of light_balance.hpp.
+struct BeamWeight {
+    double weight = 1.0;
+    double beyond = 0.0;  // w o
+
+    template <class Number>
+    [[nodiscard]] constexpr Number of(Number beam_b) const noexcept {
+        return weight * beam_b - beyond;
+    }
+};
+
 struct SyncDetectorInput {
     std::span<const float> light_a{};  // 1..64 samples of the half
     std::span<const float> light_b{};  // as many, or none: one beam only
     int sign = 1;                      // bias_sign * polarity in force during the half: +1 or -1
-    bool settled = false;              // loop closed and settled: the level may follow the light
-    bool beats = false;                // the counts show the bias: there is light in both directions
+    BeamWeight weight_b{};
+    bool settled = false;  // loop closed and settled: the level may follow the light
+    bool beats = false;    // the counts show the bias: there is light in both directions
 };
 
 struct SyncDetectorOutput {
     Wavelengths detuning{};        // mean over the half; 0 unless usable
     double mean_sq_lambda2 = 0.0;  // mean of the squared samples; 0 unless usable
     double light = 0.0;            // mean over the half: the sum of both beams, or the one; 0 unless readable
+    double signal = 0.0;           // mean of (A - B)/(A + B); 0 unless usable, or with one beam
     bool readable = false;         // there are samples, and all are finite
     bool two_way = false;          // light in both directions throughout the half
     bool dark = false;             // a sample of a beam is below a tenth of its share of the level

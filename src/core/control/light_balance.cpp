@@ -1,0 +1,96 @@
+#include <zlg/core/control/light_balance.hpp>
+
+#include <zlg/core/common/maths.hpp>
+
+#include "common/bounds.hpp"
+
+namespace zlg::core {
+namespace {
+
+// Ticks of the mean of w, and those after which it is compared with the slower one: 2 s of 5 ms, a hundredth of the noise of a half.
+constexpr double memory_ticks = 400.0;
+
+constexpr double max_change = 0.0133;
+
+// A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
+constexpr double max_weight = 100.0;
+
+// Change of S over a tick up to which the detuning stands: what it falls by from half to half is then nothing in a mean.
+constexpr double max_fall = 0.01;
+
+// h from which on the kinks of a digital loop, of .002 wavelength, are not taken for an offset. Of light that hardly falls
+// with the detuning an offset does less.
+constexpr double min_change = 0.1;
+
+// An offset of photodiodes whose dark light nobody has subtracted, before a jump was seen.
+constexpr double presumed_offset = 0.03;
+
+// What an offset may change by from one re-lock to the next, as a variance.
+constexpr double offset_wander = 1e-10;
+
+// Jumps that are together so many times their deviation say that the offset was presumed to be known too well: of fifty jumps,
+// ten re-locks, an offset of .004.
+constexpr double surprise_sq = 16.0;
+constexpr double forgotten = 0.02;
+
+// Of the sum of (2), for F' = 1.
+double form_of(double level, double signal, double light) noexcept {
+    return 0.5 * (1.0 + signal) * (level / light - 1.0 + signal);
+}
+
+double jump_per_offset(const LightBalanceState& s, const BalancedHalf& half, double signal_per_lambda) noexcept {
+    if (!(s.has_last && s.level > 0.0 && s.last_light > 0.0 && half.light > 0.0)) return 0.0;
+    return (form_of(s.level, s.last_signal, s.last_light) + form_of(s.level, half.signal, half.light)) /
+           signal_per_lambda;
+}
+
+void learn_weight(const LightBalanceConfig& config, LightBalanceState& s, const BalancedHalf& half) noexcept {
+    if (s.n_ticks < config.slow_ticks) s.n_ticks += 1.0;
+    const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
+    const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5) / n;
+    const double weight = s.weight * (1.0 + odd) / (1.0 - odd);
+    if (weight < max_weight && weight > 1.0 / max_weight) s.weight = weight;
+    s.level += (half.light - s.level) / n;
+    s.slow_weight += (s.weight - s.slow_weight) / s.n_ticks;
+    s.changes = s.n_ticks >= memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
+}
+
+}  // namespace
+
+double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& half,
+                            double signal_per_lambda) noexcept {
+    const double unseen = 1.0 / (state.weights + 1.0 / square(presumed_offset));
+    return unseen * square(jump_per_offset(state, half, signal_per_lambda));
+}
+
+void learn_offset(LightBalanceState& state, const BalancedHalf& half, const DetuningJump& jump,
+                  double signal_per_lambda) noexcept {
+    const double h = square_root(jump.slope_sq) * jump_per_offset(state, half, signal_per_lambda);
+    if (!(size(h) > min_change)) return;
+    const double weight = h / jump.variance_lambda2;
+    state.jumps = (1.0 - forgotten) * state.jumps + weight * jump.lambda;
+    state.weights = (1.0 - forgotten) * state.weights + weight * h;
+    if (square(state.jumps) > surprise_sq * state.weights * (1.0 + state.variance * state.weights)) {
+        state.variance = square(state.jumps / state.weights);
+        state.jumps = state.weights = 0.0;
+    }
+    const double gain = state.variance * h / (square(h) * state.variance + jump.variance_lambda2);
+    const double half_level = 0.5 * state.level / state.weight;  // of B
+    const double more = limited(-gain * jump.lambda, 0.2) * half_level;
+    if (!is_finite(more)) return;
+    state.variance += offset_wander - gain * h * state.variance;
+    state.offset += more;
+    // The beams stay equal at the centre.
+    state.weight *= half_level / (half_level - more);
+}
+
+void follow(const LightBalanceConfig& config, LightBalanceState& state, const BalancedHalf& half) noexcept {
+    const bool stands = size(half.signal - state.former_signal) < max_fall;
+    if (!half.is_first && half.is_read && state.has_last && stands) learn_weight(config, state, half);
+    state.former_signal = half.is_read ? state.last_signal : 1.0;
+    state.has_last = half.is_read;
+    state.last_signal = half.signal;
+    state.last_light = half.light;
+}
+
+}  // namespace zlg::core

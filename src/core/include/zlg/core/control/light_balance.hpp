@@ -1,0 +1,76 @@
+#pragma once
+// Balance of the two photodiodes: the constant inequality of the beams is learnt and taken off before anything is judged.
+//
+// The light signal S = (A - B)/(A + B) is the detuning, whose sign turns with the bias, and what the photodiodes are unequal
+// by, which does not turn. With w (B - o) in place of B, for the two halves of a tick and the means a and b of the beams,
+//
+//   (S_1 + S_2)/2 = (a - w (b - o))/(a + w (b - o))                                                (1)
+//
+// and w is led to where this is 0, as a mean over some 400 ticks, by those in which the detuning stands.
+//
+// An offset is a part of the light that does not fall with it: far from the centre, where the light P = A + w (B - o) is less
+// than its level P_0, it is seen as a jump of the detuning where the bias is reversed. An offset of w P_0/2 makes the jump
+//
+//   h = F'/K sum of (1 + S)/2 (P_0/P - 1 + S)     over both halves beside the reversal             (2)
+//
+// by which o, of which only the difference of both beams matters, is learnt in every re-lock: Kalman's filter of one state.
+//
+// A slower mean of w follows it. A weight that has left it by more than 1.33 % has drifted by that within `slow_ticks`, by
+// .2 an hour where these are 4 minutes: a fault of a photodiode or of a beam, although the detuning is still read.
+
+#include <zlg/core/control/light_monitor.hpp>
+
+namespace zlg::core {
+
+struct LightBalanceConfig {
+    double slow_ticks = 48000.0;  // of the slower mean, 1..2^30
+};
+
+enum class LightBalanceFault : unsigned char { none, slow_ticks };
+
+[[nodiscard]] constexpr LightBalanceFault check(const LightBalanceConfig& c) noexcept {
+    const bool good = c.slow_ticks >= 1.0 && c.slow_ticks <= 1 << 30;
+    return good ? LightBalanceFault::none : LightBalanceFault::slow_ticks;
+}
+
+struct LightBalanceState {
+    double weight = 1.0;                // of beam B
+    double slow_weight = 1.0;           // its mean
+    double level = 0.0;                 // P_0
+    double offset = 0.0;                // of beam B, in the unit of the samples
+    double variance = 1e-7;             // of that, in units of w P_0/2
+    double jumps = 0.0, weights = 0.0;  // sums of h J/r and h^2/r, J: recent jumps, r: their variances
+    double n_ticks = 0.0;               // that were learnt from, up to `slow_ticks`
+    bool changes = false;               // the balance has changed
+    bool has_last = false;              // the half before was read:
+    double last_signal = 0.0;           // its S
+    double last_light = 0.0;            // and P
+    double former_signal = 1.0;         // S of the one before
+
+    friend constexpr bool operator==(const LightBalanceState&, const LightBalanceState&) = default;
+};
+
+[[nodiscard]] constexpr BeamWeight weight_of(const LightBalanceState& state) noexcept {
+    return {state.weight, state.weight * state.offset};
+}
+
+// One half of balanced light, its means.
+struct BalancedHalf {
+    bool is_first = false;  // of its tick
+    bool is_read = false;   // it was closed, lit both ways, and followed the half before
+    double signal = 0.0;    // S
+    double light = 0.0;     // P
+};
+
+// Variance of the jump of the detuning from the half before to this one, by what is not known of the offset; for F' = 1.
+[[nodiscard]] double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& half,
+                                          double signal_per_lambda) noexcept;
+
+// Learn the offset from the jump to this half, before `follow`.
+void learn_offset(LightBalanceState& state, const BalancedHalf& half, const DetuningJump& jump,
+                  double signal_per_lambda) noexcept;
+
+// Advance by one half-period.
+void follow(const LightBalanceConfig& config, LightBalanceState& state, const BalancedHalf& half) noexcept;
+
+}  // namespace zlg::core
