@@ -49,11 +49,11 @@ void half_wave_from(Bytes& bytes, HalfWaveConfig& c) {
 }
 
 void monitors_on(GyroControlConfig& c) {
-    c.bias_monitor.presumed_counts = 150.0;
-    c.coil_monitor.tolerance_ratio = 0.003;
-    c.counter_monitor.watches = true;
-    c.light_monitor = {.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
-    c.detuning_monitor.max_change_lambda2 = 0.002;
+    c.limits.bias_counts = 150.0;
+    c.limits.coil_ratio = 0.003;
+    c.limits.light_noise = Wavelengths{0.0033};
+    c.limits.bias_chi = 3.6;
+    c.limits.detuning_change_lambda2 = 0.002;
 }
 
 GyroControlConfig config_from(Bytes& bytes) {
@@ -71,7 +71,7 @@ GyroControlConfig config_from(Bytes& bytes) {
     c.commutator.dither.method = static_cast<DitherMethod>(bytes.index(4));
     if (bytes.flag()) monitors_on(c);
     if (bytes.flag()) return c;
-    c.loop.range = c.mode_switch.range = c.stroke.range = range_from(bytes);
+    c.loop.range = c.mode_switch.range = c.half_wave.range = range_from(bytes);
     c.mode_switch.start_set_point = Volts{bytes.real(150.0)};
     c.mode_switch.lock_tolerance = Wavelengths{bytes.real(0.02)};
     loop_from(bytes, c.loop);

@@ -21,4 +21,10 @@ constexpr void count_up(std::int32_t& n) noexcept {
     if (n < INT32_MAX) ++n;
 }
 
+// True once the condition has held in `enough` calls in a row.
+[[nodiscard]] constexpr bool debounced(std::int32_t& n, bool so, std::int32_t enough) noexcept {
+    n = so ? n + (n < enough) : 0;
+    return n >= enough;
+}
+
 }  // namespace zlg::core

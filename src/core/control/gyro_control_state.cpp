@@ -5,9 +5,8 @@ namespace zlg::core {
 GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t counter) noexcept {
     GyroControlState s;
     s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
-    s.half_wave = initial_state(config.half_wave);
-    s.stroke = initial_state(config.stroke, config.mode_switch.start_set_point);
-    s.up.move_v = config.stroke.half_wave.value();
+    s.half_wave = initial_state(config.half_wave, config.mode_switch.start_set_point);
+    s.up.move_v = config.half_wave.half_wave.value();
     s.down.move_v = -s.up.move_v;
     s.schedule = initial_state(config.schedule);
     s.mode_switch = initial_state(config.mode_switch);

@@ -157,41 +157,48 @@ SwitchEvent completed(const ModeSwitchState& s) noexcept {
                   .miss_lambda = s.miss_lambda,
                   .out_of_range = s.out_of_range};
     e.has_half_wave = e.outcome == SwitchOutcome::switched && s.good_measured && fresh(s.readings);
-    if (!e.has_half_wave) return e;
-    const double step_v = mean_v(s.readings) - s.good_v;
-    e.half_wave_v = step_v < 0.0 ? -step_v : step_v;
-    e.direction = step_v < 0.0 ? -1 : 1;
+    if (e.has_half_wave) e.half_wave_v = size(mean_v(s.readings) - s.good_v);
     return e;
 }
 
-void settle(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in, ModeSwitchOutput& out) noexcept {
+std::optional<SwitchEvent> settle(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
     if (s.n_locked >= 2 * c.settle_ticks) {
-        if (s.switching) out.event = completed(s);
+        std::optional<SwitchEvent> event;
+        if (s.switching) event = completed(s);
         s.switching = false;
         s.phase = SwitchPhase::tracking;
-        return;
+        return event;
     }
     const bool failed = s.n_halves >= 2 * c.lock_timeout_ticks || s.n_dark >= 2 * c.dark_ticks;
-    if (!failed || !in.tick_border) return;
+    if (!failed || !in.tick_border) return {};
     if (s.phase == SwitchPhase::settling) {
         begin_return(c, s, in);
-        return;
+    } else {
+        if (s.phase == SwitchPhase::returning) s.place = 0;
+        try_place(c, s, in);
     }
-    if (s.phase == SwitchPhase::returning) s.place = 0;
-    try_place(c, s, in);
+    return {};
 }
 
 void track(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchInput& in) noexcept {
-    if (!in.tick_border) return;
-    if (in.due || in.recentre) {
+    if (in.tick_border && (in.due || in.recentre)) {
         begin_switch(c, s, in);
-    } else if (s.n_lost >= 2 * c.lock_timeout_ticks) {
+    } else if (in.tick_border && s.n_lost >= 2 * c.lock_timeout_ticks) {
         remember_good(c, s, in);
         begin_return(c, s, in);
     }
 }
 
 }  // namespace
+
+SwitchDirection choose_direction(const PiezoRange& range, Volts now, Volts half_wave) noexcept {
+    const Volts room_up = range.max - (now + half_wave);
+    const Volts room_down = now - half_wave - range.min;
+    // With more room up than down the upper neighbour is also the one nearer to the middle.
+    const bool up = room_up >= room_down;
+    return {.sign = static_cast<std::int8_t>(up ? 1 : -1),
+            .out_of_range = !((up ? room_up : room_down) >= range.margin)};
+}
 
 ModeSwitchState initial_state(const ModeSwitchConfig& config) noexcept {
     ModeSwitchState s;
@@ -202,25 +209,22 @@ ModeSwitchState initial_state(const ModeSwitchConfig& config) noexcept {
     return s;
 }
 
-ModeSwitchOutput step(const ModeSwitchConfig& config, ModeSwitchState& state, const ModeSwitchInput& input) noexcept {
-    ModeSwitchOutput out;
+std::optional<SwitchEvent> step(const ModeSwitchConfig& config, ModeSwitchState& state,
+                                const ModeSwitchInput& input) noexcept {
     count_up(state.n_halves);
     if (!state.loop_closed) {
         if (state.n_halves >= 2 * config.gap_ticks || has_arrived(config, state, input)) close_loop(state);
-    } else {
-        watch(config, state, input);
-        if (input.reversed && input.tick_border) {
-            adopt(state);
-        } else if (state.phase == SwitchPhase::tracking) {
-            track(config, state, input);
-        } else {
-            settle(config, state, input, out);
-        }
+        return {};
     }
-    out.loop_closed = state.loop_closed;
-    out.polarity = state.polarity;
-    out.set_point = Volts{state.set_point_v};
-    return out;
+    watch(config, state, input);
+    if (input.reversed && input.tick_border) {
+        adopt(state);
+    } else if (state.phase == SwitchPhase::tracking) {
+        track(config, state, input);
+    } else {
+        return settle(config, state, input);
+    }
+    return {};
 }
 
 }  // namespace zlg::core

@@ -1,7 +1,7 @@
 #include <zlg/core/control/reading_monitor.hpp>
 
 #include <zlg/core/common/as_double.hpp>
-#include <zlg/core/control/bias_monitor.hpp>
+#include <zlg/core/control/monitor_limits.hpp>
 
 #include "common/bounds.hpp"
 
@@ -104,12 +104,11 @@ void watch(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
         count_up(s.n_agreeing);
     else
         s.n_agreeing = 0;
-    s.n_lost = in.bias_lost ? s.n_lost + (s.n_lost < lost_debounce_halves) : 0;
-    if (s.n_lost >= lost_debounce_halves) s.countable = false;
+    if (debounced(s.n_lost, in.bias_lost, lost_debounce_halves)) s.countable = false;
     if (s.has_last && is_at_stop(in, difference(in.reading, s.last), 1)) s.over_range = true;
 }
 
-ReadingMonitorOutput judge(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
+ReadingMonitorOutput decide(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
     const std::int32_t m = s.n_since + 1;
     const std::int64_t counts = difference(in.reading, s.good);
     if (!s.suspected) {
@@ -131,7 +130,7 @@ ReadingMonitorOutput judge(ReadingMonitorState& s, const ReadingMonitorInput& in
     return s.impossible || is_over(in, counts, m, 1.0) ? alone(s, in) : whole(s, in);
 }
 
-ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
+ReadingMonitorOutput decide_or_begin(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
     if (!in.follows) s.has_last = s.countable = false;
     // The first half of a loop that closes: its start was read, whatever the counter did before.
     if (!s.countable && in.countable && in.suspicious && s.has_last && !s.over_range) {
@@ -139,7 +138,7 @@ ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitor
         s.good = s.last;
     }
     ReadingMonitorOutput out;
-    if (s.countable) out = judge(s, in);
+    if (s.countable) out = decide(s, in);
     if (s.countable) return out;
     // What the counter may have lost is missing on the other side of a switch, too, and so is what it loses within one.
     const bool at_stop = s.has_last && is_at_stop(in, difference(in.reading, s.last), 1);
@@ -159,7 +158,7 @@ ReadingMonitorOutput step(ReadingMonitorState& state, const ReadingMonitorInput&
     state.countable = state.countable && input.countable && input.mode == state.mode;
     ReadingMonitorOutput out;
     if (input.read) {
-        out = judge_or_begin(state, input);
+        out = decide_or_begin(state, input);
         state.last = input.reading;
     } else {
         state.n_agreeing = 0;

@@ -115,17 +115,14 @@ SwitchScheduleState initial_state(const SwitchScheduleConfig& c) noexcept {
             .interval_ticks = c.kind == ScheduleKind::fixed ? c.interval_ticks : balanced_interval(c, {}, 1)};
 }
 
-SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleState& state,
-                          const SwitchScheduleInput& in) noexcept {
+bool step(const SwitchScheduleConfig& config, SwitchScheduleState& state, const SwitchScheduleInput& in) noexcept {
     count_mode(config, state, in.mode);
-    const bool jumped = config.kind == ScheduleKind::fixed && in.tick > state.next_tick;
-    const bool late = state.waiting || jumped;
     const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
     state.waiting = planned && !in.ready;
-    if (!((planned || state.asked) && in.ready)) return {};
+    if (!((planned || state.asked) && in.ready)) return false;
     state.asked = false;
     note_opening(config, state, in);
-    return {.open = true, .late = late};
+    return true;
 }
 
 }  // namespace zlg::core

@@ -6,28 +6,28 @@
 
 namespace zlg::core::light_monitor_test {
 
-constexpr LightMonitorConfig config{.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
-static_assert(check(config) == LightMonitorFault::none);
-static_assert(check(LightMonitorConfig{.noise = Wavelengths{not_a_number}}) == LightMonitorFault::noise);
-static_assert(check(LightMonitorConfig{.bias_chi = -1.0}) == LightMonitorFault::bias_chi);
-static_assert(check(LightMonitorConfig{.max_gain = 0.5}) == LightMonitorFault::max_gain);
+constexpr MonitorLimits config{.light_noise = Wavelengths{0.0033}, .bias_chi = 3.6};
 
 constexpr double slope = 0.332;  // signal by wavelength
 
 // Light of both beams, as a detector reads it.
-LightMonitorInput lit(std::span<const float> a, std::span<const float> b, int sign, double detuning_lambda,
-                      double mean_sq_lambda2) {
-    return {.light_a = a,
-            .light_b = b,
-            .sign = sign,
-            .beats = true,
-            .two_way = true,
-            .light = 2000.0,
-            .signal_per_lambda = slope,
-            .usable = true,
-            .detuning = Wavelengths{detuning_lambda},
-            .mean_sq_lambda2 = mean_sq_lambda2};
-}
+struct Lit {
+    SyncDetectorInput light;
+    SyncDetectorOutput read{.light = 2000.0, .readable = true, .two_way = true, .usable = true};
+    bool closed = false;
+    bool settled = false;
+    double deficit_ratio = 0.0;
+    SyncDetectorConfig detector{.discriminator_per_lambda = slope};
+
+    Lit(std::span<const float> a, std::span<const float> b, int sign, double detuning_lambda, double mean_sq_lambda2)
+        : light{.light_a = a, .light_b = b, .sign = sign, .beats = true} {
+        read.detuning = Wavelengths{detuning_lambda};
+        read.mean_sq_lambda2 = mean_sq_lambda2;
+    }
+    LightMonitorOutput seen_by(const MonitorLimits& c, LightMonitorState& state) const {
+        return step(c, state, {detector, light, read, closed, settled, deficit_ratio});
+    }
+};
 
 // Two beams of 1000, their noise, and what a detector makes of them.
 class Light {
@@ -45,7 +45,7 @@ public:
 
     explicit Light(int n = 0) { (void)halves(n); }
 
-    LightMonitorOutput half(const LightMonitorConfig& c = config) {
+    LightMonitorOutput half(const MonitorLimits& c = config) {
         sign_ = -sign_;
         if (!stuck) shine();
         double sum = 0.0, squares = 0.0;
@@ -55,14 +55,14 @@ public:
             sum += x;
             squares += x * x;
         }
-        LightMonitorInput in = lit(a_, b_, sign_, sum / 16.0, squares / 16.0);
+        Lit in(a_, b_, sign_, sum / 16.0, squares / 16.0);
         in.closed = true;
         in.settled = settled;
-        in.beats = beats;
+        in.light.beats = beats;
         in.deficit_ratio = deficit_ratio;
-        in.two_way = in.usable = two_way;
-        in.dark = dark;
-        return step(c, state, in);
+        in.read.two_way = in.read.usable = two_way;
+        in.read.dark = dark;
+        return in.seen_by(c, state);
     }
     LightMonitorOutput halves(int n) {
         LightMonitorOutput out;
@@ -88,7 +88,7 @@ private:
     std::normal_distribution<double> normal_;
 };
 
-constexpr LightMonitorConfig quiet{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
+constexpr MonitorLimits quiet{.light_noise = Wavelengths{3e-4}, .bias_chi = 3.6};
 
 // To a lock.
 Light on_the_way(double detuning_lambda) {
@@ -127,10 +127,10 @@ TEST(LightMonitor, AConverterThatStandsStillIsSeenInTwoHalvesAndSteersNothing) {
 
     LightMonitorState s;
     const std::vector<float> still(16, 870.0f);
-    LightMonitorInput in{.light_a = still, .light_b = still, .two_way = true, .light = 1740.0, .usable = true};
-    (void)step(config, s, in);
-    EXPECT_FALSE(step(config, s, in).stuck);
-    const LightMonitorOutput out = step(config, s, in);
+    const Lit in(still, still, 1, 0.0, 0.0);
+    (void)in.seen_by(config, s);
+    EXPECT_FALSE(in.seen_by(config, s).stuck);
+    const LightMonitorOutput out = in.seen_by(config, s);
     EXPECT_TRUE(out.stuck && !out.usable && !out.has_mean_square);
 }
 
@@ -210,9 +210,9 @@ bool is_unbalanced_on_the_way(std::size_t n_samples, double start_lambda, double
             a.push_back(static_cast<float>(left * 1000.0 * (1.0 + signal) + noise()));
             b.push_back(static_cast<float>(1000.0 * (1.0 - signal) + noise()));
         }
-        LightMonitorInput in = lit(a, b, sign, 0.01, 1e-4);
+        Lit in(a, b, sign, 0.01, 1e-4);
         in.closed = true;
-        unbalanced = unbalanced || step(quiet, state, in).unbalanced;
+        unbalanced = unbalanced || in.seen_by(quiet, state).unbalanced;
     }
     return unbalanced;
 }
@@ -282,7 +282,9 @@ TEST(LightMonitor, WhatItRemembersOfDamagedLightAreNumbers) {
     LightMonitorState state;
     const std::array<float, 4> damaged{std::numeric_limits<float>::quiet_NaN(), 1.0f, 1.0f, 1.0f};
     const std::array<float, 4> endless{std::numeric_limits<float>::infinity(), 1.0f, 1.0f, 1.0f};
-    (void)step(config, state, {.light_a = damaged, .light_b = endless});
+    Lit in(damaged, endless, 1, 0.0, 0.0);
+    in.read = {};
+    (void)in.seen_by(config, state);
     EXPECT_EQ(state, LightMonitorState{state});
     EXPECT_TRUE(state.last_a == 0.0f && state.last_b == 0.0f);
 }
@@ -305,8 +307,8 @@ TEST(LightMonitor, TheFirstLightAfterADarkHalfIsNoDetuning) {
 
 // A half on its way to a lock, of which the loop takes a part in every sample from `corner` on, through such a discriminator.
 LightMonitorOutput relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda,
-                                  const LightMonitorConfig& c, std::mt19937& random) {
-    const DiscriminatorCurve curve = test::expansive_curve(31);
+                                  const MonitorLimits& c, std::mt19937& random) {
+    static const DiscriminatorCurve curve = test::expansive_curve(31);
     std::normal_distribution<double> normal;
     std::array<float, 16> a{};
     std::array<float, 16> b{};
@@ -318,16 +320,16 @@ LightMonitorOutput relocking_half(double start_lambda, double part, std::size_t 
         if (k >= corner) dl *= 1.0 - part;
     }
     LightMonitorState state;
-    LightMonitorInput in = lit(a, b, 1, 0.1, 0.01);
-    in.curve = &curve;
-    return step(c, state, in);
+    Lit in(a, b, 1, 0.1, 0.01);
+    in.detector.curve = curve;
+    return in.seen_by(c, state);
 }
 
 // However quiet the converters are: the same motion is no noise, and noise is no motion.
 TEST(LightMonitor, AFastWayToALockIsNoNoiseHoweverQuietTheLight) {
     std::mt19937 random{5};
     for (const double noise_lambda : {1e-2, 3.3e-3, 1e-3, 5e-4, 2e-4, 1e-4}) {
-        const LightMonitorConfig c{.noise = Wavelengths{noise_lambda}, .bias_chi = 3.6};
+        const MonitorLimits c{.light_noise = Wavelengths{noise_lambda}, .bias_chi = 3.6};
         int noisy = 0;
         for (const double start_lambda : {-0.22, -0.16, -0.1, 0.05, 0.16, 0.2, 0.22}) {
             for (const double part : {0.0, 0.05, 0.12, 0.2}) {

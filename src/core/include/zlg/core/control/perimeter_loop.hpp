@@ -52,7 +52,7 @@ enum class PerimeterLoopFault : unsigned char {
 };
 
 [[nodiscard]] constexpr PerimeterLoopFault check(const PerimeterLoopConfig& c) noexcept {
-    if (check(c.range) != PiezoRangeFault::none) return PerimeterLoopFault::range;
+    if (!is_allowed(c.range)) return PerimeterLoopFault::range;
     if (!(c.half_wave >= Volts{1e-3} && c.half_wave <= Volts{1e6})) return PerimeterLoopFault::half_wave;
     if (!(c.half_period > Seconds{0.0} && c.half_period <= Seconds{1e3})) return PerimeterLoopFault::half_period;
     if (!(c.time_constant >= c.half_period && c.time_constant <= Seconds{1e6})) {
@@ -96,10 +96,8 @@ struct PerimeterLoopInput {
 };
 
 struct PerimeterLoopOutput {
-    Volts set_point{};
-    std::int32_t n_set_points = 1;                   // of the half to come, the last of them `set_point`
+    std::int32_t n_set_points = 1;                   // of the half to come, the last of them that of the state
     std::array<double, max_set_points> set_point_v;  // so many of them; the rest is not set
-    bool saturated = false;                          // the set-point is held at an end of the range
     bool over_limit = false;                         // closed, and detuned by more than the watch limit
     bool near_range_end = false;  // the piezo (the set-point, where there is no reading) is within the margin of an end
 };
