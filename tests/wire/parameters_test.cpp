@@ -58,7 +58,6 @@ TEST(Parameters, AreWhereTheirNamesSay) {
     EXPECT_EQ(s.control.mode_switch.lock_tolerance.value(), 0.031);
     (void)put_parameter(s, 0x1005, 61e3);
     EXPECT_EQ(s.compensation.gyro.bias.value(), 61e3);
-    (void)put_parameter(s, 0x0704, 1.0);
 }
 
 TEST(Parameters, WhatMustAgreeIsPutTogether) {
@@ -98,7 +97,6 @@ TEST(Parameters, WhatCannotBeTheValueIsRefusedAndNothingChanges) {
     EXPECT_EQ(put_parameter(s, 0x0501, 0x1p31), CommandResult::not_a_value);
     EXPECT_EQ(put_parameter(s, 0x0501, -0x1p31), CommandResult::not_a_value);
     EXPECT_EQ(put_parameter(s, 0x0602, -1.0), CommandResult::not_a_value);
-    EXPECT_EQ(put_parameter(s, 0x0704, 2.0), CommandResult::not_a_value);
 }
 
 TEST(SettingsCrc, TellsSettingsApart) {

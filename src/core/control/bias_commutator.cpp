@@ -59,7 +59,6 @@ BiasCommutatorOutput step(const BiasCommutatorConfig& config, BiasCommutatorStat
     const bool sign_error = track_sign(state, received, bias_sign);
     const std::uint64_t error_ticks = track_time(config, state, received, timer_ticks);
     return {.sign = state.sign,
-            .edge_offset_ticks = state.dither.end_ticks,
             .sign_error = sign_error,
             .timer_error = error_ticks > config.tolerance_ticks,
             .latch_error = error_ticks > config.latch_ticks};

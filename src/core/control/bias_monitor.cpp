@@ -55,12 +55,7 @@ void learn(const MonitorLimits& c, BiasMonitorState& s, double b, bool in_band) 
     s.bias_counts = agrees ? s.bias_counts + (b - s.bias_counts) / s.n_learnt : b;
 }
 
-bool follows(const BiasMonitorState& s, std::int8_t beat_sign) noexcept {
-    return s.n_known > 0 && beat_sign != s.beat_sign;
-}
-
 void remember(BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign) noexcept {
-    if (!follows(s, beat_sign)) s.n_known = 0;
     count_up(s.n_known);
     s.beat_sign = beat_sign;
     s.counts_long_before = s.counts_before;
@@ -68,9 +63,8 @@ void remember(BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign) n
     s.counts = counts;
 }
 
-BiasMonitorOutput compare(const MonitorLimits& c, BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign,
-                          bool settled) noexcept {
-    BiasMonitorOutput out;
+void compare(const MonitorLimits& c, BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign, bool settled,
+             BiasMonitorOutput& out) noexcept {
     const double twice_b = as_double(counts - s.counts) * beat_sign;
     const double bias = s.bias_counts;
     out.judged = s.n_learnt >= bias_learning_halves;
@@ -91,7 +85,6 @@ BiasMonitorOutput compare(const MonitorLimits& c, BiasMonitorState& s, std::int6
         out.lost = settled && size(twice_b) < 0.25 * c.bias_counts;
     }
     if (settled) learn(c, s, 0.5 * twice_b, out.in_band);
-    return out;
 }
 
 }  // namespace
@@ -104,10 +97,10 @@ BiasMonitorOutput step(const MonitorLimits& limits, BiasMonitorState& state, boo
         state.n_known = 0;
         return out;
     }
-    if (follows(state, beat_sign)) {
-        out = compare(limits, state, counts, beat_sign, settled);
+    if (state.n_known > 0 && beat_sign != state.beat_sign) {
+        compare(limits, state, counts, beat_sign, settled, out);
     } else {
-        state.n_reversed = 0;
+        state.n_known = state.n_reversed = 0;
     }
     remember(state, counts, beat_sign);
     return out;

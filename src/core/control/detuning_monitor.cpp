@@ -15,11 +15,7 @@ bool step(const MonitorLimits& limits, DetuningMonitorState& state, bool is_seco
         const bool large = size(mean_sq_lambda2 - state.first_lambda2) > limits.detuning_change_lambda2;
         unsteady = large && state.n_good > 2 * limits.relock_ticks;
     }
-    if (is_good && !unsteady) {
-        count_up(state.n_good);
-    } else {
-        state.n_good = 0;
-    }
+    count_row(state.n_good, is_good && !unsteady);
     return unsteady;
 }
 

@@ -2,6 +2,8 @@
 
 #include <zlg/core/common/as_double.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
@@ -58,24 +60,18 @@ void count(const EdgeDitherConfig& c, EdgeDitherState& s, std::int8_t next_sign,
     if (!in.counted) return;
     const std::int32_t excess_ticks = -next_sign * (s.end_ticks - s.start_ticks);
     const double net = as_double(in.counts) - in.helicity * (excess_ticks / c.cycle_ticks);
-    if (next_sign * in.helicity < 0) {
-        r.positive += net;
-        ++r.n_positive;
-    } else {
-        r.negative += net;
-        ++r.n_negative;
-    }
+    const std::size_t beat = next_sign * in.helicity < 0;
+    r.sum[beat] += net;
+    ++r.n[beat];
 }
 
 // The law that the last measurement asks for.
 DitherLaw wanted_law(const EdgeDitherConfig& c, const RateCounts& r, DitherLaw law) noexcept {
-    if (2 * r.n_positive < c.rate_periods || 2 * r.n_negative < c.rate_periods) return law;
-    const double counts_per_period = r.positive / r.n_positive + r.negative / r.n_negative;
-    const double rate = counts_per_period * c.scale_arcsec / c.tick_s;
-    const double size = rate < 0.0 ? -rate : rate;
-    if (size > c.random_above_arcsec_s) return DitherLaw::random;
-    if (size < c.paired_below_arcsec_s) return DitherLaw::paired;
-    return law;
+    if (2 * r.n[0] < c.rate_periods || 2 * r.n[1] < c.rate_periods) return law;
+    const double counts_per_period = r.sum[1] / r.n[1] + r.sum[0] / r.n[0];
+    const double rate_arcsec_s = size(counts_per_period * c.scale_arcsec / c.tick_s);
+    if (rate_arcsec_s > c.random_above_arcsec_s) return DitherLaw::random;
+    return rate_arcsec_s < c.paired_below_arcsec_s ? DitherLaw::paired : law;
 }
 
 }  // namespace

@@ -27,15 +27,15 @@ HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
     const bool has_counts = o.valid || (o.reading.span == 1 && !o.left_to_next);
     return {.half = s.half,
             .counts = has_counts ? o.reading.counts : 0,
-            .detuning_lambda = o.detuning_usable ? o.monitored.detuning.value() : 0.0,
-            .detuning_sq_lambda2 = o.has_mean_square ? o.monitored.mean_sq_lambda2 : 0.0,
+            .detuning_lambda = o.light.usable ? o.light.detuning.value() : 0.0,
+            .detuning_sq_lambda2 = o.has_mean_square ? o.light.mean_sq_lambda2 : 0.0,
             .piezo_v = s.piezo_v,
             .temperature_c = s.temperature_c,
             .bias_sign = o.commuted.sign,
             .mode = o.polarity,
             .loop_closed = o.loop_closed,
             .valid = o.valid,
-            .edge_offset_ticks = o.commuted.edge_offset_ticks,
+            .edge_offset_ticks = s.commutator.dither.end_ticks,
             .span = has_counts ? o.reading.span : 1,
             .fringe = o.fringe.fringe,
             .lit = o.steady};
@@ -50,11 +50,7 @@ bool count_near_end(const GyroControlConfig& c, GyroControlState& s, const Obser
         s.n_near_end = 0;
         return false;
     }
-    if (s.n_near_end < near_end_retry) {
-        ++s.n_near_end;
-    } else {
-        s.n_near_end = near_end_debounce;
-    }
+    s.n_near_end = s.n_near_end < near_end_retry ? s.n_near_end + 1 : near_end_debounce;
     const bool due = s.n_near_end >= near_end_debounce && s.n_near_end <= near_end_debounce + 1;
     return due && !choose_direction(c.loop.range, now, half_wave(s)).out_of_range;
 }
@@ -62,7 +58,7 @@ bool count_near_end(const GyroControlConfig& c, GyroControlState& s, const Obser
 void decide_switch(const GyroControlConfig& c, GyroControlState& s, const Observation& o, const SwitchAdvice& advice,
                    ModeSwitchInput& in) noexcept {
     // Without usable light the outcome of a switch would be unknown, and the rotation in its gap would be lost.
-    const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt && o.fresh;
+    const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt && o.order.fresh;
     if (in.tick_border) {
         in.due =
             step(c.schedule, s.schedule, {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice});
@@ -119,10 +115,10 @@ std::optional<SwitchEvent> sequence(const GyroControlConfig& c, GyroControlState
     decide_switch(c, s, o, advice, in);
     predict_moves(c, s, in.due || in.recentre);
     in.reversed = o.bias.reversed && o.lit;
-    in.light_known = o.fresh && (o.light.readable || o.lit);
+    in.light_known = o.order.fresh && (o.light.readable || o.lit);
     in.two_way = o.lit;
-    in.usable = o.detuning_usable;
-    in.detuning = o.monitored.detuning;
+    in.usable = o.light.usable;
+    in.detuning = o.light.detuning;
     in.piezo = o.piezo;
     in.set_point = Volts{s.loop.set_point_v};
     in.half_wave = half_wave(s);
@@ -140,9 +136,9 @@ void read_arrival(const GyroControlConfig& c, GyroControlState& s, const Observa
     const double mean_v =
         fast_relock ? o.piezo.value() + (s.loop.mean_v - s.loop.end_v) : 0.5 * (s.closed_at_v + o.piezo.value());
     const double beyond_v = s.closed_at_v - mean_v;
-    if (!s.closed_read || !o.detuning_usable || !o.loop_closed || !is_finite(beyond_v)) return;
+    if (!s.closed_read || !o.light.usable || !o.loop_closed || !is_finite(beyond_v)) return;
     const auto sign = static_cast<std::int8_t>(s.closed_at_v > s.mode_switch.good_v ? 1 : -1);
-    const Wavelengths detuning{o.monitored.detuning.value() + 0.5 * beyond_v / c.half_wave.half_wave.value()};
+    const Wavelengths detuning{o.light.detuning.value() + 0.5 * beyond_v / c.half_wave.half_wave.value()};
     arrive(c.half_wave, s.half_wave, sign, Volts{s.closed_at_v}, detuning, Celsius{s.temperature_c});
 }
 
@@ -172,8 +168,8 @@ PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, co
                 {.was_closed = was_closed && o.loop_closed,
                  .close = s.mode_switch.loop_closed,
                  .second_input = Volts{s.mode_switch.set_point_v},
-                 .usable = o.detuning_usable,
-                 .detuning = o.monitored.detuning,
+                 .usable = o.light.usable,
+                 .detuning = o.light.detuning,
                  .piezo = o.piezo});
 }
 
@@ -194,6 +190,22 @@ void command(const ModeSwitchState& m, const PerimeterLoopOutput& regulated, Act
 
 }  // namespace
 
+GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t counter) noexcept {
+    GyroControlState s;
+    s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
+    s.half_wave = initial_state(config.half_wave, config.mode_switch.start_set_point);
+    s.up.move_v = config.half_wave.half_wave.value();
+    s.down.move_v = -s.up.move_v;
+    s.schedule = initial_state(config.schedule);
+    s.mode_switch = initial_state(config.mode_switch);
+    s.counter = counter;
+    s.reading_monitor.good = s.reading_monitor.last = counter;
+    s.reading_monitor.mode = config.mode_switch.start_polarity;
+    s.piezo_v = config.mode_switch.start_set_point.value();
+    s.temperature_c = config.presumed_temperature.value();
+    return s;
+}
+
 ActuatorFrame initial_actuator(const GyroControlConfig& config) noexcept {
     ActuatorFrame actuator;
     command(initial_state(config.mode_switch), {.set_point_v = {config.mode_switch.start_set_point.value()}}, actuator);
@@ -209,15 +221,14 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     note_start(state);
     const std::optional<SwitchEvent> event = sequence(config, state, seen, advice);
     learn_stroke(config, state, seen, was_closed, event);
-    const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed);
-    seen.over_limit = regulated.over_limit;
-    seen.near_range_end = regulated.near_range_end;
-    seen.recentring = state.recentring;
+    seen.regulated = regulate(config, state, seen, was_closed);
     seen.warms_up = track_warming(state);
 
-    GyroControlOutput out{.record = recorded(state, seen), .health = health_word(seen), .has_event = event.has_value()};
+    GyroControlOutput out{
+        .record = recorded(state, seen), .health = health_word(config, state, seen), .has_event = event.has_value()};
     if (event) out.event = *event;
-    command(state.mode_switch, regulated, out.actuator);
+    state.was_beyond = seen.beyond;
+    command(state.mode_switch, seen.regulated, out.actuator);
     const bool counted = seen.valid && seen.loop_closed && seen.reading.span == 1;
     out.actuator.edge_offset_ticks =
         next_edge(config.commutator, state.commutator, {counted, seen.counts, seen.polarity});

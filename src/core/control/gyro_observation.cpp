@@ -16,12 +16,9 @@ void read_order(const GyroControlConfig& c, GyroControlState& s, const SensorFra
     // Only a number out of order is judged by its time.
     const bool on_time =
         frame.sequence != s.order.expected && is_on_time(c.commutator, s.commutator, frame.timer_ticks);
-    const FrameOrderOutput order = step(s.order, o.received, frame.sequence, on_time);
-    o.sequence_error = order.error;
-    o.fresh = order.fresh;
-    o.follows = order.follows;
-    o.counted = order.follows && !s.counter_stale;
-    s.counter_stale = !o.fresh;
+    o.order = step(s.order, o.received, frame.sequence, on_time);
+    o.counted = o.order.follows && !s.counter_stale;
+    s.counter_stale = !o.order.fresh;
 }
 
 // Of the half just latched over the nominal one, from reversal to reversal.
@@ -34,7 +31,7 @@ double length_ratio(const BiasCommutatorConfig& c, const BiasCommutatorState& s)
 [[gnu::noinline]] void read_fringe(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame,
                                    Observation& o) noexcept {
     o.fringe = step(c.fringe, s.fringe,
-                    {.present = o.fresh && frame.has_fringe,
+                    {.present = o.order.fresh && frame.has_fringe,
                      .c = frame.fringe_c,
                      .s = frame.fringe_s,
                      .quarter = frame.fringe_quarter,
@@ -46,17 +43,15 @@ double length_ratio(const BiasCommutatorConfig& c, const BiasCommutatorState& s)
 
 void read_counter(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
     if (o.counted) o.counts = static_cast<std::int64_t>(o.fringe.counter - s.counter);
-    if (o.fresh) s.counter = o.fringe.counter;
+    if (o.order.fresh) s.counter = o.fringe.counter;
     o.max_counts = length_ratio(c.commutator, s.commutator) * as_double(c.limits.counts);
     o.beyond = size(as_double(o.counts)) > o.max_counts;
-    o.was_beyond = s.was_beyond;
-    s.was_beyond = o.beyond;
 }
 
 void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     o.polarity = s.mode_switch.polarity;
     o.loop_closed = s.mode_switch.loop_closed;
-    if (o.fresh) {
+    if (o.order.fresh) {
         o.polarity_error = !is_sign(frame.polarity);
         o.echo_error = frame.polarity != o.polarity || frame.loop_closed != o.loop_closed;
         if (!o.polarity_error) o.polarity = frame.polarity;
@@ -73,12 +68,12 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
     // A half without light makes the difference to the next one meaningless.
     const bool was_lit = s.was_lit || (o.loop_closed && s.was_steady);
     o.bias_wrong = o.bias.judged && !o.bias.in_band && was_lit;
-    if (!o.fresh) return;
+    if (!o.order.fresh) return;
     o.coil = step(c.limits, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
 }
 
 void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    if (!o.fresh) {
+    if (!o.order.fresh) {
         s.light_monitor.has_last = false;
         return;
     }
@@ -91,14 +86,13 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
     o.light.usable = o.light.usable && !o.commuted.sign_error && !o.polarity_error;
     o.monitored =
         step(c.limits, s.light_monitor, {c.detector, light, o.light, o.loop_closed, o.settled, o.bias.deficit_ratio});
-    o.detuning_usable = o.monitored.usable;
     o.lit = o.light.two_way || o.monitored.contradicted;
     o.lased = o.lit && o.loop_closed;
-    s.light_spoilt = loses<Loses::light>(o);
+    s.light_spoilt = loses<Loses::light>(c, s, o);
 }
 
 void read_slow(GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    if (!o.fresh) return;
+    if (!o.order.fresh) return;
     o.piezo = Volts{frame.piezo_v};
     o.temperature_c = frame.temperature_c;
     if (is_finite(frame.piezo_v)) s.piezo_v = frame.piezo_v;
@@ -106,17 +100,6 @@ void read_slow(GyroControlState& s, const SensorFrame& frame, Observation& o) no
     s.temperature_c = frame.temperature_c;
     if (!s.temperature_known) s.mean_temperature_c = s.temperature_c;
     s.temperature_known = true;
-}
-
-// The counter is judged only by counts of a gyro that lases in its mode.
-void read_bits(GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
-    const bool beats = o.counted && o.lased && s.was_lit;
-    o.bit_stuck = step(s.counter_monitor, beats, frame.counter);
-}
-
-// Good signs, and latched in time.
-bool is_echoed(const Observation& o) noexcept {
-    return !o.commuted.sign_error && !o.polarity_error && !o.commuted.latch_error;
 }
 
 // Half of the bias is gone, or it is that of the other helicity: b by the last two halves. A wrong reading seldom looks
@@ -128,11 +111,12 @@ bool is_lost_or_reversed(const BiasMonitorState& s) noexcept {
 
 void read_span(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
     // What does not follow begins anew, whether or not it can be read: so many halves lie between.
-    const bool found = !o.fresh || (o.follows && o.lit && !o.coil.off && !o.coil.unbalanced);
+    const bool found = !o.order.fresh || (o.order.follows && o.lit && !o.coil.off && !o.coil.unbalanced);
+    const bool is_echoed = !o.commuted.sign_error && !o.polarity_error && !o.commuted.latch_error;
     const BiasMonitorState& bias = s.bias_monitor;
     o.reading =
-        step(s.reading_monitor, {.read = o.fresh && is_echoed(o) && !o.bit_stuck,
-                                 .follows = o.follows,
+        step(s.reading_monitor, {.read = o.order.fresh && is_echoed && !o.bit_stuck,
+                                 .follows = o.order.follows,
                                  .countable = o.loop_closed && found,
                                  .mode = o.polarity,
                                  .suspicious = o.beyond || o.bias_wrong,
@@ -146,7 +130,7 @@ void read_span(const GyroControlConfig& c, GyroControlState& s, Observation& o) 
 
 // A re-lock is corrected by both halves of a tick: one without the other would be worse than none.
 void match_halves(GyroControlState& s, Observation& o) noexcept {
-    o.has_mean_square = o.detuning_usable && o.monitored.has_mean_square;
+    o.has_mean_square = o.light.usable && o.monitored.has_mean_square;
     const bool is_first = s.half % 2 == 0;
     if (is_first) {
         s.first_was_blind = o.valid && !o.has_mean_square;
@@ -162,12 +146,12 @@ void match_halves(GyroControlState& s, Observation& o) noexcept {
 
 void decide_valid(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
     if (o.lased && (o.bias.lost || o.bias.reversed)) o.bias_wrong = true;
-    o.valid = o.reading.trusted && !loses<Loses::counts>(o);
+    o.valid = o.reading.trusted && !loses<Loses::counts>(c, s, o);
     match_halves(s, o);
     // Away from a lock the detuning moves: without its mean square the false angle would stay unnoticed.
     if ((s.light_spoilt || o.monitored.withheld) && !o.has_mean_square && !o.settled) o.valid = false;
     o.unsteady = step(c.limits, s.detuning_monitor, s.half % 2 != 0, o.valid && o.loop_closed, o.settled,
-                      o.has_mean_square, o.monitored.mean_sq_lambda2);
+                      o.has_mean_square, o.light.mean_sq_lambda2);
     if (o.unsteady) o.valid = false;
     s.was_lit = o.lased && o.counted;
 }
@@ -178,12 +162,12 @@ constexpr double steady_lambda = 0.05;
 // In an open loop the record has the mode that is sent for, but at first the light is still that of the one before: the
 // way between them is dark, or else the bias must be that of the new mode.
 void find_steadiness(const GyroControlConfig& c, GyroControlState& s, Observation& o) noexcept {
-    s.was_dark = !o.loop_closed && (s.was_dark || (o.fresh && !o.light.two_way));
+    s.was_dark = !o.loop_closed && (s.was_dark || (o.order.fresh && !o.light.two_way));
     if (!o.valid || !o.has_mean_square || o.reading.span != 1) return;
     if (!o.loop_closed && !s.was_dark && !(o.bias.judged && o.bias.in_band)) return;
-    const double mean = o.monitored.detuning.value();
+    const double mean = o.light.detuning.value();
     const double noise = c.limits.light_noise.value();
-    o.steady = o.monitored.mean_sq_lambda2 - mean * mean <= steady_lambda * steady_lambda + noise * noise;
+    o.steady = o.light.mean_sq_lambda2 - mean * mean <= steady_lambda * steady_lambda + noise * noise;
 }
 
 // The counts of a half that is not valid are good all the same. But where the detuning moves they hold a false angle:
@@ -199,7 +183,7 @@ void leave_counts(GyroControlState& s, Observation& o) noexcept {
 void observe(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,
              Observation& seen) noexcept {
     read_order(config, state, frame, seen);
-    seen.commuted = step(config.commutator, state.commutator, seen.fresh, frame.bias_sign, frame.timer_ticks);
+    seen.commuted = step(config.commutator, state.commutator, seen.order.fresh, frame.bias_sign, frame.timer_ticks);
     read_echoes(state, frame, seen);
     seen.fringe.counter = frame.counter;
     if (config.fringe.reads) read_fringe(config, state, frame, seen);
@@ -207,7 +191,8 @@ void observe(const GyroControlConfig& config, GyroControlState& state, const Sen
     read_bias(config, state, frame, seen);
     read_light(config, state, frame, seen);
     read_slow(state, frame, seen);
-    read_bits(state, frame, seen);
+    // The counter is judged only by counts of a gyro that lases in its mode.
+    seen.bit_stuck = step(state.counter_monitor, seen.counted && seen.lased && state.was_lit, frame.counter);
     read_span(config, state, seen);
     decide_valid(config, state, seen);
     find_steadiness(config, state, seen);

@@ -87,17 +87,17 @@ void balance(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInp
     out.returns = s.was_dark && in.settled;
     out.unbalanced = s.is_unbalanced || out.returns;
     s.was_dark = false;
+    const double now_lambda = in.read.detuning.value();
     if (out.unbalanced) {
-        out.detuning = Wavelengths{0.5 * (in.read.detuning.value() + s.last_lambda)};
+        in.read.detuning = Wavelengths{0.5 * (now_lambda + s.last_lambda)};
         out.has_mean_square = false;
-        out.usable = out.usable && s.has_last;
+        in.read.usable = in.read.usable && s.has_last;
     }
-    s.last_lambda = in.read.detuning.value();
+    s.last_lambda = now_lambda;
     s.last_lambda2 = in.read.mean_sq_lambda2;
     s.has_last = true;
-    const double max_lambda = next_mode_lambda * c.light_gain + 4.0 * c.light_noise.value();
-    if (!(out.detuning.value() < max_lambda && out.detuning.value() > -max_lambda)) {
-        out.usable = out.has_mean_square = false;
+    if (!(size(in.read.detuning.value()) < next_mode_lambda * c.light_gain + 4.0 * c.light_noise.value())) {
+        in.read.usable = out.has_mean_square = false;
         out.withheld = true;
     }
 }
@@ -135,8 +135,7 @@ CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
     const bool both = !in.light.light_b.empty();
     const double b = both ? static_cast<double>(in.light.light_b[k]) : in.read.light;
     const double signal = (a - b) / (both ? a + b : b);
-    const double apparent_lambda = in.light.sign * signal / in.detector.discriminator_per_lambda;
-    return true_detuning(in.detector.curve, apparent_lambda);
+    return true_detuning(in.detector.curve, in.light.sign * signal / in.detector.discriminator_per_lambda);
 }
 
 // On a fast way to a lock the second differences of the light far exceed the noise of a quiet converter. Fourth
@@ -174,37 +173,25 @@ bool is_noisy_throughout(const LightMonitorInput& in, double limit_lambda2) noex
     return noise_sum > usual_sum;
 }
 
-// Detuning at the beginning and at the end of a half, by least-squares lines through the eight samples there.
-struct Ends {
-    double first_lambda = 0.0;
-    double last_lambda = 0.0;
-    double slope_sq = 1.0;  // of the curve: what it makes of the variance of the noise
-};
-
 constexpr std::size_t line_samples = 8;
 
-Ends ends_of(const LightMonitorInput& in) noexcept {
+// The detuning through the eight samples from one on, by least squares: in their middle, and how much it rises over them.
+struct Line {
+    double middle_lambda = 0.0;
+    double rise_lambda = 0.0;
+    double slope_sq = 0.0;  // of the curve: what it makes of the variance of the noise
+};
+
+Line line_from(const LightMonitorInput& in, std::size_t first) noexcept {
     constexpr double n = static_cast<double>(line_samples);
-    constexpr double lever_sq = n * (n * n - 1.0) / 12.0;
-    const std::size_t from_last = in.light.light_a.size() - line_samples;
-    double first_sum = 0.0;
-    double last_sum = 0.0;
-    double first_rise = 0.0;
-    double last_rise = 0.0;
-    Ends ends{.slope_sq = 0.0};
+    Line line;
     for (std::size_t k = 0; k < line_samples; ++k) {
-        const double lever = static_cast<double>(k) - 0.5 * (n - 1.0);
-        const CurvePoint first = detuning_at(in, k);
-        const CurvePoint last = detuning_at(in, from_last + k);
-        first_sum += first.detuning_lambda;
-        first_rise += lever * first.detuning_lambda;
-        last_sum += last.detuning_lambda;
-        last_rise += lever * last.detuning_lambda;
-        ends.slope_sq += 0.5 * (first.slope * first.slope + last.slope * last.slope) / n;
+        const CurvePoint x = detuning_at(in, first + k);
+        line.middle_lambda += x.detuning_lambda / n;
+        line.rise_lambda += (static_cast<double>(k) - 0.5 * (n - 1.0)) * x.detuning_lambda * 12.0 / (n * n - 1.0);
+        line.slope_sq += x.slope * x.slope / n;
     }
-    ends.first_lambda = first_sum / n - 0.5 * n * first_rise / lever_sq;
-    ends.last_lambda = last_sum / n + 0.5 * n * last_rise / lever_sq;
-    return ends;
+    return line;
 }
 
 // Error of the lines by the bend of a fast way to a lock, over the changes in this half and in the one before. It grows with
@@ -212,8 +199,7 @@ Ends ends_of(const LightMonitorInput& in) noexcept {
 // nothing.
 double bend_lambda(std::size_t n_samples, double change_lambda, double change_before_lambda) noexcept {
     constexpr double bend_ratio = 0.1;
-    constexpr double enough_samples = 16.0;
-    const double shortness = enough_samples / static_cast<double>(n_samples);
+    const double shortness = 16.0 / static_cast<double>(n_samples);
     if (!(shortness > 1.0)) return bend_ratio * change_lambda;
     return bend_ratio * shortness * shortness * (change_lambda + change_before_lambda);
 }
@@ -229,20 +215,23 @@ bool jumps(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput
     const double change_before_lambda = static_cast<double>(s.change_lambda);
     s.has_end = seen;
     if (!seen) return false;
-    const Ends ends = ends_of(in);
-    s.end_lambda = ends.last_lambda;
-    const double change_lambda = size(ends.last_lambda - ends.first_lambda);
+    const Line first = line_from(in, 0);
+    const Line last = line_from(in, in.light.light_a.size() - line_samples);
+    const double first_lambda = first.middle_lambda - 0.5 * first.rise_lambda;
+    s.end_lambda = last.middle_lambda + 0.5 * last.rise_lambda;
+    const double change_lambda = size(s.end_lambda - first_lambda);
     s.change_lambda = static_cast<float>(change_lambda);
     if (!follows) s.jump_lambda = 0.0;
     if (!follows) return false;
     constexpr double lines_sq = 1.01;  // variance of the difference of two ends over that of a sample
     const double allowed = bend_lambda(in.light.light_a.size(), change_lambda, change_before_lambda);
-    const double noise_sq = lines_sq * ends.slope_sq * c.light_noise.value() * c.light_noise.value();
-    const double jump = in.light.sign * (ends.first_lambda - before_lambda);
+    const double noise_sq =
+        lines_sq * 0.5 * (first.slope_sq + last.slope_sq) * c.light_noise.value() * c.light_noise.value();
+    const double jump = in.light.sign * (first_lambda - before_lambda);
     constexpr double weight = 0.4;  // a quarter of the variance
     s.jump_lambda += weight * (jump - s.jump_lambda);
     const auto exceeds = [allowed](double x, double variance) {
-        const double over = (x < 0.0 ? -x : x) - allowed;
+        const double over = size(x) - allowed;
         return over > 0.0 && over * over > jump_deviations * jump_deviations * variance;
     };
     return exceeds(jump, noise_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq);
@@ -281,39 +270,37 @@ void look_for_noise(const MonitorLimits& c, LightMonitorState& s, const LightMon
     if (out.withheld) out.has_mean_square = false;
     out.noisy = debounced(s.n_noisy, is_noisy, spoilt_debounce);
     if (!is_noisy) return;
-    if (found_lambda2 > max_steering_noise_lambda * max_steering_noise_lambda) out.usable = false;
+    if (found_lambda2 > max_steering_noise_lambda * max_steering_noise_lambda) in.read.usable = false;
 }
 
 }  // namespace
 
 LightMonitorOutput step(const MonitorLimits& limits, LightMonitorState& state,
                         const LightMonitorInput& input) noexcept {
-    LightMonitorOutput out{.usable = input.read.usable,
-                           .has_mean_square = input.read.usable,
-                           .detuning = input.read.detuning,
-                           .mean_sq_lambda2 = input.read.mean_sq_lambda2};
+    LightMonitorOutput out{.has_mean_square = input.read.usable};
     const bool watches = limits.light_noise >= min_noise;
+    const bool reads = watches && input.read.usable;
     const double before = state.has_end ? static_cast<double>(state.last_a) + static_cast<double>(state.last_b) : 0.0;
     out.contradicted = debounced(state.n_contradicted, input.light.beats && !input.read.two_way && !input.read.dark,
                                  contradicted_debounce);
     if (watches && !input.light.light_a.empty())
         out.stuck = debounced(state.n_stuck, is_any_still(state, input), spoilt_debounce);
-    if (watches && input.read.usable) look_for_noise(limits, state, input, out);
+    if (reads) look_for_noise(limits, state, input, out);
     // Only on the way to a lock: a settled gyro has cheaper tests.
-    const bool is_whole = watches && input.read.usable && !out.withheld && !input.settled;
+    const bool is_whole = reads && !out.withheld && !input.settled;
     if (!is_whole) state.has_end = false;
     if (is_whole && (jumps(limits, state, input) || (input.closed && fades(limits, input, before))))
         state.is_unbalanced = true;
     // After a contradiction the beams must first be seen to be balanced.
     if (out.contradicted) state.is_unbalanced = true;
-    if (watches && input.read.usable) {
+    if (reads) {
         balance(limits, state, input, out);
     } else {
         state.has_last = false;
         state.n_side = 0;
         state.was_dark = watches && input.settled && !input.read.two_way;
     }
-    if (out.stuck) out.usable = out.has_mean_square = false;
+    if (out.stuck) input.read.usable = out.has_mean_square = false;
     return out;
 }
 

@@ -1,11 +1,9 @@
 #pragma once
-// The table of monitors: what is watched in a half, the bit that says so, and what the half then loses.
+// The table of monitors: the bit that reports what is watched in a half, what the half loses by it, and where it is seen.
 //
-// A new monitor is a row; where it needs a memory, its module fills in the observation. Limits and debounces stand in the modules.
+// A new monitor is a row; where it needs a memory, a module fills in the observation, and holds limit and debounce.
 
-#include <array>
 #include <cstdint>
-#include <utility>
 
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/health.hpp>
@@ -16,76 +14,68 @@ namespace zlg::core {
 
 enum class Loses : unsigned char {
     nothing,
-    light,   // the detuning of the half is not to be trusted: no switch begins, no level of light is followed
+    light,   // its detuning is not to be trusted: no switch begins, no level of light is followed
     counts,  // the half is not valid
 };
 
 inline constexpr std::uint32_t no_bit = 0;
 
-struct Monitor {
-    std::uint32_t bit;
-    Loses loses;
-    bool (*sees)(const Observation& o);
-};
-
-using Seen = const Observation&;
-
 // clang-format off
-inline constexpr std::array monitors{
-    Monitor{health_frame_missed, Loses::nothing, [](Seen o) { return !o.received; }},
-    Monitor{health_sequence_error, Loses::nothing, [](Seen o) { return o.sequence_error; }},
-    Monitor{health_sign_error, Loses::counts, [](Seen o) { return o.commuted.sign_error; }},
-    Monitor{health_timer_error, Loses::nothing, [](Seen o) { return o.commuted.timer_error; }},
-    Monitor{no_bit, Loses::counts, [](Seen o) { return o.commuted.latch_error; }},
-    Monitor{health_echo_error, Loses::nothing, [](Seen o) { return o.echo_error; }},
-    Monitor{no_bit, Loses::counts, [](Seen o) { return o.polarity_error; }},
-    Monitor{health_piezo_not_finite, Loses::nothing, [](Seen o) { return o.fresh && !is_finite(o.piezo.value()); }},
-    Monitor{health_temperature_not_finite, Loses::nothing, [](Seen o) { return o.fresh && !is_finite(o.temperature_c); }},
-    Monitor{health_light_lost, Loses::nothing, [](Seen o) { return o.fresh && o.light.readable && !o.light.two_way; }},
-    Monitor{health_light_unusable, Loses::nothing, [](Seen o) { return o.fresh && !o.light.readable; }},
-    Monitor{no_bit, Loses::counts, [](Seen o) { return !o.lit || o.monitored.returns; }},
-    Monitor{health_light_stuck, Loses::light, [](Seen o) { return o.monitored.stuck; }},
-    Monitor{no_bit, Loses::light, [](Seen o) { return o.monitored.noisy; }},
-    Monitor{health_light_noisy, Loses::nothing, [](Seen o) { return o.monitored.noisy || o.monitored.withheld; }},
-    Monitor{health_light_unbalanced, Loses::light, [](Seen o) { return o.monitored.unbalanced; }},
-    Monitor{health_light_contradicted, Loses::light, [](Seen o) { return o.monitored.contradicted; }},
-    Monitor{health_detuning_unsteady, Loses::counts, [](Seen o) { return o.unsteady; }},
-    Monitor{health_detuning_over_limit, Loses::nothing, [](Seen o) { return o.over_limit; }},
-    Monitor{health_counter_jump, Loses::counts, [](Seen o) { return o.beyond; }},
-    Monitor{health_rate_over_range, Loses::nothing, [](Seen o) { return o.beyond && o.was_beyond; }},
-    Monitor{health_counter_bit_stuck, Loses::counts, [](Seen o) { return o.bit_stuck; }},
-    Monitor{health_bias_lost, Loses::counts, [](Seen o) { return o.bias_wrong; }},
-    Monitor{health_helicity_reversed, Loses::nothing, [](Seen o) { return o.lased && o.bias.reversed; }},
-    Monitor{health_rate_near_bias, Loses::nothing, [](Seen o) { return o.lased && o.bias.near_rate; }},
-    Monitor{health_coil_current, Loses::nothing, [](Seen o) { return o.coil.off; }},
-    Monitor{no_bit, Loses::counts, [](Seen o) { return o.coil.unbalanced; }},
-    Monitor{health_fringe_lost, Loses::nothing, [](Seen o) { return o.reads_fringe && o.fresh && o.lit && !(o.fringe.fringe >= 0.0f); }},
-    Monitor{health_fringe_skewed, Loses::nothing, [](Seen o) { return o.fringe.skewed; }},
-    Monitor{health_switching, Loses::nothing, [](Seen o) { return o.phase == SwitchPhase::open || o.phase == SwitchPhase::settling; }},
-    Monitor{health_relock_failed, Loses::nothing, [](Seen o) { return o.phase == SwitchPhase::returning || o.phase == SwitchPhase::searching; }},
-    Monitor{health_searching, Loses::nothing, [](Seen o) { return o.phase == SwitchPhase::searching; }},
-    Monitor{health_half_wave_rejected, Loses::nothing, [](Seen o) { return o.half_wave_rejected; }},
-    Monitor{health_piezo_near_range_end, Loses::nothing, [](Seen o) { return o.near_range_end; }},
-    Monitor{health_recentring, Loses::nothing, [](Seen o) { return o.recentring; }},
-    Monitor{health_warming_up, Loses::nothing, [](Seen o) { return o.warms_up; }},
-    Monitor{health_edges_shifted, Loses::nothing, [](Seen o) { return o.shifts_edges; }},
-};
+template <class Row>
+[[gnu::always_inline]] inline void for_each_monitor(const GyroControlConfig& c, const GyroControlState& s, const Observation& o, const Row& row) noexcept {
+    row(health_frame_missed, Loses::nothing, !o.received);
+    row(health_sequence_error, Loses::nothing, o.order.error);
+    row(health_sign_error, Loses::counts, o.commuted.sign_error);
+    row(health_timer_error, Loses::nothing, o.commuted.timer_error);
+    row(no_bit, Loses::counts, o.commuted.latch_error);
+    row(health_echo_error, Loses::nothing, o.echo_error);
+    row(no_bit, Loses::counts, o.polarity_error);
+    row(health_piezo_not_finite, Loses::nothing, o.order.fresh && !is_finite(o.piezo.value()));
+    row(health_temperature_not_finite, Loses::nothing, o.order.fresh && !is_finite(o.temperature_c));
+    row(health_light_lost, Loses::nothing, o.order.fresh && o.light.readable && !o.light.two_way);
+    row(health_light_unusable, Loses::nothing, o.order.fresh && !o.light.readable);
+    row(no_bit, Loses::counts, !o.lit || o.monitored.returns);
+    row(health_light_stuck, Loses::light, o.monitored.stuck);
+    row(no_bit, Loses::light, o.monitored.noisy);
+    row(health_light_noisy, Loses::nothing, o.monitored.noisy || o.monitored.withheld);
+    row(health_light_unbalanced, Loses::light, o.monitored.unbalanced);
+    row(health_light_contradicted, Loses::light, o.monitored.contradicted);
+    row(health_detuning_unsteady, Loses::counts, o.unsteady);
+    row(health_detuning_over_limit, Loses::nothing, o.regulated.over_limit);
+    row(health_counter_jump, Loses::counts, o.beyond);
+    row(health_rate_over_range, Loses::nothing, o.beyond && s.was_beyond);
+    row(health_counter_bit_stuck, Loses::counts, o.bit_stuck);
+    row(health_bias_lost, Loses::counts, o.bias_wrong);
+    row(health_helicity_reversed, Loses::nothing, o.lased && o.bias.reversed);
+    row(health_rate_near_bias, Loses::nothing, o.lased && o.bias.near_rate);
+    row(health_coil_current, Loses::nothing, o.coil.off);
+    row(no_bit, Loses::counts, o.coil.unbalanced);
+    row(health_fringe_lost, Loses::nothing, c.fringe.reads && o.order.fresh && o.lit && !(o.fringe.fringe >= 0.0f));
+    row(health_fringe_skewed, Loses::nothing, o.fringe.skewed);
+    row(health_switching, Loses::nothing, o.phase == SwitchPhase::open || o.phase == SwitchPhase::settling);
+    row(health_relock_failed, Loses::nothing, o.phase == SwitchPhase::returning || o.phase == SwitchPhase::searching);
+    row(health_searching, Loses::nothing, o.phase == SwitchPhase::searching);
+    row(health_half_wave_rejected, Loses::nothing, o.half_wave_rejected);
+    row(health_piezo_near_range_end, Loses::nothing, o.regulated.near_range_end);
+    row(health_recentring, Loses::nothing, s.recentring);
+    row(health_warming_up, Loses::nothing, o.warms_up);
+    row(health_edges_shifted, Loses::nothing, c.commutator.dither.method != DitherMethod::none);
+}
 // clang-format on
 
-// Whether a row is seen for which a half loses this.
+// Whether something is seen for which a half loses this.
 template <Loses what>
-[[nodiscard]] bool loses(const Observation& o) noexcept {
-    return [&]<std::size_t... k>(std::index_sequence<k...>) {
-        return ((monitors[k].loses == what && monitors[k].sees(o)) || ...);
-    }
-    (std::make_index_sequence<monitors.size()>{});
+[[nodiscard]] bool loses(const GyroControlConfig& c, const GyroControlState& s, const Observation& o) noexcept {
+    bool found = false;
+    for_each_monitor(c, s, o, [&](std::uint32_t, Loses lost, bool seen) { found = found || (lost == what && seen); });
+    return found;
 }
 
-[[nodiscard]] inline std::uint32_t health_word(const Observation& o) noexcept {
-    return [&]<std::size_t... k>(std::index_sequence<k...>) {
-        return ((monitors[k].bit != no_bit && monitors[k].sees(o) ? monitors[k].bit : 0u) | ...);
-    }
-    (std::make_index_sequence<monitors.size()>{});
+[[nodiscard]] inline std::uint32_t health_word(const GyroControlConfig& c, const GyroControlState& s,
+                                               const Observation& o) noexcept {
+    std::uint32_t word = 0;
+    for_each_monitor(c, s, o, [&](std::uint32_t bit, Loses, bool seen) { word |= seen ? bit : 0u; });
+    return word;
 }
 
 }  // namespace zlg::core

@@ -100,10 +100,7 @@ void suspect(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
 // A half of those that wait for a judgement.
 void watch(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
     count_up(s.n_watched);
-    if (in.agrees)
-        count_up(s.n_agreeing);
-    else
-        s.n_agreeing = 0;
+    count_row(s.n_agreeing, in.agrees);
     if (debounced(s.n_lost, in.bias_lost, lost_debounce_halves)) s.countable = false;
     if (s.has_last && is_at_stop(in, difference(in.reading, s.last), 1)) s.over_range = true;
 }

@@ -21,7 +21,6 @@ TEST(BiasCommutator, LearnsWhichSignComesFirstAndWithoutALawMovesNoEdge) {
             const auto stamp = static_cast<std::uint64_t>(half) * 25000;
             const BiasCommutatorOutput out = step(config, s, true, alternating(half, first), stamp);
             EXPECT_EQ(out.sign, alternating(half, first));
-            EXPECT_EQ(out.edge_offset_ticks, 0);
             EXPECT_FALSE(out.sign_error || out.timer_error);
             EXPECT_EQ(next_edge(config, s, {true, 1000, 1}), 0);
         }
@@ -122,7 +121,7 @@ TEST(BiasCommutator, StampsFollowTheCommandedEdges) {
             const auto stamp = static_cast<std::uint64_t>(half * 25000 + (obeys ? commanded : 0));
             const bool received = !obeys || half % 7 != 3;
             const BiasCommutatorOutput out = step(dithered, s, received, alternating(half, 1), stamp);
-            EXPECT_EQ(out.edge_offset_ticks, commanded);
+            EXPECT_EQ(s.dither.end_ticks, commanded);
             n_errors += out.timer_error;
             commanded = next_edge(dithered, s, {});
             n_moved += commanded != 0;

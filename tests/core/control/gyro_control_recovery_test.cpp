@@ -60,11 +60,10 @@ void expect_sane(const GyroControlOutput& out, const GyroControlState& s) {
     ASSERT_TRUE(s.half_wave.length_variance_lambda2 > 0.0 && s.half_wave.length_variance_lambda2 < 0.25);
     ASSERT_TRUE(s.mode_switch.set_point_v >= 0.0 && s.mode_switch.set_point_v <= 300.0);
     const auto &both = s.detector.both, &single = s.detector.single;
-    for (const double x :
-         {out.event.half_wave_v, out.event.miss_lambda, s.piezo_v, s.temperature_c, s.mean_temperature_c, both.level,
-          both.candidate, single.level, single.candidate, s.detector.mean_a, s.mode_switch.detuning_lambda,
-          s.mode_switch.miss_lambda, s.mode_switch.good_v, s.bias_monitor.bias_counts, s.light_monitor.last_lambda,
-          s.coil_monitor.odd, s.coil_monitor.even, s.coil_monitor.spread})
+    for (const double x : {out.event.half_wave_v, s.piezo_v, s.temperature_c, s.mean_temperature_c, both.level,
+                           both.candidate, single.level, single.candidate, s.detector.mean_a,
+                           s.mode_switch.detuning_lambda, s.mode_switch.good_v, s.bias_monitor.bias_counts,
+                           s.light_monitor.last_lambda, s.coil_monitor.odd, s.coil_monitor.even, s.coil_monitor.spread})
         ASSERT_TRUE(std::isfinite(x));
 }
 

@@ -10,6 +10,11 @@ constexpr MonitorLimits config{.light_noise = Wavelengths{0.0033}, .bias_chi = 3
 
 constexpr double slope = 0.332;  // signal by wavelength
 
+struct Judged : LightMonitorOutput {
+    bool usable = false;
+    Wavelengths detuning{};
+};
+
 // Light of both beams, as a detector reads it.
 struct Lit {
     SyncDetectorInput light;
@@ -24,8 +29,10 @@ struct Lit {
         read.detuning = Wavelengths{detuning_lambda};
         read.mean_sq_lambda2 = mean_sq_lambda2;
     }
-    LightMonitorOutput seen_by(const MonitorLimits& c, LightMonitorState& state) const {
-        return step(c, state, {detector, light, read, closed, settled, deficit_ratio});
+    Judged seen_by(const MonitorLimits& c, LightMonitorState& state) const {
+        SyncDetectorOutput left = read;
+        const LightMonitorOutput out = step(c, state, {detector, light, left, closed, settled, deficit_ratio});
+        return {out, left.usable, left.detuning};
     }
 };
 
@@ -45,7 +52,7 @@ public:
 
     explicit Light(int n = 0) { (void)halves(n); }
 
-    LightMonitorOutput half(const MonitorLimits& c = config) {
+    Judged half(const MonitorLimits& c = config) {
         sign_ = -sign_;
         if (!stuck) shine();
         double sum = 0.0, squares = 0.0;
@@ -64,8 +71,8 @@ public:
         in.read.dark = dark;
         return in.seen_by(c, state);
     }
-    LightMonitorOutput halves(int n) {
-        LightMonitorOutput out;
+    Judged halves(int n) {
+        Judged out;
         for (int k = 0; k < n; ++k) out = half();
         return out;
     }
@@ -102,7 +109,7 @@ TEST(LightMonitor, OrdinaryLightIsLeftAsItIs) {
     Light light;
     for (int k = 0; k < 100000; ++k) {
         light.detuning_lambda = 0.01 * std::sin(0.01 * k);
-        const LightMonitorOutput out = light.half();
+        const Judged out = light.half();
         ASSERT_FALSE(out.stuck || out.noisy || out.unbalanced || out.contradicted) << k;
         ASSERT_TRUE(out.usable && out.has_mean_square) << k;
         ASSERT_NEAR(out.detuning.value(), light.detuning_lambda, 0.006) << k;
@@ -113,7 +120,7 @@ TEST(LightMonitor, LightWithoutNoiseMayStandStill) {
     Light light;
     light.noise_lambda = 0.0;
     for (int k = 0; k < 100; ++k) {
-        const LightMonitorOutput out = light.half({});
+        const Judged out = light.half({});
         ASSERT_TRUE(out.usable && out.has_mean_square && !out.stuck);
     }
 }
@@ -130,7 +137,7 @@ TEST(LightMonitor, AConverterThatStandsStillIsSeenInTwoHalvesAndSteersNothing) {
     const Lit in(still, still, 1, 0.0, 0.0);
     (void)in.seen_by(config, s);
     EXPECT_FALSE(in.seen_by(config, s).stuck);
-    const LightMonitorOutput out = in.seen_by(config, s);
+    const Judged out = in.seen_by(config, s);
     EXPECT_TRUE(out.stuck && !out.usable && !out.has_mean_square);
 }
 
@@ -158,11 +165,11 @@ TEST(LightMonitor, ABeamThatFadedLeavesTheDetuningAsTheMeanOfTwoHalves) {
     Light light{100};
     light.detuning_lambda = 0.01;
     light.share_a = 0.95;  // of 1.95: the reading is off by 0.077
-    const LightMonitorOutput out = light.halves(12);
+    const Judged out = light.halves(12);
     EXPECT_TRUE(out.unbalanced && out.usable && !out.has_mean_square);
     EXPECT_NEAR(out.detuning.value(), 0.01, 0.003);
     light.share_a = 1.0;
-    const LightMonitorOutput again = light.halves(12);
+    const Judged again = light.halves(12);
     EXPECT_TRUE(!again.unbalanced && again.has_mean_square);
 }
 
@@ -174,7 +181,7 @@ TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
         Light fading = on_the_way(0.2);
         (void)fading.halves(10);
         fading.share_a = 1.0 - lost;
-        const LightMonitorOutput out = fading.half();
+        const Judged out = fading.half();
         EXPECT_TRUE(out.unbalanced && !out.has_mean_square) << lost;
         // It has come back, but the loop has not locked yet.
         fading.share_a = 1.0;
@@ -246,7 +253,7 @@ TEST(LightMonitor, ARotationThatChangesIsNoFadedBeam) {
     Light light{100};
     for (int k = 0; k < 40; ++k) {
         light.deficit_ratio = k % 2 == 0 ? 0.2 : -0.2;
-        const LightMonitorOutput out = light.half();
+        const Judged out = light.half();
         EXPECT_TRUE(!out.unbalanced && out.has_mean_square) << k;
     }
 }
@@ -255,7 +262,7 @@ TEST(LightMonitor, TheBeatOverrulesTheLightAfterEightHalvesUnlessItIsDark) {
     Light light{100};
     light.two_way = false;
     EXPECT_FALSE(light.halves(7).contradicted);
-    const LightMonitorOutput out = light.half();
+    const Judged out = light.half();
     EXPECT_TRUE(out.contradicted && !out.usable);
     light.dark = true;
     EXPECT_FALSE(light.half().contradicted);
@@ -297,17 +304,17 @@ TEST(LightMonitor, TheFirstLightAfterADarkHalfIsNoDetuning) {
     EXPECT_FALSE(light.halves(3).usable);
     light.two_way = true;
     light.share_a = 0.97;
-    const LightMonitorOutput first = light.half();
+    const Judged first = light.half();
     EXPECT_TRUE(first.unbalanced && !first.has_mean_square && !first.usable);
     light.share_a = 1.0;
     (void)light.half();
-    const LightMonitorOutput later = light.half();
+    const Judged later = light.half();
     EXPECT_TRUE(later.has_mean_square && later.usable && !later.unbalanced);
 }
 
 // A half on its way to a lock, of which the loop takes a part in every sample from `corner` on, through such a discriminator.
-LightMonitorOutput relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda,
-                                  const MonitorLimits& c, std::mt19937& random) {
+Judged relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda, const MonitorLimits& c,
+                      std::mt19937& random) {
     static const DiscriminatorCurve curve = test::expansive_curve(31);
     std::normal_distribution<double> normal;
     std::array<float, 16> a{};
@@ -334,7 +341,7 @@ TEST(LightMonitor, AFastWayToALockIsNoNoiseHoweverQuietTheLight) {
         for (const double start_lambda : {-0.22, -0.16, -0.1, 0.05, 0.16, 0.2, 0.22}) {
             for (const double part : {0.0, 0.05, 0.12, 0.2}) {
                 for (const std::size_t corner : {0U, 3U, 8U, 11U}) {
-                    const LightMonitorOutput out = relocking_half(start_lambda, part, corner, noise_lambda, c, random);
+                    const Judged out = relocking_half(start_lambda, part, corner, noise_lambda, c, random);
                     EXPECT_TRUE(out.has_mean_square && !out.withheld)
                         << noise_lambda << " from " << start_lambda << " by " << part << " from sample " << corner;
                     noisy += relocking_half(0.3 * start_lambda, part, corner, 20.0 * noise_lambda, c, random).withheld;

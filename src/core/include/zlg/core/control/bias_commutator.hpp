@@ -38,11 +38,10 @@ struct BiasCommutatorState {
 };
 
 struct BiasCommutatorOutput {
-    std::int8_t sign = 1;  // of the half just latched: the echo, or the prediction where it cannot be right
-    std::int32_t edge_offset_ticks = 0;  // of the reversal that ended the half just latched, as it was commanded
-    bool sign_error = false;             // the echo was not +1 or -1, or did not alternate
-    bool timer_error = false;            // the stamp did not advance by the time commanded, within the tolerance
-    bool latch_error = false;            // by far: the counts are not those of a half
+    std::int8_t sign = 1;      // of the half just latched: the echo, or the prediction where it cannot be right
+    bool sign_error = false;   // the echo was not +1 or -1, or did not alternate
+    bool timer_error = false;  // the stamp did not advance by the time commanded, within the tolerance
+    bool latch_error = false;  // by far: the counts are not those of a half
 };
 
 // Whether a stamp is nearer to the end of the half to come than to that of any other.

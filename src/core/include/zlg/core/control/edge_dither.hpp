@@ -13,6 +13,7 @@
 // latched at the reversals the halves are unequal, L+ - L- = (2 q_k - p_k - p_(k+1))/f0: this much of the bias is left
 // in the counts of a period, and is known in whole ticks of the timer.
 
+#include <array>
 #include <cstdint>
 
 #include <zlg/core/methods.hpp>
@@ -41,10 +42,8 @@ enum class DitherLaw : unsigned char { paired, random };
 
 // Counts of one measurement of the rate, by the sign of the bias beat.
 struct RateCounts {
-    double positive = 0.0;
-    double negative = 0.0;
-    std::int32_t n_positive = 0;
-    std::int32_t n_negative = 0;
+    std::array<double, 2> sum{};  // of negative and of positive sign
+    std::array<std::int32_t, 2> n{};
     std::int32_t n_halves = 0;
 
     friend constexpr bool operator==(const RateCounts&, const RateCounts&) = default;

@@ -53,7 +53,7 @@ struct LightMonitorState {
 struct LightMonitorInput {
     const SyncDetectorConfig& detector;
     const SyncDetectorInput& light;  // as it was given to the detector,
-    const SyncDetectorOutput& read;  // and what that made of it
+    SyncDetectorOutput& read;        // and what that made of it: where it is not to be trusted, that is changed here
     bool closed = false;             // the loop; the light is that of one mode
     bool settled = false;            // and locked
     double deficit_ratio = 0.0;      // of the bias, in this half and the one before
@@ -66,10 +66,7 @@ struct LightMonitorOutput {
     bool contradicted = false;  // the beat was there, half after half, where light is too little for it
     bool withheld = false;      // there is light both ways, but this half's mean square is not to be trusted
     bool returns = false;  // the first light after a dark half of a settled gyro: what moved meanwhile is not known
-    bool usable = false;   // the detuning is that of the gyro, and may steer it
     bool has_mean_square = false;
-    Wavelengths detuning{};
-    double mean_sq_lambda2 = 0.0;
 };
 
 // Advance by one half-period whose frame was received.

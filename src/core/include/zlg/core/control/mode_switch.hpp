@@ -59,9 +59,12 @@ struct ModeSwitchConfig {
            c.start_set_point >= c.range.min && c.start_set_point <= c.range.max && is_sign(c.start_polarity);
 }
 
-// The last piezo readings in lock: four ticks, so that both signs of the bias weigh the same.
+// Four ticks, so that both signs of the bias weigh the same.
+inline constexpr std::int32_t most_readings = 8;
+
+// The last piezo readings in lock.
 struct PiezoReadings {
-    std::array<double, 8> voltage_v{};
+    std::array<double, most_readings> voltage_v{};
     std::int32_t n = 0;     // readings held
     std::int32_t next = 0;  // place of the next one
     std::int32_t age = 0;   // halves since the last one
@@ -87,9 +90,6 @@ struct ModeSwitchState {
     std::int32_t place = 0;      // of the search
     bool switching = false;      // an event is pending: it comes with the lock
     std::int64_t tick_opened = 0;
-    bool has_miss = false;
-    double miss_lambda = 0.0;
-    bool out_of_range = false;
 
     friend constexpr bool operator==(const ModeSwitchState&, const ModeSwitchState&) = default;
 };
@@ -115,11 +115,8 @@ struct ModeSwitchInput {
 struct SwitchEvent {
     std::int64_t tick_opened = 0;
     SwitchOutcome outcome = SwitchOutcome::switched;
-    bool has_miss = false;
-    double miss_lambda = 0.0;    // mean detuning of the first closed half
     bool has_half_wave = false;  // only of `switched`, with fresh readings before and after
     double half_wave_v = 0.0;    // |U- - U+|
-    bool out_of_range = false;   // no neighbour kept the margin of the range
 
     friend constexpr bool operator==(const SwitchEvent&, const SwitchEvent&) = default;
 };
