@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <string_view>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/maths.hpp>
@@ -65,28 +67,21 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
 // What the core's check refuses, by the keys that it comes from. Single numbers that it would refuse, the table of keys does not
 // allow; these are rules between them.
 void require_loop(const config::Config& config, const core::PerimeterLoopConfig& loop) {
-    switch (check(loop)) {
-        case core::PerimeterLoopFault::none:
-        case core::PerimeterLoopFault::watch_limit:
-            return;
-        case core::PerimeterLoopFault::range:
-            refuse(config, {"piezo.range_min_v", "piezo.range_max_v"},
-                   "above -1e6 to below 1e6 V, the first the lower");
-        case core::PerimeterLoopFault::half_wave:
-            refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error"},
-                   "a presumed half-wave voltage, half_wave_v (1 + half_wave_error), of 1e-3..1e6 V");
-        case core::PerimeterLoopFault::half_period:
-            refuse(config, {"gyro.tick_s"}, "above 0 up to 1e3 s");
-        case core::PerimeterLoopFault::time_constant:
-            refuse(config, {"perimeter.tau_s", "perimeter.settled_tau_s"}, "up to 1e6 s");
-        case core::PerimeterLoopFault::error_limit:
-            refuse(config, {"perimeter.limit_lambda"}, "above 0 up to 1e3");
-        case core::PerimeterLoopFault::slew:
-            refuse(config, {"piezo.slew_v_s"}, "above 0 up to 1e12 V/s");
-        case core::PerimeterLoopFault::relock:
-            refuse(config, {"perimeter.sample_gain", "gyro.light_samples", "perimeter.relock_halves", "piezo.rc_s"},
-                   "a gain 1 - (1 - sample_gain)^light_samples above 0, and piezo.rc_s of 1e-9..1e3 s");
-    }
+    const auto require = [&](bool kept, std::initializer_list<std::string_view> keys, std::string_view allowed) {
+        if (!kept) refuse(config, keys, allowed);
+    };
+    const auto is_above_0 = [](double x, double most) { return x > 0.0 && x <= most; };
+    require(is_allowed(loop.range), {"piezo.range_min_v", "piezo.range_max_v"},
+            "above -1e6 to below 1e6 V, the first the lower");
+    require(loop.half_wave.value() >= 1e-3 && loop.half_wave.value() <= 1e6,
+            {"piezo.half_wave_v", "piezo.half_wave_error"},
+            "a presumed half-wave voltage, half_wave_v (1 + half_wave_error), of 1e-3..1e6 V");
+    require(is_above_0(loop.half_period.value(), 1e3), {"gyro.tick_s"}, "above 0 up to 1e3 s");
+    require(is_above_0(loop.time_constant.value(), 1e6), {"perimeter.tau_s", "perimeter.settled_tau_s"}, "up to 1e6 s");
+    require(is_above_0(loop.error_limit.value(), 1e3), {"perimeter.limit_lambda"}, "above 0 up to 1e3");
+    require(is_above_0(loop.slew_v_s, 1e12), {"piezo.slew_v_s"}, "above 0 up to 1e12 V/s");
+    require(is_allowed(loop), {"perimeter.sample_gain", "gyro.light_samples", "perimeter.relock_halves", "piezo.rc_s"},
+            "a gain 1 - (1 - sample_gain)^light_samples above 0, and piezo.rc_s of 1e-9..1e3 s");
 }
 
 // errors  config::ConfigError where the core's check refuses what was made of the configuration.

@@ -72,7 +72,6 @@ GyroControlConfig config_from(Bytes& bytes) {
     c.half_wave.reference = Celsius{bytes.real(20.0)};
     c.commutator.half_ticks = bytes.take<std::uint64_t>() >> bytes.index(64);
     c.commutator.tolerance_ticks = bytes.take<std::uint8_t>();
-    c.commutator.dither.cycle_ticks = bytes.real(1e7 / 60e3);
     c.presumed_temperature = Celsius{bytes.real(20.0)};
     return c;
 }

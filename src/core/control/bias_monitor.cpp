@@ -25,15 +25,20 @@ constexpr double near_rate_ratio = 0.03;
 constexpr std::int32_t new_level_halves = 400;
 constexpr std::int32_t better_level_halves = 32;
 
+// The mean of values that agree with it; one that does not begins it anew.
+void average(double& mean, std::int32_t& n, double x, double tolerance) noexcept {
+    const bool agrees = size(x - mean) < tolerance;
+    n = agrees ? n + 1 : 1;
+    mean = agrees ? mean + (x - mean) / n : x;
+}
+
 // A bias that has changed for good, or that was learnt while it was faulty.
 void learn_anew(const MonitorLimits& c, BiasMonitorState& s, double b) noexcept {
     if (!(b > 0.25 * c.bias_counts && b > 0.5 * min_bias_counts)) {
         s.n_steady = 0;
         return;
     }
-    const bool agrees = size(b - s.steady_counts) < s.steady_counts / 12.0;
-    s.n_steady = agrees ? s.n_steady + 1 : 1;
-    s.steady_counts = agrees ? s.steady_counts + (b - s.steady_counts) / s.n_steady : b;
+    average(s.steady_counts, s.n_steady, b, s.steady_counts / 12.0);
     const double off_counts = size(s.bias_counts - c.bias_counts);
     const bool better = size(s.steady_counts - c.bias_counts) < 0.5 * off_counts;
     if (s.n_steady < (better ? better_level_halves : new_level_halves)) return;
@@ -50,9 +55,7 @@ void learn(const MonitorLimits& c, BiasMonitorState& s, double b, bool in_band) 
         return;
     }
     if (!(b > 0.5 * min_bias_counts)) return;
-    const bool agrees = size(b - s.bias_counts) < 0.25 * s.bias_counts;
-    s.n_learnt = agrees ? s.n_learnt + 1 : 1;
-    s.bias_counts = agrees ? s.bias_counts + (b - s.bias_counts) / s.n_learnt : b;
+    average(s.bias_counts, s.n_learnt, b, 0.25 * s.bias_counts);
 }
 
 void remember(BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign) noexcept {

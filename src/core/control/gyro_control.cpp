@@ -69,32 +69,13 @@ void decide_switch(const GyroControlConfig& c, GyroControlState& s, const Observ
     if (in.recentre || in.due) s.recentring = in.recentre;
 }
 
-// Notes where a move up (half 4k) or down (half 4k + 2) would begin: by turns, to halve the copying. When the loop opens
-// they are one and three halves old.
-void note_start(GyroControlState& s) noexcept {
-    if (s.half % 2 != 0 || s.mode_switch.phase != SwitchPhase::tracking) return;
-    MoveStart& start = s.half % 4 == 0 ? s.up : s.down;
-    start.known = false;
-    start.play = s.half_wave.play;
-    start.piezo_v = s.piezo_v;
-    start.temperature_c = s.temperature_c;
-}
-
-void predict_move(const GyroControlConfig& c, const HalfWaveState& stroke, std::int8_t sign,
-                  MoveStart& start) noexcept {
-    if (start.known) return;
-    start.known = true;
-    start.move_v =
-        predicted_move(c.half_wave, stroke, start.play, sign, Volts{start.piezo_v}, Celsius{start.temperature_c})
-            .value();
-}
-
-// A move is needed where the loop opens. Between switches nothing is computed; while a switch lasts, the moves are
-// predicted before the model that they rest on learns from it.
-void predict_moves(const GyroControlConfig& c, GyroControlState& s, bool opens) noexcept {
-    if (!opens && s.mode_switch.phase == SwitchPhase::tracking) return;
-    predict_move(c, s.half_wave, 1, s.up);
-    predict_move(c, s.half_wave, -1, s.down);
+// The moves up and down from where the loop opens.
+void predict_moves(const GyroControlConfig& c, GyroControlState& s) noexcept {
+    const auto move_v = [&](std::int8_t sign) {
+        return predicted_move(c.half_wave, s.half_wave, sign, Volts{s.piezo_v}, Celsius{s.temperature_c}).value();
+    };
+    s.up_v = move_v(1);
+    s.down_v = move_v(-1);
 }
 
 // Where the stage has brought the piezo by the end of an open half, and whether the reading agrees.
@@ -113,7 +94,7 @@ std::optional<SwitchEvent> sequence(const GyroControlConfig& c, GyroControlState
     in.tick_border = s.half % 2 != 0;
     in.next_tick = (s.half + 1) / 2;
     decide_switch(c, s, o, advice, in);
-    predict_moves(c, s, in.due || in.recentre);
+    if (in.due || in.recentre) predict_moves(c, s);
     in.reversed = o.bias.reversed && o.lit;
     in.light_known = o.order.fresh && (o.light.readable || o.lit);
     in.two_way = o.lit;
@@ -122,7 +103,7 @@ std::optional<SwitchEvent> sequence(const GyroControlConfig& c, GyroControlState
     in.piezo = o.piezo;
     in.set_point = Volts{s.loop.set_point_v};
     in.half_wave = half_wave(s);
-    in.offset = Volts{0.5 * (s.up.move_v + s.down.move_v)};
+    in.offset = Volts{0.5 * (s.up_v + s.down_v)};
     if (!s.mode_switch.loop_closed) read_flight(c, s, o, in);
     return step(c.mode_switch, s.mode_switch, in);
 }
@@ -194,8 +175,8 @@ GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t co
     GyroControlState s;
     s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
     s.half_wave = initial_state(config.half_wave, config.mode_switch.start_set_point);
-    s.up.move_v = config.half_wave.half_wave.value();
-    s.down.move_v = -s.up.move_v;
+    s.up_v = config.half_wave.half_wave.value();
+    s.down_v = -s.up_v;
     s.schedule = initial_state(config.schedule);
     s.mode_switch = initial_state(config.mode_switch);
     s.counter = counter;
@@ -218,7 +199,6 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     Observation seen;
     seen.phase = state.mode_switch.phase;
     observe(config, state, frame, seen);
-    note_start(state);
     const std::optional<SwitchEvent> event = sequence(config, state, seen, advice);
     learn_stroke(config, state, seen, was_closed, event);
     seen.regulated = regulate(config, state, seen, was_closed);

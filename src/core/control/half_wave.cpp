@@ -60,10 +60,10 @@ double dot(const StrokeWeights& a, const StrokeWeights& b) noexcept {
 }
 
 // The sum of (1) over the plays, for a move that ends at this voltage.
-double hysteresis_length(const HalfWaveState& s, const std::array<double, n_plays>& play, double voltage) noexcept {
+double hysteresis_length(const HalfWaveState& s, double voltage) noexcept {
     Pair length{};
     for (std::size_t i = 0; i < n_plays; i += 2) {
-        const Pair moved = play_output(play.data(), i, voltage) - load(play.data() + i);
+        const Pair moved = play_output(s.play.data(), i, voltage) - load(s.play.data() + i);
         length += load(s.weight.data() + first_play + i) * moved;
     }
     return length[0] + length[1];
@@ -106,14 +106,14 @@ void follow(const HalfWaveConfig& config, HalfWaveState& state, Volts piezo) noe
     for (std::size_t i = 0; i < n_plays; i += 2) store(state.play.data() + i, play_output(state.play.data(), i, v));
 }
 
-Volts predicted_move(const HalfWaveConfig& config, const HalfWaveState& state, const std::array<double, n_plays>& play,
-                     std::int8_t sign, Volts from, Celsius temperature) noexcept {
+Volts predicted_move(const HalfWaveConfig& config, const HalfWaveState& state, std::int8_t sign, Volts from,
+                     Celsius temperature) noexcept {
     const double v0 = over_u(config, state, from);
     const double slope = state.weight[direct] + state.weight[by_temperature] * above_reference_c(config, temperature);
     const double steepness = total_slope(state, slope);
     double move = sign;
     for (int round = 0; round < 4; ++round) {
-        const double length = state.weight[constant] + slope * move + hysteresis_length(state, play, v0 + move);
+        const double length = state.weight[constant] + slope * move + hysteresis_length(state, v0 + move);
         move += (sign * half_lambda - length) / steepness;
         const double size_of = limited(sign * move, 2.0);
         move = sign * (size_of > 0.5 ? size_of : 0.5);

@@ -27,9 +27,8 @@ template <class Row>
     row(health_sequence_error, Loses::nothing, o.order.error);
     row(health_sign_error, Loses::counts, o.commuted.sign_error);
     row(health_timer_error, Loses::nothing, o.commuted.timer_error);
-    row(no_bit, Loses::counts, o.commuted.latch_error);
     row(health_echo_error, Loses::nothing, o.echo_error);
-    row(no_bit, Loses::counts, o.polarity_error);
+    row(no_bit, Loses::counts, o.commuted.latch_error || o.polarity_error);
     row(health_piezo_not_finite, Loses::nothing, o.order.fresh && !is_finite(o.piezo.value()));
     row(health_temperature_not_finite, Loses::nothing, o.order.fresh && !is_finite(o.temperature_c));
     row(health_light_lost, Loses::nothing, o.order.fresh && o.light.readable && !o.light.two_way);

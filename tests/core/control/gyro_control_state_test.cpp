@@ -31,7 +31,7 @@ TEST(GyroControlState, StartsAtTheSetPointTheCounterAndTheTemperatureThatArePres
     EXPECT_EQ(state.counter, 1234u);
     EXPECT_EQ(state.temperature_c, 35.0);
     EXPECT_EQ(state.half, 0);
-    EXPECT_EQ(state.up.move_v, -state.down.move_v);
+    EXPECT_EQ(state.up_v, -state.down_v);
     const ActuatorFrame first = initial_actuator(config);
     EXPECT_TRUE(first.loop_closed);
     EXPECT_EQ(first.polarity, -1);

@@ -48,7 +48,7 @@ public:
         const double start = piezo.length(v);
         const Celsius now{piezo.temperature_c};
         begin_move(config, state, Volts{v});
-        const double move_v = predicted_move(config, state, state.play, sign_, Volts{v}, now).value();
+        const double move_v = predicted_move(config, state, sign_, Volts{v}, now).value();
         v += move_v;
         follow(config, state, Volts{v});
         const double miss = piezo.length(v) - start - 0.5 * sign_;
@@ -74,8 +74,8 @@ public:
 
 TEST(HalfWave, KnowsTheHalfWaveVoltageBeforeAnyMove) {
     const HalfWaveState s = initial_state(config, Volts{150.0});
-    EXPECT_NEAR(predicted_move(config, s, s.play, 1, Volts{150.0}, Celsius{20.0}).value(), 40.0, 0.01);
-    EXPECT_NEAR(predicted_move(config, s, s.play, -1, Volts{170.0}, Celsius{35.0}).value(), -40.0, 0.01);
+    EXPECT_NEAR(predicted_move(config, s, 1, Volts{150.0}, Celsius{20.0}).value(), 40.0, 0.01);
+    EXPECT_NEAR(predicted_move(config, s, -1, Volts{170.0}, Celsius{35.0}).value(), -40.0, 0.01);
 }
 
 TEST(HalfWave, OneMoveOfAPiezoWithoutHysteresisTeachesItsHalfWaveVoltage) {
@@ -170,7 +170,7 @@ TEST(HalfWave, NothingButFiniteNumbersStayWhateverComesIn) {
         (void)confirm(s, true);
         for (const double weight : s.weight) ASSERT_TRUE(std::isfinite(weight)) << k;
         for (const double play : s.play) ASSERT_TRUE(std::isfinite(play)) << k;
-        const double move_v = predicted_move(config, s, s.play, sign, Volts{b}, Celsius{a}).value();
+        const double move_v = predicted_move(config, s, sign, Volts{b}, Celsius{a}).value();
         ASSERT_TRUE(sign * move_v >= 20.0 && sign * move_v <= 80.0) << k;
     }
 }

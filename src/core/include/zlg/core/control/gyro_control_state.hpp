@@ -1,7 +1,6 @@
 #pragma once
 // What control is set to, and all that it remembers from half to half.
 
-#include <array>
 #include <cstdint>
 
 #include <zlg/core/control/bias_commutator.hpp>
@@ -54,7 +53,7 @@ enum class GyroControlFault : unsigned char {
 [[nodiscard]] constexpr GyroControlFault check(const GyroControlConfig& c) noexcept {
     const double temperature_c = c.presumed_temperature.value();
     if (!is_allowed(c.detector)) return GyroControlFault::detector;
-    if (check(c.loop) != PerimeterLoopFault::none) return GyroControlFault::loop;
+    if (!is_allowed(c.loop)) return GyroControlFault::loop;
     if (!is_allowed(c.half_wave)) return GyroControlFault::half_wave;
     if (!is_allowed(c.schedule)) return GyroControlFault::schedule;
     if (!is_allowed(c.mode_switch)) return GyroControlFault::mode_switch;
@@ -66,17 +65,6 @@ enum class GyroControlFault : unsigned char {
     if (!is_allowed(c.fringe)) return GyroControlFault::fringe;
     return GyroControlFault::none;
 }
-
-// Where a move to the next mode would begin, and how far it would go: the latter is computed when it is needed.
-struct MoveStart {
-    bool known = true;  // `move_v` is that from here
-    double move_v = 0.0;
-    std::array<double, n_plays> play{};
-    double piezo_v = 0.0;
-    double temperature_c = 0.0;
-
-    friend constexpr bool operator==(const MoveStart&, const MoveStart&) = default;
-};
 
 struct GyroControlState {
     SyncDetectorState detector{};
@@ -110,17 +98,15 @@ struct GyroControlState {
     double mean_temperature_c = 0.0;  // running mean over 8192 halves
     double piezo_v = 0.0;             // last finite reading
     double temperature_c = 0.0;       // last finite reading
-    MoveStart up{};                   // of the moves that are predicted
-    MoveStart down{};
+    double up_v = 0.0;                // the moves up and down that were predicted last
+    double down_v = 0.0;
     HalfWaveState half_wave{};
 
     friend constexpr bool operator==(const GyroControlState&, const GyroControlState&) = default;
 };
 
 // The half-wave voltage U_lambda/2 by the moves up and down that were predicted last.
-[[nodiscard]] constexpr Volts half_wave(const GyroControlState& s) noexcept {
-    return Volts{0.5 * (s.up.move_v - s.down.move_v)};
-}
+[[nodiscard]] constexpr Volts half_wave(const GyroControlState& s) noexcept { return Volts{0.5 * (s.up_v - s.down_v)}; }
 
 // The state before the first half.
 //

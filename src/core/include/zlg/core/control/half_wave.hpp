@@ -74,14 +74,12 @@ void follow(const HalfWaveConfig& config, HalfWaveState& state, Volts piezo) noe
 
 // The change of voltage, from `from` on, that is predicted to move the perimeter by half a wavelength.
 //
-// play         as the moves so far have left them.
 // sign         +1 or -1, of the move.
 // temperature  now; not finite: T0.
 // return       of that sign, half to twice the presumed half-wave voltage.
 // accuracy     1e-4 of U where the plays make up to a third of the stroke.
-[[nodiscard]] Volts predicted_move(const HalfWaveConfig& config, const HalfWaveState& state,
-                                   const std::array<double, n_plays>& play, std::int8_t sign, Volts from,
-                                   Celsius temperature) noexcept;
+[[nodiscard]] Volts predicted_move(const HalfWaveConfig& config, const HalfWaveState& state, std::int8_t sign,
+                                   Volts from, Celsius temperature) noexcept;
 
 // A move begins, from the settled voltage `from`.
 void begin_move(const HalfWaveConfig& config, HalfWaveState& state, Volts from) noexcept;
