@@ -5,7 +5,8 @@
 
 namespace zlg::core {
 
-[[nodiscard]] constexpr double limited(double x, double limit) noexcept {
+template <class Number>
+[[nodiscard]] constexpr Number limited(Number x, Number limit) noexcept {
     if (x > limit) return limit;
     return x < -limit ? -limit : x;
 }

@@ -131,8 +131,7 @@ void read_span(const GyroControlConfig& c, GyroControlState& s, Observation& o) 
 // A re-lock is corrected by both halves of a tick: one without the other would be worse than none.
 void match_halves(GyroControlState& s, Observation& o) noexcept {
     o.has_mean_square = o.light.usable && o.monitored.has_mean_square;
-    const bool is_first = s.half % 2 == 0;
-    if (is_first) {
+    if (s.half % 2 == 0) {
         s.first_was_blind = o.valid && !o.has_mean_square;
         s.first_was_seen = o.valid && o.has_mean_square;
         return;

@@ -31,22 +31,17 @@ constexpr double max_missing_ratio = 0.03;
 // The centre of the next mode: no detuning is that large.
 constexpr double next_mode_lambda = 0.5;
 
-bool is_still(std::span<const float> x, float last) noexcept {
+// Whether a beam shows one number throughout, that of the half before. What is no number is remembered as 0, which never counts.
+bool is_still(std::span<const float> x, float& last) noexcept {
     const float first = x.front();
-    return first == last && first == x[x.size() / 2] && first == x.back() && first != 0.0f;
+    const bool still = first == last && first == x[x.size() / 2] && first == x.back() && first != 0.0f;
+    last = is_finite(static_cast<double>(first)) ? first : 0.0f;
+    return still;
 }
 
-// NaN compares unequal to everything; stored as 0, which never counts as stuck.
-float remembered(float sample) noexcept { return is_finite(static_cast<double>(sample)) ? sample : 0.0f; }
-
-bool is_any_still(LightMonitorState& s, const LightMonitorInput& in) noexcept {
-    bool still = is_still(in.light.light_a, s.last_a);
-    s.last_a = remembered(in.light.light_a.front());
-    if (!in.light.light_b.empty()) {
-        still = is_still(in.light.light_b, s.last_b) || still;
-        s.last_b = remembered(in.light.light_b.front());
-    }
-    return still;
+bool is_any_still(LightMonitorState& s, const SyncDetectorInput& light) noexcept {
+    const bool still_a = is_still(light.light_a, s.last_a);
+    return (!light.light_b.empty() && is_still(light.light_b, s.last_b)) || still_a;
 }
 
 // The part of the light signal (A - B)/(A + B) that keeps its sign as the bias turns, as detuning; in the detuning itself
@@ -63,12 +58,8 @@ int side_of(const MonitorLimits& c, const LightMonitorState& s, const LightMonit
 // where the detuning that is read should have weakened the bias more. On the way to a lock the detuning itself changes.
 void weigh_beams(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in) noexcept {
     const int side = side_of(c, s, in);
-    if (side == s.side) {
-        s.n_side += s.n_side < balance_debounce;
-    } else {
-        s.side = static_cast<std::int8_t>(side);
-        s.n_side = 1;
-    }
+    s.n_side = side == s.side ? s.n_side + (s.n_side < balance_debounce) : 1;
+    s.side = static_cast<std::int8_t>(side);
     if (in.settled && s.n_side >= balance_debounce) s.is_unbalanced = side != 0;
     // Light noise is in the mean square, sigma^2, but does not weaken the bias; (2 sigma)^2 leaves a margin.
     const double above_noise =
@@ -269,8 +260,7 @@ void look_for_noise(const MonitorLimits& c, LightMonitorState& s, const LightMon
     out.withheld = is_noisy || s.n_noisy > 0;
     if (out.withheld) out.has_mean_square = false;
     out.noisy = debounced(s.n_noisy, is_noisy, spoilt_debounce);
-    if (!is_noisy) return;
-    if (found_lambda2 > max_steering_noise_lambda * max_steering_noise_lambda) in.read.usable = false;
+    if (is_noisy && found_lambda2 > max_steering_noise_lambda * max_steering_noise_lambda) in.read.usable = false;
 }
 
 }  // namespace
@@ -284,7 +274,7 @@ LightMonitorOutput step(const MonitorLimits& limits, LightMonitorState& state,
     out.contradicted = debounced(state.n_contradicted, input.light.beats && !input.read.two_way && !input.read.dark,
                                  contradicted_debounce);
     if (watches && !input.light.light_a.empty())
-        out.stuck = debounced(state.n_stuck, is_any_still(state, input), spoilt_debounce);
+        out.stuck = debounced(state.n_stuck, is_any_still(state, input.light), spoilt_debounce);
     if (reads) look_for_noise(limits, state, input, out);
     // Only on the way to a lock: a settled gyro has cheaper tests.
     const bool is_whole = reads && !out.withheld && !input.settled;

@@ -111,7 +111,7 @@ void try_place(const ModeSwitchConfig& c, ModeSwitchState& s, const ModeSwitchIn
     const double span_v = c.range.max.value() - c.range.min.value();
     const double wanted = limited(2.0 * span_v / in.half_wave.value(), max_places);
     const std::int32_t n_places = wanted >= 1.0 ? static_cast<std::int32_t>(wanted) : 1;
-    s.place %= 2 * n_places;
+    s.place = s.phase == SwitchPhase::returning ? 0 : s.place % (2 * n_places);
     const double fraction = (s.place / 2 + 0.5) / n_places;
     const std::int8_t polarity = s.place % 2 == 0 ? s.good_polarity : inverse(s.good_polarity);
     open_loop(c, s, SwitchPhase::searching, polarity, c.range.min.value() + fraction * span_v, in.next_tick);
@@ -140,12 +140,7 @@ std::optional<SwitchEvent> settle(const ModeSwitchConfig& c, ModeSwitchState& s,
     }
     const bool failed = s.n_halves >= 2 * c.lock_timeout_ticks || s.n_dark >= 2 * c.dark_ticks;
     if (!failed || !in.tick_border) return {};
-    if (s.phase == SwitchPhase::settling) {
-        begin_return(c, s, in);
-    } else {
-        if (s.phase == SwitchPhase::returning) s.place = 0;
-        try_place(c, s, in);
-    }
+    s.phase == SwitchPhase::settling ? begin_return(c, s, in) : try_place(c, s, in);
     return {};
 }
 

@@ -24,12 +24,10 @@ constexpr double stop_to = 1.05;
 
 std::int64_t difference(std::uint64_t a, std::uint64_t b) noexcept { return static_cast<std::int64_t>(a - b); }
 
-double halves(std::int32_t n) noexcept { return static_cast<double>(n); }
-
 // T - P.
 double apart(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::int32_t m) noexcept {
     const double bias = m % 2 != 0 ? in.beat_sign * in.bias_counts : 0.0;
-    return as_double(difference(in.reading, s.good)) - halves(m) * s.rate_counts - bias;
+    return as_double(difference(in.reading, s.good)) - m * s.rate_counts - bias;
 }
 
 // T and P agree within this: the bias is known to a sixth, the rate may go on changing as it last did; half of the bias at
@@ -37,7 +35,7 @@ double apart(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::i
 bool has_returned(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::int32_t m) noexcept {
     if (!s.rate_known || !in.agrees) return false;
     const double bias = in.bias_counts > min_bias_counts ? in.bias_counts : min_bias_counts;
-    const double some = bias / 6.0 + 0.5 * s.change_counts * halves(m) * halves(m + 1);
+    const double some = bias / 6.0 + 0.5 * s.change_counts * m * (m + 1);
     const double most = 0.5 * bias;
     return size(apart(s, in, m)) <= (some < most ? some : most);
 }
@@ -61,7 +59,7 @@ void follow_rate(ReadingMonitorState& s, const ReadingMonitorInput& in, std::int
 
 // More counts than m halves can have.
 bool is_over(const ReadingMonitorInput& in, std::int64_t counts, std::int32_t m, double part) noexcept {
-    return size(as_double(counts)) > part * in.max_counts * halves(m);
+    return size(as_double(counts)) > part * in.max_counts * m;
 }
 
 bool is_at_stop(const ReadingMonitorInput& in, std::int64_t counts, std::int32_t m) noexcept {

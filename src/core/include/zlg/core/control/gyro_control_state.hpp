@@ -51,7 +51,6 @@ enum class GyroControlFault : unsigned char {
 };
 
 [[nodiscard]] constexpr GyroControlFault check(const GyroControlConfig& c) noexcept {
-    const double temperature_c = c.presumed_temperature.value();
     if (!is_allowed(c.detector)) return GyroControlFault::detector;
     if (!is_allowed(c.loop)) return GyroControlFault::loop;
     if (!is_allowed(c.half_wave)) return GyroControlFault::half_wave;
@@ -59,7 +58,8 @@ enum class GyroControlFault : unsigned char {
     if (!is_allowed(c.mode_switch)) return GyroControlFault::mode_switch;
     if (!is_allowed(c.commutator)) return GyroControlFault::commutator;
     if (!is_allowed(c.limits)) return GyroControlFault::monitors;
-    if (!(temperature_c > -1e6 && temperature_c < 1e6)) return GyroControlFault::temperature;
+    if (!(c.presumed_temperature > Celsius{-1e6} && c.presumed_temperature < Celsius{1e6}))
+        return GyroControlFault::temperature;
     if (!(c.loop.range == c.mode_switch.range && c.loop.range == c.half_wave.range))
         return GyroControlFault::ranges_differ;
     if (!is_allowed(c.fringe)) return GyroControlFault::fringe;
