@@ -35,7 +35,6 @@ public:
           rate_hz_{rate_arcsec_s / scale_arcsec},
           coupling_{twin::Backscatter::equal(g.lock_hz, 0.7).coupling(1.0, 1.0)} {
         dither_.method = g.dither;
-        dither_.half_ticks = static_cast<std::uint64_t>(std::llround(0.5 * tick_s * timer_hz));
         dither_.cycle_ticks = timer_hz / g.bias_hz;
         dither_.tick_s = tick_s;
         dither_.scale_arcsec = scale_arcsec;
