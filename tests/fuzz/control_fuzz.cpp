@@ -139,8 +139,7 @@ void claim_record(const GyroControlOutput& out, std::int64_t half) {
     claim(std::isfinite(r.piezo_v) && std::isfinite(r.temperature_c), "voltage and temperature are numbers");
     claim((r.bias_sign == 1 || r.bias_sign == -1) && (r.mode == 1 || r.mode == -1), "signs are signs");
     claim(std::uint64_t{out.health} < (std::uint64_t{1} << health_bit_names.size()), "every bit has a name");
-    claim(!out.has_event || std::isfinite(out.event.half_wave_v),
-          "an event is of numbers");
+    claim(!out.has_event || std::isfinite(out.event.half_wave_v), "an event is of numbers");
 }
 
 bool same(const GyroControlOutput& a, const GyroControlOutput& b) {
