@@ -67,7 +67,7 @@ private:
 
     double half(int sign) {
         const double rate_hz = g_.rate_arcsec_s / g_.scale_arcsec;
-        const std::int32_t excess = core::excess_ticks(sign, state_.start_ticks, state_.end_ticks);
+        const std::int32_t excess = sign * (state_.end_ticks - state_.start_ticks);
         const double length_s = 0.5 * g_.tick_s + sign * excess / timer_hz;
         const double plateau_hz = rate_hz + sign * g_.helicity * g_.bias_hz;
         const double plateau_s = length_s - g_.edge_s;
