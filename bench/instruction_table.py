@@ -23,7 +23,7 @@ PART_OF = {
                      "switch_job", "motion_spread", "handover"], "gap_bridge"),
     **dict.fromkeys(["triangle", "counter_rounding", "learnt_motion", "light_spline", "switch_estimate", "switch_window",
                      "walk_kernel", "window_covariance", "motion_bank"], "estimate"),
-    "gyro_observation": "gyro_control",
+    **dict.fromkeys(["gyro_observation", "monitors", "health"], "gyro_control"),
     "ellipse_correction": "fringe_readout",
     "border": "gyro_compensation",
     "known_sum": "gyro_compensation",
@@ -38,8 +38,8 @@ PART_OF = {
     "relock_light": "switch_light",
 }
 MODULES = [
-    "sync_detector", "perimeter_loop", "half_wave", "stroke_model", "mode_switch", "switch_schedule", "bias_commutator",
-    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "fringe_readout", "health",
+    "sync_detector", "perimeter_loop", "half_wave", "mode_switch", "switch_schedule", "bias_commutator",
+    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "fringe_readout",
     "gyro_control", "relock_drift", "switch_light", "edge_shift", "lock_in", "gap_bridge", "estimate", "counted_stretch", "angle",
     "gyro_compensation",
 ]

@@ -26,11 +26,11 @@ Script script(std::string name, std::string ticks, int halves, int light_samples
     s.control.schedule.interval_ticks = 1'000'000;
     s.control.mode_switch.dark_ticks = 1'000;
     s.control.mode_switch.lock_timeout_ticks = 1'000;
-    s.control.bias_monitor.presumed_counts = 150.0;
-    s.control.coil_monitor.tolerance_ratio = 0.5 / 150.0;
-    s.control.counter_monitor.watches = true;
-    s.control.light_monitor = {.noise = core::Wavelengths{0.0033}, .bias_chi = 3.6};
-    s.control.detuning_monitor.max_change_lambda2 = 1.0 / 540.0;
+    s.control.limits.bias_counts = 150.0;
+    s.control.limits.coil_ratio = 0.5 / 150.0;
+    s.control.limits.light_noise = core::Wavelengths{0.0033};
+    s.control.limits.bias_chi = 3.6;
+    s.control.limits.detuning_change_lambda2 = 1.0 / 540.0;
     s.compensation.relock.method = RelockMethod::mean_square;
     return s;
 }

@@ -31,11 +31,10 @@ core::BiasCommutatorConfig commutator_of(const config::Config& config) {
     if (g.dither == core::DitherMethod::none) return made;
     made.dither = {.method = g.dither,
                    .seed = config.run.seed,
-                   .half_ticks = made.half_ticks,
                    .cycle_ticks = counts_per_turn(config.laser.quadrature) * timer_hz / (plateau_ratio(g) * g.bias_hz),
                    .tick_s = g.tick_s,
                    .scale_arcsec = g.scale_arcsec};
-    if (check(made.dither) == core::EdgeDitherFault::cycle_ticks)
+    if (made.half_ticks >= 8 && !has_cycle(made))
         throw config::ConfigError{
             fmt::format("gyro.dither: a cycle of gyro.bias_hz = {} is {} ticks of the timer of {} Hz; allowed is "
                         "1..{}, an eighth of a half",

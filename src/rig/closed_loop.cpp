@@ -62,6 +62,7 @@ ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin
       control_config_{control_config(config)},
       control_state_{initial_state(control_config_)},
       actuator_{initial_actuator(control_config_)},
+      half_wave_{measured_half_wave(config)},
       sensor_{&before_the_first},
       processor_{processor} {
     control_config_.schedule.end_tick = end_tick;
@@ -75,6 +76,9 @@ LoopHalf ClosedLoop::advance() {
     const twin::TwinHalf& half = advance_twin(twin_, actuator_, config_);
     sensor_ = &half.sensor;
     LoopHalf out = processor_ ? step_outside() : step_here();
+    if (out.control.has_event) half_wave_.take(out.control.event);
+    out.half_wave_v = half_wave_.estimate_v;
+    out.half_wave_sigma_v = half_wave_.sigma_v();
     out.record = out.control.record;
     out.truth = half.truth;
     actuator_ = out.control.actuator;
@@ -86,17 +90,12 @@ LoopHalf ClosedLoop::step_here() {
         adviser_ ? core::advice(adviser_->config(), adviser_->state()) : core::SwitchAdvice{};
     LoopHalf out{.control = step(control_config_, control_state_, *sensor_, advice)};
     if (adviser_) adviser_->take(out.control.record, light());
-    out.half_wave_v = control_state_.half_wave.estimate_v;
-    out.half_wave_sigma_v = sigma(control_state_.half_wave).value();
     return out;
 }
 
 LoopHalf ClosedLoop::step_outside() {
     const ProcessorHalf half = processor_->half(*sensor_);
-    return {.control = half.control,
-            .half_wave_v = half.half_wave.estimate_v,
-            .half_wave_sigma_v = sigma(half.half_wave).value(),
-            .compensation = half.compensation};
+    return {.control = half.control, .compensation = half.compensation};
 }
 
 core::LightSamples ClosedLoop::light() const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <string_view>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/maths.hpp>
@@ -11,6 +13,7 @@
 
 #include "bias_wiring.hpp"
 #include "fringe_wiring.hpp"
+#include "piezo_wiring.hpp"
 
 namespace zlg::rig {
 namespace {
@@ -48,49 +51,41 @@ constexpr double balance_s = 240.0;
 void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     const config::Gyro& g = config.gyro;
     const double bias_counts = 0.5 * g.tick_s * g.bias_hz;
-    made.health.counts_limit = counts_limit(config);
-    made.bias_monitor.presumed_counts = std::min(bias_counts, 1e15);
-    if (bias_counts >= core::min_bias_counts) made.coil_monitor.tolerance_ratio = 0.5 / bias_counts;
-    made.counter_monitor.watches = true;
-    made.light_monitor.noise = core::Wavelengths{g.light_noise_lambda};
+    made.limits.counts = counts_limit(config);
+    made.limits.bias_counts = std::min(bias_counts, 1e15);
+    if (bias_counts >= core::min_bias_counts) made.limits.coil_ratio = 0.5 / bias_counts;
+    made.limits.light_noise = core::Wavelengths{g.light_noise_lambda};
     // A laser whose curve is not known reads several times its detuning: the bias cannot have lost what that would take.
     const bool reads_true = g.fidelity != config::Fidelity::laser || made.detector.curve.n_nodes > 0;
-    if (!reads_true) made.light_monitor.max_gain = 10.0;
-    if (reads_true && g.bias_chi > 0.0 && bias_counts >= 100.0) made.light_monitor.bias_chi = g.bias_chi;
+    if (!reads_true) made.limits.light_gain = 10.0;
+    if (reads_true && g.bias_chi > 0.0 && bias_counts >= 100.0) made.limits.bias_chi = g.bias_chi;
     const double false_counts = bias_counts * g.bias_chi;
     if (false_counts > 0.0) {
         const double noise_lambda2 = g.light_noise_lambda * g.light_noise_lambda;
-        made.detuning_monitor.max_change_lambda2 = std::min(1.0 / false_counts + 20.0 * noise_lambda2, 1e6);
+        made.limits.detuning_change_lambda2 = std::min(1.0 / false_counts + 20.0 * noise_lambda2, 1e6);
     }
-    made.light_balance.slow_ticks = std::clamp(balance_s / config.gyro.tick_s, 1.0, 1e9);
-    made.detuning_monitor.relock_ticks = config.compensation.relock_ticks;
+    made.limits.balance_ticks = std::clamp(balance_s / config.gyro.tick_s, 1.0, 1e9);
+    made.limits.relock_ticks = config.compensation.relock_ticks;
 }
 
 // What the core's check refuses, by the keys that it comes from. Single numbers that it would refuse, the table of keys does not
 // allow; these are rules between them.
 void require_loop(const config::Config& config, const core::PerimeterLoopConfig& loop) {
-    switch (check(loop)) {
-        case core::PerimeterLoopFault::none:
-        case core::PerimeterLoopFault::watch_limit:
-            return;
-        case core::PerimeterLoopFault::range:
-            refuse(config, {"piezo.range_min_v", "piezo.range_max_v"},
-                   "above -1e6 to below 1e6 V, the first the lower");
-        case core::PerimeterLoopFault::half_wave:
-            refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error"},
-                   "a presumed half-wave voltage, half_wave_v (1 + half_wave_error), of 1e-3..1e6 V");
-        case core::PerimeterLoopFault::half_period:
-            refuse(config, {"gyro.tick_s"}, "above 0 up to 1e3 s");
-        case core::PerimeterLoopFault::time_constant:
-            refuse(config, {"perimeter.tau_s", "perimeter.settled_tau_s"}, "up to 1e6 s");
-        case core::PerimeterLoopFault::error_limit:
-            refuse(config, {"perimeter.limit_lambda"}, "above 0 up to 1e3");
-        case core::PerimeterLoopFault::slew:
-            refuse(config, {"piezo.slew_v_s"}, "above 0 up to 1e12 V/s");
-        case core::PerimeterLoopFault::relock:
-            refuse(config, {"perimeter.sample_gain", "gyro.light_samples", "perimeter.relock_halves", "piezo.rc_s"},
-                   "a gain 1 - (1 - sample_gain)^light_samples above 0, and piezo.rc_s of 1e-9..1e3 s");
-    }
+    const auto require = [&](bool kept, std::initializer_list<std::string_view> keys, std::string_view allowed) {
+        if (!kept) refuse(config, keys, allowed);
+    };
+    const auto is_above_0 = [](double x, double most) { return x > 0.0 && x <= most; };
+    require(is_allowed(loop.range), {"piezo.range_min_v", "piezo.range_max_v"},
+            "above -1e6 to below 1e6 V, the first the lower");
+    require(loop.half_wave.value() >= 1e-3 && loop.half_wave.value() <= 1e6,
+            {"piezo.half_wave_v", "piezo.half_wave_error"},
+            "a presumed half-wave voltage, half_wave_v (1 + half_wave_error), of 1e-3..1e6 V");
+    require(is_above_0(loop.half_period.value(), 1e3), {"gyro.tick_s"}, "above 0 up to 1e3 s");
+    require(is_above_0(loop.time_constant.value(), 1e6), {"perimeter.tau_s", "perimeter.settled_tau_s"}, "up to 1e6 s");
+    require(is_above_0(loop.error_limit.value(), 1e3), {"perimeter.limit_lambda"}, "above 0 up to 1e3");
+    require(is_above_0(loop.slew_v_s, 1e12), {"piezo.slew_v_s"}, "above 0 up to 1e12 V/s");
+    require(is_allowed(loop), {"perimeter.sample_gain", "gyro.light_samples", "perimeter.relock_halves", "piezo.rc_s"},
+            "a gain 1 - (1 - sample_gain)^light_samples above 0, and piezo.rc_s of 1e-9..1e3 s");
 }
 
 // errors  config::ConfigError where the core's check refuses what was made of the configuration.
@@ -107,7 +102,6 @@ void require_control(const config::Config& config, const core::GyroControlConfig
             require_loop(config, made.loop);
             break;
         case core::GyroControlFault::half_wave:
-        case core::GyroControlFault::stroke:
         case core::GyroControlFault::temperature:
             refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error", "gyro.reference_temperature_c"},
                    "a presumed half-wave voltage of 1e-3..1e6 V, and a temperature above -1e6 to below 1e6 C");
@@ -127,7 +121,6 @@ void require_control(const config::Config& config, const core::GyroControlConfig
                    "a range within +-1e6 V, and up to 2^24 ticks for a gap and for 12 time constants of the loop");
         case core::GyroControlFault::commutator:
             refuse(config, {"gyro.tick_s", "gyro.dither"}, "a tick of 1e-6..800 s, where edges shift from 1.6e-6 s on");
-        case core::GyroControlFault::health:
         case core::GyroControlFault::monitors:
             refuse(config, {"gyro.bias_hz", "gyro.bias_chi", "gyro.light_noise_lambda", "gyro.tick_s"},
                    "what makes finite counts in a half");
@@ -155,26 +148,12 @@ void add_relock(const config::Config& config, core::PerimeterLoopConfig& loop) {
     loop.time_constant = core::Seconds{std::max(p.settled_tau_s, 0.5 * config.gyro.tick_s)};
 }
 
-bool has_no_hysteresis_or_creep(const config::Config& config) {
-    return config.piezo.hysteresis == 0.0 && config.piezo.creep_per_decade == 0.0;
-}
-
-// Each decade of time between the end of the gap and the measurement of the half-wave voltage adds its creep to the next
-// miss. One hysteresis loop says little of the next, least of all the first: the filter's steady gain is 2/3, and a change
-// of a tenth of the voltage passes its gate.
-void learn_piezo(core::GyroControlConfig& made) {
-    made.mode_switch.settle_ticks = 10;
-    made.half_wave.measurement_sigma = 0.02 * made.half_wave.presumed;
-    made.half_wave.process_sigma = std::sqrt(4.0 / 3.0) * made.half_wave.measurement_sigma;
-    made.half_wave.gate = 10.0;
-}
-
 }  // namespace
 
 core::GyroControlConfig control_config(const config::Config& config) {
     const double tick_s = config.gyro.tick_s;
     const core::PiezoRange range = range_of(config);
-    const core::Volts presumed{config.piezo.half_wave_v * (1.0 + config.piezo.half_wave_error)};
+    const core::Volts presumed{presumed_half_wave_v(config)};
     core::GyroControlConfig made;
     made.detector.discriminator_per_lambda = config.gyro.discriminator_per_lambda;
     made.detector.curve = discriminator_curve(config, config.gyro.discriminator_per_lambda);
@@ -190,15 +169,15 @@ core::GyroControlConfig control_config(const config::Config& config) {
         .stage_time_constant = core::Seconds{config.piezo.rc_s},
         .set_points = config.perimeter.set_points};
     add_relock(config, made.loop);
-    made.half_wave.presumed = presumed;
-    made.stroke.range = range;
-    made.stroke.half_wave = presumed;
-    made.stroke.reference = core::Celsius{config.gyro.reference_temperature_c};
+    made.half_wave.range = range;
+    made.half_wave.half_wave = presumed;
+    made.half_wave.reference = core::Celsius{config.gyro.reference_temperature_c};
     made.schedule = schedule_of(config);
     made.mode_switch.range = range;
     made.mode_switch.gap_ticks = config.switching.gap_ticks;
     made.mode_switch.gap_min_ticks = config.switching.gap_min_ticks;
-    if (!has_no_hysteresis_or_creep(config)) learn_piezo(made);
+    // The voltage creeps after a gap: what is measured soon after it says most of the next move.
+    if (!has_no_hysteresis_or_creep(config)) made.mode_switch.settle_ticks = 10;
     // A slow loop needs longer before it may be said to have failed.
     made.mode_switch.lock_timeout_ticks = static_cast<std::int32_t>(std::max<std::int64_t>(
         60, made.mode_switch.settle_ticks + ticks_of(std::min(12.0 * config.perimeter.tau_s, 1e6 * tick_s), tick_s)));

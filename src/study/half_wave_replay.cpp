@@ -19,16 +19,13 @@ core::ModeSwitchConfig led(core::ModeSwitchConfig sequence) {
 
 }  // namespace
 
-HalfWaveReplay::HalfWaveReplay(const config::Config& config) {
+HalfWaveReplay::HalfWaveReplay(const config::Config& config) : half_wave_{rig::measured_half_wave(config)} {
     try {
-        const core::GyroControlConfig control = rig::control_config(config);
-        sequence_ = led(control.mode_switch);
-        config_ = control.half_wave;
+        sequence_ = led(rig::control_config(config).mode_switch);
     } catch (const config::ConfigError&) {
         possible_ = false;
     }
     state_ = core::initial_state(sequence_);
-    half_wave_ = core::initial_state(config_);
 }
 
 void HalfWaveReplay::take(const core::HalfRecord& half) {
@@ -65,12 +62,11 @@ void HalfWaveReplay::step(const core::HalfRecord& half, const core::HalfRecord& 
         in.light_known = in.two_way = in.usable = in.at_rest = closes;
         in.detuning = core::Wavelengths{0.0};
     }
-    const core::ModeSwitchOutput out = core::step(sequence_, state_, in);
-    if (!out.event) return;
-    const bool read = out.event->has_half_wave;
-    (void)core::step(config_, half_wave_, core::Volts{read ? out.event->half_wave_v : std::nan("")});
-    measured_ = measured_ || read;
-    if (measured_) after_[out.event->tick_opened] = half_wave_;
+    const std::optional<core::SwitchEvent> event = core::step(sequence_, state_, in);
+    if (!event) return;
+    half_wave_.take(*event);
+    measured_ = measured_ || event->has_half_wave;
+    if (measured_) after_[event->tick_opened] = half_wave_;
 }
 
 void HalfWaveReplay::fill(std::vector<SwitchLine>& lines) const {
@@ -78,7 +74,7 @@ void HalfWaveReplay::fill(std::vector<SwitchLine>& lines) const {
         const auto known = after_.find(line.tick);
         if (known == after_.end()) continue;
         line.half_wave_v = known->second.estimate_v;
-        line.half_wave_sigma_v = core::sigma(known->second).value();
+        line.half_wave_sigma_v = known->second.sigma_v();
     }
 }
 

@@ -42,8 +42,8 @@ Status status_of(const core::GyroControlState& control, const core::GyroCompensa
     s.held = control.schedule.held;
     s.n_late = static_cast<std::uint8_t>(compensation.bridge.background.n_late);
     s.asked = control.schedule.asked;
-    s.half_wave_v = static_cast<float>(control.half_wave.estimate_v);
-    s.half_wave_sigma_v = static_cast<float>(sigma(control.half_wave).value());
+    s.half_wave_v = static_cast<float>(half_wave(control).value());
+    s.half_wave_sigma_v = static_cast<float>(sigma(control.half_wave, half_wave(control)).value());
     s.piezo_v = static_cast<float>(control.piezo_v);
     s.temperature_c = static_cast<float>(control.temperature_c);
     s.detuning_lambda = static_cast<float>(control.mode_switch.detuning_lambda);

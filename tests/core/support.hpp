@@ -30,4 +30,11 @@ constexpr auto fault_of(auto change, Config c = {}) {
     return check(c);
 }
 
+// Whether a configuration that was changed is allowed.
+template <class Config>
+constexpr bool allows(auto change, Config c = {}) {
+    change(c);
+    return is_allowed(c);
+}
+
 }  // namespace zlg::core::test

@@ -40,20 +40,12 @@ void detector_from(Bytes& bytes, SyncDetectorConfig& c) {
     c.level_ticks = bytes.take<std::int8_t>();
 }
 
-void half_wave_from(Bytes& bytes, HalfWaveConfig& c) {
-    c.presumed = Volts{bytes.real(40.0)};
-    c.presumed_sigma_ratio = bytes.real(0.1);
-    c.measurement_sigma = Volts{bytes.real(0.3)};
-    c.process_sigma = Volts{bytes.real(0.1)};
-    c.gate = bytes.real(4.0);
-}
-
 void monitors_on(GyroControlConfig& c) {
-    c.bias_monitor.presumed_counts = 150.0;
-    c.coil_monitor.tolerance_ratio = 0.003;
-    c.counter_monitor.watches = true;
-    c.light_monitor = {.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
-    c.detuning_monitor.max_change_lambda2 = 0.002;
+    c.limits.bias_counts = 150.0;
+    c.limits.coil_ratio = 0.003;
+    c.limits.light_noise = Wavelengths{0.0033};
+    c.limits.bias_chi = 3.6;
+    c.limits.detuning_change_lambda2 = 0.002;
 }
 
 GyroControlConfig config_from(Bytes& bytes) {
@@ -71,16 +63,15 @@ GyroControlConfig config_from(Bytes& bytes) {
     c.commutator.dither.method = static_cast<DitherMethod>(bytes.index(4));
     if (bytes.flag()) monitors_on(c);
     if (bytes.flag()) return c;
-    c.loop.range = c.mode_switch.range = c.stroke.range = range_from(bytes);
+    c.loop.range = c.mode_switch.range = c.half_wave.range = range_from(bytes);
     c.mode_switch.start_set_point = Volts{bytes.real(150.0)};
     c.mode_switch.lock_tolerance = Wavelengths{bytes.real(0.02)};
     loop_from(bytes, c.loop);
     detector_from(bytes, c.detector);
-    half_wave_from(bytes, c.half_wave);
+    c.half_wave.half_wave = Volts{bytes.real(40.0)};
+    c.half_wave.reference = Celsius{bytes.real(20.0)};
     c.commutator.half_ticks = bytes.take<std::uint64_t>() >> bytes.index(64);
     c.commutator.tolerance_ticks = bytes.take<std::uint8_t>();
-    c.commutator.dither.half_ticks = c.commutator.half_ticks;
-    c.commutator.dither.cycle_ticks = bytes.real(1e7 / 60e3);
     c.presumed_temperature = Celsius{bytes.real(20.0)};
     return c;
 }
@@ -148,8 +139,7 @@ void claim_record(const GyroControlOutput& out, std::int64_t half) {
     claim(std::isfinite(r.piezo_v) && std::isfinite(r.temperature_c), "voltage and temperature are numbers");
     claim((r.bias_sign == 1 || r.bias_sign == -1) && (r.mode == 1 || r.mode == -1), "signs are signs");
     claim(std::uint64_t{out.health} < (std::uint64_t{1} << health_bit_names.size()), "every bit has a name");
-    claim(!out.has_event || (std::isfinite(out.event.miss_lambda) && std::isfinite(out.event.half_wave_v)),
-          "an event is of numbers");
+    claim(!out.has_event || std::isfinite(out.event.half_wave_v), "an event is of numbers");
 }
 
 bool same(const GyroControlOutput& a, const GyroControlOutput& b) {

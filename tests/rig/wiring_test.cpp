@@ -51,7 +51,7 @@ TEST(Wiring, control_presumes_the_half_wave_voltage_with_its_error) {
     config::Config c;
     c.piezo.half_wave_error = 0.05;
     EXPECT_EQ(rig::twin_config(c).piezo.half_wave_v, 40.0);
-    EXPECT_DOUBLE_EQ(rig::control_config(c).half_wave.presumed.value(), 42.0);
+    EXPECT_DOUBLE_EQ(rig::control_config(c).half_wave.half_wave.value(), 42.0);
 }
 
 TEST(Wiring, random_walk_enters_the_sigma_of_a_tick) {

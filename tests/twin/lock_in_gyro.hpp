@@ -33,7 +33,6 @@ class LockInRun {
 public:
     explicit LockInRun(const LockInGyro& g) : g_{g}, exact_{start(g)}, slip_{start(g)}, latched_{start(g)} {
         dither_.seed = g.seed;
-        dither_.half_ticks = static_cast<std::uint64_t>(0.5 * g.tick_s * timer_hz + 0.5);
         dither_.cycle_ticks = timer_hz / (g.bias_hz * (1.0 + g.law_error));
         dither_.tick_s = g.tick_s;
         dither_.scale_arcsec = g.scale_arcsec;
@@ -68,7 +67,7 @@ private:
 
     double half(int sign) {
         const double rate_hz = g_.rate_arcsec_s / g_.scale_arcsec;
-        const std::int32_t excess = core::excess_ticks(sign, state_.start_ticks, state_.end_ticks);
+        const std::int32_t excess = sign * (state_.end_ticks - state_.start_ticks);
         const double length_s = 0.5 * g_.tick_s + sign * excess / timer_hz;
         const double plateau_hz = rate_hz + sign * g_.helicity * g_.bias_hz;
         const double plateau_s = length_s - g_.edge_s;
@@ -86,9 +85,8 @@ private:
         }
         const std::int64_t counts = latched_.whole - before.whole;
         if (g_.dithered) {
-            core::EdgeDitherInput in{static_cast<std::int8_t>(-sign), static_cast<std::int8_t>(g_.helicity), true,
-                                     counts};
-            (void)core::step(dither_, state_, in);
+            const core::RateReading reading{true, counts, static_cast<std::int8_t>(g_.helicity)};
+            (void)core::step(dither_, state_, static_cast<std::int8_t>(-sign), reading);
         }
         seen_ = g_.counts_only ? static_cast<double>(counts) : latched_.minus(before);
         const double bias = sign * g_.helicity * g_.bias_hz * (0.5 * g_.tick_s - 0.5 * g_.edge_s) +

@@ -35,7 +35,6 @@ public:
           rate_hz_{rate_arcsec_s / scale_arcsec},
           coupling_{twin::Backscatter::equal(g.lock_hz, 0.7).coupling(1.0, 1.0)} {
         dither_.method = g.dither;
-        dither_.half_ticks = static_cast<std::uint64_t>(std::llround(0.5 * tick_s * timer_hz));
         dither_.cycle_ticks = timer_hz / g.bias_hz;
         dither_.tick_s = tick_s;
         dither_.scale_arcsec = scale_arcsec;
@@ -60,8 +59,7 @@ private:
         phase_.plateau(plateau_hz, coupling_, length_s - edge_s);
         latched_ = phase_.reversal(plateau_hz, rate_hz_ - sign * bias_hz_, coupling_, edge_s);
         const double turned = latched_.minus(before);
-        const core::EdgeDitherInput in{static_cast<std::int8_t>(-sign), 1, true, std::llround(turned)};
-        (void)core::step(dither_, state_, in);
+        (void)core::step(dither_, state_, static_cast<std::int8_t>(-sign), {true, std::llround(turned)});
         // The latch moves with the edge: of the rotation meanwhile the nominal half is wanted.
         return turned - sign * bias_hz_ * (length_s - 0.5 * edge_s) - rate_hz_ * shift / timer_hz;
     }

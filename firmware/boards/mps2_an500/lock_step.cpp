@@ -41,7 +41,6 @@ void answer(Exchange& x) noexcept {
             barrier();
             x.output = last_half();
             gyro().work();
-            x.half_wave = gyro().state().control.half_wave;
             break;
         case Request::drain:
             x.drained = gyro().drain();

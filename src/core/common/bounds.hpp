@@ -5,7 +5,8 @@
 
 namespace zlg::core {
 
-[[nodiscard]] constexpr double limited(double x, double limit) noexcept {
+template <class Number>
+[[nodiscard]] constexpr Number limited(Number x, Number limit) noexcept {
     if (x > limit) return limit;
     return x < -limit ? -limit : x;
 }
@@ -19,6 +20,20 @@ namespace zlg::core {
 // A counter that stops at its end instead of wrapping.
 constexpr void count_up(std::int32_t& n) noexcept {
     if (n < INT32_MAX) ++n;
+}
+
+// Halves in a row of which this is true.
+constexpr void count_row(std::int32_t& n, bool so) noexcept {
+    if (!so)
+        n = 0;
+    else
+        count_up(n);
+}
+
+// True once the condition has held in `enough` calls in a row.
+[[nodiscard]] constexpr bool debounced(std::int32_t& n, bool so, std::int32_t enough) noexcept {
+    n = so ? n + (n < enough) : 0;
+    return n >= enough;
 }
 
 }  // namespace zlg::core

@@ -25,24 +25,29 @@ constexpr double near_rate_ratio = 0.03;
 constexpr std::int32_t new_level_halves = 400;
 constexpr std::int32_t better_level_halves = 32;
 
+// The mean of values that agree with it; one that does not begins it anew.
+void average(double& mean, std::int32_t& n, double x, double tolerance) noexcept {
+    const bool agrees = size(x - mean) < tolerance;
+    n = agrees ? n + 1 : 1;
+    mean = agrees ? mean + (x - mean) / n : x;
+}
+
 // A bias that has changed for good, or that was learnt while it was faulty.
-void learn_anew(const BiasMonitorConfig& c, BiasMonitorState& s, double b) noexcept {
-    if (!(b > 0.25 * c.presumed_counts && b > 0.5 * min_bias_counts)) {
+void learn_anew(const MonitorLimits& c, BiasMonitorState& s, double b) noexcept {
+    if (!(b > 0.25 * c.bias_counts && b > 0.5 * min_bias_counts)) {
         s.n_steady = 0;
         return;
     }
-    const bool agrees = size(b - s.steady_counts) < s.steady_counts / 12.0;
-    s.n_steady = agrees ? s.n_steady + 1 : 1;
-    s.steady_counts = agrees ? s.steady_counts + (b - s.steady_counts) / s.n_steady : b;
-    const double off_counts = size(s.bias_counts - c.presumed_counts);
-    const bool better = size(s.steady_counts - c.presumed_counts) < 0.5 * off_counts;
+    average(s.steady_counts, s.n_steady, b, s.steady_counts / 12.0);
+    const double off_counts = size(s.bias_counts - c.bias_counts);
+    const bool better = size(s.steady_counts - c.bias_counts) < 0.5 * off_counts;
     if (s.n_steady < (better ? better_level_halves : new_level_halves)) return;
     s.bias_counts = s.steady_counts;
     s.n_steady = 0;
 }
 
 // Learn from any beat of the right sign, then follow b while it is in its band.
-void learn(const BiasMonitorConfig& c, BiasMonitorState& s, double b, bool in_band) noexcept {
+void learn(const MonitorLimits& c, BiasMonitorState& s, double b, bool in_band) noexcept {
     if (s.n_learnt >= bias_learning_halves) {
         if (!in_band) return learn_anew(c, s, b);
         s.n_steady = 0;
@@ -50,66 +55,57 @@ void learn(const BiasMonitorConfig& c, BiasMonitorState& s, double b, bool in_ba
         return;
     }
     if (!(b > 0.5 * min_bias_counts)) return;
-    const bool agrees = size(b - s.bias_counts) < 0.25 * s.bias_counts;
-    s.n_learnt = agrees ? s.n_learnt + 1 : 1;
-    s.bias_counts = agrees ? s.bias_counts + (b - s.bias_counts) / s.n_learnt : b;
+    average(s.bias_counts, s.n_learnt, b, 0.25 * s.bias_counts);
 }
 
-bool follows(const BiasMonitorState& s, const BiasMonitorInput& in) noexcept {
-    return s.n_known > 0 && in.beat_sign != s.beat_sign;
-}
-
-void remember(BiasMonitorState& s, const BiasMonitorInput& in, bool follows) noexcept {
-    if (!follows) s.n_known = 0;
+void remember(BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign) noexcept {
     count_up(s.n_known);
-    s.beat_sign = in.beat_sign;
+    s.beat_sign = beat_sign;
     s.counts_long_before = s.counts_before;
     s.counts_before = s.counts;
-    s.counts = in.counts;
+    s.counts = counts;
 }
 
-void judge(const BiasMonitorConfig& c, BiasMonitorState& s, const BiasMonitorInput& in,
-           BiasMonitorOutput& out) noexcept {
-    const double twice_b = as_double(in.counts - s.counts) * in.beat_sign;
+void compare(const MonitorLimits& c, BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign, bool settled,
+             BiasMonitorOutput& out) noexcept {
+    const double twice_b = as_double(counts - s.counts) * beat_sign;
     const double bias = s.bias_counts;
     out.judged = s.n_learnt >= bias_learning_halves;
     if (out.judged) {
-        const bool smooth = in.settled && s.n_known >= 3;
+        const bool smooth = settled && s.n_known >= 3;
         const double change = smooth ? size(as_double(s.counts - s.counts_long_before)) : 0.0;
         const double fine = bias / 6.0 + change;
         const double tolerance = smooth && fine < bias ? fine : bias;
         out.in_band = size(twice_b - 2.0 * bias) <= tolerance;
         // More than that is a wrong reading.
         const bool reversed = !out.in_band && size(twice_b + 2.0 * bias) < bias;
-        s.n_reversed = reversed ? s.n_reversed + (s.n_reversed < reversed_debounce) : 0;
-        out.reversed = s.n_reversed >= reversed_debounce;
+        out.reversed = debounced(s.n_reversed, reversed, reversed_debounce);
         out.deficit_ratio = smooth ? 1.0 - 0.5 * twice_b / bias : 0.0;
         out.lost = !out.in_band && size(twice_b) < bias;
-        out.near_rate = out.in_band && size(as_double(in.counts)) < near_rate_ratio * bias;
+        out.near_rate = out.in_band && size(as_double(counts)) < near_rate_ratio * bias;
     } else {
         // What was never there is not learnt.
-        out.lost = in.settled && size(twice_b) < 0.25 * c.presumed_counts;
+        out.lost = settled && size(twice_b) < 0.25 * c.bias_counts;
     }
-    if (in.settled) learn(c, s, 0.5 * twice_b, out.in_band);
+    if (settled) learn(c, s, 0.5 * twice_b, out.in_band);
 }
 
 }  // namespace
 
-BiasMonitorOutput step(const BiasMonitorConfig& config, BiasMonitorState& state,
-                       const BiasMonitorInput& input) noexcept {
+BiasMonitorOutput step(const MonitorLimits& limits, BiasMonitorState& state, bool counted, std::int64_t counts,
+                       std::int8_t beat_sign, bool settled) noexcept {
     BiasMonitorOutput out;
-    if (!(config.presumed_counts >= min_bias_counts)) return out;
-    if (!input.counted || input.counts > max_exact_counts || input.counts < -max_exact_counts) {
+    if (!(limits.bias_counts >= min_bias_counts)) return out;
+    if (!counted || counts > max_exact_counts || counts < -max_exact_counts) {
         state.n_known = 0;
         return out;
     }
-    const bool pair = follows(state, input);
-    if (pair) {
-        judge(config, state, input, out);
+    if (state.n_known > 0 && beat_sign != state.beat_sign) {
+        compare(limits, state, counts, beat_sign, settled, out);
     } else {
-        state.n_reversed = 0;
+        state.n_known = state.n_reversed = 0;
     }
-    remember(state, input, pair);
+    remember(state, counts, beat_sign);
     return out;
 }
 

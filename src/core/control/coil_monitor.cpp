@@ -89,10 +89,10 @@ void learn_anew(CoilMonitorState& s, double tolerance_ratio) noexcept {
 
 }  // namespace
 
-CoilMonitorOutput step(const CoilMonitorConfig& config, CoilMonitorState& state, int sign, double current_a) noexcept {
+CoilMonitorOutput step(const MonitorLimits& limits, CoilMonitorState& state, int sign, double current_a) noexcept {
     CoilMonitorOutput out;
     const double now_a = size(current_a);
-    if (!(config.tolerance_ratio > 0.0) || !(now_a < max_a)) return out;
+    if (!(limits.coil_ratio > 0.0) || !(now_a < max_a)) return out;
     const std::size_t place = sign > 0 ? 1 : 0;
     if (state.n_learnt < coil_learning_halves) {
         learn(state, place, now_a);
@@ -101,13 +101,13 @@ CoilMonitorOutput step(const CoilMonitorConfig& config, CoilMonitorState& state,
     const double deviation = now_a / state.level_a[place] - 1.0;
     const double change = deviation - state.deviation;
     const double usual = eight_differences * state.spread;
-    const double limit = larger(config.tolerance_ratio, usual);
+    const double limit = larger(limits.coil_ratio, usual);
     const bool jump = size(change) > limit;
     // A step of both signs alike is no difference of the signs: a difference of that size jumps in every half.
     if (!jump) state.odd += smoothed * (0.5 * sign * change - state.odd);
     state.even += smoothed * (deviation - state.even);
     state.deviation = deviation;
-    const double limit_odd = larger(0.5 * config.tolerance_ratio, two_deviations * state.spread);
+    const double limit_odd = larger(0.5 * limits.coil_ratio, two_deviations * state.spread);
     out.unbalanced = jump || size(state.odd) > limit_odd;
     out.off = out.unbalanced || size(state.even) > limit_odd;
     if (out.off) {

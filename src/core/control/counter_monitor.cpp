@@ -114,7 +114,7 @@ void follow(CounterMonitorState& s, std::uint32_t reading, std::uint32_t predict
     s.stuck = false;
 }
 
-void judge(CounterMonitorState& s, std::uint32_t reading) noexcept {
+void compare(CounterMonitorState& s, std::uint32_t reading) noexcept {
     const std::uint32_t predicted = s.place[1] + static_cast<std::uint32_t>(s.rate >> 4);
     const std::int32_t d = difference(reading << part_bits, predicted);
     const std::int32_t tolerance = count + 2 * s.rough;
@@ -134,9 +134,7 @@ void judge(CounterMonitorState& s, std::uint32_t reading) noexcept {
 
 }  // namespace
 
-bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool counted,
-          std::uint64_t reading) noexcept {
-    if (!config.watches) return false;
+bool step(CounterMonitorState& state, bool counted, std::uint64_t reading) noexcept {
     const auto low = static_cast<std::uint32_t>(reading);
     acquit(state, low);
     state.is_odd = !state.is_odd;
@@ -144,7 +142,7 @@ bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool c
     if (state.n_known < 4)
         begin(state, low << part_bits);
     else
-        judge(state, low);
+        compare(state, low);
     return state.stuck;
 }
 

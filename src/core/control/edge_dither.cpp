@@ -2,6 +2,8 @@
 
 #include <zlg/core/common/as_double.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
@@ -51,50 +53,42 @@ std::int32_t end_positive(const EdgeDitherConfig& c, const EdgeDitherState& s) n
     return to_ticks(c, s.base + shift + s.swing);
 }
 
-void count(const EdgeDitherConfig& c, RateCounts& r, const EdgeDitherInput& in, std::int32_t excess) noexcept {
+// The net counts are those of a half of nominal length.
+void count(const EdgeDitherConfig& c, EdgeDitherState& s, std::int8_t next_sign, const RateReading& in) noexcept {
+    RateCounts& r = s.counted;
     ++r.n_halves;
     if (!in.counted) return;
-    const double net = as_double(in.counts) - in.helicity * (excess / c.cycle_ticks);
-    if (in.next_sign * in.helicity < 0) {
-        r.positive += net;
-        ++r.n_positive;
-    } else {
-        r.negative += net;
-        ++r.n_negative;
-    }
+    const std::int32_t excess_ticks = -next_sign * (s.end_ticks - s.start_ticks);
+    const double net = as_double(in.counts) - in.helicity * (excess_ticks / c.cycle_ticks);
+    const std::size_t beat = next_sign * in.helicity < 0;
+    r.sum[beat] += net;
+    ++r.n[beat];
 }
 
 // The law that the last measurement asks for.
-DitherLaw judge(const EdgeDitherConfig& c, const RateCounts& r, DitherLaw law) noexcept {
-    if (2 * r.n_positive < c.rate_periods || 2 * r.n_negative < c.rate_periods) return law;
-    const double counts_per_period = r.positive / r.n_positive + r.negative / r.n_negative;
-    const double rate = counts_per_period * c.scale_arcsec / c.tick_s;
-    const double size = rate < 0.0 ? -rate : rate;
-    if (size > c.random_above_arcsec_s) return DitherLaw::random;
-    if (size < c.paired_below_arcsec_s) return DitherLaw::paired;
-    return law;
+DitherLaw wanted_law(const EdgeDitherConfig& c, const RateCounts& r, DitherLaw law) noexcept {
+    if (2 * r.n[0] < c.rate_periods || 2 * r.n[1] < c.rate_periods) return law;
+    const double counts_per_period = r.sum[1] / r.n[1] + r.sum[0] / r.n[0];
+    const double rate_arcsec_s = size(counts_per_period * c.scale_arcsec / c.tick_s);
+    if (rate_arcsec_s > c.random_above_arcsec_s) return DitherLaw::random;
+    return rate_arcsec_s < c.paired_below_arcsec_s ? DitherLaw::paired : law;
 }
 
 }  // namespace
 
-EdgeDitherOutput step(const EdgeDitherConfig& config, EdgeDitherState& state, const EdgeDitherInput& input) noexcept {
-    EdgeDitherOutput out;
-    out.length_ticks = static_cast<std::int64_t>(config.half_ticks) + state.end_ticks - state.start_ticks;
-    out.excess_ticks = excess_ticks(-input.next_sign, state.start_ticks, state.end_ticks);
-    if (config.method == DitherMethod::none) return out;
-
-    count(config, state.counted, input, out.excess_ticks);
+std::int32_t step(const EdgeDitherConfig& config, EdgeDitherState& state, std::int8_t next_sign,
+                  const RateReading& reading) noexcept {
+    if (config.method == DitherMethod::none) return 0;
+    count(config, state, next_sign, reading);
     if (state.counted.n_halves >= 2 * config.rate_periods) {
-        state.wanted = judge(config, state.counted, state.wanted);
+        state.wanted = wanted_law(config, state.counted, state.wanted);
         state.counted = {};
     }
     // A negative half is ended by the reversal that begins a positive one.
-    const std::int32_t next = input.next_sign < 0 ? begin_period(config, state) : end_positive(config, state);
+    const std::int32_t next = next_sign < 0 ? begin_period(config, state) : end_positive(config, state);
     state.start_ticks = state.end_ticks;
     state.end_ticks = next;
-    out.edge_offset_ticks = next;
-    out.law = state.law;
-    return out;
+    return next;
 }
 
 }  // namespace zlg::core

@@ -32,21 +32,15 @@ FrameOrderOutput step(FrameOrderState& state, bool received, std::uint32_t seque
         // After halves that were missed the first frame of all may be one of theirs, late.
         out.follows = sequence == state.expected || state.expected == 0;
         state.known = true;
-        state.n_in_row = 0;
-        state.expected = sequence + 1;
     } else {
         out.error = true;
         const bool goes_on = sequence == state.last + 1 && state.n_in_row > 0;
         state.n_in_row = goes_on ? state.n_in_row + 1 : 1;
         state.on_time = on_time && (!goes_on || state.on_time);
-        if (is_accepted(state, sequence)) {
-            out.fresh = true;
-            state.n_in_row = 0;
-            state.expected = sequence + 1;
-        } else {
-            ++state.expected;
-        }
+        out.fresh = is_accepted(state, sequence);
     }
+    if (out.fresh) state.n_in_row = 0;
+    state.expected = (out.fresh ? sequence : state.expected) + 1;
     state.last = sequence;
     return out;
 }

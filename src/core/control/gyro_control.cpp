@@ -3,7 +3,7 @@
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
-#include "gyro_observation.hpp"
+#include "monitors.hpp"
 
 namespace zlg::core {
 namespace {
@@ -27,15 +27,15 @@ HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
     const bool has_counts = o.valid || (o.reading.span == 1 && !o.left_to_next);
     return {.half = s.half,
             .counts = has_counts ? o.reading.counts : 0,
-            .detuning_lambda = o.detuning_usable ? o.monitored.detuning.value() : 0.0,
-            .detuning_sq_lambda2 = o.has_mean_square ? o.monitored.mean_sq_lambda2 : 0.0,
+            .detuning_lambda = o.light.usable ? o.light.detuning.value() : 0.0,
+            .detuning_sq_lambda2 = o.has_mean_square ? o.light.mean_sq_lambda2 : 0.0,
             .piezo_v = s.piezo_v,
             .temperature_c = s.temperature_c,
             .bias_sign = o.commuted.sign,
             .mode = o.polarity,
             .loop_closed = o.loop_closed,
             .valid = o.valid,
-            .edge_offset_ticks = o.commuted.edge_offset_ticks,
+            .edge_offset_ticks = s.commutator.dither.end_ticks,
             .span = has_counts ? o.reading.span : 1,
             .fringe = o.fringe.fringe,
             .lit = o.steady};
@@ -50,23 +50,18 @@ bool count_near_end(const GyroControlConfig& c, GyroControlState& s, const Obser
         s.n_near_end = 0;
         return false;
     }
-    if (s.n_near_end < near_end_retry) {
-        ++s.n_near_end;
-    } else {
-        s.n_near_end = near_end_debounce;
-    }
+    s.n_near_end = s.n_near_end < near_end_retry ? s.n_near_end + 1 : near_end_debounce;
     const bool due = s.n_near_end >= near_end_debounce && s.n_near_end <= near_end_debounce + 1;
-    return due && !choose_direction(c.loop.range, now, Volts{s.half_wave.estimate_v}).out_of_range;
+    return due && !choose_direction(c.loop.range, now, half_wave(s)).out_of_range;
 }
 
 void decide_switch(const GyroControlConfig& c, GyroControlState& s, const Observation& o, const SwitchAdvice& advice,
                    ModeSwitchInput& in) noexcept {
     // Without usable light the outcome of a switch would be unknown, and the rotation in its gap would be lost.
-    const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt && o.fresh;
+    const bool ready = s.mode_switch.phase == SwitchPhase::tracking && !s.light_spoilt && o.order.fresh;
     if (in.tick_border) {
         in.due =
-            step(c.schedule, s.schedule, {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice})
-                .open;
+            step(c.schedule, s.schedule, {.tick = in.next_tick, .ready = ready, .mode = o.polarity, .advice = advice});
     }
     // In a switch, a return or a search the ends of the range are not watched.
     if (s.mode_switch.phase != SwitchPhase::tracking) return;
@@ -74,31 +69,13 @@ void decide_switch(const GyroControlConfig& c, GyroControlState& s, const Observ
     if (in.recentre || in.due) s.recentring = in.recentre;
 }
 
-// Notes where a move up (half 4k) or down (half 4k + 2) would begin: by turns, to halve the copying. When the loop opens
-// they are one and three halves old.
-void note_start(GyroControlState& s) noexcept {
-    if (s.half % 2 != 0 || s.mode_switch.phase != SwitchPhase::tracking) return;
-    MoveStart& start = s.half % 4 == 0 ? s.up : s.down;
-    start.known = false;
-    start.play = s.stroke.play;
-    start.piezo_v = s.piezo_v;
-    start.temperature_c = s.temperature_c;
-}
-
-void predict_move(const GyroControlConfig& c, const StrokeModelState& stroke, std::int8_t sign,
-                  MoveStart& start) noexcept {
-    if (start.known) return;
-    start.known = true;
-    start.move_v =
-        predicted_move(c.stroke, stroke, start.play, sign, Volts{start.piezo_v}, Celsius{start.temperature_c}).value();
-}
-
-// A move is needed where the loop opens. Between switches nothing is computed; while a switch lasts, the moves are
-// predicted before the model that they rest on learns from it.
-void predict_moves(const GyroControlConfig& c, GyroControlState& s, bool opens) noexcept {
-    if (!opens && s.mode_switch.phase == SwitchPhase::tracking) return;
-    predict_move(c, s.stroke, 1, s.up);
-    predict_move(c, s.stroke, -1, s.down);
+// The moves up and down from where the loop opens.
+void predict_moves(const GyroControlConfig& c, GyroControlState& s) noexcept {
+    const auto move_v = [&](std::int8_t sign) {
+        return predicted_move(c.half_wave, s.half_wave, sign, Volts{s.piezo_v}, Celsius{s.temperature_c}).value();
+    };
+    s.up_v = move_v(1);
+    s.down_v = move_v(-1);
 }
 
 // Where the stage has brought the piezo by the end of an open half, and whether the reading agrees.
@@ -111,31 +88,24 @@ void read_flight(const GyroControlConfig& c, const GyroControlState& s, const Ob
     in.at_rest = size(to_come) <= rest_lambda && size(off) <= rest_lambda;  // false for NaN
 }
 
-ModeSwitchOutput sequence(const GyroControlConfig& c, GyroControlState& s, const Observation& o,
-                          const SwitchAdvice& advice) noexcept {
+std::optional<SwitchEvent> sequence(const GyroControlConfig& c, GyroControlState& s, const Observation& o,
+                                    const SwitchAdvice& advice) noexcept {
     ModeSwitchInput in;
     in.tick_border = s.half % 2 != 0;
     in.next_tick = (s.half + 1) / 2;
     decide_switch(c, s, o, advice, in);
-    predict_moves(c, s, in.due || in.recentre);
+    if (in.due || in.recentre) predict_moves(c, s);
     in.reversed = o.bias.reversed && o.lit;
-    in.light_known = o.fresh && (o.light.readable || o.lit);
+    in.light_known = o.order.fresh && (o.light.readable || o.lit);
     in.two_way = o.lit;
-    in.usable = o.detuning_usable;
-    in.detuning = o.monitored.detuning;
+    in.usable = o.light.usable;
+    in.detuning = o.light.detuning;
     in.piezo = o.piezo;
     in.set_point = Volts{s.loop.set_point_v};
-    in.half_wave = Volts{0.5 * (s.up.move_v - s.down.move_v)};
-    in.offset = Volts{0.5 * (s.up.move_v + s.down.move_v)};
+    in.half_wave = half_wave(s);
+    in.offset = Volts{0.5 * (s.up_v + s.down_v)};
     if (!s.mode_switch.loop_closed) read_flight(c, s, o, in);
     return step(c.mode_switch, s.mode_switch, in);
-}
-
-// Returns whether the half-wave voltage that the switch measured was rejected.
-bool learn_half_wave(const GyroControlConfig& c, GyroControlState& s, const ModeSwitchOutput& sequenced) noexcept {
-    if (!sequenced.event || sequenced.event->outcome != SwitchOutcome::switched) return false;
-    const double measured_v = sequenced.event->has_half_wave ? sequenced.event->half_wave_v : not_a_number;
-    return step(c.half_wave, s.half_wave, Volts{measured_v}).rejected;
 }
 
 // Hands the stroke model the detuning at the moment of closing. The first closed half shows its mean detuning dl at a
@@ -147,42 +117,40 @@ void read_arrival(const GyroControlConfig& c, GyroControlState& s, const Observa
     const double mean_v =
         fast_relock ? o.piezo.value() + (s.loop.mean_v - s.loop.end_v) : 0.5 * (s.closed_at_v + o.piezo.value());
     const double beyond_v = s.closed_at_v - mean_v;
-    if (!s.closed_read || !o.detuning_usable || !o.loop_closed || !is_finite(beyond_v)) return;
-    const double moved_v = s.closed_at_v - s.mode_switch.good_v;
-    arrive(c.stroke, s.stroke,
-           {.sign = static_cast<std::int8_t>(moved_v > 0.0 ? 1 : -1),
-            .piezo = Volts{s.closed_at_v},
-            .detuning = Wavelengths{o.monitored.detuning.value() + 0.5 * beyond_v / c.stroke.half_wave.value()},
-            .temperature = Celsius{s.temperature_c}});
+    if (!s.closed_read || !o.light.usable || !o.loop_closed || !is_finite(beyond_v)) return;
+    const auto sign = static_cast<std::int8_t>(s.closed_at_v > s.mode_switch.good_v ? 1 : -1);
+    const Wavelengths detuning{o.light.detuning.value() + 0.5 * beyond_v / c.half_wave.half_wave.value()};
+    arrive(c.half_wave, s.half_wave, sign, Volts{s.closed_at_v}, detuning, Celsius{s.temperature_c});
 }
 
 // Follow the piezo through a switch: its start, its arrival, its lock.
-void learn_stroke(const GyroControlConfig& c, GyroControlState& s, const Observation& o, bool was_closed,
-                  const ModeSwitchOutput& sequenced) noexcept {
+void learn_stroke(const GyroControlConfig& c, GyroControlState& s, Observation& o, bool was_closed,
+                  const std::optional<SwitchEvent>& event) noexcept {
     const ModeSwitchState& m = s.mode_switch;
     const bool arrived = was_closed && m.phase == SwitchPhase::settling && m.switching && m.n_halves == 1;
     // Before the plays follow the voltages of the closed loop.
     if (arrived) read_arrival(c, s, o);
-    follow(c.stroke, s.stroke, o.piezo);
-    if (!was_closed && sequenced.loop_closed) {
+    follow(c.half_wave, s.half_wave, o.piezo);
+    if (!was_closed && m.loop_closed) {
         s.closed_read = plausible(c.loop.range, o.piezo);
         if (s.closed_read) s.closed_at_v = o.piezo.value();
     }
-    const bool opens = was_closed && !sequenced.loop_closed && m.phase == SwitchPhase::open;
-    if (opens) begin_move(c.stroke, s.stroke, Volts{m.good_v});
-    if (!sequenced.event) return;
-    (void)confirm(c.stroke, s.stroke,
-                  sequenced.event->outcome == SwitchOutcome::switched && sequenced.event->has_half_wave);
+    if (was_closed && !m.loop_closed && m.phase == SwitchPhase::open)
+        begin_move(c.half_wave, s.half_wave, Volts{m.good_v});
+    if (!event) return;
+    const bool switched = event->outcome == SwitchOutcome::switched;
+    const bool learnt = confirm(s.half_wave, switched && event->has_half_wave);
+    o.half_wave_rejected = switched && !(event->has_half_wave && learnt);
 }
 
-PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, const Observation& o, bool was_closed,
-                             const ModeSwitchOutput& sequenced) noexcept {
+PerimeterLoopOutput regulate(const GyroControlConfig& c, GyroControlState& s, const Observation& o,
+                             bool was_closed) noexcept {
     return step(c.loop, s.loop,
                 {.was_closed = was_closed && o.loop_closed,
-                 .close = sequenced.loop_closed,
-                 .second_input = sequenced.set_point,
-                 .usable = o.detuning_usable,
-                 .detuning = o.monitored.detuning,
+                 .close = s.mode_switch.loop_closed,
+                 .second_input = Volts{s.mode_switch.set_point_v},
+                 .usable = o.light.usable,
+                 .detuning = o.light.detuning,
                  .piezo = o.piezo});
 }
 
@@ -194,103 +162,57 @@ bool track_warming(GyroControlState& s) noexcept {
     return change_c > warming_c || change_c < -warming_c;
 }
 
-void report_frame(const SensorFrame& frame, const Observation& o, HealthWord& word) noexcept {
-    word.set(health_frame_missed, !o.received);
-    word.set(health_sequence_error, o.sequence_error);
-    word.set(health_sign_error, o.commuted.sign_error);
-    word.set(health_timer_error, o.commuted.timer_error);
-    word.set(health_echo_error, o.echo_error);
-    word.set(health_piezo_not_finite, o.fresh && !is_finite(frame.piezo_v));
-    word.set(health_temperature_not_finite, o.fresh && !is_finite(frame.temperature_c));
-}
-
-void report_light(const GyroControlState& s, const Observation& o, HealthWord& word) noexcept {
-    word.set(health_light_lost, o.fresh && o.light.readable && !o.light.two_way);
-    word.set(health_light_unusable, o.fresh && !o.light.readable);
-    word.set(health_light_stuck, o.monitored.stuck);
-    word.set(health_light_noisy, o.monitored.noisy || o.monitored.withheld);
-    word.set(health_light_unbalanced, o.monitored.unbalanced || s.light_balance.changes);
-    word.set(health_light_contradicted, o.monitored.contradicted);
-    word.set(health_detuning_unsteady, o.unsteady);
-}
-
-void report_counts(GyroControlState& s, const Observation& o, HealthWord& word) noexcept {
-    word.set(health_counter_jump, o.beyond);
-    word.set(health_rate_over_range, o.beyond && s.was_beyond);
-    s.was_beyond = o.beyond;
-    word.set(health_counter_bit_stuck, o.bit_stuck);
-    const bool lased = o.lit && o.loop_closed;
-    word.set(health_bias_lost, o.bias_wrong);
-    word.set(health_helicity_reversed, lased && o.bias.reversed);
-    word.set(health_rate_near_bias, lased && o.bias.near_rate);
-    word.set(health_coil_current, o.coil.off);
-}
-
-void report_fringe(const Observation& o, HealthWord& word) noexcept {
-    word.set(health_fringe_lost, o.fresh && o.lit && !(o.fringe.fringe >= 0.0f));
-    word.set(health_fringe_skewed, o.fringe.skewed);
-}
-
-void report_phase(const GyroControlState& s, SwitchPhase phase, HealthWord& word) noexcept {
-    word.set(health_switching, phase == SwitchPhase::open || phase == SwitchPhase::settling);
-    word.set(health_relock_failed, phase == SwitchPhase::returning || phase == SwitchPhase::searching);
-    word.set(health_searching, phase == SwitchPhase::searching);
-    word.set(health_recentring, s.recentring);
-}
-
-void command(bool loop_closed, std::int8_t polarity, const PerimeterLoopOutput& regulated,
-             ActuatorFrame& actuator) noexcept {
-    actuator.loop_closed = loop_closed;
-    actuator.polarity = polarity;
+void command(const ModeSwitchState& m, const PerimeterLoopOutput& regulated, ActuatorFrame& actuator) noexcept {
+    actuator.loop_closed = m.loop_closed;
+    actuator.polarity = m.polarity;
     actuator.n_set_points = static_cast<std::uint8_t>(regulated.n_set_points);
-    actuator.set_point_v[0] = regulated.set_point_v[0];
-    for (std::size_t k = 1; k < actuator.n_set_points; ++k) actuator.set_point_v[k] = regulated.set_point_v[k];
+    for (std::size_t k = 0; k < actuator.n_set_points; ++k) actuator.set_point_v[k] = regulated.set_point_v[k];
 }
 
 }  // namespace
 
+GyroControlState initial_state(const GyroControlConfig& config, std::uint64_t counter) noexcept {
+    GyroControlState s;
+    s.loop = initial_state(config.loop, config.mode_switch.start_set_point);
+    s.half_wave = initial_state(config.half_wave, config.mode_switch.start_set_point);
+    s.up_v = config.half_wave.half_wave.value();
+    s.down_v = -s.up_v;
+    s.schedule = initial_state(config.schedule);
+    s.mode_switch = initial_state(config.mode_switch);
+    s.counter = counter;
+    s.reading_monitor.good = s.reading_monitor.last = counter;
+    s.reading_monitor.mode = config.mode_switch.start_polarity;
+    s.piezo_v = config.mode_switch.start_set_point.value();
+    s.temperature_c = config.presumed_temperature.value();
+    return s;
+}
+
 ActuatorFrame initial_actuator(const GyroControlConfig& config) noexcept {
     ActuatorFrame actuator;
-    const double start_v = config.mode_switch.start_set_point.value();
-    command(true, config.mode_switch.start_polarity, {.set_point_v = {start_v}}, actuator);
+    command(initial_state(config.mode_switch), {.set_point_v = {config.mode_switch.start_set_point.value()}}, actuator);
     return actuator;
 }
 
 GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,
                        const SwitchAdvice& advice) noexcept {
-    const SwitchPhase phase = state.mode_switch.phase;
     const bool was_closed = state.mode_switch.loop_closed;
-
     Observation seen;
+    seen.phase = state.mode_switch.phase;
     observe(config, state, frame, seen);
-    note_start(state);
-    const ModeSwitchOutput sequenced = sequence(config, state, seen, advice);
-    const bool half_wave_rejected = learn_half_wave(config, state, sequenced);
-    learn_stroke(config, state, seen, was_closed, sequenced);
-    const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed, sequenced);
+    const std::optional<SwitchEvent> event = sequence(config, state, seen, advice);
+    learn_stroke(config, state, seen, was_closed, event);
+    seen.regulated = regulate(config, state, seen, was_closed);
+    seen.warms_up = track_warming(state);
 
-    GyroControlOutput out{.record = recorded(state, seen),
-                          .switch_waits = state.schedule.waiting,
-                          .has_event = sequenced.event.has_value()};
-    if (sequenced.event) out.event = *sequenced.event;
-    command(sequenced.loop_closed, sequenced.polarity, regulated, out.actuator);
+    GyroControlOutput out{
+        .record = recorded(state, seen), .health = health_word(config, state, seen), .has_event = event.has_value()};
+    if (event) out.event = *event;
+    out.switch_waits = state.schedule.waiting;
+    state.was_beyond = seen.beyond;
+    command(state.mode_switch, seen.regulated, out.actuator);
+    const bool counted = seen.valid && seen.loop_closed && seen.reading.span == 1;
     out.actuator.edge_offset_ticks =
-        next_edge(config.commutator, state.commutator,
-                  {seen.valid && seen.loop_closed && seen.reading.span == 1, seen.counts, seen.polarity});
-
-    HealthWord word;
-    report_frame(frame, seen, word);
-    report_light(state, seen, word);
-    report_counts(state, seen, word);
-    if (config.fringe.reads) report_fringe(seen, word);
-    report_phase(state, phase, word);
-    word.set(health_detuning_over_limit, regulated.over_limit);
-    word.set(health_piezo_near_range_end, regulated.near_range_end);
-    word.set(health_half_wave_rejected, half_wave_rejected);
-    word.set(health_warming_up, track_warming(state));
-    word.set(health_edges_shifted, config.commutator.dither.method != DitherMethod::none);
-    out.health = word.bits;
-
+        next_edge(config.commutator, state.commutator, {counted, seen.counts, seen.polarity});
     ++state.half;
     return out;
 }

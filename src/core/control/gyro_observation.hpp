@@ -10,10 +10,8 @@ namespace zlg::core {
 
 struct Observation {
     bool received = false;
-    bool fresh = false;    // received, and of this half: everything below rests on it
-    bool follows = false;  // fresh, and no half is lost between it and the one before
-    bool counted = false;  // `counts` are those of this half
-    bool sequence_error = false;
+    FrameOrderOutput order;  // fresh: everything below rests on it
+    bool counted = false;    // `counts` are those of this half
     bool polarity_error = false;
     bool echo_error = false;
     bool bit_stuck = false;  // of the counter
@@ -22,7 +20,9 @@ struct Observation {
     bool steady = false;    // both beams were lit and steady throughout, in the mode of the record
     bool unsteady = false;  // the tick holds a false angle
     bool beyond = false;    // the counts are more than the gyro can make
+    bool lased = false;     // lit, in a closed loop
     std::int8_t polarity = 1;
+    std::int8_t beat_sign = 1;  // of the bias beat: bias sign times helicity
     bool loop_closed = true;
     bool settled = false;  // and locked
     FringeReadoutOutput fringe;
@@ -36,9 +36,15 @@ struct Observation {
     CoilMonitorOutput coil;
     SyncDetectorOutput light;
     LightMonitorOutput monitored;
-    bool detuning_usable = false;
     bool has_mean_square = false;  // to be recorded
     Volts piezo{not_a_number};
+    double temperature_c = not_a_number;
+
+    // Of what was decided on it.
+    SwitchPhase phase = SwitchPhase::tracking;  // of the half itself
+    PerimeterLoopOutput regulated;
+    bool half_wave_rejected = false;  // of a switch that has ended
+    bool warms_up = false;
 };
 
 // Read the frame that is latched now: all states but those of what decides and commands.

@@ -44,8 +44,8 @@ double jump_per_offset(const LightBalanceState& s, const BalancedHalf& half, dou
            signal_per_lambda;
 }
 
-void learn_weight(const LightBalanceConfig& config, LightBalanceState& s, const BalancedHalf& half) noexcept {
-    if (s.n_ticks < config.slow_ticks) s.n_ticks += 1.0;
+void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const BalancedHalf& half) noexcept {
+    if (s.n_ticks < limits.balance_ticks) s.n_ticks += 1.0;
     const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
     const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5) / n;
     const double weight = s.weight * (1.0 + odd) / (1.0 - odd);
@@ -84,9 +84,9 @@ void learn_offset(LightBalanceState& state, const BalancedHalf& half, const Detu
     state.weight *= half_level / (half_level - more);
 }
 
-void follow(const LightBalanceConfig& config, LightBalanceState& state, const BalancedHalf& half) noexcept {
+void follow(const MonitorLimits& limits, LightBalanceState& state, const BalancedHalf& half) noexcept {
     const bool stands = size(half.signal - state.former_signal) < max_fall;
-    if (!half.is_first && half.is_read && state.has_last && stands) learn_weight(config, state, half);
+    if (!half.is_first && half.is_read && state.has_last && stands) learn_weight(limits, state, half);
     state.former_signal = half.is_read ? state.last_signal : 1.0;
     state.has_last = half.is_read;
     state.last_signal = half.signal;

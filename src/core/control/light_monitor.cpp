@@ -31,78 +31,64 @@ constexpr double max_missing_ratio = 0.03;
 // The centre of the next mode: no detuning is that large.
 constexpr double next_mode_lambda = 0.5;
 
-// Debounce: true once the condition has held in `enough` halves in a row.
-bool debounced(std::int32_t& n, bool so, std::int32_t enough) noexcept {
-    n = so ? n + (n < enough) : 0;
-    return n >= enough;
-}
-
-bool is_still(std::span<const float> x, float last) noexcept {
+// Whether a beam shows one number throughout, that of the half before. What is no number is remembered as 0, which never counts.
+bool is_still(std::span<const float> x, float& last) noexcept {
     const float first = x.front();
-    return first == last && first == x[x.size() / 2] && first == x.back() && first != 0.0f;
+    const bool still = first == last && first == x[x.size() / 2] && first == x.back() && first != 0.0f;
+    last = is_finite(static_cast<double>(first)) ? first : 0.0f;
+    return still;
 }
 
-// NaN compares unequal to everything; stored as 0, which never counts as stuck.
-float remembered(float sample) noexcept { return is_finite(static_cast<double>(sample)) ? sample : 0.0f; }
-
-bool is_any_still(LightMonitorState& s, const LightMonitorInput& in) noexcept {
-    bool still = is_still(in.light_a, s.last_a);
-    s.last_a = remembered(in.light_a.front());
-    if (!in.light_b.empty()) {
-        still = is_still(in.light_b, s.last_b) || still;
-        s.last_b = remembered(in.light_b.front());
-    }
-    return still;
+bool is_any_still(LightMonitorState& s, const SyncDetectorInput& light) noexcept {
+    const bool still_a = is_still(light.light_a, s.last_a);
+    return (!light.light_b.empty() && is_still(light.light_b, s.last_b)) || still_a;
 }
 
 // The part of the light signal (A - B)/(A + B) that keeps its sign as the bias turns, as detuning; in the detuning itself
 // it alternates. 1: beam A is too bright, -1: B.
-int side_of(const LightMonitorConfig& c, const LightMonitorState& s, const LightMonitorInput& in) noexcept {
-    const double odd_lambda = 0.5 * in.sign * (in.detuning.value() - s.last_lambda);
+int side_of(const MonitorLimits& c, const LightMonitorState& s, const LightMonitorInput& in) noexcept {
+    const double odd_lambda = 0.5 * in.light.sign * (in.read.detuning.value() - s.last_lambda);
     const double limit_lambda =
-        2.0 * c.noise.value() > min_unbalanced_lambda ? 2.0 * c.noise.value() : min_unbalanced_lambda;
+        2.0 * c.light_noise.value() > min_unbalanced_lambda ? 2.0 * c.light_noise.value() : min_unbalanced_lambda;
     if (odd_lambda > limit_lambda) return 1;
     return odd_lambda < -limit_lambda ? -1 : 0;
 }
 
 // In a settled gyro: unbalanced after eight halves in a row on one side, balanced after eight on none; unbalanced at once
 // where the detuning that is read should have weakened the bias more. On the way to a lock the detuning itself changes.
-void weigh_beams(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in) noexcept {
+void weigh_beams(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in) noexcept {
     const int side = side_of(c, s, in);
-    if (side == s.side) {
-        s.n_side += s.n_side < balance_debounce;
-    } else {
-        s.side = static_cast<std::int8_t>(side);
-        s.n_side = 1;
-    }
+    s.n_side = side == s.side ? s.n_side + (s.n_side < balance_debounce) : 1;
+    s.side = static_cast<std::int8_t>(side);
     if (in.settled && s.n_side >= balance_debounce) s.is_unbalanced = side != 0;
     // Light noise is in the mean square, sigma^2, but does not weaken the bias; (2 sigma)^2 leaves a margin.
-    const double above_noise = 0.5 * (in.mean_sq_lambda2 + s.last_lambda2) - 4.0 * c.noise.value() * c.noise.value();
+    const double above_noise =
+        0.5 * (in.read.mean_sq_lambda2 + s.last_lambda2) - 4.0 * c.light_noise.value() * c.light_noise.value();
     const double claimed_ratio = c.bias_chi * above_noise;
     // A rotation that changes may increase the beat as well: a surplus counts as no deficit.
     const double missing_ratio = in.deficit_ratio > 0.0 ? claimed_ratio - in.deficit_ratio : claimed_ratio;
-    if (in.settled && in.beats && missing_ratio > max_missing_ratio) s.is_unbalanced = true;
+    if (in.settled && in.light.beats && missing_ratio > max_missing_ratio) s.is_unbalanced = true;
 }
 
 // The mean of two halves replaces the second one where the beams are unbalanced; an impossible detuning is withheld.
-void balance(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in,
+void balance(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in,
              LightMonitorOutput& out) noexcept {
     if (s.has_last) weigh_beams(c, s, in);
     // In a settled gyro light returns unevenly: at first one beam is brighter than the other.
     out.returns = s.was_dark && in.settled;
     out.unbalanced = s.is_unbalanced || out.returns || out.jumps;
     s.was_dark = false;
+    const double now_lambda = in.read.detuning.value();
     if (out.unbalanced) {
-        out.detuning = Wavelengths{0.5 * (in.detuning.value() + s.last_lambda)};
+        in.read.detuning = Wavelengths{0.5 * (now_lambda + s.last_lambda)};
         out.has_mean_square = false;
-        out.usable = out.usable && s.has_last;
+        in.read.usable = in.read.usable && s.has_last;
     }
-    s.last_lambda = in.detuning.value();
-    s.last_lambda2 = in.mean_sq_lambda2;
+    s.last_lambda = now_lambda;
+    s.last_lambda2 = in.read.mean_sq_lambda2;
     s.has_last = true;
-    const double max_lambda = next_mode_lambda * c.max_gain + 4.0 * c.noise.value();
-    if (!(out.detuning.value() < max_lambda && out.detuning.value() > -max_lambda)) {
-        out.usable = out.has_mean_square = false;
+    if (!(size(in.read.detuning.value()) < next_mode_lambda * c.light_gain + 4.0 * c.light_noise.value())) {
+        in.read.usable = out.has_mean_square = false;
         out.withheld = true;
     }
 }
@@ -110,12 +96,12 @@ void balance(const LightMonitorConfig& c, LightMonitorState& s, const LightMonit
 // Square of the noise of a sample, as detuning, from three second differences (6 sigma^2 each): the perimeter moves
 // too, but more slowly than from sample to sample.
 double noise_lambda2(const LightMonitorInput& in) noexcept {
-    const std::size_t n = in.light_a.size();
-    const bool both = !in.light_b.empty();
-    const float* const beam_a = in.light_a.data();
-    const float* const beam_b = both ? in.light_b.data() : beam_a;
+    const std::size_t n = in.light.light_a.size();
+    const bool both = !in.light.light_b.empty();
+    const float* const beam_a = in.light.light_a.data();
+    const float* const beam_b = both ? in.light.light_b.data() : beam_a;
     // On the way to a lock the light changes by much from sample to sample, but evenly: second differences remove that.
-    const double weight = in.weight_b.weight;
+    const double weight = in.light.weight_b.weight;
     const auto second_difference = [beam_a, beam_b, both, weight](std::size_t k) {
         const auto rise = [](const float* x) { return static_cast<double>(x[1]) - static_cast<double>(x[0]); };
         const double a = rise(beam_a + k);
@@ -126,8 +112,8 @@ double noise_lambda2(const LightMonitorInput& in) noexcept {
     const double first = second_difference(0);
     const double middle = second_difference(n / 2 - 1);
     const double last = second_difference(n - 3);
-    const double light = both ? in.light : 2.0 * in.light;
-    const double scale = in.signal_per_lambda * light;
+    const double light = both ? in.read.light : 2.0 * in.read.light;
+    const double scale = in.detector.discriminator_per_lambda * light;
     return (first * first + middle * middle + last * last) / (18.0 * scale * scale);
 }
 
@@ -137,13 +123,11 @@ constexpr std::size_t min_motion_samples = 5;
 
 // A sample as detuning, through the curve.
 CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
-    const double a = static_cast<double>(in.light_a[k]);
-    const bool both = !in.light_b.empty();
-    const double b = both ? in.weight_b.of(static_cast<double>(in.light_b[k])) : in.light;
+    const double a = static_cast<double>(in.light.light_a[k]);
+    const bool both = !in.light.light_b.empty();
+    const double b = both ? in.light.weight_b.of(static_cast<double>(in.light.light_b[k])) : in.read.light;
     const double signal = (a - b) / (both ? a + b : b);
-    const double apparent_lambda = in.sign * signal / in.signal_per_lambda;
-    return in.curve == nullptr ? CurvePoint{.detuning_lambda = apparent_lambda}
-                               : true_detuning(*in.curve, apparent_lambda);
+    return true_detuning(in.detector.curve, in.light.sign * signal / in.detector.discriminator_per_lambda);
 }
 
 // On a fast way to a lock the second differences of the light far exceed the noise of a quiet converter. Fourth
@@ -152,7 +136,8 @@ CurvePoint detuning_at(const LightMonitorInput& in, std::size_t k) noexcept {
 // limit_lambda2  largest variance of a sample, as detuning at the centre, that is no fault.
 // return         whether there is more on average, and a good part of that in every third.
 bool is_noisy_throughout(const LightMonitorInput& in, double limit_lambda2) noexcept {
-    const std::size_t n = in.light_a.size() < max_light_samples ? in.light_a.size() : std::size_t{max_light_samples};
+    const std::size_t n =
+        in.light.light_a.size() < max_light_samples ? in.light.light_a.size() : std::size_t{max_light_samples};
     if (n < min_motion_samples) return true;
     constexpr double gain_sq = 70.0;  // of white noise: 1 + 16 + 36 + 16 + 1
     constexpr double good_part = 0.25;
@@ -180,37 +165,25 @@ bool is_noisy_throughout(const LightMonitorInput& in, double limit_lambda2) noex
     return noise_sum > usual_sum;
 }
 
-// Detuning at the beginning and at the end of a half, by least-squares lines through the eight samples there.
-struct Ends {
-    double first_lambda = 0.0;
-    double last_lambda = 0.0;
-    double slope_sq = 1.0;  // of the curve: what it makes of the variance of the noise
-};
-
 constexpr std::size_t line_samples = 8;
 
-Ends ends_of(const LightMonitorInput& in) noexcept {
+// The detuning through the eight samples from one on, by least squares: in their middle, and how much it rises over them.
+struct Line {
+    double middle_lambda = 0.0;
+    double rise_lambda = 0.0;
+    double slope_sq = 0.0;  // of the curve: what it makes of the variance of the noise
+};
+
+Line line_from(const LightMonitorInput& in, std::size_t first) noexcept {
     constexpr double n = static_cast<double>(line_samples);
-    constexpr double lever_sq = n * (n * n - 1.0) / 12.0;
-    const std::size_t from_last = in.light_a.size() - line_samples;
-    double first_sum = 0.0;
-    double last_sum = 0.0;
-    double first_rise = 0.0;
-    double last_rise = 0.0;
-    Ends ends{.slope_sq = 0.0};
+    Line line;
     for (std::size_t k = 0; k < line_samples; ++k) {
-        const double lever = static_cast<double>(k) - 0.5 * (n - 1.0);
-        const CurvePoint first = detuning_at(in, k);
-        const CurvePoint last = detuning_at(in, from_last + k);
-        first_sum += first.detuning_lambda;
-        first_rise += lever * first.detuning_lambda;
-        last_sum += last.detuning_lambda;
-        last_rise += lever * last.detuning_lambda;
-        ends.slope_sq += 0.5 * (first.slope * first.slope + last.slope * last.slope) / n;
+        const CurvePoint x = detuning_at(in, first + k);
+        line.middle_lambda += x.detuning_lambda / n;
+        line.rise_lambda += (static_cast<double>(k) - 0.5 * (n - 1.0)) * x.detuning_lambda * 12.0 / (n * n - 1.0);
+        line.slope_sq += x.slope * x.slope / n;
     }
-    ends.first_lambda = first_sum / n - 0.5 * n * first_rise / lever_sq;
-    ends.last_lambda = last_sum / n + 0.5 * n * last_rise / lever_sq;
-    return ends;
+    return line;
 }
 
 // Error of the lines by the bend of a fast way to a lock, over the changes in this half and in the one before. It grows with
@@ -218,8 +191,7 @@ Ends ends_of(const LightMonitorInput& in) noexcept {
 // nothing.
 double bend_lambda(std::size_t n_samples, double change_lambda, double change_before_lambda) noexcept {
     constexpr double bend_ratio = 0.1;
-    constexpr double enough_samples = 16.0;
-    const double shortness = enough_samples / static_cast<double>(n_samples);
+    const double shortness = 16.0 / static_cast<double>(n_samples);
     if (!(shortness > 1.0)) return bend_ratio * change_lambda;
     return bend_ratio * shortness * shortness * (change_lambda + change_before_lambda);
 }
@@ -227,36 +199,39 @@ double bend_lambda(std::size_t n_samples, double change_lambda, double change_be
 // The detuning does not jump where the bias is reversed, but the error by a faded beam changes its sign there. Far from a
 // lock the mean square holds twice that error times the detuning, so that even a small error must be found.
 //
-// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma, and what an offset of the
-//         photodiodes that is not known yet may make of it.
-bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in,
+// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma, and what an offset
+//         of the photodiodes that is not known yet may make of it.
+bool jumps(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in,
            LightMonitorOutput& out) noexcept {
-    const bool seen = in.closed && in.light_a.size() >= line_samples && !in.light_b.empty();
+    const bool seen = in.closed && in.light.light_a.size() >= line_samples && !in.light.light_b.empty();
     const bool follows = seen && s.has_end;
     const double before_lambda = s.end_lambda;
     const double change_before_lambda = static_cast<double>(s.change_lambda);
     s.has_end = seen;
     if (!seen) return false;
-    const Ends ends = ends_of(in);
-    s.end_lambda = ends.last_lambda;
-    const double change_lambda = size(ends.last_lambda - ends.first_lambda);
+    const Line first = line_from(in, 0);
+    const Line last = line_from(in, in.light.light_a.size() - line_samples);
+    const double first_lambda = first.middle_lambda - 0.5 * first.rise_lambda;
+    s.end_lambda = last.middle_lambda + 0.5 * last.rise_lambda;
+    const double change_lambda = size(s.end_lambda - first_lambda);
     s.change_lambda = static_cast<float>(change_lambda);
     if (!follows) s.jump_lambda = 0.0;
     if (!follows) return false;
     constexpr double lines_sq = 1.01;  // variance of the difference of two ends over that of a sample
-    const double allowed = bend_lambda(in.light_a.size(), change_lambda, change_before_lambda);
-    const double noise_sq = ends.slope_sq * lines_sq * square(c.noise.value());
-    const double jump = in.sign * (ends.first_lambda - before_lambda);
+    const double allowed = bend_lambda(in.light.light_a.size(), change_lambda, change_before_lambda);
+    const double slope_sq = 0.5 * (first.slope_sq + last.slope_sq);
+    const double noise_sq = lines_sq * slope_sq * square(c.light_noise.value());
+    const double jump = in.light.sign * (first_lambda - before_lambda);
     constexpr double weight = 0.4;  // a quarter of the variance
     s.jump_lambda += weight * (jump - s.jump_lambda);
     const auto exceeds = [allowed](double x, double variance) {
-        const double over = (x < 0.0 ? -x : x) - allowed;
+        const double over = size(x) - allowed;
         return over > 0.0 && over * over > jump_deviations * jump_deviations * variance;
     };
-    s.jump = {jump, noise_sq + square(allowed), ends.slope_sq};
+    s.jump = {jump, noise_sq + square(allowed), slope_sq};
     out.has_jump = true;
     out.jumps = exceeds(jump, noise_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq);
-    const double unknown_sq = ends.slope_sq * in.unknown_lambda2;
+    const double unknown_sq = slope_sq * in.unknown_lambda2;
     return exceeds(jump, noise_sq + unknown_sq) || exceeds(s.jump_lambda, 0.25 * noise_sq + unknown_sq);
 }
 
@@ -264,69 +239,67 @@ bool jumps(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitor
 // lock the light gets brighter, but for what depends on the field, on the detuning near the centre and on the isotopes: 0.3 %
 // in healthy lasers.
 // before  first sample of the half before, sum of both beams; 0: not known.
-bool fades(const LightMonitorConfig& c, const LightMonitorInput& in, double before) noexcept {
-    const std::size_t n = in.light_a.size();
-    if (!(before > 0.0) || n < line_samples || in.light_b.empty()) return false;
+bool fades(const MonitorLimits& c, const LightMonitorInput& in, double before) noexcept {
+    const std::size_t n = in.light.light_a.size();
+    if (!(before > 0.0) || n < line_samples || in.light.light_b.empty()) return false;
     double sum = 0.0;
     for (std::size_t k = n - line_samples; k < n; ++k) {
-        sum += static_cast<double>(in.light_a[k]) + in.weight_b.of(static_cast<double>(in.light_b[k]));
+        sum +=
+            static_cast<double>(in.light.light_a[k]) + in.light.weight_b.of(static_cast<double>(in.light.light_b[k]));
     }
     constexpr double n_samples = static_cast<double>(line_samples);
     const double lost_ratio = 1.0 - sum / (n_samples * before);
     constexpr double usual_ratio = 0.005;
-    const double noise_ratio = c.noise.value() * in.signal_per_lambda;
+    const double noise_ratio = c.light_noise.value() * in.detector.discriminator_per_lambda;
     return lost_ratio > usual_ratio && lost_ratio * lost_ratio > jump_deviations * jump_deviations *
                                                                      (1.0 + 1.0 / n_samples) * noise_ratio *
                                                                      noise_ratio;
 }
 
 // Noise spoils the mean square of the detuning; beyond 0.05 wavelength the mean as well.
-void look_for_noise(const LightMonitorConfig& c, LightMonitorState& s, const LightMonitorInput& in,
+void look_for_noise(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in,
                     LightMonitorOutput& out) noexcept {
-    if (in.light_a.size() < min_noise_samples) return;
+    if (in.light.light_a.size() < min_noise_samples) return;
     const double found_lambda2 = noise_lambda2(in);
-    const double limit_lambda = noisy_deviations * c.noise.value();
+    const double limit_lambda = noisy_deviations * c.light_noise.value();
     const double limit_lambda2 = limit_lambda * limit_lambda;
     const bool is_noisy = found_lambda2 > limit_lambda2 && is_noisy_throughout(in, limit_lambda2);
     // The half in which the noise ends still has some of it.
     out.withheld = is_noisy || s.n_noisy > 0;
     if (out.withheld) out.has_mean_square = false;
     out.noisy = debounced(s.n_noisy, is_noisy, spoilt_debounce);
-    if (!is_noisy) return;
-    if (found_lambda2 > max_steering_noise_lambda * max_steering_noise_lambda) out.usable = false;
+    if (is_noisy && found_lambda2 > max_steering_noise_lambda * max_steering_noise_lambda) in.read.usable = false;
 }
 
 }  // namespace
 
-LightMonitorOutput step(const LightMonitorConfig& config, LightMonitorState& state,
+LightMonitorOutput step(const MonitorLimits& limits, LightMonitorState& state,
                         const LightMonitorInput& input) noexcept {
-    LightMonitorOutput out{.usable = input.usable,
-                           .has_mean_square = input.usable,
-                           .detuning = input.detuning,
-                           .mean_sq_lambda2 = input.mean_sq_lambda2};
-    const bool watches = config.noise >= min_noise;
-    const double before =
-        state.has_end ? static_cast<double>(state.last_a) + input.weight_b.of(static_cast<double>(state.last_b)) : 0.0;
-    out.contradicted =
-        debounced(state.n_contradicted, input.beats && !input.two_way && !input.dark, contradicted_debounce);
-    if (watches && !input.light_a.empty())
-        out.stuck = debounced(state.n_stuck, is_any_still(state, input), spoilt_debounce);
-    if (watches && input.usable) look_for_noise(config, state, input, out);
+    LightMonitorOutput out{.has_mean_square = input.read.usable};
+    const bool watches = limits.light_noise >= min_noise;
+    const bool reads = watches && input.read.usable;
+    const double last_b = input.light.weight_b.of(static_cast<double>(state.last_b));
+    const double before = state.has_end ? static_cast<double>(state.last_a) + last_b : 0.0;
+    out.contradicted = debounced(state.n_contradicted, input.light.beats && !input.read.two_way && !input.read.dark,
+                                 contradicted_debounce);
+    if (watches && !input.light.light_a.empty())
+        out.stuck = debounced(state.n_stuck, is_any_still(state, input.light), spoilt_debounce);
+    if (reads) look_for_noise(limits, state, input, out);
     // Only on the way to a lock: a settled gyro has cheaper tests.
-    const bool is_whole = watches && input.usable && !out.withheld && !input.settled;
+    const bool is_whole = reads && !out.withheld && !input.settled;
     if (!is_whole) state.has_end = false;
-    if (is_whole && (jumps(config, state, input, out) || (input.closed && fades(config, input, before))))
+    if (is_whole && (jumps(limits, state, input, out) || (input.closed && fades(limits, input, before))))
         state.is_unbalanced = true;
     // After a contradiction the beams must first be seen to be balanced.
     if (out.contradicted) state.is_unbalanced = true;
-    if (watches && input.usable) {
-        balance(config, state, input, out);
+    if (reads) {
+        balance(limits, state, input, out);
     } else {
         state.has_last = false;
         state.n_side = 0;
-        state.was_dark = watches && input.settled && !input.two_way;
+        state.was_dark = watches && input.settled && !input.read.two_way;
     }
-    if (out.stuck) out.usable = out.has_mean_square = false;
+    if (out.stuck) input.read.usable = out.has_mean_square = false;
     return out;
 }
 

@@ -97,18 +97,13 @@ void drive(const PerimeterLoopConfig& c, PerimeterLoopState& s, const PerimeterL
 PerimeterLoopOutput step(const PerimeterLoopConfig& config, PerimeterLoopState& state,
                          const PerimeterLoopInput& input) noexcept {
     watch_slew(config, state, input);
-    const double wanted = wanted_v(config, state, input);
-    state.set_point_v = clamp(config.range, Volts{wanted}).value();
-
-    const Volts set_point{state.set_point_v};
+    state.set_point_v = clamp(config.range, Volts{wanted_v(config, state, input)}).value();
     const bool measured = input.usable && is_finite(input.detuning.value()) && input.was_closed;
-    const double size_lambda = input.detuning.value() < 0.0 ? -input.detuning.value() : input.detuning.value();
+    const Volts piezo = is_finite(input.piezo.value()) ? input.piezo : Volts{state.set_point_v};
     PerimeterLoopOutput out;
-    out.set_point = set_point;
-    out.saturated = state.set_point_v != wanted;
-    out.over_limit = measured && size_lambda > config.watch_limit.value();
-    out.near_range_end = near_end(config.range, is_finite(input.piezo.value()) ? input.piezo : set_point);
-    out.set_point_v[0] = set_point.value();
+    out.over_limit = measured && size(input.detuning.value()) > config.watch_limit.value();
+    out.near_range_end = near_end(config.range, piezo);
+    out.set_point_v[0] = state.set_point_v;
     if (relocks(config) || !input.close) drive(config, state, input, out);
     return out;
 }

@@ -1,7 +1,7 @@
 #include <zlg/core/control/reading_monitor.hpp>
 
 #include <zlg/core/common/as_double.hpp>
-#include <zlg/core/control/bias_monitor.hpp>
+#include <zlg/core/control/monitor_limits.hpp>
 
 #include "common/bounds.hpp"
 
@@ -24,12 +24,10 @@ constexpr double stop_to = 1.05;
 
 std::int64_t difference(std::uint64_t a, std::uint64_t b) noexcept { return static_cast<std::int64_t>(a - b); }
 
-double halves(std::int32_t n) noexcept { return static_cast<double>(n); }
-
 // T - P.
 double apart(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::int32_t m) noexcept {
     const double bias = m % 2 != 0 ? in.beat_sign * in.bias_counts : 0.0;
-    return as_double(difference(in.reading, s.good)) - halves(m) * s.rate_counts - bias;
+    return as_double(difference(in.reading, s.good)) - m * s.rate_counts - bias;
 }
 
 // T and P agree within this: the bias is known to a sixth, the rate may go on changing as it last did; half of the bias at
@@ -37,7 +35,7 @@ double apart(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::i
 bool has_returned(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::int32_t m) noexcept {
     if (!s.rate_known || !in.agrees) return false;
     const double bias = in.bias_counts > min_bias_counts ? in.bias_counts : min_bias_counts;
-    const double some = bias / 6.0 + 0.5 * s.change_counts * halves(m) * halves(m + 1);
+    const double some = bias / 6.0 + 0.5 * s.change_counts * m * (m + 1);
     const double most = 0.5 * bias;
     return size(apart(s, in, m)) <= (some < most ? some : most);
 }
@@ -61,7 +59,7 @@ void follow_rate(ReadingMonitorState& s, const ReadingMonitorInput& in, std::int
 
 // More counts than m halves can have.
 bool is_over(const ReadingMonitorInput& in, std::int64_t counts, std::int32_t m, double part) noexcept {
-    return size(as_double(counts)) > part * in.max_counts * halves(m);
+    return size(as_double(counts)) > part * in.max_counts * m;
 }
 
 bool is_at_stop(const ReadingMonitorInput& in, std::int64_t counts, std::int32_t m) noexcept {
@@ -100,16 +98,12 @@ void suspect(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
 // A half of those that wait for a judgement.
 void watch(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
     count_up(s.n_watched);
-    if (in.agrees)
-        count_up(s.n_agreeing);
-    else
-        s.n_agreeing = 0;
-    s.n_lost = in.bias_lost ? s.n_lost + (s.n_lost < lost_debounce_halves) : 0;
-    if (s.n_lost >= lost_debounce_halves) s.countable = false;
+    count_row(s.n_agreeing, in.agrees);
+    if (debounced(s.n_lost, in.bias_lost, lost_debounce_halves)) s.countable = false;
     if (s.has_last && is_at_stop(in, difference(in.reading, s.last), 1)) s.over_range = true;
 }
 
-ReadingMonitorOutput judge(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
+ReadingMonitorOutput decide(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
     const std::int32_t m = s.n_since + 1;
     const std::int64_t counts = difference(in.reading, s.good);
     if (!s.suspected) {
@@ -131,7 +125,7 @@ ReadingMonitorOutput judge(ReadingMonitorState& s, const ReadingMonitorInput& in
     return s.impossible || is_over(in, counts, m, 1.0) ? alone(s, in) : whole(s, in);
 }
 
-ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
+ReadingMonitorOutput decide_or_begin(ReadingMonitorState& s, const ReadingMonitorInput& in) noexcept {
     if (!in.follows) s.has_last = s.countable = false;
     // The first half of a loop that closes: its start was read, whatever the counter did before.
     if (!s.countable && in.countable && in.suspicious && s.has_last && !s.over_range) {
@@ -139,7 +133,7 @@ ReadingMonitorOutput judge_or_begin(ReadingMonitorState& s, const ReadingMonitor
         s.good = s.last;
     }
     ReadingMonitorOutput out;
-    if (s.countable) out = judge(s, in);
+    if (s.countable) out = decide(s, in);
     if (s.countable) return out;
     // What the counter may have lost is missing on the other side of a switch, too, and so is what it loses within one.
     const bool at_stop = s.has_last && is_at_stop(in, difference(in.reading, s.last), 1);
@@ -159,7 +153,7 @@ ReadingMonitorOutput step(ReadingMonitorState& state, const ReadingMonitorInput&
     state.countable = state.countable && input.countable && input.mode == state.mode;
     ReadingMonitorOutput out;
     if (input.read) {
-        out = judge_or_begin(state, input);
+        out = decide_or_begin(state, input);
         state.last = input.reading;
     } else {
         state.n_agreeing = 0;

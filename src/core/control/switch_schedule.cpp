@@ -2,6 +2,8 @@
 
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
@@ -11,11 +13,6 @@ constexpr std::int64_t max_interval_ticks = std::int64_t{1} << 53;
 
 bool is_positive(double x) noexcept { return x > 0.0 && x <= 1e12; }
 
-std::int64_t limited_to(std::int64_t ticks, std::int64_t most) noexcept {
-    if (ticks > most) return most;
-    return ticks < -most ? -most : ticks;
-}
-
 std::int64_t in_mode(std::int8_t mode, std::int64_t ticks) noexcept { return mode < 0 ? -ticks : ticks; }
 
 void count_mode(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int8_t mode) noexcept {
@@ -23,7 +20,7 @@ void count_mode(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int8
     const bool begins = s.imbalance_ticks == 0 && s.opened_tick == 0;
     if (begins && c.kind != ScheduleKind::fixed && c.first_segment == FirstSegment::full)
         s.centre_ticks = in_mode(mode, s.interval_ticks - s.interval_ticks / 2);
-    s.imbalance_ticks = limited_to(s.imbalance_ticks + in_mode(mode, 1), max_interval_ticks);
+    s.imbalance_ticks = limited(s.imbalance_ticks + in_mode(mode, 1), max_interval_ticks);
 }
 
 bool is_due_on_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
@@ -88,7 +85,7 @@ void note_opening(const SwitchScheduleConfig& c, SwitchScheduleState& s, const S
     if (c.kind == ScheduleKind::fixed) return;
     s.interval_ticks =
         within_factor_2(s.interval_ticks, varied(balanced_interval(c, in.advice, in.tick), ++s.n_openings));
-    s.imbalance_ticks = s.centre_ticks + limited_to(s.imbalance_ticks - s.centre_ticks, c.max_ticks);
+    s.imbalance_ticks = s.centre_ticks + limited(s.imbalance_ticks - s.centre_ticks, c.max_ticks);
 }
 
 }  // namespace
@@ -115,17 +112,14 @@ SwitchScheduleState initial_state(const SwitchScheduleConfig& c) noexcept {
             .interval_ticks = c.kind == ScheduleKind::fixed ? c.interval_ticks : balanced_interval(c, {}, 1)};
 }
 
-SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleState& state,
-                          const SwitchScheduleInput& in) noexcept {
+bool step(const SwitchScheduleConfig& config, SwitchScheduleState& state, const SwitchScheduleInput& in) noexcept {
     count_mode(config, state, in.mode);
-    const bool jumped = config.kind == ScheduleKind::fixed && in.tick > state.next_tick;
-    const bool late = state.waiting || jumped;
     const bool planned = (is_newly_due(config, state, in) || state.waiting) && !state.held;
     state.waiting = planned && !in.ready;
-    if (!((planned || state.asked) && in.ready)) return {};
+    if (!((planned || state.asked) && in.ready)) return false;
     state.asked = false;
     note_opening(config, state, in);
-    return {.open = true, .late = late};
+    return true;
 }
 
 }  // namespace zlg::core

@@ -26,28 +26,12 @@ struct Moments {
         sums += x;
         squares += x * x;
     }
-    // A last sample that has no odd one beside it.
-    void add(double x) noexcept { add(Pair{x, 0.0}); }
 
     [[nodiscard]] double sum() const noexcept { return sums[0] + sums[1]; }
     [[nodiscard]] double sum_of_squares() const noexcept { return squares[0] + squares[1]; }
 };
 
-struct Extremes {
-    Pair lowest;
-    Pair highest;
-
-    explicit Extremes(float first) noexcept
-        : lowest{static_cast<double>(first), static_cast<double>(first)}, highest{lowest} {}
-
-    void add(Pair x) noexcept {
-        lowest = lesser(lowest, x);
-        highest = greater(highest, x);
-    }
-};
-
 double lower(Pair x) noexcept { return x[0] < x[1] ? x[0] : x[1]; }
-double higher(Pair x) noexcept { return x[0] > x[1] ? x[0] : x[1]; }
 
 // Learn the level from steady light far above it (any light is, before the first time), or follow it.
 void observe(const SyncDetectorConfig& c, LightLevel& l, double light, bool follow, double time_constant) noexcept {
@@ -96,7 +80,7 @@ Moments through_curve(const SyncDetectorConfig& c, const SyncDetectorInput& in, 
     Moments dl_lambda;
     std::size_t k = 0;
     for (; k + 1 < n; k += 2) dl_lambda.add(Pair{detuning_lambda(k), detuning_lambda(k + 1)});
-    if (k < n) dl_lambda.add(detuning_lambda(k));
+    if (k < n) dl_lambda.add(Pair{detuning_lambda(k), 0.0});
     return dl_lambda;
 }
 
@@ -129,20 +113,11 @@ BothBeams survey(const SyncDetectorInput& in) noexcept {
         weakest = lesser(weakest, last);
         const double sum = last[0] + last[1];
         light += Pair{sum, 0.0};
-        both.signal.add((last[0] - last[1]) / sum);
+        both.signal.add(Pair{(last[0] - last[1]) / sum, 0.0});
     }
     both.weakest = lower(weakest);
     both.light = (light[0] + light[1]) / static_cast<double>(n);
     return both;
-}
-
-// Two-way light: no sum is zero.
-Moments both_through_curve(const SyncDetectorConfig& c, const SyncDetectorInput& in) noexcept {
-    return through_curve(c, in, [&in](std::size_t k) {
-        const double a = static_cast<double>(in.light_a[k]);
-        const double b = in.weight_b.of(static_cast<double>(in.light_b[k]));
-        return (a - b) / (a + b);
-    });
 }
 
 void detect_both(const SyncDetectorConfig& c, SyncDetectorState& s, const SyncDetectorInput& in,
@@ -163,7 +138,13 @@ void detect_both(const SyncDetectorConfig& c, SyncDetectorState& s, const SyncDe
     if (c.curve.n_nodes == 0) {
         deliver(both.signal, signed_slope(c, in), in.light_a.size(), out);
     } else {
-        deliver(both_through_curve(c, in), 1.0, in.light_a.size(), out);
+        // Two-way light: no sum is zero.
+        const auto signal = [&in](std::size_t k) {
+            const double a = static_cast<double>(in.light_a[k]);
+            const double b = in.weight_b.of(static_cast<double>(in.light_b[k]));
+            return (a - b) / (a + b);
+        };
+        deliver(through_curve(c, in, signal), 1.0, in.light_a.size(), out);
     }
 }
 
@@ -176,20 +157,21 @@ struct Extent {
 Extent extent(std::span<const float> samples) noexcept {
     const float* const sample = samples.data();
     const std::size_t n = samples.size();
-    Extremes extremes{sample[0]};
+    const double first = static_cast<double>(sample[0]);
+    Pair lowest{first, first};
+    Pair highest = lowest;
     Pair sum{};
+    const auto add = [&](Pair x, Pair to_sum) {
+        lowest = lesser(lowest, x);
+        highest = greater(highest, x);
+        sum += to_sum;
+    };
     std::size_t k = 0;
-    for (; k + 1 < n; k += 2) {
-        const Pair x = load(sample + k);
-        extremes.add(x);
-        sum += x;
-    }
-    if (k < n) {
-        const double last = static_cast<double>(sample[k]);
-        extremes.add(Pair{last, last});
-        sum += Pair{last, 0.0};
-    }
-    return {lower(extremes.lowest), higher(extremes.highest), (sum[0] + sum[1]) / static_cast<double>(n)};
+    for (; k + 1 < n; k += 2) add(load(sample + k), load(sample + k));
+    const double last = static_cast<double>(sample[n - 1]);
+    if (k < n) add(Pair{last, last}, Pair{last, 0.0});
+    return {lower(lowest), highest[0] > highest[1] ? highest[0] : highest[1],
+            (sum[0] + sum[1]) / static_cast<double>(n)};
 }
 
 void demodulate_single(const SyncDetectorConfig& c, const SyncDetectorInput& in, double level,
@@ -205,7 +187,7 @@ void demodulate_single(const SyncDetectorConfig& c, const SyncDetectorInput& in,
     Moments signals;
     std::size_t k = 0;
     for (; k + 1 < n; k += 2) signals.add(signal(load(light + k)));
-    if (k < n) signals.add(signal(static_cast<double>(light[k])));
+    if (k < n) signals.add(Pair{signal(static_cast<double>(light[k])), 0.0});
     deliver(signals, signed_slope(c, in), n, out);
 }
 

@@ -6,28 +6,6 @@
 
 namespace zlg::core::health_test {
 
-constexpr HealthConfig config{.counts_limit = 1000};
-static_assert(check(config) == HealthFault::none);
-static_assert(check(HealthConfig{.counts_limit = 0}) == HealthFault::counts_limit);
-
-TEST(Health, AWordHoldsTheBitsThatWereSeenAndNoOther) {
-    HealthWord word;
-    EXPECT_EQ(word.bits, 0u);
-    word.set(health_light_lost, false);
-    EXPECT_EQ(word.bits, 0u);
-    word.set(health_light_lost, true);
-    word.set(health_searching, true);
-    word.set(health_light_lost, false);
-    EXPECT_EQ(word.bits, health_light_lost | health_searching);
-}
-
-TEST(Health, MoreCountsThanTheLimitAreBeyondItInEitherDirection) {
-    using Limits = std::numeric_limits<std::int64_t>;
-    for (const std::int64_t counts : {1000, -1000}) EXPECT_FALSE(is_beyond(counts, max_counts(config))) << counts;
-    for (const std::int64_t counts : {std::int64_t{1001}, std::int64_t{-1001}, Limits::min(), Limits::max()})
-        EXPECT_TRUE(is_beyond(counts, max_counts(config))) << counts;
-}
-
 TEST(Health, BitsHaveDistinctNamesInTheirOrder) {
     const std::set<std::string> names(health_bit_names.begin(), health_bit_names.end());
     EXPECT_EQ(names.size(), health_bit_names.size());

@@ -53,7 +53,7 @@ struct Gyro {
             half.counts = rate_per_tick * length + half.bias_sign * half.mode * (bias_per_tick * length - lost);
             if (half.loop_closed) deficit *= 0.7;
             start = end;
-            end = step(law, edges, {.next_sign = static_cast<std::int8_t>(-half.bias_sign)}).edge_offset_ticks;
+            end = step(law, edges, static_cast<std::int8_t>(-half.bias_sign), {});
             halves.push_back(half);
         }
         return halves;

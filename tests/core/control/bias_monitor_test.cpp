@@ -4,10 +4,7 @@
 
 namespace zlg::core::bias_monitor_test {
 
-constexpr BiasMonitorConfig config{.presumed_counts = 150.0};
-static_assert(check(config) == BiasMonitorFault::none);
-static_assert(check(BiasMonitorConfig{.presumed_counts = -1.0}) == BiasMonitorFault::presumed);
-static_assert(check(BiasMonitorConfig{.presumed_counts = not_a_number}) == BiasMonitorFault::presumed);
+constexpr MonitorLimits config{.bias_counts = 150.0};
 
 // A counter that rounds down, under a bias and a rotation given in counts per half.
 class Counter {
@@ -18,13 +15,13 @@ public:
 
     explicit Counter(int halves = 0) { (void)after(halves); }
 
-    BiasMonitorOutput half(const BiasMonitorConfig& c = config) {
+    BiasMonitorOutput half(const MonitorLimits& c = config) {
         sign_ = static_cast<std::int8_t>(-sign_);
         phase_ += rate + sign_ * bias;
         const auto now = static_cast<std::int64_t>(std::floor(phase_));
         const std::int64_t counts = now - last_;
         last_ = now;
-        return step(c, state, {.counted = true, .counts = counts, .beat_sign = sign_, .settled = settled});
+        return step(c, state, true, counts, sign_, settled);
     }
     // The last of n halves; with a bias that it keeps.
     BiasMonitorOutput after(int n) {
@@ -59,7 +56,7 @@ TEST(BiasMonitor, LearnsTheBiasThatIsThereWhateverWasPresumed) {
 TEST(BiasMonitor, JudgesNothingWithoutABiasToTell) {
     Counter counter;
     counter.bias = 20.0;
-    for (int k = 0; k < 300; ++k) EXPECT_FALSE(counter.half({.presumed_counts = 20.0}).judged);
+    for (int k = 0; k < 300; ++k) EXPECT_FALSE(counter.half({.bias_counts = 20.0}).judged);
     Counter off;
     for (int k = 0; k < 300; ++k) EXPECT_FALSE(off.half({}).judged);
 }
@@ -190,11 +187,11 @@ TEST(BiasMonitor, ARotationThatCancelsTheBiasIsTheLockInZone) {
 
 TEST(BiasMonitor, HalvesThatWereNotCountedBreakTheRow) {
     Counter counter{100};
-    EXPECT_FALSE(step(config, counter.state, {.counted = false}).judged);
+    EXPECT_FALSE(step(config, counter.state, false, 0, 1, false).judged);
     EXPECT_FALSE(counter.half().judged);
     EXPECT_TRUE(counter.half().judged);
     const std::int64_t most = std::numeric_limits<std::int64_t>::min();
-    EXPECT_FALSE(step(config, counter.state, {.counted = true, .counts = most}).judged);
+    EXPECT_FALSE(step(config, counter.state, true, most, 1, false).judged);
 }
 
 }  // namespace zlg::core::bias_monitor_test

@@ -4,10 +4,7 @@
 
 namespace zlg::core::coil_monitor_test {
 
-constexpr CoilMonitorConfig config{.tolerance_ratio = 0.0033};
-static_assert(check(config) == CoilMonitorFault::none);
-static_assert(check(CoilMonitorConfig{.tolerance_ratio = not_a_number}) == CoilMonitorFault::tolerance);
-static_assert(check(CoilMonitorConfig{.tolerance_ratio = 1.1}) == CoilMonitorFault::tolerance);
+constexpr MonitorLimits config{.coil_ratio = 0.0033};
 
 // 1 A with the noise of a converter, by default 0.1 %.
 class Coil {

@@ -4,19 +4,16 @@
 
 namespace zlg::core::detuning_monitor_test {
 
-constexpr DetuningMonitorConfig config{.max_change_lambda2 = 0.002, .relock_ticks = 20};
-static_assert(check(config) == DetuningMonitorFault::none);
-static_assert(check(DetuningMonitorConfig{.max_change_lambda2 = not_a_number}) == DetuningMonitorFault::max_change);
-static_assert(check(DetuningMonitorConfig{.relock_ticks = -1}) == DetuningMonitorFault::relock_ticks);
+constexpr MonitorLimits config{.detuning_change_lambda2 = 0.002, .relock_ticks = 20};
 
 struct Gyro {
     DetuningMonitorState state;
     bool settled = true;
 
     bool tick(double first_lambda2, double second_lambda2, bool good = true) {
-        const bool first = step(config, state, {false, good, settled, true, first_lambda2});
+        const bool first = step(config, state, false, good, settled, true, first_lambda2);
         EXPECT_FALSE(first);
-        return step(config, state, {true, good, settled, true, second_lambda2});
+        return step(config, state, true, good, settled, true, second_lambda2);
     }
     void ticks(int n) {
         for (int k = 0; k < n; ++k) EXPECT_FALSE(tick(0.0, 0.0));
@@ -53,10 +50,10 @@ TEST(DetuningMonitor, NothingIsJudgedBeforeTheLockNorWithoutAMeasurement) {
     gyro.ticks(30);
     EXPECT_FALSE(gyro.tick(0.0, 0.05));
     gyro.settled = true;
-    EXPECT_FALSE(step(config, gyro.state, {false, true, true, false, 0.0}));
-    EXPECT_FALSE(step(config, gyro.state, {true, true, true, true, 0.05}));
+    EXPECT_FALSE(step(config, gyro.state, false, true, true, false, 0.0));
+    EXPECT_FALSE(step(config, gyro.state, true, true, true, true, 0.05));
     DetuningMonitorState off;
-    for (int k = 0; k < 100; ++k) EXPECT_FALSE(step({}, off, {k % 2 != 0, true, true, true, k % 2 == 0 ? 0.0 : 1.0}));
+    for (int k = 0; k < 100; ++k) EXPECT_FALSE(step({}, off, k % 2 != 0, true, true, true, k % 2 == 0 ? 0.0 : 1.0));
 }
 
 }  // namespace zlg::core::detuning_monitor_test

@@ -130,7 +130,7 @@ namespace {
 Loop noisy_loop(LoopKind kind) {
     return Loop{config_with([kind](GyroControlConfig& c) {
         c.loop.kind = kind;
-        c.light_monitor.noise = Wavelengths{0.0021};
+        c.limits.light_noise = Wavelengths{0.0021};
     })};
 }
 

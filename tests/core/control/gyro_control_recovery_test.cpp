@@ -52,19 +52,18 @@ void expect_sane(const GyroControlOutput& out, const GyroControlState& s) {
     for (std::size_t k = 0; k < out.actuator.n_set_points; ++k) {
         ASSERT_TRUE(out.actuator.set_point_v[k] >= 0.0 && out.actuator.set_point_v[k] <= 300.0);
     }
-    for (const double x : s.stroke.weight) ASSERT_TRUE(std::isfinite(x));
-    for (const double x : s.stroke.play) ASSERT_TRUE(std::isfinite(x));
+    for (const double x : s.half_wave.weight) ASSERT_TRUE(std::isfinite(x));
+    for (const double x : s.half_wave.play) ASSERT_TRUE(std::isfinite(x));
     for (const double x : s.mode_switch.readings.voltage_v) ASSERT_TRUE(std::isfinite(x));
     ASSERT_TRUE(s.loop.slew_ratio >= 0.25 && s.loop.slew_ratio <= 4.0);
-    ASSERT_TRUE(s.half_wave.estimate_v >= 20.0 && s.half_wave.estimate_v <= 80.0);
-    ASSERT_TRUE(s.half_wave.variance_v2 > 0.0 && s.half_wave.variance_v2 <= 16.0);
+    ASSERT_TRUE(half_wave(s) >= Volts{20.0} && half_wave(s) <= Volts{80.0});
+    ASSERT_TRUE(s.half_wave.length_variance_lambda2 > 0.0 && s.half_wave.length_variance_lambda2 < 0.25);
     ASSERT_TRUE(s.mode_switch.set_point_v >= 0.0 && s.mode_switch.set_point_v <= 300.0);
     const auto &both = s.detector.both, &single = s.detector.single;
-    for (const double x :
-         {out.event.half_wave_v, out.event.miss_lambda, s.piezo_v, s.temperature_c, s.mean_temperature_c, both.level,
-          both.candidate, single.level, single.candidate, s.detector.mean_a, s.mode_switch.detuning_lambda,
-          s.mode_switch.miss_lambda, s.mode_switch.good_v, s.bias_monitor.bias_counts, s.light_monitor.last_lambda,
-          s.coil_monitor.odd, s.coil_monitor.even, s.coil_monitor.spread})
+    for (const double x : {out.event.half_wave_v, s.piezo_v, s.temperature_c, s.mean_temperature_c, both.level,
+                           both.candidate, single.level, single.candidate, s.detector.mean_a,
+                           s.mode_switch.detuning_lambda, s.mode_switch.good_v, s.bias_monitor.bias_counts,
+                           s.light_monitor.last_lambda, s.coil_monitor.odd, s.coil_monitor.even, s.coil_monitor.spread})
         ASSERT_TRUE(std::isfinite(x));
 }
 
@@ -119,11 +118,11 @@ TEST_P(EitherLoop, AHundredThousandHalvesOfGarbageLeaveNoTraceOfThemselves) {
     for (const bool monitored : {false, true}) {
         GyroControlConfig c = config_of(GetParam());
         if (monitored) {
-            c.bias_monitor.presumed_counts = 150.0;
-            c.coil_monitor.tolerance_ratio = 0.003;
-            c.counter_monitor.watches = true;
-            c.light_monitor = {.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
-            c.detuning_monitor.max_change_lambda2 = 0.002;
+            c.limits.bias_counts = 150.0;
+            c.limits.coil_ratio = 0.003;
+            c.limits.light_noise = Wavelengths{0.0033};
+            c.limits.bias_chi = 3.6;
+            c.limits.detuning_change_lambda2 = 0.002;
         }
         GyroControlState s = initial_state(c);
         Garbage garbage;

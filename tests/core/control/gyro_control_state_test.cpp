@@ -10,14 +10,14 @@ static_assert(check(GyroControlConfig{}) == GyroControlFault::none);
 static_assert(fault([](auto& c) { c.loop.kind = LoopKind::digital; }) == GyroControlFault::none);
 static_assert(fault([](auto& c) { c.detector.dark_fraction = not_a_number; }) == GyroControlFault::detector);
 static_assert(fault([](auto& c) { c.loop.slew_v_s = not_a_number; }) == GyroControlFault::loop);
-static_assert(fault([](auto& c) { c.half_wave.gate = 0.0; }) == GyroControlFault::half_wave);
+static_assert(fault([](auto& c) { c.half_wave.half_wave = Volts{0.0}; }) == GyroControlFault::half_wave);
 static_assert(fault([](auto& c) { c.schedule.interval_ticks = 0; }) == GyroControlFault::schedule);
 static_assert(fault([](auto& c) { c.mode_switch.gap_ticks = 0; }) == GyroControlFault::mode_switch);
 static_assert(fault([](auto& c) { c.commutator.half_ticks = 0; }) == GyroControlFault::commutator);
-static_assert(fault([](auto& c) { c.health.counts_limit = -1; }) == GyroControlFault::health);
+static_assert(fault([](auto& c) { c.limits.counts = -1; }) == GyroControlFault::monitors);
 static_assert(fault([](auto& c) { c.presumed_temperature = Celsius{not_a_number}; }) == GyroControlFault::temperature);
 static_assert(fault([](auto& c) { c.loop.range.max = Volts{290.0}; }) == GyroControlFault::ranges_differ);
-static_assert(fault([](auto& c) { c.commutator.dither = {.method = DitherMethod::paired, .half_ticks = 20000}; }) ==
+static_assert(fault([](auto& c) { c.commutator.dither = {.method = DitherMethod::paired, .cycle_ticks = 4000.0}; }) ==
               GyroControlFault::commutator);
 
 TEST(GyroControlState, StartsAtTheSetPointTheCounterAndTheTemperatureThatArePresumed) {
@@ -31,7 +31,7 @@ TEST(GyroControlState, StartsAtTheSetPointTheCounterAndTheTemperatureThatArePres
     EXPECT_EQ(state.counter, 1234u);
     EXPECT_EQ(state.temperature_c, 35.0);
     EXPECT_EQ(state.half, 0);
-    EXPECT_EQ(state.up.move_v, -state.down.move_v);
+    EXPECT_EQ(state.up_v, -state.down_v);
     const ActuatorFrame first = initial_actuator(config);
     EXPECT_TRUE(first.loop_closed);
     EXPECT_EQ(first.polarity, -1);

@@ -6,98 +6,172 @@ namespace zlg::core::half_wave_test {
 
 constexpr HalfWaveConfig config{};
 
-static_assert(check(config) == HalfWaveFault::none);
-static_assert(check(HalfWaveConfig{.presumed = Volts{0.0}}) == HalfWaveFault::presumed);
-static_assert(check(HalfWaveConfig{.presumed = Volts{not_a_number}}) == HalfWaveFault::presumed);
-static_assert(check(HalfWaveConfig{.presumed_sigma_ratio = 1.0}) == HalfWaveFault::presumed_sigma);
-static_assert(check(HalfWaveConfig{.measurement_sigma = Volts{0.0}}) == HalfWaveFault::measurement_sigma);
-static_assert(check(HalfWaveConfig{.process_sigma = Volts{-1.0}}) == HalfWaveFault::process_sigma);
-static_assert(check(HalfWaveConfig{.gate = not_a_number}) == HalfWaveFault::gate);
+static_assert(is_allowed(config));
+static_assert(!is_allowed(HalfWaveConfig{.half_wave = Volts{0.0}}));
+static_assert(!is_allowed(HalfWaveConfig{.half_wave = Volts{not_a_number}}));
+static_assert(!is_allowed(HalfWaveConfig{.reference = Celsius{not_a_number}}));
+static_assert(!is_allowed(HalfWaveConfig{.range = {.max = Volts{-1.0}}}));
 
-TEST(HalfWave, OneMeasurementIsTheWeightedMeanOfPresumedAndMeasured) {
-    HalfWaveState s = initial_state(config);
-    const HalfWaveOutput out = step(config, s, Volts{42.0});
-    // Inverse variances: presumed 1/(16) (its ceiling: process noise adds nothing), measured 1/(0.09).
-    const double weight_presumed = 1.0 / 16.0;
-    const double weight_measured = 1.0 / 0.09;
-    const double sum = weight_presumed + weight_measured;
-    EXPECT_NEAR(out.half_wave.value(), (40.0 * weight_presumed + 42.0 * weight_measured) / sum, 1e-12);
-    EXPECT_NEAR(sigma(s).value(), std::sqrt(1.0 / sum), 1e-12);
-    EXPECT_EQ(s.n_accepted, 1);
-    EXPECT_FALSE(out.rejected);
-}
+// A piezo whose length is not the model's: plays at other thresholds, and a slope that falls with temperature.
+class Piezo {
+public:
+    double half_wave_v = 41.0;
+    double hysteresis = 0.0;  // of the slope, in plays
+    double per_c = 0.0;
+    double temperature_c = 20.0;
 
-TEST(HalfWave, SteadySigmaSolvesTheRiccatiEquation) {
-    HalfWaveState s = initial_state(config);
-    for (int k = 0; k < 300; ++k) (void)step(config, s, Volts{40.0});
-    // P^2 + q P - q r = 0 for the posterior variance P.
-    const double q = 0.01;
-    const double r = 0.09;
-    const double posterior = 0.5 * (-q + std::sqrt(q * q + 4.0 * q * r));
-    EXPECT_NEAR(s.variance_v2, posterior, 1e-12);
-}
-
-TEST(HalfWave, OutliersAreRejectedAndSaid) {
-    HalfWaveState s = initial_state(config);
-    for (int k = 0; k < 20; ++k) (void)step(config, s, Volts{40.0});
-    const double held_v = s.estimate_v;
-    for (const double wrong_v : {not_a_number, 1.0 / 0.0, -1.0 / 0.0, 1e300, 0.0, -40.0, 42.0, 19.0, 81.0}) {
-        const double before_v2 = s.variance_v2;
-        EXPECT_TRUE(step(config, s, Volts{wrong_v}).rejected) << wrong_v;
-        EXPECT_EQ(s.estimate_v, held_v);
-        EXPECT_GT(s.variance_v2, before_v2);
+    double length(double v) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < play_v_.size(); ++i) {
+            const double r = 1.5 + 3.0 * static_cast<double>(i);
+            play_v_[i] = std::clamp(play_v_[i], v - r, v + r);
+            sum += play_v_[i];
+        }
+        const double slope = 0.5 / half_wave_v / (1.0 + per_c * (temperature_c - 20.0));
+        return slope * ((1.0 - hysteresis) * v + hysteresis * sum / static_cast<double>(play_v_.size()));
     }
-    EXPECT_EQ(s.n_accepted, 20);
-}
 
-TEST(HalfWave, ASecondOutlierOnTheSameSideIsBelieved) {
-    HalfWaveState s = initial_state(config);
-    for (int k = 0; k < 20; ++k) (void)step(config, s, Volts{34.0});
-    EXPECT_TRUE(step(config, s, Volts{38.0}).rejected);
-    EXPECT_TRUE(step(config, s, Volts{30.0}).rejected);  // the other side begins anew
-    EXPECT_TRUE(step(config, s, Volts{38.0}).rejected);
-    EXPECT_TRUE(step(config, s, Volts{100.0}).rejected);  // another mode is no second one
-    EXPECT_FALSE(step(config, s, Volts{38.5}).rejected);
-    // p = 4.5^2 against 0.3^2.
-    EXPECT_NEAR(s.estimate_v, 34.0 + 4.5 * 20.25 / 20.34, 1e-6);
-    EXPECT_NEAR(sigma(s).value(), std::sqrt(0.09 * 20.25 / 20.34), 1e-7);
-}
-
-TEST(HalfWave, AnotherModeIsNoNeighbourHoweverWideTheGate) {
-    const HalfWaveConfig unsure{.presumed_sigma_ratio = 0.9};
-    HalfWaveState s = initial_state(unsure);
-    EXPECT_TRUE(step(unsure, s, Volts{81.0}).rejected);
-    EXPECT_TRUE(step(unsure, s, Volts{19.0}).rejected);
-    EXPECT_FALSE(step(unsure, s, Volts{79.0}).rejected);
-}
-
-TEST(HalfWave, WithoutMeasurementsTheSigmaGrowsToThatOfThePresumedValue) {
-    HalfWaveState s = initial_state(config);
-    (void)step(config, s, Volts{40.0});
-    for (int k = 0; k < 10000; ++k) (void)step(config, s, Volts{not_a_number});
-    EXPECT_DOUBLE_EQ(sigma(s).value(), 4.0);
-}
-
-struct Place {
-    PiezoRange range;
-    double piezo_v;
-    int sign;  // 0: either
-    bool out_of_range = false;
+private:
+    std::array<double, 5> play_v_{150.0, 150.0, 150.0, 150.0, 150.0};
 };
 
-// The room is what lies between the neighbour, 40 V away, and the end of the range, wherever that begins. Where neither keeps the
-// margin the roomier one is taken, and said.
-TEST(HalfWave, DirectionLeadsTowardsTheMiddleOfTheRange) {
-    constexpr PiezoRange whole{};
-    constexpr PiezoRange raised{.min = Volts{100.0}, .max = Volts{300.0}, .margin = Volts{5.0}};
-    constexpr PiezoRange narrow{.min = Volts{0.0}, .max = Volts{80.0}, .margin = Volts{5.0}};
-    for (const Place& place :
-         {Place{whole, 120.0, 1}, Place{whole, 180.0, -1}, Place{whole, 5.0, 1}, Place{whole, 295.0, -1},
-          Place{whole, 150.0, 0}, Place{raised, 180.0, 1}, Place{raised, 220.0, -1}, Place{narrow, 38.0, 1, true},
-          Place{narrow, 42.0, -1, true}, Place{narrow, 35.0, 0}}) {  // the last one lands on the margin itself
-        const SwitchDirection direction = choose_direction(place.range, Volts{place.piezo_v}, Volts{40.0});
-        if (place.sign != 0) EXPECT_EQ(direction.sign, place.sign) << place.piezo_v;
-        EXPECT_EQ(direction.out_of_range, place.out_of_range) << place.piezo_v;
+// Switches up and down; in between the loop moves the voltage by `walk_v` against the last move, as creep makes it.
+class Switches {
+public:
+    Piezo piezo;
+    double v = 150.0;
+    double walk_v = 0.0;
+
+    // Miss of the next switch, wavelengths.
+    double next() {
+        walk();
+        const double start = piezo.length(v);
+        const Celsius now{piezo.temperature_c};
+        begin_move(config, state, Volts{v});
+        const double move_v = predicted_move(config, state, sign_, Volts{v}, now).value();
+        v += move_v;
+        follow(config, state, Volts{v});
+        const double miss = piezo.length(v) - start - 0.5 * sign_;
+        arrive(config, state, sign_, Volts{v}, Wavelengths{miss}, now);
+        learnt = confirm(state, true);
+        sign_ = static_cast<std::int8_t>(-sign_);
+        return std::abs(miss);
+    }
+
+private:
+    void walk() {
+        v += walk_v * sign_;
+        (void)piezo.length(v);
+        follow(config, state, Volts{v});
+    }
+
+    std::int8_t sign_ = 1;
+
+public:
+    HalfWaveState state = initial_state(config, Volts{150.0});
+    bool learnt = true;
+};
+
+TEST(HalfWave, KnowsTheHalfWaveVoltageBeforeAnyMove) {
+    const HalfWaveState s = initial_state(config, Volts{150.0});
+    EXPECT_NEAR(predicted_move(config, s, 1, Volts{150.0}, Celsius{20.0}).value(), 40.0, 0.01);
+    EXPECT_NEAR(predicted_move(config, s, -1, Volts{170.0}, Celsius{35.0}).value(), -40.0, 0.01);
+}
+
+TEST(HalfWave, OneMoveOfAPiezoWithoutHysteresisTeachesItsHalfWaveVoltage) {
+    Switches gyro;
+    EXPECT_NEAR(gyro.next(), 0.5 / 41.0, 1e-4);
+    EXPECT_LT(gyro.next(), 0.002);
+    for (int k = 0; k < 4; ++k) (void)gyro.next();
+    EXPECT_LT(gyro.next(), 5e-4);
+}
+
+// 4 V before any move; then the noise of one measured length of half a wavelength, 0.001 and a tenth of the miss.
+TEST(HalfWave, ItsSigmaIsThatOfALengthAsTheLast) {
+    Switches gyro;
+    EXPECT_DOUBLE_EQ(sigma(gyro.state, Volts{40.0}).value(), 4.0);
+    const double miss = gyro.next();
+    EXPECT_NEAR(sigma(gyro.state, Volts{40.0}).value(), 80.0 * std::hypot(0.001, 0.1 * miss), 1e-3);
+}
+
+TEST(HalfWave, LearnsALoopThatItsPlaysDoNotDescribe) {
+    Switches gyro;
+    gyro.piezo.hysteresis = 0.2;
+    for (int k = 0; k < 6; ++k) (void)gyro.next();
+    for (int k = 0; k < 6; ++k) EXPECT_LT(gyro.next(), 0.002) << k;
+}
+
+// The voltage has walked back into the loop since the last switch, more each time: a growing interval.
+TEST(HalfWave, TheTurnBackSinceTheLastSwitchIsForeseen) {
+    Switches gyro;
+    gyro.piezo.hysteresis = 0.2;
+    for (int k = 0; k < 24; ++k) {
+        gyro.walk_v = 0.3 * k;
+        const double miss = gyro.next();
+        if (k > 10) EXPECT_LT(miss, 0.004) << k;
+    }
+    // What a fixed move would have missed over this: its part of the slope that the walk has already turned.
+    Piezo walked, straight;
+    walked.hysteresis = straight.hysteresis = 0.2;
+    for (Piezo* p : {&walked, &straight}) (void)p->length(190.0);
+    const double turned = walked.length(183.0);
+    const double blind = (turned - walked.length(143.0)) - (straight.length(190.0) - straight.length(150.0));
+    EXPECT_GT(std::abs(blind), 0.008);
+}
+
+TEST(HalfWave, TemperatureIsFollowedWhereTheIntervalGrows) {
+    Switches gyro;
+    gyro.piezo.per_c = 0.004;
+    for (int k = 0; k < 24; ++k) {
+        gyro.piezo.temperature_c = 20.0 + 20.0 * std::pow(k / 24.0, 3.0);
+        const double miss = gyro.next();
+        if (k > 12) EXPECT_LT(miss, 0.002) << k;
+    }
+}
+
+TEST(HalfWave, AnOutlierTeachesNothingAndASecondOneEverything) {
+    Switches gyro;
+    for (int k = 0; k < 6; ++k) (void)gyro.next();
+    gyro.piezo.half_wave_v = 46.0;
+    const StrokeWeights before = gyro.state.weight;
+    EXPECT_GT(gyro.next(), 0.05);
+    EXPECT_FALSE(gyro.learnt);
+    EXPECT_EQ(gyro.state.weight, before);
+    (void)gyro.next();
+    double miss = 1.0;
+    for (int k = 0; k < 6; ++k) miss = gyro.next();
+    EXPECT_LT(miss, 0.002);
+}
+
+TEST(HalfWave, WhatWasNotConfirmedIsForgotten) {
+    HalfWaveState s = initial_state(config, Volts{150.0});
+    begin_move(config, s, Volts{150.0});
+    follow(config, s, Volts{190.0});
+    arrive(config, s, 1, Volts{190.0}, Wavelengths{0.05}, Celsius{20.0});
+    const StrokeWeights before = s.weight;
+    EXPECT_TRUE(confirm(s, false));
+    EXPECT_EQ(s.weight, before);
+    EXPECT_TRUE(confirm(s, true));
+    EXPECT_EQ(s.weight, before);
+}
+
+TEST(HalfWave, NothingButFiniteNumbersStayWhateverComesIn) {
+    HalfWaveState s = initial_state(config, Volts{not_a_number});
+    const double inf = std::numeric_limits<double>::infinity();
+    const std::array<double, 8> odd{not_a_number, inf, -inf, 1e300, -1e300, 0.0, 150.0, 0.3};
+    for (int k = 0; k < 512; ++k) {
+        const double a = odd[static_cast<std::size_t>(k % 8)];
+        const double b = odd[static_cast<std::size_t>(k / 8 % 8)];
+        const double d = odd[static_cast<std::size_t>(k / 64 % 8)];
+        const auto sign = static_cast<std::int8_t>(k % 2 == 0 ? 1 : -1);
+        begin_move(config, s, Volts{a});
+        follow(config, s, Volts{b});
+        arrive(config, s, sign, Volts{b}, Wavelengths{d}, Celsius{a});
+        (void)confirm(s, true);
+        for (const double weight : s.weight) ASSERT_TRUE(std::isfinite(weight)) << k;
+        for (const double play : s.play) ASSERT_TRUE(std::isfinite(play)) << k;
+        const double move_v = predicted_move(config, s, sign, Volts{b}, Celsius{a}).value();
+        ASSERT_TRUE(sign * move_v >= 20.0 && sign * move_v <= 80.0) << k;
     }
 }
 

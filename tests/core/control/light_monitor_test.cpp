@@ -6,28 +6,35 @@
 
 namespace zlg::core::light_monitor_test {
 
-constexpr LightMonitorConfig config{.noise = Wavelengths{0.0033}, .bias_chi = 3.6};
-static_assert(check(config) == LightMonitorFault::none);
-static_assert(check(LightMonitorConfig{.noise = Wavelengths{not_a_number}}) == LightMonitorFault::noise);
-static_assert(check(LightMonitorConfig{.bias_chi = -1.0}) == LightMonitorFault::bias_chi);
-static_assert(check(LightMonitorConfig{.max_gain = 0.5}) == LightMonitorFault::max_gain);
+constexpr MonitorLimits config{.light_noise = Wavelengths{0.0033}, .bias_chi = 3.6};
 
 constexpr double slope = 0.332;  // signal by wavelength
 
+struct Judged : LightMonitorOutput {
+    bool usable = false;
+    Wavelengths detuning{};
+};
+
 // Light of both beams, as a detector reads it.
-LightMonitorInput lit(std::span<const float> a, std::span<const float> b, int sign, double detuning_lambda,
-                      double mean_sq_lambda2) {
-    return {.light_a = a,
-            .light_b = b,
-            .sign = sign,
-            .beats = true,
-            .two_way = true,
-            .light = 2000.0,
-            .signal_per_lambda = slope,
-            .usable = true,
-            .detuning = Wavelengths{detuning_lambda},
-            .mean_sq_lambda2 = mean_sq_lambda2};
-}
+struct Lit {
+    SyncDetectorInput light;
+    SyncDetectorOutput read{.light = 2000.0, .readable = true, .two_way = true, .usable = true};
+    bool closed = false;
+    bool settled = false;
+    double deficit_ratio = 0.0;
+    SyncDetectorConfig detector{.discriminator_per_lambda = slope};
+
+    Lit(std::span<const float> a, std::span<const float> b, int sign, double detuning_lambda, double mean_sq_lambda2)
+        : light{.light_a = a, .light_b = b, .sign = sign, .beats = true} {
+        read.detuning = Wavelengths{detuning_lambda};
+        read.mean_sq_lambda2 = mean_sq_lambda2;
+    }
+    Judged seen_by(const MonitorLimits& c, LightMonitorState& state) const {
+        SyncDetectorOutput left = read;
+        const LightMonitorOutput out = step(c, state, {detector, light, left, closed, settled, deficit_ratio});
+        return {out, left.usable, left.detuning};
+    }
+};
 
 // Two beams of 1000, their noise, and what a detector makes of them.
 class Light {
@@ -45,7 +52,7 @@ public:
 
     explicit Light(int n = 0) { (void)halves(n); }
 
-    LightMonitorOutput half(const LightMonitorConfig& c = config) {
+    Judged half(const MonitorLimits& c = config) {
         sign_ = -sign_;
         if (!stuck) shine();
         double sum = 0.0, squares = 0.0;
@@ -55,17 +62,17 @@ public:
             sum += x;
             squares += x * x;
         }
-        LightMonitorInput in = lit(a_, b_, sign_, sum / 16.0, squares / 16.0);
+        Lit in(a_, b_, sign_, sum / 16.0, squares / 16.0);
         in.closed = true;
         in.settled = settled;
-        in.beats = beats;
+        in.light.beats = beats;
         in.deficit_ratio = deficit_ratio;
-        in.two_way = in.usable = two_way;
-        in.dark = dark;
-        return step(c, state, in);
+        in.read.two_way = in.read.usable = two_way;
+        in.read.dark = dark;
+        return in.seen_by(c, state);
     }
-    LightMonitorOutput halves(int n) {
-        LightMonitorOutput out;
+    Judged halves(int n) {
+        Judged out;
         for (int k = 0; k < n; ++k) out = half();
         return out;
     }
@@ -88,7 +95,7 @@ private:
     std::normal_distribution<double> normal_;
 };
 
-constexpr LightMonitorConfig quiet{.noise = Wavelengths{3e-4}, .bias_chi = 3.6};
+constexpr MonitorLimits quiet{.light_noise = Wavelengths{3e-4}, .bias_chi = 3.6};
 
 // To a lock.
 Light on_the_way(double detuning_lambda) {
@@ -102,7 +109,7 @@ TEST(LightMonitor, OrdinaryLightIsLeftAsItIs) {
     Light light;
     for (int k = 0; k < 100000; ++k) {
         light.detuning_lambda = 0.01 * std::sin(0.01 * k);
-        const LightMonitorOutput out = light.half();
+        const Judged out = light.half();
         ASSERT_FALSE(out.stuck || out.noisy || out.unbalanced || out.contradicted) << k;
         ASSERT_TRUE(out.usable && out.has_mean_square) << k;
         ASSERT_NEAR(out.detuning.value(), light.detuning_lambda, 0.006) << k;
@@ -113,7 +120,7 @@ TEST(LightMonitor, LightWithoutNoiseMayStandStill) {
     Light light;
     light.noise_lambda = 0.0;
     for (int k = 0; k < 100; ++k) {
-        const LightMonitorOutput out = light.half({});
+        const Judged out = light.half({});
         ASSERT_TRUE(out.usable && out.has_mean_square && !out.stuck);
     }
 }
@@ -127,10 +134,10 @@ TEST(LightMonitor, AConverterThatStandsStillIsSeenInTwoHalvesAndSteersNothing) {
 
     LightMonitorState s;
     const std::vector<float> still(16, 870.0f);
-    LightMonitorInput in{.light_a = still, .light_b = still, .two_way = true, .light = 1740.0, .usable = true};
-    (void)step(config, s, in);
-    EXPECT_FALSE(step(config, s, in).stuck);
-    const LightMonitorOutput out = step(config, s, in);
+    const Lit in(still, still, 1, 0.0, 0.0);
+    (void)in.seen_by(config, s);
+    EXPECT_FALSE(in.seen_by(config, s).stuck);
+    const Judged out = in.seen_by(config, s);
     EXPECT_TRUE(out.stuck && !out.usable && !out.has_mean_square);
 }
 
@@ -158,11 +165,11 @@ TEST(LightMonitor, ABeamThatFadedLeavesTheDetuningAsTheMeanOfTwoHalves) {
     Light light{100};
     light.detuning_lambda = 0.01;
     light.share_a = 0.95;  // of 1.95: the reading is off by 0.077
-    const LightMonitorOutput out = light.halves(12);
+    const Judged out = light.halves(12);
     EXPECT_TRUE(out.unbalanced && out.usable && !out.has_mean_square);
     EXPECT_NEAR(out.detuning.value(), 0.01, 0.003);
     light.share_a = 1.0;
-    const LightMonitorOutput again = light.halves(12);
+    const Judged again = light.halves(12);
     EXPECT_TRUE(!again.unbalanced && again.has_mean_square);
 }
 
@@ -174,7 +181,7 @@ TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
         Light fading = on_the_way(0.2);
         (void)fading.halves(10);
         fading.share_a = 1.0 - lost;
-        const LightMonitorOutput out = fading.half();
+        const Judged out = fading.half();
         EXPECT_TRUE(out.unbalanced && !out.has_mean_square) << lost;
         // It has come back, but the loop has not locked yet.
         fading.share_a = 1.0;
@@ -210,9 +217,9 @@ bool is_unbalanced_on_the_way(std::size_t n_samples, double start_lambda, double
             a.push_back(static_cast<float>(left * 1000.0 * (1.0 + signal) + noise()));
             b.push_back(static_cast<float>(1000.0 * (1.0 - signal) + noise()));
         }
-        LightMonitorInput in = lit(a, b, sign, 0.01, 1e-4);
+        Lit in(a, b, sign, 0.01, 1e-4);
         in.closed = true;
-        unbalanced = unbalanced || step(quiet, state, in).unbalanced;
+        unbalanced = unbalanced || in.seen_by(quiet, state).unbalanced;
     }
     return unbalanced;
 }
@@ -246,7 +253,7 @@ TEST(LightMonitor, ARotationThatChangesIsNoFadedBeam) {
     Light light{100};
     for (int k = 0; k < 40; ++k) {
         light.deficit_ratio = k % 2 == 0 ? 0.2 : -0.2;
-        const LightMonitorOutput out = light.half();
+        const Judged out = light.half();
         EXPECT_TRUE(!out.unbalanced && out.has_mean_square) << k;
     }
 }
@@ -255,7 +262,7 @@ TEST(LightMonitor, TheBeatOverrulesTheLightAfterEightHalvesUnlessItIsDark) {
     Light light{100};
     light.two_way = false;
     EXPECT_FALSE(light.halves(7).contradicted);
-    const LightMonitorOutput out = light.half();
+    const Judged out = light.half();
     EXPECT_TRUE(out.contradicted && !out.usable);
     light.dark = true;
     EXPECT_FALSE(light.half().contradicted);
@@ -282,7 +289,9 @@ TEST(LightMonitor, WhatItRemembersOfDamagedLightAreNumbers) {
     LightMonitorState state;
     const std::array<float, 4> damaged{std::numeric_limits<float>::quiet_NaN(), 1.0f, 1.0f, 1.0f};
     const std::array<float, 4> endless{std::numeric_limits<float>::infinity(), 1.0f, 1.0f, 1.0f};
-    (void)step(config, state, {.light_a = damaged, .light_b = endless});
+    Lit in(damaged, endless, 1, 0.0, 0.0);
+    in.read = {};
+    (void)in.seen_by(config, state);
     EXPECT_EQ(state, LightMonitorState{state});
     EXPECT_TRUE(state.last_a == 0.0f && state.last_b == 0.0f);
 }
@@ -295,18 +304,18 @@ TEST(LightMonitor, TheFirstLightAfterADarkHalfIsNoDetuning) {
     EXPECT_FALSE(light.halves(3).usable);
     light.two_way = true;
     light.share_a = 0.97;
-    const LightMonitorOutput first = light.half();
+    const Judged first = light.half();
     EXPECT_TRUE(first.unbalanced && !first.has_mean_square && !first.usable);
     light.share_a = 1.0;
     (void)light.half();
-    const LightMonitorOutput later = light.half();
+    const Judged later = light.half();
     EXPECT_TRUE(later.has_mean_square && later.usable && !later.unbalanced);
 }
 
 // A half on its way to a lock, of which the loop takes a part in every sample from `corner` on, through such a discriminator.
-LightMonitorOutput relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda,
-                                  const LightMonitorConfig& c, std::mt19937& random) {
-    const DiscriminatorCurve curve = test::expansive_curve(31);
+Judged relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda, const MonitorLimits& c,
+                      std::mt19937& random) {
+    static const DiscriminatorCurve curve = test::expansive_curve(31);
     std::normal_distribution<double> normal;
     std::array<float, 16> a{};
     std::array<float, 16> b{};
@@ -318,21 +327,21 @@ LightMonitorOutput relocking_half(double start_lambda, double part, std::size_t 
         if (k >= corner) dl *= 1.0 - part;
     }
     LightMonitorState state;
-    LightMonitorInput in = lit(a, b, 1, 0.1, 0.01);
-    in.curve = &curve;
-    return step(c, state, in);
+    Lit in(a, b, 1, 0.1, 0.01);
+    in.detector.curve = curve;
+    return in.seen_by(c, state);
 }
 
 // However quiet the converters are: the same motion is no noise, and noise is no motion.
 TEST(LightMonitor, AFastWayToALockIsNoNoiseHoweverQuietTheLight) {
     std::mt19937 random{5};
     for (const double noise_lambda : {1e-2, 3.3e-3, 1e-3, 5e-4, 2e-4, 1e-4}) {
-        const LightMonitorConfig c{.noise = Wavelengths{noise_lambda}, .bias_chi = 3.6};
+        const MonitorLimits c{.light_noise = Wavelengths{noise_lambda}, .bias_chi = 3.6};
         int noisy = 0;
         for (const double start_lambda : {-0.22, -0.16, -0.1, 0.05, 0.16, 0.2, 0.22}) {
             for (const double part : {0.0, 0.05, 0.12, 0.2}) {
                 for (const std::size_t corner : {0U, 3U, 8U, 11U}) {
-                    const LightMonitorOutput out = relocking_half(start_lambda, part, corner, noise_lambda, c, random);
+                    const Judged out = relocking_half(start_lambda, part, corner, noise_lambda, c, random);
                     EXPECT_TRUE(out.has_mean_square && !out.withheld)
                         << noise_lambda << " from " << start_lambda << " by " << part << " from sample " << corner;
                     noisy += relocking_half(0.3 * start_lambda, part, corner, 20.0 * noise_lambda, c, random).withheld;

@@ -43,16 +43,15 @@ public:
                 .half_wave = Volts{half_wave_v},
                 .offset = Volts{offset_v}};
     }
-    ModeSwitchOutput half(const ModeSwitchInput& in) {
+    const ModeSwitchState& half(const ModeSwitchInput& in) {
         ++half_;
-        const ModeSwitchOutput out = step(config_, state, in);
-        if (out.event) {
-            event = *out.event;
+        if (const auto ended = step(config_, state, in)) {
+            event = *ended;
             ++n_events;
         }
-        return out;
+        return state;
     }
-    ModeSwitchOutput half(const Half& seen, bool due = false) { return half(input(seen, due)); }
+    const ModeSwitchState& half(const Half& seen, bool due = false) { return half(input(seen, due)); }
     void halves(int n, const Half& seen) {
         for (int k = 0; k < n; ++k) (void)half(seen);
     }

@@ -6,13 +6,13 @@ namespace zlg::core::perimeter_relock_test {
 
 constexpr PerimeterLoopConfig relocking{.kind = LoopKind::digital, .time_constant = Seconds{0.025}, .relock_halves = 4};
 
-constexpr auto fault(auto change) { return test::fault_of(change, relocking); }
-static_assert(check(relocking) == PerimeterLoopFault::none);
-static_assert(fault([](auto& c) { c.relock_halves = -1; }) == PerimeterLoopFault::relock);
-static_assert(fault([](auto& c) { c.relock_gain = 0.0; }) == PerimeterLoopFault::relock);
-static_assert(fault([](auto& c) { c.relock_gain = not_a_number; }) == PerimeterLoopFault::relock);
-static_assert(fault([](auto& c) { c.stage_time_constant = Seconds{0.0}; }) == PerimeterLoopFault::relock);
-static_assert(fault([](auto& c) { c.set_points = 17; }) == PerimeterLoopFault::relock);
+constexpr bool allows(auto change) { return test::allows<PerimeterLoopConfig>(change); }
+static_assert(is_allowed(relocking));
+static_assert(!allows([](auto& c) { c.relock_halves = -1; }));
+static_assert(!allows([](auto& c) { c.relock_gain = 0.0; }));
+static_assert(!allows([](auto& c) { c.relock_gain = not_a_number; }));
+static_assert(!allows([](auto& c) { c.stage_time_constant = Seconds{0.0}; }));
+static_assert(!allows([](auto& c) { c.set_points = 17; }));
 
 // A stage and a mode 0.0125 wavelength per volt away from `centre_v`, in small steps of Euler's rule.
 struct Plant {
@@ -93,7 +93,8 @@ TEST(PerimeterRelock, AMoveThatIsStillUnderWayTellsNothingOfTheNewMode) {
     in.close = true;
     in.usable = true;
     in.detuning = Wavelengths{0.1};
-    EXPECT_EQ(step(relocking, s, in).set_point, Volts{190.0});
+    (void)step(relocking, s, in);
+    EXPECT_EQ(s.set_point_v, 190.0);
 }
 
 TEST(PerimeterRelock, SlowsDownAfterItsHalves) {
@@ -102,9 +103,9 @@ TEST(PerimeterRelock, SlowsDownAfterItsHalves) {
     double last_v = 150.0;
     for (int h = 0; h < 8; ++h) {
         s.mean_v = s.end_v = s.set_point_v;  // nothing in flight
-        const double now_v = step(relocking, s, in).set_point.value();
-        EXPECT_NEAR(last_v - now_v, 0.8 * (h < 4 ? 0.87 : 0.1), 1e-12) << h;
-        last_v = now_v;
+        (void)step(relocking, s, in);
+        EXPECT_NEAR(last_v - s.set_point_v, 0.8 * (h < 4 ? 0.87 : 0.1), 1e-12) << h;
+        last_v = s.set_point_v;
     }
 }
 
@@ -115,7 +116,7 @@ TEST(PerimeterRelock, ThePlainIntegratorAndTheAnalogLoopGiveOneSetPoint) {
         PerimeterLoopState s = initial_state(c, Volts{150.0});
         const PerimeterLoopOutput out = step(c, s, {.usable = true, .detuning = Wavelengths{0.01}});
         EXPECT_EQ(out.n_set_points, 1);
-        EXPECT_EQ(out.set_point_v[0], out.set_point.value());
+        EXPECT_EQ(out.set_point_v[0], s.set_point_v);
     }
 }
 

@@ -6,13 +6,13 @@ namespace zlg::core::piezo_range_test {
 
 constexpr PiezoRange range{.min = Volts{-150.0}, .max = Volts{150.0}, .margin = Volts{10.0}};
 
-static_assert(check(PiezoRange{}) == PiezoRangeFault::none);
-static_assert(check(PiezoRange{.min = Volts{5.0}, .max = Volts{5.0}}) == PiezoRangeFault::ends);
-static_assert(check(PiezoRange{.min = Volts{not_a_number}}) == PiezoRangeFault::ends);
-static_assert(check(PiezoRange{.max = Volts{1e9}}) == PiezoRangeFault::ends);
-static_assert(check(PiezoRange{.margin = Volts{-1.0}}) == PiezoRangeFault::margin);
-static_assert(check(PiezoRange{.margin = Volts{150.0}}) == PiezoRangeFault::margin);
-static_assert(check(PiezoRange{.margin = Volts{not_a_number}}) == PiezoRangeFault::margin);
+static_assert(is_allowed(PiezoRange{}));
+static_assert(!is_allowed(PiezoRange{.min = Volts{5.0}, .max = Volts{5.0}}));
+static_assert(!is_allowed(PiezoRange{.min = Volts{not_a_number}}));
+static_assert(!is_allowed(PiezoRange{.max = Volts{1e9}}));
+static_assert(!is_allowed(PiezoRange{.margin = Volts{-1.0}}));
+static_assert(!is_allowed(PiezoRange{.margin = Volts{150.0}}));
+static_assert(!is_allowed(PiezoRange{.margin = Volts{not_a_number}}));
 
 TEST(PiezoRange, ClampKeepsWhatIsInsideAndMovesTheRestToTheNearestEnd) {
     EXPECT_EQ(clamp(range, Volts{12.5}), Volts{12.5});

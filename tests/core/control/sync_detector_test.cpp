@@ -5,13 +5,13 @@
 namespace zlg::core::sync_detector_test {
 
 constexpr SyncDetectorConfig config{};
-static_assert(check(config) == SyncDetectorFault::none);
-static_assert(check(SyncDetectorConfig{.discriminator_per_lambda = 0.0}) == SyncDetectorFault::discriminator);
-static_assert(check(SyncDetectorConfig{.discriminator_per_lambda = not_a_number}) == SyncDetectorFault::discriminator);
-static_assert(check(SyncDetectorConfig{.discriminator_per_lambda = -0.3}) == SyncDetectorFault::none);
-static_assert(check(SyncDetectorConfig{.dark_fraction = 1.0}) == SyncDetectorFault::dark_fraction);
-static_assert(check(SyncDetectorConfig{.level_min = -1.0}) == SyncDetectorFault::level_min);
-static_assert(check(SyncDetectorConfig{.level_ticks = 0}) == SyncDetectorFault::level_ticks);
+static_assert(is_allowed(config));
+static_assert(!is_allowed(SyncDetectorConfig{.discriminator_per_lambda = 0.0}));
+static_assert(!is_allowed(SyncDetectorConfig{.discriminator_per_lambda = not_a_number}));
+static_assert(is_allowed(SyncDetectorConfig{.discriminator_per_lambda = -0.3}));
+static_assert(!is_allowed(SyncDetectorConfig{.dark_fraction = 1.0}));
+static_assert(!is_allowed(SyncDetectorConfig{.level_min = -1.0}));
+static_assert(!is_allowed(SyncDetectorConfig{.level_ticks = 0}));
 
 struct Light {
     std::vector<float> a;

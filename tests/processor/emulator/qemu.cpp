@@ -170,7 +170,7 @@ rig::ProcessorHalf QemuProcessor::half(const core::SensorFrame& frame) {
     link_->exchange().sensor = frame;
     if ((frame.status & core::frame_missed) == 0) give_pulse(frame.timer_ticks);
     const Exchange& answer = link_->ask(Request::half);
-    return {answer.output.control, answer.output.compensation, answer.half_wave};
+    return {answer.output.control, answer.output.compensation};
 }
 
 // The clock outside is that of rig::WireStream.

@@ -19,7 +19,7 @@ public:
     }
     rig::ProcessorHalf half(const core::SensorFrame& frame) override {
         const firmware::HalfOutput out = gyro_.half(frame);
-        rig::ProcessorHalf answer{out.control, out.compensation, gyro_.state().control.half_wave};
+        rig::ProcessorHalf answer{out.control, out.compensation};
         if (half_++ == wrong_half_) answer.control.health ^= 1u << 20;
         return answer;
     }

@@ -46,7 +46,7 @@ TEST(OutputBits, see_every_member) {
     sees([](HalfOutput& o) { o.control.record.span = 2; }, "record.span");
     sees([](HalfOutput& o) { o.control.record.lit = true; }, "record.lit");
     sees([](HalfOutput& o) { o.control.health = 1u << 31; }, "control.health");
-    sees([](HalfOutput& o) { o.control.event.miss_lambda = 1e-300; }, "event.miss_lambda");
+    sees([](HalfOutput& o) { o.control.event.half_wave_v = 1e-300; }, "event.half_wave_v");
     sees([](HalfOutput& o) { o.compensation.sample.flags = 1; }, "sample.flags");
     sees([](HalfOutput& o) { o.compensation.sample.final_row.relock_arcsec = 1.0; }, "final_row.relock_arcsec");
     sees([](HalfOutput& o) { o.compensation.sample.gap.sigma_sum_arcsec = 1.0; }, "gap.sigma_sum_arcsec");

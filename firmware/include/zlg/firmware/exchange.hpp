@@ -59,7 +59,6 @@ struct Exchange {
     SettingsFault fault{};
     core::ActuatorFrame first_actuator{};
     HalfOutput output{};
-    core::HalfWaveState half_wave{};
     core::DrainOutput drained{};
     GyroState state{};
     std::uint32_t stack_used_bytes = 0;  // beside the state: the most so far

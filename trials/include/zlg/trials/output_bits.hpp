@@ -25,8 +25,7 @@
 BOOST_HANA_ADAPT_STRUCT(zlg::core::ActuatorFrame, loop_closed, polarity, n_set_points, set_point_v, edge_offset_ticks);
 BOOST_HANA_ADAPT_STRUCT(zlg::core::HalfRecord, half, counts, detuning_lambda, detuning_sq_lambda2, piezo_v,
                         temperature_c, bias_sign, mode, loop_closed, valid, edge_offset_ticks, span, fringe, late, lit);
-BOOST_HANA_ADAPT_STRUCT(zlg::core::SwitchEvent, tick_opened, outcome, has_miss, miss_lambda, has_half_wave, half_wave_v,
-                        direction, out_of_range);
+BOOST_HANA_ADAPT_STRUCT(zlg::core::SwitchEvent, tick_opened, outcome, has_half_wave, half_wave_v);
 BOOST_HANA_ADAPT_STRUCT(zlg::core::GyroControlOutput, actuator, record, health, has_event, event);
 BOOST_HANA_ADAPT_STRUCT(zlg::core::AngleRow, tick, dtheta_arcsec, dtheta_final_arcsec, sigma_arcsec, relock_arcsec,
                         mode, flags);

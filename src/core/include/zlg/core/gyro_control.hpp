@@ -6,6 +6,7 @@
 #include <zlg/core/control/gyro_control_state.hpp>
 #include <zlg/core/control/mode_switch.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
+#include <zlg/core/health.hpp>
 #include <zlg/core/records.hpp>
 
 namespace zlg::core {

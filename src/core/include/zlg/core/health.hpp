@@ -7,8 +7,6 @@
 #include <array>
 #include <cstdint>
 
-#include <zlg/core/common/as_double.hpp>
-
 namespace zlg::core {
 
 enum HealthBit : std::uint32_t {
@@ -78,34 +76,5 @@ inline constexpr std::array<const char*, 32> health_bit_names{"frame_missed",
                                                               "edges_shifted",
                                                               "fringe_lost",
                                                               "fringe_skewed"};
-
-struct HealthConfig {
-    std::int64_t counts_limit = 2000;  // per half: bias plus the highest rate of rotation, > 0
-};
-
-enum class HealthFault : unsigned char { none, counts_limit };
-
-[[nodiscard]] constexpr HealthFault check(const HealthConfig& c) noexcept {
-    return c.counts_limit > 0 ? HealthFault::none : HealthFault::counts_limit;
-}
-
-// The most counts that the gyro can make in a half.
-//
-// length_ratio  of the half over the nominal one.
-[[nodiscard]] constexpr double max_counts(const HealthConfig& c, double length_ratio = 1.0) noexcept {
-    return length_ratio * as_double(c.counts_limit);
-}
-
-[[nodiscard]] constexpr bool is_beyond(std::int64_t counts, double max_counts) noexcept {
-    const double x = as_double(counts);
-    return x > max_counts || x < -max_counts;
-}
-
-// The word of one half, bit by bit.
-struct HealthWord {
-    std::uint32_t bits = 0;
-
-    constexpr void set(HealthBit bit, bool seen) noexcept { bits |= seen ? std::uint32_t{bit} : 0u; }
-};
 
 }  // namespace zlg::core

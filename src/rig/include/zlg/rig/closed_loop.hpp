@@ -8,6 +8,7 @@
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/core/records.hpp>
+#include <zlg/rig/measured_half_wave.hpp>
 #include <zlg/rig/processor.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/twin/twin.hpp>
@@ -18,7 +19,7 @@ struct LoopHalf {
     core::HalfRecord record{};          // what the raw log holds
     core::GyroControlOutput control{};  // health and switch events beside it
     twin::TwinTruth truth{};            // what no gyro knows
-    double half_wave_v = 0.0;           // present estimate of U_lambda/2, and its standard deviation
+    double half_wave_v = 0.0;           // U_lambda/2 as the switches measured it, and its standard deviation
     double half_wave_sigma_v = 0.0;
     std::optional<core::CompensationOutput> compensation{};  // of a processor outside, which runs it as well
 };
@@ -51,6 +52,7 @@ private:
     core::GyroControlConfig control_config_;
     core::GyroControlState control_state_;
     core::ActuatorFrame actuator_;
+    MeasuredHalfWave half_wave_;
     const core::SensorFrame* sensor_;  // of the twin, which keeps its place
     std::optional<Replay> adviser_;    // compensation beside the control, for a schedule that asks for what is measured
     Processor* processor_;

@@ -14,7 +14,6 @@ struct ProcessorSettings {
 struct ProcessorHalf {
     core::GyroControlOutput control{};
     core::CompensationOutput compensation{};
-    core::HalfWaveState half_wave{};
 };
 
 class Processor {

@@ -1,17 +1,17 @@
 #pragma once
-// The half-wave voltage that the control learnt from the switches of a recorded log.
+// The half-wave voltage as the switches of a recorded log measured it.
 //
 // The core's sequencer of switches is led through the records: its loop opens and closes where that of the log did. So lock and
-// readings are judged as in the gyro, and its filter has the same measurements.
+// readings are judged as in the gyro, and the filter has the same measurements.
 
 #include <cstdint>
 #include <map>
 #include <vector>
 
 #include <zlg/config/config.hpp>
-#include <zlg/core/control/half_wave.hpp>
 #include <zlg/core/control/mode_switch.hpp>
 #include <zlg/core/records.hpp>
+#include <zlg/rig/measured_half_wave.hpp>
 #include <zlg/study/switch_table.hpp>
 
 namespace zlg::study {
@@ -32,13 +32,12 @@ private:
 
     bool possible_ = true;
     core::ModeSwitchConfig sequence_;
-    core::HalfWaveConfig config_;
     core::ModeSwitchState state_;
-    core::HalfWaveState half_wave_;
+    rig::MeasuredHalfWave half_wave_;
     core::HalfRecord last_;
     std::int64_t n_halves_ = 0;
     bool measured_ = false;
-    std::map<std::int64_t, core::HalfWaveState> after_;  // by the first tick of the gap
+    std::map<std::int64_t, rig::MeasuredHalfWave> after_;  // by the first tick of the gap
 };
 
 }  // namespace zlg::study

@@ -8,20 +8,9 @@
 
 #include <cstdint>
 
+#include <zlg/core/control/monitor_limits.hpp>
+
 namespace zlg::core {
-
-struct BiasMonitorConfig {
-    double presumed_counts = 0.0;  // of the bias in a half, up to 1e15; below `min_bias_counts` nothing is judged
-};
-
-// Rounding and the change of an ordinary rotation hide a smaller bias.
-inline constexpr double min_bias_counts = 32.0;
-
-enum class BiasMonitorFault : unsigned char { none, presumed };
-
-[[nodiscard]] constexpr BiasMonitorFault check(const BiasMonitorConfig& c) noexcept {
-    return c.presumed_counts >= 0.0 && c.presumed_counts <= 1e15 ? BiasMonitorFault::none : BiasMonitorFault::presumed;
-}
 
 struct BiasMonitorState {
     std::int32_t n_known =
@@ -37,13 +26,6 @@ struct BiasMonitorState {
     std::int32_t n_reversed = 0;          // halves in a row in which b was that of the other helicity
 
     friend constexpr bool operator==(const BiasMonitorState&, const BiasMonitorState&) = default;
-};
-
-struct BiasMonitorInput {
-    bool counted = false;  // the counts are those of this half
-    std::int64_t counts = 0;
-    std::int8_t beat_sign = 1;
-    bool settled = false;  // closed and locked: the bias is not weakened by detuning
 };
 
 struct BiasMonitorOutput {
@@ -63,9 +45,10 @@ struct BiasMonitorOutput {
 // after 32 halves: the mean was then learnt from a faulty bias. Less than a quarter of what is presumed is never
 // learnt.
 //
-// config   passed `check`.
+// counted  the counts are those of this half.
+// settled  closed and locked: the bias is not weakened by detuning.
 // latency  none for a change of the counts in one half; `reversed`: four halves.
-[[nodiscard]] BiasMonitorOutput step(const BiasMonitorConfig& config, BiasMonitorState& state,
-                                     const BiasMonitorInput& input) noexcept;
+[[nodiscard]] BiasMonitorOutput step(const MonitorLimits& limits, BiasMonitorState& state, bool counted,
+                                     std::int64_t counts, std::int8_t beat_sign, bool settled) noexcept;
 
 }  // namespace zlg::core

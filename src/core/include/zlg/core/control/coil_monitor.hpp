@@ -8,17 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <zlg/core/control/monitor_limits.hpp>
+
 namespace zlg::core {
-
-struct CoilMonitorConfig {
-    double tolerance_ratio = 0.0;  // of the current in one half, 0..1; 0: nothing is judged
-};
-
-enum class CoilMonitorFault : unsigned char { none, tolerance };
-
-[[nodiscard]] constexpr CoilMonitorFault check(const CoilMonitorConfig& c) noexcept {
-    return c.tolerance_ratio >= 0.0 && c.tolerance_ratio <= 1.0 ? CoilMonitorFault::none : CoilMonitorFault::tolerance;
-}
 
 struct CoilMonitorState {
     std::array<double, 2> level_a{};   // size of the current in halves of negative and of positive sign
@@ -47,10 +39,9 @@ struct CoilMonitorOutput {
 // the signs are more alike than those that were learnt is accepted as well. The loss of more than half of the current
 // is never accepted, unless the remaining current is the one that was learnt first.
 //
-// config   passed `check`.
 // sign     of the bias in this half, +1 or -1.
 // current  less than a microampere and what is not finite are no measurement until a level is learnt; then 0 is a loss.
-[[nodiscard]] CoilMonitorOutput step(const CoilMonitorConfig& config, CoilMonitorState& state, int sign,
+[[nodiscard]] CoilMonitorOutput step(const MonitorLimits& limits, CoilMonitorState& state, int sign,
                                      double current_a) noexcept;
 
 }  // namespace zlg::core

@@ -20,10 +20,6 @@
 
 namespace zlg::core {
 
-struct CounterMonitorConfig {
-    bool watches = false;
-};
-
 // A bit under suspicion.
 struct SuspectedBit {
     std::uint32_t value = 0;                // 2^k; 0: none
@@ -61,7 +57,6 @@ struct CounterMonitorState {
 // errors   bit 0 is not judged (a count more or less is within every sigma), nor are those from 13 on, whose errors are
 //          out of the bias's band. Bit k is judged where the tolerance is at most 2^k. Of two stuck bits the one is found
 //          whose error comes and goes while that of the other stays.
-[[nodiscard]] bool step(const CounterMonitorConfig& config, CounterMonitorState& state, bool counted,
-                        std::uint64_t reading) noexcept;
+[[nodiscard]] bool step(CounterMonitorState& state, bool counted, std::uint64_t reading) noexcept;
 
 }  // namespace zlg::core

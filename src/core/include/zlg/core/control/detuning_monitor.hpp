@@ -4,20 +4,9 @@
 
 #include <cstdint>
 
+#include <zlg/core/control/monitor_limits.hpp>
+
 namespace zlg::core {
-
-struct DetuningMonitorConfig {
-    double max_change_lambda2 = 0.0;  // of the mean square within a tick, 0..1e6; 0: nothing is judged
-    std::int32_t relock_ticks = 20;   // after a gap, whose false angle the compensation subtracts, 0..2^24
-};
-
-enum class DetuningMonitorFault : unsigned char { none, max_change, relock_ticks };
-
-[[nodiscard]] constexpr DetuningMonitorFault check(const DetuningMonitorConfig& c) noexcept {
-    if (!(c.max_change_lambda2 >= 0.0 && c.max_change_lambda2 <= 1e6)) return DetuningMonitorFault::max_change;
-    if (!(c.relock_ticks >= 0 && c.relock_ticks <= (1 << 24))) return DetuningMonitorFault::relock_ticks;
-    return DetuningMonitorFault::none;
-}
 
 struct DetuningMonitorState {
     bool has_first = false;  // the first half of the tick had a mean square
@@ -27,20 +16,17 @@ struct DetuningMonitorState {
     friend constexpr bool operator==(const DetuningMonitorState&, const DetuningMonitorState&) = default;
 };
 
-struct DetuningMonitorInput {
-    bool is_second = false;   // half of its tick
-    bool is_good = false;     // closed, and valid by all that is known
-    bool is_settled = false;  // the lock was seen
-    bool is_known = false;    // the mean square was measured
-    double mean_sq_lambda2 = 0.0;
-};
-
 // Advance by one half-period; returns whether its tick holds a false angle that no correction subtracts.
 //
 //   |dl^2_second - dl^2_first| > max_change, in a tick that is settled and further from a gap than relock_ticks
 //
 // The tick becomes a gap by this, so the ones after it are corrected: a push costs one tick.
-[[nodiscard]] bool step(const DetuningMonitorConfig& config, DetuningMonitorState& state,
-                        const DetuningMonitorInput& input) noexcept;
+//
+// is_second   half of its tick.
+// is_good     closed, and valid by all that is known.
+// is_settled  the lock was seen.
+// is_known    the mean square was measured.
+[[nodiscard]] bool step(const MonitorLimits& limits, DetuningMonitorState& state, bool is_second, bool is_good,
+                        bool is_settled, bool is_known, double mean_sq_lambda2) noexcept;
 
 }  // namespace zlg::core

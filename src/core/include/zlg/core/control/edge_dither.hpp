@@ -13,6 +13,7 @@
 // latched at the reversals the halves are unequal, L+ - L- = (2 q_k - p_k - p_(k+1))/f0: this much of the bias is left
 // in the counts of a period, and is known in whole ticks of the timer.
 
+#include <array>
 #include <cstdint>
 
 #include <zlg/core/methods.hpp>
@@ -22,39 +23,27 @@ namespace zlg::core {
 struct EdgeDitherConfig {
     DitherMethod method = DitherMethod::automatic;
     std::uint64_t seed = 1;
-    std::uint64_t half_ticks = 25000;     // nominal half-period in ticks of the timer, 8..2^30
-    double cycle_ticks = 1e7 / 60e3;      // one cycle of the bias beat; >= 1 and <= half_ticks/8, 1 % is good enough
-    double tick_s = 0.005;                // bias commutation period T, > 0
-    double scale_arcsec = 3.263;          // per count, > 0
+    double cycle_ticks =
+        1e7 / 60e3;               // one cycle of the bias beat; >= 1 and up to an eighth of a half, 1 % is good enough
+    double tick_s = 0.005;        // bias commutation period T, > 0
+    double scale_arcsec = 3.263;  // per count, > 0
     std::int32_t rate_periods = 128;      // over which the rate is measured, 1..2^16
     double random_above_arcsec_s = 60.0;  // the law changes to `random` above, back to `paired` below;
     double paired_below_arcsec_s = 40.0;  // 0 <= below <= above
 };
 
-enum class EdgeDitherFault : unsigned char { none, half_ticks, cycle_ticks, tick, scale, rate_periods, rates };
-
-[[nodiscard]] constexpr EdgeDitherFault check(const EdgeDitherConfig& c) noexcept {
-    if (!(c.half_ticks >= 8 && c.half_ticks <= (std::uint64_t{1} << 30))) return EdgeDitherFault::half_ticks;
-    if (!(c.cycle_ticks >= 1.0 && c.cycle_ticks <= static_cast<double>(c.half_ticks) / 8.0)) {
-        return EdgeDitherFault::cycle_ticks;
-    }
-    if (!(c.tick_s > 0.0)) return EdgeDitherFault::tick;
-    if (!(c.scale_arcsec > 0.0)) return EdgeDitherFault::scale;
-    if (!(c.rate_periods >= 1 && c.rate_periods <= (1 << 16))) return EdgeDitherFault::rate_periods;
-    if (!(c.paired_below_arcsec_s >= 0.0 && c.paired_below_arcsec_s <= c.random_above_arcsec_s)) {
-        return EdgeDitherFault::rates;
-    }
-    return EdgeDitherFault::none;
+[[nodiscard]] constexpr bool is_allowed(const EdgeDitherConfig& c) noexcept {
+    return c.cycle_ticks >= 1.0 && c.tick_s > 0.0 && c.scale_arcsec > 0.0 && c.rate_periods >= 1 &&
+           c.rate_periods <= 1 << 16 && c.paired_below_arcsec_s >= 0.0 &&
+           c.paired_below_arcsec_s <= c.random_above_arcsec_s;
 }
 
 enum class DitherLaw : unsigned char { paired, random };
 
 // Counts of one measurement of the rate, by the sign of the bias beat.
 struct RateCounts {
-    double positive = 0.0;
-    double negative = 0.0;
-    std::int32_t n_positive = 0;
-    std::int32_t n_negative = 0;
+    std::array<double, 2> sum{};  // of negative and of positive sign
+    std::array<std::int32_t, 2> n{};
     std::int32_t n_halves = 0;
 
     friend constexpr bool operator==(const RateCounts&, const RateCounts&) = default;
@@ -74,35 +63,23 @@ struct EdgeDitherState {
     friend constexpr bool operator==(const EdgeDitherState&, const EdgeDitherState&) = default;
 };
 
-struct EdgeDitherInput {
-    std::int8_t next_sign = 1;  // of the bias in the half to come: +1 or -1, against that of the half just latched
-    std::int8_t helicity = 1;   // that lases: +1 or -1; the bias beat has the sign of bias times helicity
-    bool counted = false;       // the counts of the half just latched can be trusted
+// The rate in the half just latched, by which the law is chosen.
+struct RateReading {
+    bool counted = false;  // the counts are those of this half, and are rotation and bias
     std::int64_t counts = 0;
+    std::int8_t helicity = 1;  // that lased: +1 or -1; the bias beat has the sign of bias times helicity
 };
 
-struct EdgeDitherOutput {
-    std::int32_t edge_offset_ticks = 0;  // of the reversal that ends the half to come; positive is later
-    std::int64_t length_ticks = 0;       // of the half just latched, from reversal to reversal
-    std::int32_t excess_ticks = 0;       // its bias sign times what it is longer than nominal
-    DitherLaw law = DitherLaw::paired;   // in force
-};
-
-// Known area of one half that began and ended at shifted reversals: times f0 per tick and helicity, what to subtract
-// from its counts beyond the nominal +-f0 T/2, which cancels in the pair.
-[[nodiscard]] constexpr std::int32_t excess_ticks(int bias_sign, std::int32_t start_ticks,
-                                                  std::int32_t end_ticks) noexcept {
-    return bias_sign * (end_ticks - start_ticks);
-}
-
-// Advance by one half-period. No edge moves by more than 1.01 cycles.
+// Advance by one half-period: the shift of the reversal that ends the half to come, in ticks of the timer; positive is later.
+// No edge moves by more than 1.01 cycles.
 //
-// method   `automatic` takes the law that the rate asks for; none: no edge moves.
-// config   passed `check`.
+// next_sign  of the bias in the half to come: +1 or -1, against that of the half just latched.
+// method     `automatic` takes the law that the rate asks for; none: no edge moves.
+// config     passed `is_allowed`.
 //
 // The rate is the mean of `rate_periods` periods, good to a count over their duration (5 arcsec/s at the defaults); the
 // law changes between groups of four periods. A measurement with fewer than half of its counts leaves the law alone.
-[[nodiscard]] EdgeDitherOutput step(const EdgeDitherConfig& config, EdgeDitherState& state,
-                                    const EdgeDitherInput& input) noexcept;
+[[nodiscard]] std::int32_t step(const EdgeDitherConfig& config, EdgeDitherState& state, std::int8_t next_sign,
+                                const RateReading& reading) noexcept;
 
 }  // namespace zlg::core

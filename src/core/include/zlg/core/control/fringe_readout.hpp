@@ -37,26 +37,10 @@ struct FringeReadoutConfig {
     double turned_back_turns = 0.0;  // at the latch, by a rotation of one count a half against the beat, 0..1
 };
 
-enum class FringeReadoutFault : unsigned char {
-    none,
-    counts_per_turn,
-    amplitude,
-    limit,
-    noise,
-    lag,
-    max_skew,
-    turned_back
-};
-
-[[nodiscard]] constexpr FringeReadoutFault check(const FringeReadoutConfig& c) noexcept {
-    if (c.counts_per_turn != 1 && c.counts_per_turn != 4) return FringeReadoutFault::counts_per_turn;
-    if (!(c.amplitude >= 1e-9 && c.amplitude <= 1e9)) return FringeReadoutFault::amplitude;
-    if (!(c.limit > 0.0)) return FringeReadoutFault::limit;
-    if (!(c.noise_turns >= 0.0 && c.noise_turns <= 0.05)) return FringeReadoutFault::noise;
-    if (!(c.lag_turns >= 0.0 && c.lag_turns <= 0.125)) return FringeReadoutFault::lag;
-    if (!(c.max_skew_turns > 0.0)) return FringeReadoutFault::max_skew;
-    if (!(c.turned_back_turns >= 0.0 && c.turned_back_turns <= 1.0)) return FringeReadoutFault::turned_back;
-    return FringeReadoutFault::none;
+[[nodiscard]] constexpr bool is_allowed(const FringeReadoutConfig& c) noexcept {
+    return (c.counts_per_turn == 1 || c.counts_per_turn == 4) && c.amplitude >= 1e-9 && c.amplitude <= 1e9 &&
+           c.limit > 0.0 && c.noise_turns >= 0.0 && c.noise_turns <= 0.05 && c.lag_turns >= 0.0 &&
+           c.lag_turns <= 0.125 && c.max_skew_turns > 0.0 && c.turned_back_turns >= 0.0 && c.turned_back_turns <= 1.0;
 }
 
 struct FringeReadoutState {

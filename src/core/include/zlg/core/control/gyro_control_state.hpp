@@ -1,7 +1,6 @@
 #pragma once
 // What control is set to, and all that it remembers from half to half.
 
-#include <array>
 #include <cstdint>
 
 #include <zlg/core/control/bias_commutator.hpp>
@@ -15,12 +14,11 @@
 #include <zlg/core/control/light_balance.hpp>
 #include <zlg/core/control/light_monitor.hpp>
 #include <zlg/core/control/mode_switch.hpp>
+#include <zlg/core/control/monitor_limits.hpp>
 #include <zlg/core/control/perimeter_loop.hpp>
 #include <zlg/core/control/reading_monitor.hpp>
-#include <zlg/core/control/stroke_model.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
 #include <zlg/core/control/sync_detector.hpp>
-#include <zlg/core/health.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/core/units.hpp>
 
@@ -29,18 +27,11 @@ namespace zlg::core {
 // Large arrays come last, here and in the state: an instruction of the processor reaches 1 KB from the start.
 struct GyroControlConfig {
     PerimeterLoopConfig loop{};
-    HalfWaveConfig half_wave{};
-    StrokeModelConfig stroke{};  // its range is that of `loop`
+    HalfWaveConfig half_wave{};  // its range is that of `loop`
     SwitchScheduleConfig schedule{};
     ModeSwitchConfig mode_switch{};  // its range is that of `loop`
     BiasCommutatorConfig commutator{};
-    HealthConfig health{};
-    BiasMonitorConfig bias_monitor{};
-    CoilMonitorConfig coil_monitor{};
-    CounterMonitorConfig counter_monitor{};
-    LightBalanceConfig light_balance{};
-    LightMonitorConfig light_monitor{};
-    DetuningMonitorConfig detuning_monitor{};
+    MonitorLimits limits{};
     FringeReadoutConfig fringe{};
     Celsius presumed_temperature{20.0};  // recorded until the first reading
     SyncDetectorConfig detector{};
@@ -51,11 +42,9 @@ enum class GyroControlFault : unsigned char {
     detector,
     loop,
     half_wave,
-    stroke,
     schedule,
     mode_switch,
     commutator,
-    health,
     monitors,
     temperature,
     ranges_differ,
@@ -63,42 +52,24 @@ enum class GyroControlFault : unsigned char {
 };
 
 [[nodiscard]] constexpr GyroControlFault check(const GyroControlConfig& c) noexcept {
-    const double temperature_c = c.presumed_temperature.value();
-    if (check(c.detector) != SyncDetectorFault::none) return GyroControlFault::detector;
-    if (check(c.loop) != PerimeterLoopFault::none) return GyroControlFault::loop;
-    if (check(c.half_wave) != HalfWaveFault::none) return GyroControlFault::half_wave;
-    if (check(c.stroke) != StrokeModelFault::none) return GyroControlFault::stroke;
-    if (check(c.schedule) != SwitchScheduleFault::none) return GyroControlFault::schedule;
-    if (check(c.mode_switch) != ModeSwitchFault::none) return GyroControlFault::mode_switch;
-    if (check(c.commutator) != BiasCommutatorFault::none) return GyroControlFault::commutator;
-    if (check(c.health) != HealthFault::none) return GyroControlFault::health;
-    if (check(c.bias_monitor) != BiasMonitorFault::none || check(c.coil_monitor) != CoilMonitorFault::none ||
-        check(c.light_balance) != LightBalanceFault::none || check(c.light_monitor) != LightMonitorFault::none ||
-        check(c.detuning_monitor) != DetuningMonitorFault::none) {
-        return GyroControlFault::monitors;
-    }
-    if (!(temperature_c > -1e6 && temperature_c < 1e6)) return GyroControlFault::temperature;
-    if (!(c.loop.range == c.mode_switch.range && c.loop.range == c.stroke.range))
+    if (!is_allowed(c.detector)) return GyroControlFault::detector;
+    if (!is_allowed(c.loop)) return GyroControlFault::loop;
+    if (!is_allowed(c.half_wave)) return GyroControlFault::half_wave;
+    if (!is_allowed(c.schedule)) return GyroControlFault::schedule;
+    if (!is_allowed(c.mode_switch)) return GyroControlFault::mode_switch;
+    if (!is_allowed(c.commutator)) return GyroControlFault::commutator;
+    if (!is_allowed(c.limits)) return GyroControlFault::monitors;
+    if (!(c.presumed_temperature > Celsius{-1e6} && c.presumed_temperature < Celsius{1e6}))
+        return GyroControlFault::temperature;
+    if (!(c.loop.range == c.mode_switch.range && c.loop.range == c.half_wave.range))
         return GyroControlFault::ranges_differ;
-    if (check(c.fringe) != FringeReadoutFault::none) return GyroControlFault::fringe;
+    if (!is_allowed(c.fringe)) return GyroControlFault::fringe;
     return GyroControlFault::none;
 }
-
-// Where a move to the next mode would begin, and how far it would go: the latter is computed when it is needed.
-struct MoveStart {
-    bool known = true;  // `move_v` is that from here
-    double move_v = 0.0;
-    std::array<double, n_plays> play{};
-    double piezo_v = 0.0;
-    double temperature_c = 0.0;
-
-    friend constexpr bool operator==(const MoveStart&, const MoveStart&) = default;
-};
 
 struct GyroControlState {
     SyncDetectorState detector{};
     PerimeterLoopState loop{};
-    HalfWaveState half_wave{};
     double closed_at_v = 0.0;  // reading of the piezo when the loop was closed last,
     bool closed_read = false;  // if there was one
     SwitchScheduleState schedule{};
@@ -129,12 +100,15 @@ struct GyroControlState {
     double mean_temperature_c = 0.0;  // running mean over 8192 halves
     double piezo_v = 0.0;             // last finite reading
     double temperature_c = 0.0;       // last finite reading
-    MoveStart up{};                   // of the moves that are predicted
-    MoveStart down{};
-    StrokeModelState stroke{};
+    double up_v = 0.0;                // the moves up and down that were predicted last
+    double down_v = 0.0;
+    HalfWaveState half_wave{};
 
     friend constexpr bool operator==(const GyroControlState&, const GyroControlState&) = default;
 };
+
+// The half-wave voltage U_lambda/2 by the moves up and down that were predicted last.
+[[nodiscard]] constexpr Volts half_wave(const GyroControlState& s) noexcept { return Volts{0.5 * (s.up_v - s.down_v)}; }
 
 // The state before the first half.
 //

@@ -1,8 +1,30 @@
 #pragma once
-// The half-wave voltage U_lambda/2: what moves the perimeter by half a wavelength, from one mode to its neighbour.
+// The stroke of the piezo against its voltage, learnt from the switches, and the voltage that the next move needs: a
+// Prandtl-Ishlinskii model of hysteresis whose weights are estimated by a Kalman filter.
 //
-// It is measured at every switch, because it changes with temperature and with the hysteresis of the piezo.
+// Model. Length from the voltage v0 of the last move's start on, in wavelengths, U the presumed half-wave voltage:
+//
+//   L(v) = b + (w0 + k (T - T0)) (v - v0)/U + sum_i w_i (p_i(v) - p_i(v0))/U                             (1)
+//   p_i  <- clip(p_i, v - r_i U, v + r_i U)      play operator of threshold r_i, for each reading v      (2)
+//
+// (1) is linear in the weights w = (w0, k, b, w_i): L = h^T w. Hysteresis is in w_i, temperature in k, and what does
+// not turn with the direction in b. The thresholds r_i are a fixed grid, finer where a switch turns. Because the plays
+// follow every reading, they hold the turning points and the path of the loop since the last switch (creep, warming),
+// however long ago it was.
+//
+// Filter. The weights are a random walk, and each switch that ends in a lock is one measurement of L:
+//
+//   P += Q,  K = P h/(h^T P h + r),  w += K (L - h^T w),  P -= K h^T P                                   (3)
+//
+// Move. The voltage that moves by half a wavelength solves L(v) = +-1/2 by Newton's method with a fixed slope (4).
+//
+// Source: Kuhnen, Eur. J. Control 9 (2003) 407, for the operators; Kay, Estimation Theory, 1993, ch. 13, for the
+// filter.
+//
+// Limit: two moves in a row in one direction, seldom and only when the gyro warms by whole modes, can miss by 0.015,
+// because the weights of such a turn were never excited before.
 
+#include <array>
 #include <cstdint>
 
 #include <zlg/core/common/maths.hpp>
@@ -11,70 +33,77 @@
 
 namespace zlg::core {
 
+inline constexpr std::size_t n_plays = 6;
+inline constexpr std::size_t n_stroke_weights = n_plays + 3;  // w0, k, b, plays
+
 struct HalfWaveConfig {
-    Volts presumed{40.0};               // before the first measurement, 1e-3..1e6 V
-    double presumed_sigma_ratio = 0.1;  // one standard deviation of `presumed` over itself, 0..1 exclusive
-    Volts measurement_sigma{0.3};       // of |U- - U+| at one switch: converter, residual detuning, hysteresis
-    Volts process_sigma{0.1};           // true change from one switch to the next
-    double gate = 4.0;                  // a measurement farther off than this many standard deviations is an outlier
+    PiezoRange range{};
+    Volts half_wave{40.0};    // presumed, 1e-3..1e6 V
+    Celsius reference{20.0};  // T0
 };
 
-enum class HalfWaveFault : unsigned char { none, presumed, presumed_sigma, measurement_sigma, process_sigma, gate };
-
-[[nodiscard]] constexpr HalfWaveFault check(const HalfWaveConfig& c) noexcept {
-    if (!(c.presumed >= Volts{1e-3} && c.presumed <= Volts{1e6})) return HalfWaveFault::presumed;
-    if (!(c.presumed_sigma_ratio > 0.0 && c.presumed_sigma_ratio < 1.0)) return HalfWaveFault::presumed_sigma;
-    if (!(c.measurement_sigma > Volts{0.0} && c.measurement_sigma <= Volts{1e6})) {
-        return HalfWaveFault::measurement_sigma;
-    }
-    if (!(c.process_sigma >= Volts{0.0} && c.process_sigma <= Volts{1e6})) return HalfWaveFault::process_sigma;
-    if (!(c.gate > 0.0 && c.gate <= 100.0)) return HalfWaveFault::gate;
-    return HalfWaveFault::none;
+[[nodiscard]] constexpr bool is_allowed(const HalfWaveConfig& c) noexcept {
+    return is_allowed(c.range) && c.half_wave >= Volts{1e-3} && c.half_wave <= Volts{1e6} &&
+           c.reference > Celsius{-1e6} && c.reference < Celsius{1e6};
 }
 
+using StrokeWeights = std::array<double, n_stroke_weights>;
+
+// Voltages but `origin_v` are over U, counted from that of the start.
 struct HalfWaveState {
-    double estimate_v = 0.0;
-    double variance_v2 = 0.0;
-    std::int32_t n_accepted = 0;
-    std::int8_t outlier_side = 0;  // of the last measurement: +1 above the gate, -1 below; 0: inside
+    std::array<double, n_plays> play{};  // p_i
+    double origin_v = 0.0;               // the start's voltage
+    double start = 0.0;                  // v0 of the last move, and its plays
+    std::array<double, n_plays> start_play{};
+    StrokeWeights weight{};
+    std::array<StrokeWeights, n_stroke_weights> covariance{};
+    StrokeWeights regressor{};  // h of a move that has arrived and is not yet confirmed
+    double length_lambda = 0.0;
+    double length_sigma_lambda = 0.0;
+    bool pending = false;
+    double length_variance_lambda2 = 0.0;  // of a length as that of the last move, by now
+    std::int8_t outlier_side = 0;  // of the last measurement: +1 moved too far for the gate, -1 too little; 0: inside
 
     friend constexpr bool operator==(const HalfWaveState&, const HalfWaveState&) = default;
 };
 
-struct HalfWaveOutput {
-    Volts half_wave{};
-    bool rejected = false;  // the measurement was not finite, or an outlier; the estimate is held
-};
+[[nodiscard]] HalfWaveState initial_state(const HalfWaveConfig& config, Volts start) noexcept;
 
-[[nodiscard]] constexpr HalfWaveState initial_state(const HalfWaveConfig& c) noexcept {
-    const double sigma_v = c.presumed_sigma_ratio * c.presumed.value();
-    return {.estimate_v = c.presumed.value(), .variance_v2 = sigma_v * sigma_v};
+// Once every half-period: (2) with a reading of the piezo; an implausible one is ignored.
+void follow(const HalfWaveConfig& config, HalfWaveState& state, Volts piezo) noexcept;
+
+// The change of voltage, from `from` on, that is predicted to move the perimeter by half a wavelength.
+//
+// sign         +1 or -1, of the move.
+// temperature  now; not finite: T0.
+// return       of that sign, half to twice the presumed half-wave voltage.
+// accuracy     1e-4 of U where the plays make up to a third of the stroke.
+[[nodiscard]] Volts predicted_move(const HalfWaveConfig& config, const HalfWaveState& state, std::int8_t sign,
+                                   Volts from, Celsius temperature) noexcept;
+
+// A move begins, from the settled voltage `from`.
+void begin_move(const HalfWaveConfig& config, HalfWaveState& state, Volts from) noexcept;
+
+// The move has arrived, in whatever mode: keep the measurement until the lock shows the mode.
+//
+// sign      of the move.
+// piezo     at its end; the plays have followed it.
+// detuning  there, from the centre of the neighbouring mode.
+void arrive(const HalfWaveConfig& config, HalfWaveState& state, std::int8_t sign, Volts piezo, Wavelengths detuning,
+            Celsius temperature) noexcept;
+
+// One standard deviation of the half-wave voltage, of which `half_wave` is the present value.
+[[nodiscard]] inline Volts sigma(const HalfWaveState& s, Volts half_wave) noexcept {
+    return 2.0 * square_root(s.length_variance_lambda2) * half_wave;
 }
 
-// One standard deviation of the estimate.
-[[nodiscard]] inline Volts sigma(const HalfWaveState& s) noexcept { return Volts{square_root(s.variance_v2)}; }
-
-// Update with the measurement of one switch: a scalar Kalman filter for a random walk.
+// The lock shows whether the mode is the neighbour's. If so, the measurement update (3) with
 //
-//   p = variance + process_sigma^2,  K = p / (p + measurement_sigma^2)
-//   estimate += K (measured - estimate),  variance = (1 - K) p
+//   h: `regressor`,  r = (0.001 wavelength)^2 + (miss/10)^2
 //
-// A second outlier in a row on the same side is accepted, with p = (measured - estimate)^2: the first loops of a piezo
-// with hysteresis differ from its later ones.
+// A second outlier in a row on the same side is accepted: the piezo has changed, and P restarts from its prior.
 //
-// config    passed `check`.
-// state     from `initial_state`; the estimate stays between half and twice the presumed voltage.
-// measured  |U- - U+|, each settled; NaN stands for no measurement. Outliers, and values outside half to twice the
-//           presumed voltage (the loop has caught another mode), are rejected; the variance grows all the same, up to
-//           that of the presumed value.
-[[nodiscard]] HalfWaveOutput step(const HalfWaveConfig& config, HalfWaveState& state, Volts measured) noexcept;
-
-struct SwitchDirection {
-    std::int8_t sign = 1;       // of U- - U+
-    bool out_of_range = false;  // neither neighbour keeps the margin: this one has more room
-};
-
-// Which neighbour to switch to: the one inside the range, margin kept, and nearest to the middle of the range.
-[[nodiscard]] SwitchDirection choose_direction(const PiezoRange& range, Volts now, Volts half_wave) noexcept;
+// return  false for an outlier, from which nothing is learnt.
+bool confirm(HalfWaveState& state, bool neighbour) noexcept;
 
 }  // namespace zlg::core

@@ -15,23 +15,12 @@
 //
 // by which o, of which only the difference of both beams matters, is learnt in every re-lock: Kalman's filter of one state.
 //
-// A slower mean of w follows it. A weight that has left it by more than 1.33 % has drifted by that within `slow_ticks`, by
+// A slower mean of w follows it. A weight that has left it by more than 1.33 % has drifted by that within `balance_ticks` of the limits, by
 // .2 an hour where these are 4 minutes: a fault of a photodiode or of a beam, although the detuning is still read.
 
 #include <zlg/core/control/light_monitor.hpp>
 
 namespace zlg::core {
-
-struct LightBalanceConfig {
-    double slow_ticks = 48000.0;  // of the slower mean, 1..2^30
-};
-
-enum class LightBalanceFault : unsigned char { none, slow_ticks };
-
-[[nodiscard]] constexpr LightBalanceFault check(const LightBalanceConfig& c) noexcept {
-    const bool good = c.slow_ticks >= 1.0 && c.slow_ticks <= 1 << 30;
-    return good ? LightBalanceFault::none : LightBalanceFault::slow_ticks;
-}
 
 struct LightBalanceState {
     double weight = 1.0;                // of beam B
@@ -40,7 +29,7 @@ struct LightBalanceState {
     double offset = 0.0;                // of beam B, in the unit of the samples
     double variance = 1e-7;             // of that, in units of w P_0/2
     double jumps = 0.0, weights = 0.0;  // sums of h J/r and h^2/r, J: recent jumps, r: their variances
-    double n_ticks = 0.0;               // that were learnt from, up to `slow_ticks`
+    double n_ticks = 0.0;               // that were learnt from, up to `balance_ticks`
     bool changes = false;               // the balance has changed
     bool has_last = false;              // the half before was read:
     double last_signal = 0.0;           // its S
@@ -71,6 +60,6 @@ void learn_offset(LightBalanceState& state, const BalancedHalf& half, const Detu
                   double signal_per_lambda) noexcept;
 
 // Advance by one half-period.
-void follow(const LightBalanceConfig& config, LightBalanceState& state, const BalancedHalf& half) noexcept;
+void follow(const MonitorLimits& limits, LightBalanceState& state, const BalancedHalf& half) noexcept;
 
 }  // namespace zlg::core

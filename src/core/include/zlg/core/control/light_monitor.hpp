@@ -22,31 +22,12 @@
 // 1998.
 
 #include <cstdint>
-#include <span>
 
-#include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/control/monitor_limits.hpp>
 #include <zlg/core/control/sync_detector.hpp>
 #include <zlg/core/units.hpp>
 
 namespace zlg::core {
-
-struct LightMonitorConfig {
-    Wavelengths noise{0.0};  // of one sample, white, as detuning, 0..10; below `min_noise` none is known
-    double bias_chi = 0.0;   // chi of the relative loss of the bias, chi dl^2, 0..1e6; 0: not compared
-    double max_gain = 1.0;   // of a reading over its detuning, far from the centre: 1 where the curve is known; 1..100
-};
-
-// Less noise than this could be none at all: steady light then is no fault, and nothing is called noisy.
-inline constexpr Wavelengths min_noise{1e-4};
-
-enum class LightMonitorFault : unsigned char { none, noise, bias_chi, max_gain };
-
-[[nodiscard]] constexpr LightMonitorFault check(const LightMonitorConfig& c) noexcept {
-    if (!(c.noise >= Wavelengths{0.0} && c.noise <= Wavelengths{10.0})) return LightMonitorFault::noise;
-    if (!(c.bias_chi >= 0.0 && c.bias_chi <= 1e6)) return LightMonitorFault::bias_chi;
-    if (!(c.max_gain >= 1.0 && c.max_gain <= 100.0)) return LightMonitorFault::max_gain;
-    return LightMonitorFault::none;
-}
 
 // Of the detuning where the bias is reversed, on the way to a lock.
 struct DetuningJump {
@@ -80,24 +61,13 @@ struct LightMonitorState {
 };
 
 struct LightMonitorInput {
-    std::span<const float> light_a{};  // as they were given to the detector
-    std::span<const float> light_b{};
-    BeamWeight weight_b{};
-    int sign = 1;                               // bias_sign * polarity in force during the half: +1 or -1
-    bool closed = false;                        // the loop; the light is that of one mode
-    bool settled = false;                       // and locked
-    bool beats = false;                         // the counts show the bias: there is light in both directions
-    double deficit_ratio = 0.0;                 // of the bias, in this half and the one before
-    bool two_way = false;                       // by the detector: light in both directions
-    bool dark = false;                          // by the detector
-    double light = 0.0;                         // by the detector: sum of both beams, or the one; mean over the half
-    double signal_per_lambda = 0.332;           // of the detector, at the centre,
-    const DiscriminatorCurve* curve = nullptr;  // and away from it; none: linear
-    double unknown_lambda2 =
-        0.0;  // variance of a jump of the detuning, by what is not known of the photodiodes; at the centre
-    bool usable = false;
-    Wavelengths detuning{};
-    double mean_sq_lambda2 = 0.0;
+    const SyncDetectorConfig& detector;
+    const SyncDetectorInput& light;  // as it was given to the detector,
+    SyncDetectorOutput& read;        // and what that made of it: where it is not to be trusted, that is changed here
+    bool closed = false;             // the loop; the light is that of one mode
+    bool settled = false;            // and locked
+    double deficit_ratio = 0.0;      // of the bias, in this half and the one before
+    double unknown_lambda2 = 0.0;    // variance of a jump, by what is not known of the photodiodes; at the centre
 };
 
 struct LightMonitorOutput {
@@ -109,10 +79,7 @@ struct LightMonitorOutput {
     bool contradicted = false;  // the beat was there, half after half, where light is too little for it
     bool withheld = false;      // there is light both ways, but this half's mean square is not to be trusted
     bool returns = false;  // the first light after a dark half of a settled gyro: what moved meanwhile is not known
-    bool usable = false;   // the detuning is that of the gyro, and may steer it
     bool has_mean_square = false;
-    Wavelengths detuning{};
-    double mean_sq_lambda2 = 0.0;
 };
 
 // Advance by one half-period whose frame was received.
@@ -122,10 +89,9 @@ struct LightMonitorOutput {
 // differences that no smooth change of the detuning affects, however fast, and through the curve of the discriminator.
 // A detuning beyond the next mode is not used at all.
 //
-// config   passed `check`.
 // latency  stuck and noisy: two halves; contradicted: eight; unbalanced: eight by the difference of two halves, at once by
 //          the bias or on the way to a lock.
-[[nodiscard]] LightMonitorOutput step(const LightMonitorConfig& config, LightMonitorState& state,
+[[nodiscard]] LightMonitorOutput step(const MonitorLimits& limits, LightMonitorState& state,
                                       const LightMonitorInput& input) noexcept;
 
 }  // namespace zlg::core

@@ -27,7 +27,6 @@
 #include <cstdint>
 #include <optional>
 
-#include <zlg/core/control/half_wave.hpp>
 #include <zlg/core/control/piezo_range.hpp>
 #include <zlg/core/units.hpp>
 
@@ -49,27 +48,23 @@ struct ModeSwitchConfig {
     std::int8_t start_polarity = 1;       // +1 or -1
 };
 
-enum class ModeSwitchFault : unsigned char { none, range, ticks, lock_timeout, tolerance, start };
-
-[[nodiscard]] constexpr ModeSwitchFault check(const ModeSwitchConfig& c) noexcept {
-    constexpr std::int32_t most = 1 << 24;
-    if (check(c.range) != PiezoRangeFault::none) return ModeSwitchFault::range;
-    for (const std::int32_t n : {c.gap_ticks, c.settle_ticks, c.lock_timeout_ticks, c.dark_ticks}) {
-        if (!(n >= 1 && n <= most)) return ModeSwitchFault::ticks;
-    }
-    if (!(c.gap_min_ticks >= 0 && c.gap_min_ticks <= c.gap_ticks)) return ModeSwitchFault::ticks;
-    if (!(c.lock_timeout_ticks > c.settle_ticks)) return ModeSwitchFault::lock_timeout;
-    const bool can_lock = c.lock_tolerance > Wavelengths{0.0} && c.lock_tolerance < Wavelengths{0.5};
-    const bool can_arrive = c.arrival_tolerance > Wavelengths{0.0} && c.arrival_tolerance < Wavelengths{0.25};
-    if (!(can_lock && can_arrive)) return ModeSwitchFault::tolerance;
-    if (!(c.start_set_point >= c.range.min && c.start_set_point <= c.range.max)) return ModeSwitchFault::start;
-    if (!(c.start_polarity == 1 || c.start_polarity == -1)) return ModeSwitchFault::start;
-    return ModeSwitchFault::none;
+[[nodiscard]] constexpr bool is_allowed(const ModeSwitchConfig& c) noexcept {
+    const auto is_number_of_ticks = [](std::int32_t n) { return n >= 1 && n <= 1 << 24; };
+    const auto is_sign = [](std::int8_t x) { return x == 1 || x == -1; };
+    return is_allowed(c.range) && is_number_of_ticks(c.gap_ticks) && is_number_of_ticks(c.settle_ticks) &&
+           is_number_of_ticks(c.lock_timeout_ticks) && is_number_of_ticks(c.dark_ticks) && c.gap_min_ticks >= 0 &&
+           c.gap_min_ticks <= c.gap_ticks && c.lock_timeout_ticks > c.settle_ticks &&
+           c.lock_tolerance > Wavelengths{0.0} && c.lock_tolerance < Wavelengths{0.5} &&
+           c.arrival_tolerance > Wavelengths{0.0} && c.arrival_tolerance < Wavelengths{0.25} &&
+           c.start_set_point >= c.range.min && c.start_set_point <= c.range.max && is_sign(c.start_polarity);
 }
 
-// The last piezo readings in lock: four ticks, so that both signs of the bias weigh the same.
+// Four ticks, so that both signs of the bias weigh the same.
+inline constexpr std::int32_t most_readings = 8;
+
+// The last piezo readings in lock.
 struct PiezoReadings {
-    std::array<double, 8> voltage_v{};
+    std::array<double, most_readings> voltage_v{};
     std::int32_t n = 0;     // readings held
     std::int32_t next = 0;  // place of the next one
     std::int32_t age = 0;   // halves since the last one
@@ -95,9 +90,6 @@ struct ModeSwitchState {
     std::int32_t place = 0;      // of the search
     bool switching = false;      // an event is pending: it comes with the lock
     std::int64_t tick_opened = 0;
-    bool has_miss = false;
-    double miss_lambda = 0.0;
-    bool out_of_range = false;
 
     friend constexpr bool operator==(const ModeSwitchState&, const ModeSwitchState&) = default;
 };
@@ -123,33 +115,30 @@ struct ModeSwitchInput {
 struct SwitchEvent {
     std::int64_t tick_opened = 0;
     SwitchOutcome outcome = SwitchOutcome::switched;
-    bool has_miss = false;
-    double miss_lambda = 0.0;    // mean detuning of the first closed half
     bool has_half_wave = false;  // only of `switched`, with fresh readings before and after
     double half_wave_v = 0.0;    // |U- - U+|
-    std::int8_t direction = 1;   // sign of U- - U+, if has_half_wave
-    bool out_of_range = false;   // no neighbour kept the margin of the range
 
     friend constexpr bool operator==(const SwitchEvent&, const SwitchEvent&) = default;
 };
 
-struct ModeSwitchOutput {
-    bool loop_closed = true;
-    std::int8_t polarity = 1;
-    Volts set_point{};  // second input; rules while the loop is open
-    std::optional<SwitchEvent> event{};
+struct SwitchDirection {
+    std::int8_t sign = 1;       // of U- - U+
+    bool out_of_range = false;  // neither neighbour keeps the margin: this one has more room
 };
+
+// Which neighbour to switch to: the one inside the range, margin kept, and nearest to the middle of the range.
+[[nodiscard]] SwitchDirection choose_direction(const PiezoRange& range, Volts now, Volts half_wave) noexcept;
 
 [[nodiscard]] ModeSwitchState initial_state(const ModeSwitchConfig& config) noexcept;
 
-// Advance by one half-period: what was seen of it in, what to command for the next out.
+// Advance by one half-period: what was seen of it in, what to command for the next in the state; the event, where a lock ends one.
 //
 // A switch: U+ is the mean of the last readings, polarity is inverted, U- = U+ + sign U_lambda/2 + offset goes to the
 // second input, and the loop stays open for the gap. The lock that ends it measures |U- - U+|.
 //
 // config  passed `check`.
 // state   from `initial_state`; finite, set-points within the range.
-[[nodiscard]] ModeSwitchOutput step(const ModeSwitchConfig& config, ModeSwitchState& state,
-                                    const ModeSwitchInput& input) noexcept;
+[[nodiscard]] std::optional<SwitchEvent> step(const ModeSwitchConfig& config, ModeSwitchState& state,
+                                              const ModeSwitchInput& input) noexcept;
 
 }  // namespace zlg::core

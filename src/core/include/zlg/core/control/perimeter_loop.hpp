@@ -39,37 +39,14 @@ struct PerimeterLoopConfig {
     double relock_gain = 0.87;       // part of the detuning corrected a half: 1 - (1 - 0.12)^16; 0 exclusive..1
 };
 
-enum class PerimeterLoopFault : unsigned char {
-    none,
-    range,
-    half_wave,
-    half_period,
-    time_constant,
-    error_limit,
-    slew,
-    watch_limit,
-    relock
-};
-
-[[nodiscard]] constexpr PerimeterLoopFault check(const PerimeterLoopConfig& c) noexcept {
-    if (check(c.range) != PiezoRangeFault::none) return PerimeterLoopFault::range;
-    if (!(c.half_wave >= Volts{1e-3} && c.half_wave <= Volts{1e6})) return PerimeterLoopFault::half_wave;
-    if (!(c.half_period > Seconds{0.0} && c.half_period <= Seconds{1e3})) return PerimeterLoopFault::half_period;
-    if (!(c.time_constant >= c.half_period && c.time_constant <= Seconds{1e6})) {
-        return PerimeterLoopFault::time_constant;
-    }
-    if (!(c.error_limit > Wavelengths{0.0} && c.error_limit <= Wavelengths{1e3})) {
-        return PerimeterLoopFault::error_limit;
-    }
-    if (!(c.slew_v_s > 0.0 && c.slew_v_s <= 1e12)) return PerimeterLoopFault::slew;
-    if (!(c.watch_limit > Wavelengths{0.0})) return PerimeterLoopFault::watch_limit;
-    if (!(c.relock_halves >= 0 && c.relock_halves <= (1 << 30))) return PerimeterLoopFault::relock;
-    if (!(c.relock_gain > 0.0 && c.relock_gain <= 1.0)) return PerimeterLoopFault::relock;
-    if (!(c.stage_time_constant >= Seconds{1e-9} && c.stage_time_constant <= Seconds{1e3})) {
-        return PerimeterLoopFault::relock;
-    }
-    if (!(c.set_points >= 1 && c.set_points <= max_set_points)) return PerimeterLoopFault::relock;
-    return PerimeterLoopFault::none;
+[[nodiscard]] constexpr bool is_allowed(const PerimeterLoopConfig& c) noexcept {
+    return is_allowed(c.range) && c.half_wave >= Volts{1e-3} && c.half_wave <= Volts{1e6} &&
+           c.half_period > Seconds{0.0} && c.half_period <= Seconds{1e3} && c.time_constant >= c.half_period &&
+           c.time_constant <= Seconds{1e6} && c.error_limit > Wavelengths{0.0} && c.error_limit <= Wavelengths{1e3} &&
+           c.slew_v_s > 0.0 && c.slew_v_s <= 1e12 && c.watch_limit > Wavelengths{0.0} && c.relock_halves >= 0 &&
+           c.relock_halves <= 1 << 30 && c.relock_gain > 0.0 && c.relock_gain <= 1.0 &&
+           c.stage_time_constant >= Seconds{1e-9} && c.stage_time_constant <= Seconds{1e3} && c.set_points >= 1 &&
+           c.set_points <= max_set_points;
 }
 
 struct PerimeterLoopState {
@@ -96,10 +73,8 @@ struct PerimeterLoopInput {
 };
 
 struct PerimeterLoopOutput {
-    Volts set_point{};
-    std::int32_t n_set_points = 1;                   // of the half to come, the last of them `set_point`
+    std::int32_t n_set_points = 1;                   // of the half to come, the last of them that of the state
     std::array<double, max_set_points> set_point_v;  // so many of them; the rest is not set
-    bool saturated = false;                          // the set-point is held at an end of the range
     bool over_limit = false;                         // closed, and detuned by more than the watch limit
     bool near_range_end = false;  // the piezo (the set-point, where there is no reading) is within the margin of an end
 };

@@ -13,12 +13,9 @@ struct PiezoRange {
     friend constexpr bool operator==(const PiezoRange&, const PiezoRange&) = default;
 };
 
-enum class PiezoRangeFault : unsigned char { none, ends, margin };
-
-[[nodiscard]] constexpr PiezoRangeFault check(const PiezoRange& r) noexcept {
-    if (!(r.min > Volts{-1e6} && r.max < Volts{1e6} && r.min < r.max)) return PiezoRangeFault::ends;
-    if (!(r.margin >= Volts{0.0} && 2.0 * r.margin < r.max - r.min)) return PiezoRangeFault::margin;
-    return PiezoRangeFault::none;
+[[nodiscard]] constexpr bool is_allowed(const PiezoRange& r) noexcept {
+    return r.min > Volts{-1e6} && r.max < Volts{1e6} && r.min < r.max && r.margin >= Volts{0.0} &&
+           2.0 * r.margin < r.max - r.min;
 }
 
 // The voltage of the range that is nearest to `voltage`; the lower end for NaN.

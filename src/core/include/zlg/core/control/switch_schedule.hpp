@@ -28,18 +28,12 @@ struct SwitchScheduleConfig {
     std::int64_t end_tick = 0;  // the end of the run, if the last segment is to end it in balance; 0: not known
 };
 
-enum class SwitchScheduleFault : unsigned char { none, interval, limits, tick, presumed, end };
-
-[[nodiscard]] constexpr SwitchScheduleFault check(const SwitchScheduleConfig& c) noexcept {
+[[nodiscard]] constexpr bool is_allowed(const SwitchScheduleConfig& c) noexcept {
     constexpr std::int64_t most = std::int64_t{1} << 53;
-    const auto positive = [](double x) { return x > 0.0 && x <= 1e12; };
-    if (!(c.interval_ticks >= 1 && c.interval_ticks <= most)) return SwitchScheduleFault::interval;
-    if (!(c.min_ticks >= 1 && c.min_ticks <= c.max_ticks && c.max_ticks <= most)) return SwitchScheduleFault::limits;
-    if (!positive(c.tick_s)) return SwitchScheduleFault::tick;
-    if (!(positive(c.presumed.switch_error_arcsec) && positive(c.presumed.magnetic_arcsec_s)))
-        return SwitchScheduleFault::presumed;
-    if (!(c.end_tick >= 0 && c.end_tick <= most)) return SwitchScheduleFault::end;
-    return SwitchScheduleFault::none;
+    const auto is_positive = [](double x) { return x > 0.0 && x <= 1e12; };
+    return c.interval_ticks >= 1 && c.interval_ticks <= most && c.min_ticks >= 1 && c.min_ticks <= c.max_ticks &&
+           c.max_ticks <= most && is_positive(c.tick_s) && is_positive(c.presumed.switch_error_arcsec) &&
+           is_positive(c.presumed.magnetic_arcsec_s) && c.end_tick >= 0 && c.end_tick <= most;
 }
 
 // The interval that balances the errors of the switches against the sawtooth that stands between them, ticks.
@@ -78,12 +72,7 @@ struct SwitchScheduleInput {
     SwitchAdvice advice{};  // for `measured`
 };
 
-struct SwitchScheduleOutput {
-    bool open = false;  // open the loop at the start of this tick
-    bool late = false;  // the point itself was missed
-};
-
-// Ask at every tick border whether to open.
+// Ask at every tick border whether to open the loop at the start of this tick.
 //
 //   fixed     opening k is due before tick first_tick + k interval_ticks, k = 0, 1, ...; a late one does not move the
 //             grid. Should the tick jump over a whole interval, the grid is laid anew from there.
@@ -101,7 +90,7 @@ struct SwitchScheduleOutput {
 // config  passed `check`.
 // state   from `initial_state`.
 // cost    a cube root at every opening, else a few comparisons.
-[[nodiscard]] SwitchScheduleOutput step(const SwitchScheduleConfig& config, SwitchScheduleState& state,
-                                        const SwitchScheduleInput& input) noexcept;
+[[nodiscard]] bool step(const SwitchScheduleConfig& config, SwitchScheduleState& state,
+                        const SwitchScheduleInput& input) noexcept;
 
 }  // namespace zlg::core

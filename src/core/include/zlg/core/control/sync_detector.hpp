@@ -21,16 +21,10 @@ struct SyncDetectorConfig {
     DiscriminatorCurve curve{};               // F, of what the slope alone would read; none: the linear law
 };
 
-enum class SyncDetectorFault : unsigned char { none, discriminator, dark_fraction, level_min, level_ticks, curve };
-
-[[nodiscard]] constexpr SyncDetectorFault check(const SyncDetectorConfig& c) noexcept {
-    const double k = c.discriminator_per_lambda;
-    if (!((k >= 1e-6 && k <= 1e6) || (k <= -1e-6 && k >= -1e6))) return SyncDetectorFault::discriminator;
-    if (!(c.dark_fraction > 0.0 && c.dark_fraction < 1.0)) return SyncDetectorFault::dark_fraction;
-    if (!(c.level_min >= 0.0 && c.level_min < 1e30)) return SyncDetectorFault::level_min;
-    if (!(c.level_ticks >= 1 && c.level_ticks <= (1 << 30))) return SyncDetectorFault::level_ticks;
-    if (check(c.curve) != CurveFault::none) return SyncDetectorFault::curve;
-    return SyncDetectorFault::none;
+[[nodiscard]] constexpr bool is_allowed(const SyncDetectorConfig& c) noexcept {
+    const double slope = __builtin_fabs(c.discriminator_per_lambda);
+    return slope >= 1e-6 && slope <= 1e6 && c.dark_fraction > 0.0 && c.dark_fraction < 1.0 && c.level_min >= 0.0 &&
+           c.level_min < 1e30 && c.level_ticks >= 1 && c.level_ticks <= 1 << 30 && check(c.curve) == CurveFault::none;
 }
 
 // The light of an undisturbed gyro, learnt and followed.
@@ -67,9 +61,9 @@ struct SyncDetectorInput {
     std::span<const float> light_a{};  // 1..64 samples of the half
     std::span<const float> light_b{};  // as many, or none: one beam only
     int sign = 1;                      // bias_sign * polarity in force during the half: +1 or -1
+    bool settled = false;              // loop closed and settled: the level may follow the light
+    bool beats = false;                // the counts show the bias: there is light in both directions
     BeamWeight weight_b{};
-    bool settled = false;  // loop closed and settled: the level may follow the light
-    bool beats = false;    // the counts show the bias: there is light in both directions
 };
 
 struct SyncDetectorOutput {
