@@ -44,12 +44,14 @@ double jump_per_offset(const LightBalanceState& s, const BalancedHalf& half, dou
            signal_per_lambda;
 }
 
+bool is_possible(double weight) noexcept { return weight < max_weight && weight > 1.0 / max_weight; }
+
 void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const BalancedHalf& half) noexcept {
     if (s.n_ticks < limits.balance_ticks) s.n_ticks += 1.0;
     const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
     const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5) / n;
     const double weight = s.weight * (1.0 + odd) / (1.0 - odd);
-    if (weight < max_weight && weight > 1.0 / max_weight) s.weight = weight;
+    if (is_possible(weight)) s.weight = weight;
     s.level += (half.light - s.level) / n;
     s.slow_weight += (s.weight - s.slow_weight) / s.n_ticks;
     s.changes = s.n_ticks >= memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
@@ -77,11 +79,13 @@ void learn_offset(LightBalanceState& state, const BalancedHalf& half, const Detu
     const double gain = state.variance * h / (square(h) * state.variance + jump.variance_lambda2);
     const double half_level = 0.5 * state.level / state.weight;  // of B
     const double more = limited(-gain * jump.lambda, 0.2) * half_level;
-    if (!is_finite(more)) return;
+    // The beams stay equal at the centre.
+    const double new_weight = state.weight * half_level / (half_level - more);
+    // An offset of more than half the light is none of a photodiode; false for NaN.
+    if (!(size(state.offset + more) < half_level && is_possible(new_weight))) return;
     state.variance += offset_wander - gain * h * state.variance;
     state.offset += more;
-    // The beams stay equal at the centre.
-    state.weight *= half_level / (half_level - more);
+    state.weight = new_weight;
 }
 
 void follow(const MonitorLimits& limits, LightBalanceState& state, const BalancedHalf& half) noexcept {
