@@ -43,7 +43,7 @@ GateResult judge(const MagneticGate& gate, const MovingBase& base, std::uint64_t
     int gap = 0;
     for (std::int64_t k = 0; k < end; ++k) {
         const double left = remaining_arcsec_s(gate.estimator, state);
-        if (k > 0 && step(schedule, switches, {.tick = k, .mode = mode, .advice = {0.0, left}}).open) {
+        if (k > 0 && step(schedule, switches, {.tick = k, .mode = mode, .advice = {0.0, left}})) {
             mode = static_cast<std::int8_t>(-mode);
             gap = gap_ticks;
         }

@@ -26,7 +26,7 @@ BOOST_HANA_ADAPT_STRUCT(zlg::core::ActuatorFrame, loop_closed, polarity, n_set_p
 BOOST_HANA_ADAPT_STRUCT(zlg::core::HalfRecord, half, counts, detuning_lambda, detuning_sq_lambda2, piezo_v,
                         temperature_c, bias_sign, mode, loop_closed, valid, edge_offset_ticks, span, fringe, late, lit);
 BOOST_HANA_ADAPT_STRUCT(zlg::core::SwitchEvent, tick_opened, outcome, has_half_wave, half_wave_v);
-BOOST_HANA_ADAPT_STRUCT(zlg::core::GyroControlOutput, actuator, record, health, has_event, event);
+BOOST_HANA_ADAPT_STRUCT(zlg::core::GyroControlOutput, actuator, record, health, switch_waits, has_event, event);
 BOOST_HANA_ADAPT_STRUCT(zlg::core::AngleRow, tick, dtheta_arcsec, dtheta_final_arcsec, sigma_arcsec, relock_arcsec,
                         mode, flags);
 BOOST_HANA_ADAPT_STRUCT(zlg::core::GapReport, first_tick, n_ticks, sign_after, mode_after, mode_changed, dp_arcsec,
