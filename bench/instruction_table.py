@@ -39,7 +39,7 @@ PART_OF = {
 }
 MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "mode_switch", "switch_schedule", "bias_commutator",
-    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_monitor", "detuning_monitor", "fringe_readout",
+    "edge_dither", "frame_order", "bias_monitor", "coil_monitor", "counter_monitor", "reading_monitor", "light_balance", "light_monitor", "detuning_monitor", "fringe_readout",
     "gyro_control", "relock_drift", "switch_light", "edge_shift", "lock_in", "gap_bridge", "estimate", "counted_stretch", "angle",
     "gyro_compensation",
 ]
