@@ -44,7 +44,7 @@ std::int64_t counts_limit(const config::Config& config) {
     return static_cast<std::int64_t>(std::clamp(most - 1.0, 1.0, 0x1p62));
 }
 
-// Within which a drift of the photodiodes of .2 an hour is a fault (light_balance.hpp).
+// Within which a drift of the photodiodes of .2 an hour is a fault; one tick in four is learnt from (light_balance.hpp).
 constexpr double balance_s = 240.0;
 
 // Arm the monitors with the change of bias and of perimeter that makes one false count in a tick.
@@ -64,7 +64,7 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
         const double noise_lambda2 = g.light_noise_lambda * g.light_noise_lambda;
         made.limits.detuning_change_lambda2 = std::min(1.0 / false_counts + 20.0 * noise_lambda2, 1e6);
     }
-    made.limits.balance_ticks = std::clamp(balance_s / config.gyro.tick_s, 1.0, 1e9);
+    made.limits.balance_ticks = std::clamp(0.25 * balance_s / config.gyro.tick_s, 1.0, 1e9);
     made.limits.relock_ticks = config.compensation.relock_ticks;
 }
 

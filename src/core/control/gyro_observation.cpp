@@ -72,6 +72,13 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
     o.coil = step(c.limits, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
 }
 
+void balance_light(const GyroControlConfig& c, GyroControlState& s, const Observation& o, BalancedHalf half) noexcept {
+    half.is_read = half.is_read && !o.monitored.stuck && !o.monitored.noisy;
+    if (o.monitored.has_jump && half.is_read)
+        learn_offset(s.light_balance, half, s.light_monitor.jump, c.detector.discriminator_per_lambda);
+    follow(c.limits, s.light_balance, half);
+}
+
 void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     if (!o.order.fresh) {
         s.light_monitor.has_last = false;
@@ -88,17 +95,16 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
                                   weight_of(s.light_balance)};
     o.light = step(c.detector, s.detector, light);
     o.light.usable = o.light.usable && !o.commuted.sign_error && !o.polarity_error;
-    BalancedHalf half{.is_first = s.half % 2 == 0,
-                      .is_read = o.loop_closed && o.order.follows && o.light.usable && !light_b.empty(),
-                      .signal = o.light.signal,
-                      .light = o.light.light};
+    const BalancedHalf half{.is_first = s.half % 2 == 0,
+                            .is_read = o.loop_closed && o.order.follows && o.light.usable && !light_b.empty(),
+                            .signal = o.light.signal,
+                            .light = o.light.light};
     const double per_lambda = c.detector.discriminator_per_lambda;
     const double unknown_lambda2 = o.settled ? 0.0 : unknown_jump_lambda2(s.light_balance, half, per_lambda);
     o.monitored = step(c.limits, s.light_monitor,
                        {c.detector, light, o.light, o.loop_closed, o.settled, o.bias.deficit_ratio, unknown_lambda2});
-    half.is_read = half.is_read && !o.monitored.stuck && !o.monitored.noisy;
-    if (o.monitored.has_jump && half.is_read) learn_offset(s.light_balance, half, s.light_monitor.jump, per_lambda);
-    follow(c.limits, s.light_balance, half);
+    // Of a settled gyro two ticks in eight tell enough.
+    if (!o.settled || s.half % 16 >= 12) balance_light(c, s, o, half);
     o.lit = o.light.two_way || o.monitored.contradicted;
     o.lased = o.lit && o.loop_closed;
     s.light_spoilt = loses<Loses::light>(c, s, o);

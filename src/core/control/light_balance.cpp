@@ -7,8 +7,9 @@
 namespace zlg::core {
 namespace {
 
-// Ticks of the mean of w, and those after which it is compared with the slower one: 2 s of 5 ms, a hundredth of the noise of a half.
-constexpr double memory_ticks = 400.0;
+// Ticks of the mean of w, and those after which it is compared with the slower one: of a settled gyro, of which one in four is
+// learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
+constexpr double memory_ticks = 100.0;
 
 constexpr double max_change = 0.0133;
 

@@ -4,7 +4,7 @@
 
 namespace zlg::core::light_balance_test {
 
-constexpr MonitorLimits config{};
+constexpr MonitorLimits config{.balance_ticks = 48'000.0};  // every tick is learnt from here
 static_assert(is_allowed(config));
 static_assert(!is_allowed(MonitorLimits{.balance_ticks = 0.0}));
 static_assert(!is_allowed(MonitorLimits{.balance_ticks = not_a_number}));
@@ -88,20 +88,20 @@ TEST(LightBalance, TheWeightIsTheInverseOfTheGain) {
     }
 }
 
-// Later steps of the gain are followed with the memory: 1 - 1/e after 400 ticks.
+// Later steps of the gain are followed with the memory: 1 - 1/e after 100 ticks.
 TEST(LightBalance, TheWeightFollowsWithinItsMemory) {
     Gyro gyro;
     gyro.ticks(1000);
     gyro.gain_b = 1.001;
-    gyro.ticks(400);
+    gyro.ticks(100);
     EXPECT_NEAR((1.0 - gyro.state.weight) / 0.001, 1.0 - std::exp(-1.0), 0.005);
 }
 
 // Where the detuning stands in the sense of `follow` its signal falls from S_2/r to S_2 <= .01/(r^-2 - 1) within the tick, r = exp(-1/8):
-// the falls of a re-lock sum to at most .0106, of which the memory keeps a 400th, and of earlier switches 1/e of it each.
+// the falls of a re-lock sum to at most .0106, of which the memory keeps a hundredth, and of earlier switches 1/e of it each.
 TEST(LightBalance, ADetuningThatMovesInARelockDoesNotShiftTheWeight) {
     std::mt19937 random{3};
-    constexpr double most = 2.0 * 0.0106 / 400.0 / (1.0 - 1.0 / std::numbers::e);
+    constexpr double most = 2.0 * 0.0106 / 100.0 / (1.0 - 1.0 / std::numbers::e);
     for (const double miss_lambda : {0.1, -0.1, 0.02}) {
         Gyro gyro;
         gyro.ticks(1000);

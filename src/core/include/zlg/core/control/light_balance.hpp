@@ -6,7 +6,7 @@
 //
 //   (S_1 + S_2)/2 = (a - w (b - o))/(a + w (b - o))                                                (1)
 //
-// and w is led to where this is 0, as a mean over some 400 ticks, by those in which the detuning stands.
+// and w is led to where this is 0, as a mean over 100 ticks in which the detuning stands.
 //
 // An offset is a part of the light that does not fall with it: far from the centre, where the light P = A + w (B - o) is less
 // than its level P_0, it is seen as a jump of the detuning where the bias is reversed. An offset of w P_0/2 makes the jump

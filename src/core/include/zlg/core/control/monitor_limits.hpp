@@ -15,7 +15,8 @@ struct MonitorLimits {
     double bias_chi = 0.0;         // chi of the relative loss of the bias, chi dl^2, 0..1e6
     double light_gain = 1.0;  // of a reading over its detuning, far from the centre: 1 where the curve is known; 1..100
     double detuning_change_lambda2 = 0.0;  // of the mean square within a tick, 0..1e6
-    double balance_ticks = 48000.0;  // of the slower mean of the balance of the photodiodes, 1..2^30; always watched
+    double balance_ticks =
+        12000.0;  // that the slower mean of the balance of the photodiodes learns from, 1..2^30; always watched
     std::int32_t relock_ticks = 20;  // after a gap, whose false angle the compensation subtracts, 0..2^24
 };
 
