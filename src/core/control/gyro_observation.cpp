@@ -111,7 +111,9 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
                         .detuning = o.light.detuning,
                         .mean_sq_lambda2 = o.light.mean_sq_lambda2});
     half.is_read = half.is_read && !o.monitored.stuck && !o.monitored.noisy;
-    if (o.monitored.has_jump && half.is_read) learn_offset(s.light_balance, half, s.light_monitor.jump, per_lambda);
+    // The jump of a beam that has faded is not that of an offset.
+    if (o.monitored.has_jump && half.is_read && !s.light_monitor.is_unbalanced)
+        learn_offset(s.light_balance, half, s.light_monitor.jump, per_lambda);
     follow(c.light_balance, s.light_balance, half);
     o.detuning_usable = o.monitored.usable;
     o.lit = o.light.two_way || o.monitored.contradicted;

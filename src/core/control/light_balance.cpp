@@ -10,6 +10,9 @@ namespace {
 // Ticks of the mean of w, and those after which it is compared with the slower one: 2 s of 5 ms, a hundredth of the noise of a half.
 constexpr double memory_ticks = 400.0;
 
+// Before w is known to a part of 1e-4 a jump is that of the gains.
+constexpr double known_ticks = 40.0;
+
 constexpr double max_change = 0.0133;
 
 // A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
@@ -39,7 +42,7 @@ double form_of(double level, double signal, double light) noexcept {
 }
 
 double jump_per_offset(const LightBalanceState& s, const BalancedHalf& half, double signal_per_lambda) noexcept {
-    if (!(s.has_last && s.level > 0.0 && s.last_light > 0.0 && half.light > 0.0)) return 0.0;
+    if (!(s.has_last && s.n_ticks >= known_ticks && s.last_light > 0.0 && half.light > 0.0)) return 0.0;
     return (form_of(s.level, s.last_signal, s.last_light) + form_of(s.level, half.signal, half.light)) /
            signal_per_lambda;
 }
