@@ -74,7 +74,8 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
 
 void balance_light(const GyroControlConfig& c, GyroControlState& s, const Observation& o, BalancedHalf half) noexcept {
     half.is_read = half.is_read && !o.monitored.stuck && !o.monitored.noisy;
-    if (o.monitored.has_jump && half.is_read)
+    // The jump of a beam that has faded is not that of an offset.
+    if (o.monitored.has_jump && half.is_read && !s.light_monitor.is_unbalanced)
         learn_offset(s.light_balance, half, s.light_monitor.jump, c.detector.discriminator_per_lambda);
     follow(c.limits, s.light_balance, half);
 }

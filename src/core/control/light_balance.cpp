@@ -11,6 +11,9 @@ namespace {
 // learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
 constexpr double memory_ticks = 100.0;
 
+// Before w is known to a part of 1e-4 a jump is that of the gains.
+constexpr double known_ticks = 40.0;
+
 constexpr double max_change = 0.0133;
 
 // A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
@@ -19,8 +22,7 @@ constexpr double max_weight = 100.0;
 // Change of S over a tick up to which the detuning stands: what it falls by from half to half is then nothing in a mean.
 constexpr double max_fall = 0.01;
 
-// h from which on the kinks of a digital loop, of .002 wavelength, are not taken for an offset. Of light that hardly falls
-// with the detuning an offset does less.
+// h from which on an offset is learnt. Of light that hardly falls with the detuning it does less.
 constexpr double min_change = 0.1;
 
 // An offset of photodiodes whose dark light nobody has subtracted, before a jump was seen.
@@ -34,15 +36,20 @@ constexpr double offset_wander = 1e-10;
 constexpr double surprise_sq = 16.0;
 constexpr double forgotten = 0.02;
 
-// Of the sum of (2), for F' = 1.
-double form_of(double level, double signal, double light) noexcept {
-    return 0.5 * (1.0 + signal) * (level / light - 1.0 + signal);
+// Of the light, where the bias is reversed: its part that has fallen, and S^2. As the detuning falls evenly, both are the
+// geometric means of those of the halves beside.
+double fallen(double level, double light) noexcept { return level > light ? level / light - 1.0 : 0.0; }
+
+double border_signal_sq(const LightBalanceState& s, const BalancedHalf& half) noexcept {
+    const double square = -s.last_signal * half.signal;
+    return square > 0.0 ? square : 0.0;
 }
 
+// (2), for F' = 1.
 double jump_per_offset(const LightBalanceState& s, const BalancedHalf& half, double signal_per_lambda) noexcept {
-    if (!(s.has_last && s.level > 0.0 && s.last_light > 0.0 && half.light > 0.0)) return 0.0;
-    return (form_of(s.level, s.last_signal, s.last_light) + form_of(s.level, half.signal, half.light)) /
-           signal_per_lambda;
+    if (!(s.has_last && s.n_ticks >= known_ticks && s.last_light > 0.0 && half.light > 0.0)) return 0.0;
+    const double part = square_root(fallen(s.level, s.last_light) * fallen(s.level, half.light));
+    return (part + border_signal_sq(s, half)) / signal_per_lambda;
 }
 
 bool is_possible(double weight) noexcept { return weight < max_weight && weight > 1.0 / max_weight; }
@@ -68,24 +75,34 @@ double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& 
 
 void learn_offset(LightBalanceState& state, const BalancedHalf& half, const DetuningJump& jump,
                   double signal_per_lambda) noexcept {
-    const double h = square_root(jump.slope_sq) * jump_per_offset(state, half, signal_per_lambda);
-    if (!(size(h) > min_change)) return;
-    const double weight = h / jump.variance_lambda2;
-    state.jumps = (1.0 - forgotten) * state.jumps + weight * jump.lambda;
-    state.weights = (1.0 - forgotten) * state.weights + weight * h;
+    const SeenJump before = state.seen;
+    state.seen = {.lambda = jump.lambda,
+                  .per_offset = square_root(jump.slope_sq) * jump_per_offset(state, half, signal_per_lambda),
+                  .variance_lambda2 = jump.variance_lambda2,
+                  .signal_sq = border_signal_sq(state, half),
+                  .behind = half.signal};
+    if (before.behind != state.last_signal || !(state.seen.signal_sq < before.signal_sq)) return;
+    const double ratio = square_root(state.seen.signal_sq / before.signal_sq);
+    const double h = state.seen.per_offset + ratio * before.per_offset;
+    const double j = state.seen.lambda + ratio * before.lambda;
+    const double r = state.seen.variance_lambda2 + square(ratio) * before.variance_lambda2;
+    if (!(h > min_change)) return;
+    state.jumps = (1.0 - forgotten) * state.jumps + h / r * j;
+    state.weights = (1.0 - forgotten) * state.weights + h / r * h;
     if (square(state.jumps) > surprise_sq * state.weights * (1.0 + state.variance * state.weights)) {
         state.variance = square(state.jumps / state.weights);
         state.jumps = state.weights = 0.0;
     }
-    const double gain = state.variance * h / (square(h) * state.variance + jump.variance_lambda2);
+    const double gain = state.variance * h / (square(h) * state.variance + r);
     const double half_level = 0.5 * state.level / state.weight;  // of B
-    const double more = limited(-gain * jump.lambda, 0.2) * half_level;
+    const double more = limited(-gain * j, 0.2) * half_level;
     // The beams stay equal at the centre.
     const double new_weight = state.weight * half_level / (half_level - more);
     // An offset of more than half the light is none of a photodiode; false for NaN.
     if (!(size(state.offset + more) < half_level && is_possible(new_weight))) return;
     state.variance += offset_wander - gain * h * state.variance;
     state.offset += more;
+    state.slow_weight *= new_weight / state.weight;
     state.weight = new_weight;
 }
 

@@ -129,7 +129,7 @@ TEST(LightBalance, AnUnreadHalfTeachesNothing) {
 TEST(LightBalance, TheJumpOfAnOffsetIsThatOfItsEquation) {
     for (const double detuning_lambda : {0.12, 0.06, -0.09}) {
         Gyro without;
-        without.ticks(10);
+        without.ticks(400);
         const double offset = 1e-5;
         Gyro with = without;
         with.offset_b = offset;

@@ -11,16 +11,29 @@
 // An offset is a part of the light that does not fall with it: far from the centre, where the light P = A + w (B - o) is less
 // than its level P_0, it is seen as a jump of the detuning where the bias is reversed. An offset of w P_0/2 makes the jump
 //
-//   h = F'/K sum of (1 + S)/2 (P_0/P - 1 + S)     over both halves beside the reversal             (2)
+//   h = F'/K (P_0/P - 1 + S^2)                                                                     (2)
 //
-// by which o, of which only the difference of both beams matters, is learnt in every re-lock: Kalman's filter of one state.
+// by which o, of which only the difference of both beams matters, is learnt in every re-lock: Kalman's filter of one state. A
+// bend of the way at the reversals, of the steps of a digital loop, makes jumps that alternate and fall as S: of each jump and
+// S/S' times the one before, that is free of them.
 //
-// A slower mean of w follows it. A weight that has left it by more than 1.33 % has drifted by that within `balance_ticks` of the limits, by
-// .2 an hour where these are 4 minutes: a fault of a photodiode or of a beam, although the detuning is still read.
+// A slower mean of w follows it. A weight that has left it by more than 1.33 % has drifted by that within `balance_ticks`
+// of the limits, by .2 an hour where these are 4 minutes: a fault of a photodiode or of a beam, although the detuning is still read.
 
 #include <zlg/core/control/light_monitor.hpp>
 
 namespace zlg::core {
+
+// Jump J of the detuning where the bias was reversed.
+struct SeenJump {
+    double lambda = 0.0;
+    double per_offset = 0.0;        // h
+    double variance_lambda2 = 0.0;  // r
+    double signal_sq = 0.0;         // S^2 there
+    double behind = 2.0;            // S of the half behind it
+
+    friend constexpr bool operator==(const SeenJump&, const SeenJump&) = default;
+};
 
 struct LightBalanceState {
     double weight = 1.0;                // of beam B
