@@ -41,7 +41,8 @@ struct LightBalanceState {
     double level = 0.0;                 // P_0
     double offset = 0.0;                // of beam B, in the unit of the samples
     double variance = 1e-7;             // of that, in units of w P_0/2
-    double jumps = 0.0, weights = 0.0;  // sums of h J/r and h^2/r, J: recent jumps, r: their variances
+    double jumps = 0.0, weights = 0.0;  // sums of h J/r and h^2/r of recent ones
+    SeenJump seen{};                    // the last one
     double n_ticks = 0.0;               // that were learnt from, up to `balance_ticks`
     bool changes = false;               // the balance has changed
     bool has_last = false;              // the half before was read:
