@@ -68,6 +68,7 @@ void learn_weight(const LightBalanceConfig& config, LightBalanceState& s, const 
 
 double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& half,
                             double signal_per_lambda) noexcept {
+    if (state.n_ticks < known_ticks) return 1.0;  // any jump
     const double unseen = 1.0 / (state.weights + 1.0 / square(presumed_offset));
     return unseen * square(jump_per_offset(state, half, signal_per_lambda));
 }
