@@ -3,6 +3,8 @@
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
@@ -74,6 +76,9 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
     o.coil = step(c.coil_monitor, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
 }
 
+// Of one half; more than noise, and .03 wavelength of the paper's gyro.
+constexpr double unsure_signal = 0.01;
+
 void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     if (!o.fresh) {
         s.light_monitor.has_last = false;
@@ -114,8 +119,11 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
     // The jump of a beam that has faded is not that of an offset.
     if (o.monitored.has_jump && half.is_read && !s.light_monitor.is_unbalanced)
         learn_offset(s.light_balance, half, s.light_monitor.jump, per_lambda);
+    // Where the balance of the beams is not known, one half alone does not tell it from a detuning.
+    const bool is_first = !light_b.empty() && s.light_balance.n_ticks == 0.0 && !s.light_balance.has_last &&
+                          size(o.light.signal) > unsure_signal;
     follow(c.light_balance, s.light_balance, half);
-    o.detuning_usable = o.monitored.usable;
+    o.detuning_usable = o.monitored.usable && !is_first;
     o.lit = o.light.two_way || o.monitored.contradicted;
     s.light_spoilt = o.monitored.stuck || o.monitored.noisy || o.monitored.unbalanced || o.monitored.contradicted;
 }
