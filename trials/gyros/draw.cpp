@@ -98,6 +98,13 @@ constexpr Range of_photodiodes[] = {
     {"photodiodes.jitter_s", Law::even, 0, 5e-8},
 };
 
+// Two photodiodes of one batch or of two, their dark light, and a tube that fades within hours.
+constexpr Range of_light[] = {
+    {"light.gain_b", Law::logarithmic, 0.7, 1.4}, {"light.gain_drift_per_h", Law::even, -0.05, 0.05},
+    {"light.offset_a", Law::even, -0.01, 0.01},   {"light.offset_b", Law::even, -0.01, 0.01},
+    {"light.power_decay_per_h", Law::even, 0, 1},
+};
+
 constexpr double longest_gap_ticks = 16.0;  // of the core
 
 class Drawing {
@@ -170,6 +177,7 @@ private:
 
     void set_gyro() {
         set(of_any_gyro);
+        set(of_light);
         set_log("gyro.bias_edge_s", 0.005 * c_.gyro.tick_s, 0.04 * c_.gyro.tick_s);  // coil and driver
         set("gyro.first_bias_sign", draws_.of("gyro.first_bias_sign").sign());
         set_one_of("gyro.readout", std::array{"count", "count", "phase"});

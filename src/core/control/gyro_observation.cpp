@@ -80,6 +80,9 @@ void balance_light(const GyroControlConfig& c, GyroControlState& s, const Observ
     follow(c.limits, s.light_balance, half);
 }
 
+// Of one half; more than noise, and .03 wavelength of the paper's gyro.
+constexpr double unsure_signal = 0.01;
+
 void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     if (!o.order.fresh) {
         s.light_monitor.has_last = false;
@@ -104,8 +107,12 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
     const double unknown_lambda2 = o.settled ? 0.0 : unknown_jump_lambda2(s.light_balance, half, per_lambda);
     o.monitored = step(c.limits, s.light_monitor,
                        {c.detector, light, o.light, o.loop_closed, o.settled, o.bias.deficit_ratio, unknown_lambda2});
+    // Where the balance of the beams is not known, one half alone does not tell it from a detuning.
+    const bool begins = !o.settled && !light_b.empty() && s.light_balance.n_ticks == 0.0 && !s.light_balance.has_last &&
+                        size(half.signal) > unsure_signal;
     // Of a settled gyro two ticks in eight tell enough.
     if (!o.settled || s.half % 16 >= 12) balance_light(c, s, o, half);
+    if (begins) o.light.usable = false;
     o.lit = o.light.two_way || o.monitored.contradicted;
     o.lased = o.lit && o.loop_closed;
     s.light_spoilt = loses<Loses::light>(c, s, o);

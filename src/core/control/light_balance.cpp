@@ -11,9 +11,6 @@ namespace {
 // learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
 constexpr double memory_ticks = 100.0;
 
-// Before w is known to a part of 1e-4 a jump is that of the gains.
-constexpr double known_ticks = 40.0;
-
 constexpr double max_change = 0.0133;
 
 // A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
@@ -69,6 +66,7 @@ void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const Balan
 
 double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& half,
                             double signal_per_lambda) noexcept {
+    if (state.n_ticks < known_ticks) return 1.0;  // any jump
     const double unseen = 1.0 / (state.weights + 1.0 / square(presumed_offset));
     return unseen * square(jump_per_offset(state, half, signal_per_lambda));
 }

@@ -37,8 +37,8 @@ template <class Row>
     row(health_light_stuck, Loses::light, o.monitored.stuck);
     row(no_bit, Loses::light, o.monitored.noisy);
     row(health_light_noisy, Loses::nothing, o.monitored.noisy || o.monitored.withheld);
-    row(health_light_unbalanced, Loses::light, o.monitored.unbalanced);
-    row(health_light_unbalanced, Loses::nothing, s.light_balance.changes);
+    row(no_bit, Loses::light, o.monitored.unbalanced);
+    row(health_light_unbalanced, Loses::nothing, s.light_balance.changes || (o.monitored.unbalanced && !is_learning(s.light_balance)));
     row(health_light_contradicted, Loses::light, o.monitored.contradicted);
     row(health_detuning_unsteady, Loses::counts, o.unsteady);
     row(health_detuning_over_limit, Loses::nothing, o.regulated.over_limit);

@@ -42,8 +42,8 @@ TEST(GyroCampaign, TheSampleSwitchesAndIsValid) {
 
 // All that makes a gyro, its motion and what is done with it; not how a file is read.
 TEST(GyroCampaign, EveryKeyThatMakesAGyroIsDrawn) {
-    const std::set<std::string> sections{"gyro",        "laser",     "drift",        "perimeter", "piezo",
-                                         "photodiodes", "switching", "compensation", "motion"};
+    const std::set<std::string> sections{"gyro",  "laser",       "light",     "drift",        "perimeter",
+                                         "piezo", "photodiodes", "switching", "compensation", "motion"};
     const std::set<std::string> of_motions{"kind", "rate_arcsec_s", "amplitude_arcsec_s", "frequency_hz", "phase_deg"};
     std::set<std::string> wanted;
     for (const config::KeyInfo& key : config::describe_keys()) {

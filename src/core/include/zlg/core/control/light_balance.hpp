@@ -57,6 +57,13 @@ struct LightBalanceState {
     return {state.weight, state.weight * state.offset};
 }
 
+// Ticks before which w is not known to a part of 1e-4: a jump is then that of the gains.
+inline constexpr double known_ticks = 40.0;
+
+[[nodiscard]] constexpr bool is_learning(const LightBalanceState& state) noexcept {
+    return (state.n_ticks > 0.0 || state.has_last) && state.n_ticks < known_ticks;
+}
+
 // One half of balanced light, its means.
 struct BalancedHalf {
     bool is_first = false;  // of its tick
