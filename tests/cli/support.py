@@ -156,6 +156,13 @@ class CliTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, f"zlg {' '.join(map(str, arguments))}\nstderr: {result.stderr}")
         return result
 
+    def lack_switches(self, *arguments, **options):
+        """More than one switch in ten was withheld or failed: the files are written, and the exit status is 1."""
+        result = run(*arguments, **options)
+        self.assertEqual(result.returncode, 1, f"zlg {' '.join(map(str, arguments))}\nstderr: {result.stderr}")
+        self.assertRegex(result.stderr, r"switch(es)? of modes .*(failed|withheld)")
+        return result
+
     def process(self, rows, settings, columns=None, lines=(), name="log"):
         """`zlg process` on these rows; the angle log."""
         raw = self.write(f"{name}.csv", csv_text(rows, columns, lines, facts=False))

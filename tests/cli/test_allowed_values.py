@@ -85,7 +85,7 @@ class AllowedValues(CliTest):
                 if result.returncode == 0:
                     continue
                 # A gyro that cannot switch is a result: a piezo of a thousand seconds, say.
-                if result.returncode == 1 and lines and "no switch of modes succeeded" in lines[-1]:
+                if result.returncode == 1 and lines and re.search("switch(es)? of modes", lines[-1]):
                     continue
                 named = result.returncode in (2, 3) and len(lines) == 1 and key in lines[0]
                 if not named:

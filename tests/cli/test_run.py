@@ -220,7 +220,7 @@ class Switches(CliTest):
     def test_a_laser_that_is_dark_at_its_miss_switches_at_the_second_attempt(self):
         short = [word for setting in ("gyro.fidelity=laser", "laser.perimeter_m=0.12", "perimeter.loop=digital", "switching.interval_s=5")
                  for word in ("--set", setting)]
-        result = json.loads(self.succeed("run", *short, "--duration", 32, "--json", "--out", self.folder / "run").stdout)
+        result = json.loads(self.lack_switches("run", *short, "--duration", 32, "--json", "--out", self.folder / "run").stdout)
         self.assertGreaterEqual(result["switches"], 3)
         self.assertLess(abs(result["variants"][-1]["angle_error_arcsec"]), 60.0)
 
@@ -252,7 +252,7 @@ class WhatIsCounted(CliTest):
 
     def result(self, *settings):
         out = self.folder / "run"
-        shown = self.succeed("run", *settings, "--out", out, "--format", "csv", "--force").stdout
+        shown = run("run", *settings, "--out", out, "--format", "csv", "--force").stdout
         rows = list(csv.DictReader(body_of(out / "raw.csv").decode().splitlines()))
         ticks = list(zip(rows[0::2], rows[1::2]))
         measured = [all(half[name] == "1" for half in tick for name in ("loop_closed", "valid", "span")) for tick in ticks]

@@ -6,7 +6,6 @@ build/release otherwise.
 
 import os
 import re
-import shutil
 import subprocess
 import tempfile
 import unittest
@@ -15,7 +14,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("ZLG_BUILD", ROOT / "build" / "release")).resolve()
 IMAGE = BUILD / "firmware" / "zlg_gyro_faults.elf"
-ZLG = BUILD / "bin" / "zlg"
 
 # In the order of the image's table.
 CASES = ["nothing", "undefined_instruction", "no_coprocessor", "unaligned", "divide_by_zero", "bad_branch", "run_in_memory",
@@ -174,35 +172,6 @@ class Life(FaultTest):
     def test_one_half_that_takes_too_long_is_counted(self):
         report = self.provoke("overrun_once")
         self.assertEqual((report.numbers["starts"], report.numbers["overruns"]), (1, 1), report.lines)
-
-
-class LockStep(FaultTest):
-    """A host that drives the image hears why it has begun anew."""
-
-    def run_with(self, case):
-        with tempfile.TemporaryDirectory() as folder:
-            emulator = Path(folder) / "qemu-system-arm"
-            emulator.write_text(f'#!/bin/sh\nexec {shutil.which("qemu-system-arm")} "$@" '
-                                f'-device loader,addr=0x60800000,data={CASES.index(case)},data-len=4\n', encoding="ascii")
-            emulator.chmod(0o755)
-            return subprocess.run([ZLG, "run", "--processor", "qemu", "--image", IMAGE, "--set", "run.duration_s=1",
-                                   "--out", Path(folder) / "out"], env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"},
-                                  capture_output=True, text=True, timeout=120, check=False)
-
-    @unittest.skipUnless(ZLG.is_file(), f"no {ZLG}")
-    def test_the_host_ends_with_the_reason(self):
-        for case, reason in (("divide_by_zero", "divide_by_zero"), ("stack_overflow_in_half", "stack_overflow")):
-            with self.subTest(case):
-                run = self.run_with(case)
-                self.assertEqual(run.returncode, 3, run.stderr)
-                self.assertRegex(run.stderr, rf"begun anew: {reason} pc=.* halves={QUIET_HALVES} ")
-                # On a busy machine the program may have warned how long the run would take.
-                said = [line for line in run.stderr.splitlines() if not line.startswith("zlg: warning: this takes about")]
-                self.assertEqual(len(said), 1, run.stderr)
-
-    @unittest.skipUnless(ZLG.is_file(), f"no {ZLG}")
-    def test_without_a_fault_the_run_is_whole(self):
-        self.assertEqual(self.run_with("nothing").returncode, 0)
 
 
 if __name__ == "__main__":

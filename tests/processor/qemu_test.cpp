@@ -101,6 +101,33 @@ TEST(QemuProcessor, gives_up_an_emulator_that_hangs_and_ends_it) {
     fs::remove(program);
 }
 
+// Of the image that provokes faults, with the number of a case of tests/firmware/test_faults.py; empty where it runs to its end.
+std::string complaint_of_case(const std::string& image, int number) {
+    const std::string program =
+        script("provokes", "exec qemu-system-arm \"$@\" -device loader,addr=0x60800000,data=" + std::to_string(number) +
+                               ",data-len=4");
+    const config::Config c;
+    try {
+        QemuProcessor processor{{.image = image, .program = program}};
+        rig::ClosedLoop loop{c, rig::motion(c), &processor};
+        for (int k = 0; k < 400; ++k) (void)loop.advance();
+    } catch (const QemuError& error) {
+        fs::remove(program);
+        return error.what();
+    }
+    fs::remove(program);
+    return "";
+}
+
+TEST(QemuProcessor, says_why_an_image_has_begun_anew) {
+    const std::optional<std::string> image = test::built_image("zlg_gyro_faults.elf");
+    if (!image) GTEST_SKIP() << "no image that provokes faults, or no emulator";
+    EXPECT_EQ(complaint_of_case(*image, 0), "");
+    EXPECT_NE(complaint_of_case(*image, 4).find("begun anew: divide_by_zero pc="), std::string::npos);
+    const std::string said = complaint_of_case(*image, 19);
+    EXPECT_NE(said.find("begun anew: stack_overflow pc="), std::string::npos) << said;
+}
+
 TEST(QemuProcessor, ends_with_a_program_that_is_killed) {
     const std::string program = script("outlives", "echo $$ >$0.new; mv $0.new $0.pid; exec sleep 1000");
     const pid_t owner = fork();
