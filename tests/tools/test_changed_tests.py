@@ -36,7 +36,7 @@ CHOICES = {
         ["src/core/include/zlg/core/records.hpp"],
         ["own core", "users firmware rig study trials twin wire", "later cli firmware lab processor python"]),
     "the estimate of a switch, which NumPy judges": (
-        ["src/core/compensation/estimate/counter_rounding.cpp"],
+        ["src/core/compensation/estimate/walk_kernel.cpp"],
         ["own core", "users firmware rig study trials wire", "core tests/core/test_estimate.py", "later cli firmware lab processor python"]),
     "its test": (["tests/core/test_estimate.py"], ["core tests/core/test_estimate.py"]),
     "its reference": (["tests/reference/gap_estimator.py"], ["tools tests/tools", "core tests/core/test_estimate.py"]),

@@ -2,9 +2,9 @@
 
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
+#include <zlg/core/compensation/switch_light.hpp>
 
 #include "common/bounds.hpp"
-#include "compensation/relock/relock_light.hpp"
 
 namespace zlg::core {
 namespace {
@@ -94,15 +94,8 @@ CountedStretch step(const CompensationConstants& gyro, CountedStretchState& stat
     if (state.uncovered > 0) return {};
     CountedStretch out;
     // Without either nothing bounds the false drift.
-    if (!state.broken && (state.known_before || state.seen)) {
-        out.n_ticks = state.n_ticks;
-        out.angle_arcsec = angle(gyro, state, bias, second, edges);
-        out.start_border = state.start_border;
-        out.fall_lambda2 = state.max_sq_lambda2 - state.min_sq_lambda2;
-        out.seen = state.seen;
-        out.deficit_lambda2 = state.deficit_lambda2;
-        out.deficit_variance_lambda4 = state.deficit_variance_lambda4;
-    }
+    if (!state.broken && (state.known_before || state.seen))
+        out = {state.n_ticks, angle(gyro, state, bias, second, edges), state.max_sq_lambda2 - state.min_sq_lambda2};
     state.n_ticks = 0;
     const double last_sq_lambda2 = detuning_sq(gyro, second);
     if (last_sq_lambda2 > 0.0 && is_finite(last_sq_lambda2))

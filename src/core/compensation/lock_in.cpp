@@ -46,9 +46,9 @@ double likely_loss_sq(const Beats& b, double sigma) noexcept {
 
 }  // namespace
 
-LockInFault check(const LockInConfig& config) noexcept {
-    if (!is_within(config.threshold.value(), 0.0, max_threshold_hz)) return LockInFault::threshold;
-    return is_within(config.sigma.value(), 0.0, max_threshold_hz) ? LockInFault::none : LockInFault::sigma;
+bool is_allowed(const LockInConfig& config) noexcept {
+    return is_within(config.threshold.value(), 0.0, max_threshold_hz) &&
+           is_within(config.sigma.value(), 0.0, max_threshold_hz);
 }
 
 LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig& config, double first_counts,

@@ -23,23 +23,6 @@ constexpr double scale_wander = 1e-8;
 // A shift of it beyond five standard deviations is that of damaged records.
 constexpr double most_shift_sq = 25.0;
 
-// The points.
-struct Layout {
-    int n = 0;
-    std::array<int, most_window_rows> row{};  // of each
-};
-
-const WindowRow& row_of(const SwitchWindow& window, int r) noexcept { return window.row[static_cast<unsigned>(r)]; }
-
-double width(const WindowRow& row) noexcept { return row.halves.last - row.halves.first; }
-
-Layout layout_of(const SwitchWindow& window) noexcept {
-    Layout layout;
-    for (int r = 0; r < window.n_rows; ++r)
-        if (row_of(window, r).read) layout.row[static_cast<unsigned>(layout.n++)] = r;
-    return layout;
-}
-
 bool is_bridged(const WindowRow& row) noexcept { return row.wanted && !row.read; }
 
 // What the estimate is made from.
@@ -49,16 +32,17 @@ struct Problem {
     Triangle v;       // V of all rows
     Triangle errors;  // E of the points after the gap
     WindowReadings readings{};
-    Layout layout{};
-    int n_before = 0;            // points before it
-    double wanted_halves = 0.0;  // of the rows without a reading
-    double known_arcsec = 0.0;   // of those with one
+    int n = 0;                                 // points
+    std::array<int, most_window_rows> rows{};  // of each
+    int n_before = 0;                          // points before the gap
+    double wanted_halves = 0.0;                // of the rows without a reading
+    double known_arcsec = 0.0;                 // of those with one
 
     // Of a point after the gap with another point: what the error of a reading before the gap is has nothing to do with it.
     [[nodiscard]] double error(int a, int b) const noexcept {
         return a < n_before || b < n_before ? 0.0 : errors.at(a - n_before, b - n_before);
     }
-    [[nodiscard]] int row(int point) const noexcept { return layout.row[static_cast<unsigned>(point)]; }
+    [[nodiscard]] int row(int point) const noexcept { return rows[static_cast<unsigned>(point)]; }
     [[nodiscard]] bool is_corrected(int point) const noexcept { return row_of(window, row(point)).wanted; }
 };
 
@@ -75,8 +59,7 @@ struct Border {
 // E, and with it C + E of the points.
 void add_errors(const CompensationConstants& gyro, EstimateRoom& room, Problem& problem) noexcept {
     const ReadingErrors e{gyro, problem.window, problem.scale, room.halves, problem.readings};
-    const Layout& layout = problem.layout;
-    for (int a = 0; a < layout.n; ++a)
+    for (int a = 0; a < problem.n; ++a)
         for (int b = 0; b <= a; ++b) {
             const double error = e.of(problem.row(a), problem.row(b));
             problem.v.row(problem.row(a))[problem.row(b)] += error;
@@ -86,7 +69,7 @@ void add_errors(const CompensationConstants& gyro, EstimateRoom& room, Problem& 
 
 void set_target(const Problem& problem, Border& border) noexcept {
     const SwitchWindow& window = problem.window;
-    const int n = problem.layout.n;
+    const int n = problem.n;
     border.target_variance = 0.0;
     for (int a = 0; a < n; ++a) {
         double sum = 0.0;
@@ -107,7 +90,7 @@ void set_target(const Problem& problem, Border& border) noexcept {
 Border border_of(const Problem& problem) noexcept {
     Border border;
     set_target(problem, border);
-    for (int a = 0; a < problem.layout.n; ++a) {
+    for (int a = 0; a < problem.n; ++a) {
         const auto at = static_cast<unsigned>(a);
         const auto r = static_cast<unsigned>(problem.row(a));
         border.level[at] = width(problem.window.row[r]);
@@ -235,7 +218,7 @@ KernelTarget target_of(const Problem& problem, const Kernel& kernel) noexcept {
     KernelTarget target;
     for (int u = 0; u < window.n_rows; ++u) {
         if (!is_bridged(row_of(window, u))) continue;
-        for (int a = 0; a < problem.layout.n; ++a) {
+        for (int a = 0; a < problem.n; ++a) {
             const int r = problem.row(a);
             target.with[static_cast<unsigned>(a)] += r < u ? kernel.at(r, u) : kernel.at(u, r);
         }
@@ -247,7 +230,7 @@ KernelTarget target_of(const Problem& problem, const Kernel& kernel) noexcept {
 
 // V of the points, with a kernel of this size.
 void build(const Problem& problem, const Kernel* kernel, double size, Triangle into) noexcept {
-    for (int a = 0; a < problem.layout.n; ++a) {
+    for (int a = 0; a < problem.n; ++a) {
         const double* const v = problem.v.row(problem.row(a));
         double* const to = into.row(a);
         if (kernel != nullptr)
@@ -283,7 +266,7 @@ bool factorise_widened(Triangle v, double* reciprocal, int n) noexcept {
 // return  false where V_m is not positive definite.
 bool solve(const Problem& problem, const Border& border, const KernelTarget* kernel, double size, Triangle factor,
            MemberEstimate& found) noexcept {
-    const int n = problem.layout.n;
+    const int n = problem.n;
     PointValues reciprocal{};
     if (!factorise_widened(factor, reciprocal.data(), n)) return false;
     double* const target = factor.row(n);
@@ -318,9 +301,9 @@ bool solve(const Problem& problem, const Border& border, const KernelTarget* ker
 double smallest_pivot(const Problem& problem, Triangle factor) noexcept {
     PointValues reciprocal{};
     build(problem, nullptr, 0.0, factor);
-    if (!factorise(factor, reciprocal.data(), problem.layout.n)) return 0.0;
+    if (!factorise(factor, reciprocal.data(), problem.n)) return 0.0;
     double least = infinity;
-    for (int a = 0; a < problem.layout.n; ++a)
+    for (int a = 0; a < problem.n; ++a)
         if (square(factor.row(a)[a]) < least) least = square(factor.row(a)[a]);
     return least;
 }
@@ -409,7 +392,7 @@ void add_likeliest(const Candidate& likeliest, std::span<const BankMember> bank,
 // return  false where that is not positive definite.
 bool spread(const Problem& problem, Border& border, Triangle factor, SwitchEstimate& result) noexcept {
     const SwitchWindow& window = problem.window;
-    const int n = problem.layout.n;
+    const int n = problem.n;
     PointValues reciprocal{};
     build(problem, nullptr, 0.0, factor);
     if (!factorise_widened(factor, reciprocal.data(), n)) return false;
@@ -484,10 +467,12 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     SwitchEstimate result{.scale = scale};
     const Triangle factor{room.factor.data()};
     Problem problem{window, scale, Triangle{room.covariance.data()}, Triangle{room.errors.data()}};
-    problem.layout = layout_of(window);
-    for (int a = 0; a < problem.layout.n; ++a) problem.n_before += !row_of(window, problem.row(a)).after_gap;
-    const int n_after = problem.layout.n - problem.n_before;
-    if (problem.layout.n > most_window_points || n_after > most_points_after) return result;
+    for (int r = 0; r < window.n_rows; ++r) {
+        if (!row_of(window, r).read) continue;
+        problem.rows[static_cast<unsigned>(problem.n++)] = r;
+        problem.n_before += !row_of(window, r).after_gap;
+    }
+    if (problem.n > most_window_points || problem.n - problem.n_before > most_points_after) return result;
     // Of another configuration: what is learnt is shorter.
     if (window.n_halves > motion.length * motion.step_halves) return result;
     learnt_covariance(gyro, window, motion, problem.v);

@@ -43,13 +43,6 @@ void set_unrepaired(const OpenGap& open, AngleRow& row) noexcept {
     row.flags |= flag_unrepaired;
 }
 
-// A row of a gap that is extrapolated from the ticks before it.
-void set_extrapolated(AngleRow& row, double value_arcsec, double variance_arcsec2) noexcept {
-    row.dtheta_arcsec = value_arcsec;
-    row.dtheta_final_arcsec = value_arcsec;
-    row.sigma_arcsec = deviation(variance_arcsec2);
-}
-
 // dtheta of the gap's tick j, and what its final value is if the log ends here.
 void extrapolate(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
                  HistoryTick& entry, std::int32_t j) noexcept {
@@ -72,7 +65,8 @@ void extrapolate(const CompensationConstants& gyro, const GapBridgeConfig& confi
             variance -=
                 shared_rounding(usual, open.variance_arcsec2[k - 1], open.variance_arcsec2[k]) * w[k] * w[k - 1];
     }
-    set_extrapolated(row, sum, variance);
+    row.dtheta_arcsec = row.dtheta_final_arcsec = sum;
+    row.sigma_arcsec = deviation(variance);
     if (open.lower_order) row.flags |= flag_lower_order;
 }
 
@@ -113,8 +107,7 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
     const std::int64_t first = gap.n == longest + 1 ? gap.first_tick : tick;
     const ExactSum change =
         settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec).change_arcsec;
-    gap.final_minus_delivered_arcsec.add(change.high);
-    gap.final_minus_delivered_arcsec.add(change.low);
+    gap.final_minus_delivered_arcsec.add(change);
 }
 
 // The first tick after a gap: from here on the gap waits.
@@ -218,12 +211,10 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
         if (found.known) state.scale = found.scale;
         difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, report);
         if (found.known) report.sigma_sum_arcsec = deviation(found.variance_arcsec2);
-        pending.correction_arcsec.add(found.after_arcsec.high);
-        pending.correction_arcsec.add(found.after_arcsec.low);
+        pending.correction_arcsec.add(found.after_arcsec);
         const KnownShift known =
             settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
-        difference.add(known.change_arcsec.high);
-        difference.add(known.change_arcsec.low);
+        difference.add(known.change_arcsec);
         if (known.variance_arcsec2 > 0.0)
             report.sigma_sum_arcsec = deviation(square(report.sigma_sum_arcsec) + known.variance_arcsec2);
     }
@@ -232,8 +223,7 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     else if (is_short && state.common_arcsec2 > 0.0)
         widen_in_common(config, state, gap, report);
     report.dp_arcsec = -difference.value();
-    pending.correction_arcsec.add(difference.high);
-    pending.correction_arcsec.add(difference.low);
+    pending.correction_arcsec.add(difference);
     // What the ticks behind the estimate add to the angle of the switch.
     if (is_estimate && !is_known(gap))
         report.sigma_sum_arcsec =
@@ -256,8 +246,7 @@ double deliver(const GapBridgeConfig& config, GapBridgeState& state, HistoryTick
             ++kept;
             continue;
         }
-        sum.add(pending.correction_arcsec.high);
-        sum.add(pending.correction_arcsec.low);
+        sum.add(pending.correction_arcsec);
         is_correction = is_correction || pending.correction_arcsec != ExactSum{};
     }
     if (kept == state.n_pending) return entry.row.dtheta_final_arcsec;
@@ -302,8 +291,7 @@ void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& confi
                  std::int64_t tick, bool late, AngleSample& sample) noexcept {
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.due_tick - pending.ready_before == tick && is_estimated(config) &&
-            pending.gap.n <= max_gap_ticks(config))
+        if (pending.due_tick - pending.ready_before == tick)
             pending.asked = ask(gyro, config, state, pending.gap, tick);
         if (pending.is_reported || pending.due_tick > tick) continue;
         GapReport report;
@@ -359,8 +347,7 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.is_reported) continue;
-        if (!pending.asked && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
-            pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
+        if (!pending.asked) pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
         work(gyro, config, state);
         out.has_gap = resolve(gyro, config, state, pending, state.next_tick, false, out.gap);
     }

@@ -23,6 +23,10 @@ struct ExactSum {
         high = sum + low;
         low -= high - sum;
     }
+    constexpr void add(const ExactSum& x) noexcept {
+        add(x.high);
+        add(x.low);
+    }
     [[nodiscard]] constexpr double value() const noexcept { return high + low; }
 };
 

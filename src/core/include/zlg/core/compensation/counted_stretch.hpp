@@ -43,15 +43,12 @@ struct CountedStretchState {
     friend bool operator==(const CountedStretchState&, const CountedStretchState&) = default;
 };
 
+// Its first border, its last one being that of the tick, and what the light says of it: in the state.
 struct CountedStretch {
     std::int64_t n_ticks = 0;  // that end now; 0: nothing is known
     double angle_arcsec = 0.0;
-    Border start_border{};  // its last one is that of the tick
     double fall_lambda2 =
-        0.0;            // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
-    bool seen = false;  // the light was read in all halves:
-    double deficit_lambda2 = 0.0;  // sum of s <dl^2>
-    double deficit_variance_lambda4 = 0.0;
+        0.0;  // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
 };
 
 // Mean square of the detuning from the centre of the bias, by the curve of the discriminator; 0 where it was not

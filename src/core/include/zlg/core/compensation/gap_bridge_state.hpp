@@ -7,7 +7,7 @@
 #include <zlg/core/compensation/angle.hpp>
 #include <zlg/core/compensation/gap_bridge_config.hpp>
 #include <zlg/core/compensation/gap_tick.hpp>
-#include <zlg/core/compensation/motion_spread.hpp>
+#include <zlg/core/compensation/learnt_motion.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
 #include <zlg/core/compensation/switch_job.hpp>
 #include <zlg/core/compensation/switch_light.hpp>

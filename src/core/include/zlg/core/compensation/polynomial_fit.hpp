@@ -16,17 +16,14 @@ inline constexpr int max_fit_points = 16;
 inline constexpr int max_fit_order = 2;
 using FitWeights = std::array<double, max_fit_points>;
 
-// Weight of one point as a function of the whole number j, or of several of them side by side.
+// Weight of one point as a function of the whole number j.
 struct PointWeight {
     double by_1;
     double by_j;
     double by_j2;
     double determinant;
 
-    template <class Number>
-    [[nodiscard]] Number at(Number j) const noexcept {
-        return ((by_j2 * j + by_j) * j + by_1) / determinant;
-    }
+    [[nodiscard]] double at(double j) const noexcept { return ((by_j2 * j + by_j) * j + by_1) / determinant; }
 };
 
 class PolynomialFit {
