@@ -29,7 +29,7 @@ PART_OF = {
     "compensation_constants": "relock_drift",
     "gap_known": "counted_stretch",
     "stage_model": "perimeter_loop",
-    **dict.fromkeys(["maths_kernels", "exponential", "hyperbolic_tangent", "hypot", "inverse", "logarithm", "power", "reduction",
+    **dict.fromkeys(["maths_kernels", "exponential", "hyperbolic_tangent", "hypot", "inverse", "logarithm", "reduction",
                      "trigonometric", "turns_of"], "relock_drift"),
     "as_double": "relock_drift",
     "gyro_control_state": "gyro_control",

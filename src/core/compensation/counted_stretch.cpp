@@ -46,9 +46,7 @@ void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges
     s.deficit_lambda2 = s.deficit_variance_lambda4 = 0.0;
     s.mode = mode;
     s.counts = s.area_ticks = 0;
-    s.start_ticks = edges.offset_ticks;
-    s.start_known = edges.follows;
-    s.start_arcsec = edges.beyond_arcsec;
+    s.start = edges;
 }
 
 void add_area(CountedStretchState& s, const HalfRecord& first, const HalfRecord& second, std::int32_t start) noexcept {
@@ -66,7 +64,7 @@ double angle(const CompensationConstants& gyro, const CountedStretchState& s, He
     const double area = plateau_per_tick(gyro, bias) * as_double(s.area_ticks);
     const double turn = (counts - area) / as_double(s.n_ticks);
     const double ticks = gyro.tick.value() * gyro.timer.value();
-    const double start_arcsec = s.start_known ? s.start_arcsec : scale * turn * (s.start_ticks / ticks);
+    const double start_arcsec = s.start.follows ? s.start.beyond_arcsec : scale * turn * (s.start.offset_ticks / ticks);
     const double end_arcsec = scale * turn * (end / ticks);
     edges.follows = true;
     edges.turn_counts = turn;

@@ -26,9 +26,10 @@ void sanitise(const GyroCompensationConfig& config, GyroCompensationState& state
     if (half.span < 1) half.span = 1;
 }
 
-// The readings at both ends of a tick.
+// The readings at both ends of a tick, and between its halves.
 struct Borders {
     Border start{};
+    Border middle{};
     Border end{};
 };
 
@@ -84,18 +85,13 @@ bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !h
 void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
                        const Borders& borders, TickInput& tick) noexcept {
     const double scale = config.gyro.scale.value();
-    const Border middle = border_of(first);
-    const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in,
-                                            counts_and_parts(first.counts, parts_between(borders.start, middle)),
-                                            counts_and_parts(second.counts, parts_between(middle, borders.end)));
+    const LostCounts lost = lost_to_lock_in(
+        config.gyro, config.lock_in, counts_and_parts(first.counts, parts_between(borders.start, borders.middle)),
+        counts_and_parts(second.counts, parts_between(borders.middle, borders.end)));
     tick.value_arcsec += scale * lost.value;
     tick.common_arcsec2 = scale * scale * lost.variance;
     tick.variance_arcsec2 += tick.common_arcsec2;
 }
-
-// Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and no spline goes through that: these
-// halves are read by their records.
-bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_closed && half.valid && half.span == 1; }
 
 void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                 LightSamples light, int k) noexcept {
@@ -140,10 +136,12 @@ void read_halves(const GyroCompensationConfig& config, const HalfRecord& first, 
     }
 }
 
-// A lit half of a gap, where its counts are an angle.
+// A lit half of a gap, where its counts are an angle. Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and
+// no spline goes through that: these halves are read by their records.
 void read_lit_half(const GyroCompensationConfig& config, const GyroCompensationState& state, const HalfRecord& half,
                    const Border& from, const Border& to, HalfReading& reading) noexcept {
-    if (!is_lit(half) || half.edge_offset_ticks != 0 || !(state.n_bias > 0.0)) return;
+    const bool is_lit = half.lit && !half.loop_closed && half.valid && half.span == 1;
+    if (!is_lit || half.edge_offset_ticks != 0 || !(state.n_bias > 0.0)) return;
     if (state.bridge.with_phase && !(from.is_known() && to.is_known())) return;
     reading.read = reading.lit = true;
     reading.angle_arcsec = config.gyro.scale.value() * counts_and_parts(half.counts, parts_between(from, to)) -
@@ -162,14 +160,6 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
     if (n != (by_phase ? 0 : phase_debounce)) return;
     by_phase = !by_phase;
     state.bridge.spread = {};
-}
-
-// Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
-// the difference of their places within the count.
-double known_excess(const EdgeShiftOutput& shifted, const Borders& borders, const HalfRecord& first) noexcept {
-    const Border middle = border_of(first);
-    const std::int32_t parts = parts_between(borders.start, middle) - parts_between(middle, borders.end);
-    return shifted.known_excess_counts - counts_and_parts(0, parts);
 }
 
 // Number of recent switches over which the mean square of their errors is taken.
@@ -264,7 +254,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     const HalfRecord& first = state.first;
     state.has_first = false;
 
-    const Borders borders{state.border, border_of(second)};
+    const Borders borders{state.border, border_of(first), border_of(second)};
     state.border = borders.end;
     const EdgeShiftState edges_before = state.edges;
     const std::int32_t parts = parts_between(borders.start, borders.end);
@@ -273,10 +263,14 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     take_light(config, state, second, light, 1);
     double half_excess = 0.0;
     if (tick.measured) {
-        tick.with_phase = borders.start.is_known() && border_of(first).is_known() && borders.end.is_known();
+        tick.with_phase = borders.start.is_known() && borders.middle.is_known() && borders.end.is_known();
         note_phase(state, tick.with_phase);
         give_back_lock_in(config, first, second, borders, tick);
-        const double excess = known_excess(shifted, borders, first);
+        // Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
+        // the difference of their places within the count.
+        const std::int32_t unequal =
+            parts_between(borders.start, borders.middle) - parts_between(borders.middle, borders.end);
+        const double excess = shifted.known_excess_counts - counts_and_parts(0, unequal);
         const RelockTick read{first, second, excess, tick.with_phase};
         tick.variance_arcsec2 += pushed_arcsec2(config.gyro, config.relock, state.relock, read, tick.variance_arcsec2);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
@@ -312,12 +306,11 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     state.refused = second.loop_closed && !second.valid;
     tick.value_arcsec -= magnetic_arcsec(config, state, tick);
     if (is_estimated(config.bridge)) {
-        const Border middle = border_of(first);
         if (tick.measured) {
             read_halves(config, first, second, half_excess, tick);
         } else {
-            read_lit_half(config, state, first, borders.start, middle, tick.half[0]);
-            read_lit_half(config, state, second, middle, borders.end, tick.half[1]);
+            read_lit_half(config, state, first, borders.start, borders.middle, tick.half[0]);
+            read_lit_half(config, state, second, borders.middle, borders.end, tick.half[1]);
         }
     }
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};

@@ -34,10 +34,8 @@ struct CountedStretchState {
     std::int32_t uncovered = 0;  // halves up to now that no counts go over yet
     bool broken = false;         // the counts do not give the angle
     std::int8_t mode = 1;
-    std::int64_t area_ticks = 0;   // sum of bias_sign * mode * d
-    std::int32_t start_ticks = 0;  // shift of the reversal that begins the stretch,
-    bool start_known = false;      // and x there
-    double start_arcsec = 0.0;
+    std::int64_t area_ticks = 0;  // sum of bias_sign * mode * d
+    EdgeShiftState start{};       // the reversal that begins the stretch
     Border start_border{};
 
     friend bool operator==(const CountedStretchState&, const CountedStretchState&) = default;
