@@ -18,16 +18,12 @@ void see_detuning(CountedStretchState& s, double sq_lambda2) noexcept {
     if (sq_lambda2 > s.max_sq_lambda2) s.max_sq_lambda2 = sq_lambda2;
 }
 
-void add_deficit(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
+void add_half(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
+    see_detuning(s, detuning_sq(gyro, half));
     const RecordedSquare recorded = recorded_square(gyro, half);
     if (!recorded.known) s.seen = false;
     s.deficit_lambda2 += half.bias_sign * half.mode * recorded.mean_sq_lambda2;
     s.deficit_variance_lambda4 += recorded.variance_lambda4;
-}
-
-void add_half(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
-    see_detuning(s, detuning_sq(gyro, half));
-    add_deficit(gyro, s, half);
     if (!half.loop_closed) s.known_before = false;
     if (!half.loop_closed || half.mode != s.mode) s.broken = true;
     if (!half.valid) return count_up(s.uncovered);

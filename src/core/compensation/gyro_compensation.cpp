@@ -205,17 +205,6 @@ double unseen_arcsec2(const CompensationConstants& gyro) noexcept {
 // the reading of a large detuning.
 constexpr double law_part = 0.03;
 
-// What lock-in takes from the known sum of a gap's ticks, at their mean rate, given back to it.
-void give_back_lock_in(const GyroCompensationConfig& config, double turn_counts, Hertz bias, TickInput& tick) noexcept {
-    const double turn = 0.5 * turn_counts, of_bias = 0.5 * bias.value() * config.gyro.tick.value();
-    const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in, turn + of_bias, turn - of_bias);
-    const double arcsec = config.gyro.scale.value() * as_double(tick.known_ticks);
-    const double scale = config.gyro.scale.value();
-    tick.variance_arcsec2 += scale * scale * lost.variance;
-    tick.known_arcsec += arcsec * lost.value;
-    tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
-}
-
 // The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
 // drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
 // exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any case the
@@ -242,7 +231,13 @@ void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& 
     tick.known_is_rough = settles;
     tick.known_drift_arcsec2 = drift_variance;
     tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
-    give_back_lock_in(config, state.edges.turn_counts, bias, tick);
+    // What lock-in takes from the ticks at their mean rate is given back.
+    const double turn = 0.5 * state.edges.turn_counts, of_bias = 0.5 * bias.value() * gyro.tick.value();
+    const LostCounts lost = lost_to_lock_in(gyro, config.lock_in, turn + of_bias, turn - of_bias);
+    const double scale = gyro.scale.value(), arcsec = scale * as_double(known.n_ticks);
+    tick.variance_arcsec2 += scale * scale * lost.variance;
+    tick.known_arcsec += arcsec * lost.value;
+    tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
     // What `step` has concluded from the sum about the edges holds for an even bias.
     if (settles) break_off(state.edges);
 }

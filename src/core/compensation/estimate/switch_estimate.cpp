@@ -102,15 +102,10 @@ Border border_of(const Problem& problem) noexcept {
 
 // Where a member walks in this window.
 Walk walk_of(const BankMember& member, const SwitchWindow& window) noexcept {
-    switch (member.place) {
-        case WalkPlace::beside:
-            return {member.kind, window.gap.first - member.halves, window.gap.last + member.halves};
-        case WalkPlace::after:
-            return {member.kind, window.gap.last + member.halves, window.n_halves};
-        case WalkPlace::everywhere:
-            break;
-    }
-    return {member.kind, 0, window.n_halves};
+    if (member.place == WalkPlace::everywhere) return {member.kind, 0, window.n_halves};
+    const int behind = window.gap.last + member.halves;
+    if (member.place == WalkPlace::after) return {member.kind, behind, window.n_halves};
+    return {member.kind, window.gap.first - member.halves, behind};
 }
 
 Stretch reversed(const SwitchWindow& window, const Stretch& s) noexcept {
@@ -316,43 +311,39 @@ struct Candidate {
 
 // Mean and variance of a mixture as its members come in, with weights relative to the best evidence so far (West, Comm. ACM 22
 // (1979) 532).
-class Mixture {
-public:
+struct Mixture {
+    Candidate likeliest{};
+    double sum = 0.0;               // of the weights; 0: it is empty
+    MeanVariance angle{}, scale{};  // variances times `sum`
+
     void add(double prior, const MemberEstimate& member, const Candidate& candidate) noexcept {
         if (member.evidence > best_evidence_) {
             const double keep = maths::exp(best_evidence_ - member.evidence);
-            sum_ *= keep;
+            sum *= keep;
             largest_ *= keep;
-            angle_.variance *= keep;
-            scale_.variance *= keep;
+            angle.variance *= keep;
+            scale.variance *= keep;
             best_evidence_ = member.evidence;
         }
         const double weight = prior * maths::exp(member.evidence - best_evidence_);
-        sum_ += weight;
-        if (!(sum_ > 0.0)) return;
-        take(weight, member.angle, angle_);
-        take(weight, member.scale, scale_);
+        sum += weight;
+        if (!(sum > 0.0)) return;
+        take(weight, member.angle, angle);
+        take(weight, member.scale, scale);
         if (!(weight > largest_)) return;
         largest_ = weight;
-        likeliest_ = candidate;
+        likeliest = candidate;
     }
-    [[nodiscard]] bool is_empty() const noexcept { return !(sum_ > 0.0); }
-    [[nodiscard]] const Candidate& likeliest() const noexcept { return likeliest_; }
-    [[nodiscard]] MeanVariance angle() const noexcept { return {angle_.mean, angle_.variance / sum_}; }
-    [[nodiscard]] MeanVariance scale() const noexcept { return {scale_.mean, scale_.variance / sum_}; }
 
 private:
-    void take(double weight, const MeanVariance& of_member, MeanVariance& sum) const noexcept {
-        const double off = of_member.mean - sum.mean;
-        sum.mean += off * (weight / sum_);
-        sum.variance += weight * (of_member.variance + off * (of_member.mean - sum.mean));
+    void take(double weight, const MeanVariance& of_member, MeanVariance& of_all) const noexcept {
+        const double off = of_member.mean - of_all.mean;
+        of_all.mean += off * (weight / sum);
+        of_all.variance += weight * (of_member.variance + off * (of_member.mean - of_all.mean));
     }
 
     double best_evidence_ = -infinity;
-    double sum_ = 0.0;
     double largest_ = 0.0;  // weight
-    Candidate likeliest_{};
-    MeanVariance angle_{}, scale_{};  // variances times sum_
 };
 
 // The mixture of the learnt motion and of all members of the bank.
@@ -488,16 +479,16 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     const double unit = smallest_pivot(problem, factor);
     if (!(unit > 0.0)) return result;
     const Mixture mixture = mixture_of(problem, border, motion.n_windows >= few_windows, bank, unit, factor, pause);
-    if (mixture.is_empty()) return result;
-    const MeanVariance angle = mixture.angle();
-    const MeanVariance shift = mixture.scale();
-    result.angle_arcsec = angle.mean + problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
-    result.variance_arcsec2 = angle.variance;
+    if (!(mixture.sum > 0.0)) return result;
+    const MeanVariance shift{mixture.scale.mean, mixture.scale.variance / mixture.sum};
+    result.angle_arcsec =
+        mixture.angle.mean + problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
+    result.variance_arcsec2 = mixture.angle.variance / mixture.sum;
     if (square(shift.mean) <= most_shift_sq * scale.variance) {
         result.scale.value = scale.value + shift.mean;
         result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
     }
-    add_likeliest(mixture.likeliest(), bank, problem);
+    add_likeliest(mixture.likeliest, bank, problem);
     result.known = spread(problem, border, factor, result);
     return result;
 }

@@ -63,12 +63,6 @@ private:
     std::array<int, most_moment_steps> start_;  // place of (i, i), less i
 };
 
-double trace_of(const Products& products, const SwitchWindow& window, int step) noexcept {
-    double sum = 0.0;
-    for (int h = 0; h < window.n_halves; h += step) sum += products.of({h, h + step}, {h, h + step});
-    return sum;
-}
-
 int sign_of(const SwitchWindow& window, int half) noexcept { return window.bias_sign[static_cast<unsigned>(half)]; }
 
 double bias_per_half_arcsec(const CompensationConstants& gyro) noexcept {
@@ -132,8 +126,11 @@ void learnt_covariance(const CompensationConstants& gyro, const SwitchWindow& wi
                        Triangle into) noexcept {
     const Products products{motion, window};
     const double reading = reading_arcsec2(gyro, window);
-    const double least = least_of_reading * reading + walk_arcsec2(gyro) / 2.0 +
-                         least_of_trace * trace_of(products, window, motion.step_halves);
+    double trace = 0.0;
+    const int step_halves = motion.step_halves;
+    for (int h = 0; h < window.n_halves; h += step_halves)
+        trace += products.of({h, h + step_halves}, {h, h + step_halves});
+    const double least = least_of_reading * reading + walk_arcsec2(gyro) / 2.0 + least_of_trace * trace;
     std::array<double, most_window_rows> reciprocal{};
     // What is taken out is positive by itself: where a share leaves a positive covariance, smaller ones do.
     int most = 0;
@@ -193,21 +190,19 @@ Stretch ReadingErrors::lit_part(const WindowRow& row) const noexcept {
     return {first < 0 ? 0 : first, last > window_.light.basis.halves ? window_.light.basis.halves : last};
 }
 
-double ReadingErrors::by_light(const Stretch& forms, const Stretch& others) const noexcept {
-    double sum = 0.0;
-    for (int h = forms.first; h < forms.last; ++h)
-        for (int g = others.first; g < others.last; ++g)
-            sum += light_.covariance(halves_[static_cast<unsigned>(h)], halves_[static_cast<unsigned>(g)]);
-    return square(unit_arcsec_) * sum;
-}
-
 double ReadingErrors::of(int r, int s) const noexcept {
     const WindowRow& row = row_of(window_, r);
     const WindowRow& other = row_of(window_, s);
     const auto& d = readings_.false_arcsec;
     double sum = row.common_arcsec * other.common_arcsec;
     sum += d[static_cast<unsigned>(r)] * d[static_cast<unsigned>(s)] * scale_.variance;
-    sum += by_light(forms_[static_cast<unsigned>(r)], forms_[static_cast<unsigned>(s)]);
+    const Stretch& forms = forms_[static_cast<unsigned>(r)];
+    const Stretch& others = forms_[static_cast<unsigned>(s)];
+    double by_light = 0.0;
+    for (int h = forms.first; h < forms.last; ++h)
+        for (int g = others.first; g < others.last; ++g)
+            by_light += light_.covariance(halves_[static_cast<unsigned>(h)], halves_[static_cast<unsigned>(g)]);
+    sum += square(unit_arcsec_) * by_light;
     if (row.after_gap == other.after_gap)
         sum += bias_arcsec2_ * alternation(window_, row) * alternation(window_, other);
     return r == s ? sum + row.error_arcsec2 : sum;

@@ -36,7 +36,6 @@ public:
 
 private:
     [[nodiscard]] Stretch lit_part(const WindowRow& row) const noexcept;
-    [[nodiscard]] double by_light(const Stretch& forms, const Stretch& others) const noexcept;
 
     const SwitchWindow& window_;
     const RelockScale& scale_;

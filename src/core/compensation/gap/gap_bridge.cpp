@@ -78,8 +78,7 @@ void give_up(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
     for (int k = 0; k < max_gap_ticks(config); ++k) {
         AngleRow& row = at(state, gap.first_tick + k).row;
         set_unrepaired(state.gap, row);
-        difference.add(row.dtheta_final_arcsec);
-        difference.add(-row.dtheta_arcsec);
+        difference.add_difference(row.dtheta_final_arcsec, row.dtheta_arcsec);
     }
     gap.final_minus_delivered_arcsec = difference;
 }
@@ -168,8 +167,7 @@ ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, G
         row.sigma_arcsec = deviation(sums.variance_arcsec2[j]);
         row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | gained;
         if (!is_finite(row.sigma_arcsec)) row.flags |= flag_unrepaired;
-        difference.add(row.dtheta_final_arcsec);
-        difference.add(-row.dtheta_arcsec);
+        difference.add_difference(row.dtheta_final_arcsec, row.dtheta_arcsec);
     }
     return difference;
 }
@@ -270,20 +268,9 @@ void amend_previous(GapBridgeState& state, const TickInput& input, std::int64_t 
     entry.row.sigma_arcsec = square_root(entry.variance_arcsec2);
     entry.row.flags |= input.amend_flags;
     // The tick was the first after the gap that ended last.
-    if (state.n_pending > 0) {
-        PendingGap& pending = state.pending[static_cast<unsigned>(state.n_pending - 1)];
-        pending.correction_arcsec.add(entry.row.dtheta_final_arcsec);
-        pending.correction_arcsec.add(-before_arcsec);
-    }
-}
-
-void add_measured_tick(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                       const TickInput& input, std::int64_t tick) noexcept {
-    if (state.gap.open) end_gap(gyro, config, state, input, tick);
-    HistoryTick& entry = at(state, tick);
-    entry.row.dtheta_final_arcsec = input.value_arcsec;
-    entry.row.dtheta_arcsec = state.n_pending > 0 ? deliver(config, state, entry, tick) : input.value_arcsec;
-    entry.row.sigma_arcsec = square_root(input.variance_arcsec2);
+    if (state.n_pending == 0) return;
+    PendingGap& pending = state.pending[static_cast<unsigned>(state.n_pending - 1)];
+    pending.correction_arcsec.add_difference(entry.row.dtheta_final_arcsec, before_arcsec);
 }
 
 // Final values of the gaps whose last point is in, and the reports of those whose correction is due.
@@ -326,7 +313,10 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         .by_phase = state.with_phase};
     if (input.measured) {
         state.common_arcsec2 = input.common_arcsec2;
-        add_measured_tick(gyro, config, state, input, tick);
+        if (state.gap.open) end_gap(gyro, config, state, input, tick);
+        entry.row.dtheta_final_arcsec = input.value_arcsec;
+        entry.row.dtheta_arcsec = state.n_pending > 0 ? deliver(config, state, entry, tick) : input.value_arcsec;
+        entry.row.sigma_arcsec = square_root(input.variance_arcsec2);
     } else {
         add_gap_tick(gyro, config, state, input, tick);
     }

@@ -37,8 +37,7 @@ double deficit_of(const GapBridgeState& state, const KnownStretch& s, double con
 }
 
 void set_row(AngleRow& row, double value_arcsec, double variance_arcsec2, ExactSum& change) noexcept {
-    change.add(value_arcsec);
-    change.add(-row.dtheta_final_arcsec);
+    change.add_difference(value_arcsec, row.dtheta_final_arcsec);
     row.dtheta_final_arcsec = value_arcsec;
     row.sigma_arcsec = deviation(variance_arcsec2);
     if (!is_finite(row.sigma_arcsec)) return;

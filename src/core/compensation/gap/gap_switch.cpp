@@ -103,10 +103,6 @@ private:
         return !state_.with_phase || entry.with_phase;
     }
 
-    [[nodiscard]] bool has_halves(const HistoryTick& entry) const noexcept {
-        return entry.half[0].read && entry.half[1].read;
-    }
-
     WindowRow& add(int halves) noexcept {
         WindowRow& row = window_.row[static_cast<unsigned>(window_.n_rows++)];
         row.halves = {window_.n_halves, window_.n_halves + halves};
@@ -155,10 +151,6 @@ private:
         row.common_arcsec = d < 0.0 ? -square_root(common) : square_root(common);
     }
 
-    [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
-        return half.lit && half.read && plan_.light != HalfLight::ticks && half.false_arcsec2 >= 0.0F;
-    }
-
     [[nodiscard]] const HalfReading& half_reading(std::int64_t half) const noexcept {
         return at(state_, half / 2).half[static_cast<unsigned>(half % 2)];
     }
@@ -189,6 +181,7 @@ private:
         if (!by_halves_ || plan_.light == HalfLight::none || plan_.light == HalfLight::ticks || !is_point(end_of_gap_))
             return h;
         const std::int64_t least = h - most_lit_rows > 2 * gap_.first_tick ? h - most_lit_rows : 2 * gap_.first_tick;
+        const auto is_lit = [](const HalfReading& half) { return half.lit && half.read && half.false_arcsec2 >= 0.0F; };
         while (h > least && is_lit(half_reading(h - 1)) && fits(h - 1)) --h;
         return h;
     }
@@ -224,7 +217,8 @@ private:
         // By the paper's equation; or by nobody, and then the false angle alternates from half to half, and a tick has little of it.
         // Also one in which a fault may have begun unseen.
         const bool is_corrected = !corrects && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
-        if (!has_halves(entry) || !known || is_corrected || (k < 0 && !by_halves_)) {
+        const bool has_halves = entry.half[0].read && entry.half[1].read;
+        if (!has_halves || !known || is_corrected || (k < 0 && !by_halves_)) {
             WindowRow& row = add(2);
             row.read = true;
             row.wanted = wanted;
@@ -262,24 +256,11 @@ private:
     int n_after_ = 0;
 };
 
-// A tick of the gap, whose rows are summed.
-void set_gap_tick(HistoryTick& entry, double value_arcsec, double variance_arcsec2, bool learnt,
-                  ExactSum& difference) noexcept {
-    AngleRow& row = entry.row;
-    row.dtheta_final_arcsec = value_arcsec;
-    row.sigma_arcsec = deviation(variance_arcsec2);
-    row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | flag_interpolated;
-    if (!learnt) row.flags |= flag_lower_order;
-    difference.add(row.dtheta_final_arcsec);
-    difference.add(-row.dtheta_arcsec);
-}
-
 // is_corrected  by the light: else the tick keeps its flags.
 void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec2, bool is_corrected,
                     ExactSum& change) noexcept {
     const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
-    change.add(value_arcsec);
-    change.add(-entry.row.dtheta_final_arcsec);
+    change.add_difference(value_arcsec, entry.row.dtheta_final_arcsec);
     entry.row.dtheta_final_arcsec = value_arcsec;
     entry.row.relock_arcsec = read - value_arcsec;
     entry.variance_arcsec2 += error_arcsec2 - entry.relock_variance_arcsec2;
@@ -353,7 +334,12 @@ void set_rows(const CompensationConstants& gyro, GapBridgeState& state, const Ga
         const int n_ticks = (head.halves.last - head.halves.first + 1) / 2;
         for (int k = 0; k < n_ticks; ++k) {
             HistoryTick& entry = at(state, gap.first_tick + tick + k);
-            set_gap_tick(entry, angle / n_ticks, variance / n_ticks, job.learnt, out.gap_arcsec);
+            AngleRow& row = entry.row;
+            row.dtheta_final_arcsec = angle / n_ticks;
+            row.sigma_arcsec = deviation(variance / n_ticks);
+            row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | flag_interpolated;
+            if (!job.learnt) row.flags |= flag_lower_order;
+            out.gap_arcsec.add_difference(row.dtheta_final_arcsec, row.dtheta_arcsec);
             entry.share = share / n_ticks;
         }
     }

@@ -52,8 +52,7 @@ PolynomialFit::PolynomialFit(const std::array<std::int32_t, max_fit_points>& pos
 
 FitWeights PolynomialFit::weights(std::int32_t j) const noexcept {
     FitWeights w{};
-    const double x = j;
-    for (unsigned k = 0; k < static_cast<unsigned>(n_); ++k) w[k] = weight_of(k).at(x);
+    for (unsigned k = 0; k < static_cast<unsigned>(n_); ++k) w[k] = weight(k, j);
     return w;
 }
 
