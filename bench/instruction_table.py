@@ -20,22 +20,19 @@ TOLERANCE_OTHER_COMPILER = 0.5
 # Sources that are part of a module of another name. What several modules share is charged to the function that uses it.
 PART_OF = {
     **dict.fromkeys(["gap_bridge_config", "gap_bridge_state", "gap_interpolation", "polynomial_fit", "gap_tick", "gap_switch",
-                     "switch_job", "motion_spread", "handover"], "gap_bridge"),
-    **dict.fromkeys(["triangle", "counter_rounding", "learnt_motion", "light_spline", "switch_estimate", "switch_window",
-                     "walk_kernel", "window_covariance", "motion_bank"], "estimate"),
+                     "switch_job", "handover"], "gap_bridge"),
+    **dict.fromkeys(["triangle", "learnt_motion", "light_spline", "switch_estimate", "switch_window",
+                     "walk_kernel", "window_covariance"], "estimate"),
     **dict.fromkeys(["gyro_observation", "monitors", "health"], "gyro_control"),
     "ellipse_correction": "fringe_readout",
     "border": "gyro_compensation",
-    "known_sum": "gyro_compensation",
-    "tick_allowance": "gyro_compensation",
     "compensation_constants": "relock_drift",
     "gap_known": "counted_stretch",
     "stage_model": "perimeter_loop",
-    **dict.fromkeys(["maths_kernels", "exponential", "hyperbolic_tangent", "hypot", "inverse", "logarithm", "power", "reduction",
+    **dict.fromkeys(["maths_kernels", "exponential", "hyperbolic_tangent", "hypot", "inverse", "logarithm", "reduction",
                      "trigonometric", "turns_of"], "relock_drift"),
     "as_double": "relock_drift",
     "gyro_control_state": "gyro_control",
-    "relock_light": "switch_light",
 }
 MODULES = [
     "sync_detector", "perimeter_loop", "half_wave", "mode_switch", "switch_schedule", "bias_commutator",

@@ -144,7 +144,14 @@ void add_relock(const config::Config& config, core::PerimeterLoopConfig& loop) {
     const config::Perimeter& p = config.perimeter;
     if (loop.kind != core::LoopKind::digital || p.relock_halves == 0) return;
     loop.relock_halves = p.relock_halves;
-    loop.relock_gain = 1.0 - core::maths::pow(1.0 - p.sample_gain, config.gyro.light_samples);
+    const double part = 1.0 - p.sample_gain;
+    double left = 1.0, lost = 0.0;  // what a product loses is exact by fma: the power is rounded once
+    for (int k = 0; k < config.gyro.light_samples; ++k) {
+        const double product = left * part;
+        lost = std::fma(left, part, -product) + lost * part;
+        left = product;
+    }
+    loop.relock_gain = 1.0 - (left + lost);
     loop.time_constant = core::Seconds{std::max(p.settled_tau_s, 0.5 * config.gyro.tick_s)};
 }
 

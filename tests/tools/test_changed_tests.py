@@ -17,7 +17,7 @@ loader = SourceFileLoader("changed_tests", str(TOOLS / "changed_tests"))
 changed_tests = module_from_spec(spec_from_loader(loader.name, loader))
 loader.exec_module(changed_tests)
 FILES = (
-    "src/core/control/monitor.cpp", "src/core/common/maths/power.cpp", "src/core/include/zlg/core/records.hpp",
+    "src/core/control/monitor.cpp", "src/core/common/maths/logarithm.cpp", "src/core/include/zlg/core/records.hpp",
     "tests/core/control/monitor_test.cpp", "tests/core/test_estimate.py", "tests/wire/frame_test.cpp", "tests/twin/twin_test.cpp", "tests/rig/rig_test.cpp",
     "tests/study/study_test.cpp", "tests/report/page_test.cpp", "tests/trials/campaign_test.cpp", "tests/firmware/gyro_test.cpp",
     "tests/processor/qemu_test.cpp",
@@ -31,12 +31,12 @@ CHOICES = {
         ["src/core/control/monitor.cpp"],
         ["own core", "users firmware rig study trials wire", "later cli firmware lab processor python"]),
     "mathematics of the core, which the twin uses too": (
-        ["src/core/common/maths/power.cpp"], ["own core", "users firmware rig study trials twin wire", "later cli firmware lab processor python"]),
+        ["src/core/common/maths/logarithm.cpp"], ["own core", "users firmware rig study trials twin wire", "later cli firmware lab processor python"]),
     "records of the core": (
         ["src/core/include/zlg/core/records.hpp"],
         ["own core", "users firmware rig study trials twin wire", "later cli firmware lab processor python"]),
     "the estimate of a switch, which NumPy judges": (
-        ["src/core/compensation/estimate/counter_rounding.cpp"],
+        ["src/core/compensation/estimate/walk_kernel.cpp"],
         ["own core", "users firmware rig study trials wire", "core tests/core/test_estimate.py", "later cli firmware lab processor python"]),
     "its test": (["tests/core/test_estimate.py"], ["core tests/core/test_estimate.py"]),
     "its reference": (["tests/reference/gap_estimator.py"], ["tools tests/tools", "core tests/core/test_estimate.py"]),

@@ -44,9 +44,6 @@ double near_right_angle(Bits& bits, int greatest) {
 double near_quarter(Bits& bits, int greatest) {
     return 0.25 * std::floor(binade(bits, 0, greatest)) + binade(bits, -60, -3);
 }
-// y for which x^y is 2^exponent or so.
-Arguments power(double x, double exponent) { return {x, exponent / std::log2(x)}; }
-Arguments whole_power(double x, double exponent) { return {-x, std::rint(exponent / std::log2(x))}; }
 
 // Two of the doubles that come closest to a multiple of pi/2 for their size, and their neighbours.
 double least_rest(Bits& bits) {
@@ -90,8 +87,6 @@ const Function of_sin_turns{"sin_turns", [](Arguments a) { return maths::sin_tur
                             [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) { return mpfr_sinu(r, x, 1, MPFR_RNDN); }};
 const Function of_cos_turns{"cos_turns", [](Arguments a) { return maths::cos_turns(a.x); },
                             [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr) { return mpfr_cosu(r, x, 1, MPFR_RNDN); }};
-const Function of_pow{"pow", [](Arguments a) { return maths::pow(a.x, a.y); },
-                      [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr y) { return mpfr_pow(r, x, y, MPFR_RNDN); }};
 const Function of_hypot{"hypot", [](Arguments a) { return maths::hypot(a.x, a.y); },
                         [](mpfr_ptr r, mpfr_srcptr x, mpfr_srcptr y) { return mpfr_hypot(r, x, y, MPFR_RNDN); }};
 const Function of_atan2{"atan2", [](Arguments a) { return maths::atan2(a.x, a.y); },
@@ -123,24 +118,6 @@ std::vector<Region> of_logarithms() {
         {of_log, "0.5 to 2", [](Bits& b) { return Arguments{uniform(b, 0.5, 2.0)}; }},
         {of_log, "near the root of 2",
          [](Bits& b) { return Arguments{near(b, whole(b, 0, 1) != 0 ? root_2 : 0.5 * root_2)}; }},
-    };
-}
-
-std::vector<Region> of_powers() {
-    return {
-        {of_pow, "ordinary",
-         [](Bits& b) {
-             return Arguments{uniform(b, 0.0, 10.0), uniform(b, -100.0, 100.0)};
-         }},
-        {of_pow, "every binade, every result", [](Bits& b) { return power(positive(b), uniform(b, -1080.0, 1030.0)); }},
-        {of_pow, "base near 1", [](Bits& b) { return power(near(b, 1.0), uniform(b, -1080.0, 1030.0)); }},
-        {of_pow, "base 0.5 to 2, large results",
-         [](Bits& b) { return power(uniform(b, 0.5, 2.0), uniform(b, 1000.0, 1024.1)); }},
-        {of_pow, "subnormal base", [](Bits& b) { return power(subnormal(b), uniform(b, -1080.0, 1030.0)); }},
-        {of_pow, "subnormal results",
-         [](Bits& b) { return power(uniform(b, 0.5, 2.0), uniform(b, -1075.0, -1021.0)); }},
-        {of_pow, "negative base",
-         [](Bits& b) { return whole_power(uniform(b, 0.0, 4.0), uniform(b, -1080.0, 1030.0)); }},
     };
 }
 
@@ -222,8 +199,7 @@ std::vector<Region> of_vectors() {
 const std::vector<Region>& regions() {
     static const std::vector<Region> all = [] {
         std::vector<Region> result;
-        for (const auto& some :
-             {of_exponentials(), of_logarithms(), of_angles(), of_turns(), of_vectors(), of_powers()})
+        for (const auto& some : {of_exponentials(), of_logarithms(), of_angles(), of_turns(), of_vectors()})
             result.insert(result.end(), some.begin(), some.end());
         return result;
     }();

@@ -25,15 +25,12 @@ inline Pair operator+(Pair a, Pair b) noexcept { return {a.first + b.first, a.se
 inline Pair operator-(Pair a, Pair b) noexcept { return {a.first - b.first, a.second - b.second}; }
 inline Pair operator*(Pair a, Pair b) noexcept { return {a.first * b.first, a.second * b.second}; }
 inline Pair operator/(Pair a, Pair b) noexcept { return {a.first / b.first, a.second / b.second}; }
-inline Pair operator+(Pair a, double b) noexcept { return a + Pair{b, b}; }
 inline Pair operator-(Pair a, double b) noexcept { return a - Pair{b, b}; }
-inline Pair operator*(Pair a, double b) noexcept { return a * Pair{b, b}; }
 inline Pair operator/(Pair a, double b) noexcept { return a / Pair{b, b}; }
 inline Pair operator+(double a, Pair b) noexcept { return Pair{a, a} + b; }
 inline Pair operator-(double a, Pair b) noexcept { return Pair{a, a} - b; }
 inline Pair operator*(double a, Pair b) noexcept { return Pair{a, a} * b; }
 inline Pair& operator+=(Pair& a, Pair b) noexcept { return a = a + b; }
-inline Pair& operator-=(Pair& a, Pair b) noexcept { return a = a - b; }
 
 // A Cortex-M that computes in double has an instruction for these.
 #if defined(__arm__) && defined(__ARM_FP) && __ARM_ARCH_PROFILE == 'M' && (__ARM_FP & 8) != 0

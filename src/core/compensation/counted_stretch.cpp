@@ -2,9 +2,9 @@
 
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
+#include <zlg/core/compensation/switch_light.hpp>
 
 #include "common/bounds.hpp"
-#include "compensation/relock/relock_light.hpp"
 
 namespace zlg::core {
 namespace {
@@ -18,16 +18,12 @@ void see_detuning(CountedStretchState& s, double sq_lambda2) noexcept {
     if (sq_lambda2 > s.max_sq_lambda2) s.max_sq_lambda2 = sq_lambda2;
 }
 
-void add_deficit(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
+void add_half(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
+    see_detuning(s, detuning_sq(gyro, half));
     const RecordedSquare recorded = recorded_square(gyro, half);
     if (!recorded.known) s.seen = false;
     s.deficit_lambda2 += half.bias_sign * half.mode * recorded.mean_sq_lambda2;
     s.deficit_variance_lambda4 += recorded.variance_lambda4;
-}
-
-void add_half(const CompensationConstants& gyro, CountedStretchState& s, const HalfRecord& half) noexcept {
-    see_detuning(s, detuning_sq(gyro, half));
-    add_deficit(gyro, s, half);
     if (!half.loop_closed) s.known_before = false;
     if (!half.loop_closed || half.mode != s.mode) s.broken = true;
     if (!half.valid) return count_up(s.uncovered);
@@ -46,9 +42,7 @@ void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges
     s.deficit_lambda2 = s.deficit_variance_lambda4 = 0.0;
     s.mode = mode;
     s.counts = s.area_ticks = 0;
-    s.start_ticks = edges.offset_ticks;
-    s.start_known = edges.follows;
-    s.start_arcsec = edges.beyond_arcsec;
+    s.start = edges;
 }
 
 void add_area(CountedStretchState& s, const HalfRecord& first, const HalfRecord& second, std::int32_t start) noexcept {
@@ -66,7 +60,7 @@ double angle(const CompensationConstants& gyro, const CountedStretchState& s, He
     const double area = plateau_per_tick(gyro, bias) * as_double(s.area_ticks);
     const double turn = (counts - area) / as_double(s.n_ticks);
     const double ticks = gyro.tick.value() * gyro.timer.value();
-    const double start_arcsec = s.start_known ? s.start_arcsec : scale * turn * (s.start_ticks / ticks);
+    const double start_arcsec = s.start.follows ? s.start.beyond_arcsec : scale * turn * (s.start.offset_ticks / ticks);
     const double end_arcsec = scale * turn * (end / ticks);
     edges.follows = true;
     edges.turn_counts = turn;
@@ -94,15 +88,8 @@ CountedStretch step(const CompensationConstants& gyro, CountedStretchState& stat
     if (state.uncovered > 0) return {};
     CountedStretch out;
     // Without either nothing bounds the false drift.
-    if (!state.broken && (state.known_before || state.seen)) {
-        out.n_ticks = state.n_ticks;
-        out.angle_arcsec = angle(gyro, state, bias, second, edges);
-        out.start_border = state.start_border;
-        out.fall_lambda2 = state.max_sq_lambda2 - state.min_sq_lambda2;
-        out.seen = state.seen;
-        out.deficit_lambda2 = state.deficit_lambda2;
-        out.deficit_variance_lambda4 = state.deficit_variance_lambda4;
-    }
+    if (!state.broken && (state.known_before || state.seen))
+        out = {state.n_ticks, angle(gyro, state, bias, second, edges), state.max_sq_lambda2 - state.min_sq_lambda2};
     state.n_ticks = 0;
     const double last_sq_lambda2 = detuning_sq(gyro, second);
     if (last_sq_lambda2 > 0.0 && is_finite(last_sq_lambda2))

@@ -4,9 +4,6 @@
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
-#include "known_sum.hpp"
-#include "relock/relock_light.hpp"
-#include "tick_allowance.hpp"
 
 namespace zlg::core {
 namespace {
@@ -28,6 +25,13 @@ void sanitise(const GyroCompensationConfig& config, GyroCompensationState& state
     half.mode = half.mode < 0 ? std::int8_t{-1} : std::int8_t{1};
     if (half.span < 1) half.span = 1;
 }
+
+// The readings at both ends of a tick, and between its halves.
+struct Borders {
+    Border start{};
+    Border middle{};
+    Border end{};
+};
 
 TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
                    const Borders& borders, double value_arcsec) noexcept {
@@ -81,18 +85,13 @@ bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !h
 void give_back_lock_in(const GyroCompensationConfig& config, const HalfRecord& first, const HalfRecord& second,
                        const Borders& borders, TickInput& tick) noexcept {
     const double scale = config.gyro.scale.value();
-    const Border middle = border_of(first);
-    const LostCounts lost = lost_to_lock_in(config.gyro, config.lock_in,
-                                            counts_and_parts(first.counts, parts_between(borders.start, middle)),
-                                            counts_and_parts(second.counts, parts_between(middle, borders.end)));
+    const LostCounts lost = lost_to_lock_in(
+        config.gyro, config.lock_in, counts_and_parts(first.counts, parts_between(borders.start, borders.middle)),
+        counts_and_parts(second.counts, parts_between(borders.middle, borders.end)));
     tick.value_arcsec += scale * lost.value;
     tick.common_arcsec2 = scale * scale * lost.variance;
     tick.variance_arcsec2 += tick.common_arcsec2;
 }
-
-// Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and no spline goes through that: these
-// halves are read by their records.
-bool is_lit(const HalfRecord& half) noexcept { return half.lit && !half.loop_closed && half.valid && half.span == 1; }
 
 void take_light(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& half,
                 LightSamples light, int k) noexcept {
@@ -137,10 +136,12 @@ void read_halves(const GyroCompensationConfig& config, const HalfRecord& first, 
     }
 }
 
-// A lit half of a gap, where its counts are an angle.
+// A lit half of a gap, where its counts are an angle. Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and
+// no spline goes through that: these halves are read by their records.
 void read_lit_half(const GyroCompensationConfig& config, const GyroCompensationState& state, const HalfRecord& half,
                    const Border& from, const Border& to, HalfReading& reading) noexcept {
-    if (!is_lit(half) || half.edge_offset_ticks != 0 || !(state.n_bias > 0.0)) return;
+    const bool is_lit = half.lit && !half.loop_closed && half.valid && half.span == 1;
+    if (!is_lit || half.edge_offset_ticks != 0 || !(state.n_bias > 0.0)) return;
     if (state.bridge.with_phase && !(from.is_known() && to.is_known())) return;
     reading.read = reading.lit = true;
     reading.angle_arcsec = config.gyro.scale.value() * counts_and_parts(half.counts, parts_between(from, to)) -
@@ -161,22 +162,14 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
     state.bridge.spread = {};
 }
 
-// Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
-// the difference of their places within the count.
-double known_excess(const EdgeShiftOutput& shifted, const Borders& borders, const HalfRecord& first) noexcept {
-    const Border middle = border_of(first);
-    const std::int32_t parts = parts_between(borders.start, middle) - parts_between(middle, borders.end);
-    return shifted.known_excess_counts - counts_and_parts(0, parts);
-}
-
 // Number of recent switches over which the mean square of their errors is taken.
 constexpr std::int32_t remembered_switches = 8;
 
-void remember(SwitchErrors& errors, const AngleSample& sample) noexcept {
+void remember(GyroCompensationState& state, const AngleSample& sample) noexcept {
     const double sq = sample.gap.sigma_sum_arcsec * sample.gap.sigma_sum_arcsec;
     if (!(sample.has_gap && sample.gap.mode_changed && is_finite(sq))) return;
-    if (errors.n < remembered_switches) ++errors.n;
-    errors.mean_sq_arcsec2 += (sq - errors.mean_sq_arcsec2) / static_cast<double>(errors.n);
+    if (state.n_switches < remembered_switches) ++state.n_switches;
+    state.switch_error_arcsec2 += (sq - state.switch_error_arcsec2) / static_cast<double>(state.n_switches);
 }
 
 // Magnetic drift to subtract from this tick. With the fringe phase read, a switch is known well enough for the step of the
@@ -199,6 +192,56 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
     return subtracted;
 }
 
+// What a half may hold of a fault that begins or ends in it, over the bias: a change of the current is seen from 1.2 % of it
+// on, darkness from one sample's time.
+constexpr double unseen_part = 0.01;
+
+// What the half before or behind those that a monitor refused may hold of their fault.
+double unseen_arcsec2(const CompensationConstants& gyro) noexcept {
+    return square(unseen_part * 0.5 * gyro.tick.value() * gyro.bias.value() * gyro.scale.value());
+}
+
+// Part of the false angle of a stretch, at its most, by which the constants err: the quartic term of the bias, chi f0 and
+// the reading of a large detuning.
+constexpr double law_part = 0.03;
+
+// The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
+// drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
+// exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any case the
+// sum is rough.
+void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
+                   const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
+                   TickInput& tick) noexcept {
+    const CompensationConstants& gyro = config.gyro;
+    const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
+    const CountedStretch known =
+        step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
+    if (known.n_ticks == 0) return;
+    const double unit = arcsec_per_lambda2(gyro, bias);
+    const double drift_arcsec = unit * known.fall_lambda2;
+    const double rounding = rounding_arcsec2(gyro, state.stretch.start_border, borders.end);
+    double drift_variance = drift_arcsec * drift_arcsec;
+    tick.known_ticks = known.n_ticks;
+    tick.known_arcsec = known.angle_arcsec;
+    const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
+    if (settles && state.stretch.seen) {
+        tick.known_arcsec += unit * state.stretch.deficit_lambda2;
+        drift_variance = law_part * law_part * drift_variance + unit * unit * state.stretch.deficit_variance_lambda4;
+    }
+    tick.known_is_rough = settles;
+    tick.known_drift_arcsec2 = drift_variance;
+    tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
+    // What lock-in takes from the ticks at their mean rate is given back.
+    const double turn = 0.5 * state.edges.turn_counts, of_bias = 0.5 * bias.value() * gyro.tick.value();
+    const LostCounts lost = lost_to_lock_in(gyro, config.lock_in, turn + of_bias, turn - of_bias);
+    const double scale = gyro.scale.value(), arcsec = scale * as_double(known.n_ticks);
+    tick.variance_arcsec2 += scale * scale * lost.variance;
+    tick.known_arcsec += arcsec * lost.value;
+    tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
+    // What `step` has concluded from the sum about the edges holds for an even bias.
+    if (settles) break_off(state.edges);
+}
+
 // What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the perimeter or
 // the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
@@ -206,7 +249,7 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     const HalfRecord& first = state.first;
     state.has_first = false;
 
-    const Borders borders{state.border, border_of(second)};
+    const Borders borders{state.border, border_of(first), border_of(second)};
     state.border = borders.end;
     const EdgeShiftState edges_before = state.edges;
     const std::int32_t parts = parts_between(borders.start, borders.end);
@@ -215,12 +258,16 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     take_light(config, state, second, light, 1);
     double half_excess = 0.0;
     if (tick.measured) {
-        tick.with_phase = borders.start.is_known() && border_of(first).is_known() && borders.end.is_known();
+        tick.with_phase = borders.start.is_known() && borders.middle.is_known() && borders.end.is_known();
         note_phase(state, tick.with_phase);
         give_back_lock_in(config, first, second, borders, tick);
-        const double excess = known_excess(shifted, borders, first);
+        // Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
+        // the difference of their places within the count.
+        const std::int32_t unequal =
+            parts_between(borders.start, borders.middle) - parts_between(borders.middle, borders.end);
+        const double excess = shifted.known_excess_counts - counts_and_parts(0, unequal);
         const RelockTick read{first, second, excess, tick.with_phase};
-        allow_for_push(config.gyro, config.relock, state.relock, read, tick);
+        tick.variance_arcsec2 += pushed_arcsec2(config.gyro, config.relock, state.relock, read, tick.variance_arcsec2);
         const auto relock = step(config.gyro, config.relock, state.relock, read);
         apply(config.relock, relock, tick);
         if (state.refused) {
@@ -254,46 +301,38 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     state.refused = second.loop_closed && !second.valid;
     tick.value_arcsec -= magnetic_arcsec(config, state, tick);
     if (is_estimated(config.bridge)) {
-        const Border middle = border_of(first);
         if (tick.measured) {
             read_halves(config, first, second, half_excess, tick);
         } else {
-            read_lit_half(config, state, first, borders.start, middle, tick.half[0]);
-            read_lit_half(config, state, second, middle, borders.end, tick.half[1]);
+            read_lit_half(config, state, first, borders.start, borders.middle, tick.half[0]);
+            read_lit_half(config, state, second, borders.middle, borders.end, tick.half[1]);
         }
     }
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};
-    remember(state.switch_errors, out.sample);
+    remember(state, out.sample);
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
     state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, tick.measured ? parts : 0);
     out.angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value());
     return out;
 }
 
-GyroCompensationFault fault_of(CompensationConstantsFault fault) noexcept {
-    if (fault == CompensationConstantsFault::none) return GyroCompensationFault::none;
-    if (fault == CompensationConstantsFault::edges) return GyroCompensationFault::edges;
-    const bool of_walk = fault == CompensationConstantsFault::random_walk;
-    return of_walk ? GyroCompensationFault::random_walk : GyroCompensationFault::relock;
-}
-
 }  // namespace
 
 GyroCompensationFault check(const GyroCompensationConfig& config) noexcept {
-    const GyroCompensationFault fault = fault_of(check(config.gyro));
-    if (fault != GyroCompensationFault::none) return fault;
-    if (check(config.relock) != RelockDriftFault::none) return GyroCompensationFault::relock;
-    if (check(bridge_of(config)) != GapBridgeFault::none) return GyroCompensationFault::bridge;
-    if (final_delay_ticks(config.gyro, bridge_of(config)) > most_final_delay_ticks)
-        return GyroCompensationFault::bridge;
-    if (check(config.profile) != RelockProfileFault::none) return GyroCompensationFault::profile;
-    if (check(config.magnetic) != MagneticDriftFault::none) return GyroCompensationFault::magnetic;
-    if (check(config.lock_in) != LockInFault::none) return GyroCompensationFault::lock_in;
-    return GyroCompensationFault::none;
+    using Fault = GyroCompensationFault;
+    const Fault of_gyro = check(config.gyro);
+    if (of_gyro != Fault::none) return of_gyro;
+    if (config.relock.ticks < 0) return Fault::relock;
+    const GapBridgeConfig bridge = bridge_of(config);
+    const bool bridged = is_allowed(bridge) && final_delay_ticks(config.gyro, bridge) <= most_final_delay_ticks;
+    if (!bridged) return Fault::bridge;
+    if (!is_allowed(config.profile)) return Fault::profile;
+    if (!is_allowed(config.magnetic)) return Fault::magnetic;
+    return is_allowed(config.lock_in) ? Fault::none : Fault::lock_in;
 }
 
 SwitchAdvice advice(const GyroCompensationConfig& config, const GyroCompensationState& state) noexcept {
-    return {.switch_error_arcsec = square_root(state.switch_errors.mean_sq_arcsec2),
+    return {.switch_error_arcsec = square_root(state.switch_error_arcsec2),
             .magnetic_arcsec_s = remaining_arcsec_s(config.magnetic, state.magnetic)};
 }
 

@@ -148,13 +148,10 @@ double contradiction(const MagneticDriftConfig& c, const MagneticDriftState& s) 
 
 }  // namespace
 
-MagneticDriftFault check(const MagneticDriftConfig& c) noexcept {
-    const auto is_sigma = [](double x) { return x >= 0.0 && x <= 1e6; };
-    const auto is_time = [](double x) { return x >= 1e-9 && x <= 1e12; };
-    if (!(size(c.presumed_arcsec_s) <= 1e6 && is_sigma(c.presumed_sigma_arcsec_s))) return MagneticDriftFault::presumed;
-    const bool warming = size(c.warming_arcsec_s) <= 1e6 && is_sigma(c.warming_sigma_arcsec_s);
-    if (!(warming && is_time(c.thermal_time.value()))) return MagneticDriftFault::warming;
-    return MagneticDriftFault::none;
+bool is_allowed(const MagneticDriftConfig& c) noexcept {
+    const auto is_known = [](double drift, double sigma) { return size(drift) <= 1e6 && is_within(sigma, 0.0, 1e6); };
+    return is_known(c.presumed_arcsec_s, c.presumed_sigma_arcsec_s) &&
+           is_known(c.warming_arcsec_s, c.warming_sigma_arcsec_s) && is_within(c.thermal_time.value(), 1e-9, 1e12);
 }
 
 double step(const CompensationConstants& gyro, const MagneticDriftConfig& config, MagneticDriftState& state,

@@ -218,7 +218,7 @@ TEST(DiscriminatorCurve, CuresTheRelockCorrectionInTheDetectorOrInTheLog) {
     const CompensationConstants plain{.light_noise = Wavelengths{0.0}};
     CompensationConstants late = plain;
     late.record_curve = expansive_curve(31);
-    ASSERT_EQ(check(late), CompensationConstantsFault::none);
+    ASSERT_EQ(check(late), GyroCompensationFault::none);
     SyncDetectorConfig with;
     with.curve = expansive_curve(31);
     for (const double miss : {0.05, 0.1, 0.2}) {

@@ -8,7 +8,7 @@ namespace zlg::core::compensation_constants_test {
 
 using namespace compensation_test;
 using Constants = CompensationConstants;
-using Fault = CompensationConstantsFault;
+using Fault = GyroCompensationFault;
 
 constexpr Fault with(auto change) { return test::fault_of<Constants>(change); }
 
@@ -32,23 +32,23 @@ TEST(CompensationConstants, CheckAcceptsTheDefaultsAndTheEdges) {
 TEST(CompensationConstants, CheckNamesTheFirstBadField) {
     const double nan = not_a_number;
     const double inf = infinite;
-    expect_fault(Fault::tick, [](auto& g, double x) { g.tick = Seconds{x}; }, {0.0, -0.005, 1e300, 1e-300, nan, inf});
-    expect_fault(Fault::scale, [](auto& g, double x) { g.scale = Arcsec{x}; }, {0.0, -3.0, 1e300, nan, inf});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.tick = Seconds{x}; }, {0.0, -0.005, 1e300, 1e-300, nan, inf});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.scale = Arcsec{x}; }, {0.0, -3.0, 1e300, nan, inf});
     expect_fault(Fault::random_walk, [](auto& g, double x) { g.random_walk = ArcsecPerRootSecond{x}; },
                  {-0.1, 1.1e6, nan, inf});
-    expect_fault(Fault::bias, [](auto& g, double x) { g.bias = Hertz{x}; }, {0.0, -60e3, 1e300, nan, inf});
-    expect_fault(Fault::bias, [](auto& g, double x) { g.chi = x; }, {-0.1, 1.1e6, nan, inf});
-    expect_fault(Fault::bias, [](auto& g, double x) { g.temperature_coefficient_per_c = x; },
+    expect_fault(Fault::relock, [](auto& g, double x) { g.bias = Hertz{x}; }, {0.0, -60e3, 1e300, nan, inf});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.chi = x; }, {-0.1, 1.1e6, nan, inf});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.temperature_coefficient_per_c = x; },
                  {-1.1, 1.1, nan, inf, -inf});
-    expect_fault(Fault::bias, [](auto& g, double x) { g.reference_temperature = Celsius{x}; },
+    expect_fault(Fault::relock, [](auto& g, double x) { g.reference_temperature = Celsius{x}; },
                  {-1.1e6, 1.1e6, nan, inf, -inf});
-    expect_fault(Fault::bias, [](auto& g, double x) { g.centre = Wavelengths{x}; }, {-1.1, 1.1, nan});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.centre = Wavelengths{x}; }, {-1.1, 1.1, nan});
     expect_fault(Fault::edges, [](auto& g, double x) { g.timer = Hertz{x}; }, {0.5, 2e15, nan});
     expect_fault(Fault::edges, [](auto& g, double x) { g.plateau_ratio = x; }, {0.99, 2.01, nan});
-    expect_fault(Fault::light, [](auto& g, double x) { g.light_noise = Wavelengths{x}; }, {-0.1, 10.1, nan, inf});
-    expect_fault(Fault::light, [](auto& g, double x) { g.light_samples = static_cast<int>(x); }, {0.0, -1.0});
-    expect_fault(Fault::light, [](auto& g, double x) { g.record_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
-    expect_fault(Fault::light, [](auto& g, double x) { g.control_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.light_noise = Wavelengths{x}; }, {-0.1, 10.1, nan, inf});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.light_samples = static_cast<int>(x); }, {0.0, -1.0});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.record_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.control_curve.n_nodes = static_cast<int>(x); }, {-1.0, 40.0});
 }
 
 // Sums of ticks with wilder numbers than these leave the range of a double.
@@ -59,9 +59,9 @@ TEST(CompensationConstants, CheckRefusesNumbersWithWhichNoSumIsANumber) {
         EXPECT_EQ(with([&](auto& g) { set(g, std::nextafter(least, 0.0)); }), fault);
         EXPECT_EQ(with([&](auto& g) { set(g, std::nextafter(most, infinite)); }), fault);
     };
-    expect_ends([](auto& g, double x) { g.tick = Seconds{x}; }, 1e-9, 1e9, Fault::tick);
-    expect_ends([](auto& g, double x) { g.scale = Arcsec{x}; }, 1e-9, 1e9, Fault::scale);
-    expect_ends([](auto& g, double x) { g.bias = Hertz{x}; }, 5e-324, 1e15, Fault::bias);
+    expect_ends([](auto& g, double x) { g.tick = Seconds{x}; }, 1e-9, 1e9, Fault::relock);
+    expect_ends([](auto& g, double x) { g.scale = Arcsec{x}; }, 1e-9, 1e9, Fault::relock);
+    expect_ends([](auto& g, double x) { g.bias = Hertz{x}; }, 5e-324, 1e15, Fault::relock);
 }
 
 TEST(CompensationConstants, TheBiasFollowsTheTemperature) {

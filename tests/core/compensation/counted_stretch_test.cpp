@@ -12,13 +12,18 @@ HalfRecord read(std::int8_t sign, std::int64_t counts, std::int32_t span = 1) {
 }
 
 // What the last tick says, of ticks in a row that were not measured.
-CountedStretch after(const std::vector<HalfRecord>& halves, CountedStretchState state = {}) {
+CountedStretch after(const std::vector<HalfRecord>& halves, CountedStretchState& state) {
     CountedStretch out;
     for (std::size_t h = 0; h + 1 < halves.size(); h += 2) {
         EdgeShiftState edges;
         out = step(config, state, halves[h], halves[h + 1], Hertz{60e3}, {}, edges);
     }
     return out;
+}
+
+CountedStretch after(const std::vector<HalfRecord>& halves) {
+    CountedStretchState state;
+    return after(halves, state);
 }
 
 void expect(const CountedStretch& out, std::int64_t n_ticks, std::int64_t counts) {
@@ -80,12 +85,14 @@ TEST(CountedStretch, WhatTheDetuningTakesFromTheBiasIsSummedWhereTheLightWasRead
     };
     std::vector<HalfRecord> halves{seen(missed(1), 0.04), seen(missed(-1), 0.03), seen(missed(1), 0.02),
                                    seen(read(-1, 7, 4), 0.005)};
-    const CountedStretch out = after(halves);
-    EXPECT_TRUE(out.seen);
-    EXPECT_NEAR(out.deficit_lambda2, 0.04 - 0.03 + 0.02 - 0.005, 1e-12);
-    EXPECT_NEAR(out.deficit_variance_lambda4, (4.0 * 0.095 + 2.0 * 4.0 * noise) * noise / 16.0, 1e-12);
+    CountedStretchState state;
+    EXPECT_EQ(after(halves, state).n_ticks, 2);
+    EXPECT_TRUE(state.seen);
+    EXPECT_NEAR(state.deficit_lambda2, 0.04 - 0.03 + 0.02 - 0.005, 1e-12);
+    EXPECT_NEAR(state.deficit_variance_lambda4, (4.0 * 0.095 + 2.0 * 4.0 * noise) * noise / 16.0, 1e-12);
     halves[2].detuning_sq_lambda2 = 0.0;
-    EXPECT_FALSE(after(halves).seen);
+    EXPECT_EQ(after(halves, state).n_ticks, 2);
+    EXPECT_FALSE(state.seen);
 }
 
 TEST(CountedStretch, AfterAnOpenLoopTheSumIsKnownWhereTheLightWasReadThroughout) {

@@ -188,7 +188,7 @@ TEST(EdgeShift, NothingThatComesOutIsNotANumber) {
                                          .scale = Arcsec{random.chance(0.5) ? 3.263 : 1e9},
                                          .timer = Hertz{random.chance(0.5) ? 1.0 : 1e15},
                                          .plateau_ratio = 2.0};
-        ASSERT_EQ(check(wild), CompensationConstantsFault::none);
+        ASSERT_EQ(check(wild), GyroCompensationFault::none);
         EdgeShiftState s;
         for (int tick = 0; tick < 10; ++tick) {
             EdgeShiftInput in{.counts = random.integer(-(std::int64_t{1} << 53), std::int64_t{1} << 53)};

@@ -247,6 +247,8 @@ TEST(GyroCompensation, CheckPassesOnWhatItsPartsRefuse) {
     config = {};
     config.gyro.plateau_ratio = 3.0;
     EXPECT_EQ(check(config), GyroCompensationFault::edges);
+    EXPECT_EQ(check({.relock = {.ticks = 0}}), GyroCompensationFault::none);
+    EXPECT_EQ(check({.relock = {.ticks = -1}}), GyroCompensationFault::relock);
 }
 
 }  // namespace zlg::core::gyro_compensation_test

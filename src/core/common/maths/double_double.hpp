@@ -22,11 +22,6 @@ inline Sum product_of(double a, double b) noexcept {
     return {high, ((a_head * b_head - high) + a_head * b_tail + a_tail * b_head) + a_tail * b_tail};
 }
 
-inline Sum product_of(const Sum& a, const Sum& b) noexcept {
-    const auto [high, low] = product_of(a.high, b.high);
-    return sum_of(high, low + (a.high * b.low + a.low * b.high));
-}
-
 // a/b, of the quotient rounded and what remains.
 inline Sum quotient_of(const Sum& a, const Sum& b) noexcept {
     const double high = a.high / b.high;

@@ -1,5 +1,5 @@
 #pragma once
-// The exponential as mantissa and power of two, for exp, expm1, pow and tanh.
+// The exponential as mantissa and power of two, for exp, expm1 and tanh.
 
 #include <bit>
 #include <cstdint>

@@ -2,6 +2,8 @@
 
 #include <zlg/core/common/maths.hpp>
 
+#include "common/bounds.hpp"
+
 namespace zlg::core {
 namespace {
 
@@ -26,30 +28,6 @@ void take_part(LearntMotion& m) noexcept {
     m.n_waiting = 0;
 }
 
-// Sums over the windows of a run of x at place i, as they follow from that of the whole run when its first and last halves are
-// taken off.
-struct RunSums {
-    double mean = 0.0;
-    int n_windows = 0;
-    std::array<double, most_moment_steps> at{};
-
-    explicit RunSums(const LearntMotion& m) noexcept {
-        const int length = m.moments.length;
-        n_windows = m.n_run - length + 1;
-        mean = m.sum / m.n_run;
-        double off = 0.0;  // the last L - 1, then one of the first for one of the last
-        for (int s = 0; s < length - 1; ++s) off += m.recent[static_cast<unsigned>(s)];
-        for (int i = 0; i < length; ++i) {
-            at[static_cast<unsigned>(i)] = m.sum - off;
-            if (i < length - 1) off += m.head[static_cast<unsigned>(i)] - m.recent[static_cast<unsigned>(i)];
-        }
-    }
-
-    [[nodiscard]] double less_mean(double products, int i, int j) const noexcept {
-        return products - mean * (at[static_cast<unsigned>(i)] + at[static_cast<unsigned>(j)] - n_windows * mean);
-    }
-};
-
 // Sum of products at the distance k within n steps.
 double products_within(const double* x, int n, int k) noexcept {
     double sum = 0.0;
@@ -62,9 +40,18 @@ void fold(LearntMotion& m, double forget_ticks) noexcept {
     MotionMoments& moments = m.moments;
     const int length = moments.length;
     if (m.n_run < length) return;
-    const RunSums sums{m};
-    const double keep = maths::exp(-0.5 * moments.step_halves * sums.n_windows / forget_ticks);
-    moments.n_windows = keep * moments.n_windows + sums.n_windows;
+    const int n_windows = m.n_run - length + 1;
+    const double mean = m.sum / m.n_run;
+    // Sum over the windows of x at place i: that of the whole run without its last L - 1, then with one of these for one of the first.
+    std::array<double, most_moment_steps> sum{};
+    double off_run = 0.0;
+    for (int s = 0; s < length - 1; ++s) off_run += of(m.recent, s);
+    for (int i = 0; i < length; ++i) {
+        of(sum, i) = m.sum - off_run;
+        if (i < length - 1) off_run += of(m.head, i) - of(m.recent, i);
+    }
+    const double keep = maths::exp(-0.5 * moments.step_halves * n_windows / forget_ticks);
+    moments.n_windows = keep * moments.n_windows + n_windows;
     for (double& x : moments.sum) x *= keep;
     for (int k = 0; k < length; ++k) {
         double all = of(m.product, k);
@@ -75,7 +62,7 @@ void fold(LearntMotion& m, double forget_ticks) noexcept {
             const int j = i + k;
             // Of its own mirror image all, of others half.
             moments.sum[moment_place(length, i, j)] +=
-                (i + j == length - 1 ? 1.0 : 0.5) * sums.less_mean(all - off, i, j);
+                (i + j == length - 1 ? 1.0 : 0.5) * (all - off - mean * (of(sum, i) + of(sum, j) - n_windows * mean));
             if (j < length - 1) off += of(m.head, i) * of(m.head, j) - of(m.recent, i) * of(m.recent, j);
         }
     }
@@ -122,6 +109,25 @@ void add(LearntMotion& m, std::int64_t half, bool settled, double angle_arcsec, 
     if ((half + 1) % block_halves != 0 || m.n_run < m.moments.length) return;
     fold(m, forget_ticks);
     go_on(m);
+}
+
+void add(MotionSpread& spread, bool settled, double first_arcsec, double second_arcsec, double forget_ticks) noexcept {
+    if (!settled) {
+        spread.goes_on = false;
+        return;
+    }
+    if (spread.n_ticks < forget_ticks) spread.n_ticks += 1.0;
+    const double part = 1.0 / spread.n_ticks;
+    const double off = first_arcsec + second_arcsec - 2.0 * spread.mean_half_arcsec;
+    spread.mean_half_arcsec += 0.5 * part * off;
+    spread.tick_arcsec2 += part * (square(off) * (1.0 - part) - spread.tick_arcsec2);
+    if (spread.goes_on) {
+        const auto [p, q] = spread.last_arcsec;
+        const double sq = 0.5 * (square(p - 2.0 * q + first_arcsec) + square(q - 2.0 * first_arcsec + second_arcsec));
+        spread.second_difference_arcsec2 += part * (sq - spread.second_difference_arcsec2);
+    }
+    spread.goes_on = true;
+    spread.last_arcsec = {first_arcsec, second_arcsec};
 }
 
 }  // namespace zlg::core

@@ -15,18 +15,6 @@ constexpr int far_knots[] = {20, 24, 28, 34, 40, 48, 58, 70, 84, 104, 128};
 constexpr double gauss_point[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
 constexpr double gauss_weight[4] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
 
-void add_knot(LightBasis& basis, int& n, int knot) noexcept {
-    basis.knot[static_cast<unsigned>(3 + n)] = static_cast<std::uint8_t>(knot);
-    ++n;
-}
-
-// The knot at or before half h, counted from the first.
-int interval_of(const LightBasis& basis, int h) noexcept {
-    int i = 0;
-    while (i + 4 < basis.n_terms && basis.knot[static_cast<unsigned>(i + 4)] <= h) ++i;
-    return i;
-}
-
 // g, in units of P: from next to nothing to a parabola.
 constexpr double smoothings[] = {1e-3, 1e-1, 1e1, 1e3, 1e5, 1e7};
 
@@ -61,19 +49,22 @@ int entry(int i, int j) noexcept { return i >= j ? i * (i + 1) / 2 + j : j * (j 
 LightBasis light_basis(int halves) noexcept {
     LightBasis basis;
     basis.halves = halves;
-    int n = 0;
-    for (int knot = 0; knot <= close_knots && knot < halves; ++knot) add_knot(basis, n, knot);
+    std::size_t n = 3;
+    const auto add = [&](int knot) { basis.knot[n++] = static_cast<std::uint8_t>(knot); };
+    for (int knot = 0; knot <= close_knots && knot < halves; ++knot) add(knot);
     for (const int knot : far_knots)
-        if (knot + 1 < halves) add_knot(basis, n, knot);
+        if (knot + 1 < halves) add(knot);
+    basis.n_terms = static_cast<int>(n);
     // Four knots in one place end the basis; those at the start are 0 already.
-    for (int k = 0; k < 4; ++k) basis.knot[static_cast<unsigned>(3 + n + k)] = static_cast<std::uint8_t>(halves);
-    basis.n_terms = n + 3;
+    for (int k = 0; k < 4; ++k) add(halves);
     return basis;
 }
 
 BasisSpan span_of(const LightBasis& basis, int h) noexcept {
     BasisSpan span;
-    span.first = interval_of(basis, h);
+    // The knot at or before half h, counted from the first.
+    int& i = span.first;
+    while (i + 4 < basis.n_terms && basis.knot[static_cast<unsigned>(i + 4)] <= h) ++i;
     for (unsigned k = 0; k < 6; ++k) span.knot[k] = basis.knot[static_cast<unsigned>(span.first) + 1 + k];
     return span;
 }

@@ -23,23 +23,6 @@ constexpr double scale_wander = 1e-8;
 // A shift of it beyond five standard deviations is that of damaged records.
 constexpr double most_shift_sq = 25.0;
 
-// The points.
-struct Layout {
-    int n = 0;
-    std::array<int, most_window_rows> row{};  // of each
-};
-
-const WindowRow& row_of(const SwitchWindow& window, int r) noexcept { return window.row[static_cast<unsigned>(r)]; }
-
-double width(const WindowRow& row) noexcept { return row.halves.last - row.halves.first; }
-
-Layout layout_of(const SwitchWindow& window) noexcept {
-    Layout layout;
-    for (int r = 0; r < window.n_rows; ++r)
-        if (row_of(window, r).read) layout.row[static_cast<unsigned>(layout.n++)] = r;
-    return layout;
-}
-
 bool is_bridged(const WindowRow& row) noexcept { return row.wanted && !row.read; }
 
 // What the estimate is made from.
@@ -49,16 +32,17 @@ struct Problem {
     Triangle v;       // V of all rows
     Triangle errors;  // E of the points after the gap
     WindowReadings readings{};
-    Layout layout{};
-    int n_before = 0;            // points before it
-    double wanted_halves = 0.0;  // of the rows without a reading
-    double known_arcsec = 0.0;   // of those with one
+    int n = 0;                                 // points
+    std::array<int, most_window_rows> rows{};  // of each
+    int n_before = 0;                          // points before the gap
+    double wanted_halves = 0.0;                // of the rows without a reading
+    double known_arcsec = 0.0;                 // of those with one
 
     // Of a point after the gap with another point: what the error of a reading before the gap is has nothing to do with it.
     [[nodiscard]] double error(int a, int b) const noexcept {
         return a < n_before || b < n_before ? 0.0 : errors.at(a - n_before, b - n_before);
     }
-    [[nodiscard]] int row(int point) const noexcept { return layout.row[static_cast<unsigned>(point)]; }
+    [[nodiscard]] int row(int point) const noexcept { return rows[static_cast<unsigned>(point)]; }
     [[nodiscard]] bool is_corrected(int point) const noexcept { return row_of(window, row(point)).wanted; }
 };
 
@@ -75,8 +59,7 @@ struct Border {
 // E, and with it C + E of the points.
 void add_errors(const CompensationConstants& gyro, EstimateRoom& room, Problem& problem) noexcept {
     const ReadingErrors e{gyro, problem.window, problem.scale, room.halves, problem.readings};
-    const Layout& layout = problem.layout;
-    for (int a = 0; a < layout.n; ++a)
+    for (int a = 0; a < problem.n; ++a)
         for (int b = 0; b <= a; ++b) {
             const double error = e.of(problem.row(a), problem.row(b));
             problem.v.row(problem.row(a))[problem.row(b)] += error;
@@ -86,7 +69,7 @@ void add_errors(const CompensationConstants& gyro, EstimateRoom& room, Problem& 
 
 void set_target(const Problem& problem, Border& border) noexcept {
     const SwitchWindow& window = problem.window;
-    const int n = problem.layout.n;
+    const int n = problem.n;
     border.target_variance = 0.0;
     for (int a = 0; a < n; ++a) {
         double sum = 0.0;
@@ -107,7 +90,7 @@ void set_target(const Problem& problem, Border& border) noexcept {
 Border border_of(const Problem& problem) noexcept {
     Border border;
     set_target(problem, border);
-    for (int a = 0; a < problem.layout.n; ++a) {
+    for (int a = 0; a < problem.n; ++a) {
         const auto at = static_cast<unsigned>(a);
         const auto r = static_cast<unsigned>(problem.row(a));
         border.level[at] = width(problem.window.row[r]);
@@ -119,15 +102,10 @@ Border border_of(const Problem& problem) noexcept {
 
 // Where a member walks in this window.
 Walk walk_of(const BankMember& member, const SwitchWindow& window) noexcept {
-    switch (member.place) {
-        case WalkPlace::beside:
-            return {member.kind, window.gap.first - member.halves, window.gap.last + member.halves};
-        case WalkPlace::after:
-            return {member.kind, window.gap.last + member.halves, window.n_halves};
-        case WalkPlace::everywhere:
-            break;
-    }
-    return {member.kind, 0, window.n_halves};
+    if (member.place == WalkPlace::everywhere) return {member.kind, 0, window.n_halves};
+    const int behind = window.gap.last + member.halves;
+    if (member.place == WalkPlace::after) return {member.kind, behind, window.n_halves};
+    return {member.kind, window.gap.first - member.halves, behind};
 }
 
 Stretch reversed(const SwitchWindow& window, const Stretch& s) noexcept {
@@ -235,7 +213,7 @@ KernelTarget target_of(const Problem& problem, const Kernel& kernel) noexcept {
     KernelTarget target;
     for (int u = 0; u < window.n_rows; ++u) {
         if (!is_bridged(row_of(window, u))) continue;
-        for (int a = 0; a < problem.layout.n; ++a) {
+        for (int a = 0; a < problem.n; ++a) {
             const int r = problem.row(a);
             target.with[static_cast<unsigned>(a)] += r < u ? kernel.at(r, u) : kernel.at(u, r);
         }
@@ -247,7 +225,7 @@ KernelTarget target_of(const Problem& problem, const Kernel& kernel) noexcept {
 
 // V of the points, with a kernel of this size.
 void build(const Problem& problem, const Kernel* kernel, double size, Triangle into) noexcept {
-    for (int a = 0; a < problem.layout.n; ++a) {
+    for (int a = 0; a < problem.n; ++a) {
         const double* const v = problem.v.row(problem.row(a));
         double* const to = into.row(a);
         if (kernel != nullptr)
@@ -283,7 +261,7 @@ bool factorise_widened(Triangle v, double* reciprocal, int n) noexcept {
 // return  false where V_m is not positive definite.
 bool solve(const Problem& problem, const Border& border, const KernelTarget* kernel, double size, Triangle factor,
            MemberEstimate& found) noexcept {
-    const int n = problem.layout.n;
+    const int n = problem.n;
     PointValues reciprocal{};
     if (!factorise_widened(factor, reciprocal.data(), n)) return false;
     double* const target = factor.row(n);
@@ -318,9 +296,9 @@ bool solve(const Problem& problem, const Border& border, const KernelTarget* ker
 double smallest_pivot(const Problem& problem, Triangle factor) noexcept {
     PointValues reciprocal{};
     build(problem, nullptr, 0.0, factor);
-    if (!factorise(factor, reciprocal.data(), problem.layout.n)) return 0.0;
+    if (!factorise(factor, reciprocal.data(), problem.n)) return 0.0;
     double least = infinity;
-    for (int a = 0; a < problem.layout.n; ++a)
+    for (int a = 0; a < problem.n; ++a)
         if (square(factor.row(a)[a]) < least) least = square(factor.row(a)[a]);
     return least;
 }
@@ -333,43 +311,39 @@ struct Candidate {
 
 // Mean and variance of a mixture as its members come in, with weights relative to the best evidence so far (West, Comm. ACM 22
 // (1979) 532).
-class Mixture {
-public:
+struct Mixture {
+    Candidate likeliest{};
+    double sum = 0.0;               // of the weights; 0: it is empty
+    MeanVariance angle{}, scale{};  // variances times `sum`
+
     void add(double prior, const MemberEstimate& member, const Candidate& candidate) noexcept {
         if (member.evidence > best_evidence_) {
             const double keep = maths::exp(best_evidence_ - member.evidence);
-            sum_ *= keep;
+            sum *= keep;
             largest_ *= keep;
-            angle_.variance *= keep;
-            scale_.variance *= keep;
+            angle.variance *= keep;
+            scale.variance *= keep;
             best_evidence_ = member.evidence;
         }
         const double weight = prior * maths::exp(member.evidence - best_evidence_);
-        sum_ += weight;
-        if (!(sum_ > 0.0)) return;
-        take(weight, member.angle, angle_);
-        take(weight, member.scale, scale_);
+        sum += weight;
+        if (!(sum > 0.0)) return;
+        take(weight, member.angle, angle);
+        take(weight, member.scale, scale);
         if (!(weight > largest_)) return;
         largest_ = weight;
-        likeliest_ = candidate;
+        likeliest = candidate;
     }
-    [[nodiscard]] bool is_empty() const noexcept { return !(sum_ > 0.0); }
-    [[nodiscard]] const Candidate& likeliest() const noexcept { return likeliest_; }
-    [[nodiscard]] MeanVariance angle() const noexcept { return {angle_.mean, angle_.variance / sum_}; }
-    [[nodiscard]] MeanVariance scale() const noexcept { return {scale_.mean, scale_.variance / sum_}; }
 
 private:
-    void take(double weight, const MeanVariance& of_member, MeanVariance& sum) const noexcept {
-        const double off = of_member.mean - sum.mean;
-        sum.mean += off * (weight / sum_);
-        sum.variance += weight * (of_member.variance + off * (of_member.mean - sum.mean));
+    void take(double weight, const MeanVariance& of_member, MeanVariance& of_all) const noexcept {
+        const double off = of_member.mean - of_all.mean;
+        of_all.mean += off * (weight / sum);
+        of_all.variance += weight * (of_member.variance + off * (of_member.mean - of_all.mean));
     }
 
     double best_evidence_ = -infinity;
-    double sum_ = 0.0;
     double largest_ = 0.0;  // weight
-    Candidate likeliest_{};
-    MeanVariance angle_{}, scale_{};  // variances times sum_
 };
 
 // The mixture of the learnt motion and of all members of the bank.
@@ -409,7 +383,7 @@ void add_likeliest(const Candidate& likeliest, std::span<const BankMember> bank,
 // return  false where that is not positive definite.
 bool spread(const Problem& problem, Border& border, Triangle factor, SwitchEstimate& result) noexcept {
     const SwitchWindow& window = problem.window;
-    const int n = problem.layout.n;
+    const int n = problem.n;
     PointValues reciprocal{};
     build(problem, nullptr, 0.0, factor);
     if (!factorise_widened(factor, reciprocal.data(), n)) return false;
@@ -484,10 +458,12 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     SwitchEstimate result{.scale = scale};
     const Triangle factor{room.factor.data()};
     Problem problem{window, scale, Triangle{room.covariance.data()}, Triangle{room.errors.data()}};
-    problem.layout = layout_of(window);
-    for (int a = 0; a < problem.layout.n; ++a) problem.n_before += !row_of(window, problem.row(a)).after_gap;
-    const int n_after = problem.layout.n - problem.n_before;
-    if (problem.layout.n > most_window_points || n_after > most_points_after) return result;
+    for (int r = 0; r < window.n_rows; ++r) {
+        if (!row_of(window, r).read) continue;
+        problem.rows[static_cast<unsigned>(problem.n++)] = r;
+        problem.n_before += !row_of(window, r).after_gap;
+    }
+    if (problem.n > most_window_points || problem.n - problem.n_before > most_points_after) return result;
     // Of another configuration: what is learnt is shorter.
     if (window.n_halves > motion.length * motion.step_halves) return result;
     learnt_covariance(gyro, window, motion, problem.v);
@@ -503,16 +479,16 @@ SwitchEstimate estimate(const CompensationConstants& gyro, const SwitchWindow& w
     const double unit = smallest_pivot(problem, factor);
     if (!(unit > 0.0)) return result;
     const Mixture mixture = mixture_of(problem, border, motion.n_windows >= few_windows, bank, unit, factor, pause);
-    if (mixture.is_empty()) return result;
-    const MeanVariance angle = mixture.angle();
-    const MeanVariance shift = mixture.scale();
-    result.angle_arcsec = angle.mean + problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
-    result.variance_arcsec2 = angle.variance;
+    if (!(mixture.sum > 0.0)) return result;
+    const MeanVariance shift{mixture.scale.mean, mixture.scale.variance / mixture.sum};
+    result.angle_arcsec =
+        mixture.angle.mean + problem.wanted_halves * problem.readings.rate_arcsec + problem.known_arcsec;
+    result.variance_arcsec2 = mixture.angle.variance / mixture.sum;
     if (square(shift.mean) <= most_shift_sq * scale.variance) {
         result.scale.value = scale.value + shift.mean;
         result.scale.variance = (shift.variance < scale.variance ? shift.variance : scale.variance) + scale_wander;
     }
-    add_likeliest(mixture.likeliest(), bank, problem);
+    add_likeliest(mixture.likeliest, bank, problem);
     result.known = spread(problem, border, factor, result);
     return result;
 }

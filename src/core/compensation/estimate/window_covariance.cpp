@@ -6,7 +6,6 @@
 #include <zlg/core/compensation/border.hpp>
 
 #include "common/bounds.hpp"
-#include "counter_rounding.hpp"
 
 namespace zlg::core {
 namespace {
@@ -27,8 +26,6 @@ constexpr double bias_error = 1e-4;
 double reading_arcsec2(const CompensationConstants& gyro, const SwitchWindow& window) noexcept {
     return square(gyro.scale.value()) * reading_counts2(gyro, window.with_phase);
 }
-
-double width(const WindowRow& row) noexcept { return row.halves.last - row.halves.first; }
 
 // The learnt moments as sums over stretches of the window, per window.
 class Products {
@@ -66,12 +63,6 @@ private:
     std::array<int, most_moment_steps> start_;  // place of (i, i), less i
 };
 
-double trace_of(const Products& products, const SwitchWindow& window, int step) noexcept {
-    double sum = 0.0;
-    for (int h = 0; h < window.n_halves; h += step) sum += products.of({h, h + step}, {h, h + step});
-    return sum;
-}
-
 int sign_of(const SwitchWindow& window, int half) noexcept { return window.bias_sign[static_cast<unsigned>(half)]; }
 
 double bias_per_half_arcsec(const CompensationConstants& gyro) noexcept {
@@ -99,20 +90,31 @@ void add(const LightHalf& half, LightHalf& sum) noexcept {
 // What the drift of a switching mode is off by has one sign before the gap and the other after it.
 void add_magnetic_step(const SwitchWindow& window, Triangle into) noexcept {
     const auto share = [&](int r) {
-        const WindowRow& row = window.row[static_cast<unsigned>(r)];
+        const WindowRow& row = row_of(window, r);
         return row.read ? (row.after_gap ? 0.5 : -0.5) * width(row) : 0.0;
     };
     for (int r = 0; r < window.n_rows; ++r)
         for (int s = 0; s <= r; ++s) into.row(r)[s] += window.magnetic_variance_arcsec2 * share(r) * share(s);
 }
 
+constexpr double two_pi_squared = 19.739208802178716;
+constexpr double max_scatter_counts2 = 2.0;
+
+// Distance to the nearest whole number. The law is even in it.
+double distance_to_whole(double x) noexcept {
+    constexpr double most = 2e15;
+    constexpr double whole_part = 6755399441055744.0;  // 1.5 2^52: a sum with it is whole
+    if (!(x < most && x > -most)) return 0.0;
+    const double off = x - ((x + whole_part) - whole_part);
+    return off < 0.0 ? -off : off;
+}
+
 // C of the rows, less a share of the roundings that are in the moments: D D^T, in which two neighbours share a border.
 void fill(const SwitchWindow& window, const Products& products, double least, double roundings,
           Triangle into) noexcept {
     for (int r = 0; r < window.n_rows; ++r) {
-        const WindowRow& row = window.row[static_cast<unsigned>(r)];
-        for (int s = 0; s <= r; ++s)
-            into.row(r)[s] = products.of(window.row[static_cast<unsigned>(s)].halves, row.halves);
+        const WindowRow& row = row_of(window, r);
+        for (int s = 0; s <= r; ++s) into.row(r)[s] = products.of(row_of(window, s).halves, row.halves);
         into.row(r)[r] += least * width(row) - 2.0 * roundings;
         if (r > 0) into.row(r)[r - 1] += roundings;
     }
@@ -124,8 +126,11 @@ void learnt_covariance(const CompensationConstants& gyro, const SwitchWindow& wi
                        Triangle into) noexcept {
     const Products products{motion, window};
     const double reading = reading_arcsec2(gyro, window);
-    const double least = least_of_reading * reading + walk_arcsec2(gyro) / 2.0 +
-                         least_of_trace * trace_of(products, window, motion.step_halves);
+    double trace = 0.0;
+    const int step_halves = motion.step_halves;
+    for (int h = 0; h < window.n_halves; h += step_halves)
+        trace += products.of({h, h + step_halves}, {h, h + step_halves});
+    const double least = least_of_reading * reading + walk_arcsec2(gyro) / 2.0 + least_of_trace * trace;
     std::array<double, most_window_rows> reciprocal{};
     // What is taken out is positive by itself: where a share leaves a positive covariance, smaller ones do.
     int most = 0;
@@ -151,7 +156,7 @@ ReadingErrors::ReadingErrors(const CompensationConstants& gyro, const SwitchWind
     double sum = 0.0;
     double n_halves = 0.0;
     for (int r = 0; r < window.n_rows; ++r) {
-        const WindowRow& row = window.row[static_cast<unsigned>(r)];
+        const WindowRow& row = row_of(window, r);
         const Stretch part = lit_part(row);
         forms_[static_cast<unsigned>(r)] = {n_forms, n_forms};
         double d = row.recorded_arcsec;
@@ -185,24 +190,29 @@ Stretch ReadingErrors::lit_part(const WindowRow& row) const noexcept {
     return {first < 0 ? 0 : first, last > window_.light.basis.halves ? window_.light.basis.halves : last};
 }
 
-double ReadingErrors::by_light(const Stretch& forms, const Stretch& others) const noexcept {
-    double sum = 0.0;
-    for (int h = forms.first; h < forms.last; ++h)
-        for (int g = others.first; g < others.last; ++g)
-            sum += light_.covariance(halves_[static_cast<unsigned>(h)], halves_[static_cast<unsigned>(g)]);
-    return square(unit_arcsec_) * sum;
-}
-
 double ReadingErrors::of(int r, int s) const noexcept {
-    const WindowRow& row = window_.row[static_cast<unsigned>(r)];
-    const WindowRow& other = window_.row[static_cast<unsigned>(s)];
+    const WindowRow& row = row_of(window_, r);
+    const WindowRow& other = row_of(window_, s);
     const auto& d = readings_.false_arcsec;
     double sum = row.common_arcsec * other.common_arcsec;
     sum += d[static_cast<unsigned>(r)] * d[static_cast<unsigned>(s)] * scale_.variance;
-    sum += by_light(forms_[static_cast<unsigned>(r)], forms_[static_cast<unsigned>(s)]);
+    const Stretch& forms = forms_[static_cast<unsigned>(r)];
+    const Stretch& others = forms_[static_cast<unsigned>(s)];
+    double by_light = 0.0;
+    for (int h = forms.first; h < forms.last; ++h)
+        for (int g = others.first; g < others.last; ++g)
+            by_light += light_.covariance(halves_[static_cast<unsigned>(h)], halves_[static_cast<unsigned>(g)]);
+    sum += square(unit_arcsec_) * by_light;
     if (row.after_gap == other.after_gap)
         sum += bias_arcsec2_ * alternation(window_, row) * alternation(window_, other);
     return r == s ? sum + row.error_arcsec2 : sum;
+}
+
+double rounding_law(double turn_counts, double scatter_counts2) noexcept {
+    if (!(scatter_counts2 < max_scatter_counts2)) return 0.0;
+    const double x = distance_to_whole(turn_counts);
+    const double coherence = scatter_counts2 > 0.0 ? maths::exp(-two_pi_squared * scatter_counts2) : 1.0;
+    return 0.5 * (x * x - x + 1.0 / 6.0) * coherence;
 }
 
 void add_roundings(const CompensationConstants& gyro, const SwitchWindow& window, const WindowReadings& readings,
@@ -216,7 +226,7 @@ void add_roundings(const CompensationConstants& gyro, const SwitchWindow& window
     std::array<double, most_window_rows> next{};
     int first = 0;  // border at which the counted stretch begins
     for (int j = 0; j < n && !window.with_phase; ++j) {
-        const WindowRow& row = window.row[static_cast<unsigned>(j)];
+        const WindowRow& row = row_of(window, j);
         double* const of_row = v.row(j);
         std::array<double, most_window_rows> now = next;
         next = {};
@@ -245,7 +255,7 @@ void add_roundings(const CompensationConstants& gyro, const SwitchWindow& window
     }
     // And of each border with itself, but for those between two rows of which neither was read: nothing was rounded there.
     const double reading = reading_arcsec2(gyro, window);
-    const auto is_read = [&](int j) { return j >= 0 && j < n && window.row[static_cast<unsigned>(j)].read; };
+    const auto is_read = [&](int j) { return j >= 0 && j < n && row_of(window, j).read; };
     for (int j = 0; j < n; ++j) {
         const bool at_start = is_read(j) || is_read(j - 1);
         const bool at_end = is_read(j) || is_read(j + 1);

@@ -36,7 +36,6 @@ public:
 
 private:
     [[nodiscard]] Stretch lit_part(const WindowRow& row) const noexcept;
-    [[nodiscard]] double by_light(const Stretch& forms, const Stretch& others) const noexcept;
 
     const SwitchWindow& window_;
     const RelockScale& scale_;
@@ -47,6 +46,20 @@ private:
     double unit_arcsec_ = 0.0;
     double bias_arcsec2_ = 0.0;
 };
+
+// The law of the counter's roundings: the covariance of two readings of a free-running counter.
+//
+// A reading is the whole part of a phase. Its rounding error is uniform over a count, and two readings between which the phase
+// turned by x counts, Gaussian with the variance s^2, have the covariance
+//
+//   R(x, s^2) = (x^2 - x + 1/6)/2 exp(-2 pi^2 s^2),    x modulo 1                      [counts^2]
+//
+// the second Bernoulli polynomial, of whose Fourier series sum cos(2 pi k x)/(2 pi^2 k^2) the scatter leaves the first term.
+// Source: Widrow and Kollar, Quantization Noise, 2008, ch. 4 and 9.
+//
+// turn_counts  of which no fraction is known beyond 2^51: taken for whole there.
+// return       0 beyond a scatter of 2 counts^2, where the factor is below 1e-17.
+[[nodiscard]] double rounding_law(double turn_counts, double scatter_counts2) noexcept;
 
 // V = C + E + D R D^T.
 //

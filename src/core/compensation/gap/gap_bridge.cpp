@@ -43,13 +43,6 @@ void set_unrepaired(const OpenGap& open, AngleRow& row) noexcept {
     row.flags |= flag_unrepaired;
 }
 
-// A row of a gap that is extrapolated from the ticks before it.
-void set_extrapolated(AngleRow& row, double value_arcsec, double variance_arcsec2) noexcept {
-    row.dtheta_arcsec = value_arcsec;
-    row.dtheta_final_arcsec = value_arcsec;
-    row.sigma_arcsec = deviation(variance_arcsec2);
-}
-
 // dtheta of the gap's tick j, and what its final value is if the log ends here.
 void extrapolate(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
                  HistoryTick& entry, std::int32_t j) noexcept {
@@ -72,7 +65,8 @@ void extrapolate(const CompensationConstants& gyro, const GapBridgeConfig& confi
             variance -=
                 shared_rounding(usual, open.variance_arcsec2[k - 1], open.variance_arcsec2[k]) * w[k] * w[k - 1];
     }
-    set_extrapolated(row, sum, variance);
+    row.dtheta_arcsec = row.dtheta_final_arcsec = sum;
+    row.sigma_arcsec = deviation(variance);
     if (open.lower_order) row.flags |= flag_lower_order;
 }
 
@@ -84,8 +78,7 @@ void give_up(const GapBridgeConfig& config, GapBridgeState& state) noexcept {
     for (int k = 0; k < max_gap_ticks(config); ++k) {
         AngleRow& row = at(state, gap.first_tick + k).row;
         set_unrepaired(state.gap, row);
-        difference.add(row.dtheta_final_arcsec);
-        difference.add(-row.dtheta_arcsec);
+        difference.add_difference(row.dtheta_final_arcsec, row.dtheta_arcsec);
     }
     gap.final_minus_delivered_arcsec = difference;
 }
@@ -113,8 +106,7 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
     const std::int64_t first = gap.n == longest + 1 ? gap.first_tick : tick;
     const ExactSum change =
         settle_known(gyro, config, state, gap, first, tick, state.gap.constant_arcsec).change_arcsec;
-    gap.final_minus_delivered_arcsec.add(change.high);
-    gap.final_minus_delivered_arcsec.add(change.low);
+    gap.final_minus_delivered_arcsec.add(change);
 }
 
 // The first tick after a gap: from here on the gap waits.
@@ -175,8 +167,7 @@ ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, G
         row.sigma_arcsec = deviation(sums.variance_arcsec2[j]);
         row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | gained;
         if (!is_finite(row.sigma_arcsec)) row.flags |= flag_unrepaired;
-        difference.add(row.dtheta_final_arcsec);
-        difference.add(-row.dtheta_arcsec);
+        difference.add_difference(row.dtheta_final_arcsec, row.dtheta_arcsec);
     }
     return difference;
 }
@@ -218,12 +209,10 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
         if (found.known) state.scale = found.scale;
         difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, report);
         if (found.known) report.sigma_sum_arcsec = deviation(found.variance_arcsec2);
-        pending.correction_arcsec.add(found.after_arcsec.high);
-        pending.correction_arcsec.add(found.after_arcsec.low);
+        pending.correction_arcsec.add(found.after_arcsec);
         const KnownShift known =
             settle_known(gyro, config, state, gap, gap.first_tick, gap.first_tick + gap.n - 1, 0.0);
-        difference.add(known.change_arcsec.high);
-        difference.add(known.change_arcsec.low);
+        difference.add(known.change_arcsec);
         if (known.variance_arcsec2 > 0.0)
             report.sigma_sum_arcsec = deviation(square(report.sigma_sum_arcsec) + known.variance_arcsec2);
     }
@@ -232,8 +221,7 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     else if (is_short && state.common_arcsec2 > 0.0)
         widen_in_common(config, state, gap, report);
     report.dp_arcsec = -difference.value();
-    pending.correction_arcsec.add(difference.high);
-    pending.correction_arcsec.add(difference.low);
+    pending.correction_arcsec.add(difference);
     // What the ticks behind the estimate add to the angle of the switch.
     if (is_estimate && !is_known(gap))
         report.sigma_sum_arcsec =
@@ -256,8 +244,7 @@ double deliver(const GapBridgeConfig& config, GapBridgeState& state, HistoryTick
             ++kept;
             continue;
         }
-        sum.add(pending.correction_arcsec.high);
-        sum.add(pending.correction_arcsec.low);
+        sum.add(pending.correction_arcsec);
         is_correction = is_correction || pending.correction_arcsec != ExactSum{};
     }
     if (kept == state.n_pending) return entry.row.dtheta_final_arcsec;
@@ -281,20 +268,9 @@ void amend_previous(GapBridgeState& state, const TickInput& input, std::int64_t 
     entry.row.sigma_arcsec = square_root(entry.variance_arcsec2);
     entry.row.flags |= input.amend_flags;
     // The tick was the first after the gap that ended last.
-    if (state.n_pending > 0) {
-        PendingGap& pending = state.pending[static_cast<unsigned>(state.n_pending - 1)];
-        pending.correction_arcsec.add(entry.row.dtheta_final_arcsec);
-        pending.correction_arcsec.add(-before_arcsec);
-    }
-}
-
-void add_measured_tick(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                       const TickInput& input, std::int64_t tick) noexcept {
-    if (state.gap.open) end_gap(gyro, config, state, input, tick);
-    HistoryTick& entry = at(state, tick);
-    entry.row.dtheta_final_arcsec = input.value_arcsec;
-    entry.row.dtheta_arcsec = state.n_pending > 0 ? deliver(config, state, entry, tick) : input.value_arcsec;
-    entry.row.sigma_arcsec = square_root(input.variance_arcsec2);
+    if (state.n_pending == 0) return;
+    PendingGap& pending = state.pending[static_cast<unsigned>(state.n_pending - 1)];
+    pending.correction_arcsec.add_difference(entry.row.dtheta_final_arcsec, before_arcsec);
 }
 
 // Final values of the gaps whose last point is in, and the reports of those whose correction is due.
@@ -302,8 +278,7 @@ void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& confi
                  std::int64_t tick, bool late, AngleSample& sample) noexcept {
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.due_tick - pending.ready_before == tick && is_estimated(config) &&
-            pending.gap.n <= max_gap_ticks(config))
+        if (pending.due_tick - pending.ready_before == tick)
             pending.asked = ask(gyro, config, state, pending.gap, tick);
         if (pending.is_reported || pending.due_tick > tick) continue;
         GapReport report;
@@ -338,7 +313,10 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         .by_phase = state.with_phase};
     if (input.measured) {
         state.common_arcsec2 = input.common_arcsec2;
-        add_measured_tick(gyro, config, state, input, tick);
+        if (state.gap.open) end_gap(gyro, config, state, input, tick);
+        entry.row.dtheta_final_arcsec = input.value_arcsec;
+        entry.row.dtheta_arcsec = state.n_pending > 0 ? deliver(config, state, entry, tick) : input.value_arcsec;
+        entry.row.sigma_arcsec = square_root(input.variance_arcsec2);
     } else {
         add_gap_tick(gyro, config, state, input, tick);
     }
@@ -359,8 +337,7 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.is_reported) continue;
-        if (!pending.asked && is_estimated(config) && pending.gap.n <= max_gap_ticks(config))
-            pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
+        if (!pending.asked) pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
         work(gyro, config, state);
         out.has_gap = resolve(gyro, config, state, pending, state.next_tick, false, out.gap);
     }

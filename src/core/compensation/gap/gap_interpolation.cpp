@@ -42,12 +42,11 @@ GapSums sums_of(const CompensationConstants& gyro, const GapBridgeConfig& config
     const double usual = rounding_arcsec2(gyro, state.with_phase);
     for (int k = 0; k < sums.fit.n(); ++k) {
         const HistoryTick& point = at(state, gap.first_tick - 1 + sums.fit.position(k));
-        const PointWeight weight = sums.fit.weight_of(static_cast<unsigned>(k));
         const double shared =
             neighbours(sums.fit, k) ? shared_rounding(usual, last_variance, point.variance_arcsec2) : 0.0;
         double angle_weight = 0.0;
         for (unsigned j = 0; j < n; ++j) {
-            const double w = weight.at(j + 1.0);
+            const double w = sums.fit.weight(static_cast<unsigned>(k), j + 1.0);
             sums.value_arcsec[j] += w * point.row.dtheta_final_arcsec;
             sums.variance_arcsec2[j] += w * w * point.variance_arcsec2 - shared * w * last_weight[j];
             last_weight[j] = w;

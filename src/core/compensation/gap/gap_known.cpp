@@ -28,13 +28,6 @@ KnownStretch stretch_of(const GapBridgeState& state, const HistoryTick& entry, s
     return {first, last, first - start, entry.known_arcsec, entry.variance_arcsec2};
 }
 
-// What the bridge says of a stretch against its sum.
-struct Judgement {
-    double off_arcsec = 0.0;
-    double claimed_arcsec2 = 0.0;  // of the rows, as if independent
-    bool contradicts = false;      // (3)
-};
-
 double deficit_of(const GapBridgeState& state, const KnownStretch& s, double constant_arcsec) noexcept {
     ExactSum deficit;
     deficit.add(s.sum_arcsec);
@@ -44,18 +37,11 @@ double deficit_of(const GapBridgeState& state, const KnownStretch& s, double con
 }
 
 void set_row(AngleRow& row, double value_arcsec, double variance_arcsec2, ExactSum& change) noexcept {
-    change.add(value_arcsec);
-    change.add(-row.dtheta_final_arcsec);
+    change.add_difference(value_arcsec, row.dtheta_final_arcsec);
     row.dtheta_final_arcsec = value_arcsec;
     row.sigma_arcsec = deviation(variance_arcsec2);
     if (!is_finite(row.sigma_arcsec)) return;
     row.flags = (row.flags & ~std::uint32_t{flag_unrepaired}) | flag_interpolated;
-}
-
-// w_j of (1) without learnt motion: a parabola over the whole gap, constant over a part of one.
-double share(const KnownStretch& s, bool is_whole, double j) noexcept {
-    const double n = s.n();
-    return is_whole ? 6.0 * j * (n + 1.0 - j) / (n * (n + 1.0) * (n + 2.0)) : 1.0 / n;
 }
 
 // Added variance of a tick in a stretch whose mean rate is an outlier: (2) for a rotation in any one of its ticks.
@@ -68,6 +54,7 @@ double outlier_variance(const GapBridgeState& state, const KnownStretch& s) noex
 
 void shift_rows(GapBridgeState& state, const KnownStretch& s, bool is_whole, double constant_arcsec,
                 ExactSum& change) noexcept {
+    const double n = s.n();
     const double deficit = deficit_of(state, s, constant_arcsec);
     const double about_mean = tick_variance(state) + outlier_variance(state, s);
     // Per row: the residual of the delivered rows is in the remaining ones.
@@ -75,23 +62,14 @@ void shift_rows(GapBridgeState& state, const KnownStretch& s, bool is_whole, dou
         as_double(s.n_delivered) * (s.sum_arcsec / (s.n() + as_double(s.n_delivered)) - constant_arcsec) / s.n();
     for (std::int64_t t = s.first; t <= s.last; ++t) {
         AngleRow& row = at(state, t).row;
-        const double w = share(s, is_whole, as_double(t - s.first + 1));
+        // w_j of (1) without learnt motion: a parabola over the whole gap, constant over a part of one.
+        const double j = as_double(t - s.first + 1);
+        const double w = is_whole ? 6.0 * j * (n + 1.0 - j) / (n * (n + 1.0) * (n + 2.0)) : 1.0 / n;
         const double before = row.sigma_arcsec * row.sigma_arcsec;
         double variance = (before < about_mean ? before : about_mean) + beyond * beyond;
         if (before < infinity) variance += deficit * deficit * w * (1.0 - w);
         set_row(row, row.dtheta_final_arcsec + w * deficit, variance, change);
     }
-}
-
-Judgement judge(const GapBridgeState& state, const HistoryTick& entry, const KnownStretch& s) noexcept {
-    Judgement out{.off_arcsec = deficit_of(state, s, 0.0)};
-    for (std::int64_t t = s.first; t <= s.last; ++t) {
-        const double sigma = at(state, t).row.sigma_arcsec;
-        out.claimed_arcsec2 += sigma * sigma;
-    }
-    const double limit = outlier_sq * (entry.known_variance_arcsec2 + s.n() * out.claimed_arcsec2);
-    out.contradicts = out.off_arcsec * out.off_arcsec > limit;
-    return out;
 }
 
 void count_in(double rounding_arcsec2, std::int64_t n_ticks, double variance_arcsec2, Gap& gap) noexcept {
@@ -156,14 +134,19 @@ KnownShift settle_known(const CompensationConstants& gyro, const GapBridgeConfig
         if (n == 0) continue;
         entry.known_ticks = 0;
         const KnownStretch s = stretch_of(state, entry, n);
-        const Judgement bridge = is_short ? judge(state, entry, s) : Judgement{};
+        // What the bridge says of the stretch against its sum: its rows as if independent, and (3).
+        double claimed_arcsec2 = 0.0;
+        for (std::int64_t k = s.first; is_short && k <= s.last; ++k)
+            claimed_arcsec2 += square(at(state, k).row.sigma_arcsec);
+        const double off = is_short ? deficit_of(state, s, 0.0) : 0.0;
+        const bool contradicts = square(off) > outlier_sq * (entry.known_variance_arcsec2 + s.n() * claimed_arcsec2);
         if (entry.known_is_rough) {
-            if (!bridge.contradicts && !(entry.known_variance_arcsec2 < bridge.claimed_arcsec2)) continue;
+            if (!contradicts && !(entry.known_variance_arcsec2 < claimed_arcsec2)) continue;
             count_in(rounding_arcsec2(gyro, state.with_phase), n, entry.known_variance_arcsec2, gap);
             out.variance_arcsec2 += entry.known_variance_arcsec2;
         }
         if (is_short) covered |= ((std::uint64_t{1} << n) - 1u) << (t + 1 - n - gap.first_tick);
-        if (bridge.contradicts) beside_arcsec2 += square(bridge.off_arcsec);
+        if (contradicts) beside_arcsec2 += square(off);
         settle(state, gap, s, constant_arcsec, out.change_arcsec);
     }
     double n_beside = 0.0;

@@ -1,11 +1,13 @@
 #include "gap_switch.hpp"
 
+#include <algorithm>
+
 #include <zlg/core/common/handover.hpp>
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/compensation/border.hpp>
 
 #include "common/bounds.hpp"
-#include "compensation/estimate/counter_rounding.hpp"
+#include "compensation/estimate/window_covariance.hpp"
 #include "gap_interpolation.hpp"
 
 namespace zlg::core {
@@ -32,7 +34,7 @@ constexpr int min_points = 3;
 constexpr double few_ticks = 25.0;
 
 // How far the roundings of whole counts repeat over the ticks of a mean, 0..1: at rest and at even rates they do not average out of
-// it. Their correlation (counter_rounding.hpp) at a few distances, the longest half of the memory of the bias.
+// it. Their correlation (window_covariance.hpp) at a few distances, the longest half of the memory of the bias.
 double repetition(const CompensationConstants& gyro, const MotionSpread& spread) noexcept {
     const double count = gyro.scale.value();
     const double turn = 2.0 * spread.mean_half_arcsec / count;
@@ -81,13 +83,12 @@ public:
         window_.magnetic_variance_arcsec2 = steps ? state.magnetic_variance_arcsec2 : 0.0;
         if (!state.with_phase) window_.bias_variance_arcsec2 = rounding_arcsec2(gyro) * repetition(gyro, state.spread);
         window_.gap = {2 * ticks_before_estimate, 2 * static_cast<int>(ticks_before_estimate + gap.n)};
-        for (std::int64_t t = first_tick_; t < gap.first_tick; ++t) add_before(t);
+        for (std::int64_t t = first_tick_; t < gap.first_tick; ++t) add_tick(t);
         add_gap();
         const int after = ticks_to_last_point(config);
         const int looked_at = after < most_ticks_after_estimate ? after : most_ticks_after_estimate;
         const int most_rows = window_.n_rows - n_lit_ + most_points_after;
-        for (int k = 0; k < looked_at && window_.n_rows < most_rows; ++k) add_after(k);
-        window_.n_halves = window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
+        for (int k = 0; k < looked_at && window_.n_rows < most_rows; ++k) add_tick(end_of_gap_ + k);
         plan_.n_late = late_ticks();
         plan.is_solvable = n_before_ > 0 && n_after_ > 0 && n_before_ + n_after_ >= min_points;
     }
@@ -102,27 +103,14 @@ private:
         return !state_.with_phase || entry.with_phase;
     }
 
-    [[nodiscard]] bool has_halves(const HistoryTick& entry) const noexcept {
-        return entry.half[0].read && entry.half[1].read;
-    }
-
-    [[nodiscard]] RowPlace place_of(std::int64_t tick, int n_ticks = 1, int half = -1) const noexcept {
-        return {static_cast<std::int16_t>(tick - gap_.first_tick), static_cast<std::int8_t>(n_ticks),
-                static_cast<std::int8_t>(half)};
-    }
-
-    WindowRow& add(const RowPlace& place, int halves) noexcept {
-        const int first = window_.n_rows == 0 ? 0 : window_.row[static_cast<unsigned>(window_.n_rows - 1)].halves.last;
-        plan_.place[static_cast<unsigned>(window_.n_rows)] = place;
+    WindowRow& add(int halves) noexcept {
         WindowRow& row = window_.row[static_cast<unsigned>(window_.n_rows++)];
-        row.halves = {first, first + halves};
-        row.after_gap = first >= window_.gap.first;
-        for (int h = 0; h < halves; ++h) {
-            const std::int64_t tick = gap_.first_tick + place.tick + (place.half < 0 ? h / 2 : 0);
-            const HistoryTick& entry = at(state_, tick < 0 ? 0 : tick);
-            const int k = place.half < 0 ? h % 2 : place.half;
-            window_.bias_sign[static_cast<unsigned>(first + h)] =
-                tick < 0 || tick >= end_ ? std::int8_t{1} : entry.half[static_cast<unsigned>(k)].sign;
+        row.halves = {window_.n_halves, window_.n_halves + halves};
+        row.after_gap = window_.n_halves >= window_.gap.first;
+        for (; window_.n_halves < row.halves.last; ++window_.n_halves) {
+            const std::int64_t half = 2 * first_tick_ + window_.n_halves;
+            window_.bias_sign[static_cast<unsigned>(window_.n_halves)] =
+                half < 0 || half >= 2 * end_ ? std::int8_t{1} : half_reading(half).sign;
         }
         return row;
     }
@@ -133,9 +121,7 @@ private:
         const auto behind = static_cast<int>(config_.relock_ticks) - (window_.n_halves - window_.gap.last) / 2;
         const int lit = (window_.light.basis.halves - (window_.n_halves - window_.light_start)) / 2;
         const auto known = static_cast<int>(end_ - end_of_gap_) - (window_.n_halves - window_.gap.last) / 2;
-        int n = behind < lit ? behind : lit;
-        if (n > known) n = known;
-        return n < 0 ? 0 : n < most_late_ticks ? n : most_late_ticks;
+        return std::clamp(std::min({behind, lit, known}), 0, most_late_ticks);
     }
 
     void count(const WindowRow& row) noexcept { ++(row.after_gap ? n_after_ : n_before_); }
@@ -143,32 +129,6 @@ private:
     // Magnetic drift that is still in a tick.
     [[nodiscard]] double magnetic(const HistoryTick& entry) const noexcept {
         return entry.row.mode * state_.magnetic_arcsec;
-    }
-
-    void add_tick_as_it_is(std::int64_t tick) noexcept {
-        const HistoryTick& entry = at(state_, tick);
-        WindowRow& row = add(place_of(tick), 2);
-        row.read = true;
-        row.y_arcsec = entry.row.dtheta_final_arcsec - magnetic(entry);
-        row.error_arcsec2 = entry.relock_variance_arcsec2;
-        count(row);
-    }
-
-    void add_before(std::int64_t tick) noexcept {
-        if (!is_point(tick)) {
-            (void)add(place_of(tick), 2);
-            return;
-        }
-        const HistoryTick& entry = at(state_, tick);
-        // Also one in which a fault may have begun unseen.
-        if (!by_halves_ || !entry.settled || !has_halves(entry) || entry.relock_variance_arcsec2 > 0.0)
-            return add_tick_as_it_is(tick);
-        for (int k = 0; k < 2; ++k) {
-            WindowRow& row = add(place_of(tick, 1, k), 1);
-            row.read = true;
-            row.y_arcsec = entry.half[static_cast<unsigned>(k)].angle_arcsec - 0.5 * magnetic(entry);
-            count(row);
-        }
     }
 
     // A half as it was read, with what is taken off by its record.
@@ -189,10 +149,6 @@ private:
         const double unit = arcsec_per_lambda2(gyro_, gyro_.bias);
         const double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
         row.common_arcsec = d < 0.0 ? -square_root(common) : square_root(common);
-    }
-
-    [[nodiscard]] bool is_lit(const HalfReading& half) const noexcept {
-        return half.lit && half.read && plan_.light != HalfLight::ticks && half.false_arcsec2 >= 0.0F;
     }
 
     [[nodiscard]] const HalfReading& half_reading(std::int64_t half) const noexcept {
@@ -225,14 +181,9 @@ private:
         if (!by_halves_ || plan_.light == HalfLight::none || plan_.light == HalfLight::ticks || !is_point(end_of_gap_))
             return h;
         const std::int64_t least = h - most_lit_rows > 2 * gap_.first_tick ? h - most_lit_rows : 2 * gap_.first_tick;
+        const auto is_lit = [](const HalfReading& half) { return half.lit && half.read && half.false_arcsec2 >= 0.0F; };
         while (h > least && is_lit(half_reading(h - 1)) && fits(h - 1)) --h;
         return h;
-    }
-
-    void add_lit(std::int64_t half) noexcept {
-        const HistoryTick& entry = at(state_, half / 2);
-        const int k = static_cast<int>(half % 2);
-        read_half(entry, k, true, add(place_of(half / 2, 1, k), 1));
     }
 
     void add_gap() noexcept {
@@ -242,37 +193,44 @@ private:
         for (std::int64_t t = gap_.first_tick; t < lit / 2;) {
             const auto left = static_cast<int>(lit / 2 - t);
             const int n = left < each ? left : each;
-            add(place_of(t, n), 2 * n).wanted = true;
+            add(2 * n).wanted = true;
             t += n;
         }
-        if (lit % 2 != 0) add(place_of(lit / 2, 1, 0), 1).wanted = true;
+        if (lit % 2 != 0) add(1).wanted = true;
         n_lit_ = static_cast<int>(2 * end_of_gap_ - lit);
-        for (std::int64_t h = lit; h < 2 * end_of_gap_; ++h) add_lit(h);
+        for (std::int64_t h = lit; h < 2 * end_of_gap_; ++h)
+            read_half(at(state_, h / 2), static_cast<int>(h % 2), true, add(1));
     }
 
-    void add_after(int k) noexcept {
-        const std::int64_t tick = end_of_gap_ + k;
+    // One beside the gap.
+    void add_tick(std::int64_t tick) noexcept {
         if (!is_point(tick)) {
-            (void)add(place_of(tick), 2);
+            (void)add(2);
             return;
         }
         const HistoryTick& entry = at(state_, tick);
-        const bool wanted = gap_.moves && plan_.light != HalfLight::none && k < config_.relock_ticks;
+        const std::int64_t k = tick - end_of_gap_;
+        const bool wanted = k >= 0 && gap_.moves && plan_.light != HalfLight::none && k < config_.relock_ticks;
         const bool corrects = wanted && plan_.light != HalfLight::ticks;
         const bool by_records = corrects && plan_.light == HalfLight::records;
         const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0F && entry.half[1].false_arcsec2 >= 0.0F);
         // By the paper's equation; or by nobody, and then the false angle alternates from half to half, and a tick has little of it.
+        // Also one in which a fault may have begun unseen.
         const bool is_corrected = !corrects && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
-        if (!has_halves(entry) || !known || is_corrected) {
-            add_tick_as_it_is(tick);
-            window_.row[static_cast<unsigned>(window_.n_rows - 1)].wanted = wanted;
-            return;
+        const bool has_halves = entry.half[0].read && entry.half[1].read;
+        if (!has_halves || !known || is_corrected || (k < 0 && !by_halves_)) {
+            WindowRow& row = add(2);
+            row.read = true;
+            row.wanted = wanted;
+            row.y_arcsec = entry.row.dtheta_final_arcsec - magnetic(entry);
+            row.error_arcsec2 = entry.relock_variance_arcsec2;
+            return count(row);
         }
         if (by_halves_ && n_lit_ + 2 * (k + 1) <= halves_by_halves) {
-            for (int half = 0; half < 2; ++half) read_half(entry, half, wanted, add(place_of(tick, 1, half), 1));
+            for (int half = 0; half < 2; ++half) read_half(entry, half, wanted, add(1));
             return;
         }
-        WindowRow& row = add(place_of(tick), 2);
+        WindowRow& row = add(2);
         read_half(entry, 0, wanted, row);
         const WindowRow first = row;
         read_half(entry, 1, wanted, row);
@@ -298,29 +256,12 @@ private:
     int n_after_ = 0;
 };
 
-void set_final(HistoryTick& entry, double value_arcsec, ExactSum& change) noexcept {
-    change.add(value_arcsec);
-    change.add(-entry.row.dtheta_final_arcsec);
-    entry.row.dtheta_final_arcsec = value_arcsec;
-}
-
-// A tick of the gap, whose rows are summed.
-void set_gap_tick(HistoryTick& entry, double value_arcsec, double variance_arcsec2, bool learnt,
-                  ExactSum& difference) noexcept {
-    AngleRow& row = entry.row;
-    row.dtheta_final_arcsec = value_arcsec;
-    row.sigma_arcsec = deviation(variance_arcsec2);
-    row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | flag_interpolated;
-    if (!learnt) row.flags |= flag_lower_order;
-    difference.add(row.dtheta_final_arcsec);
-    difference.add(-row.dtheta_arcsec);
-}
-
 // is_corrected  by the light: else the tick keeps its flags.
 void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec2, bool is_corrected,
                     ExactSum& change) noexcept {
     const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
-    set_final(entry, value_arcsec, change);
+    change.add_difference(value_arcsec, entry.row.dtheta_final_arcsec);
+    entry.row.dtheta_final_arcsec = value_arcsec;
     entry.row.relock_arcsec = read - value_arcsec;
     entry.variance_arcsec2 += error_arcsec2 - entry.relock_variance_arcsec2;
     entry.relock_variance_arcsec2 = error_arcsec2;
@@ -346,6 +287,65 @@ void correct_late_ticks(GapBridgeState& state, const Gap& gap, const SwitchJob& 
     }
 }
 
+// The ticks of the gap and those after it get their final values.
+void set_rows(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap, const SwitchJob& job,
+              SwitchAngle& out) noexcept {
+    const SwitchPlan& plan = job.plan;
+    const SwitchWindow& window = plan.window;
+    const SwitchEstimate& found = job.found;
+    // Of a row, counted from the first one of the gap.
+    const auto tick_of = [&](int r) {
+        return window.row[static_cast<unsigned>(r)].halves.first / 2 - ticks_before_estimate;
+    };
+    out.known = true;
+    out.variance_arcsec2 = found.variance_arcsec2;
+    if (plan.light == HalfLight::spline || plan.light == HalfLight::records) out.scale = found.scale;
+    for (int r = 0; r < window.n_rows;) {
+        const int tick = tick_of(r);
+        double angle = 0.0;
+        double variance = 0.0;
+        double unread = 0.0;
+        double share = 0.0;
+        int n_lit = 0;
+        const WindowRow& head = window.row[static_cast<unsigned>(r)];
+        for (const int first = r; r < window.n_rows && tick_of(r) == tick; ++r) {
+            const auto at_row = static_cast<unsigned>(r);
+            angle += found.row[at_row].angle_arcsec;
+            variance += found.row[at_row].variance_arcsec2;
+            if (r > first) variance += 2.0 * found.row[at_row].with_before_arcsec2;
+            share += found.row[at_row].share;
+            const WindowRow& row = window.row[at_row];
+            n_lit += row.read;
+            if (row.wanted && !row.read)
+                unread += plan.unread_arcsec2 * static_cast<double>(row.halves.last - row.halves.first);
+        }
+        out.variance_arcsec2 += unread;
+        variance = (variance > 0.0 ? variance : 0.0) + unread;
+        if (!head.wanted) continue;
+        if (tick >= gap.n) {
+            HistoryTick& entry = at(state, gap.first_tick + tick);
+            const bool is_corrected = plan.light == HalfLight::spline || head.recorded_arcsec != 0.0;
+            set_after_tick(entry, angle + entry.row.mode * plan.magnetic_arcsec, variance, is_corrected,
+                           out.after_arcsec);
+            continue;
+        }
+        // What was read of a tick has the roundings at its borders, which cancel in the angle of the switch.
+        variance += 0.5 * n_lit * rounding_arcsec2(gyro, window.with_phase);
+        const int n_ticks = (head.halves.last - head.halves.first + 1) / 2;
+        for (int k = 0; k < n_ticks; ++k) {
+            HistoryTick& entry = at(state, gap.first_tick + tick + k);
+            AngleRow& row = entry.row;
+            row.dtheta_final_arcsec = angle / n_ticks;
+            row.sigma_arcsec = deviation(variance / n_ticks);
+            row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | flag_interpolated;
+            if (!job.learnt) row.flags |= flag_lower_order;
+            out.gap_arcsec.add_difference(row.dtheta_final_arcsec, row.dtheta_arcsec);
+            entry.share = share / n_ticks;
+        }
+    }
+    correct_late_ticks(state, gap, job, out);
+}
+
 }  // namespace
 
 double tick_variance(const GapBridgeState& state) noexcept {
@@ -354,7 +354,7 @@ double tick_variance(const GapBridgeState& state) noexcept {
 
 bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
          std::int64_t end) noexcept {
-    if (!gap.has_before) return false;
+    if (!gap.has_before || !is_estimated(config) || gap.n > max_gap_ticks(config)) return false;
     bool is_late = false;
     for (SwitchJob& job : state.background.job) {
         const JobState now = taken(job.state);
@@ -387,63 +387,11 @@ SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const
         if (one.gap == gap.first_tick && taken(one.state) != JobState::free) job = &one;
     if (job == nullptr) return out;
     const bool is_late = hand_over_if(job->state, JobState::asked, JobState::late);
-    if (is_late || late) {
+    if (is_late || late)
         ++state.background.n_late;
-        if (!is_late) hand_over(job->state, JobState::free);
-        return out;
-    }
-    const SwitchPlan& plan = job->plan;
-    const SwitchWindow& window = plan.window;
-    const SwitchEstimate& found = job->found;
-    if (!found.known) {
-        hand_over(job->state, JobState::free);
-        return out;
-    }
-    out.known = true;
-    out.variance_arcsec2 = found.variance_arcsec2;
-    if (plan.light == HalfLight::spline || plan.light == HalfLight::records) out.scale = found.scale;
-    for (int r = 0; r < window.n_rows;) {
-        const RowPlace& place = plan.place[static_cast<unsigned>(r)];
-        const bool wanted = window.row[static_cast<unsigned>(r)].wanted;
-        const bool in_gap = place.tick >= 0 && place.tick < gap.n;
-        double angle = 0.0;
-        double variance = 0.0;
-        double unread = 0.0;
-        double share = 0.0;
-        int n_lit = 0;
-        const int first = r;
-        for (; r < window.n_rows && (r == first || plan.place[static_cast<unsigned>(r)].tick == place.tick); ++r) {
-            const auto at_row = static_cast<unsigned>(r);
-            angle += found.row[at_row].angle_arcsec;
-            variance += found.row[at_row].variance_arcsec2;
-            if (r > first) variance += 2.0 * found.row[at_row].with_before_arcsec2;
-            share += found.row[at_row].share;
-            const WindowRow& row = window.row[at_row];
-            n_lit += row.read;
-            if (row.wanted && !row.read)
-                unread += plan.unread_arcsec2 * static_cast<double>(row.halves.last - row.halves.first);
-        }
-        out.variance_arcsec2 += unread;
-        variance = (variance > 0.0 ? variance : 0.0) + unread;
-        if (!wanted) continue;
-        HistoryTick& entry = at(state, gap.first_tick + place.tick);
-        if (!in_gap) {
-            const WindowRow& row = window.row[static_cast<unsigned>(first)];
-            const bool is_corrected = plan.light == HalfLight::spline || row.recorded_arcsec != 0.0;
-            set_after_tick(entry, angle + entry.row.mode * plan.magnetic_arcsec, variance, is_corrected,
-                           out.after_arcsec);
-            continue;
-        }
-        // What was read of a tick has the roundings at its borders, which cancel in the angle of the switch.
-        variance += 0.5 * n_lit * rounding_arcsec2(gyro, window.with_phase);
-        for (int k = 0; k < place.n_ticks; ++k) {
-            HistoryTick& tick = at(state, gap.first_tick + place.tick + k);
-            set_gap_tick(tick, angle / place.n_ticks, variance / place.n_ticks, job->learnt, out.gap_arcsec);
-            tick.share = share / place.n_ticks;
-        }
-    }
-    correct_late_ticks(state, gap, *job, out);
-    hand_over(job->state, JobState::free);
+    else if (job->found.known)
+        set_rows(gyro, state, gap, *job, out);
+    if (!is_late) hand_over(job->state, JobState::free);
     return out;
 }
 

@@ -2,8 +2,6 @@
 
 #include <cstddef>
 
-#include "common/pair.hpp"
-
 namespace zlg::core {
 namespace {
 
@@ -11,29 +9,16 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 
 // Sums of powers 0..4 of the positions. With |x| <= 64 and 16 points the largest number made of them, the determinant,
 // stays under 2^51, so that nothing is rounded and the order of addition does not matter.
-template <class Number>
-struct PowerSums {
-    Number x1{};
-    Number x2{};
-    Number x3{};
-    Number x4{};
-
-    void add(Number x) noexcept {
-        const Number square = x * x;
-        x1 += x;
-        x2 += square;
-        x3 += square * x;
-        x4 += square * square;
-    }
-};
-
 std::array<double, 5> power_sums(const std::array<double, max_fit_points>& x, std::size_t n) noexcept {
-    PowerSums<Pair> pairs;
-    for (std::size_t k = 0; k + 1 < n; k += 2) pairs.add(load(x.data() + k));
-    PowerSums<double> last;
-    if (n % 2 != 0) last.add(x[n - 1]);
-    return {static_cast<double>(n), last.x1 + pairs.x1[0] + pairs.x1[1], last.x2 + pairs.x2[0] + pairs.x2[1],
-            last.x3 + pairs.x3[0] + pairs.x3[1], last.x4 + pairs.x4[0] + pairs.x4[1]};
+    std::array<double, 5> sums{static_cast<double>(n)};
+    for (std::size_t k = 0; k < n; ++k) {
+        const double square = x[k] * x[k];
+        sums[1] += x[k];
+        sums[2] += square;
+        sums[3] += square * x[k];
+        sums[4] += square * square;
+    }
+    return sums;
 }
 
 // Adjugate of the matrix of normal equations of the given order, zero beyond it.
@@ -67,8 +52,7 @@ PolynomialFit::PolynomialFit(const std::array<std::int32_t, max_fit_points>& pos
 
 FitWeights PolynomialFit::weights(std::int32_t j) const noexcept {
     FitWeights w{};
-    const double x = j;
-    for (unsigned k = 0; k < static_cast<unsigned>(n_); ++k) w[k] = weight_of(k).at(x);
+    for (unsigned k = 0; k < static_cast<unsigned>(n_); ++k) w[k] = weight(k, j);
     return w;
 }
 

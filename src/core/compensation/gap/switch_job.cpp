@@ -48,10 +48,7 @@ void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
     if (job.plan.n_late == 0) return;
     const SwitchWindow& window = job.plan.window;
     const LightFit fit{window.light, gyro.light_noise.value()};
-    if (!fit.is_known()) {
-        job.plan.n_late = 0;
-        return;
-    }
+    if (!fit.is_known()) job.plan.n_late = 0;
     const double unit = arcsec_per_lambda2(gyro, gyro.bias);
     int h = window.n_halves - window.light_start;
     for (unsigned k = 0; k < static_cast<unsigned>(job.plan.n_late); ++k, h += 2) {

@@ -2,12 +2,18 @@
 
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
+#include <zlg/core/compensation/switch_light.hpp>
 
 #include "common/bounds.hpp"
-#include "relock_light.hpp"
 
 namespace zlg::core {
 namespace {
+
+// Square of the number of standard deviations of a settled tick from which on a false angle is taken to be real.
+constexpr double unsubtracted_gate_sq = 9.0;
+
+// Part of the variance of a tick up to which a false angle is not looked for.
+constexpr double hidden_part = 0.25;
 
 // No rotation is that large, whatever the scale; its square and any sum of such angles are still numbers.
 constexpr double max_false_angle_arcsec = 1e30;
@@ -159,6 +165,21 @@ RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfi
     else if (config.method != RelockMethod::none)
         found = by_mean_square(gyro, tick);  // of `joint` before the halves around the gap are weighed together
     return {.due = true, .tick = or_missing(found, most_arcsec(gyro, state, tick))};
+}
+
+double pushed_arcsec2(const CompensationConstants& gyro, const RelockDriftConfig& config, const RelockDriftState& state,
+                      const RelockTick& tick, double variance_arcsec2) noexcept {
+    if (state.armed && state.since_gap < config.ticks) return 0.0;
+    if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return 0.0;
+    const double unit = arcsec_per_lambda2(gyro, gyro.bias);
+    const double change_lambda2 = tick.second.detuning_sq_lambda2 - tick.first.detuning_sq_lambda2;
+    if (square(unit * change_lambda2) <= hidden_part * variance_arcsec2) return 0.0;
+    RelockDriftState closing{.armed = true};
+    const FalseAngle left = step(gyro, config, closing, tick).tick;
+    // Of the difference of two mean squares of n samples of noise.
+    const double settled_arcsec2 = 4.0 * square(unit * square(gyro.light_noise.value())) / gyro.light_samples;
+    const bool is_real = left.known && square(left.value_arcsec) > unsubtracted_gate_sq * settled_arcsec2;
+    return is_real ? square(left.value_arcsec) + left.variance_arcsec2 : 0.0;
 }
 
 }  // namespace zlg::core

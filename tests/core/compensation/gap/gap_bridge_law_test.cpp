@@ -175,7 +175,7 @@ TEST(GapBridgeLaw, FinalValuesOfAMirroredLogAreMirrored) {
     for (int trial = 0; trial < n_logs && !HasFailure(); ++trial) {
         GapBridgeConfig config = random_config(random);
         config.points_after = config.points_before;
-        if (check(config) != GapBridgeFault::none) continue;
+        if (!is_allowed(config)) continue;
         Log log = random_log(random, 200);
         for (TickInput& tick : log) tick.amend_previous = false;
         if (config.method != BridgeMethod::none)

@@ -92,4 +92,11 @@ TEST(SwitchLight, LightThatCannotBeReadIsNotComplete) {
     }
 }
 
+TEST(RelockProfileConfig, WhatIsMeaninglessIsRefused) {
+    EXPECT_TRUE(is_allowed(RelockProfileConfig{}));
+    for (const double k : {0.0, std::numeric_limits<double>::quiet_NaN(), 1e7, -1e-7})
+        EXPECT_FALSE(is_allowed(RelockProfileConfig{.discriminator_per_lambda = k}));
+    EXPECT_FALSE(is_allowed(RelockProfileConfig{.curve = {.n_nodes = 1}}));
+}
+
 }  // namespace zlg::core::switch_light_test

@@ -176,7 +176,7 @@ struct Accuracy {
 [[nodiscard]] std::vector<ManoeuvreFigures> measure_manoeuvres(int gaps, bool quick, std::uint64_t seed, int threads);
 
 // The same families, and first gaps some 20 and 60 ticks after the start, each with the whole bank of the estimate and then without
-// one member of it after the other (motion_bank.hpp).
+// one member of it after the other (walk_kernel.hpp).
 [[nodiscard]] std::vector<ManoeuvreFigures> measure_members(int gaps, std::uint64_t seed, int threads);
 
 // The motion is another one from the opening of the gap on; `manoeuvre` says which.

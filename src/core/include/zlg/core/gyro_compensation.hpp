@@ -16,7 +16,6 @@
 #include <zlg/core/compensation/lock_in.hpp>
 #include <zlg/core/compensation/magnetic_drift.hpp>
 #include <zlg/core/compensation/relock_drift.hpp>
-#include <zlg/core/compensation/relock_profile_config.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/core/units.hpp>
 
@@ -39,28 +38,7 @@ struct GyroCompensationConfig {
     return bridge;
 }
 
-// The numbers of the enumerators are sent over the gyro's line (docs/wire.md) and do not change. Of the faults of the
-// constants, those of timer and plateau are `edges`, that of the random walk is `random_walk`, the others are `relock`.
-enum class GyroCompensationFault : unsigned char {
-    none,
-    relock,
-    edges,
-    bridge,
-    random_walk,
-    magnetic,
-    profile,
-    lock_in
-};
-
 [[nodiscard]] GyroCompensationFault check(const GyroCompensationConfig& config) noexcept;
-
-// Mean square error of the recent switches, by the sigma of their gaps.
-struct SwitchErrors {
-    std::int32_t n = 0;
-    double mean_sq_arcsec2 = 0.0;
-
-    friend constexpr bool operator==(const SwitchErrors&, const SwitchErrors&) = default;
-};
 
 struct GyroCompensationState {
     bool has_first = false;
@@ -74,10 +52,11 @@ struct GyroCompensationState {
     EdgeShiftState edges{};
     CountedStretchState stretch{};
     RelockDriftState relock{};
-    double bias_arcsec = 0.0;  // what a positive bias adds to a half, slow mean
-    double n_bias = 0.0;       // ticks in it, up to its memory
-    SwitchErrors switch_errors{};
-    Angle angle{};  // sum of all dtheta delivered
+    double bias_arcsec = 0.0;           // what a positive bias adds to a half, slow mean
+    double n_bias = 0.0;                // ticks in it, up to its memory
+    std::int32_t n_switches = 0;        // recent ones
+    double switch_error_arcsec2 = 0.0;  // their mean square error, by the sigma of their gaps
+    Angle angle{};                      // sum of all dtheta delivered
     MagneticDriftState magnetic{};
     GapBridgeState bridge{};
 

@@ -30,7 +30,6 @@ struct SinCos {
 [[nodiscard]] double exp(double x) noexcept;
 [[nodiscard]] double expm1(double x) noexcept;
 [[nodiscard]] double log(double x) noexcept;
-[[nodiscard]] double pow(double x, double y) noexcept;
 
 // Of x radians, however large.
 [[nodiscard]] double sin(double x) noexcept;

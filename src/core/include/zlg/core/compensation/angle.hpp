@@ -23,6 +23,14 @@ struct ExactSum {
         high = sum + low;
         low -= high - sum;
     }
+    constexpr void add(const ExactSum& x) noexcept {
+        add(x.high);
+        add(x.low);
+    }
+    constexpr void add_difference(double more, double less) noexcept {
+        add(more);
+        add(-less);
+    }
     [[nodiscard]] constexpr double value() const noexcept { return high + low; }
 };
 
@@ -47,8 +55,7 @@ public:
         if (tick_parts != 0) add_parts(tick_parts);
         const double counted_arcsec = scale_arcsec * counts_and_parts(tick_counts, tick_parts);
         if (dtheta_arcsec == counted_arcsec) return;
-        remainder_arcsec.add(dtheta_arcsec);
-        remainder_arcsec.add(-counted_arcsec);
+        remainder_arcsec.add_difference(dtheta_arcsec, counted_arcsec);
     }
 
     // accuracy  one rounding of the result.

@@ -31,9 +31,20 @@ struct CompensationConstants {
     DiscriminatorCurve control_curve{};  // that they have come through already: it scales their noise
 };
 
-enum class CompensationConstantsFault : unsigned char { none, tick, scale, random_walk, bias, edges, light };
+// Of a configuration of the compensation. The numbers of the enumerators are sent over the gyro's line (docs/wire.md) and do not
+// change. Of the constants, those of timer and plateau are `edges`, that of the random walk is `random_walk`, the others are `relock`.
+enum class GyroCompensationFault : unsigned char {
+    none,
+    relock,
+    edges,
+    bridge,
+    random_walk,
+    magnetic,
+    profile,
+    lock_in
+};
 
-[[nodiscard]] CompensationConstantsFault check(const CompensationConstants& gyro) noexcept;
+[[nodiscard]] GyroCompensationFault check(const CompensationConstants& gyro) noexcept;
 
 // Twice the covariance of two neighbouring ticks, without its sign, and the variance of one: of the rounding of the counter's
 // readings, each uniform over a count.

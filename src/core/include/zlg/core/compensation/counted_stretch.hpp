@@ -34,24 +34,19 @@ struct CountedStretchState {
     std::int32_t uncovered = 0;  // halves up to now that no counts go over yet
     bool broken = false;         // the counts do not give the angle
     std::int8_t mode = 1;
-    std::int64_t area_ticks = 0;   // sum of bias_sign * mode * d
-    std::int32_t start_ticks = 0;  // shift of the reversal that begins the stretch,
-    bool start_known = false;      // and x there
-    double start_arcsec = 0.0;
+    std::int64_t area_ticks = 0;  // sum of bias_sign * mode * d
+    EdgeShiftState start{};       // the reversal that begins the stretch
     Border start_border{};
 
     friend bool operator==(const CountedStretchState&, const CountedStretchState&) = default;
 };
 
+// Its first border, its last one being that of the tick, and what the light says of it: in the state.
 struct CountedStretch {
     std::int64_t n_ticks = 0;  // that end now; 0: nothing is known
     double angle_arcsec = 0.0;
-    Border start_border{};  // its last one is that of the tick
     double fall_lambda2 =
-        0.0;            // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
-    bool seen = false;  // the light was read in all halves:
-    double deficit_lambda2 = 0.0;  // sum of s <dl^2>
-    double deficit_variance_lambda4 = 0.0;
+        0.0;  // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
 };
 
 // Mean square of the detuning from the centre of the bias, by the curve of the discriminator; 0 where it was not

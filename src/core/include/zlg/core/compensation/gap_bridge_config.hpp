@@ -30,21 +30,18 @@ struct GapBridgeConfig {
     std::int64_t relock_ticks = 0;
 };
 
-enum class GapBridgeFault : unsigned char {
-    none,
-    extrapolation_points,
-    points_before,
-    points_after,
-    order,
-    gap_ticks,
-    relock_ticks
-};
-
-[[nodiscard]] GapBridgeFault check(const GapBridgeConfig& config) noexcept;
-
 // A gap is bridged by the estimate of its switch.
 [[nodiscard]] constexpr bool is_estimated(const GapBridgeConfig& c) noexcept {
     return c.method == BridgeMethod::automatic;
+}
+
+[[nodiscard]] constexpr bool is_allowed(const GapBridgeConfig& c) noexcept {
+    for (const int points : {c.extrapolation_points, c.points_before, c.points_after})
+        if (points < 1 || points > 8) return false;
+    const int order = order_of(c.method);
+    if (c.extrapolation_points <= order || c.points_before + c.points_after <= order) return false;
+    return !is_estimated(c) || (c.gap_ticks >= 1 && c.gap_ticks <= max_estimated_gap && c.relock_ticks >= 0 &&
+                                c.relock_ticks <= most_relock_ticks);
 }
 
 // The longest gap that is repaired, in ticks.

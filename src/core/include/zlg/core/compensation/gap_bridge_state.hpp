@@ -7,7 +7,7 @@
 #include <zlg/core/compensation/angle.hpp>
 #include <zlg/core/compensation/gap_bridge_config.hpp>
 #include <zlg/core/compensation/gap_tick.hpp>
-#include <zlg/core/compensation/motion_spread.hpp>
+#include <zlg/core/compensation/learnt_motion.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
 #include <zlg/core/compensation/switch_job.hpp>
 #include <zlg/core/compensation/switch_light.hpp>
@@ -86,11 +86,8 @@ struct GapBridgeState {
     friend bool operator==(const GapBridgeState&, const GapBridgeState&) = default;
 };
 
-[[nodiscard]] inline HistoryTick& at(GapBridgeState& state, std::int64_t tick) noexcept {
-    return state.history[static_cast<std::size_t>(tick % history_ticks)];
-}
-
-[[nodiscard]] inline const HistoryTick& at(const GapBridgeState& state, std::int64_t tick) noexcept {
+// Of a state, or of one that is only read.
+[[nodiscard]] auto& at(auto& state, std::int64_t tick) noexcept {
     return state.history[static_cast<std::size_t>(tick % history_ticks)];
 }
 

@@ -27,9 +27,7 @@ struct LockInConfig {
     Hertz sigma{0.0};      // standard deviation of L, 0..1e9; with a threshold of 0 its likely size
 };
 
-enum class LockInFault : unsigned char { none, threshold, sigma };
-
-[[nodiscard]] LockInFault check(const LockInConfig& config) noexcept;
+[[nodiscard]] bool is_allowed(const LockInConfig& config) noexcept;
 
 struct LostCounts {
     double value = 0.0;     // to be added to the counts

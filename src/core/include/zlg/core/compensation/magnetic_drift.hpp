@@ -54,10 +54,8 @@ struct MagneticDriftConfig {
     Seconds thermal_time{3000.0};          // > 0
 };
 
-enum class MagneticDriftFault : unsigned char { none, presumed, warming };
-
 // Asked whatever the method: by phase every one uses the numbers.
-[[nodiscard]] MagneticDriftFault check(const MagneticDriftConfig& config) noexcept;
+[[nodiscard]] bool is_allowed(const MagneticDriftConfig& config) noexcept;
 
 enum MagneticPart : unsigned char { of_base, of_drift, of_trend, of_angle };
 

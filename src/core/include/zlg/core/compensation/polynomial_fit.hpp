@@ -16,19 +16,6 @@ inline constexpr int max_fit_points = 16;
 inline constexpr int max_fit_order = 2;
 using FitWeights = std::array<double, max_fit_points>;
 
-// Weight of one point as a function of the whole number j, or of several of them side by side.
-struct PointWeight {
-    double by_1;
-    double by_j;
-    double by_j2;
-    double determinant;
-
-    template <class Number>
-    [[nodiscard]] Number at(Number j) const noexcept {
-        return ((by_j2 * j + by_j) * j + by_1) / determinant;
-    }
-};
-
 class PolynomialFit {
 public:
     PolynomialFit() = default;
@@ -44,9 +31,9 @@ public:
     // The n weights with which the points give the value at tick j, |j| <= 64; the rest are 0.
     [[nodiscard]] FitWeights weights(std::int32_t j) const noexcept;
 
-    // The weight of point k < n as a function of j.
-    [[nodiscard]] PointWeight weight_of(unsigned k) const noexcept {
-        return {numerator_[0][k], numerator_[1][k], numerator_[2][k], determinant_};
+    // That of point k < n, at a whole number j.
+    [[nodiscard]] double weight(unsigned k, double j) const noexcept {
+        return ((numerator_[2][k] * j + numerator_[1][k]) * j + numerator_[0][k]) / determinant_;
     }
 
     friend bool operator==(const PolynomialFit&, const PolynomialFit&) = default;

@@ -30,12 +30,6 @@ struct RelockDriftConfig {
         false;  // with `none`: these ticks are due, and what they may lack is presumed; it is not that there is none
 };
 
-enum class RelockDriftFault : unsigned char { none, ticks };
-
-[[nodiscard]] constexpr RelockDriftFault check(const RelockDriftConfig& c) noexcept {
-    return c.ticks >= 0 ? RelockDriftFault::none : RelockDriftFault::ticks;
-}
-
 // One measured tick, its halves in order of time. A detuning of NaN or 0 was not measured; the temperature is that of the first
 // half, sampled in the middle of the tick.
 struct RelockTick {
@@ -84,5 +78,15 @@ void enter_gap(RelockDriftState& state) noexcept;
 //         With `frequency` it is no larger than the tick's own deficit f_i - f0 either. No number in it is ever NaN.
 [[nodiscard]] RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfig& config,
                                      RelockDriftState& state, const RelockTick& tick) noexcept;
+
+// Variance of what no correction subtracts from a tick: before the first gap of a log, and later than `ticks` after one. Where the
+// light shows a false angle beyond its noise, because the loop still settled or the perimeter was pushed, its square and the noise of
+// the light. It is found by a trial step from the state just after a gap.
+//
+// state             before `step` takes this tick.
+// variance_arcsec2  of the tick.
+[[nodiscard]] double pushed_arcsec2(const CompensationConstants& gyro, const RelockDriftConfig& config,
+                                    const RelockDriftState& state, const RelockTick& tick,
+                                    double variance_arcsec2) noexcept;
 
 }  // namespace zlg::core

@@ -9,7 +9,7 @@
 // d_r  the false angle while the loop closes, from the light: known but for its error and the scale of chi f0
 //
 //   V = C + E + D R D^T          C motion, learnt; E bias, false angles and their scale; R roundings by their law
-//   V_m = V + s_m^2 K_m          the bank: nothing, or a walk that was not learnt (motion_bank.hpp)
+//   V_m = V + s_m^2 K_m          the bank: nothing, or a walk that was not learnt (walk_kernel.hpp)
 //
 // Each member gives the generalised least-squares estimate of what is wanted, with an unknown constant rate; the members are
 // weighed by their restricted likelihood and a prior, and the estimate is the mean of the mixture (Searle, Casella and
@@ -25,7 +25,6 @@
 
 #include <zlg/core/common/triangle.hpp>
 #include <zlg/core/compensation/compensation_constants.hpp>
-#include <zlg/core/compensation/motion_bank.hpp>
 #include <zlg/core/compensation/switch_window.hpp>
 
 namespace zlg::core {

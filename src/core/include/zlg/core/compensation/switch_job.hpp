@@ -31,15 +31,6 @@ struct LateTick {
 
 inline constexpr int most_late_ticks = 48;
 
-// What a row of the window stands for.
-struct RowPlace {
-    std::int16_t tick = 0;  // the first one, where it is several, counted from the first one of the gap
-    std::int8_t n_ticks = 1;
-    std::int8_t half = -1;  // of that tick; -1: all of it
-
-    friend bool operator==(const RowPlace&, const RowPlace&) = default;
-};
-
 struct SwitchPlan {
     bool is_solvable = false;  // points on both sides, and enough of them
     HalfLight light = HalfLight::none;
@@ -47,7 +38,6 @@ struct SwitchPlan {
     // Square of what lit halves that were refused are off by: as much may each half of the gap that was not read have turned.
     double unread_arcsec2 = 0.0;
     SwitchWindow window{};
-    std::array<RowPlace, most_window_rows> place{};
     int n_late = 0;  // ticks behind the window that the light corrects
 
     friend bool operator==(const SwitchPlan&, const SwitchPlan&) = default;

@@ -52,6 +52,12 @@ struct SwitchWindow {
     friend bool operator==(const SwitchWindow&, const SwitchWindow&) = default;
 };
 
+[[nodiscard]] constexpr const WindowRow& row_of(const SwitchWindow& window, int r) noexcept {
+    return window.row[static_cast<unsigned>(r)];
+}
+
+[[nodiscard]] constexpr double width(const WindowRow& row) noexcept { return row.halves.last - row.halves.first; }
+
 // Windows of so many steps: that of a gap of 16 ticks, by halves. Those of longer gaps are learnt by ticks.
 inline constexpr int most_moment_steps = 88;
 

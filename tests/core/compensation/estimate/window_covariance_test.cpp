@@ -1,8 +1,8 @@
-#include "compensation/estimate/counter_rounding.hpp"
+#include "compensation/estimate/window_covariance.hpp"
 
 #include "compensation/compensation_support.hpp"
 
-namespace zlg::core::counter_rounding_test {
+namespace zlg::core::window_covariance_test {
 
 using compensation_test::Random;
 using compensation_test::Statistics;
@@ -46,4 +46,4 @@ TEST(CounterRounding, BeyondThePrecisionOfANumberNoFractionIsKnown) {
     EXPECT_NEAR(rounding_law(1e15 + 0.5, 0.0), -1.0 / 24.0, 1e-15);
 }
 
-}  // namespace zlg::core::counter_rounding_test
+}  // namespace zlg::core::window_covariance_test
