@@ -169,7 +169,8 @@ std::vector<DriftGyro> over_tones(int n, std::uint64_t seed) {
     for (int k = 0; k < n; ++k) {
         config::Config c;
         c.drift.magnetic_arcsec_s = c.drift.magnetic_thermal_arcsec_s = 0.0;
-        const double hz = draw.within(10.0, 60.0), amplitude = 1000.0 * core::maths::pow(20.0, draw.uniform());
+        const double hz = draw.within(10.0, 60.0),
+                     amplitude = 1000.0 * core::maths::exp(core::maths::log(20.0) * draw.uniform());
         c.motion.frequency_hz = {hz};
         c.motion.amplitude_arcsec_s = {amplitude};
         c.switching.interval_s = draw.within(8.0, 20.0);

@@ -170,11 +170,11 @@ Figure random_walk() {
         Series seen = blank_series(fmt::format("f_L = {} Hz", lock_hz), Mark::points);
         Series formula = blank_series(fmt::format("formula, {} Hz", lock_hz), Mark::line, true, colour);
         for (int k = 0; k <= 28; ++k) {
-            const double rate = core::maths::pow(10.0, 0.125 * k);
+            const double rate = core::maths::exp(0.125 * k * core::maths::log(10.0));
             add_point(seen, rate, walk(g, rate));
         }
         add_point(formula, 1.0, walk_formula(g));
-        add_point(formula, core::maths::pow(10.0, 3.5), walk_formula(g));
+        add_point(formula, core::maths::exp(3.5 * core::maths::log(10.0)), walk_formula(g));
         figure.series.push_back(std::move(seen));
         figure.series.push_back(std::move(formula));
     }

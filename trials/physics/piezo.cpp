@@ -121,7 +121,7 @@ Figure creep(PhysicsPictures& made) {
         if (time_s < 1.0 + 0.5 * half_s) at_1_s = growth;
         if (time_s < 100.0 + 0.5 * half_s) at_100_s = growth;
         if (time_s < next_s) continue;
-        next_s *= core::maths::pow(10.0, 0.05);
+        next_s *= core::maths::exp(0.05 * core::maths::log(10.0));
         add_point(seen, time_s, growth);
     }
     for (const double time_s : {seen.x.front(), seen.x.back()}) {

@@ -7,10 +7,8 @@ namespace {
 
 constexpr double max_slope = 3.0;  // of a step: a cubic between such slopes has no turn
 
-double lesser(double a, double b) noexcept { return a < b ? a : b; }
-
 double limited_slope(double slope, double step_before, double step_after) noexcept {
-    const double most = max_slope * lesser(step_before, step_after);
+    const double most = max_slope * (step_before < step_after ? step_before : step_after);
     if (!(slope > 0.0 && most > 0.0)) return 0.0;
     return slope < most ? slope : most;
 }

@@ -45,12 +45,6 @@ void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges
     s.start = edges;
 }
 
-void add_area(CountedStretchState& s, const HalfRecord& first, const HalfRecord& second, std::int32_t start) noexcept {
-    const std::int64_t middle = first.edge_offset_ticks;
-    s.area_ticks += first.bias_sign * first.mode * (middle - start);
-    s.area_ticks += second.bias_sign * second.mode * (second.edge_offset_ticks - middle);
-}
-
 // Without shifts exactly K c.
 double angle(const CompensationConstants& gyro, const CountedStretchState& s, Hertz bias, const HalfRecord& last,
              EdgeShiftState& edges) noexcept {
@@ -84,7 +78,9 @@ CountedStretch step(const CompensationConstants& gyro, CountedStretchState& stat
     ++state.n_ticks;
     add_half(gyro, state, first);
     add_half(gyro, state, second);
-    add_area(state, first, second, edges_before.offset_ticks);
+    const std::int64_t middle = first.edge_offset_ticks;
+    state.area_ticks += first.bias_sign * first.mode * (middle - edges_before.offset_ticks);
+    state.area_ticks += second.bias_sign * second.mode * (second.edge_offset_ticks - middle);
     if (state.uncovered > 0) return {};
     CountedStretch out;
     // Without either nothing bounds the false drift.

@@ -103,13 +103,6 @@ void take_light(const GyroCompensationConfig& config, GyroCompensationState& sta
 // Time constant of the mean of the bias, which follows the temperature, in ticks.
 constexpr double bias_memory_ticks = 256.0;
 
-// The mean of what the bias adds to a half, over settled ticks, each taken with the sign of its first half.
-void learn_bias(GyroCompensationState& state, double half_excess_arcsec, int sign) noexcept {
-    const double bias = 0.5 * sign * half_excess_arcsec;
-    if (state.n_bias < bias_memory_ticks) state.n_bias += 1.0;
-    state.bias_arcsec += (bias - state.bias_arcsec) / state.n_bias;
-}
-
 // The false angle of a half by its record.
 void read_record(const CompensationConstants& gyro, const HalfRecord& half, HalfReading& reading) noexcept {
     const RecordedSquare recorded = recorded_square(gyro, half);
@@ -164,13 +157,6 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
 
 // Number of recent switches over which the mean square of their errors is taken.
 constexpr std::int32_t remembered_switches = 8;
-
-void remember(GyroCompensationState& state, const AngleSample& sample) noexcept {
-    const double sq = sample.gap.sigma_sum_arcsec * sample.gap.sigma_sum_arcsec;
-    if (!(sample.has_gap && sample.gap.mode_changed && is_finite(sq))) return;
-    if (state.n_switches < remembered_switches) ++state.n_switches;
-    state.switch_error_arcsec2 += (sq - state.switch_error_arcsec2) / static_cast<double>(state.n_switches);
-}
 
 // Magnetic drift to subtract from this tick. With the fringe phase read, a switch is known well enough for the step of the
 // drift there to matter, so the drift is estimated whatever the method; what the method leaves in the values is handed to the
@@ -276,7 +262,11 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
             tick.relock_variance_arcsec2 += unseen_arcsec2(config.gyro);
         }
         half_excess = config.gyro.scale.value() * (as_double(first.counts - second.counts) - excess);
-        if (tick.settled) learn_bias(state, half_excess, tick.sign);
+        if (tick.settled) {
+            // The mean of what the bias adds to a half, each tick taken with the sign of its first half.
+            if (state.n_bias < bias_memory_ticks) state.n_bias += 1.0;
+            state.bias_arcsec += (0.5 * tick.sign * half_excess - state.bias_arcsec) / state.n_bias;
+        }
         half_excess -= 2.0 * tick.sign * state.bias_arcsec;
         state.first_waits = relock.waiting;
         begin_anew(state.stretch, detuning_sq(config.gyro, second));
@@ -309,7 +299,12 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         }
     }
     CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};
-    remember(state, out.sample);
+    const GapReport& gap = out.sample.gap;
+    const double sq = gap.sigma_sum_arcsec * gap.sigma_sum_arcsec;
+    if (out.sample.has_gap && gap.mode_changed && is_finite(sq)) {
+        if (state.n_switches < remembered_switches) ++state.n_switches;
+        state.switch_error_arcsec2 += (sq - state.switch_error_arcsec2) / static_cast<double>(state.n_switches);
+    }
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
     state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, tick.measured ? parts : 0);
     out.angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value());

@@ -88,15 +88,6 @@ void predict(const MagneticDriftConfig& c, MagneticDriftState& s, double tick_s)
     s.pending_ticks = 0;
 }
 
-// What the segment says by its shape and by its innovation on motion in step.
-void note_in_step(MagneticDriftState& s, double weight, const std::array<double, 2>& c) noexcept {
-    s.weight = fading * s.weight + weight;
-    for (unsigned i = 0; i < c.size(); ++i) {
-        s.sum[i] = fading * s.sum[i] + weight * c[i];
-        s.square_sum[i] = square(fading) * s.square_sum[i] + square(weight * c[i]);
-    }
-}
-
 // With the segment that has just ended.
 void update(const CompensationConstants& gyro, MagneticDriftState& s) noexcept {
     const double tick_s = gyro.tick.value(), m = s.mode;
@@ -126,7 +117,14 @@ void update(const CompensationConstants& gyro, MagneticDriftState& s) noexcept {
     if (s.n_compared < scatter_memory) s.n_compared += 1.0;
     s.scatter_arcsec_s += ((motion < most ? motion : most) - s.scatter_arcsec_s) / s.n_compared;
     const double base = 2.0 * larger(motion_sq, square(s.scatter_arcsec_s));
-    note_in_step(s, 1.0 / noise, {0.5 * m * innovation, m * rate.curvature_arcsec_s});
+    // What the segment says by its innovation and by its shape on motion in step.
+    const std::array<double, 2> c{0.5 * m * innovation, m * rate.curvature_arcsec_s};
+    const double weight = 1.0 / noise;
+    s.weight = fading * s.weight + weight;
+    for (unsigned i = 0; i < c.size(); ++i) {
+        s.sum[i] = fading * s.sum[i] + weight * c[i];
+        s.square_sum[i] = square(fading) * s.square_sum[i] + square(weight * c[i]);
+    }
     s.covariance[of_base][of_base] += base;
     ph[of_base] += base;
     for (unsigned i = 0; i < magnetic_parts; ++i) {

@@ -50,8 +50,8 @@ struct Problem {
 using PointValues = std::array<double, most_window_points>;
 
 struct Border {
-    PointValues
-        target{};  // covariance with what is wanted: of the motion that was not read, less the errors of what was
+    // Covariance with what is wanted: of the motion that was not read, less the errors of what was.
+    PointValues target{};
     double target_variance = 0.0;
     PointValues level{}, reading{}, scale{};
 };

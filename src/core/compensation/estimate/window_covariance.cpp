@@ -13,7 +13,6 @@ namespace {
 // Shares of the roundings in the learnt moments that are taken out. Where the roundings repeat, at rest and at even rates, the
 // moments hold less of them than independent ones would be.
 constexpr double shares[] = {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8};
-constexpr int n_shares = 7;
 
 // On the diagonal, so that a motion that never changes has a covariance: of the variance of a reading, and of the learnt trace (what
 // its products leave of rounding).
@@ -135,7 +134,7 @@ void learnt_covariance(const CompensationConstants& gyro, const SwitchWindow& wi
     // What is taken out is positive by itself: where a share leaves a positive covariance, smaller ones do.
     int most = 0;
     for (int step = 4; step > 0; step /= 2) {
-        if (most + step >= n_shares) continue;
+        if (most + step >= static_cast<int>(std::size(shares))) continue;
         fill(window, products, least, shares[most + step] * reading, into);
         if (factorise(into, reciprocal.data(), window.n_rows)) most += step;
     }

@@ -1,5 +1,6 @@
 #include <zlg/core/compensation/gap_bridge.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include <zlg/core/common/as_double.hpp>
@@ -234,22 +235,19 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
 double deliver(const GapBridgeConfig& config, GapBridgeState& state, HistoryTick& entry, std::int64_t tick) noexcept {
     ExactSum sum = state.rounding_residual_arcsec;
     sum.add(entry.row.dtheta_final_arcsec);
-    int kept = 0;
     // Without a bridge only a late re-lock correction can be pending.
     bool is_correction = config.method != BridgeMethod::none;
-    for (int k = 0; k < state.n_pending; ++k) {
-        const PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.due_tick > tick) {
-            if (kept != k) state.pending[static_cast<unsigned>(kept)] = pending;
-            ++kept;
-            continue;
-        }
+    PendingGap* const first = state.pending.data();
+    PendingGap* const last = first + state.n_pending;
+    PendingGap* const kept = std::remove_if(first, last, [&](const PendingGap& pending) {
+        if (pending.due_tick > tick) return false;
         sum.add(pending.correction_arcsec);
         is_correction = is_correction || pending.correction_arcsec != ExactSum{};
-    }
-    if (kept == state.n_pending) return entry.row.dtheta_final_arcsec;
-    for (int k = kept; k < state.n_pending; ++k) state.pending[static_cast<unsigned>(k)] = PendingGap{};
-    state.n_pending = kept;
+        return true;
+    });
+    if (kept == last) return entry.row.dtheta_final_arcsec;
+    std::fill(kept, last, PendingGap{});
+    state.n_pending = static_cast<int>(kept - first);
     if (!is_correction) return entry.row.dtheta_final_arcsec;
     entry.row.flags |= flag_correction;
     const double delivered = sum.value();

@@ -13,29 +13,15 @@ void Points::collect(const GapBridgeState& state, std::int64_t origin, int from,
     }
 }
 
-namespace {
-
-// The points of a gap's fit: those before and after it, or after it alone in reversed time.
-PolynomialFit fit_of(const GapBridgeConfig& config, const GapBridgeState& state, const Gap& gap, std::int64_t end,
-                     int order) noexcept {
-    const int n = static_cast<int>(gap.n);
-    const std::int64_t origin = gap.first_tick - 1;
-    Points points;
-    if (gap.has_before) {
-        points.collect(state, origin, 1 - config.points_before, 0, end);
-        points.collect(state, origin, n + 1, n + config.points_after, end);
-    } else {
-        points.collect(state, origin, n + 1, n + config.extrapolation_points, end);
-    }
-    return {points.position, points.n, order};
-}
-
-}  // namespace
-
 GapSums sums_of(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
                 const Gap& gap, std::int64_t end, int order) noexcept {
-    GapSums sums{.fit = fit_of(config, state, gap, end, order)};
     const auto n = static_cast<unsigned>(gap.n);
+    // Those before and after it, or after it alone in reversed time.
+    Points points;
+    const int behind = gap.has_before ? config.points_after : config.extrapolation_points;
+    if (gap.has_before) points.collect(state, gap.first_tick - 1, 1 - config.points_before, 0, end);
+    points.collect(state, gap.first_tick - 1, static_cast<int>(n) + 1, static_cast<int>(n) + behind, end);
+    GapSums sums{.fit = PolynomialFit{points.position, points.n, order}};
     std::array<double, max_estimated_gap> last_weight{};
     double last_angle_weight = 0.0;
     double last_variance = 0.0;

@@ -21,13 +21,6 @@ struct KnownStretch {
     [[nodiscard]] double n() const noexcept { return as_double(last - first + 1); }
 };
 
-KnownStretch stretch_of(const GapBridgeState& state, const HistoryTick& entry, std::int64_t n_ticks) noexcept {
-    const std::int64_t last = entry.row.tick;
-    const std::int64_t start = last + 1 - n_ticks;
-    const std::int64_t first = start < state.next_final ? state.next_final : start;
-    return {first, last, first - start, entry.known_arcsec, entry.variance_arcsec2};
-}
-
 double deficit_of(const GapBridgeState& state, const KnownStretch& s, double constant_arcsec) noexcept {
     ExactSum deficit;
     deficit.add(s.sum_arcsec);
@@ -44,34 +37,6 @@ void set_row(AngleRow& row, double value_arcsec, double variance_arcsec2, ExactS
     row.flags = (row.flags & ~std::uint32_t{flag_unrepaired}) | flag_interpolated;
 }
 
-// Added variance of a tick in a stretch whose mean rate is an outlier: (2) for a rotation in any one of its ticks.
-double outlier_variance(const GapBridgeState& state, const KnownStretch& s) noexcept {
-    const double n = s.n() + as_double(s.n_delivered);
-    const double off_level = s.sum_arcsec / n - 2.0 * state.spread.mean_half_arcsec;
-    const bool is_outlier = off_level * off_level > outlier_sq * tick_variance(state);
-    return is_outlier ? off_level * off_level * (n - 1.0) : 0.0;
-}
-
-void shift_rows(GapBridgeState& state, const KnownStretch& s, bool is_whole, double constant_arcsec,
-                ExactSum& change) noexcept {
-    const double n = s.n();
-    const double deficit = deficit_of(state, s, constant_arcsec);
-    const double about_mean = tick_variance(state) + outlier_variance(state, s);
-    // Per row: the residual of the delivered rows is in the remaining ones.
-    const double beyond =
-        as_double(s.n_delivered) * (s.sum_arcsec / (s.n() + as_double(s.n_delivered)) - constant_arcsec) / s.n();
-    for (std::int64_t t = s.first; t <= s.last; ++t) {
-        AngleRow& row = at(state, t).row;
-        // w_j of (1) without learnt motion: a parabola over the whole gap, constant over a part of one.
-        const double j = as_double(t - s.first + 1);
-        const double w = is_whole ? 6.0 * j * (n + 1.0 - j) / (n * (n + 1.0) * (n + 2.0)) : 1.0 / n;
-        const double before = row.sigma_arcsec * row.sigma_arcsec;
-        double variance = (before < about_mean ? before : about_mean) + beyond * beyond;
-        if (before < infinity) variance += deficit * deficit * w * (1.0 - w);
-        set_row(row, row.dtheta_final_arcsec + w * deficit, variance, change);
-    }
-}
-
 void count_in(double rounding_arcsec2, std::int64_t n_ticks, double variance_arcsec2, Gap& gap) noexcept {
     // Of the reading between two stretches the one has more what the other has less.
     if (gap.known_ticks > 0)
@@ -80,32 +45,44 @@ void count_in(double rounding_arcsec2, std::int64_t n_ticks, double variance_arc
     gap.known_variance_arcsec2 += variance_arcsec2;
 }
 
-// A whole gap that is estimated: w_j of (1) is the regression of tick j on the sum, and takes what the sum tells off its variance;
-// what the sum is off by more than three standard deviations may be a rotation in any one of n ticks, each as likely:
+// The rows of a stretch get their sum, in (1) with w_j
+//
+// of a whole gap that is estimated: the regression of tick j on the sum, which takes what the sum tells off its variance; what the
+// sum is off by more than three standard deviations may be a rotation in any one of n ticks, each as likely:
 //
 //   r^2 ((1 - w_j)^2 + (n - 1) w_j^2)/n
-void condition_rows(GapBridgeState& state, const Gap& gap, const KnownStretch& s, ExactSum& change) noexcept {
-    const double deficit = deficit_of(state, s, 0.0);
-    const bool is_outlier = square(deficit) > outlier_sq * (gap.variance_arcsec2 + gap.known_variance_arcsec2);
-    for (std::int64_t t = s.first; t <= s.last; ++t) {
-        HistoryTick& entry = at(state, t);
-        const double w = entry.share;
-        const double left = square(entry.row.sigma_arcsec) - w * w * gap.variance_arcsec2;
-        const double of_sum = w * w * gap.known_variance_arcsec2;
-        const double outlier = is_outlier ? square(deficit) * (square(1.0 - w) + (s.n() - 1.0) * w * w) / s.n() : 0.0;
-        set_row(entry.row, entry.row.dtheta_final_arcsec + w * deficit, (left > 0.0 ? left : 0.0) + of_sum + outlier,
-                change);
-    }
-}
-
+//
+// of another: without learnt motion, a parabola over a whole gap, constant over a part of one. Where the mean rate is an outlier, (2)
+// for a rotation in any one tick is added.
 void settle(GapBridgeState& state, const Gap& gap, const KnownStretch& s, double constant_arcsec,
             ExactSum& change) noexcept {
     if (s.first > s.last) return;
     if (s.first == s.last && s.n_delivered == 0)
         return set_row(at(state, s.last).row, s.sum_arcsec, s.variance_arcsec2, change);
     const bool is_whole = s.n_delivered == 0 && s.last + 1 - s.first == gap.n;
-    if (is_whole && gap.variance_arcsec2 >= 0.0) return condition_rows(state, gap, s, change);
-    shift_rows(state, s, is_whole, constant_arcsec, change);
+    const bool is_estimate = is_whole && gap.variance_arcsec2 >= 0.0;
+    const double deficit = deficit_of(state, s, constant_arcsec);
+    const bool is_outlier = square(deficit) > outlier_sq * (gap.variance_arcsec2 + gap.known_variance_arcsec2);
+    const double n = s.n(), n_all = n + as_double(s.n_delivered), mean = s.sum_arcsec / n_all;
+    const double of_tick = tick_variance(state), off_level_sq = square(mean - 2.0 * state.spread.mean_half_arcsec);
+    const double about_mean = of_tick + (off_level_sq > outlier_sq * of_tick ? off_level_sq * (n_all - 1.0) : 0.0);
+    // Per row: the residual of the delivered rows is in the remaining ones.
+    const double beyond = as_double(s.n_delivered) * (mean - constant_arcsec) / n;
+    for (std::int64_t t = s.first; t <= s.last; ++t) {
+        HistoryTick& entry = at(state, t);
+        const double before = square(entry.row.sigma_arcsec), j = as_double(t - s.first + 1);
+        double w = entry.share, variance = 0.0;
+        if (is_estimate) {
+            const double left = before - w * w * gap.variance_arcsec2;
+            const double outlier = is_outlier ? square(deficit) * (square(1.0 - w) + (n - 1.0) * w * w) / n : 0.0;
+            variance = (left > 0.0 ? left : 0.0) + w * w * gap.known_variance_arcsec2 + outlier;
+        } else {
+            w = is_whole ? 6.0 * j * (n + 1.0 - j) / (n * (n + 1.0) * (n + 2.0)) : 1.0 / n;
+            variance = (before < about_mean ? before : about_mean) + beyond * beyond;
+            if (before < infinity) variance += deficit * deficit * w * (1.0 - w);
+        }
+        set_row(entry.row, entry.row.dtheta_final_arcsec + w * deficit, variance, change);
+    }
 }
 
 }  // namespace
@@ -133,7 +110,9 @@ KnownShift settle_known(const CompensationConstants& gyro, const GapBridgeConfig
         const std::int64_t n = entry.known_ticks;
         if (n == 0) continue;
         entry.known_ticks = 0;
-        const KnownStretch s = stretch_of(state, entry, n);
+        const std::int64_t start = t + 1 - n;
+        const std::int64_t begin = start < state.next_final ? state.next_final : start;
+        const KnownStretch s{begin, t, begin - start, entry.known_arcsec, entry.variance_arcsec2};
         // What the bridge says of the stretch against its sum: its rows as if independent, and (3).
         double claimed_arcsec2 = 0.0;
         for (std::int64_t k = s.first; is_short && k <= s.last; ++k)

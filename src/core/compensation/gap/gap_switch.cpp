@@ -278,12 +278,12 @@ void correct_late_ticks(GapBridgeState& state, const Gap& gap, const SwitchJob& 
         HistoryTick& entry = at(state, first + k);
         const bool alternates = entry.half[0].sign == -entry.half[1].sign;
         if (!entry.measured || !entry.half[0].read || !entry.half[1].read || !alternates) continue;
-        const LateTick& late = job.late_tick[static_cast<unsigned>(k)];
-        const double d = entry.half[0].sign * late.false_arcsec;
-        const double variance = late.variance_arcsec2 + job.scale.variance * d * d;
+        const double d = entry.half[0].sign * job.late_arcsec[static_cast<unsigned>(k)];
+        const double by_light = job.late_arcsec2[static_cast<unsigned>(k)];
+        const double variance = by_light + job.scale.variance * d * d;
         const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
         set_after_tick(entry, read + (1.0 + job.scale.value) * d, variance, true, found.after_arcsec);
-        found.variance_arcsec2 += late.variance_arcsec2;
+        found.variance_arcsec2 += by_light;
     }
 }
 

@@ -56,8 +56,8 @@ void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
         const LightHalf second = fit.half(h + 1);
         const double variance =
             fit.covariance(first, first) + fit.covariance(second, second) - 2.0 * fit.covariance(first, second);
-        job.late_tick[k] = {static_cast<float>(unit * (fit.angle(first) - fit.angle(second))),
-                            static_cast<float>(unit * unit * variance)};
+        job.late_arcsec[k] = static_cast<float>(unit * (fit.angle(first) - fit.angle(second)));
+        job.late_arcsec2[k] = static_cast<float>(unit * unit * variance);
     }
 }
 

@@ -93,11 +93,6 @@ FalseAngle or_missing(FalseAngle found, double most_arcsec) noexcept {
     return found.known ? found : FalseAngle{.variance_arcsec2 = square(most_arcsec)};
 }
 
-double deficit_hz(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const double difference = as_double(t.first.counts) - as_double(t.second.counts);
-    return sign_of(t) * (difference - t.known_excess_counts) / g.tick.value() - bias_of(g, t).value();
-}
-
 // The false angle of a tick from its own deficit, with another's, by whose ratio q is found.
 //
 // slope  of (1 - q)/(1 + q) by minus the logarithm of the own deficit.
@@ -127,7 +122,8 @@ double most_by_frequency(const CompensationConstants& g, const RelockDriftState&
 RelockDriftOutput frequency_step(const CompensationConstants& g, std::int64_t ticks, RelockDriftState& s,
                                  const RelockTick& t) noexcept {
     RelockDriftOutput out{.due = s.since_gap <= ticks, .waiting = s.since_gap == 1, .first_due = s.since_gap == 2};
-    const double deficit = deficit_hz(g, t);
+    const double difference = as_double(t.first.counts) - as_double(t.second.counts);
+    const double deficit = sign_of(t) * (difference - t.known_excess_counts) / g.tick.value() - bias_of(g, t).value();
     const double most = most_by_frequency(g, s, t, deficit);
     if (out.waiting) {
         s.first_deficit_hz = deficit;

@@ -44,14 +44,6 @@ double apparent(const DiscriminatorCurve& curve, double detuning_lambda) noexcep
     return 0.5 * (low + high);
 }
 
-// The mean light signal of a half, by its recorded detuning: that of both beams as the control has balanced them.
-double recorded_signal(const CompensationConstants& gyro, const RelockProfileConfig& c,
-                       const HalfRecord& half) noexcept {
-    const bool is_apparent = gyro.record_curve.n_nodes > 0;
-    const double x = is_apparent ? half.detuning_lambda : apparent(c.curve, half.detuning_lambda);
-    return half.bias_sign * half.mode * c.discriminator_per_lambda * x;
-}
-
 // By the control, which records 0: neither the square nor the light is usable.
 bool is_refused(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
     return gyro.light_noise.value() > 0.0 && half.detuning_sq_lambda2 <= 0.0;
@@ -67,11 +59,13 @@ int read_samples(const CompensationConstants& gyro, const RelockProfileConfig& c
     const double mean_a = good_mean(light.a, may_stand_still);
     const double mean_b = has_b ? good_mean(light.b, may_stand_still) : 1.0;
     if (!(mean_a > 0.0 && mean_b > 0.0 && is_finite(mean_a + mean_b))) return 0;
-    const double seen = recorded_signal(gyro, c, half);
+    // The mean light signal of the half, by its recorded detuning: that of both beams as the control has balanced them.
+    const double per_lambda = half.bias_sign * half.mode * c.discriminator_per_lambda;
+    const bool is_apparent = gyro.record_curve.n_nodes > 0;
+    const double seen = per_lambda * (is_apparent ? half.detuning_lambda : apparent(c.curve, half.detuning_lambda));
     // Of beam A alone the level; of both beams, which photodiodes show unequally, the weight of B.
     const double level = has_b ? mean_a / mean_b * (1.0 - seen) / (1.0 + seen) : mean_a / (1.0 + seen);
     if (!(level > 0.0)) return 0;
-    const double per_lambda = half.bias_sign * half.mode * c.discriminator_per_lambda;
     bool possible = true;
     bool on_curve = false;
     for (std::size_t k = 0; k < n; ++k) {

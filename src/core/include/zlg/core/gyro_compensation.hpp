@@ -46,8 +46,8 @@ struct GyroCompensationState {
     bool first_waits = false;  // the last tick was tick 1 of `frequency`
     bool refused = false;      // the last half was closed, and not valid
     Border border{};           // at the end of the last half
-    std::int32_t n_with_phase =
-        0;  // measured ticks with the place within the count at both ends less those without, 0..32
+    // Measured ticks with the place within the count at both ends less those without, 0..32.
+    std::int32_t n_with_phase = 0;
     bool start_unknown = false;  // the reversal that begins the next half is recorded where none can have been
     EdgeShiftState edges{};
     CountedStretchState stretch{};

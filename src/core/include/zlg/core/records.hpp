@@ -75,8 +75,8 @@ struct HalfRecord {
     std::int8_t mode = 1;  // helicity commanded
     bool loop_closed = true;
     bool valid = true;  // light in both directions, frame received
-    std::int32_t edge_offset_ticks =
-        0;  // shift of the reversal that ends this half, ticks of the timer; positive is later
+    // Shift of the reversal that ends this half, ticks of the timer; positive is later.
+    std::int32_t edge_offset_ticks = 0;
     // `counts` are those of so many halves, this one the last; those before have valid 0, counts 0, span 1.
     std::int32_t span = 1;
     // Place within the count at the end of the half, 0..65535, 1/65536: the angle there is (sum of counts + fringe/65536)

@@ -37,8 +37,7 @@ struct ExactSum {
 // The angle since the start. A measured tick adds its counts and parts of a count; only what differs from scale * counts, such as a
 // correction or a bridged tick, enters the remainder. A gyro that measures for a month without a switch has a remainder
 // of zero.
-class Angle {
-public:
+struct Angle {
     std::int64_t counts = 0;
     std::int32_t parts = 0;  // of a count beyond them: 1/65536, 0..65535
     ExactSum remainder_arcsec{};
@@ -52,7 +51,12 @@ public:
         // Unsigned, so that even a wild sum of counts wraps instead of being undefined.
         counts =
             static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) + static_cast<std::uint64_t>(tick_counts));
-        if (tick_parts != 0) add_parts(tick_parts);
+        if (tick_parts != 0) {
+            const std::int32_t sum = parts + tick_parts;
+            parts = sum & 0xffff;
+            counts = static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) +
+                                               static_cast<std::uint64_t>(std::int64_t{sum >> 16}));
+        }
         const double counted_arcsec = scale_arcsec * counts_and_parts(tick_counts, tick_parts);
         if (dtheta_arcsec == counted_arcsec) return;
         remainder_arcsec.add_difference(dtheta_arcsec, counted_arcsec);
@@ -61,14 +65,6 @@ public:
     // accuracy  one rounding of the result.
     [[nodiscard]] constexpr double value_arcsec(double scale_arcsec) const noexcept {
         return scale_arcsec * counts_and_parts(counts, parts) + remainder_arcsec.value();
-    }
-
-private:
-    constexpr void add_parts(std::int32_t more) noexcept {
-        const std::int32_t sum = parts + more;
-        parts = sum & 0xffff;
-        counts = static_cast<std::int64_t>(static_cast<std::uint64_t>(counts) +
-                                           static_cast<std::uint64_t>(std::int64_t{sum >> 16}));
     }
 };
 

@@ -22,8 +22,8 @@
 namespace zlg::core {
 
 struct CountedStretchState {
-    bool known_before =
-        true;          // a closed tick was measured since the loop was open: its detuning bounds the false drift
+    // A closed tick was measured since the loop was open: its detuning bounds the false drift.
+    bool known_before = true;
     bool seen = true;  // in all halves since the last border between ticks with a reading the light was read
     double deficit_lambda2 = 0.0;           // sum of s <dl^2> over them
     double deficit_variance_lambda4 = 0.0;  // by the noise of the light
@@ -45,8 +45,8 @@ struct CountedStretchState {
 struct CountedStretch {
     std::int64_t n_ticks = 0;  // that end now; 0: nothing is known
     double angle_arcsec = 0.0;
-    double fall_lambda2 =
-        0.0;  // of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum
+    // Of the mean square of the detuning: what falls evenly leaves no more of the bias in a sum.
+    double fall_lambda2 = 0.0;
 };
 
 // Mean square of the detuning from the centre of the bias, by the curve of the discriminator; 0 where it was not

@@ -24,7 +24,6 @@
 
 namespace zlg::core {
 
-inline constexpr int most_light_halves = 160;
 inline constexpr int most_light_terms = 31;
 
 // The basis: its knots, three of them at either end, in half-periods.
@@ -36,7 +35,7 @@ struct LightBasis {
     friend bool operator==(const LightBasis&, const LightBasis&) = default;
 };
 
-// halves  1..most_light_halves
+// halves  1..160
 [[nodiscard]] LightBasis light_basis(int halves) noexcept;
 
 // Between two knots four terms are not 0, those from `first` on; they follow from six knots, the third of which is at or before.

@@ -26,8 +26,8 @@ namespace zlg::core {
 struct RelockDriftConfig {
     RelockMethod method = RelockMethod::none;
     std::int64_t ticks = 20;  // ticks after a gap that are corrected, >= 0
-    bool presumes =
-        false;  // with `none`: these ticks are due, and what they may lack is presumed; it is not that there is none
+    // With `none`: these ticks are due, and what they may lack is presumed; it is not that there is none.
+    bool presumes = false;
 };
 
 // One measured tick, its halves in order of time. A detuning of NaN or 0 was not measured; the temperature is that of the first

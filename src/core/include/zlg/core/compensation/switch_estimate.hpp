@@ -61,8 +61,8 @@ struct EstimateRoom {
     std::array<double, triangle_size(most_window_rows)> covariance{};  // V of all rows
     std::array<double, triangle_size(most_points_after)> errors{};     // E of the points after the gap
     union {
-        std::array<double, triangle_size(most_window_points + n_borders)>
-            factor{};        // of V_m of the points, and its border
+        // Of V_m of the points, and its border.
+        std::array<double, triangle_size(most_window_points + n_borders)> factor{};
         LightHalves halves;  // while E is made
     };
 };

@@ -21,14 +21,6 @@ enum class HalfLight : unsigned char {
     ticks     // the paper's correction of the tick is in its value
 };
 
-// A tick behind the window: what the light alone says that it was turned by, for a first half of positive sign.
-struct LateTick {
-    float false_arcsec = 0.0F;
-    float variance_arcsec2 = 0.0F;
-
-    friend bool operator==(const LateTick&, const LateTick&) = default;
-};
-
 inline constexpr int most_late_ticks = 48;
 
 struct SwitchPlan {
@@ -43,12 +35,8 @@ struct SwitchPlan {
     friend bool operator==(const SwitchPlan&, const SwitchPlan&) = default;
 };
 
-enum class JobState : unsigned char {
-    free,
-    asked,
-    done,
-    late  // nobody waits for it any more
-};
+// For one that is late nobody waits any more.
+enum class JobState : unsigned char { free, asked, done, late };
 
 struct SwitchJob {
     JobState state = JobState::free;  // handed over (handover.hpp)
@@ -58,7 +46,8 @@ struct SwitchJob {
     SwitchPlan plan{};
     RelockScale scale{};
     SwitchEstimate found{};
-    std::array<LateTick, most_late_ticks> late_tick{};
+    // Of ticks behind the window, what the light alone says that they were turned by, for a first half of positive sign.
+    std::array<float, most_late_ticks> late_arcsec{}, late_arcsec2{};
 
     friend bool operator==(const SwitchJob&, const SwitchJob&) = default;
 };

@@ -13,8 +13,8 @@
 namespace zlg::core {
 
 struct BiasMonitorState {
-    std::int32_t n_known =
-        0;  // halves in a row that were counted, up to now, each of the other sign than the one before
+    // Halves in a row that were counted, up to now, each of the other sign than the one before.
+    std::int32_t n_known = 0;
     std::int8_t beat_sign = 1;  // of the last of them
     std::int64_t counts = 0;    // of it, of the one before,
     std::int64_t counts_before = 0;

@@ -23,10 +23,10 @@ namespace zlg::core {
 struct EdgeDitherConfig {
     DitherMethod method = DitherMethod::automatic;
     std::uint64_t seed = 1;
-    double cycle_ticks =
-        1e7 / 60e3;               // one cycle of the bias beat; >= 1 and up to an eighth of a half, 1 % is good enough
-    double tick_s = 0.005;        // bias commutation period T, > 0
-    double scale_arcsec = 3.263;  // per count, > 0
+    // One cycle of the bias beat; >= 1 and up to an eighth of a half, 1 % is good enough.
+    double cycle_ticks = 1e7 / 60e3;
+    double tick_s = 0.005;                // bias commutation period T, > 0
+    double scale_arcsec = 3.263;          // per count, > 0
     std::int32_t rate_periods = 128;      // over which the rate is measured, 1..2^16
     double random_above_arcsec_s = 60.0;  // the law changes to `random` above, back to `paired` below;
     double paired_below_arcsec_s = 40.0;  // 0 <= below <= above
