@@ -101,6 +101,7 @@ void read_light(const GyroControlConfig& c, GyroControlState& s, const SensorFra
     o.light.usable = o.light.usable && !o.commuted.sign_error && !o.polarity_error;
     const BalancedHalf half{.is_first = s.half % 2 == 0,
                             .is_read = o.loop_closed && o.order.follows && o.light.usable && !light_b.empty(),
+                            .settles = !o.settled,
                             .signal = o.light.signal,
                             .light = o.light.light};
     const double per_lambda = c.detector.discriminator_per_lambda;

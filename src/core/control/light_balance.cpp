@@ -105,7 +105,8 @@ void learn_offset(LightBalanceState& state, const BalancedHalf& half, const Detu
 }
 
 void follow(const MonitorLimits& limits, LightBalanceState& state, const BalancedHalf& half) noexcept {
-    const bool stands = size(half.signal - state.former_signal) < max_fall;
+    const bool stands =
+        size(half.signal - state.former_signal) < max_fall && (!half.settles || state.n_ticks < known_ticks);
     if (!half.is_first && half.is_read && state.has_last && stands) learn_weight(limits, state, half);
     state.former_signal = half.is_read ? state.last_signal : 1.0;
     state.has_last = half.is_read;

@@ -68,6 +68,7 @@ inline constexpr double known_ticks = 40.0;
 struct BalancedHalf {
     bool is_first = false;  // of its tick
     bool is_read = false;   // it was closed, lit both ways, and followed the half before
+    bool settles = false;   // the loop has not locked yet: once w is known, it is not learnt there
     double signal = 0.0;    // S
     double light = 0.0;     // P
 };
