@@ -3,9 +3,10 @@
 // usage: zlg_allan FILE KIND TAUS_PER_DECADE THREADS memory|stream
 //        zlg_allan FILE.h5 write SAMPLES
 //
-// FILE: rates as doubles lie in memory, or an angle log, .csv or .h5. TAUS_PER_DECADE: 0 for octaves. memory: the numbers are
-// read, then summed in their place; stream: they go through DeviationStream as they are read. Printed is JSON: seconds after
-// and with reading, the most memory of the process, and the curve. write: an angle log of white noise.
+// FILE: rates as doubles lie in memory, or an angle log, .csv or .h5. TAUS_PER_DECADE: 0 for octaves. memory: the
+// numbers are read, then summed in their place; stream: they go through DeviationStream as they are read. Printed is
+// JSON: seconds after and with reading, the most memory of the process, and the curve. write: an angle log of white
+// noise.
 
 #include <algorithm>
 #include <chrono>

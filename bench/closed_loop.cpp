@@ -1,7 +1,7 @@
 // The twin and the core in closed loop on one thread, in multiples of real time and of a known piece of work.
 //
-// The reference is noise: as many normal deviates as the half-periods need, from Boost's Mersenne twister and ziggurat, which any
-// program can draw.
+// The reference is noise: as many normal deviates as the half-periods need, from Boost's Mersenne twister and ziggurat,
+// which any program can draw.
 
 #include <cstdint>
 

@@ -5,8 +5,8 @@
 //   half        the half-period's interrupt begins at this address
 //   background  a half-period has ended when the processor is here again
 //   work        the module of this number works in the background, too
-// and `out`, to which it writes one row of 32-bit counts for each half-period, in the order of the modules' numbers; the last number
-// of a row is what the modules of `work` took in the background before it.
+// and `out`, to which it writes one row of 32-bit counts for each half-period, in the order of the modules' numbers;
+// the last number of a row is what the modules of `work` took in the background before it.
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,8 @@
 //
 // usage: zlg_image_instructions IMAGE EMULATOR [LINE]
 //
-// bench/count_image runs it with an emulator that counts; LINE is where the gyro's line leads. Its lines, with tabs between the words:
+// bench/count_image runs it with an emulator that counts; LINE is where the gyro's line leads. Its lines, with tabs
+// between the words:
 //   halves NAME NUMBER       so many half-periods of this script, in the order in which they ran
 //   stack_used_bytes NUMBER  the most in all of them
 //   state NAME NUMBER        bytes that a part of the image remembers in

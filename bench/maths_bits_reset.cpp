@@ -1,4 +1,5 @@
-// The reset of a Cortex-M7 in the emulator, for bench/maths_bits: newlib's start needs a stack and the unit of floating point.
+// The reset of a Cortex-M7 in the emulator, for bench/maths_bits: newlib's start needs a stack and the unit of floating
+// point.
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
-// Ratios of the processor time of two pieces of work that are done in turn, so that a machine that slows down slows both, and
-// one that does other work beside them is not waited for.
+// Ratios of the processor time of two pieces of work that are done in turn, so that a machine that slows down slows
+// both, and one that does other work beside them is not waited for.
 
 #include <algorithm>
 #include <ctime>

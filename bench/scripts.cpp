@@ -107,8 +107,8 @@ Script crowded(int ticks_between, RelockMethod relock) {
     return s;
 }
 
-// The gap of a switch, and a dark tick so many ticks after the loop is closed: the switch is resolved while the profile of the
-// detuning after the dark tick is made, or has no time left for its estimate.
+// The gap of a switch, and a dark tick so many ticks after the loop is closed: the switch is resolved while the profile
+// of the detuning after the dark tick is made, or has no time left for its estimate.
 Script interrupted(int gap_ticks, int ticks_between, RelockMethod relock) {
     const char* name = relock == RelockMethod::joint ? "joint" : "auto";
     Script s =

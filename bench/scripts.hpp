@@ -1,6 +1,6 @@
 #pragma once
-// The scripts under which the core's instructions are counted: the usual operation of a gyro, and the worst cases; and a gyro that
-// does what a script says, to lead the core into each of its paths: no physics, only frames.
+// The scripts under which the core's instructions are counted: the usual operation of a gyro, and the worst cases; and
+// a gyro that does what a script says, to lead the core into each of its paths: no physics, only frames.
 
 #include <cmath>
 #include <cstddef>
@@ -104,8 +104,8 @@ private:
     std::uint32_t random_ = 1;
 };
 
-// First the usual ones, then the worst with the methods of the paper, then those with the optimal bridge and the joint re-lock, whose
-// halves cost more.
+// First the usual ones, then the worst with the methods of the paper, then those with the optimal bridge and the joint
+// re-lock, whose halves cost more.
 [[nodiscard]] std::vector<Script> scripts();
 
 }  // namespace zlg::bench

@@ -18,8 +18,9 @@ namespace zlg::mpi {
 
 // A sweep::Crew of all ranks.
 //
-// A rank has one gyro to run and, while there are many left, one to go on with: so it need not wait for the answer of rank 0, and
-// at the end nobody waits for the second gyro of another. Rank 0 runs gyros in a thread of its own, while this thread serves.
+// A rank has one gyro to run and, while there are many left, one to go on with: so it need not wait for the answer of
+// rank 0, and at the end nobody waits for the second gyro of another. Rank 0 runs gyros in a thread of its own, while
+// this thread serves.
 //
 // errors  logs::IoError of another rank; those of sweep::Gyros::run and of `take` here. No rank runs a gyro then.
 [[nodiscard]] bool run_on_all_ranks(const sweep::Gyros& gyros, const std::vector<std::int64_t>& asked,

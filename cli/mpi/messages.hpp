@@ -1,7 +1,8 @@
 #pragma once
 // Texts from one process of a sweep to another, over MPI.
 //
-// Nobody waits within MPI: its waits occupy a processor. Who has nothing to do looks for a message and sleeps for a millisecond.
+// Nobody waits within MPI: its waits occupy a processor. Who has nothing to do looks for a message and sleeps for a
+// millisecond.
 
 #include <optional>
 #include <string>

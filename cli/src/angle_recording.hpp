@@ -1,5 +1,6 @@
 #pragma once
-// The angle log of a source that cannot be asked again: it grows as rows come, and what was flushed stays whatever happens.
+// The angle log of a source that cannot be asked again: it grows as rows come, and what was flushed stays whatever
+// happens.
 
 #include <optional>
 #include <string>

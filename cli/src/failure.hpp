@@ -13,8 +13,8 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Queue one line for standard error; queued lines are printed at the end, or dropped after an error. Lines that begin with
-// `warning: ` may be printed earlier (print_warnings). Main thread only.
+// Queue one line for standard error; queued lines are printed at the end, or dropped after an error. Lines that begin
+// with `warning: ` may be printed earlier (print_warnings). Main thread only.
 void complain(const std::string& line);
 
 // The same of a line that explains the exit code: it is no note, --quiet or not.

@@ -63,8 +63,8 @@ struct Patience {
     double cpu_s;
 };
 
-// What a verb is given to end by itself: processor time, and as a limit for one that waits (or a busy machine) the time of
-// the clock. What runs out first ends it.
+// What a verb is given to end by itself: processor time, and as a limit for one that waits (or a busy machine) the time
+// of the clock. What runs out first ends it.
 Patience patience() {
     return finishes ? Patience{.wall_s = 5.0, .cpu_s = 1.0} : Patience{.wall_s = 0.3, .cpu_s = 0.15};
 }

@@ -14,7 +14,8 @@ struct LabFollowOptions : Options {
     std::uint16_t port = 0;
 };
 
-// Serves until a signal comes, also when the source has ended. With `out` the angles are recorded meanwhile, as `zlg follow` does.
+// Serves until a signal comes, also when the source has ended. With `out` the angles are recorded meanwhile, as `zlg
+// follow` does.
 //
 // errors  UsageError for a log that cannot be read while it grows; those of the sources and the server.
 void follow_in_page(const LabFollowOptions& options);

@@ -15,8 +15,8 @@ namespace zlg::cli {
 // errors  as lab_page; logs::IoError where the page beside the program is not one of this version.
 [[nodiscard]] std::string live_lab_page();
 
-// The fragment of an address of the page: the settings that differ from the defaults, percent-encoded (RFC 3986), and `until`,
-// to which a run of this configuration lasts.
+// The fragment of an address of the page: the settings that differ from the defaults, percent-encoded (RFC 3986), and
+// `until`, to which a run of this configuration lasts.
 [[nodiscard]] std::string lab_fragment(const config::Config& config, double until_s);
 
 }  // namespace zlg::cli

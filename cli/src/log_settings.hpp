@@ -20,7 +20,8 @@ struct LogSettings {
 [[nodiscard]] LogSettings understood(const Options& options, const config::Settings& settings,
                                      const std::string& log_path);
 
-// D, the delay of a final value, of angles with these settings; empty where they do not say by what these were computed.
+// D, the delay of a final value, of angles with these settings; empty where they do not say by what these were
+// computed.
 [[nodiscard]] std::optional<int> final_delay_ticks(const LogSettings& settings);
 
 }  // namespace zlg::cli

@@ -7,7 +7,8 @@
 
 namespace zlg::cli {
 
-// The hidden option `--manual FOLDER`, with which a package is built: all pages and completions. Call it after all verbs are there.
+// The hidden option `--manual FOLDER`, with which a package is built: all pages and completions. Call it after all
+// verbs are there.
 void add_manual(CLI::App& program);
 
 // The page zlg(1), or zlg-VERB(1).

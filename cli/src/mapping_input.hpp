@@ -21,10 +21,11 @@ void add_mapping_options(CLI::App& verb, Options& options);
 // errors  logs::MappingError, logs::IoError.
 [[nodiscard]] logs::Mapping mapping_of(const Options& options);
 
-// A raw log, or the halves of a foreign file where a mapping is given, with a line on standard error for each thing that was
-// understood.
+// A raw log, or the halves of a foreign file where a mapping is given, with a line on standard error for each thing
+// that was understood.
 //
-// errors  those of logs::RawReader, logs::look_at_foreign and logs::imported_raw; UsageError: the file is a log and needs no mapping.
+// errors  those of logs::RawReader, logs::look_at_foreign and logs::imported_raw; UsageError: the file is a log and
+// needs no mapping.
 [[nodiscard]] logs::RawReader open_raw(const Options& options, const std::string& path);
 
 // What a foreign file says of itself. errors  UsageError: it is one of our logs.

@@ -65,7 +65,8 @@ void note_former_keys(const config::Settings& log_settings, const std::string& l
 [[nodiscard]] recorded::LogCompensation log_compensation(const Options& options, const logs::RawHeader& log,
                                                          const std::string& log_path);
 
-// Of a log for whose want of detuning nothing is subtracted after a closing: a line on standard error where its loop was opened.
+// Of a log for whose want of detuning nothing is subtracted after a closing: a line on standard error where its loop
+// was opened.
 void warn_uncorrected(const rig::Replay& replay, const std::string& log_path);
 
 // As study::resolved, with a line on standard error for each note and warning.

@@ -20,8 +20,8 @@ void print(std::string_view text);
 // Without the folder.
 [[nodiscard]] std::string name_of_file(const std::string& path);
 
-// A bar with the time that is left, on standard error, if that is a terminal and the work lasts over a second. Warnings that wait are printed then,
-// on a terminal or not.
+// A bar with the time that is left, on standard error, if that is a terminal and the work lasts over a second. Warnings
+// that wait are printed then, on a terminal or not.
 class Progress {
 public:
     // part  what grows meanwhile, for a warning of work that will last long or fill the disk; empty: no warning.

@@ -18,8 +18,8 @@ namespace zlg::cli {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-// Made if it is not there, and removed at the end if it was made and nothing is in it. A signal finds it either not made
-// or known as new.
+// Made if it is not there, and removed at the end if it was made and nothing is in it. A signal finds it either not
+// made or known as new.
 class OwnFolder {
 public:
     // errors  logs::IoError: it cannot be made.

@@ -25,8 +25,8 @@ public:
     // out  the folder; empty: a new zlg-run-NNN here.
     //
     // errors  logs::IoError: the folder holds one of the files and not `force`, or cannot be made.
-    // An error later on leaves the HDF5 logs as they are then, NAME.part; nothing else. A log that is not kept is a file of
-    // the run all the same: one of an earlier run must not stay beside the page of this one.
+    // An error later on leaves the HDF5 logs as they are then, NAME.part; nothing else. A log that is not kept is a
+    // file of the run all the same: one of an earlier run must not stay beside the page of this one.
     RunFiles(const std::string& out, bool force, const config::Config& config, logs::LogFormat format, KeptLogs kept,
              int light_samples);
     ~RunFiles();

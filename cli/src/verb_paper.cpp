@@ -64,8 +64,8 @@ Files files_of(const paper::Paper& paper) {
     return files;
 }
 
-// The folder of the paper. What came into it of a run that failed is removed again. That it may be written is known before
-// the work begins.
+// The folder of the paper. What came into it of a run that failed is removed again. That it may be written is known
+// before the work begins.
 class Folder {
 public:
     Folder(const std::string& path, bool force) : folder_{path}, force_{force} {

@@ -24,8 +24,8 @@ void print(const AngleRow& row) {
 }  // namespace
 
 int main() {
-    // Of a gyro of one's own: the length of a tick, what a count is worth, the edges of its bias, how large its threshold of
-    // lock-in may be.
+    // Of a gyro of one's own: the length of a tick, what a count is worth, the edges of its bias, how large its
+    // threshold of lock-in may be.
     const GyroCompensationConfig config{
         .bridge = {.method = BridgeMethod::quadratic},
         .lock_in = {.sigma = Hertz{300.0}},

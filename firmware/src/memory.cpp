@@ -1,8 +1,9 @@
-// Copying and filling for a Cortex-M7, in place of the library's: the state of the core moves in doubles, 64 bytes at a time.
+// Copying and filling for a Cortex-M7, in place of the library's: the state of the core moves in doubles, 64 bytes at a
+// time.
 //
-// The library's take two instructions for four bytes; a structure of the core has a hundred or more. The registers of the
-// floating-point unit used here are those that any call may change. What is not aligned to words, which no structure of
-// the core is, goes byte by byte.
+// The library's take two instructions for four bytes; a structure of the core has a hundred or more. The registers of
+// the floating-point unit used here are those that any call may change. What is not aligned to words, which no
+// structure of the core is, goes byte by byte.
 
 asm(R"(
     .syntax unified

@@ -16,8 +16,8 @@ public:
     // A gyro that begins anew. Nobody may put meanwhile.
     void restart() noexcept;
 
-    // The next half. A tick that does not fit is not sent, for the gyro does not wait for its listener; its angle is in the sums
-    // of the next one.
+    // The next half. A tick that does not fit is not sent, for the gyro does not wait for its listener; its angle is in
+    // the sums of the next one.
     //
     // ended  when the half did.
     void put(const HalfOutput& half, const wire::TickTime& ended, double tick_s) noexcept;

@@ -16,21 +16,22 @@ enum class Budget {
 };
 
 // switch_error_arcsec  that one switch leaves.
-// return               NaN where the theory refuses the case: unless 0 < interval_s <= run_s, or where switches cost nothing.
+// return               NaN where the theory refuses the case: unless 0 < interval_s <= run_s, or where switches cost
+// nothing.
 [[nodiscard]] double drift_arcsec_s(const config::Config& config, Budget budget, double interval_s, double run_s,
                                     double switch_error_arcsec);
 
-// The best interval between switches, s: the minimum of the expected drift, as `zlg run` takes it for interval_s = "optimal", and
-// sqrt(dP t/Om), to which eq (9) comes for a gyro that does not warm up.
+// The best interval between switches, s: the minimum of the expected drift, as `zlg run` takes it for interval_s =
+// "optimal", and sqrt(dP t/Om), to which eq (9) comes for a gyro that does not warm up.
 enum class IntervalLaw { expected, closed_form };
 
 // return  NaN where the theory refuses the case, infinite where the law has none.
 [[nodiscard]] double interval_s(const config::Config& config, IntervalLaw law, double run_s,
                                 double switch_error_arcsec);
 
-// The weights W of a gap of so many ticks, eqs (14) and (15), with the points of [compensation]: what the polynomial puts in place of
-// the gap is the sum of W times the points. They stand in the order of the points' places: 1 - e ... 0, or 1 - b ... 0 and
-// n + 1 ... n + a, where the gap has the ticks 1 ... n.
+// The weights W of a gap of so many ticks, eqs (14) and (15), with the points of [compensation]: what the polynomial
+// puts in place of the gap is the sum of W times the points. They stand in the order of the points' places: 1 - e ...
+// 0, or 1 - b ... 0 and n + 1 ... n + a, where the gap has the ticks 1 ... n.
 //
 // order      0..2; lowered where there are too few points, as in the gyro.
 // gap_ticks  1..32.

@@ -1,5 +1,6 @@
 #pragma once
-// One compensation of a gyro that runs, held against the truth: its error of the angle tick by tick, and of its switches.
+// One compensation of a gyro that runs, held against the truth: its error of the angle tick by tick, and of its
+// switches.
 
 #include <array>
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Runs the closed loop of one configuration for run.duration_s and prints the fingerprint of the run, which is that of `zlg run`: so
-// compilers and machines are held against each other.
+// Runs the closed loop of one configuration for run.duration_s and prints the fingerprint of the run, which is that of
+// `zlg run`: so compilers and machines are held against each other.
 //
 // usage: zlg_loop_fingerprint [section.key=value...]
 

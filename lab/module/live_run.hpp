@@ -1,6 +1,6 @@
 #pragma once
-// A gyro that is watched while it runs: its signals, and several compensations of the same counts against the truth, as rows of
-// numbers for a page.
+// A gyro that is watched while it runs: its signals, and several compensations of the same counts against the truth, as
+// rows of numbers for a page.
 
 #include <array>
 #include <cstddef>
@@ -44,18 +44,23 @@ public:
     // errors  as LoopRun.
     void advance();
 
-    //   signals   a row a tick: time at its end, s; true and measured rate, arcsec/s; detuning, lambda; piezo voltage, V; light
-    //             of beam A and B; mode; 1 where the loop is closed; 1 where both halves are valid; bias frequency, Hz; bits of
-    //             health
-    //   angles    a row a tick, some ticks later: tick; its true, read, delivered and final increment, arcsec; sigma of the final
-    //             one; flags; error of the angle, arcsec: as read, by the paper, as configured, of the other gyro (NaN without)
-    //   switches  a row for each switch and compensation (0 as read, 1 by the paper, 2 as configured): compensation; first tick;
+    //   signals   a row a tick: time at its end, s; true and measured rate, arcsec/s; detuning, lambda; piezo voltage,
+    //   V; light
+    //             of beam A and B; mode; 1 where the loop is closed; 1 where both halves are valid; bias frequency, Hz;
+    //             bits of health
+    //   angles    a row a tick, some ticks later: tick; its true, read, delivered and final increment, arcsec; sigma of
+    //   the final
+    //             one; flags; error of the angle, arcsec: as read, by the paper, as configured, of the other gyro (NaN
+    //             without)
+    //   switches  a row for each switch and compensation (0 as read, 1 by the paper, 2 as configured): compensation;
+    //   first tick;
     //             ticks of the gap; last tick; mode after; miss, lambda; error, arcsec
     [[nodiscard]] const std::vector<double>& rows(View view) const { return rows_[static_cast<std::size_t>(view)]; }
     void forget();
 
-    // The half before: rate of the case, arcsec/s; counts; detuning, lambda; piezo voltage, V; light of beam A and B; mode; sign
-    // of the bias; 1 where the loop is closed; phase of the switch; seconds to the next switch by plan; bits of health.
+    // The half before: rate of the case, arcsec/s; counts; detuning, lambda; piezo voltage, V; light of beam A and B;
+    // mode; sign of the bias; 1 where the loop is closed; phase of the switch; seconds to the next switch by plan; bits
+    // of health.
     [[nodiscard]] const std::array<double, 12>& now() const { return now_; }
 
     [[nodiscard]] std::string fingerprint() const { return run_.fingerprint(); }

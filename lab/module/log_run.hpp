@@ -1,6 +1,6 @@
 #pragma once
-// A recorded log on the page: a raw log goes through the compensation as in `zlg process`, and beside it through those that the page
-// compares it with; an angle log is shown as it is. What comes out are rows of numbers.
+// A recorded log on the page: a raw log goes through the compensation as in `zlg process`, and beside it through those
+// that the page compares it with; an angle log is shown as it is. What comes out are rows of numbers.
 
 #include <array>
 #include <cstddef>
@@ -35,9 +35,11 @@ public:
     // errors  as above; the message names row, column and value.
     bool advance(std::int64_t rows);
 
-    //   ticks     a row a tick, in their order: tick; increment as read, delivered, final, arcsec; sigma of the final one; flags; mode; 1
-    //             where the loop is closed; detuning of the second half, lambda; piezo voltage, V; final angle since the start without
-    //             corrections and by the paper, each less the configured one, arcsec. NaN: the log does not say.
+    //   ticks     a row a tick, in their order: tick; increment as read, delivered, final, arcsec; sigma of the final
+    //   one; flags; mode; 1
+    //             where the loop is closed; detuning of the second half, lambda; piezo voltage, V; final angle since
+    //             the start without corrections and by the paper, each less the configured one, arcsec. NaN: the log
+    //             does not say.
     //   switches  a row for each: first tick; ticks of the gap; mode after; dP of eq (16), arcsec
     [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
     [[nodiscard]] const std::vector<double>& switches() const { return switches_; }

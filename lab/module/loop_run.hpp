@@ -36,7 +36,8 @@ class LoopRun {
 public:
     // hand    turns that are added to the motion of the configuration, while the gyro runs; null: none.
     // column  for the motion of the kind "file".
-    // errors  config::ConfigError where the configuration makes no gyro; here another motion file makes none, and the best interval is
+    // errors  config::ConfigError where the configuration makes no gyro; here another motion file makes none, and the
+    // best interval is
     //         not sought.
     explicit LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand = nullptr,
                      const MotionColumn& column = {});

@@ -1,8 +1,8 @@
 // The closed loop as a module of WebAssembly: what a page calls.
 //
-// A page writes the settings, text in UTF-8, to where zlg_text tells it and calls zlg_configure, then zlg_advance as often as it likes. A
-// function that returns 0 has refused; zlg_message then says why, in the program's own words. Whatever it refuses, the module
-// goes on: after a refused configuration with the gyro that it had.
+// A page writes the settings, text in UTF-8, to where zlg_text tells it and calls zlg_configure, then zlg_advance as
+// often as it likes. A function that returns 0 has refused; zlg_message then says why, in the program's own words.
+// Whatever it refuses, the module goes on: after a refused configuration with the gyro that it had.
 
 #include <cmath>
 #include <cstddef>
@@ -109,21 +109,21 @@ ZLG_EXPORT(zlg_text) char* zlg_text(std::size_t bytes) {
 // A new gyro, of that text: a line `section.key=value` for each setting, the later over the earlier.
 ZLG_EXPORT(zlg_configure) int zlg_configure() { return done(configure); }
 
-// From the next zlg_configure on a second gyro runs beside the first on the same motion, with the settings of the text over those of
-// the first; where `wanted` is 0, none.
+// From the next zlg_configure on a second gyro runs beside the first on the same motion, with the settings of the text
+// over those of the first; where `wanted` is 0, none.
 ZLG_EXPORT(zlg_other) void zlg_other(int wanted) {
     page().other = wanted != 0 ? std::optional{page().text} : std::nullopt;
 }
 
-// From the next zlg_configure on, the motion of the kind "file" whose path is the text: so many values of the file's column, which go
-// where this points.
+// From the next zlg_configure on, the motion of the kind "file" whose path is the text: so many values of the file's
+// column, which go where this points.
 ZLG_EXPORT(zlg_motion) double* zlg_motion(std::size_t values) {
     page().column = {page().text, std::vector<double>(values)};
     return page().column.values.data();
 }
 
-// What the theory says of the gyro that was configured (design_formulas.hpp), with the numbers of its enumerators: the drift of a budget,
-// the best interval by a law, the weights with which a gap is bridged.
+// What the theory says of the gyro that was configured (design_formulas.hpp), with the numbers of its enumerators: the
+// drift of a budget, the best interval by a law, the weights with which a gap is bridged.
 ZLG_EXPORT(zlg_drift) double zlg_drift(std::uint32_t budget, double interval_s, double run_s, double error_arcsec) {
     return lab::drift_arcsec_s(page().asked, static_cast<lab::Budget>(budget), interval_s, run_s, error_arcsec);
 }
@@ -143,8 +143,8 @@ ZLG_EXPORT(zlg_advance) int zlg_advance(std::uint32_t halves) {
     });
 }
 
-// From now on the case also turns at this rate, arcsec/s, in this gyro and, at the same times, in those that are configured after it,
-// until zlg_let_go. What a turned gyro does is not what its configuration alone says.
+// From now on the case also turns at this rate, arcsec/s, in this gyro and, at the same times, in those that are
+// configured after it, until zlg_let_go. What a turned gyro does is not what its configuration alone says.
 ZLG_EXPORT(zlg_turn) int zlg_turn(double rate_arcsec_s) {
     return done([rate_arcsec_s] {
         if (!page().run) throw std::logic_error{"no gyro is configured"};
@@ -175,14 +175,16 @@ ZLG_EXPORT(zlg_fingerprint) const char* zlg_fingerprint() {
     return page().fingerprint.data();
 }
 
-// The rows of a view (live_run.hpp: 0 signals, 1 angles, 2 switches; log_run.hpp: 3 ticks, 4 switches) since it was forgotten, and how
-// many numbers they are; the numbers of the half before. There must be a gyro, or a log; the place holds until either goes on.
+// The rows of a view (live_run.hpp: 0 signals, 1 angles, 2 switches; log_run.hpp: 3 ticks, 4 switches) since it was
+// forgotten, and how many numbers they are; the numbers of the half before. There must be a gyro, or a log; the place
+// holds until either goes on.
 ZLG_EXPORT(zlg_rows) const double* zlg_rows(std::uint32_t view) { return rows(view).data(); }
 ZLG_EXPORT(zlg_rows_numbers) std::size_t zlg_rows_numbers(std::uint32_t view) { return rows(view).size(); }
 ZLG_EXPORT(zlg_forget) void zlg_forget() { page().run->forget(); }
 ZLG_EXPORT(zlg_now) const double* zlg_now() { return page().run->now().data(); }
 
-// A log in the file that the page serves (page_file.cpp): the text is the file's name and below it settings, one a line.
+// A log in the file that the page serves (page_file.cpp): the text is the file's name and below it settings, one a
+// line.
 ZLG_EXPORT(zlg_log) int zlg_log() {
     return done([] {
         const std::vector<std::string> text = lines(page().text);
@@ -199,15 +201,16 @@ ZLG_EXPORT(zlg_log_advance) int zlg_log_advance(std::uint32_t rows) {
 ZLG_EXPORT(zlg_log_forget) void zlg_log_forget() { page().log->forget(); }
 ZLG_EXPORT(zlg_log_fraction) double zlg_log_fraction() { return page().log->fraction_read(); }
 
-// Answers, as zlg_message: what the log is, and what there is to say of it so far, a line each: `raw` or `angles`; the length of a tick, s;
-// notes; behind an empty line the settings that differ from the defaults.
+// Answers, as zlg_message: what the log is, and what there is to say of it so far, a line each: `raw` or `angles`; the
+// length of a tick, s; notes; behind an empty line the settings that differ from the defaults.
 ZLG_EXPORT(zlg_log_facts) void zlg_log_facts() {
     const lab::LogRun& log = *page().log;
     page().message = fmt::format("{}\n{}\n{}\n\n{}", log.is_raw() ? "raw" : "angles", log.config().gyro.tick_s,
                                  fmt::join(log.notes(), "\n"), lab::changed_settings(log.config()));
 }
 
-// Answers, as zlg_message: the table of keys as JSON, and the settings of the gyro that differ from the defaults, one a line.
+// Answers, as zlg_message: the table of keys as JSON, and the settings of the gyro that differ from the defaults, one a
+// line.
 ZLG_EXPORT(zlg_schema) void zlg_schema() { page().message = lab::schema_json(); }
 ZLG_EXPORT(zlg_changed) void zlg_changed() { page().message = lab::changed_settings(page().asked); }
 

@@ -1,5 +1,5 @@
-// The one file that the page has given to the module, in place of a file system: the page answers what the C library asks of the number
-// `page_file` (fd_read, fd_pread, fd_filestat_get of WASI), whatever name it is opened by.
+// The one file that the page has given to the module, in place of a file system: the page answers what the C library
+// asks of the number `page_file` (fd_read, fd_pread, fd_filestat_get of WASI), whatever name it is opened by.
 
 #include <cerrno>
 #include <cstdarg>
@@ -27,7 +27,7 @@ extern "C" int __wrap_stat(const char*, struct stat*) {
     return -1;
 }
 
-// Only fmt's hexadecimal reals and the last words of an abort would come here: no message of ours has the former, and nobody hears the
-// latter.
+// Only fmt's hexadecimal reals and the last words of an abort would come here: no message of ours has the former, and
+// nobody hears the latter.
 extern "C" int __wrap_snprintf(char*, std::size_t, const char*, ...) { __builtin_trap(); }
 extern "C" int __wrap_vfprintf(FILE*, const char*, va_list) { return 0; }

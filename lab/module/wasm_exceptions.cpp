@@ -1,9 +1,10 @@
 // C++ exceptions in WebAssembly: the half of them that Debian's libc++abi for wasm32 is made without.
 //
-// The engine itself unwinds the stack. What the compiler calls (by the names of the Itanium C++ ABI, "Exception Handling", and of
-// LLVM's WebAssembly back end) is here: memory for what is thrown, which handlers are entered, and the search of a function's table
-// of handlers for the first one that takes the type. Within one thread, for classes without multiple bases and for
-// types that are no classes; a handler for a base of another kind is not found, and the exception goes on.
+// The engine itself unwinds the stack. What the compiler calls (by the names of the Itanium C++ ABI, "Exception
+// Handling", and of LLVM's WebAssembly back end) is here: memory for what is thrown, which handlers are entered, and
+// the search of a function's table of handlers for the first one that takes the type. Within one thread, for classes
+// without multiple bases and for types that are no classes; a handler for a base of another kind is not found, and the
+// exception goes on.
 
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +47,8 @@ bool is_a(const std::type_info* type, const std::type_info& wanted) {
     return true;
 }
 
-// LEB128, the variable length of DWARF: seven bits a byte, the lowest first; in a signed one the last byte's bit 6 is the sign.
+// LEB128, the variable length of DWARF: seven bits a byte, the lowest first; in a signed one the last byte's bit 6 is
+// the sign.
 std::uintptr_t unsigned_number(const std::uint8_t*& at) {
     std::uintptr_t value = 0;
     for (unsigned shift = 0;; shift += 7) {
@@ -64,8 +66,9 @@ std::intptr_t signed_number(const std::uint8_t*& at) {
     return static_cast<std::intptr_t>(negative ? value | (~std::uintptr_t{0} << bits) : value);
 }
 
-// A function's table: two bytes of encodings, which are always the same on this machine, the way to the end of the list of types, one
-// more encoding, and the length of the list of places with their first actions, after which the actions lie.
+// A function's table: two bytes of encodings, which are always the same on this machine, the way to the end of the list
+// of types, one more encoding, and the length of the list of places with their first actions, after which the actions
+// lie.
 struct Table {
     const std::uint8_t* places;
     const std::uint8_t* actions;

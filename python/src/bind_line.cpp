@@ -20,8 +20,8 @@ public:
         : follower_{without_interpreter([&] { return std::make_unique<logs::Follower>(source, baud, duration_s); })},
           duration_s_{duration_s} {}
 
-    // Up to `most_rows`, or those of `patience_s` and one at least; none: the line has ended. What has come before an exception, as
-    // of Ctrl-C, is in the next batch.
+    // Up to `most_rows`, or those of `patience_s` and one at least; none: the line has ended. What has come before an
+    // exception, as of Ctrl-C, is in the next batch.
     py::object batch(std::int64_t most_rows, double patience_s) {
         const Use use{is_busy_, "line"};
         without_interpreter([&] { collect(most_rows, patience_s); });

@@ -18,9 +18,9 @@ namespace {
 // Weighted least squares whose standard errors come from the scatter of the observations, each for itself.
 //
 // The expected variances set the weights and need be right only roughly: the covariance is that of White
-// (Econometrica 48, 1980), each squared residual divided by 1 - leverage (HC2 of MacKinnon and White, J. Econometrics 29,
-// 1985). Where few observations decide, the standard error is
-// widened by as many degrees of freedom as they are (Satterthwaite).
+// (Econometrica 48, 1980), each squared residual divided by 1 - leverage (HC2 of MacKinnon and White, J. Econometrics
+// 29, 1985). Where few observations decide, the standard error is widened by as many degrees of freedom as they are
+// (Satterthwaite).
 class ScatterRegression {
 public:
     // One row of laws and one expected variance for each value.

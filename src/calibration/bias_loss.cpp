@@ -39,7 +39,8 @@ RelockBorders borders_of(const RelockView& view, const BiasLaw& law, std::size_t
         relock_borders(view, law, transient, 1, [&](const core::HalfRecord& r, Eigen::Ref<Eigen::RowVectorXd> loss) {
             const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c);
             loss[0] = r.detuning_sq_lambda2 - light.square_lambda2;
-            // This half stands in all observations behind it: in all rows k > h, and in the rest's means by their share.
+            // This half stands in all observations behind it: in all rows k > h, and in the rest's means by their
+            // share.
             const double rows = static_cast<double>(kept + 2);
             const double behind = h < kept ? static_cast<double>(kept - 1 - h) + 2.0
                                            : 2.0 * static_cast<double>(n - h) / static_cast<double>(n + 1 - kept);

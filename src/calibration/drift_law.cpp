@@ -110,10 +110,10 @@ struct Exponential {
     bool determined = false;
 };
 
-// Separable nonlinear least squares (Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973): the residual as a function of log
-// tau alone, for the other coefficients follow linearly. It is scanned from 1/300 of the longest log, where the bend is
-// over within the first few pieces, to 10 times it, where the growth is straight. Each of three rounds finds the walk
-// again at the tau found.
+// Separable nonlinear least squares (Golub and Pereyra, SIAM J. Numer. Anal. 10, 1973): the residual as a function of
+// log tau alone, for the other coefficients follow linearly. It is scanned from 1/300 of the longest log, where the
+// bend is over within the first few pieces, to 10 times it, where the growth is straight. Each of three rounds finds
+// the walk again at the tau found.
 Exponential fit_exponential(const Record& record) {
     Exponential e;
     double walk = fit_walk(record.angles, straight_laws(record), record.border_variance).walk_variance_per_s;

@@ -39,8 +39,8 @@ using LossLaws = std::function<void(const core::HalfRecord&, Eigen::Ref<Eigen::R
 [[nodiscard]] RelockBorders relock_borders(const RelockView& view, const BiasLaw& law, std::size_t transient,
                                            Eigen::Index n_laws, const LossLaws& losses);
 
-// The loss of bias by these laws, and the parity, from the borders of all re-locks. Rounding that does not scatter from one
-// re-lock of a kind to the next is an unknown that all of them share.
+// The loss of bias by these laws, and the parity, from the borders of all re-locks. Rounding that does not scatter from
+// one re-lock of a kind to the next is an unknown that all of them share.
 struct LossFit : numeric::ClusterFit {
     double residual = 0.0;                // sum of squares
     double chi2_per_dof = 0.0;            // over rounding and light noise

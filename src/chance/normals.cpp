@@ -34,8 +34,8 @@ constexpr std::uint32_t many = 8;  // blocks at once
 
 void fill_many(const Address& address, std::uint32_t block, double* out) noexcept { fill<many>(address, block, out); }
 
-// The same operations on four numbers at a time, where the processor has AVX2: a third less time, and the same bits, for none of them
-// is fused. What is not compiled into this function remains for every processor.
+// The same operations on four numbers at a time, where the processor has AVX2: a third less time, and the same bits,
+// for none of them is fused. What is not compiled into this function remains for every processor.
 #if defined(__x86_64__)
 [[gnu::target("avx2"), gnu::flatten]] void fill_many_avx2(const Address& address, std::uint32_t block,
                                                           double* out) noexcept {

@@ -195,8 +195,8 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// A document of one value. What is not valid TOML, or is more than one value, is a string as it stands; text that is not
-// UTF-8 is none, for it could not be written again.
+// A document of one value. What is not valid TOML, or is more than one value, is a string as it stands; text that is
+// not UTF-8 is none, for it could not be written again.
 toml::table parse_value(const std::string& place, std::string_view text) {
     try {
         toml::table document = text::parse_toml(fmt::format("value = {}", text));

@@ -7,7 +7,8 @@
 
 namespace zlg::config {
 
-// As TOML: reals in the shortest form that reads back, texts in the quotes that need no escapes. Cut after 60 characters.
+// As TOML: reals in the shortest form that reads back, texts in the quotes that need no escapes. Cut after 60
+// characters.
 [[nodiscard]] std::string node_text(const toml::node& node);
 
 }  // namespace zlg::config

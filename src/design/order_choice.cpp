@@ -10,8 +10,8 @@ namespace zlg::design {
 namespace {
 
 // Far above the rounding of the sums and far below any difference of interest. Orders 2m and 2m + 1 of symmetric points
-// are equal within the first, relative; errors of no motion and no noise are below the second, as a part of the amplitude
-// of a tick.
+// are equal within the first, relative; errors of no motion and no noise are below the second, as a part of the
+// amplitude of a tick.
 constexpr double equal_within = 1e-9;
 constexpr double nothing = 1e-13;
 

@@ -16,15 +16,16 @@ namespace zlg::design {
 
 namespace {
 
-// Budgets are sums of powers of L and of functions of L/tau, whose features are as wide as L itself: a step of 2 % passes
-// over none.
+// Budgets are sums of powers of L and of functions of L/tau, whose features are as wide as L itself: a step of 2 %
+// passes over none.
 constexpr double scan_step_ratio = 0.02;
 
 // Where slope changes from negative to not negative between low and high, to the last bits of x. A jump there is a
 // kink.
 template <class Slope>
 double rising_zero(const Slope& slope, double low, double high) {
-    // The bracket is one. What the library would say of another needs streams, and they are half of the lab page's module.
+    // The bracket is one. What the library would say of another needs streams, and they are half of the lab page's
+    // module.
     using Policy =
         boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
                                       boost::math::policies::evaluation_error<boost::math::policies::ignore_error>>;
@@ -130,7 +131,8 @@ double slope_random_sign(const DriftCase& task, double interval_s, FirstSegment 
            total_arcsec_s;
 }
 
-// The same of a run that ends anywhere in a segment: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) + N^2).
+// The same of a run that ends anywhere in a segment: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) +
+// N^2).
 double slope_expected(const DriftCase& task, double interval_s, FirstSegment first) {
     const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
     const double start_arcsec = start_residue_arcsec(task.gyro, interval_s, first);
@@ -171,8 +173,8 @@ double min_of_random_sign_s(const DriftCase& task, double whole_run_arcsec_s) {
 }
 
 // Minimum of a budget by its value and slope, as functions of case and interval. No budget is below what its switches
-// cost, so below the interval `least` at which they alone cost as much as a run without a switch there is no minimum: the
-// search begins there.
+// cost, so below the interval `least` at which they alone cost as much as a run without a switch there is no minimum:
+// the search begins there.
 template <class Drift, class Slope, class Least>
 Optimum searched(const DriftCase& task, const Drift& drift, const Slope& slope, const Least& least) {
     check(task);

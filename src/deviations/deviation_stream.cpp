@@ -77,8 +77,8 @@ struct DeviationStream::State {
         if (!gaps.is_phase) border(0.0);
     }
 
-    // A border of the stream goes to every level whose stride divides its number; with it the sums of the borders since the
-    // last one are complete.
+    // A border of the stream goes to every level whose stride divides its number; with it the sums of the borders since
+    // the last one are complete.
     void border(double at) {
         const auto number = static_cast<std::uint64_t>(n_borders++);
         const auto known = static_cast<double>(n_known);

@@ -21,7 +21,8 @@ public:
 
     // Of a sequence with spectrum |2 sin(pi f)|^e, e itself.
     //
-    //   r1 = lag-1 autocorrelation, delta = r1/(1 + r1); while delta >= 1/4 the sequence is differenced; e = -2 (delta + d)
+    //   r1 = lag-1 autocorrelation, delta = r1/(1 + r1); while delta >= 1/4 the sequence is differenced; e = -2 (delta
+    //   + d)
     //
     // absent  fewer than 30 values, or constant.
     // source  W. Riley, C. Greenhall, "Power law noise identification using the lag 1 autocorrelation", EFTF 2004.

@@ -15,8 +15,8 @@ struct Node {
     double found, noise;
 };
 
-// What the lag-1 exponent of mean rates is for each law: of -1 to -4 from r1 = 9 ln 3/(8 ln 2) - 2 and its kin, the ratio
-// of the autocovariances of differences of a mean; above 0 of the sampled laws.
+// What the lag-1 exponent of mean rates is for each law: of -1 to -4 from r1 = 9 ln 3/(8 ln 2) - 2 and its kin, the
+// ratio of the autocovariances of differences of a mean; above 0 of the sampled laws.
 constexpr std::array<Node, 7> of_rates{
     {{-4.565, -4.0}, {-3.927, -3.0}, {-2.400, -2.0}, {-1.446, -1.0}, {0.0, 0.0}, {1.45, 1.0}, {2.0, 2.0}}};
 // And of mean angles, 2 added; there is no closed form. Chosen so that 0, 1 and 2 come out as what they are.

@@ -44,7 +44,8 @@ struct Track {
     TermSum sum{};
 };
 
-// Means of m entries, side by side, as they come. Of a long stream runs of them at doubling distances: they tell enough.
+// Means of m entries, side by side, as they come. Of a long stream runs of them at doubling distances: they tell
+// enough.
 struct NoiseTrack {
     NoiseMeans means;
     std::int64_t next = 0;
@@ -65,7 +66,8 @@ public:
     void add_factor(std::int64_t m, const std::vector<DeviationKind>& kinds);
     void add_noise(std::int64_t m) { noise_.push_back({NoiseMeans(m)}); }
 
-    // A border of the stream at this stride, and the sum over the borders from here to the next entry, when it is known.
+    // A border of the stream at this stride, and the sum over the borders from here to the next entry, when it is
+    // known.
     void push_border(double angle, double known, const StreamGaps& gaps);
     void push_average(double angle_sum, double known_sum, const StreamGaps& gaps);
 

@@ -20,8 +20,8 @@ struct GapView {
     std::vector<core::AngleRow> rows;  // of a long gap its beginning only
 };
 
-// Finds gaps, ticks in which the loop was open or a count invalid, as the rows come. A picture is whole when enough measured
-// ticks have followed the gap, or the next one begins.
+// Finds gaps, ticks in which the loop was open or a count invalid, as the rows come. A picture is whole when enough
+// measured ticks have followed the gap, or the next one begins.
 class GapFinder {
 public:
     static constexpr std::int64_t before_ticks = 12;

@@ -32,7 +32,8 @@ constexpr std::chrono::seconds parting_within{1};
 constexpr int ticks_of_silence = 50;  // of event_every; then an empty line keeps the connection open
 constexpr int stream_buffer_bytes = 1 << 18;
 
-// One connection: a request, and its reply or the stream. All in the server's thread; it lives while an operation of it is under way.
+// One connection: a request, and its reply or the stream. All in the server's thread; it lives while an operation of it
+// is under way.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     // What the server decides.

@@ -32,7 +32,8 @@ public:
     // It can be read as it is: `abandon_outputs` leaves it.
     void keep_if_abandoned() const;
 
-    // Closes PATH.part and renames it to PATH. When that fails PATH.part is removed, or stays where `keep_part` says so.
+    // Closes PATH.part and renames it to PATH. When that fails PATH.part is removed, or stays where `keep_part` says
+    // so.
     //
     // errors  IoError: the last bytes were not written, another program took PATH.part, PATH has appeared meanwhile and
     // not `force`.

@@ -77,8 +77,8 @@ bool is_toml_value(std::string_view text) {
     }
 }
 
-// The document's own spelling, where the value is on one line. A literal string that would be no TOML without its quotes
-// is how a bare text was written.
+// The document's own spelling, where the value is on one line. A literal string that would be no TOML without its
+// quotes is how a bare text was written.
 std::string text_of(const toml::node& value, const std::vector<std::string_view>& lines) {
     const toml::source_region& at = value.source();
     if (at.begin.line == 0 || at.begin.line != at.end.line || at.begin.line > lines.size()) return spelled(value);

@@ -18,7 +18,8 @@ struct Part {
     bool stays = false;
 };
 
-// One for the process, as its file descriptors are. It is never destroyed: another thread may end the process meanwhile.
+// One for the process, as its file descriptors are. It is never destroyed: another thread may end the process
+// meanwhile.
 struct Unfinished {
     std::recursive_mutex mutex;
     std::map<int, Part> parts;

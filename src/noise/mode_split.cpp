@@ -110,9 +110,9 @@ void take_constant(ModeSplit& split) {
     split.magnetic_thermal_arcsec_s = split.thermal_time_s = numeric::refused(why);
 }
 
-// Separable least squares: for each tau the other three constants follow linearly, so that the residual is searched along
-// log tau alone, from 1/30 of the record, a bend at its very beginning, to 10 times it, where the growth is straight.
-// The column of the derivative by tau then gives the covariance of all four.
+// Separable least squares: for each tau the other three constants follow linearly, so that the residual is searched
+// along log tau alone, from 1/30 of the record, a bend at its very beginning, to 10 times it, where the growth is
+// straight. The column of the derivative by tau then gives the covariance of all four.
 void take_warming(ModeSplit& split) {
     const auto& s = split.segments;
     const double span_s = s.back().time_s;

@@ -27,8 +27,8 @@ constexpr std::int64_t min_lengths = 6;
 constexpr double ramp_chance = 0.002;   // of a ramp in noise alone: one record of 500, as of a line of the spectrum
 constexpr double one_sided_95 = 1.645;  // quantile of the normal law
 
-// read_at_s is where the Allan deviation of the term alone has the value of its coefficient: the tau at which its variance
-// is 1 for a coefficient of 1 (3 Q^2/tau^2, N^2/tau, K^2 tau/3, R^2 tau^2/2).
+// read_at_s is where the Allan deviation of the term alone has the value of its coefficient: the tau at which its
+// variance is 1 for a coefficient of 1 (3 Q^2/tau^2, N^2/tau, K^2 tau/3, R^2 tau^2/2).
 struct KindFacts {
     std::string_view name, unit;
     double read_at_s = FittedTerm::none;

@@ -14,7 +14,8 @@ namespace {
 
 // Costs in -2 log likelihood. Of one coefficient that may not be negative: half of chi-square beyond 6.63 is 0.5 %.
 constexpr double cost = 6.6;
-// Of a Markov term, whose time is free too: of 654 records without one 10 showed one (zlg_noise_campaign, docs/noise.md).
+// Of a Markov term, whose time is free too: of 654 records without one 10 showed one (zlg_noise_campaign,
+// docs/noise.md).
 constexpr double markov_cost = 12.0;
 // The scatter of the variances depends on the terms and the terms on the scatter: the first round starts from a fit of
 // all basic terms, the second from the terms found.
@@ -140,8 +141,8 @@ double weight_of(const Candidate& c, const Candidate& best) {
     return std::exp(-0.5 * (c.fit.objective - best.fit.objective + one_more * more));
 }
 
-// Another set of terms may be the true one, and gives a term that was found another size: the scatter between the sets is
-// part of its standard error.
+// Another set of terms may be the true one, and gives a term that was found another size: the scatter between the sets
+// is part of its standard error.
 void take_uncertainty(const std::vector<Candidate>& all, SmoothFit& result) {
     const Candidate& best = all.front();
     std::array<double, n_smooth + 1> weights{}, variance{};
@@ -183,8 +184,8 @@ void take_absent(const std::vector<Candidate>& all, SmoothFit& result) {
             const std::size_t place = place_of(c, kind);
             result.square_freed[kind] = c.fit.coefficient[static_cast<Eigen::Index>(place)];
             result.square_sigma[kind] = std::sqrt(variance_of(c, place));
-            // What is seen of it, and the mean of what may remain below its error: of a half-normal variable, sqrt(2/pi)
-            // standard deviations.
+            // What is seen of it, and the mean of what may remain below its error: of a half-normal variable,
+            // sqrt(2/pi) standard deviations.
             constexpr double half_normal_mean = 0.8;
             result.mean_square[kind] = std::max(
                 result.mean_square[kind], result.square_freed[kind] + half_normal_mean * result.square_sigma[kind]);

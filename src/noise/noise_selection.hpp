@@ -1,7 +1,7 @@
 #pragma once
 // Which terms the variances need, and how large they are: every set of terms is fitted, the one of least penalised
-// likelihood is reported (as by Akaike's criterion, with a price set by the chance of a false term), and the others enter
-// the standard errors by their weight (model averaging; Burnham and Anderson, Model Selection, 2002, ch. 4).
+// likelihood is reported (as by Akaike's criterion, with a price set by the chance of a false term), and the others
+// enter the standard errors by their weight (model averaging; Burnham and Anderson, Model Selection, 2002, ch. 4).
 
 #include <array>
 #include <cstdint>

@@ -101,7 +101,8 @@ Evidence evidence_of(const Blocks& blocks, double rate_hz, const NoiseTerms& ter
     NoiseTerms known = terms, flat{.bias_instability_arcsec_s = 1.0};
     known.bias_instability_arcsec_s = known.rate_random_walk_arcsec_s_sqrt_s = 0.0;
     const double block_s = blocks.length / rate_hz;
-    // A Markov term as long as the blocks cannot be distinguished from the beginning of a random walk, which stands for it.
+    // A Markov term as long as the blocks cannot be distinguished from the beginning of a random walk, which stands for
+    // it.
     if (!known.markov.empty() && known.markov.front().time_s < block_s) {
         flat = {.markov = {{.deviation_arcsec_s = 1.0, .time_s = known.markov.front().time_s}}};
     }

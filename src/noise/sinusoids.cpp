@@ -19,7 +19,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Longer records are averaged piece by piece, which bounds memory and time; a line is then placed over the whole record.
+// Longer records are averaged piece by piece, which bounds memory and time; a line is then placed over the whole
+// record.
 constexpr std::size_t longest_piece = std::size_t{1} << 19;
 constexpr std::size_t first_bin = 8;    // periods in a piece
 constexpr std::size_t line_width = 4;   // bins of a Hann window's line, to either side
@@ -181,7 +182,8 @@ Eigen::Vector3d least_squares(std::span<const double> rates, double mean, double
         normal.noalias() += w * row * row.transpose();
         right += w * (rates[k] - mean) * row;
     }
-    // The middle of the record is where phase and frequency do not depend on each other; the phase is kept at its start.
+    // The middle of the record is where phase and frequency do not depend on each other; the phase is kept at its
+    // start.
     const Eigen::Vector4d fit = normal.ldlt().solve(right);
     return {fit[1], fit[2], std::isfinite(fit[3]) ? fit[3] * rate_hz / (2.0 * pi * n) : 0.0};
 }

@@ -1,7 +1,7 @@
 #pragma once
-// Lines in the spectrum of a rate: found in a Welch spectrum by Fisher's F-test against its neighbourhood, placed by the
-// maximum of the demodulated power (the maximum-likelihood frequency of a single tone: Rife and Boorstyn, IEEE Trans.
-// Inf. Theory 20, 1974), and refined by linearised least squares.
+// Lines in the spectrum of a rate: found in a Welch spectrum by Fisher's F-test against its neighbourhood, placed by
+// the maximum of the demodulated power (the maximum-likelihood frequency of a single tone: Rife and Boorstyn, IEEE
+// Trans. Inf. Theory 20, 1974), and refined by linearised least squares.
 
 #include <span>
 #include <vector>

@@ -45,11 +45,12 @@ struct Row {
 
 [[nodiscard]] std::vector<report::Series> drawn(const Axis& axis, std::span<const Row> rows);
 
-// The error that stays in the angle: theory, the series (20), and the twin. Where the rate passes zero theory is 0, and the
-// print has another series.
+// The error that stays in the angle: theory, the series (20), and the twin. Where the rate passes zero theory is 0, and
+// the print has another series.
 [[nodiscard]] std::span<const Row> corrected(Region region);
 
-// The same without the print: exact, as the leading term at low frequency, on the twin; and the twin alone at a zero crossing.
+// The same without the print: exact, as the leading term at low frequency, on the twin; and the twin alone at a zero
+// crossing.
 [[nodiscard]] std::span<const Row> leading();
 [[nodiscard]] std::span<const Row> twin_at_crossing();
 

@@ -1,4 +1,5 @@
-// The claims about the laser and its perimeter loop, those of abstract and conclusions, and all claims in the order of the paper.
+// The claims about the laser and its perimeter loop, those of abstract and conclusions, and all claims in the order of
+// the paper.
 
 #include <cmath>
 

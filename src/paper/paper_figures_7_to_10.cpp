@@ -1,4 +1,5 @@
-// Figure 7, the oscillation with the two places of a gap in it, and figures 8 to 10, the error of a replaced gap against its length, the frequency and the amplitude of the oscillation.
+// Figure 7, the oscillation with the two places of a gap in it, and figures 8 to 10, the error of a replaced gap
+// against its length, the frequency and the amplitude of the oscillation.
 
 #include <algorithm>
 #include <cmath>

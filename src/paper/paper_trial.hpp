@@ -1,6 +1,6 @@
 #pragma once
-// What the paper gives of its trial with oscillation, section on the substitution of the gap; and its drift budget under the
-// second reading of its thermal drift.
+// What the paper gives of its trial with oscillation, section on the substitution of the gap; and its drift budget
+// under the second reading of its thermal drift.
 
 #include <cmath>
 

@@ -14,8 +14,8 @@
 
 namespace zlg::paper {
 
-// A number as the page shows it: "{:.2f}" as report::fixed_number, "{}" as report::short_number, and as the report names it where
-// there is none.
+// A number as the page shows it: "{:.2f}" as report::fixed_number, "{}" as report::short_number, and as the report
+// names it where there is none.
 struct Shown {
     template <class T>
     requires std::integral<T> || std::floating_point<T> Shown(T x) : value{static_cast<double>(x)} {}

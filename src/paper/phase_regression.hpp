@@ -20,8 +20,8 @@ struct PhaseRegression {
     double noise = 0.0;
 };
 
-// Least squares. The standard errors allow a noise that depends on the phase (White, Econometrica 48, 1980), as rounding
-// does where the rate is near zero.
+// Least squares. The standard errors allow a noise that depends on the phase (White, Econometrica 48, 1980), as
+// rounding does where the rate is near zero.
 //
 // at  as many as errors, 4 or more, with sines that are not all equal.
 [[nodiscard]] PhaseRegression regress(std::span<const double> errors, std::span<const Quadratures> at);

@@ -50,8 +50,8 @@ double magnetic_arcsec_s(const SubstitutionExperiment& e, const SwitchGrid& grid
     return design::magnetic_rate_arcsec_s(study::drift_case(e.base, 1.0).gyro, middle_s);
 }
 
-// Covariance of the roundings of two readings of the count, counts^2. With a uniform fraction at the first reading it is
-// <B2({d})>/2, B2(x) = x^2 - x + 1/6, d the counts between them; as a Fourier series
+// Covariance of the roundings of two readings of the count, counts^2. With a uniform fraction at the first reading it
+// is <B2({d})>/2, B2(x) = x^2 - x + 1/6, d the counts between them; as a Fourier series
 //
 //   sum_m <cos(2 pi m d)>/(2 pi^2 m^2),    d = motion + drift, whose magnetic part has either sign, + random walk
 //

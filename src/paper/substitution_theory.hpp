@@ -1,7 +1,7 @@
 #pragma once
 // Theory of one fit of one experiment on the substitution of a gap: the response of the fit to the oscillation
-// (design::ErrorResponse), and its noise by the covariance of what it is made of. Roundings of a counter are uniform and
-// correlated by the motion between the readings (Widrow and Kollar, Quantization Noise, 2008).
+// (design::ErrorResponse), and its noise by the covariance of what it is made of. Roundings of a counter are uniform
+// and correlated by the motion between the readings (Widrow and Kollar, Quantization Noise, 2008).
 
 #include <zlg/paper/substitution_experiment.hpp>
 

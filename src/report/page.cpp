@@ -91,8 +91,8 @@ std::string body_row(const Table& table, const std::vector<std::string>& row, co
     return out + "</tr>\n";
 }
 
-// On a narrow screen the rows of a table with columns of text stand as stacks of lines; one of numbers scrolls in a box of its own,
-// which takes the focus so that a keyboard can scroll it.
+// On a narrow screen the rows of a table with columns of text stand as stacks of lines; one of numbers scrolls in a box
+// of its own, which takes the focus so that a keyboard can scroll it.
 std::string table_of(const Table& table, Counters& counters) {
     std::size_t n_columns = table.header.size();
     for (const auto& row : table.rows) n_columns = std::max(n_columns, row.size());

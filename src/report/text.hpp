@@ -9,8 +9,8 @@ namespace zlg::report {
 // Text safe between tags and inside quoted attributes: markup escaped; what XML forbids becomes U+FFFD.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-// Numbers as in print: a minus for the hyphen before a digit, "2.6e+03" as 2.6 times a power of ten, "^2" raised, "+-" and "sqrt("
-// as their signs.
+// Numbers as in print: a minus for the hyphen before a digit, "2.6e+03" as 2.6 times a power of ten, "^2" raised, "+-"
+// and "sqrt(" as their signs.
 [[nodiscard]] std::string typeset(std::string_view text);
 
 // A whole number, such as "-7" or "+07", in superscripts.

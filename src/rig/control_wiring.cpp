@@ -44,7 +44,8 @@ std::int64_t counts_limit(const config::Config& config) {
     return static_cast<std::int64_t>(std::clamp(most - 1.0, 1.0, 0x1p62));
 }
 
-// Within which a drift of the photodiodes of .2 an hour is a fault; one tick in four is learnt from (light_balance.hpp).
+// Within which a drift of the photodiodes of .2 an hour is a fault; one tick in four is learnt from
+// (light_balance.hpp).
 constexpr double balance_s = 240.0;
 
 // Arm the monitors with the change of bias and of perimeter that makes one false count in a tick.
@@ -55,7 +56,8 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     made.limits.bias_counts = std::min(bias_counts, 1e15);
     if (bias_counts >= core::min_bias_counts) made.limits.coil_ratio = 0.5 / bias_counts;
     made.limits.light_noise = core::Wavelengths{g.light_noise_lambda};
-    // A laser whose curve is not known reads several times its detuning: the bias cannot have lost what that would take.
+    // A laser whose curve is not known reads several times its detuning: the bias cannot have lost what that would
+    // take.
     const bool reads_true = g.fidelity != config::Fidelity::laser || made.detector.curve.n_nodes > 0;
     if (!reads_true) made.limits.light_gain = 10.0;
     if (reads_true && g.bias_chi > 0.0 && bias_counts >= 100.0) made.limits.bias_chi = g.bias_chi;
@@ -68,8 +70,8 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     made.limits.relock_ticks = config.compensation.relock_ticks;
 }
 
-// What the core's check refuses, by the keys that it comes from. Single numbers that it would refuse, the table of keys does not
-// allow; these are rules between them.
+// What the core's check refuses, by the keys that it comes from. Single numbers that it would refuse, the table of keys
+// does not allow; these are rules between them.
 void require_loop(const config::Config& config, const core::PerimeterLoopConfig& loop) {
     const auto require = [&](bool kept, std::initializer_list<std::string_view> keys, std::string_view allowed) {
         if (!kept) refuse(config, keys, allowed);
@@ -128,8 +130,8 @@ void require_control(const config::Config& config, const core::GyroControlConfig
     throw config::ConfigError{named(config, "the control refuses this gyro")};
 }
 
-// A beam that runs may be faint: at 0.22 wavelength the weaker one of the default laser has a fifth of its light. One that
-// does not run has noise alone.
+// A beam that runs may be faint: at 0.22 wavelength the weaker one of the default laser has a fifth of its light. One
+// that does not run has noise alone.
 constexpr double laser_dark_fraction = 0.1;
 
 // A tenth of the range, at most the field's own: room for thermal drift until the next switch.

@@ -13,7 +13,8 @@ inline constexpr double default_duration_s = 3600.0;  // of a run without run.du
 // Those listed one by one, then the random ones of a run of this length.
 //
 // config  checked: its lists are equally long.
-// errors  config::ConfigError for too many random faults, and where random faults are asked for and only a motion file tells how
+// errors  config::ConfigError for too many random faults, and where random faults are asked for and only a motion file
+// tells how
 //         long the run is.
 [[nodiscard]] std::vector<twin::Fault> faults_of(const config::Config& config);
 

@@ -35,7 +35,8 @@ public:
     void real(float value) { word(value != value ? 0x7fc0'0000u : std::bit_cast<std::uint32_t>(value)); }
     // All at once where that gives the same bytes: a half has 16 samples of each beam and more.
     void reals(std::span<const float> values) {
-        // As whole numbers, which the processor compares many at once: behind infinity there are only those that are none.
+        // As whole numbers, which the processor compares many at once: behind infinity there are only those that are
+        // none.
         std::uint32_t n_none = 0;
         for (const float value : values) n_none += (std::bit_cast<std::uint32_t>(value) & 0x7fff'ffffu) > 0x7f80'0000u;
         if (is_in_order && n_none == 0) {

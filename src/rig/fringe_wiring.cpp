@@ -19,7 +19,8 @@ double noise_turns(const config::Photodiodes& p) {
     return std::sqrt(p.noise * p.noise + step * step / 12.0) / turn_rad;
 }
 
-// While the bias is reversed the phase goes on by f t^2/t_e in a time t beside its middle: root mean square over the jitter.
+// While the bias is reversed the phase goes on by f t^2/t_e in a time t beside its middle: root mean square over the
+// jitter.
 double jitter_counts(const config::Config& config) {
     const config::Gyro& g = config.gyro;
     const double jitter_s = config.photodiodes.jitter_s;
@@ -31,8 +32,8 @@ int counts_per_turn(const config::Config& config) {
     return config.gyro.fidelity == config::Fidelity::laser ? twin::counts_per_turn(config.laser.quadrature) : 1;
 }
 
-// A sample that is taken this much off the latch is reported; up to 1 us is supported. Less than a five-hundredth of a turn
-// does not show among the quarters of the comparators.
+// A sample that is taken this much off the latch is reported; up to 1 us is supported. Less than a five-hundredth of a
+// turn does not show among the quarters of the comparators.
 double max_skew_turns(const config::Config& config) {
     constexpr double reported_s = 1.5e-6;
     constexpr double least_turns = 0.002;

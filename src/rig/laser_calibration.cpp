@@ -38,8 +38,8 @@ std::vector<double> nodes(double kink_lambda, double max_lambda) {
     return at;
 }
 
-// Signal and bias about the place where the loop settles, which unequal isotopes move away from the middle; the bias is then
-// largest at yet another one.
+// Signal and bias about the place where the loop settles, which unequal isotopes move away from the middle; the bias is
+// then largest at yet another one.
 class Settled {
 public:
     Settled(const twin::FourWave& laser, double field_g, const twin::AveragedLaser& averaged)

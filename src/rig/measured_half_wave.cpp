@@ -32,9 +32,9 @@ void MeasuredHalfWave::take(const core::SwitchEvent& event) {
 
 double MeasuredHalfWave::sigma_v() const { return std::sqrt(variance_v2); }
 
-// Each decade of time between the end of the gap and the measurement of the half-wave voltage adds its creep to the next
-// miss. One hysteresis loop says little of the next, least of all the first: the filter's steady gain is 2/3, and a change
-// of a tenth of the voltage passes its gate.
+// Each decade of time between the end of the gap and the measurement of the half-wave voltage adds its creep to the
+// next miss. One hysteresis loop says little of the next, least of all the first: the filter's steady gain is 2/3, and
+// a change of a tenth of the voltage passes its gate.
 MeasuredHalfWave measured_half_wave(const config::Config& config) {
     MeasuredHalfWave made{presumed_half_wave_v(config)};
     if (has_no_hysteresis_or_creep(config)) return made;

@@ -147,8 +147,8 @@ double mean_of(std::span<const double> rates) {
     return mean;
 }
 
-// Takes out of the rates what is no noise, and the sinusoids out of the mean: over gaps and parts of a period they would leave
-// much more there than its error says.
+// Takes out of the rates what is no noise, and the sinusoids out of the mean: over gaps and parts of a period they
+// would leave much more there than its error says.
 void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     std::vector<double>& rates = record.rates_arcsec_s;
     try {
@@ -166,8 +166,8 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     }
 }
 
-// How far such a mean may be from the next one: the fitted noise at the record's length, without ramp and sinusoids, which
-// are no chance; without a fit that describes the record, the longest Allan deviation, as of white noise.
+// How far such a mean may be from the next one: the fitted noise at the record's length, without ramp and sinusoids,
+// which are no chance; without a fit that describes the record, the longest Allan deviation, as of white noise.
 double sigma_of_mean(const AxisResult& axis) {
     const double known_s = static_cast<double>(axis.n_known) / axis.rate_hz;
     if (!axis.fit || !axis.fit->describes) {

@@ -14,7 +14,8 @@ namespace {
 using deviations::AngleRecord;
 using deviations::DeviationKind;
 
-// mtotdev and htotdev, samples in all pieces: about so many a second, and as many as are computed without being asked for.
+// mtotdev and htotdev, samples in all pieces: about so many a second, and as many as are computed without being asked
+// for.
 constexpr double piece_samples_a_second = 1e8;
 constexpr double max_piece_samples = 1e10;
 

@@ -17,8 +17,8 @@ namespace zlg::study {
 
 [[nodiscard]] LoopLine loop_line(const config::Config& config);
 
-// Angle that re-lock leaves in each tick after the gap, arcsec: without correction what the loop makes of the configured
-// miss; with one the standard deviation that the light noise gives to a mean-square correction of it.
+// Angle that re-lock leaves in each tick after the gap, arcsec: without correction what the loop makes of the
+// configured miss; with one the standard deviation that the light noise gives to a mean-square correction of it.
 struct RelockResidual {
     bool random = false;
     std::vector<double> tick_arcsec;

@@ -35,12 +35,14 @@ void HalfWaveReplay::take(const core::HalfRecord& half) {
 }
 
 void HalfWaveReplay::step(const core::HalfRecord& half, const core::HalfRecord& next) {
-    // A loop that opens for another reason than a switch, or before the last lock: begin anew with the next closed half.
+    // A loop that opens for another reason than a switch, or before the last lock: begin anew with the next closed
+    // half.
     if (state_.loop_closed != half.loop_closed) {
         state_ = core::initial_state(sequence_);
         return;
     }
-    // The control records 0 where the light tells no detuning, and uses one that it tells also where the counts are not valid.
+    // The control records 0 where the light tells no detuning, and uses one that it tells also where the counts are not
+    // valid.
     const bool usable = std::isfinite(half.detuning_lambda) && half.detuning_lambda != 0.0;
     const bool lit = half.valid || usable;
     const bool opens = half.loop_closed && !next.loop_closed;

@@ -45,8 +45,8 @@ std::int64_t trial_ticks(const config::Config& config) {
 
 bool phase_is_known(const config::Config& config) { return config.gyro.fidelity == config::Fidelity::averaged; }
 
-// What stays in the angle for ever, where the roundings of the counter are not known and the errors of the meter hold that
-// of the last tick: the step between the means before the gap and after the re-lock.
+// What stays in the angle for ever, where the roundings of the counter are not known and the errors of the meter hold
+// that of the last tick: the step between the means before the gap and after the re-lock.
 std::vector<SwitchError> lasting(const ErrorMeter& run) {
     const std::vector<double>& angle = run.curve().error_arcsec;  // after each tick
     const auto mean = [&](std::int64_t from) {

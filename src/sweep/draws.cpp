@@ -92,8 +92,8 @@ std::vector<std::uint64_t> Draws::sobol_point(std::int64_t index, std::size_t n_
     return bits;
 }
 
-// Of Saltelli's design, row by row: A, A with the column of one parameter from B, and so on, B. A is the first half of the
-// dimensions of a point, B the second.
+// Of Saltelli's design, row by row: A, A with the column of one parameter from B, and so on, B. A is the first half of
+// the dimensions of a point, B the second.
 std::vector<double> Draws::sobol_places(std::int64_t gyro) const {
     const bool is_design = description_.sensitivity;
     const auto row_length = static_cast<std::int64_t>(is_design ? n_sobol_ + 2 : 1);

@@ -69,7 +69,8 @@ struct Damage {
     }
 };
 
-// Of the description, and of each row as its line of text: the first 52 bits of the hash, which any program holds as a number.
+// Of the description, and of each row as its line of text: the first 52 bits of the hash, which any program holds as a
+// number.
 std::int64_t checksum_of(const std::string& description, const Rows& rows) {
     ContentHash hash;
     hash.add(description);

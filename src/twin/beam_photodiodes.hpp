@@ -1,6 +1,6 @@
 #pragma once
-// What the photodiodes of the two beams make of their light: unequal gains, offsets, and the power that falls with the years
-// of the tube.
+// What the photodiodes of the two beams make of their light: unequal gains, offsets, and the power that falls with the
+// years of the tube.
 
 #include <cmath>
 #include <cstddef>

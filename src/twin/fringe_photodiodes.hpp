@@ -3,10 +3,11 @@
 //
 //   c = o_c + A cos p,  s = o_s + (1 + e) A sin(p + d)          white noise in each, then the converter
 //
-// The latch is a reversal of the bias: there the beat turns round, its frequency going through f t/(t_e/2) from one sign
-// to the other. A sample that is taken tau later sees the phase
+// The latch is a reversal of the bias: there the beat turns round, its frequency going through f t/(t_e/2) from one
+// sign to the other. A sample that is taken tau later sees the phase
 //
-//   p(tau) = p - sign f tau^2/t_e + r tau,  |tau| < t_e/2       f: the plateau, sign: of the half that ends, r: rotation
+//   p(tau) = p - sign f tau^2/t_e + r tau,  |tau| < t_e/2       f: the plateau, sign: of the half that ends, r:
+//   rotation
 //
 // and further off the plateau of the new sign.
 

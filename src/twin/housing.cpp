@@ -56,9 +56,9 @@ constexpr int coil_adc_bits = 12;
 
 }  // namespace
 
-// Simpson's rule on pieces of 200 us, or a twentieth of the loop's time constant, is good to 1e-7 of the false angle. What a fault does to
-// the length has to be seen as well: four pieces for a period of a vibration, ten for a shock. With fewer the square of the detuning, which
-// has twice the frequency, would be sampled at one phase only.
+// Simpson's rule on pieces of 200 us, or a twentieth of the loop's time constant, is good to 1e-7 of the false angle.
+// What a fault does to the length has to be seen as well: four pieces for a period of a vibration, ten for a shock.
+// With fewer the square of the detuning, which has twice the frequency, would be sampled at one phase only.
 int pieces_per_sample(const TwinConfig& config) {
     double piece_s = std::min(200e-6, config.perimeter.tau_s / 20.0);
     for (const Fault& fault : config.faults) piece_s = std::min(piece_s, longest_piece_s(fault, config.vibration_hz));

@@ -28,8 +28,8 @@ constexpr int n_calm_stretches = 4;
 //
 //   slip (0.1 bend + 0.15 signal^2)
 //
-// where the slip is that of the reversal, the bend what the bias departs from the chord by in the middle times the time,
-// and the signal how unequal the waves are: the coupling grows with its square.
+// where the slip is that of the reversal, the bend what the bias departs from the chord by in the middle times the
+// time, and the signal how unequal the waves are: the coupling grows with its square.
 constexpr double per_bend = 0.1;
 constexpr double per_signal_sq = 0.15;
 constexpr double allowed_edge_rad = 1e-5;
@@ -195,7 +195,8 @@ void LaserGyro::live_plateau(const BiasHalf& bias, TwinTruth& truth) {
     }
 }
 
-// In the garbage of a half that followed no beat, or one after the other, detuning has no share that could be separated.
+// In the garbage of a half that followed no beat, or one after the other, detuning has no share that could be
+// separated.
 void LaserGyro::account(const Followed& followed, double reference_hz, double duration_s, TwinTruth& truth) {
     if (followed_ == 0) followed_ = followed.helicity;
     if (followed.helicity == 0 || followed.helicity != followed_) {

@@ -69,8 +69,8 @@ void require_bias_sign(const GyroConfig& gyro, double warmed_c, const char* by) 
                    1.0 + gyro.bias_temperature_coefficient_per_c * warmed_c, 1e-3, 1e3);
 }
 
-// A field that warming turns over would turn the sign of the bias with it, which no sign of the commutator says. What thermal
-// shocks come to after each of them, stays; the gyro's own rise may not have begun then, or be over.
+// A field that warming turns over would turn the sign of the bias with it, which no sign of the commutator says. What
+// thermal shocks come to after each of them, stays; the gyro's own rise may not have begun then, or be over.
 void validate_warmed_bias(const GyroConfig& gyro, std::span<const Fault> in_order) {
     const double rise_c = gyro.temperature_rise_c;
     require_bias_sign(gyro, rise_c, "gyro.temperature_rise_c");

@@ -9,8 +9,8 @@
 
 namespace zlg::twin {
 
-// A function of the half alone. The exponential of half 64 q + r is that of 64 q times that of r, so 63 of 64 halves take
-// it from a table. In E(x) = exp(x) - 1, which keeps its digits near zero:
+// A function of the half alone. The exponential of half 64 q + r is that of 64 q times that of r, so 63 of 64 halves
+// take it from a table. In E(x) = exp(x) - 1, which keeps its digits near zero:
 //
 //   E(a + b) = E(a) + E(b) + E(a) E(b)
 class Warming {

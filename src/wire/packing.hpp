@@ -1,5 +1,6 @@
 #pragma once
-// Numbers as the bytes of a frame, the lowest first, whatever the processor does, and back; reals as IEEE 754 binary64 and binary32.
+// Numbers as the bytes of a frame, the lowest first, whatever the processor does, and back; reals as IEEE 754 binary64
+// and binary32.
 
 #include <array>
 #include <bit>

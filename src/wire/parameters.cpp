@@ -16,7 +16,8 @@ namespace {
 constexpr auto rw = ParameterAccess::read_write;
 constexpr auto ro = ParameterAccess::read_only;
 
-// `at` gives the place of a parameter in a section, or by std::tie the places that must agree, of which the first is read.
+// `at` gives the place of a parameter in a section, or by std::tie the places that must agree, of which the first is
+// read.
 template <auto Section, class At>
 struct Parameter {
     ParameterInfo info;

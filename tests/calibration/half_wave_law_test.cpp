@@ -57,8 +57,8 @@ TEST(HalfWaveLaw, a_converter_that_meets_the_same_codes_is_not_believed_beyond_t
     EXPECT_LT(find_half_wave_law(noisy, 20.0, 0.0).half_wave_v.sigma, 0.004);
 }
 
-// Every log meets codes of its own, as often as it switches: three errors of q/sqrt 12 at 0, 20 and 40 C make a slope of
-// variance q^2/12 / (20^2 + 20^2). That of the lower voltage is common to all.
+// Every log meets codes of its own, as often as it switches: three errors of q/sqrt 12 at 0, 20 and 40 C make a slope
+// of variance q^2/12 / (20^2 + 20^2). That of the lower voltage is common to all.
 TEST(HalfWaveLaw, logs_of_a_converter_without_noise_know_the_law_to_its_codes) {
     const double q_v = 0.073;
     for (const double duration_s : {30.0, 120.0}) {
@@ -85,8 +85,8 @@ TEST(HalfWaveLaw, errors_of_many_gyros_with_a_coarse_converter_are_those_stated)
             voltage_sq += voltage * voltage / n;
             coefficient_sq += coefficient * coefficient / n;
         }
-        // Noise of a third of a code is distinguished from none only where a voltage is not in the middle of a code: there the
-        // standard error is cautious.
+        // Noise of a third of a code is distinguished from none only where a voltage is not in the middle of a code:
+        // there the standard error is cautious.
         for (const double mean_sq : {voltage_sq, coefficient_sq}) {
             EXPECT_LT(mean_sq, 2.0) << noise_v;
             EXPECT_GT(mean_sq, 0.1) << noise_v;

@@ -14,7 +14,8 @@ using core::BridgeMethod;
 using core::DitherMethod;
 using core::RelockMethod;
 
-// A setting of this key that the table allows and that is not the default: another choice, or the first of a few values.
+// A setting of this key that the table allows and that is not the default: another choice, or the first of a few
+// values.
 std::string sample_of(const KeyInfo& key) {
     const std::string dotted = key.section + "." + key.name;
     std::vector<std::string> values = key.choices;
@@ -65,7 +66,8 @@ TEST(Schema, KnowsEveryKeyOfTheSections) {
         EXPECT_FALSE(key.allowed.empty()) << key.name;
     }
     EXPECT_EQ(found, sections);
-    // The members of the thirteen structs, interval_optimal apart: 2 + 17 + 15 + 5 + 12 + 15 + 8 + 10 + 17 + 15 + 8 + 2 + 24.
+    // The members of the thirteen structs, interval_optimal apart: 2 + 17 + 15 + 5 + 12 + 15 + 8 + 10 + 17 + 15 + 8 + 2
+    // + 24.
     EXPECT_EQ(names.size(), 151u);
     EXPECT_TRUE(is_known_section("gyro"));
     EXPECT_FALSE(is_known_section("gyr"));

@@ -1,6 +1,6 @@
-// Estimates of switches whose windows come as numbers on the standard input, for the test that holds them against the reference in
-// NumPy (tests/reference). One case after the other; for each, one line: known, angle, variance, scale, its variance, then
-// angle and variance of each row.
+// Estimates of switches whose windows come as numbers on the standard input, for the test that holds them against the
+// reference in NumPy (tests/reference). One case after the other; for each, one line: known, angle, variance, scale,
+// its variance, then angle and variance of each row.
 
 #include <array>
 #include <cstdlib>

@@ -9,8 +9,8 @@
 
 namespace zlg::design {
 
-// Lengths of the segments of a run: L or L/2, then L, the last one cut where the run ends. One that ends at a switch, but
-// for rounding, has no splinter of a segment behind it.
+// Lengths of the segments of a run: L or L/2, then L, the last one cut where the run ends. One that ends at a switch,
+// but for rounding, has no splinter of a segment behind it.
 inline std::vector<double> segments_s(double interval_s, FirstSegment first, double run_s) {
     const double first_s = first == FirstSegment::half ? interval_s / 2.0 : interval_s;
     const double min_s = 1e-9 * interval_s;
@@ -38,7 +38,8 @@ inline double end_error_arcsec(const GyroDrift& gyro, std::span<const double> se
     return angle_arcsec;
 }
 
-// S - (-1)^n K[Om](t), t = n L (first segment full) or (n - 1/2) L (half): the closed form at the end of segment n >= 1.
+// S - (-1)^n K[Om](t), t = n L (first segment full) or (n - 1/2) L (half): the closed form at the end of segment n
+// >= 1.
 inline double angle_after_segments_arcsec(const GyroDrift& gyro, double interval_s, FirstSegment first,
                                           int n_segments) {
     const double end_s = (n_segments - (first == FirstSegment::half ? 0.5 : 0.0)) * interval_s;

@@ -91,8 +91,8 @@ TEST(DeviationLaws, have_the_expectations_that_each_noise_has_in_closed_form) {
         }
 }
 
-// Mirroring biases by known factors; freed of them the total variances agree with the plain ones. The published factor of mtotdev
-// for white noise, 0.73, is that of the published test values; what 1500 such records have is 0.77.
+// Mirroring biases by known factors; freed of them the total variances agree with the plain ones. The published factor
+// of mtotdev for white noise, 0.73, is that of the published test values; what 1500 such records have is 0.77.
 TEST(DeviationLaws, of_total_deviations_are_those_of_the_plain_ones) {
     struct Pair {
         DeviationKind total, plain;

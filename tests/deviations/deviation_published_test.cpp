@@ -73,7 +73,8 @@ TEST(DeviationPublished, gives_the_values_of_stable32_as_computed) {
     EXPECT_NEAR(deviation_of(record, DeviationKind::mtotdev, 2, TotalBias::as_computed), 64.794, 1e-3);
 }
 
-// Of one sample mdev and mtotdev see the same differences: the bias as it is makes them equal, the published one does not.
+// Of one sample mdev and mtotdev see the same differences: the bias as it is makes them equal, the published one does
+// not.
 TEST(DeviationPublished, removes_the_bias_as_it_is) {
     const auto record = record_of(nbs14_large());
     EXPECT_NEAR(deviation_of(record, DeviationKind::mtotdev, 1, TotalBias::removed),

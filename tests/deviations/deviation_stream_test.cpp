@@ -33,7 +33,8 @@ StreamConfig config_of(std::vector<std::int64_t> factors, DataKind kind = DataKi
             .least_known_ratio = 0.7};
 }
 
-// Up to the window it is the deviation of the whole record; beyond, that of every s-th start, in both cases by definition.
+// Up to the window it is the deviation of the whole record; beyond, that of every s-th start, in both cases by
+// definition.
 TEST(DeviationStream, agrees_with_the_definition) {
     for (const bool with_gaps : {false, true}) {
         const auto values = random_rates(3000, with_gaps, 11);

@@ -1,5 +1,6 @@
 #pragma once
-// The deviations from their definitions, one term after another, in extended precision: what the fast paths must agree with.
+// The deviations from their definitions, one term after another, in extended precision: what the fast paths must agree
+// with.
 
 #include <cmath>
 #include <cstdint>
@@ -84,8 +85,8 @@ private:
     std::int64_t terms_ = 0;
 };
 
-// Mean square of the second difference of m-means over all 6m starts in a piece of 3m values, freed of its line and continued
-// evenly to 9m. No value: NaN.
+// Mean square of the second difference of m-means over all 6m starts in a piece of 3m values, freed of its line and
+// continued evenly to 9m. No value: NaN.
 inline Real mirrored_piece(std::vector<Real> z, std::int64_t m) {
     const auto length = static_cast<std::size_t>(3 * m), half = length / 2;
     Real early = 0, late = 0;

@@ -1,6 +1,7 @@
 // An image with all parts of the product's but its main: it lives like that one until it does what must not happen.
 //
-// What that is, a number in memory says which the machine is given. After the restart it tells how it is and ends the emulator.
+// What that is, a number in memory says which the machine is given. After the restart it tells how it is and ends the
+// emulator.
 
 #include <atomic>
 #include <cstdint>

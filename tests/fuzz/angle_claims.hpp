@@ -1,6 +1,6 @@
 #pragma once
-// What must hold of any angle log: it is refused with a reason, or its rows are as documented and survive being written in
-// either format and read again.
+// What must hold of any angle log: it is refused with a reason, or its rows are as documented and survive being written
+// in either format and read again.
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Control fed with any frames, under any configuration that passed `check`: every command is one that the electronics can
-// obey, every record is finite, and a copy of the state goes on like the original.
+// Control fed with any frames, under any configuration that passed `check`: every command is one that the electronics
+// can obey, every record is finite, and a copy of the state goes on like the original.
 
 #include <cmath>
 #include <cstdint>

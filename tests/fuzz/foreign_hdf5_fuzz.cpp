@@ -1,5 +1,6 @@
-// An HDF5 file of another program in which some bytes were changed. Of the earliest version of the format, whose object headers have no
-// checksum, it is read as it is: libhdf5 1.10 itself reads beyond its buffers where such a header is damaged.
+// An HDF5 file of another program in which some bytes were changed. Of the earliest version of the format, whose object
+// headers have no checksum, it is read as it is: libhdf5 1.10 itself reads beyond its buffers where such a header is
+// damaged.
 
 #include <hdf5.h>
 
@@ -34,7 +35,8 @@ void add(hid_t file, const char* name, hid_t type, hid_t creation, hsize_t colum
     H5Sclose(space);
 }
 
-// Of either version of the format: contiguous, packed, of two dimensions, of whole numbers, in a group, with a link back.
+// Of either version of the format: contiguous, packed, of two dimensions, of whole numbers, in a group, with a link
+// back.
 std::vector<std::uint8_t> good_file(bool latest) {
     const std::string path = fuzz::scratch().path("good.h5");
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);

@@ -1,5 +1,5 @@
-// A valid HDF5 file of almost the right structure: columns of other types, ranks, lengths and storage, groups and links in
-// their place, attributes and a /config of any kind.
+// A valid HDF5 file of almost the right structure: columns of other types, ranks, lengths and storage, groups and links
+// in their place, attributes and a /config of any kind.
 
 #include <array>
 #include <cstring>

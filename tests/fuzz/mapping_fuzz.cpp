@@ -1,4 +1,5 @@
-// Bytes as a mapping, as a file and as pairs: refused with a reason, or what was understood is written and read again alike.
+// Bytes as a mapping, as a file and as pairs: refused with a reason, or what was understood is written and read again
+// alike.
 
 #include <string>
 

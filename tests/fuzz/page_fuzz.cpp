@@ -1,5 +1,5 @@
-// Any bytes as a request to the server of the lab page, in pieces: what is answered with more than a refusal was asked rightly. And any
-// numbers as records: their events are events, and JSON.
+// Any bytes as a request to the server of the lab page, in pieces: what is answered with more than a refusal was asked
+// rightly. And any numbers as records: their events are events, and JSON.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,8 @@ using fuzz::claim;
 
 constexpr std::uint16_t port = 8137;
 
-// Up to the end of the header, or to an error. As in the server, what was not understood comes again with the next piece.
+// Up to the end of the header, or to an error. As in the server, what was not understood comes again with the next
+// piece.
 boost::system::error_code parse(live::RequestParser& parser, std::string_view text, std::size_t piece) {
     boost::system::error_code error;
     std::size_t begin = 0;

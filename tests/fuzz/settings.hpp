@@ -12,8 +12,8 @@ namespace zlg::fuzz {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-// A carriage return in the middle of a line is read and cannot be written; HDF5 holds settings as TOML, which is UTF-8 and
-// knows no control characters.
+// A carriage return in the middle of a line is read and cannot be written; HDF5 holds settings as TOML, which is UTF-8
+// and knows no control characters.
 inline bool can_be_written(const Settings& settings, bool as_toml) {
     const auto is_plain = [](char c) { return c == '\t' || (c >= 0x20 && c < 0x7f); };
     return std::all_of(settings.begin(), settings.end(), [&](const auto& setting) {

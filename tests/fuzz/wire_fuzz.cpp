@@ -1,5 +1,5 @@
-// Any bytes on the line, and any messages in whole frames: what comes out can be logged, whatever the command the gyro's
-// settings stay allowed, and the decoder forgets noise at the next frame.
+// Any bytes on the line, and any messages in whole frames: what comes out can be logged, whatever the command the
+// gyro's settings stay allowed, and the decoder forgets noise at the next frame.
 
 #include <cmath>
 #include <cstdint>

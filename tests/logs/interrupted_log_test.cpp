@@ -1,4 +1,5 @@
-// Claims about an HDF5 log that was never closed or has lost a part: what it still holds is read, and nothing is made up.
+// Claims about an HDF5 log that was never closed or has lost a part: what it still holds is read, and nothing is made
+// up.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -93,7 +93,8 @@ TEST(PaperClaims, drift_budget) {
     expect_numbers("figure 5", {"297.5", "717"});
 }
 
-// (4) over the first pair: -int int of the thermal part, A tau/(2L) (1 - e^(-L/tau))^2 with A = 0.7, tau = 3000, L = 90.
+// (4) over the first pair: -int int of the thermal part, A tau/(2L) (1 - e^(-L/tau))^2 with A = 0.7, tau = 3000, L
+// = 90.
 TEST(PaperClaims, first_pair_of_segments) {
     const double warmed = 1.0 - std::exp(-0.03);
     const std::string known = fmt::format("{:.5f}", 0.7 * 3000.0 / 180.0 * warmed * warmed);

@@ -41,8 +41,8 @@ config::Config cold_gyro() {
     return c;
 }
 
-// A run of 1000 s that begins in the mode `first`, with a perfect sawtooth, 30 arcsec that last while it locks again, and an
-// error of 7 arcsec that stays of every switch.
+// A run of 1000 s that begins in the mode `first`, with a perfect sawtooth, 30 arcsec that last while it locks again,
+// and an error of 7 arcsec that stays of every switch.
 study::RunResult sawtooth(double magnetic, int first = 1) {
     study::RunResult run{.tick_s = tick_s, .ticks = 200'000};
     study::VariantResult v{.name = "configured"};

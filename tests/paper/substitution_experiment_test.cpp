@@ -78,8 +78,8 @@ std::vector<SubstitutionPoint> real_time_points(const std::vector<SubstitutionRe
 }
 
 // 13 experiments have both components, 5 at a slow rate have one. The orders of one experiment meet the same phases, of
-// which most of the chance of an rms is made: its chi-square counts as 18 points rather than orders * 18, with a standard
-// deviation of sqrt(2/18) = 0.33, and has the room of two of them about 1.1.
+// which most of the chance of an rms is made: its chi-square counts as 18 points rather than orders * 18, with a
+// standard deviation of sqrt(2/18) = 0.33, and has the room of two of them about 1.1.
 void expect_agreement(const std::vector<SubstitutionPoint>& points, int orders) {
     const auto motion = paper::chi2_per_dof(points);
     EXPECT_EQ(motion.dof, orders * (13 * 2 + 5));

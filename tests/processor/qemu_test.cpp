@@ -101,7 +101,8 @@ TEST(QemuProcessor, gives_up_an_emulator_that_hangs_and_ends_it) {
     fs::remove(program);
 }
 
-// Of the image that provokes faults, with the number of a case of tests/firmware/test_faults.py; empty where it runs to its end.
+// Of the image that provokes faults, with the number of a case of tests/firmware/test_faults.py; empty where it runs to
+// its end.
 std::string complaint_of_case(const std::string& image, int number) {
     const std::string program =
         script("provokes", "exec qemu-system-arm \"$@\" -device loader,addr=0x60800000,data=" + std::to_string(number) +

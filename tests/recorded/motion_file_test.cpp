@@ -60,8 +60,8 @@ void expect_names(const std::string& message, const std::vector<std::string>& pa
     }
 }
 
-// The tables that text files of `analyze` are held against, in tests/logs/text_columns_test.cpp, need no repetition: there
-// is one reader.
+// The tables that text files of `analyze` are held against, in tests/logs/text_columns_test.cpp, need no repetition:
+// there is one reader.
 TEST(MotionFile, CommentsHeadersAndDecimalCommasAreUnderstood) {
     const TextFile text{
         "% made by hand\n\ntitle of words\na;b;c\n  % indented\n 1,0; 20 "

@@ -1,7 +1,9 @@
-// What the table of keys allows, the gyro takes: ranges of the configuration, checks of the core and the twin's own are one.
+// What the table of keys allows, the gyro takes: ranges of the configuration, checks of the core and the twin's own are
+// one.
 //
-// One key after the other gets both ends of what `zlg --keys` allows and values from between, in a gyro of each kind. The gyro
-// runs, or is refused by a line that names a key which was set, its value and what is allowed. ZLG_DRAWS: values a key and gyro.
+// One key after the other gets both ends of what `zlg --keys` allows and values from between, in a gyro of each kind.
+// The gyro runs, or is refused by a line that names a key which was set, its value and what is allowed. ZLG_DRAWS:
+// values a key and gyro.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// A configuration that code has filled is judged where a gyro is made of it: the range of each key is that of the table of keys, and
-// the line names the key.
+// A configuration that code has filled is judged where a gyro is made of it: the range of each key is that of the table
+// of keys, and the line names the key.
 
 #include <functional>
 #include <limits>

@@ -1,4 +1,5 @@
-// The loop closed around a gyro whose fringes are read by phase: what is recorded, and what faults of its photodiodes cost.
+// The loop closed around a gyro whose fringes are read by phase: what is recorded, and what faults of its photodiodes
+// cost.
 
 #include <gtest/gtest.h>
 
@@ -144,8 +145,8 @@ std::vector<double> final_angles(const core::GyroCompensationConfig& c, const st
     return angles;
 }
 
-// One place that is not known, in whichever half beside a gap: the angle of the switch changes by no more than whole counts
-// err, 1.6 arcsec rms of this motion.
+// One place that is not known, in whichever half beside a gap: the angle of the switch changes by no more than whole
+// counts err, 1.6 arcsec rms of this motion.
 TEST(FringeLoop, AMissingPlaceBesideAGapCostsNoMoreThanWholeCounts) {
     const config::Config c = by_phase({"motion.frequency_hz=20.06", "motion.amplitude_arcsec_s=12000"});
     rig::ClosedLoop loop{c, rig::motion(c)};

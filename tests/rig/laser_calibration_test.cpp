@@ -27,8 +27,8 @@ TEST(LaserCalibration, counts_by_quarters_have_four_times_the_bias) {
     EXPECT_NEAR(rig::calibrated_by_laser(c).gyro.bias_hz, 4.0 * 60430.0 * 0.99, 20.0);
 }
 
-// The detunings are those of which chi times their square is what the bias lacks: the law that corrects a re-lock is a parabola,
-// that of the laser bends away from it by a hundredth at 0.2 wavelength.
+// The detunings are those of which chi times their square is what the bias lacks: the law that corrects a re-lock is a
+// parabola, that of the laser bends away from it by a hundredth at 0.2 wavelength.
 TEST(LaserCalibration, the_core_reads_the_detuning_of_the_four_wave_light) {
     const config::Config c = rig::calibrated_by_laser({});
     const core::DiscriminatorCurve curve = rig::control_config(c).detector.curve;
@@ -55,8 +55,8 @@ double settled(const twin::FourWave& laser, double field_g) {
     return low;
 }
 
-// Unequal isotopes move the place of equal beams away from the middle, make the two sides of it unlike, and the bias largest
-// at a third place. What a half lacks of its bias is chi times the mean square that is recorded, on both sides.
+// Unequal isotopes move the place of equal beams away from the middle, make the two sides of it unlike, and the bias
+// largest at a third place. What a half lacks of its bias is chi times the mean square that is recorded, on both sides.
 TEST(LaserCalibration, of_unequal_isotopes_the_squares_are_what_the_bias_lacks_on_both_sides) {
     for (const double share : {0.465, 0.49, 0.515, 0.535, 0.55}) {
         config::Config c;

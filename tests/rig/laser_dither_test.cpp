@@ -99,8 +99,8 @@ TEST(LaserDither, there_is_no_step_at_the_dynamic_zones) {
     EXPECT_NEAR(other.mean_error_arcsec_s(20'000), 0.0, 0.11);
 }
 
-// Over stretches of 2 s, rounding of the counter taken off. At f_L = 150 Hz random slips make 0.0024; one of 100 numbers
-// is good to a tenth or so.
+// Over stretches of 2 s, rounding of the counter taken off. At f_L = 150 Hz random slips make 0.0024; one of 100
+// numbers is good to a tenth or so.
 double walk_deg_sqrt_h(double rate_arcsec_s) {
     const config::Config c = gyro(150.0, rate_arcsec_s, core::DitherMethod::automatic);
     constexpr int n = 100;

@@ -149,7 +149,8 @@ TEST(LitHalves, NarrowTheErrorOfASwitchOverVibration) {
                                               {core::RelockMethod::mean_square, core::BridgeMethod::automatic, true}});
         EXPECT_GT(e[0].rms_arcsec, 4.0 * e[1].rms_arcsec);
         EXPECT_GT(e[2].rms_arcsec, 4.0 * e[3].rms_arcsec);
-        // 50 switches: +-3 standard deviations of a mean of squares about 1, and sigma not more than 1.5 times too large.
+        // 50 switches: +-3 standard deviations of a mean of squares about 1, and sigma not more than 1.5 times too
+        // large.
         for (const Errors& each : e) {
             EXPECT_GT(each.normalised, 0.4);
             EXPECT_LT(each.normalised, 1.6);

@@ -15,7 +15,8 @@ using namespace zlg;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// A gyro at the angle angle(t) counts at the end of half t, with 150.3 counts of bias; place(t, right) stands in the column.
+// A gyro at the angle angle(t) counts at the end of half t, with 150.3 counts of bias; place(t, right) stands in the
+// column.
 std::string complaint(const std::function<double(int)>& angle, const std::function<double(int, double)>& place,
                       int n_halves = 6000, const std::function<void(int, core::HalfRecord&)>& change = {}) {
     rig::PlaceCheck check;
@@ -111,8 +112,8 @@ TEST(PlaceCheck, places_that_stand_still_are_found_where_the_counts_move) {
     EXPECT_EQ(complaint(rest, stuck), "");
 }
 
-// Stretches of 4096 differences, after the 16 halves that the first one needs. That in which it begins, at half 9000, is right for a
-// fifth, and nothing is decided there.
+// Stretches of 4096 differences, after the 16 halves that the first one needs. That in which it begins, at half 9000,
+// is right for a fifth, and nothing is decided there.
 TEST(PlaceCheck, says_where_it_begins_and_in_how_much_of_the_log) {
     const auto from_there = [](int t, double p) { return t >= 9000 ? 0.4 : p; };
     const std::string said = complaint(shaking, from_there, 16 + 4 * 4096);

@@ -136,9 +136,9 @@ std::map<std::string, Errors> errors_of_all() {
 
 }  // namespace
 
-// A hundred errors of unit variance: their mean scatters by 0.1, their mean square by 0.14. The room beside three of that
-// is for standard errors that are cautious, and for the few errors that are not normal.
-// A sanitizer sees the same code in the tests of single gyros.
+// A hundred errors of unit variance: their mean scatters by 0.1, their mean square by 0.14. The room beside three of
+// that is for standard errors that are cautious, and for the few errors that are not normal. A sanitizer sees the same
+// code in the tests of single gyros.
 TEST(CalibrationTwins, recovers_the_constants_of_a_hundred_gyros_within_its_standard_errors) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "four minutes with a sanitizer";

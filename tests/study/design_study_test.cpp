@@ -97,7 +97,8 @@ TEST(DesignGyro, runs_the_digital_loop_itself_instead_of_a_model) {
         const auto loop = study::design_gyro(c).loop;
         EXPECT_TRUE(loop.margins.stable) << tau_s;
         EXPECT_LT(loop.relock_s, 0.03) << tau_s;
-        // A faster loop does not make the false angle smaller: 2.2 arcsec by the law, up to 3.9 for the loops of the field.
+        // A faster loop does not make the false angle smaller: 2.2 arcsec by the law, up to 3.9 for the loops of the
+        // field.
         EXPECT_GT(loop.false_angle_arcsec, 0.95 * loop.false_angle_law_arcsec) << tau_s;
         EXPECT_LT(loop.false_angle_arcsec, 3.9) << tau_s;
     }

@@ -1,5 +1,5 @@
-// Standard deviations in the gaps of closed loops, against the truth of the twin: of each tick, by its place in the gap, and
-// of the whole switch.
+// Standard deviations in the gaps of closed loops, against the truth of the twin: of each tick, by its place in the
+// gap, and of the whole switch.
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,8 @@ TEST(GapSigma, is_that_of_each_tick_about_the_truth) {
                     for (std::size_t j = 0; j < nse.size(); ++j) {
                         SCOPED_TRACE(testing::Message()
                                      << counts << " " << gap_ticks << " " << is_two << " tick " << j);
-                        // In a tick with lit halves sigma holds what the law of a real bias is off by, and the twin's is not.
+                        // In a tick with lit halves sigma holds what the law of a real bias is off by, and the twin's
+                        // is not.
                         const bool is_dark = j == 0 && gap_ticks > 2;
                         EXPECT_GT(nse[j], is_dark ? 0.25 : 0.0);
                         EXPECT_LT(nse[j], 1.4);
@@ -91,8 +92,8 @@ TEST(GapSigma, is_that_of_each_tick_about_the_truth) {
                 }
 }
 
-// A constant rotation is of the order of a constant, so that its sigma must be right: rounding, and light noise that is in
-// the points and stays behind the gap. With the variance of the gap alone the mean square is 2.8.
+// A constant rotation is of the order of a constant, so that its sigma must be right: rounding, and light noise that is
+// in the points and stays behind the gap. With the variance of the gap alone the mean square is 2.8.
 TEST(GapSigma, of_a_polynomial_holds_the_re_lock_behind_the_gap) {
     config::Config config = config_of({{0.0}, {1.0}, 1, 3, core::RelockMethod::mean_square});
     config.compensation.bridge = core::BridgeMethod::constant;
@@ -109,8 +110,9 @@ TEST(GapSigma, of_a_polynomial_holds_the_re_lock_behind_the_gap) {
         }
     }
     ASSERT_GT(n, 1200);
-    // A standard error of 0.03. Sigma is known to be a fifth too large here: 0.70 and 0.67 of 2900 switches each, of the
-    // random numbers before 0.2 and of those now. Smaller than the error by a tenth, or larger by a quarter, it must not be.
+    // A standard error of 0.03. Sigma is known to be a fifth too large here: 0.70 and 0.67 of 2900 switches each, of
+    // the random numbers before 0.2 and of those now. Smaller than the error by a tenth, or larger by a quarter, it
+    // must not be.
     EXPECT_GT(sum / n, 1.0 / (1.25 * 1.25));
     EXPECT_LT(sum / n, 1.1 * 1.1);
 }

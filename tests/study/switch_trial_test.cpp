@@ -15,8 +15,8 @@ config::Config at_rest() {
     return c;
 }
 
-// Other runs, with other seeds and a longer interval, whose errors are those of a run that switches seldom. One trial's figure is known
-// to a sixth at rest, where a few switches have most of the error: four of each.
+// Other runs, with other seeds and a longer interval, whose errors are those of a run that switches seldom. One trial's
+// figure is known to a sixth at rest, where a few switches have most of the error: four of each.
 TEST(SwitchTrial, says_what_the_switches_of_a_run_leave) {
     for (const bool is_bridged_badly : {false, true}) {
         double of_trials = 0.0;

@@ -48,7 +48,8 @@ Made made_by(const config::Config& c) {
 
 class EitherReadout : public testing::TestWithParam<std::vector<std::string>> {};
 
-// The rms of n errors is known to 1/sqrt(2 n), the ratio of two to 1/sqrt(n): 0.077 of 169 switches. Three of that are the room.
+// The rms of n errors is known to 1/sqrt(2 n), the ratio of two to 1/sqrt(n): 0.077 of 169 switches. Three of that are
+// the room.
 TEST_P(EitherReadout, SwitchesAsOneOfEqualBeamsDoes) {
     const Made equal = made_by(gyro_with(GetParam()));
     EXPECT_EQ(equal.switches, std::size_t{switches_due});

@@ -123,15 +123,15 @@ TEST(Draws, sobol_without_shift_is_the_published_sequence) {
         sweep_of(8, {between(DrawKind::sobol, 0.0, 1.0), between(DrawKind::sobol, 0.0, 1.0, "piezo.half_wave_v"),
                      between(DrawKind::sobol, 0.0, 1.0, "gyro.tick_s")});
     d.sobol_shift = false;
-    // First points of new-joe-kuo-6 in the order of Gray's code, from its direction numbers by hand: v = 1/2, 1/4, 1/8 in the
-    // first dimension, 1/2, 3/4, 5/8 in the second, 1/2, 3/4, 1/8 in the third.
+    // First points of new-joe-kuo-6 in the order of Gray's code, from its direction numbers by hand: v = 1/2, 1/4, 1/8
+    // in the first dimension, 1/2, 3/4, 5/8 in the second, 1/2, 3/4, 1/8 in the third.
     EXPECT_EQ(column(d, 0), (std::vector<double>{0, 0.5, 0.75, 0.25, 0.375, 0.875, 0.625, 0.125}));
     EXPECT_EQ(column(d, 1), (std::vector<double>{0, 0.5, 0.25, 0.75, 0.375, 0.875, 0.125, 0.625}));
     EXPECT_EQ(column(d, 2), (std::vector<double>{0, 0.5, 0.25, 0.75, 0.625, 0.125, 0.875, 0.375}));
 }
 
-// Of 2^8 points of the first two dimensions each rectangle of 2^-a by 2^-b, a + b = 8, holds exactly one: a (0, 8, 2)-net, which
-// a digital shift leaves one.
+// Of 2^8 points of the first two dimensions each rectangle of 2^-a by 2^-b, a + b = 8, holds exactly one: a (0, 8,
+// 2)-net, which a digital shift leaves one.
 TEST(Draws, sobol_with_shift_is_still_a_net) {
     for (const std::uint64_t seed : {1u, 2u}) {
         const Description d = sweep_of(

@@ -1,4 +1,5 @@
-// Claims about the motion files of a sweep: those that its gyros may read are known by their bytes, and no others are looked at.
+// Claims about the motion files of a sweep: those that its gyros may read are known by their bytes, and no others are
+// looked at.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// Claims about sensitivity: exact indices of known functions lie within the intervals, and a failed run breaks no estimate.
+// Claims about sensitivity: exact indices of known functions lie within the intervals, and a failed run breaks no
+// estimate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -140,8 +141,8 @@ TEST(Sensitivity, ranks_correlate_by_order_alone) {
     EXPECT_NEAR(chance_correlation(101), 0.196, 1e-12);
 }
 
-// How often the correlation with a parameter that decides nothing is beyond what chance gives, in designs whose rows are drawn at random.
-// The others decide the number by their sum, or the largest of them does.
+// How often the correlation with a parameter that decides nothing is beyond what chance gives, in designs whose rows
+// are drawn at random. The others decide the number by their sum, or the largest of them does.
 double false_alarms(std::size_t d, std::size_t n_rows, bool is_sum, std::size_t n_independent) {
     constexpr int trials = 1000;
     std::mt19937_64 random{5};
@@ -205,8 +206,8 @@ SobolDesign independent_rows(int n, std::uint64_t seed) {
     return design;
 }
 
-// The interval of 95 % holds the exact index in 90 to 97 % of the trials; in 2000 of them it does so in 93 to 95 %, as percentiles
-// of 500 rows with long tails do.
+// The interval of 95 % holds the exact index in 90 to 97 % of the trials; in 2000 of them it does so in 93 to 95 %, as
+// percentiles of 500 rows with long tails do.
 TEST(Sensitivity, bootstrap_intervals_cover_as_often_as_they_say) {
     const Exact exact;
     std::array<int, 6> covered{};

@@ -81,7 +81,8 @@ struct Coverage {
     double as_if_independent = 0.0;
 };
 
-// How often the interval holds the true yield of designs whose rows are drawn at random. A gyro passes below a limit of its response.
+// How often the interval holds the true yield of designs whose rows are drawn at random. A gyro passes below a limit of
+// its response.
 Coverage coverage(std::size_t d, int n_rows, Response response, double yield) {
     constexpr int trials = 400;
     const Description description = design_of(d);
@@ -137,12 +138,14 @@ TEST(Statistics, rows_are_worth_what_their_gyros_differ) {
     // Without sensitivity, and with one gyro of each row, gyros are independent.
     EXPECT_EQ(independent(1, 40).worth, 40.0);
     EXPECT_DOUBLE_EQ(yield_of_rows({{1, 1}, {1, 0}, {1, 1}, {1, 1}}, 2).worth, 4.0);
-    // Whatever all the gyros of a row do, it is one; unequal rows are fewer than they are: 13^2/(10^2 + 3) of one row of 10 and three of 1.
+    // Whatever all the gyros of a row do, it is one; unequal rows are fewer than they are: 13^2/(10^2 + 3) of one row
+    // of 10 and three of 1.
     EXPECT_DOUBLE_EQ(yield_of_rows({{4, 4}, {4, 4}, {4, 4}}, 2).worth, 3.0);
     EXPECT_DOUBLE_EQ(yield_of_rows({{4, 4}}, 2).worth, 1.0);
     EXPECT_NEAR(yield_of_rows({{4, 4}, {4, 0}, {4, 4}, {4, 4}}, 2).worth, 4.0, 1e-12);
     EXPECT_DOUBLE_EQ(yield_of_rows({{10, 10}, {1, 1}, {1, 1}, {1, 1}}, 8).worth, 169.0 / 103.0);
-    // Gyros of which half pass in every row say more than as many rows: with k rows of which each has both, var p = 8 v1/(k + 8).
+    // Gyros of which half pass in every row say more than as many rows: with k rows of which each has both, var p = 8
+    // v1/(k + 8).
     EXPECT_NEAR(yield_of_rows(std::vector<std::pair<int, int>>(8, {4, 2}), 2).worth, 16.0, 1e-12);
 }
 

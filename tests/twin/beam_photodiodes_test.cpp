@@ -24,7 +24,8 @@ std::vector<TwinHalf> moved(TwinConfig config, const LightConfig& light, int n_h
 
 std::vector<TwinConfig> both_fidelities() { return {held_gyro(), as_laser(held_gyro())}; }
 
-//   A' = A p + 1000 offset_a,  B' = B p gain_b (1 + drift t) + 1000 offset_b,  p = exp(-decay t),  t in the middle of the half
+//   A' = A p + 1000 offset_a,  B' = B p gain_b (1 + drift t) + 1000 offset_b,  p = exp(-decay t),  t in the middle of
+//   the half
 TEST(BeamPhotodiodes, MakeOfEverySampleWhatTheirLawSays) {
     const LightConfig light{
         .gain_b = 0.7, .gain_drift_per_h = 400.0, .offset_a = 0.02, .offset_b = -0.03, .power_decay_per_h = 900.0};

@@ -60,8 +60,8 @@ TEST(Faults, VibrationAndShockDetuneThePerimeter) {
     EXPECT_NEAR(bulge[9].truth.detuning_end_lambda - at_rest, 0.0, 1e-12);
 }
 
-// <1 - chi dl^2> of dl = A sin is 1 - chi A^2/2, whatever the frequency: also at the rate of the light samples, 6400 Hz, and its
-// multiples.
+// <1 - chi dl^2> of dl = A sin is 1 - chi A^2/2, whatever the frequency: also at the rate of the light samples, 6400
+// Hz, and its multiples.
 TEST(Faults, AVibrationWeakensTheBiasBySizeAtEveryFrequency) {
     constexpr int n_halves = 400;
     for (const int light_samples : {4, 16, 64}) {
@@ -94,7 +94,8 @@ TEST(Faults, WhatIsTooQuickForTheTwinIsRefused) {
     EXPECT_NO_THROW((Twin{config, Motion::rest()}));
 }
 
-// The second shock turns the bias over, the first alone does not; one that takes back what the gyro warms by is allowed.
+// The second shock turns the bias over, the first alone does not; one that takes back what the gyro warms by is
+// allowed.
 TEST(Faults, AThermalShockThatTurnsTheBiasOverIsRefused) {
     TwinConfig config = quiet_gyro();
     config.gyro.temperature_rise_c = 0.0;

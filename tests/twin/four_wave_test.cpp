@@ -223,8 +223,9 @@ TEST(FourWave, ForSmallDetuningsChiIsTheCurvatureOfTheDispersion) {
     EXPECT_NEAR((1.0 - bias_hz(0.01) / bias_hz(0.0)) / 1e-4, chi, 1e-3);
 }
 
-// Two waves, perturbed about equal ones of intensity I = (g - mu/G)/(S + C): gain g and self-saturation S of each change
-// with its detuning by g' and S', the cross-saturation C does not, and (I1 - I2)/(I1 + I2) = (g'/I - S')/(S - C) dl.
+// Two waves, perturbed about equal ones of intensity I = (g - mu/G)/(S + C): gain g and self-saturation S of each
+// change with its detuning by g' and S', the cross-saturation C does not, and (I1 - I2)/(I1 + I2) = (g'/I - S')/(S - C)
+// dl.
 TEST(FourWave, ForSmallDetuningsTheDiscriminatorIsThatOfThePerturbedBalance) {
     const EvenGas gas;
     const auto line = [&](double u) { return gas.lorentz(u); };

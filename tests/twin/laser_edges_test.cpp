@@ -1,4 +1,5 @@
-// The laser at the edges of its parameters: a right result or a clean refusal_of_twin, never a hang or a number that is none.
+// The laser at the edges of its parameters: a right result or a clean refusal_of_twin, never a hang or a number that is
+// none.
 
 #include <chrono>
 #include <cmath>

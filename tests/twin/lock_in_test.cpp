@@ -186,7 +186,8 @@ void add_run(const LockInGyro& g, const core::LockInConfig& config, int n, doubl
     }
 }
 
-// Over rates within three dynamic zones to either side: near the bias each pulls towards its centre, in spite of the dither.
+// Over rates within three dynamic zones to either side: near the bias each pulls towards its centre, in spite of the
+// dither.
 PutBack put_back(LockInGyro g, const core::LockInConfig& config, double rate_arcsec_s) {
     constexpr int n_rates = 60, n_ticks = 600;
     std::mt19937_64 random{7};
@@ -200,8 +201,8 @@ PutBack put_back(LockInGyro g, const core::LockInConfig& config, double rate_arc
     return sum;
 }
 
-// With the exact stepper, which knows Adler's equation alone. The walk of 300 Hz is 0.28 arcsec/sqrt(s), over 180 s; 60 readings of
-// whole counts over 3 s are rounded.
+// With the exact stepper, which knows Adler's equation alone. The walk of 300 Hz is 0.28 arcsec/sqrt(s), over 180 s; 60
+// readings of whole counts over 3 s are rounded.
 TEST(LockIn, ACalibratedThresholdTakesTheScaleErrorAway) {
     const core::LockInConfig known{.threshold = core::Hertz{300.0}};
     const double walk = 0.28 / std::sqrt(180.0);

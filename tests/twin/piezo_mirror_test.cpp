@@ -183,7 +183,8 @@ TEST(PiezoMirror, TheMissIsPutInPlaceThroughHysteresisAndCreep) {
             // 0.09 wavelength a time constant.
             const double miss = target_v > from_v ? -0.17 : 0.17;
             EXPECT_NEAR(half.truth.detuning_end_lambda, miss, kind == Loop::analog ? 6.5e-3 : 2e-3) << target_v;
-            // Near the centre, by the loop or by what a processor's own adds: the next switch is one out of a held mode.
+            // Near the centre, by the loop or by what a processor's own adds: the next switch is one out of a held
+            // mode.
             advance(twin, frame(true, polarity, target_v - 80.0 * miss), 400);
             from_v = target_v;
         }

@@ -31,7 +31,8 @@ TEST(TwinLaser, TheBeamsAreTheLightOfBothModesAtTheFieldOfTheHalf) {
     }
 }
 
-// Of unequal isotopes the loop settles where the beams are equal, off the middle of the mode: the loop of a formula too.
+// Of unequal isotopes the loop settles where the beams are equal, off the middle of the mode: the loop of a formula
+// too.
 TEST(TwinLaser, AnExponentialLoopSettlesWhereTheBeamsAreEqual) {
     TwinConfig config = as_laser(quiet_gyro());
     config.perimeter.loop = Loop::exponential;

@@ -26,7 +26,8 @@ VectorXd spline_knots(int lit_halves) {
     return Eigen::Map<VectorXd>(knots.data(), static_cast<Eigen::Index>(knots.size()));
 }
 
-// Values of all cubic B-splines at t, by the recursion of Cox and de Boor (de Boor, A Practical Guide to Splines, 1978, ch. X).
+// Values of all cubic B-splines at t, by the recursion of Cox and de Boor (de Boor, A Practical Guide to Splines, 1978,
+// ch. X).
 VectorXd splines_at(const VectorXd& knots, double t) {
     VectorXd b = VectorXd::Zero(knots.size() - 1);
     for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = t >= knots[i] && t < knots[i + 1] ? 1.0 : 0.0;
@@ -43,9 +44,9 @@ VectorXd splines_at(const VectorXd& knots, double t) {
     return b;
 }
 
-// Covariance of the false angles of the lit halves of the gap and of those after it, by the light. The Fisher information of
-// the samples on the spline's coefficients a is I = sum b b'/sigma^2; the false angle of a half is chi f0 K integral
-// (b'a)^2 dt, with the derivative S by a at the true decay: S I^-1 S'.
+// Covariance of the false angles of the lit halves of the gap and of those after it, by the light. The Fisher
+// information of the samples on the spline's coefficients a is I = sum b b'/sigma^2; the false angle of a half is chi
+// f0 K integral (b'a)^2 dt, with the derivative S by a at the true decay: S I^-1 S'.
 MatrixXd false_angle_covariance(const GyroLaw& g) {
     const VectorXd knots = spline_knots(g.lit_halves);
     const Eigen::Index n = knots.size() - 4;

@@ -16,7 +16,8 @@ struct Combination {
     double interval_s = 0.0;  // the first segment is half of it
 };
 
-// Every length of run is a whole number of these intervals: it ends in the middle of a segment, where the sawtooth is zero.
+// Every length of run is a whole number of these intervals: it ends in the middle of a segment, where the sawtooth is
+// zero.
 constexpr Combination combinations[] = {{0.7, 50.0}, {0.7, 100.0}, {14.0, 50.0}};
 
 const std::vector<std::string>& drift_methods() {

@@ -1,8 +1,8 @@
 #pragma once
 // A gyro whose motion is known meets a gap and, at the same time, a manoeuvre that it has never seen.
 //
-// One gyro moves evenly and without gaps, and its compensations learn; from it, every few ticks, a copy is taken for each kind of
-// manoeuvre, which then has one gap. So every manoeuvre is the first one.
+// One gyro moves evenly and without gaps, and its compensations learn; from it, every few ticks, a copy is taken for
+// each kind of manoeuvre, which then has one gap. So every manoeuvre is the first one.
 
 #include <optional>
 #include <vector>
@@ -19,8 +19,8 @@ namespace zlg::trials {
 //   ramp (1 - cos(pi t/T))/2    linear t/T    exponential 1 - exp(-3 t/T)    pulse (1 - cos(2 pi t/T))/2
 enum class ManoeuvreLaw { ramp, linear, exponential, pulse };
 
-// Where a manoeuvre begins: anywhere within eight ticks before the gap, in it, or within eight ticks after it; `ended`: it ends
-// within eight ticks before the gap.
+// Where a manoeuvre begins: anywhere within eight ticks before the gap, in it, or within eight ticks after it; `ended`:
+// it ends within eight ticks before the gap.
 enum class ManoeuvrePlace { ended, before, in, after };
 
 struct Manoeuvre {

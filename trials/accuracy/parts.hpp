@@ -102,7 +102,8 @@ void add_gap_criteria(const Accuracy& accuracy, std::vector<Criterion>& out);
 
 [[nodiscard]] const MethodFigures* find_method(const std::vector<MethodFigures>& methods, const std::string& name);
 
-// A table of the campaign in each section, the same for the page and for the terminal; and every method in every case, for the page.
+// A table of the campaign in each section, the same for the page and for the terminal; and every method in every case,
+// for the page.
 [[nodiscard]] std::vector<report::Section> tables_of(const Accuracy& accuracy);
 [[nodiscard]] std::vector<report::Section> detailed_tables_of(const Accuracy& accuracy);
 

@@ -143,8 +143,9 @@ std::vector<SigmaFigures> run_sigma_campaign(const SigmaTask& task) {
 
 bool is_true(const SigmaFigures& f) {
     if (f.whole.n == 0 || f.whole.claimed != f.whole.n) return false;
-    // Some sixty means are judged at once: three standard errors. One is that of a mean of squares whose true value is the limit,
-    // of a normal law. Above, the scatter itself if it is larger, for gyros and motions differ: a few of them make most of a mean.
+    // Some sixty means are judged at once: three standard errors. One is that of a mean of squares whose true value is
+    // the limit, of a normal law. Above, the scatter itself if it is larger, for gyros and motions differ: a few of
+    // them make most of a mean.
     const double of_a_normal_law = std::sqrt(2.0 / static_cast<double>(f.whole.claimed));
     const double below = 3.0 * min_nev * of_a_normal_law;
     const double above = 3.0 * std::max(max_nev * of_a_normal_law, f.whole.nev_standard_error);

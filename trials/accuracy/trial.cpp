@@ -52,8 +52,8 @@ private:
     std::size_t at_ = 0;
 };
 
-// What is true of a tick, or of the window of a switch: rotation, random walk, false rotation, rounding of the counter (of a window at its end
-// less at its beginning), sign of the false angle.
+// What is true of a tick, or of the window of a switch: rotation, random walk, false rotation, rounding of the counter
+// (of a window at its end less at its beginning), sign of the false angle.
 struct Truth {
     double rotation_arcsec = 0.0, walk_arcsec = 0.0, false_arcsec = 0.0, rounding_arcsec = 0.0;
     int sign = 1;

@@ -27,9 +27,9 @@ struct SwitchTrial {
     std::uint64_t seed = 1;
 };
 
-// Permanent error that one switch leaves in the angle: delivered less true rotation over all ticks that the switch disturbs, less
-// the roundings of the counter at the ends of that stretch, which the next ticks give back. What remains is the error of the gap,
-// of the false angle, and the roundings at the two edges of the gap.
+// Permanent error that one switch leaves in the angle: delivered less true rotation over all ticks that the switch
+// disturbs, less the roundings of the counter at the ends of that stretch, which the next ticks give back. What remains
+// is the error of the gap, of the false angle, and the roundings at the two edges of the gap.
 struct SwitchError {
     double error_arcsec = 0.0;
     double sigma_arcsec = 0.0;         // claimed; infinite where no claim is made

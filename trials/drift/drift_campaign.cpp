@@ -17,8 +17,8 @@ namespace {
 
 constexpr int samples_before = 20;
 
-// Excess of the drift of one method at one of the times, and the sum of its squares over moments before; with the walk of
-// the gyro and without.
+// Excess of the drift of one method at one of the times, and the sum of its squares over moments before; with the walk
+// of the gyro and without.
 struct Residual {
     double end_arcsec_s = 0.0;
     double sum_sq_before = 0.0;

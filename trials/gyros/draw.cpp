@@ -192,7 +192,8 @@ private:
             return;
         }
         set(of_averaged);
-        // 4 lambda/L of square rings of 10 to 28 cm; a counter of all four edges has a quarter, and four times the bias.
+        // 4 lambda/L of square rings of 10 to 28 cm; a counter of all four edges has a quarter, and four times the
+        // bias.
         const double counts = is_x4 ? 4.0 : 1.0;
         set("gyro.scale_arcsec", 3.263 * 0.16 / draws_.of("gyro.scale_arcsec").within(0.1, 0.28) / counts);
         set_log("gyro.bias_hz", counts * 30e3, counts * 120e3);
@@ -230,8 +231,8 @@ private:
     void set_perimeter() {
         set_log("perimeter.tau_s", std::max(0.003, 0.5 * c_.gyro.tick_s), 0.02);
         set_whole("perimeter.relock_halves", 0.0, 9);
-        // What comes of itself, for half of them; else where the light runs both ways: of lasers of 10 cm or of little gain it
-        // does not from 0.15 wavelength on, so that no switch with such a miss succeeds.
+        // What comes of itself, for half of them; else where the light runs both ways: of lasers of 10 cm or of little
+        // gain it does not from 0.15 wavelength on, so that no switch with such a miss succeeds.
         if (is_one_in(2, "miss of itself"))
             set("perimeter.miss_lambda", 0.0);
         else
@@ -328,7 +329,8 @@ private:
             c_.drift.thermal_time_s * draws_.of("compensation.magnetic_thermal_time_s").within(0.8, 1.25));
     }
 
-    // Not calibrated, or by both modes together, of which either is off by half of their difference. The averaged gyro does not lock.
+    // Not calibrated, or by both modes together, of which either is off by half of their difference. The averaged gyro
+    // does not lock.
     void set_lock_in() {
         const double left_hz = c_.laser.lock_in_left_hz, right_hz = c_.laser.lock_in_right_hz;
         const bool is_calibrated = is_laser_ && is_one_in(2, "calibrated lock-in");

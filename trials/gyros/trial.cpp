@@ -19,8 +19,9 @@
 namespace zlg::trials {
 namespace {
 
-// Bits that tell what a healthy gyro does: it switches, warms up, comes to an end of its range, turns as fast as its bias, shifts
-// its edges; in the dark of a switch it has no light; before the ellipse of the photodiodes is known it counts whole fringes.
+// Bits that tell what a healthy gyro does: it switches, warms up, comes to an end of its range, turns as fast as its
+// bias, shifts its edges; in the dark of a switch it has no light; before the ellipse of the photodiodes is known it
+// counts whole fringes.
 constexpr std::uint32_t no_alarm = core::health_switching | core::health_warming_up |
                                    core::health_piezo_near_range_end | core::health_recentring |
                                    core::health_rate_near_bias | core::health_edges_shifted | core::health_fringe_lost;
@@ -144,9 +145,9 @@ private:
                            [](std::uint32_t flags) { return (flags & core::flag_relock_uncorrected) != 0; });
     }
 
-    // Roundings of whole counts that are in the error and that no sigma is about, each evenly within a count. The twin knows
-    // the phase of an averaged gyro; of a laser the meter's error holds those at both ends of the switch. And the sigma of
-    // a polynomial is that of the gap alone, without what both its edges keep.
+    // Roundings of whole counts that are in the error and that no sigma is about, each evenly within a count. The twin
+    // knows the phase of an averaged gyro; of a laser the meter's error holds those at both ends of the switch. And the
+    // sigma of a polynomial is that of the gap alone, without what both its edges keep.
     [[nodiscard]] double unknown_rounding_arcsec(const study::SwitchWindow& window) const {
         const auto counts = [&](std::int64_t tick) {
             return int{tick >= 0 && is_whole_count_[static_cast<std::size_t>(tick)]};

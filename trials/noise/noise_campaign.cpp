@@ -63,7 +63,8 @@ RandomGyro random_gyro(const Draws& draws, double n) {
             g.of(NoiseKind::rate_random_walk) ? g.size(NoiseKind::rate_random_walk) : 0.0,
         .markov = {
             {.deviation_arcsec_s = g.of(NoiseKind::markov) ? g.size(NoiseKind::markov) : 0.0, .time_s = g.time_s}}};
-    // A line of amplitude A stands against noise of the spectrum S by A^2 T/(2 S); a ramp against the noise of the longest times.
+    // A line of amplitude A stands against noise of the spectrum S by A^2 T/(2 S); a ramp against the noise of the
+    // longest times.
     g.size(NoiseKind::sine) = draws.of("sinusoid, amplitude").within(6.0, 40.0) *
                               std::sqrt(2.0 * noise::rate_spectrum(noise, g.frequency_hz, 1.0) / n);
     g.size(NoiseKind::ramp) = draws.of("sign of the ramp").sign() * draws.of("ramp").within(6.0, 40.0) * 2.0 *

@@ -10,7 +10,8 @@ namespace zlg::trials {
 
 // Reads the command line and does the work.
 //
-// return  what `work` returns, 0 or 1 where a bound is missed; 2 for a wrong command line; 3 for an exception of `work`.
+// return  what `work` returns, 0 or 1 where a bound is missed; 2 for a wrong command line; 3 for an exception of
+// `work`.
 template <class Work>
 int run_command(CLI::App& app, int argc, char** argv, const Work& work) {
     try {

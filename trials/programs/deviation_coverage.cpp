@@ -1,8 +1,9 @@
-// How often the intervals of a deviation contain the truth, for each kind of deviation and of noise, from the longest averaging
-// time down, with the type of the noise given and identified.
+// How often the intervals of a deviation contain the truth, for each kind of deviation and of noise, from the longest
+// averaging time down, with the type of the noise given and identified.
 //
-// Printed are the smallest and the largest share over the averaging times, with `all` every one, and the worst. Exit 1 where
-// one, the noise given, is more than 3 % beside its confidence, by more than three standard errors of so many records.
+// Printed are the smallest and the largest share over the averaging times, with `all` every one, and the worst. Exit 1
+// where one, the noise given, is more than 3 % beside its confidence, by more than three standard errors of so many
+// records.
 
 #include <algorithm>
 #include <array>
@@ -34,9 +35,9 @@ constexpr std::array lengths_over_tau{2.1, 2.22, 2.25, 2.28, 2.34, 2.5,  2.9,  3
                                       4.0, 4.2,  5.0,  6.3,  7.7,  10.0, 13.0, 16.0, 17.5, 20.0, 32.0, 64.0, 128.0};
 constexpr double allowed_percent = 3.0;
 
-// Records of rate noise f^noise: white noise through (1 - B)^(noise/2), for noise < 0 through (1 - B)^(noise/2 + 1) and a
-// running sum (Kasdin, Proc. IEEE 83, 1995, 802). Weights reach seven records back; what is cut off belongs to the law that is
-// simulated.
+// Records of rate noise f^noise: white noise through (1 - B)^(noise/2), for noise < 0 through (1 - B)^(noise/2 + 1) and
+// a running sum (Kasdin, Proc. IEEE 83, 1995, 802). Weights reach seven records back; what is cut off belongs to the
+// law that is simulated.
 class PowerLawNoise {
 public:
     PowerLawNoise(int noise, std::size_t samples, std::uint64_t seed)
@@ -64,7 +65,8 @@ public:
         return values;
     }
 
-    // The spectrum through the estimator's response: both are sums of cosines that this many frequencies integrate exactly.
+    // The spectrum through the estimator's response: both are sums of cosines that this many frequencies integrate
+    // exactly.
     [[nodiscard]] double true_deviation(DeviationKind kind, std::int64_t m) const {
         double sum = 0.0;
         for (std::size_t k = 0; k < response_.size(); ++k) {

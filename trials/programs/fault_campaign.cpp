@@ -1,7 +1,7 @@
 // Random faults of every kind against the gyro in closed loop: the table of what becomes of them, in Markdown.
 //
-// The number of threads changes no figure. A laser takes 30 times as long. Exit 1 where trials::complaints has something to
-// say: a gyro that does not recover, a NaN, a crash, too few valid ticks, a sigma that is not true.
+// The number of threads changes no figure. A laser takes 30 times as long. Exit 1 where trials::complaints has
+// something to say: a gyro that does not recover, a NaN, a crash, too few valid ticks, a sigma that is not true.
 
 #include <map>
 

@@ -1,4 +1,5 @@
-// Gaps before the motion is known, and gaps of every length once it is: error and sigma of the switch, as tables to stdout.
+// Gaps before the motion is known, and gaps of every length once it is: error and sigma of the switch, as tables to
+// stdout.
 //
 // usage: zlg_gap_campaign [SHARE] [--threads N]
 

@@ -1,7 +1,7 @@
 // Random gyros without faults in closed loop: the table of what becomes of them, in Markdown.
 //
-// The number of threads changes no figure. A gyro of 60 to 600 s takes about a second, a laser ten. Exit 1 where trials::complaints
-// has something to say; each line names the gyro with the command that runs it.
+// The number of threads changes no figure. A gyro of 60 to 600 s takes about a second, a laser ten. Exit 1 where
+// trials::complaints has something to say; each line names the gyro with the command that runs it.
 
 #include <map>
 

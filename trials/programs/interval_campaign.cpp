@@ -1,8 +1,9 @@
-// Whether switching.interval_s = "optimal" is: six unlike gyros on the twin at intervals about the one that it stands for,
-// with their configured compensation. A table in Markdown; exit 1 where one drifts by more than 15 % above the least.
+// Whether switching.interval_s = "optimal" is: six unlike gyros on the twin at intervals about the one that it stands
+// for, with their configured compensation. A table in Markdown; exit 1 where one drifts by more than 15 % above the
+// least.
 //
-// Few seeds know a drift to a quarter of itself only, and the least of five such numbers is always too small. So the least
-// is that of the law that all five must follow, drift^2 = a L^2 + b/L + W^2/t, with a and b fitted to them.
+// Few seeds know a drift to a quarter of itself only, and the least of five such numbers is always too small. So the
+// least is that of the law that all five must follow, drift^2 = a L^2 + b/L + W^2/t, with a and b fitted to them.
 //
 // The drift is the rms, over seeds and over ends anywhere in the last two intervals of the run, of (final angle - true
 // angle - nm t)/t: random walk included, for it is there whatever the interval.
@@ -81,8 +82,8 @@ double drift_sq(config::Config c, double interval_s, std::int64_t seed) {
 
 double rms_drift(const config::Config& c, double interval_s, std::int64_t seeds) {
     double sum = 0.0;
-    // Each seed at another interval, evenly over the next 12 %, many periods of a vibration: at one interval it meets all
-    // switches at phases of one pattern, whose errors cancel or add up whatever the seed.
+    // Each seed at another interval, evenly over the next 12 %, many periods of a vibration: at one interval it meets
+    // all switches at phases of one pattern, whose errors cancel or add up whatever the seed.
     for (std::int64_t seed = 1; seed <= seeds; ++seed) {
         const double turn = static_cast<double>(seed) / std::numbers::phi;
         sum += drift_sq(c, interval_s * (1.0 + 0.12 * (turn - std::floor(turn))), seed);

@@ -14,8 +14,8 @@ namespace {
 
 using namespace zlg::trials;
 
-// Root mean squares over the runs; of single runs the worst. A run is bad where the estimator adds more than a fifth to the
-// error.
+// Root mean squares over the runs; of single runs the worst. A run is bad where the estimator adds more than a fifth to
+// the error.
 struct Row {
     double without_sq = 0.0, with_sq = 0.0, error_sq = 0.0, trust = 0.0;
     double worst_ratio = 0.0;

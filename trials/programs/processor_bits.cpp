@@ -1,7 +1,7 @@
 // The image of the processor against this program: are all outputs of the core equal in every bit?
 //
-// Scenarios of 20 s each, drawn from the seed, with faults; a new processor for every tenth. Prints what was compared, in
-// Markdown. Exit 1 if a bit differs.
+// Scenarios of 20 s each, drawn from the seed, with faults; a new processor for every tenth. Prints what was compared,
+// in Markdown. Exit 1 if a bit differs.
 
 #include <chrono>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Random gyros in random steady motions: is the sigma that is claimed for a switch true? A table in Markdown.
 //
-// Exit 1 where, for a class of motion, the mean square of error over sigma is outside .25 to 1.4 by more than chance, or a
-// switch has no sigma.
+// Exit 1 where, for a class of motion, the mean square of error over sigma is outside .25 to 1.4 by more than chance,
+// or a switch has no sigma.
 
 #include <algorithm>
 

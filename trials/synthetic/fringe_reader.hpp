@@ -1,5 +1,6 @@
 #pragma once
-// The count and the place within it as the electronics read them: whole, or by two photodiodes whose ellipse the core corrects.
+// The count and the place within it as the electronics read them: whole, or by two photodiodes whose ellipse the core
+// corrects.
 //
 //   c = o_c + cos 2 pi p,  s = o_s + (1 + e) sin(2 pi p + d)          white noise in each, then a converter for +-2
 //

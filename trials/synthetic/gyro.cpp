@@ -7,7 +7,8 @@
 namespace zlg::trials {
 namespace {
 
-// Light is made for the halves that a re-lock estimator may use (16 of core::profile_halves, 40 of relock_ticks), with some reserve.
+// Light is made for the halves that a re-lock estimator may use (16 of core::profile_halves, 40 of relock_ticks), with
+// some reserve.
 constexpr std::int64_t lit_halves = 64;
 
 // After closing, until the beat is taken as steady.

@@ -1,16 +1,19 @@
 #pragma once
-// A gyro of closed formulas instead of physics: half-periods, light and truth, a few hundred times faster than the twin.
+// A gyro of closed formulas instead of physics: half-periods, light and truth, a few hundred times faster than the
+// twin.
 //
-// With the phase phi of the beat in counts, K the scale factor, s = +1 or -1 the sign of bias and mode, over one half-period:
+// With the phase phi of the beat in counts, K the scale factor, s = +1 or -1 the sign of bias and mode, over one
+// half-period:
 //
 //   phi += (dtheta + m Om_m T/2)/K + s (f0 - chi f0 <dl^2>) T/2,    counts = floor(phi) - floor(phi before)
 //
-// with <dl^2> the mean square of the detuning in the half, whose decay after the gap is a formula (relock_decay.hpp). Light
-// samples are the linear discriminator at the same detuning with white noise. In the gap the counter and the light are random
-// numbers, and there is no magnetic drift; but its last halves may be lit: they are as those after it, at the full miss.
+// with <dl^2> the mean square of the detuning in the half, whose decay after the gap is a formula (relock_decay.hpp).
+// Light samples are the linear discriminator at the same detuning with white noise. In the gap the counter and the
+// light are random numbers, and there is no magnetic drift; but its last halves may be lit: they are as those after it,
+// at the full miss.
 //
-// With photodiodes the place within the count is read at the end of each half through the core's own correction of their
-// ellipse (fringe_reader.hpp).
+// With photodiodes the place within the count is read at the end of each half through the core's own correction of
+// their ellipse (fringe_reader.hpp).
 
 #include <array>
 #include <cstdint>

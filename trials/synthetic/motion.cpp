@@ -35,8 +35,8 @@ double integral_of_shock(const Shocks& s, double t0, double t1) {
     return s.rate_arcsec_s * std::imag(quotient(exponential(p * t1) - exponential(p * std::max(0.0, t0)), p));
 }
 
-// Campbell's theorem: a Poisson process of shocks at rate r with responses g has the covariance r int g(t) g(t + lag) dt (Papoulis,
-// Probability, Random Variables and Stochastic Processes, ch. 10).
+// Campbell's theorem: a Poisson process of shocks at rate r with responses g has the covariance r int g(t) g(t + lag)
+// dt (Papoulis, Probability, Random Variables and Stochastic Processes, ch. 10).
 double shock_covariance(const Shocks& s, double half_s, double lag_s) {
     const double step = half_s / 16.0;
     const double last = 12.0 * s.decay_s;

@@ -1,5 +1,6 @@
 #pragma once
-// Simulated recordings of vehicles, so that nothing is tuned on the one real recording: they stop, drive, turn and hit bumps.
+// Simulated recordings of vehicles, so that nothing is tuned on the one real recording: they stop, drive, turn and hit
+// bumps.
 
 #include <cstdint>
 #include <string>

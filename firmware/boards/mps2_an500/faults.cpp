@@ -73,7 +73,8 @@ FaultKind kind_of_exception(std::uint32_t exception, std::uint32_t sp, std::uint
 
 extern "C" {
 
-// frame  what the processor has put on the stack, if it could. The memory protection is off in the handler of a hard fault.
+// frame  what the processor has put on the stack, if it could. The memory protection is off in the handler of a hard
+// fault.
 [[noreturn, gnu::used]] void note_fault(const ExceptionFrame* frame, std::uint32_t exception) {
     // The registers of the floating-point unit wait to be stored where there may be no memory: they are not needed.
     fpccr() &= ~1u;
@@ -98,7 +99,8 @@ extern "C" {
 
 }  // extern "C"
 
-// A stack that has overflowed is no stack for the handler: it then begins again at the top, where nothing is needed any more.
+// A stack that has overflowed is no stack for the handler: it then begins again at the top, where nothing is needed any
+// more.
 [[gnu::naked]] void on_fault() {
     asm volatile(
         "mrs r0, msp\n"

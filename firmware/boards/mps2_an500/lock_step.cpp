@@ -89,7 +89,8 @@ void wait_for_host() noexcept {
 
 void answer_host() noexcept {
     Exchange& x = exchange();
-    // Read once: a request that comes between two looks would be answered under the number of the one before, and then again.
+    // Read once: a request that comes between two looks would be answered under the number of the one before, and then
+    // again.
     const std::uint32_t asked = x.asked.load(std::memory_order_acquire);
     if (asked == x.answered.load(std::memory_order_relaxed) || !is(x, Readiness::ready)) return;
     answer(x);

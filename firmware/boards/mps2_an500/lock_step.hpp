@@ -22,7 +22,8 @@ void present_to_host() noexcept;
 // Look for a request for some time, then sleep until the host rings or an interrupt comes.
 void wait_for_host() noexcept;
 
-// Answer a request of the host, if there is one. A half-period runs in the half-period's interrupt, as it does by the timer.
+// Answer a request of the host, if there is one. A half-period runs in the half-period's interrupt, as it does by the
+// timer.
 void answer_host() noexcept;
 
 }  // namespace zlg::firmware::mps2

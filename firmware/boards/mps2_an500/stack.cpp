@@ -29,8 +29,8 @@ constexpr std::uint32_t forbidden = 0u << 24 | never_run;
 constexpr std::uint32_t read_write = 3u << 24 | 1u << 19 | 3u << 16 | never_run;  // written back from the cache
 constexpr std::uint32_t read_and_run = 6u << 24 | 2u << 16;
 
-// Of two that overlap, the later holds. The end of the flash is for settings, which this machine lets the program write.
-// What lies below the memory takes a stack that has grown too large.
+// Of two that overlap, the later holds. The end of the flash is for settings, which this machine lets the program
+// write. What lies below the memory takes a stack that has grown too large.
 constexpr Region regions[]{{0x00000000, 29, forbidden},
                            {0x00000000, 18, read_and_run},
                            {0x0003c000, 14, read_write},

@@ -31,7 +31,8 @@ std::uint32_t crc_of(const Settings& settings) noexcept {
 
 }  // namespace
 
-// It takes longer than a half-period: the interrupts go on, and the memory protection lets this part of the flash be written.
+// It takes longer than a half-period: the interrupts go on, and the memory protection lets this part of the flash be
+// written.
 void store(const Settings& settings) noexcept {
     Stored& to = flash();
     std::memcpy(&to.settings, &settings, sizeof settings);

@@ -11,7 +11,8 @@ namespace {
 
 using namespace mps2;
 
-// No multiple of a usual half-period, so that the interrupt finds what hangs, and not always the half-period's interrupt.
+// No multiple of a usual half-period, so that the interrupt finds what hangs, and not always the half-period's
+// interrupt.
 constexpr std::uint32_t deadline_ms = 251;
 std::uint32_t halves_at_kick = 0;
 

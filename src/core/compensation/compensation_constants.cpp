@@ -12,7 +12,8 @@ constexpr double max_temperature_c = 1e6;
 
 }  // namespace
 
-// Wider than any gyro, and narrow enough that no counts and no detuning of a record make a sum or a square that overflows.
+// Wider than any gyro, and narrow enough that no counts and no detuning of a record make a sum or a square that
+// overflows.
 GyroCompensationFault check(const CompensationConstants& g) noexcept {
     using Fault = GyroCompensationFault;
     if (!(is_within(g.tick.value(), 1e-9, 1e9) && is_within(g.scale.value(), 1e-9, 1e9))) return Fault::relock;

@@ -52,7 +52,8 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
     return tick;
 }
 
-// Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide it.
+// Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide
+// it.
 constexpr double other_loop_part = 0.3;
 
 std::uint32_t flag_of(const FalseAngle& angle) noexcept {
@@ -78,7 +79,8 @@ void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, Tic
     tick.amend_flags = flag_of(relock.first);
 }
 
-// A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later one.
+// A half that was read, and refused: not one that was missed, or waits for a judgement, whose counts are in a later
+// one.
 bool is_refused(const HalfRecord& half) noexcept { return half.loop_closed && !half.valid && half.counts != 0; }
 
 // What lock-in takes from the halves, given back to the tick. The counter shows the beat of each half.
@@ -129,8 +131,8 @@ void read_halves(const GyroCompensationConfig& config, const HalfRecord& first, 
     }
 }
 
-// A lit half of a gap, where its counts are an angle. Its light is that of the new mode before the loop is closed. In closing the detuning jumps, and
-// no spline goes through that: these halves are read by their records.
+// A lit half of a gap, where its counts are an angle. Its light is that of the new mode before the loop is closed. In
+// closing the detuning jumps, and no spline goes through that: these halves are read by their records.
 void read_lit_half(const GyroCompensationConfig& config, const GyroCompensationState& state, const HalfRecord& half,
                    const Border& from, const Border& to, HalfReading& reading) noexcept {
     const bool is_lit = half.lit && !half.loop_closed && half.valid && half.span == 1;
@@ -142,8 +144,8 @@ void read_lit_half(const GyroCompensationConfig& config, const GyroCompensationS
     read_record(config.gyro, half, reading);
 }
 
-// Measured ticks, more with the place within the count than without, after which the readings are taken to be such; and as many
-// the other way: longer than what a gap leaves without.
+// Measured ticks, more with the place within the count than without, after which the readings are taken to be such; and
+// as many the other way: longer than what a gap leaves without.
 constexpr std::int32_t phase_debounce = 32;
 
 void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
@@ -158,9 +160,9 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
 // Number of recent switches over which the mean square of their errors is taken.
 constexpr std::int32_t remembered_switches = 8;
 
-// Magnetic drift to subtract from this tick. With the fringe phase read, a switch is known well enough for the step of the
-// drift there to matter, so the drift is estimated whatever the method; what the method leaves in the values is handed to the
-// bridge. Advances the estimator.
+// Magnetic drift to subtract from this tick. With the fringe phase read, a switch is known well enough for the step of
+// the drift there to matter, so the drift is estimated whatever the method; what the method leaves in the values is
+// handed to the bridge. Advances the estimator.
 double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationState& state,
                        const TickInput& tick) noexcept {
     const bool by_phase = state.bridge.with_phase;
@@ -178,8 +180,8 @@ double magnetic_arcsec(const GyroCompensationConfig& config, GyroCompensationSta
     return subtracted;
 }
 
-// What a half may hold of a fault that begins or ends in it, over the bias: a change of the current is seen from 1.2 % of it
-// on, darkness from one sample's time.
+// What a half may hold of a fault that begins or ends in it, over the bias: a change of the current is seen from 1.2 %
+// of it on, darkness from one sample's time.
 constexpr double unseen_part = 0.01;
 
 // What the half before or behind those that a monitor refused may hold of their fault.
@@ -187,14 +189,14 @@ double unseen_arcsec2(const CompensationConstants& gyro) noexcept {
     return square(unseen_part * 0.5 * gyro.tick.value() * gyro.bias.value() * gyro.scale.value());
 }
 
-// Part of the false angle of a stretch, at its most, by which the constants err: the quartic term of the bias, chi f0 and
-// the reading of a large detuning.
+// Part of the false angle of a stretch, at its most, by which the constants err: the quartic term of the bias, chi f0
+// and the reading of a large detuning.
 constexpr double law_part = 0.03;
 
 // The counted angle of the gap's ticks up to this one, where the counter knows it (counted_stretch.hpp). The false
 // drift in it is at most that of the fall of the mean square of the detuning since the last measured tick. Where this
-// exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any case the
-// sum is rough.
+// exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any
+// case the sum is rough.
 void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
                    const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
                    TickInput& tick) noexcept {
@@ -228,8 +230,8 @@ void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& 
     if (settles) break_off(state.edges);
 }
 
-// What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the perimeter or
-// the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
+// What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the
+// perimeter or the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
 CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
                                  const HalfRecord& second, LightSamples light) noexcept {
     const HalfRecord& first = state.first;
@@ -247,8 +249,8 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         tick.with_phase = borders.start.is_known() && borders.middle.is_known() && borders.end.is_known();
         note_phase(state, tick.with_phase);
         give_back_lock_in(config, first, second, borders, tick);
-        // Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted halves, minus
-        // the difference of their places within the count.
+        // Counts of the first half minus those of the second that are not the bias: by the unequal lengths of shifted
+        // halves, minus the difference of their places within the count.
         const std::int32_t unequal =
             parts_between(borders.start, borders.middle) - parts_between(borders.middle, borders.end);
         const double excess = shifted.known_excess_counts - counts_and_parts(0, unequal);

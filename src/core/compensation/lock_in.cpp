@@ -50,8 +50,8 @@ LostCounts lost_to_lock_in(const CompensationConstants& gyro, const LockInConfig
         out.variance = square(lost(largest) - out.value);
         if (size(first) < standing || size(second) < standing) out.variance += square(largest);
     } else if (sigma > 0.0) {
-        // Square of what a threshold as large as its sigma would take. Without the edges, and with 1 - (r/f0)^2 kept from 0 by the width
-        // of the locked rates: a half that stands may lack twice its root.
+        // Square of what a threshold as large as its sigma would take. Without the edges, and with 1 - (r/f0)^2 kept
+        // from 0 by the width of the locked rates: a half that stands may lack twice its root.
         const double ratio = sigma / bias, x = turn / bias;
         out.variance = square(bias * ratio * ratio * x) / (square(1.0 - x * x) + 4.0 * ratio * ratio);
     }

@@ -12,7 +12,8 @@ constexpr std::int32_t new_level_halves = 400;
 constexpr double smoothed = 0.125;
 constexpr double coil_followed = 1.0 / 1024.0;
 
-// Mean size of a normal deviation is 0.8 of its standard one; two halves differ by sqrt 2 of that, smoothing leaves a quarter.
+// Mean size of a normal deviation is 0.8 of its standard one; two halves differ by sqrt 2 of that, smoothing leaves a
+// quarter.
 constexpr double eight_differences = 14.2;
 constexpr double two_deviations = 2.5;
 
@@ -70,9 +71,9 @@ bool are_near(const std::array<double, 2>& a, const std::array<double, 2>& b) no
     return are_over_half(a, b) && are_over_half(b, a);
 }
 
-// Off and steady: a supply that was replaced, or has aged at once, or levels that were learnt while it was faulty. Less than
-// half of the current is none of these, unless that was learnt first and a reading too high later; nor is a difference of
-// the signs that was not there.
+// Off and steady: a supply that was replaced, or has aged at once, or levels that were learnt while it was faulty. Less
+// than half of the current is none of these, unless that was learnt first and a reading too high later; nor is a
+// difference of the signs that was not there.
 void learn_anew(CoilMonitorState& s, double tolerance_ratio) noexcept {
     s.n_steady = 0;
     const auto& [negative_a, positive_a] = s.steady_a;

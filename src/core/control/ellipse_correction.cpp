@@ -7,8 +7,8 @@
 namespace zlg::core {
 namespace {
 
-// Of the memory, at each new block. The weights 1, 3/4, 9/16 .. average the noise as seven whole blocks do, 896 samples:
-// the errors of the map put sqrt(6/896) = 1/12 of the phase noise of one sample into the phase.
+// Of the memory, at each new block. The weights 1, 3/4, 9/16 .. average the noise as seven whole blocks do, 896
+// samples: the errors of the map put sqrt(6/896) = 1/12 of the phase noise of one sample into the phase.
 constexpr double kept = 0.75;
 
 // What is learnt within three minutes belongs together.
@@ -69,8 +69,8 @@ bool solve(const PowerSums& sums, Terms& term) noexcept {
 
 bool is_axis(double x) noexcept { return x >= 1.0 / max_axis && x <= max_axis; }
 
-// Map of the ellipse (2): its centre, and the triangular (Cholesky) root of its quadratic form, chosen so that the cosine
-// depends on c alone.
+// Map of the ellipse (2): its centre, and the triangular (Cholesky) root of its quadratic form, chosen so that the
+// cosine depends on c alone.
 bool map_of(const Terms& t, EllipseMap& map, double& form) noexcept {
     const double determinant = 4.0 * t[0] * t[2] - t[1] * t[1];
     if (!(t[0] > 0.0 && determinant > 0.0)) return false;

@@ -43,8 +43,8 @@ constexpr std::int32_t offset_debounce_after_gap = 2;
 constexpr std::int32_t forgets_after_halves = 1024;  // 2.6 s without a fringe: the photodiodes have changed
 
 // Blocks of 128 samples, evenly over the octants, in each of which d is spread over 1/8 turn: a block has the skew to
-// 1/8/sqrt(12*128) = 0.003 turns. At rest the shifted edges bring the same places in a quarter several times: up to three
-// times that, so that of n blocks this much over sqrt(n) is not trusted.
+// 1/8/sqrt(12*128) = 0.003 turns. At rest the shifted edges bring the same places in a quarter several times: up to
+// three times that, so that of n blocks this much over sqrt(n) is not trusted.
 constexpr double block_turns = 0.01;
 constexpr std::int32_t skew_blocks = 64;
 constexpr std::int32_t min_skew_blocks = 16;
@@ -107,8 +107,8 @@ std::int32_t off_quarter(const FringeReadoutState& s, const QuadratureSample& p,
 
 bool is_beside(std::int32_t off) noexcept { return off <= max_off_parts && off >= -max_off_parts; }
 
-// The counter may have lost quarters where it counted no beat; then all samples are off by the same. True where the offset
-// is another one now.
+// The counter may have lost quarters where it counted no beat; then all samples are off by the same. True where the
+// offset is another one now.
 bool follow_offset(FringeReadoutState& s, std::int32_t off, bool settled) noexcept {
     const std::int32_t quarters = ((off + quarter_parts / 2) >> 16) & 3;
     s.n_other = quarters == s.other_quarters ? s.n_other + 1 : 1;
@@ -207,7 +207,8 @@ FringeReadoutOutput step(const FringeReadoutConfig& config, FringeReadoutState& 
         count_up(state.n_unread);
         if (state.n_unread >= forgets_after_halves) forget_photodiodes(state);
     }
-    // A phase that belongs to another instant than the count is worth less than the count alone; its skew is still watched.
+    // A phase that belongs to another instant than the count is worth less than the count alone; its skew is still
+    // watched.
     if (is_skewed(config, state)) return {.counter = input.counter, .skewed = true};
     return out;
 }

@@ -8,8 +8,8 @@
 namespace zlg::core {
 namespace {
 
-// A piezo near an end of its range for 4 halves in a row is led to another mode; where that does not happen, again every
-// 509 halves.
+// A piezo near an end of its range for 4 halves in a row is led to another mode; where that does not happen, again
+// every 509 halves.
 constexpr std::int32_t near_end_debounce = 4;
 constexpr std::int32_t near_end_retry = 512;
 
@@ -18,8 +18,8 @@ constexpr std::int32_t near_end_retry = 512;
 constexpr double warming_c = 0.05;
 constexpr double temperature_weight = 1.0 / 8192.0;
 
-// The piezo is at rest where what is still to come of its move, and the distance of the reading from the set-point, are at
-// most this much perimeter. The second includes the error of the reading.
+// The piezo is at rest where what is still to come of its move, and the distance of the reading from the set-point, are
+// at most this much perimeter. The second includes the error of the reading.
 constexpr double rest_lambda = 0.006;
 
 HalfRecord recorded(const GyroControlState& s, const Observation& o) noexcept {
@@ -109,9 +109,9 @@ std::optional<SwitchEvent> sequence(const GyroControlConfig& c, GyroControlState
 }
 
 // Hands the stroke model the detuning at the moment of closing. The first closed half shows its mean detuning dl at a
-// known mean voltage; at closing it was dl + (v at closing - mean v of the half)/(2 half-wave voltage). Under fast re-lock
-// the voltage leaps within the half: its mean is the reading at the end plus (mean - end) of the model of the stage.
-// Otherwise it moves evenly, and its mean is that of both ends.
+// known mean voltage; at closing it was dl + (v at closing - mean v of the half)/(2 half-wave voltage). Under fast
+// re-lock the voltage leaps within the half: its mean is the reading at the end plus (mean - end) of the model of the
+// stage. Otherwise it moves evenly, and its mean is that of both ends.
 void read_arrival(const GyroControlConfig& c, GyroControlState& s, const Observation& o) noexcept {
     const bool fast_relock = c.loop.kind == LoopKind::digital && c.loop.relock_halves > 0;
     const double mean_v =

@@ -43,8 +43,8 @@ constexpr double measurement_sigma_lambda = 0.001;
 constexpr double process_sigma_lambda = 0.001;
 constexpr double gate_deviations = 5.0;
 
-// Q of (3): the process noise is shared by w0 and b; k is a constant of the piezo. The plays have a tenth of it, so that an
-// error of the first loops is not kept for ever. No variance grows beyond its prior.
+// Q of (3): the process noise is shared by w0 and b; k is a constant of the piezo. The plays have a tenth of it, so
+// that an error of the first loops is not kept for ever. No variance grows beyond its prior.
 void add_process_noise(HalfWaveState& s) noexcept {
     constexpr double added = 0.5 * square(process_sigma_lambda);
     for (std::size_t j = 0; j < n_stroke_weights; ++j) {

@@ -7,8 +7,8 @@
 namespace zlg::core {
 namespace {
 
-// Ticks of the mean of w, and those after which it is compared with the slower one: of a settled gyro, of which one in four is
-// learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
+// Ticks of the mean of w, and those after which it is compared with the slower one: of a settled gyro, of which one in
+// four is learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
 constexpr double memory_ticks = 100.0;
 
 constexpr double max_change = 0.0133;
@@ -16,7 +16,8 @@ constexpr double max_change = 0.0133;
 // A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
 constexpr double max_weight = 100.0;
 
-// Change of S over a tick up to which the detuning stands: what it falls by from half to half is then nothing in a mean.
+// Change of S over a tick up to which the detuning stands: what it falls by from half to half is then nothing in a
+// mean.
 constexpr double max_fall = 0.01;
 
 // h from which on an offset is learnt. Of light that hardly falls with the detuning it does less.
@@ -28,13 +29,13 @@ constexpr double presumed_offset = 0.03;
 // What an offset may change by from one re-lock to the next, as a variance.
 constexpr double offset_wander = 1e-10;
 
-// Jumps that are together so many times their deviation say that the offset was presumed to be known too well: of fifty jumps,
-// ten re-locks, an offset of .004.
+// Jumps that are together so many times their deviation say that the offset was presumed to be known too well: of fifty
+// jumps, ten re-locks, an offset of .004.
 constexpr double surprise_sq = 16.0;
 constexpr double forgotten = 0.02;
 
-// Of the light, where the bias is reversed: its part that has fallen, and S^2. As the detuning falls evenly, both are the
-// geometric means of those of the halves beside.
+// Of the light, where the bias is reversed: its part that has fallen, and S^2. As the detuning falls evenly, both are
+// the geometric means of those of the halves beside.
 double fallen(double level, double light) noexcept { return level > light ? level / light - 1.0 : 0.0; }
 
 double border_signal_sq(const LightBalanceState& s, const BalancedHalf& half) noexcept {

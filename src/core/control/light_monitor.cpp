@@ -31,7 +31,8 @@ constexpr double max_missing_ratio = 0.03;
 // The centre of the next mode: no detuning is that large.
 constexpr double next_mode_lambda = 0.5;
 
-// Whether a beam shows one number throughout, that of the half before. What is no number is remembered as 0, which never counts.
+// Whether a beam shows one number throughout, that of the half before. What is no number is remembered as 0, which
+// never counts.
 bool is_still(std::span<const float> x, float& last) noexcept {
     const float first = x.front();
     const bool still = first == last && first == x[x.size() / 2] && first == x.back() && first != 0.0f;
@@ -44,8 +45,8 @@ bool is_any_still(LightMonitorState& s, const SyncDetectorInput& light) noexcept
     return (!light.light_b.empty() && is_still(light.light_b, s.last_b)) || still_a;
 }
 
-// The part of the light signal (A - B)/(A + B) that keeps its sign as the bias turns, as detuning; in the detuning itself
-// it alternates. 1: beam A is too bright, -1: B.
+// The part of the light signal (A - B)/(A + B) that keeps its sign as the bias turns, as detuning; in the detuning
+// itself it alternates. 1: beam A is too bright, -1: B.
 int side_of(const MonitorLimits& c, const LightMonitorState& s, const LightMonitorInput& in) noexcept {
     const double odd_lambda = 0.5 * in.light.sign * (in.read.detuning.value() - s.last_lambda);
     const double limit_lambda =
@@ -54,8 +55,9 @@ int side_of(const MonitorLimits& c, const LightMonitorState& s, const LightMonit
     return odd_lambda < -limit_lambda ? -1 : 0;
 }
 
-// In a settled gyro: unbalanced after eight halves in a row on one side, balanced after eight on none; unbalanced at once
-// where the detuning that is read should have weakened the bias more. On the way to a lock the detuning itself changes.
+// In a settled gyro: unbalanced after eight halves in a row on one side, balanced after eight on none; unbalanced at
+// once where the detuning that is read should have weakened the bias more. On the way to a lock the detuning itself
+// changes.
 void weigh_beams(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in) noexcept {
     const int side = side_of(c, s, in);
     s.n_side = side == s.side ? s.n_side + (s.n_side < balance_debounce) : 1;
@@ -167,7 +169,8 @@ bool is_noisy_throughout(const LightMonitorInput& in, double limit_lambda2) noex
 
 constexpr std::size_t line_samples = 8;
 
-// The detuning through the eight samples from one on, by least squares: in their middle, and how much it rises over them.
+// The detuning through the eight samples from one on, by least squares: in their middle, and how much it rises over
+// them.
 struct Line {
     double middle_lambda = 0.0;
     double rise_lambda = 0.0;
@@ -186,9 +189,9 @@ Line line_from(const LightMonitorInput& in, std::size_t first) noexcept {
     return line;
 }
 
-// Error of the lines by the bend of a fast way to a lock, over the changes in this half and in the one before. It grows with
-// the square of what a line takes of the half; from 16 samples on the earlier half, whose line is at its flat end, adds
-// nothing.
+// Error of the lines by the bend of a fast way to a lock, over the changes in this half and in the one before. It grows
+// with the square of what a line takes of the half; from 16 samples on the earlier half, whose line is at its flat end,
+// adds nothing.
 double bend_lambda(std::size_t n_samples, double change_lambda, double change_before_lambda) noexcept {
     constexpr double bend_ratio = 0.1;
     const double shortness = 16.0 / static_cast<double>(n_samples);
@@ -196,10 +199,11 @@ double bend_lambda(std::size_t n_samples, double change_lambda, double change_be
     return bend_ratio * shortness * shortness * (change_lambda + change_before_lambda);
 }
 
-// The detuning does not jump where the bias is reversed, but the error by a faded beam changes its sign there. Far from a
-// lock the mean square holds twice that error times the detuning, so that even a small error must be found.
+// The detuning does not jump where the bias is reversed, but the error by a faded beam changes its sign there. Far from
+// a lock the mean square holds twice that error times the detuning, so that even a small error must be found.
 //
-// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma, and what an offset
+// return  whether the jump between the half before and this one, or its smoothed value, exceeds 8 sigma, and what an
+// offset
 //         of the photodiodes that is not known yet may make of it.
 bool jumps(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in,
            LightMonitorOutput& out) noexcept {
@@ -236,9 +240,8 @@ bool jumps(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput
 }
 
 // Less light at the end of this half than at the start of the half before means that a beam has faded: on the way to a
-// lock the light gets brighter, but for what depends on the field, on the detuning near the centre and on the isotopes: 0.3 %
-// in healthy lasers.
-// before  first sample of the half before, sum of both beams; 0: not known.
+// lock the light gets brighter, but for what depends on the field, on the detuning near the centre and on the isotopes:
+// 0.3 % in healthy lasers. before  first sample of the half before, sum of both beams; 0: not known.
 bool fades(const MonitorLimits& c, const LightMonitorInput& in, double before) noexcept {
     const std::size_t n = in.light.light_a.size();
     if (!(before > 0.0) || n < line_samples || in.light.light_b.empty()) return false;

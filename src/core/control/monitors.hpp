@@ -1,5 +1,6 @@
 #pragma once
-// The table of monitors: the bit that reports what is watched in a half, what the half loses by it, and where it is seen.
+// The table of monitors: the bit that reports what is watched in a half, what the half loses by it, and where it is
+// seen.
 //
 // A new monitor is a row; where it needs a memory, a module fills in the observation, and holds limit and debounce.
 

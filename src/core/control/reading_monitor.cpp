@@ -30,8 +30,8 @@ double apart(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::i
     return as_double(difference(in.reading, s.good)) - m * s.rate_counts - bias;
 }
 
-// T and P agree within this: the bias is known to a sixth, the rate may go on changing as it last did; half of the bias at
-// most.
+// T and P agree within this: the bias is known to a sixth, the rate may go on changing as it last did; half of the bias
+// at most.
 bool has_returned(const ReadingMonitorState& s, const ReadingMonitorInput& in, std::int32_t m) noexcept {
     if (!s.rate_known || !in.agrees) return false;
     const double bias = in.bias_counts > min_bias_counts ? in.bias_counts : min_bias_counts;

@@ -62,10 +62,10 @@ std::uint32_t scattered(std::uint32_t x) noexcept {
 // Openings for which the larger part of what is left out stays the same.
 constexpr std::uint32_t run_of_openings = 4;
 
-// Up to a sixteenth shorter, at random, the same in every run. A quarter of it is drawn for each opening: equal intervals
-// could hold a whole number of periods of a vibration, and every switch would then meet it at the same phase and leave the
-// same error. Three quarters are drawn for four openings at a time, so that the switches wander soon from any regular grid,
-// and no rotation of a steady period stays in step with them.
+// Up to a sixteenth shorter, at random, the same in every run. A quarter of it is drawn for each opening: equal
+// intervals could hold a whole number of periods of a vibration, and every switch would then meet it at the same phase
+// and leave the same error. Three quarters are drawn for four openings at a time, so that the switches wander soon from
+// any regular grid, and no rotation of a steady period stays in step with them.
 std::int64_t varied(std::int64_t interval_ticks, std::uint32_t n_openings) noexcept {
     const std::uint32_t part = (3 * scattered(n_openings / run_of_openings) + scattered(~n_openings)) / 4;  // of 65536
     const std::int64_t sixteenth = interval_ticks / 16;

@@ -37,7 +37,8 @@ double largest_scale(std::span<const ChiSquarePart> parts) {
     return largest;
 }
 
-// Least of s x + K(s) - ln |s| between `low` and `high`, neither of which is reached; its slope rises from -inf to +inf.
+// Least of s x + K(s) - ln |s| between `low` and `high`, neither of which is reached; its slope rises from -inf to
+// +inf.
 double saddle(std::span<const ChiSquarePart> parts, double x, double low, double high) {
     for (int step = 0; step < 200 && high - low > 1e-6 * std::abs(low + high); ++step) {
         const double s = low > 0.0 && high > 2.0 * low ? std::sqrt(low * high) : 0.5 * (low + high);
@@ -46,8 +47,8 @@ double saddle(std::span<const ChiSquarePart> parts, double x, double low, double
     return 0.5 * (low + high);
 }
 
-// The share that scatters little. Below it a path that bends towards negative s would climb; without a bend so many degrees of
-// freedom are a quick descent too.
+// The share that scatters little. Below it a path that bends towards negative s would climb; without a bend so many
+// degrees of freedom are a quick descent too.
 double nearly_constant(std::span<const ChiSquarePart> parts) {
     constexpr double many = 8.0;
     double sum = 0.0;

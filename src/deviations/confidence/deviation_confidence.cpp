@@ -65,7 +65,8 @@ double skewness_p_of(const TermCorrelation& rho) {
     return pairs * pairs * pairs / (triples * triples);
 }
 
-// In one averaging time: it need not be known better than to a few percent. Flicker of the angle is correlated in spikes.
+// In one averaging time: it need not be known better than to a few percent. Flicker of the angle is correlated in
+// spikes.
 std::int64_t skewness_steps(int noise, bool modified) { return noise == 1 && !modified ? 128 : 8; }
 
 // White noise of the angle, not averaged: only whole averaging times are correlated.
@@ -112,8 +113,8 @@ VarianceLaw at_least_one(const VarianceLaw& law) {
     return {.edf = edf, .skewness_p = std::clamp(law.skewness_p, std::min(edf, 0.5), edf), .parts = law.parts};
 }
 
-// V^h is nearly normal for h = 1 - 2/3 sqrt(edf/p). D. Jensen, H. Solomon, J. Amer. Statist. Assoc. 67 (1972) 898; h = 1/3 of
-// chi-square is that of Wilson and Hilferty. 0 where the power would be of a negative number.
+// V^h is nearly normal for h = 1 - 2/3 sqrt(edf/p). D. Jensen, H. Solomon, J. Amer. Statist. Assoc. 67 (1972) 898; h =
+// 1/3 of chi-square is that of Wilson and Hilferty. 0 where the power would be of a negative number.
 double power_quantile(double edf, double p, double z) {
     const double h = 1.0 - 2.0 / 3.0 * std::sqrt(edf / p);
     if (std::abs(h) < 1e-3) return std::exp(z * std::sqrt(2.0 / edf) - 1.0 / edf);
@@ -146,8 +147,8 @@ VarianceLaw law_of_all(DeviationKind kind, int noise, std::int64_t m, std::int64
     return span_of(kind, m) > n_intervals ? VarianceLaw{} : total_law(kind, noise, m, n_intervals);
 }
 
-// Beyond 64 samples a law depends on m only through T/tau, but for white and flicker noise of the angle, which depend on
-// the sampling. One of 1/64 of an averaging time is as good as the next.
+// Beyond 64 samples a law depends on m only through T/tau, but for white and flicker noise of the angle, which depend
+// on the sampling. One of 1/64 of an averaging time is as good as the next.
 struct Question {
     DeviationKind kind;
     int noise;

@@ -17,10 +17,11 @@ namespace zlg::deviations {
 // noise + 2. C. Greenhall, W. Riley (PTTI 2003), s_w.
 [[nodiscard]] double continuous_covariance(double t, int noise);
 
-// Covariances of the d-th differences at distance m of the angle, or of the angle averaged over m, up to a common factor.
+// Covariances of the d-th differences at distance m of the angle, or of the angle averaged over m, up to a common
+// factor.
 //
-// Up to m = 64 of the sampled law |2 sin(pi f)|^noise; beyond, where sampling makes no difference but to flicker of the angle,
-// of the continuous one.
+// Up to m = 64 of the sampled law |2 sin(pi f)|^noise; beyond, where sampling makes no difference but to flicker of the
+// angle, of the continuous one.
 class DifferenceCovariance {
 public:
     // noise  2 .. -4 with noise + 2 d > 1; d: 2 or 3.

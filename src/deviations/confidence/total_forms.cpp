@@ -54,8 +54,8 @@ double remembered(const Thinned& thin) {
     return known[thin] = thin.is_piecewise() ? piecewise_bias(thin) : mirrored_end(thin);
 }
 
-// What thinned terms are, averaged over the samples between them, and what averaging takes away: so many degrees of freedom
-// that it is next to constant.
+// What thinned terms are, averaged over the samples between them, and what averaging takes away: so many degrees of
+// freedom that it is next to constant.
 Parts with_rest(Parts parts, double whole, double dof) {
     double mean = 0.0;
     for (const auto& part : parts) mean += part.scale;
@@ -112,8 +112,8 @@ Parts parts_of_total(const Thinned& thin, double starts, std::int64_t n_thinned)
     return thin.is_piecewise() ? piecewise_parts(thin, starts, n_thinned) : mirrored_parts(thin, n_thinned);
 }
 
-// White angle noise of an end of the record, or of the pieces, is in all that is mirrored there; the rest is independent from
-// sample to sample, of which thinning left only some.
+// White angle noise of an end of the record, or of the pieces, is in all that is mirrored there; the rest is
+// independent from sample to sample, of which thinning left only some.
 void undo_thinning(const Thinned& thin, double starts, std::int64_t n_thinned, Parts& parts) {
     if (thin.kind == DeviationKind::mtotdev || thin.noise != 2) return;
     const double more = static_cast<double>(thin.m) / static_cast<double>(thin.steps);

@@ -1,5 +1,6 @@
 #pragma once
-// A variance of few degrees of freedom as what it is: a sum of squares of independent normal numbers, each with its own weight.
+// A variance of few degrees of freedom as what it is: a sum of squares of independent normal numbers, each with its own
+// weight.
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +16,8 @@ inline constexpr double max_averagings = 14.0;
 
 using Parts = std::vector<ChiSquarePart>;
 
-// For scale >= 0 in any order: normalised to the mean 1; the smallest are merged into one of the right mean and variance.
+// For scale >= 0 in any order: normalised to the mean 1; the smallest are merged into one of the right mean and
+// variance.
 [[nodiscard]] Parts condensed(Parts parts);
 
 // The law of parts with the mean 1.
@@ -36,8 +38,8 @@ struct DifferenceTerms {
 
 // Of all differences of a record, from the eigenvalues of their covariance.
 //
-// Terms from every start are averaged over cells, 128 at most; what that leaves out has the share and the degrees of freedom
-// that make the mean and, with `edf`, the variance of the whole right.
+// Terms from every start are averaged over cells, 128 at most; what that leaves out has the share and the degrees of
+// freedom that make the mean and, with `edf`, the variance of the whole right.
 [[nodiscard]] VarianceLaw law_of_difference_parts(const DifferenceTerms& terms, double edf);
 
 }  // namespace zlg::deviations

@@ -24,8 +24,8 @@ ZLG_VECTOR_WIDTHS double sum_of_second_differences(const double* a, std::int64_t
         m, [=](std::int64_t i) __attribute__((always_inline)) { return (c[i] - b[i]) - (b[i] - a[i]); });
 }
 
-// Squares of D over n starts, n a multiple of 8; `first` is D at their beginning and becomes D at their end. D_i follows from the
-// one before by what enters and what leaves: running sums of eight in three steps.
+// Squares of D over n starts, n a multiple of 8; `first` is D at their beginning and becomes D at their end. D_i
+// follows from the one before by what enters and what leaves: running sums of eight in three steps.
 ZLG_VECTOR_WIDTHS double squares_of_eights(const double* a, std::int64_t m, std::int64_t n, double& first) {
     const Eight zero = {};
     Eight before = zero + first, squares = zero;

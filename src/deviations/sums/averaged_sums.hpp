@@ -13,9 +13,9 @@ namespace zlg::deviations {
 //
 //   D_i = 1/m sum_{j<m} d_{i+j},  d_j = (x_{j+2m} - 2 x_{j+m} + x_j)/m
 //
-// Increments and rates with gaps: each half of D_i is a mean of the known samples under the triangular weights that it has
-// without gaps; it counts where least_known_ratio of the weights is known. Phase: D_i is the mean of the d_j that are
-// known, where least_known_ratio of them is.
+// Increments and rates with gaps: each half of D_i is a mean of the known samples under the triangular weights that it
+// has without gaps; it counts where least_known_ratio of the weights is known. Phase: D_i is the mean of the d_j that
+// are known, where least_known_ratio of them is.
 [[nodiscard]] std::vector<TermSum> averaged_sums(const RecordView& view, std::span<const std::int64_t> factors,
                                                  int threads);
 

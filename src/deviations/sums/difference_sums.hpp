@@ -20,8 +20,8 @@ struct TermSum {
     }
 };
 
-// The arrays of a record, and how much of a window must be known. Averaging times m of what follows count entries of the
-// arrays, which may be `stride` intervals apart; then they are sums of as many angles for averaged_sum.
+// The arrays of a record, and how much of a window must be known. Averaging times m of what follows count entries of
+// the arrays, which may be `stride` intervals apart; then they are sums of as many angles for averaged_sum.
 struct RecordView {
     const double* angle = nullptr;
     const std::uint32_t* known = nullptr;  // none: all known, or phase with NaN
@@ -39,8 +39,8 @@ struct RecordView {
 // Known intervals that a window of m needs.
 [[nodiscard]] double min_known(std::int64_t m, double ratio);
 
-// Terms that are summed at once, in memory and as a stream: the same sums are added in both, and what averaging times share stays in
-// the cache.
+// Terms that are summed at once, in memory and as a stream: the same sums are added in both, and what averaging times
+// share stays in the cache.
 inline constexpr std::int64_t block_starts = 4096;
 
 // Terms begin .. end-1 of one averaging time, `order` 2 or 3: those that begin at border i.

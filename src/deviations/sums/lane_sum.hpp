@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-// A function with this mark is compiled for several vector widths, and the processor's own is taken when it is called. The
-// sanitizers start before such a choice can be made.
+// A function with this mark is compiled for several vector widths, and the processor's own is taken when it is called.
+// The sanitizers start before such a choice can be made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define ZLG_VECTOR_WIDTHS __attribute__((target_clones("avx512f", "avx2", "default")))

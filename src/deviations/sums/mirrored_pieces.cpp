@@ -12,8 +12,8 @@ constexpr std::int64_t pieces_of_task = 64;
 
 // Work space for one piece of L = 3m values.
 //
-// Continued evenly at both ends it has the period 2L, and the differences that begin at s and at -L - s are equal; so of the
-// 2L starts only those from -L/2 to L/2 are computed. With Q the running sum of the continued piece,
+// Continued evenly at both ends it has the period 2L, and the differences that begin at s and at -L - s are equal; so
+// of the 2L starts only those from -L/2 to L/2 are computed. With Q the running sum of the continued piece,
 //
 //   D_s = (Q(s+3m) - 3 Q(s+2m) + 3 Q(s+m) - Q(s))/m
 class Piece {

@@ -73,8 +73,8 @@ void check_raw(ForeignLook& look) {
     if (m.has("edge_offset_ticks") && !m.has("timer_hz")) look.missing.push_back("timer_hz=... (of edge_offset_ticks)");
 }
 
-// The axis, where the file leaves no choice: the only column of a rate by its unit, or the only column of numbers. Returns whether
-// its name says its unit, or that of each that it may be.
+// The axis, where the file leaves no choice: the only column of a rate by its unit, or the only column of numbers.
+// Returns whether its name says its unit, or that of each that it may be.
 bool take_axis(ForeignLook& look, std::int64_t times) {
     std::vector<const ForeignColumn*> numbers, rates;
     for (const ForeignColumn& column : look.table.columns) {

@@ -23,7 +23,8 @@ struct ForeignArray {
     std::size_t rows = 0;  // of a matrix the longer side
     std::size_t columns = 1;
     bool may_be_rounded = false;  // whole numbers of 8 bytes
-    // The first rows, one column behind the other. `is_used`: numbers are made of them, and must be what they stand for.
+    // The first rows, one column behind the other. `is_used`: numbers are made of them, and must be what they stand
+    // for.
     //
     // errors  IoError; FormatError: damaged, or, used, scaled by an attribute.
     std::function<std::vector<double>(std::size_t n_rows, bool is_used)> read;
@@ -35,8 +36,8 @@ struct ForeignArray {
 // A matrix whose shorter side is longer is none of a record.
 inline constexpr std::size_t max_matrix_columns = 1000;
 
-// The arrays of the commonest length as columns; the others are left out with a note, before `notes` of what the reader left
-// out itself.
+// The arrays of the commonest length as columns; the others are left out with a note, before `notes` of what the reader
+// left out itself.
 //
 // errors  MappingError: two lengths are equally common; FormatError: no array.
 [[nodiscard]] ForeignTable table_of_arrays(const std::string& path, const std::string& nature,

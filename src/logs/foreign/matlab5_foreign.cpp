@@ -1,5 +1,5 @@
-// MATLAB 5: real matrices, and those in structures. By MathWorks' description of the format, and not by libmatio, which takes
-// the memory that a file asks for and gives what nobody wrote where bytes are missing.
+// MATLAB 5: real matrices, and those in structures. By MathWorks' description of the format, and not by libmatio, which
+// takes the memory that a file asks for and gives what nobody wrote where bytes are missing.
 
 #include <fmt/format.h>
 
@@ -151,7 +151,8 @@ private:
 
     void leave_out(const std::string& name) { note(name, "is left out: it is no real matrix"); }
 
-    // Flags, dimensions, name, and the numbers or, of structures and cells, matrices. Of an inner one the name is given.
+    // Flags, dimensions, name, and the numbers or, of structures and cells, matrices. Of an inner one the name is
+    // given.
     void take_matrix(const Piece& bytes, std::string name, int depth) {
         budget_.take_object();
         if (bytes.size() == 0) return;  // a field that holds nothing

@@ -15,8 +15,8 @@ struct NpyHead {
     std::vector<std::size_t> shape;
 };
 
-// Any spelling that Python has for texts without a backslash, True, False and tuples of decimal numbers; empty: another type, or
-// no such dictionary.
+// Any spelling that Python has for texts without a backslash, True, False and tuples of decimal numbers; empty: another
+// type, or no such dictionary.
 [[nodiscard]] std::optional<NpyHead> npy_head(std::string_view text);
 
 }  // namespace zlg::logs

@@ -22,8 +22,8 @@ double simplest(double step, double tolerance) {
     return step;
 }
 
-// The rows about a hole must be as far apart as their number says, the missing ones with them: stamps that come late after a
-// pause of the program that wrote them look like a hole, and are none.
+// The rows about a hole must be as far apart as their number says, the missing ones with them: stamps that come late
+// after a pause of the program that wrote them look like a hole, and are none.
 void check_holes(const TextColumn& times, const RowTimes& found, const std::string& path) {
     constexpr std::size_t reach = 12;
     const std::vector<double>& t = times.values;
@@ -57,7 +57,8 @@ void check_local_time(const TextColumn& times, const RowTimes& found, const std:
     }
 }
 
-// A row that stands twice would shift all that follow by one. Stamps that are merely late or coarse make up for it beside.
+// A row that stands twice would shift all that follow by one. Stamps that are merely late or coarse make up for it
+// beside.
 void check_repetitions(const TextColumn& times, const std::string& path) {
     const std::vector<double>& t = times.values;
     std::size_t n_zero = 0;
@@ -75,7 +76,8 @@ void check_repetitions(const TextColumn& times, const std::string& path) {
     }
 }
 
-// The rows of a window that has no hole must be as far apart as those of the whole file; and a hole at every row is none.
+// The rows of a window that has no hole must be as far apart as those of the whole file; and a hole at every row is
+// none.
 void check_one_rate(const TextColumn& times, const RowTimes& found, const std::string& path) {
     constexpr std::size_t window = 32, most_holes = 8;
     const std::vector<double>& t = times.values;
@@ -121,8 +123,8 @@ double width_about(std::span<const double> t, double step) {
     return high - low;
 }
 
-// Rounded stamps of rows that are no whole number of places apart show rows that are missing only where the stamps are all
-// within a place of an even course.
+// Rounded stamps of rows that are no whole number of places apart show rows that are missing only where the stamps are
+// all within a place of an even course.
 void check_coarse(const TextColumn& times, RowTimes& found, const std::string& path) {
     const std::vector<double>& t = times.values;
     const double mean = (t.back() - t.front()) / static_cast<double>(t.size() - 1);

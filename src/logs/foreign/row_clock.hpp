@@ -35,8 +35,8 @@ void refuse_unused_times(const ForeignTable& table, const Mapping& mapping);
 
 // `read` is the whole table; presumed_step_s: what else is known of the step, in place of rate_hz.
 //
-// errors  MappingError: times that contradict what is said; FormatError: times that go back, repeat, or do not say where rows are
-// missing.
+// errors  MappingError: times that contradict what is said; FormatError: times that go back, repeat, or do not say
+// where rows are missing.
 [[nodiscard]] RowClock row_clock(const TextTable& read, const std::string& path, const Mapping& mapping,
                                  std::optional<double> presumed_step_s);
 

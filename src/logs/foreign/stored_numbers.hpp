@@ -40,7 +40,8 @@ enum class NumberType { i1, u1, i2, u2, i4, u4, i8, u8, f4, f8 };
 [[nodiscard]] std::size_t size_of(NumberType type);
 
 struct StoredMatrix {
-    // n times m numbers, of which those of the last index, or else of the first, lie side by side: the longer side are the rows.
+    // n times m numbers, of which those of the last index, or else of the first, lie side by side: the longer side are
+    // the rows.
     void take_shape(std::size_t n, std::size_t m, bool last_index_follows);
 
     Piece bytes;

@@ -51,8 +51,8 @@ double way_of(const std::vector<Step>& steps) {
 
 }  // namespace
 
-// A jump of a whole range is a register or a circle that began anew: of a range that is known, where the steps beside it
-// are small; of the whole height of a saw against its way.
+// A jump of a whole range is a register or a circle that began anew: of a range that is known, where the steps beside
+// it are small; of the whole height of a saw against its way.
 void refuse_wraps(const ForeignLook& look, const TextColumn& column, const AngleUnit& unit) {
     const bool is_angle = look.mapping.text("holds") == "angle";
     // A rate or an increment is a register where all of it are whole numbers.

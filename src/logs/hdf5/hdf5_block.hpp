@@ -15,8 +15,8 @@
 
 namespace zlg::logs::hdf5 {
 
-// The index of the first of n values that the rule does not allow; n: it allows all. Looks for it only when there is one, so
-// that the loop over a good column is vectorised.
+// The index of the first of n values that the rule does not allow; n: it allows all. Looks for it only when there is
+// one, so that the loop over a good column is vectorised.
 template <class T, class Rule>
 std::size_t first_bad(const T* values, std::size_t n, const Rule& rule, std::int64_t first_row) {
     const auto is_good = [&](std::size_t i) {
@@ -45,8 +45,8 @@ public:
     [[nodiscard]] std::size_t good_rows() const { return good_rows_; }
     [[nodiscard]] bool is_damaged() const { return good_rows_ < n_; }
 
-    // Reads the block of a column and judges it, if the log has the column. With several values in a row, which only columns
-    // of reals have, the rule does not ask for the number of the row.
+    // Reads the block of a column and judges it, if the log has the column. With several values in a row, which only
+    // columns of reals have, the rule does not ask for the number of the row.
     template <class T, class Rule>
     void take(Column<T>& column, const Rule& rule) {
         if (!column.is_open()) return;

@@ -1,6 +1,6 @@
 #pragma once
-// The pieces in which a data set is stored: the library unpacks a whole one however much that makes, by whatever filter the
-// file names, and hands out zeros for one that was never written.
+// The pieces in which a data set is stored: the library unpacks a whole one however much that makes, by whatever filter
+// the file names, and hands out zeros for one that was never written.
 
 #include <array>
 #include <cstddef>

@@ -1,5 +1,6 @@
 #pragma once
-// What our drivers of the HDF5 library share: a file that stands for a `Subject`, a plain value which says where its bytes are.
+// What our drivers of the HDF5 library share: a file that stands for a `Subject`, a plain value which says where its
+// bytes are.
 
 #include <sys/types.h>
 

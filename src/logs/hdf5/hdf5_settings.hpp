@@ -9,8 +9,8 @@
 
 namespace zlg::logs::hdf5 {
 
-// Writes /config and format_version, and of the settings tick_s and scale_arcsec, with or without `gyro.`, the attributes
-// of that name.
+// Writes /config and format_version, and of the settings tick_s and scale_arcsec, with or without `gyro.`, the
+// attributes of that name.
 //
 // errors  FormatError: a setting that is no text of one line; IoError.
 void add_settings(TableWriter& table, const Settings& settings, const FormatVersion& version);

@@ -1,8 +1,8 @@
 #pragma once
 // Where the HDF5 library writes a growing log: an open file that takes no more bytes after the first failure.
 //
-// HDF5 1.10 cannot close a file whose last writes fail: it hangs or complains at exit. So a failed write is kept from it:
-// from then on nothing reaches the file, which stays as if the program had been killed at that moment, and what was
+// HDF5 1.10 cannot close a file whose last writes fail: it hangs or complains at exit. So a failed write is kept from
+// it: from then on nothing reaches the file, which stays as if the program had been killed at that moment, and what was
 // flushed before stays readable. The writer asks for `error` after each step.
 
 #include <hdf5.h>

@@ -19,8 +19,8 @@ namespace zlg::logs::hdf5 {
 // Rows that are written at once, and the length of a chunk: large enough that a call costs nothing beside the bytes.
 inline constexpr std::size_t block_rows = 16384;
 
-// Made in three steps: objects are added, `start` opens the file for readers, rows follow: each is written into the buffers
-// of the columns, at row(), and ended.
+// Made in three steps: objects are added, `start` opens the file for readers, rows follow: each is written into the
+// buffers of the columns, at row(), and ended.
 class TableWriter {
     struct Column {
         Handle set;
@@ -73,8 +73,8 @@ public:
         if (++n_ == room_) flush();
     }
 
-    // Appends the rows of all buffers, and makes them visible to readers. Rows that could not be written are lost; a later
-    // call fails for the same reason.
+    // Appends the rows of all buffers, and makes them visible to readers. Rows that could not be written are lost; a
+    // later call fails for the same reason.
     //
     // errors  IoError: names PATH.part and the system's reason; what was appended before stays readable.
     void flush();
@@ -85,7 +85,8 @@ public:
     }
     [[nodiscard]] const std::string& part_path() const { return part_.part(); }
 
-    // Flushes, closes the HDF5 file and gives it its name; without that it stays marked as not complete. errors  IoError.
+    // Flushes, closes the HDF5 file and gives it its name; without that it stays marked as not complete. errors
+    // IoError.
     void close();
 
 private:

@@ -20,8 +20,8 @@ public:
     // errors  IoError: as TableFile.
     Matlab5File(const std::string& path, bool force);
 
-    // A matrix of doubles by columns, of `rows` rows. Its numbers may be stored in a shorter type that holds them; MATLAB makes
-    // doubles of them.
+    // A matrix of doubles by columns, of `rows` rows. Its numbers may be stored in a shorter type that holds them;
+    // MATLAB makes doubles of them.
     //
     // errors  IoError.
     template <class Number>

@@ -14,8 +14,8 @@ struct DateTime {
     bool has_zone = false;
 };
 
-// 2026-11-24T08:30:00.005Z, 2026-11-24 08:30:00,005+01:00, 24.11.2026 08:30:00, 08:30:00.005. A date with strokes is none: which
-// number is the month it does not say.
+// 2026-11-24T08:30:00.005Z, 2026-11-24 08:30:00,005+01:00, 24.11.2026 08:30:00, 08:30:00.005. A date with strokes is
+// none: which number is the month it does not say.
 [[nodiscard]] std::optional<DateTime> date_time(std::string_view text);
 
 }  // namespace zlg::logs

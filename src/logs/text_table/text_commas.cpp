@@ -119,8 +119,8 @@ bool is_unit(std::string_view name) {
     return std::ranges::find(units, text::lower_case(name)) != units.end();
 }
 
-// The columns that the header names without leaving their number open: none where a unit stands for itself among the names,
-// or a comma among them may be one of prose.
+// The columns that the header names without leaving their number open: none where a unit stands for itself among the
+// names, or a comma among them may be one of prose.
 std::vector<bool> named_columns(PartedLines& lines, const Dialect& dialect) {
     std::vector<bool> named(dialect.n_fields, false);
     if (!dialect.has_header || dialect.names.size() != dialect.n_fields) return named;

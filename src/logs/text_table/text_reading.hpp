@@ -23,7 +23,8 @@ struct Reading {
     bool names_hold_commas = false;
 };
 
-// The lines with that separator and that mark. It never fails: the verdict says how far it came, the reason what is wrong.
+// The lines with that separator and that mark. It never fails: the verdict says how far it came, the reason what is
+// wrong.
 [[nodiscard]] Reading read_as(char separator, Mark mark, PartedLines& lines, const std::string& path,
                               const TextLayout& layout);
 

@@ -50,7 +50,8 @@ private:
     std::vector<std::optional<std::string>> suspicions_;  // another way to read the same, in words; of each reading
 };
 
-// errors  FormatError: no way to read the lines as a table, or more than one; both are named, with the keys that decide.
+// errors  FormatError: no way to read the lines as a table, or more than one; both are named, with the keys that
+// decide.
 [[nodiscard]] Dialect recognise_dialect(const FirstLines& sample, const std::string& path, const TextLayout& layout);
 
 }  // namespace zlg::logs

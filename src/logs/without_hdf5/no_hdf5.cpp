@@ -1,4 +1,5 @@
-// The reader of CSV logs alone, without the library of HDF5, which is larger than the lab page: a log in HDF5 is refused.
+// The reader of CSV logs alone, without the library of HDF5, which is larger than the lab page: a log in HDF5 is
+// refused.
 #include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>

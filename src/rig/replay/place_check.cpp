@@ -19,26 +19,27 @@ constexpr double most_square = 9.0;
 // Places that are spread over the count. Where they are not, a vibration below a count may move them and no count.
 constexpr double least_spread = 0.5;
 
-// Beyond that part of rough differences a motion is too large for the mean to tell right from wrong: of a Gaussian one, from two
-// units on, where the mean of 4096 differences has a standard deviation of 0.13 about 1 or -1.
+// Beyond that part of rough differences a motion is too large for the mean to tell right from wrong: of a Gaussian one,
+// from two units on, where the mean of 4096 differences has a standard deviation of 0.13 about 1 or -1.
 constexpr double most_rough = 0.1;
 
-// Counts that move in one of 20 differences, and places a tenth as much at most: in a vibration at a fraction of the rate of the
-// ticks, right ones may move half as much.
+// Counts that move in one of 20 differences, and places a tenth as much at most: in a vibration at a fraction of the
+// rate of the ticks, right ones may move half as much.
 constexpr double least_moving = 0.05;
 constexpr double most_still = 0.01;  // of the squares
 
-// An angle that has been in every eighth of a count for about the same time: what is left of a motion then knows nothing of the
-// place, not even a vibration below a count.
+// An angle that has been in every eighth of a count for about the same time: what is left of a motion then knows
+// nothing of the place, not even a vibration below a count.
 constexpr double least_even = 0.75;
 constexpr double most_even = 1.25;
 
-// <x q> over <q^2> and over <x^2>. Noise of 0.05 counts makes the first 0.03; half a place makes it -1, one random place in ten
-// 0.1. Over <x^2> it is small where x is a motion, whatever that is.
+// <x q> over <q^2> and over <x^2>. Noise of 0.05 counts makes the first 0.03; half a place makes it -1, one random
+// place in ten 0.1. Over <x^2> it is small where x is a motion, whatever that is.
 constexpr double most_with_place = 0.05;
 constexpr double most_of_motion = 0.3;
 
-// Where none of these bits is ever set, places come in steps of 1/64 count, whose rounding is three times the noise of a reading.
+// Where none of these bits is ever set, places come in steps of 1/64 count, whose rounding is three times the noise of
+// a reading.
 constexpr std::uint32_t fine_bits = 0x3ff;
 
 }  // namespace

@@ -56,8 +56,8 @@ public:
     [[nodiscard]] double shaped_square() const { return shaped_square_; }  // int helicity dl^2 shape dt
 
 private:
-    // Simpson's rule: the ends of the pieces with 2, their middles with 4, the outer ends with 1, over 6 for each piece. The
-    // sums of ends and of middles, in two lanes each, are sums of whole vectors.
+    // Simpson's rule: the ends of the pieces with 2, their middles with 4, the outer ends with 1, over 6 for each
+    // piece. The sums of ends and of middles, in two lanes each, are sums of whole vectors.
     static double mean_square(std::span<const double> length_lambda, double centre_lambda) {
         const auto sq = [&](std::size_t k) {
             return (length_lambda[k] - centre_lambda) * (length_lambda[k] - centre_lambda);

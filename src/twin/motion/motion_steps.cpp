@@ -6,8 +6,8 @@
 namespace zlg::twin {
 namespace {
 
-// The integral of a rate that is constant from step to step, over that of the base. Where no step lies before t1 the increment is that
-// of the base to the last bit.
+// The integral of a rate that is constant from step to step, over that of the base. Where no step lies before t1 the
+// increment is that of the base to the last bit.
 //
 // cost  of increment_arcsec: a step for each that lies after t0, from the newest back.
 class Steps final : public Motion::Source {

@@ -6,8 +6,8 @@
 //
 // helicity and dl are those of the mode that lases: with the wrong mode the loop pushes away. Without two-way light the
 // integrator holds. With the light of a laser, its own signal takes the place of helicity dl, whatever is lit. Where
-// nothing clips or bends, the motion is the exponential of a matrix, over one step or over any number of them; elsewhere it
-// is Runge-Kutta.
+// nothing clips or bends, the motion is the exponential of a matrix, over one step or over any number of them;
+// elsewhere it is Runge-Kutta.
 
 #include <cmath>
 #include <memory>
@@ -41,8 +41,9 @@ public:
     [[nodiscard]] State step(State state, const Mode& mode, int polarity, double drift_start_lambda,
                              double drift_end_lambda) const;
 
-    // All steps of a half at once, if the loop is sure to stay linear at the end of each of them; each length is that of its steps to
-    // rounding. Steps of more than a tenth of a time constant are taken one by one: between their ends the loop could do more than there.
+    // All steps of a half at once, if the loop is sure to stay linear at the end of each of them; each length is that
+    // of its steps to rounding. Steps of more than a tenth of a time constant are taken one by one: between their ends
+    // the loop could do more than there.
     //
     // length_lambda  written: the perimeter at the start and after each step, n_steps + 1 numbers.
     // return         whether it was done; if not, neither `state` nor the lengths have changed.

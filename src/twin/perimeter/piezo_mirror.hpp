@@ -5,10 +5,10 @@
 //   dc_k/dt = (a y - c_k)/tau_k         creep of the stroke, tau_k = 10 ms .. 10^4 s, one each decade
 //   x'' + 2 zeta w x' + w^2 x = w^2 (y + sum_k c_k)
 //
-// All lengths in wavelengths, voltages as the change of perimeter that an ideal piezo makes of them, both from the middle
-// of the range. Thresholds r_i lie evenly between 0 and half of the stroke S of the loop whose width, over its height, is
-// the hysteresis h. The weights follow from h and from what the half-wave voltage means: a loop of that stroke moves the
-// perimeter by half a wavelength. Before the first move no play has a memory, and nothing creeps.
+// All lengths in wavelengths, voltages as the change of perimeter that an ideal piezo makes of them, both from the
+// middle of the range. Thresholds r_i lie evenly between 0 and half of the stroke S of the loop whose width, over its
+// height, is the hysteresis h. The weights follow from h and from what the half-wave voltage means: a loop of that
+// stroke moves the perimeter by half a wavelength. Before the first move no play has a memory, and nothing creeps.
 
 #include <array>
 

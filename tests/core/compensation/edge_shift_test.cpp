@@ -96,8 +96,8 @@ TEST(EdgeShift, AConstantRateIsTheSameInEveryTickWhateverTheEdgesDo) {
     }
 }
 
-// What one tick gives away the next one gets, whatever was counted: the sum is that of the counts less the area, but for
-// what lies beyond the last even end.
+// What one tick gives away the next one gets, whatever was counted: the sum is that of the counts less the area, but
+// for what lies beyond the last even end.
 TEST(EdgeShift, TheSumLosesNothing) {
     EdgeShiftState s;
     Random random{4};
@@ -165,7 +165,8 @@ TEST(EdgeShift, SaysWhatTheShiftsAddToTheDifferenceOfTheHalves) {
     }
 }
 
-// A tick that the edges leave no time has no rate; what it overflows is forgotten, and the next ones are corrected again.
+// A tick that the edges leave no time has no rate; what it overflows is forgotten, and the next ones are corrected
+// again.
 TEST(EdgeShift, ANumberThatOverflowsSpoilsNoLaterTick) {
     EdgeShiftState s;
     EXPECT_EQ(step(config, s, {.counts = 7, .offset_end_ticks = -50000}).value_arcsec, 3.263 * 7);

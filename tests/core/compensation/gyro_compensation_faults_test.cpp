@@ -1,4 +1,5 @@
-// What a fault leaves in the ticks beside those that the control refuses, and what an opened loop leaves where nothing is subtracted.
+// What a fault leaves in the ticks beside those that the control refuses, and what an opened loop leaves where nothing
+// is subtracted.
 
 #include <zlg/core/gyro_compensation.hpp>
 
@@ -63,7 +64,8 @@ TEST(FaultEdges, AMissedHalfIsNoFaultOfTheGyro) {
     for (std::size_t t = 190; t < 210; ++t) EXPECT_NEAR(sigma_of(all, t), std::sqrt(of_count_arcsec2), 1e-3) << t;
 }
 
-// Without its bias a gyro at rest counts nothing. What tells it from a missed half is that the next one has only its own counts.
+// Without its bias a gyro at rest counts nothing. What tells it from a missed half is that the next one has only its
+// own counts.
 TEST(FaultEdges, AFaultInWhichNothingIsCountedMayEndUnseenToo) {
     Halves halves = at_rest(300, true);
     for (const std::size_t h : {400u, 401u, 402u, 403u}) {
@@ -73,8 +75,8 @@ TEST(FaultEdges, AFaultInWhichNothingIsCountedMayEndUnseenToo) {
     EXPECT_GT(sigma_of(run(without_walk(), halves), 202), std::sqrt(unseen_arcsec2));
 }
 
-// The error of an unknown threshold is the same in all ticks: those of the gap have it from the points beside it, and with those of
-// the re-lock it adds up in the switch.
+// The error of an unknown threshold is the same in all ticks: those of the gap have it from the points beside it, and
+// with those of the re-lock it adds up in the switch.
 TEST(FaultEdges, ASwitchHoldsTheUnknownLockInOfItsTicks) {
     GyroCompensationConfig config = without_walk();
     config.lock_in.sigma = Hertz{300.0};

@@ -1,4 +1,5 @@
-// Records with the place within the fringe: what they are worth, and what becomes of an angle whose phase comes and goes.
+// Records with the place within the fringe: what they are worth, and what becomes of an angle whose phase comes and
+// goes.
 
 #include <zlg/core/gyro_compensation.hpp>
 

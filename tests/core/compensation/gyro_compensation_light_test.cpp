@@ -28,7 +28,8 @@ GyroCompensationConfig joint() {
     return c;
 }
 
-// A rotation that nobody foretells, with a detuning that decays from 0.2 wavelengths after the gap. What is recorded of it is half as much again as it was.
+// A rotation that nobody foretells, with a detuning that decays from 0.2 wavelengths after the gap. What is recorded of
+// it is half as much again as it was.
 //
 // return  sum of the corrected ticks after the gap: what the correction is off by.
 double error_after_gap(bool with_samples) {

@@ -72,8 +72,8 @@ TEST(GyroCompensationLit, TheSumsOfBothColumnsAreEqual) {
     EXPECT_NEAR(sums.delivered, sums.final, 1e-9);
 }
 
-// Lit halves that turn by nonsense are refused: the angle is that without them, to the last bit. It may be a rotation, and
-// sigma holds it.
+// Lit halves that turn by nonsense are refused: the angle is that without them, to the last bit. It may be a rotation,
+// and sigma holds it.
 TEST(GyroCompensationLit, NonsenseThatIsCalledLitIsRefused) {
     const GyroCompensationConfig config = config_of(RelockMethod::mean_square);
     Halves bad = records(config, true);

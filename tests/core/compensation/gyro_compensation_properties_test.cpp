@@ -278,7 +278,8 @@ HalfRecord any_half() {
             .valid = any(0, 15) > 0};
 }
 
-// A positive number of the configuration: as it is, an end of what `check` lets pass, or from between, of any magnitude.
+// A positive number of the configuration: as it is, an end of what `check` lets pass, or from between, of any
+// magnitude.
 template <class Set>
 void vary(GyroCompensationConfig& config, double least, double most, Set set) {
     const int place = any(-200, 150);  // in hundredths of the way, beyond the ends: an end

@@ -157,8 +157,8 @@ TEST(GyroCompensationSpan, ASwitchWithinTheMissedHalvesIsBridgedAsBefore) {
     }
 }
 
-// A rest with a switch behind which the gyro turns at once, by `turn_arcsec` within one half; the halves from `first` after the
-// closing on are waited for, and the light is read in them, or not.
+// A rest with a switch behind which the gyro turns at once, by `turn_arcsec` within one half; the halves from `first`
+// after the closing on are waited for, and the light is read in them, or not.
 struct Jerk {
     std::size_t first = 2;
     std::size_t n = 6;
@@ -214,8 +214,8 @@ TEST(GyroCompensationSpan, ASumOfAReLockIsNoSumOfTheRotation) {
     }
 }
 
-// The false angle of the settling detuning, up to 40 arcsec, is known to 3 % where the light was read, and is in sigma where it was
-// not. The roundings of two sums, up to 2 arcsec each, are in what differs from a gyro that rests.
+// The false angle of the settling detuning, up to 40 arcsec, is known to 3 % where the light was read, and is in sigma
+// where it was not. The roundings of two sums, up to 2 arcsec each, are in what differs from a gyro that rests.
 TEST(GyroCompensationSpan, AJerkInAReLockIsInTheSumOfTheCounter) {
     for (const BridgeMethod method : {BridgeMethod::automatic, BridgeMethod::quadratic}) {
         GyroCompensationConfig config = with(method);

@@ -21,8 +21,8 @@ LockInConfig known(double threshold_hz, double sigma_hz = 0.0) {
     return {.threshold = Hertz{threshold_hz}, .sigma = Hertz{sigma_hz}};
 }
 
-// psi' = 2 pi (f - L sin psi): one turn lasts the integral of 1/(f - L sin 2 pi u), by the sum over evenly spaced places, which
-// converges faster than any power.
+// psi' = 2 pi (f - L sin psi): one turn lasts the integral of 1/(f - L sin 2 pi u), by the sum over evenly spaced
+// places, which converges faster than any power.
 double mean_beat_hz(double f, double threshold_hz) {
     constexpr int n = 4096;
     if (std::abs(f) <= threshold_hz) return 0.0;
@@ -48,8 +48,8 @@ TEST(LostToLockIn, WithoutEdgesTheRotationComesBackFromRestToBeyondTheBias) {
     }
 }
 
-// Whole halves with linear edges: each border is passed at the rate of the rotation. Over the reversals L^2/2f has the principal
-// value (L^2 t_e/4 f0) ln|f_+/f_-| each.
+// Whole halves with linear edges: each border is passed at the rate of the rotation. Over the reversals L^2/2f has the
+// principal value (L^2 t_e/4 f0) ln|f_+/f_-| each.
 TEST(LostToLockIn, WithEdgesTheScaleErrorIsThatOfTheFormula) {
     constexpr double edge_s = 50e-6, bias_hz = 60e3, threshold_hz = 300.0;
     for (const double x : {1e-3, 0.1, 0.5, 0.9, 0.96, -0.96, 1.04, 1.5, 2.0}) {
@@ -93,7 +93,8 @@ TEST(LostToLockIn, AThresholdThatIsOffByItsSigmaLeavesOneSigma) {
     EXPECT_NEAR(std::abs(true_one.value - presumed.value) / std::sqrt(presumed.variance), 1.0, 1e-9);
 }
 
-// |f| <= L: the beat stands, and the rotation is wherever |f| allows. A reading of 0 has no sign to give anything back to.
+// |f| <= L: the beat stands, and the rotation is wherever |f| allows. A reading of 0 has no sign to give anything back
+// to.
 TEST(LostToLockIn, AHalfThatStandsHoldsItsThreshold) {
     for (double f = -290.0; f <= 290.0; f += 29.0) {
         const double r = 60e3 + f;

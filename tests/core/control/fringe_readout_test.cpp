@@ -235,8 +235,8 @@ TEST(FringeReadout, ASkewBetweenLatchAndSamplingIsReported) {
     }
 }
 
-// A rotation of 100 counts a half lets the beat turn back by 0.02 turns before every other latch; one of 300 by more than the
-// comparators follow. Unknown, it would be a skew of half of that.
+// A rotation of 100 counts a half lets the beat turn back by 0.02 turns before every other latch; one of 300 by more
+// than the comparators follow. Unknown, it would be a skew of half of that.
 TEST(FringeReadout, ARotationThatTurnsTheBeatBackIsNoSkew) {
     for (const std::int64_t counts : {200, -200, 600}) {
         for (const double skew : {0.0, 0.006}) {

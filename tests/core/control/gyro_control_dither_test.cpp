@@ -20,7 +20,8 @@ TEST_P(EitherLoop, EachRecordHoldsTheShiftThatWasCommandedForItsEnd) {
     EXPECT_EQ(loop.open_runs().size(), 5u);
 }
 
-// Whatever the law, the angle is that of the rotation to a count at the end of every tick: nothing is left of the shifts.
+// Whatever the law, the angle is that of the rotation to a count at the end of every tick: nothing is left of the
+// shifts.
 TEST_P(EitherLoop, ShiftedEdgesLeaveTheAngleAsItIs) {
     for (const DitherMethod method :
          {DitherMethod::none, DitherMethod::automatic, DitherMethod::paired, DitherMethod::random}) {

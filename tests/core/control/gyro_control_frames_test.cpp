@@ -107,7 +107,8 @@ TEST_P(EitherLoop, TheRecordHasTheModeThatTheFrameEchoes) {
     EXPECT_EQ(loop.half().record.mode, 1);
 }
 
-// The stage stands still, so that the light of the open loop is that of the mode before; nothing but the missed frame is dark.
+// The stage stands still, so that the light of the open loop is that of the mode before; nothing but the missed frame
+// is dark.
 TEST_P(EitherLoop, AMissedFrameIsNoDarkness) {
     for (const bool missed : {false, true}) {
         Loop loop{config_of(GetParam())};
@@ -136,7 +137,8 @@ Loop noisy_loop(LoopKind kind) {
 
 }  // namespace
 
-// The mean of two halves is free of a faded beam where the bias was reversed between them, not over a frame that was missed.
+// The mean of two halves is free of a faded beam where the bias was reversed between them, not over a frame that was
+// missed.
 TEST_P(EitherLoop, AMissedFrameLeavesTheNextHalfOfAFadedBeamWithoutADetuning) {
     Loop loop = noisy_loop(GetParam());
     std::mt19937 random{5};

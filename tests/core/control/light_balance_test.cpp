@@ -17,7 +17,8 @@ struct Beams {
     double b = 0.0;
 };
 
-// The light of both beams through its photodiodes: it falls by `droop` dl^2 from 1 on, and its signal is K times the detuning.
+// The light of both beams through its photodiodes: it falls by `droop` dl^2 from 1 on, and its signal is K times the
+// detuning.
 struct Gyro {
     double gain_b = 1.0;
     double offset_a = 0.0;
@@ -54,8 +55,8 @@ struct Gyro {
         for (int k = 0; k < 2 * n; ++k) half(detuning_lambda);
     }
 
-    // The detuning falls from `miss_lambda` with a time constant of 8 halves, and jumps where the bias is reversed: that is seen
-    // with this deviation.
+    // The detuning falls from `miss_lambda` with a time constant of 8 halves, and jumps where the bias is reversed:
+    // that is seen with this deviation.
     void relock(double miss_lambda, double deviation_lambda, auto& random) {
         std::normal_distribution<double> normal;
         state.has_last = false;  // the gap was dark
@@ -97,8 +98,9 @@ TEST(LightBalance, TheWeightFollowsWithinItsMemory) {
     EXPECT_NEAR((1.0 - gyro.state.weight) / 0.001, 1.0 - std::exp(-1.0), 0.005);
 }
 
-// Where the detuning stands in the sense of `follow` its signal falls from S_2/r to S_2 <= .01/(r^-2 - 1) within the tick, r = exp(-1/8):
-// the falls of a re-lock sum to at most .0106, of which the memory keeps a hundredth, and of earlier switches 1/e of it each.
+// Where the detuning stands in the sense of `follow` its signal falls from S_2/r to S_2 <= .01/(r^-2 - 1) within the
+// tick, r = exp(-1/8): the falls of a re-lock sum to at most .0106, of which the memory keeps a hundredth, and of
+// earlier switches 1/e of it each.
 TEST(LightBalance, ADetuningThatMovesInARelockDoesNotShiftTheWeight) {
     std::mt19937 random{3};
     constexpr double most = 2.0 * 0.0106 / 100.0 / (1.0 - 1.0 / std::numbers::e);

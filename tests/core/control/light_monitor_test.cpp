@@ -189,7 +189,8 @@ TEST(LightMonitor, ABeamThatFadesOnTheWayToALockIsSeenWithinAHalf) {
     }
 }
 
-// The field, the detuning and the isotopes change the light of a healthy laser by 0.3 %, however quiet its converters are.
+// The field, the detuning and the isotopes change the light of a healthy laser by 0.3 %, however quiet its converters
+// are.
 TEST(LightMonitor, LightThatFallsByAThirdOfAPercentIsNoFadedBeam) {
     for (const double lost : {0.003, 0.01}) {
         Light light = on_the_way(0.03);
@@ -312,7 +313,8 @@ TEST(LightMonitor, TheFirstLightAfterADarkHalfIsNoDetuning) {
     EXPECT_TRUE(later.has_mean_square && later.usable && !later.unbalanced);
 }
 
-// A half on its way to a lock, of which the loop takes a part in every sample from `corner` on, through such a discriminator.
+// A half on its way to a lock, of which the loop takes a part in every sample from `corner` on, through such a
+// discriminator.
 Judged relocking_half(double start_lambda, double part, std::size_t corner, double noise_lambda, const MonitorLimits& c,
                       std::mt19937& random) {
     static const DiscriminatorCurve curve = test::expansive_curve(31);

@@ -17,36 +17,41 @@ struct Row {
 TEST(ModeSwitchPhases, EachChangesAtTheHalfThatDecidesIt) {
     const auto start = &Sequence::start, track = &Sequence::track, settle = &Sequence::to_settling,
                come_back = &Sequence::to_returning;
-    for (
-        const Row& row : std::vector<Row>{
-            {"missed frames lose no lock", track, {{1000, missed}}, tracking, {}, tracking},
-            {"a loss is of halves in a row, and ends on a border",
-             track,
-             {{1, locked}, {23, dark}, {1, locked}, {23, dark}},
-             tracking,
-             {{2, dark}},
-             returning},
-            {"the tolerance itself", start, {{7, {0.02}}}, settling, {{1, {0.02}}}, tracking},
-            {"the negative tolerance", start, {{7, {-0.02}}}, settling, {{1, {-0.02}}}, tracking},
-            {"beyond it", start, {{7, {0.0201}}}, settling, {{1, {0.0201}}}, settling},
-            {"beyond the negative one", start, {{7, {-0.0201}}}, settling, {{1, {-0.0201}}}, settling},
-            // A half of 0.2 lifts the smoothed detuning to 0.025; 0.875 * 0.025 is outside too, 0.875^2 * 0.025 is not.
-            {"a lock is of 8 in a row",
-             start,
-             {{1, locked}, {1, detuned}, {8, locked}},
-             settling,
-             {{1, locked}},
-             tracking},
-            {"of 8 all within it", start, {{7, locked}, {1, detuned}, {8, locked}}, settling, {{1, locked}}, tracking},
-            {"darkness of the gap does not count", settle, {{1, missed}, {3, dark}}, settling, {{2, dark}}, returning},
-            {"darkness begins at the last light", settle, {{2, detuned}, {3, dark}}, settling, {{1, dark}}, returning},
-            {"darkness counts on a border", settle, {{1, locked}, {4, dark}}, settling, {{1, dark}}, returning},
-            {"dark halves are of a row", settle, {{3, dark}, {1, locked}, {3, dark}}, settling, {{2, dark}}, returning},
-            {"a missed frame spares a lock", settle, {{4, locked}, {1, missed}}, settling, {{4, locked}}, tracking},
-            {"no dark half does", settle, {{4, locked}, {1, dark}, {7, locked}}, settling, {{1, locked}}, tracking},
-            {"a lock in time's last half", settle, {{16, missed}, {7, locked}}, settling, {{1, locked}}, tracking},
-            {"a closing begins a lock afresh", settle, {{24 + 6, detuned}}, returning, {{8, locked}}, tracking},
-            {"a failed return", come_back, {{6 + 23, detuned}}, returning, {{1, detuned}}, searching}}) {
+    for (const Row& row : std::vector<Row>{
+             {"missed frames lose no lock", track, {{1000, missed}}, tracking, {}, tracking},
+             {"a loss is of halves in a row, and ends on a border",
+              track,
+              {{1, locked}, {23, dark}, {1, locked}, {23, dark}},
+              tracking,
+              {{2, dark}},
+              returning},
+             {"the tolerance itself", start, {{7, {0.02}}}, settling, {{1, {0.02}}}, tracking},
+             {"the negative tolerance", start, {{7, {-0.02}}}, settling, {{1, {-0.02}}}, tracking},
+             {"beyond it", start, {{7, {0.0201}}}, settling, {{1, {0.0201}}}, settling},
+             {"beyond the negative one", start, {{7, {-0.0201}}}, settling, {{1, {-0.0201}}}, settling},
+             // A half of 0.2 lifts the smoothed detuning to 0.025; 0.875 * 0.025 is outside too, 0.875^2 * 0.025 is
+             // not.
+             {"a lock is of 8 in a row",
+              start,
+              {{1, locked}, {1, detuned}, {8, locked}},
+              settling,
+              {{1, locked}},
+              tracking},
+             {"of 8 all within it", start, {{7, locked}, {1, detuned}, {8, locked}}, settling, {{1, locked}}, tracking},
+             {"darkness of the gap does not count", settle, {{1, missed}, {3, dark}}, settling, {{2, dark}}, returning},
+             {"darkness begins at the last light", settle, {{2, detuned}, {3, dark}}, settling, {{1, dark}}, returning},
+             {"darkness counts on a border", settle, {{1, locked}, {4, dark}}, settling, {{1, dark}}, returning},
+             {"dark halves are of a row",
+              settle,
+              {{3, dark}, {1, locked}, {3, dark}},
+              settling,
+              {{2, dark}},
+              returning},
+             {"a missed frame spares a lock", settle, {{4, locked}, {1, missed}}, settling, {{4, locked}}, tracking},
+             {"no dark half does", settle, {{4, locked}, {1, dark}, {7, locked}}, settling, {{1, locked}}, tracking},
+             {"a lock in time's last half", settle, {{16, missed}, {7, locked}}, settling, {{1, locked}}, tracking},
+             {"a closing begins a lock afresh", settle, {{24 + 6, detuned}}, returning, {{8, locked}}, tracking},
+             {"a failed return", come_back, {{6 + 23, detuned}}, returning, {{1, detuned}}, searching}}) {
         SCOPED_TRACE(row.claim);
         Sequence q;
         (q.*row.from)();

@@ -157,8 +157,8 @@ struct Place {
     bool out_of_range = false;
 };
 
-// The room is what lies between the neighbour, 40 V away, and the end of the range, wherever that begins. Where neither keeps the
-// margin the roomier one is taken, and said.
+// The room is what lies between the neighbour, 40 V away, and the end of the range, wherever that begins. Where neither
+// keeps the margin the roomier one is taken, and said.
 TEST(ModeSwitch, DirectionLeadsTowardsTheMiddleOfTheRange) {
     constexpr PiezoRange whole{};
     constexpr PiezoRange raised{.min = Volts{100.0}, .max = Volts{300.0}, .margin = Volts{5.0}};

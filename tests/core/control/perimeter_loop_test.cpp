@@ -39,7 +39,8 @@ TEST(PerimeterLoop, ASmallDetuningDecaysWithTheTimeConstant) {
     EXPECT_NEAR((target_v - s.set_point_v) / 2.0, std::exp(-1.0), 0.003);
 }
 
-// 2.5 ms / 6.5 ms of 0.01 wavelength, 80 V per wavelength, against the detuning; of 0.24, what the limit of 0.09 lets pass.
+// 2.5 ms / 6.5 ms of 0.01 wavelength, 80 V per wavelength, against the detuning; of 0.24, what the limit of 0.09 lets
+// pass.
 TEST(PerimeterLoop, OneHalfMovesTheSetPointByItsShareOfTheDetuningUpToTheLimit) {
     for (const auto& [detuning_lambda, move_v] : {std::pair{0.01, 0.8}, {0.24, 7.2}, {-0.24, -7.2}}) {
         PerimeterLoopState s = at(digital, 150.0);

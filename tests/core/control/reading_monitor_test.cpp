@@ -15,7 +15,8 @@ struct Half {
     std::int8_t mode = 1;
 };
 
-// A gyro of 150 counts of bias a half, with the band that the bias monitor has: 25 counts and what the rotation has changed.
+// A gyro of 150 counts of bias a half, with the band that the bias monitor has: 25 counts and what the rotation has
+// changed.
 using Angle = std::pair<std::int64_t, std::int64_t>;  // halves that the trusted counts go over, and their sum
 
 struct Readout {
@@ -94,8 +95,8 @@ TEST(ReadingMonitor, AWrongReadingComesBackAndTakesNothing) {
     }
 }
 
-// A gyro half by half: a rate of 3 counts, a reading that is 400 off, more that are missed or lack the bias, and one that is `off`
-// from where the rate leads to.
+// A gyro half by half: a rate of 3 counts, a reading that is 400 off, more that are missed or lack the bias, and one
+// that is `off` from where the rate leads to.
 ReadingMonitorOutput after_a_wrong_reading(int more, std::int64_t off, bool bias_lost = false) {
     ReadingMonitorState state;
     ReadingMonitorInput in{.read = true, .countable = true, .mode = 1, .max_counts = limit, .bias_counts = bias};
@@ -122,7 +123,8 @@ ReadingMonitorOutput after_a_wrong_reading(int more, std::int64_t off, bool bias
     return half(3, off);
 }
 
-// Within a sixth of the bias, 25 counts, where the rate stood still; the bias of an odd number of halves is part of the way.
+// Within a sixth of the bias, 25 counts, where the rate stood still; the bias of an odd number of halves is part of the
+// way.
 TEST(ReadingMonitor, AReadingHasReturnedWhereTheRateAndTheBiasLeadTo) {
     for (const int missed : {0, 1, 2}) {
         for (const int side : {1, -1}) {

@@ -21,7 +21,8 @@ static_assert(!is_allowed(SwitchScheduleConfig{.end_tick = -1}));
 
 using Ticks = std::vector<std::int64_t>;
 
-// Ticks from `from` on at which the loop opens, when the gyro is ready at all of them but those of [busy_from, busy_to).
+// Ticks from `from` on at which the loop opens, when the gyro is ready at all of them but those of [busy_from,
+// busy_to).
 Ticks openings(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t from, std::int64_t to,
                std::int64_t busy_from = 0, std::int64_t busy_to = 0) {
     Ticks result;

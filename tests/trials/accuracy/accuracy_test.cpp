@@ -50,8 +50,8 @@ void ours_are_better_than_the_paper_in_every_case() {
     }
 }
 
-// Independent trials by other authors: 20.2" (x1), 18.8" (x4) of a quadratic, 109" and 107" of a constant, 83" and 82" with
-// no correction of the re-lock.
+// Independent trials by other authors: 20.2" (x1), 18.8" (x4) of a quadratic, 109" and 107" of a constant, 83" and 82"
+// with no correction of the re-lock.
 void the_papers_methods_err_as_others_found() {
     const auto rms = [](const char* counts, const char* method) {
         const CaseFigures* c = find_case(CaseGroup::paper, std::string{"20.06 Hz, 12 000 \"/s, "} + counts);

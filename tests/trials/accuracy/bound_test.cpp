@@ -66,7 +66,8 @@ TEST(AccuracyBound, OfTheLightIsTheCramerRaoBoundOfASpline) {
     EXPECT_NEAR(of(LoopShape::second_order), 0.75, 0.01);
 }
 
-// With light without noise and a counter without rounding nothing but the motion is left, and a tone is known from few ticks.
+// With light without noise and a counter without rounding nothing but the motion is left, and a tone is known from few
+// ticks.
 TEST(AccuracyBound, OfAKnownToneWithoutNoiseIsNothing) {
     GyroLaw g = counted(1e-4);
     g.light_noise_lambda = 1e-7;

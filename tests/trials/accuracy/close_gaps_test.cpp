@@ -1,5 +1,5 @@
-// Sigma of the angle and of each tick where a missed frame lies beside a switch, before it or after it, so that their gaps
-// share points, light and time; and of a pulse that the lit halves of a gap show.
+// Sigma of the angle and of each tick where a missed frame lies beside a switch, before it or after it, so that their
+// gaps share points, light and time; and of a pulse that the lit halves of a gap show.
 
 #include <gtest/gtest.h>
 
@@ -57,8 +57,8 @@ Trial learnt(const Setting& s, std::uint64_t seed) {
     return t;
 }
 
-// A switch at `opening`; `missed`: the half, counted from there, whose frame is missed, or none where it is far; `pulse` in
-// halves counted from there.
+// A switch at `opening`; `missed`: the half, counted from there, whose frame is missed, or none where it is far;
+// `pulse` in halves counted from there.
 Errors errors_of(Trial t, std::uint64_t seed, int missed, const std::vector<double>& pulse = {}, int pulse_at = 0) {
     t.gyro.draw_anew(seed);
     const std::int64_t start = t.state.bridge.next_tick;
@@ -139,7 +139,8 @@ TEST_P(CloseGaps, SigmaHoldsAMissedFrameBesideASwitch) {
                 EXPECT_EQ(f.unrepaired, 0);
                 EXPECT_LT(f.nev, 2.0);
                 EXPECT_LT(f.worst_angle, 6.0);
-                // By phase the two ticks of a counted stretch err by up to eight sigma where it lies five ticks after closing.
+                // By phase the two ticks of a counted stretch err by up to eight sigma where it lies five ticks after
+                // closing.
                 EXPECT_LT(f.worst_tick, 8.0);
             }
 }
@@ -162,11 +163,13 @@ TEST_P(CloseGaps, SigmaOfAnyLengthHoldsTheMotion) {
 
 INSTANTIATE_TEST_SUITE_P(Readouts, CloseGaps, testing::Values("x1", "phase"));
 
-// A pulse over two halves, at rest, that lies in the lit ones. One that begins in the last dark half is not noticed (docs/compensation.md).
+// A pulse over two halves, at rest, that lies in the lit ones. One that begins in the last dark half is not noticed
+// (docs/compensation.md).
 TEST(LitHalves, APulseThatContradictsThemIsInSigma) {
     for (const char* readout : {"x1", "phase"}) {
         Trial trial = learnt({readout, core::RelockMethod::joint, core::BridgeMethod::automatic, 3, 3, {}}, 5);
-        // As the switches before have shown chi f0 (a tenth off at the first one, which then may take the pulse for that).
+        // As the switches before have shown chi f0 (a tenth off at the first one, which then may take the pulse for
+        // that).
         trial.state.bridge.scale.variance = 1e-5;
         for (const double size : {18.0, 25.0, 40.0})
             for (int at = 3; at <= 4; ++at) {

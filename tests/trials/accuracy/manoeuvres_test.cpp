@@ -44,8 +44,8 @@ double rms(const std::vector<SwitchError>& errors) {
     return std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-// A step of the rate far before or far after leaves no error but that of a gap at rest; a line through a gap in which the rate
-// changes evenly is right, a constant is not.
+// A step of the rate far before or far after leaves no error but that of a gap at rest; a line through a gap in which
+// the rate changes evenly is right, a constant is not.
 TEST(Manoeuvres, APolynomialErrsAsItsOrderSays) {
     ManoeuvreTrial trial{.gyro = {.miss_lambda = 0.0}, .motion = {}, .manoeuvres = {}, .gaps = 60, .learn_ticks = 300};
     trial.manoeuvres = {
@@ -64,8 +64,8 @@ TEST(Manoeuvres, APolynomialErrsAsItsOrderSays) {
         for (const SwitchError& e : of_manoeuvre[1]) EXPECT_TRUE(std::isfinite(e.sigma_arcsec) && e.sigma_arcsec > 0.0);
 }
 
-// The first manoeuvre at a gap, in small: what the campaign demands of each place of an onset, and two standard errors of a
-// hundred. The families, and what they miss, are in accuracy_test.cpp.
+// The first manoeuvre at a gap, in small: what the campaign demands of each place of an onset, and two standard errors
+// of a hundred. The families, and what they miss, are in accuracy_test.cpp.
 TEST(Manoeuvres, EveryGapHasASigmaThatKnowsOfTheFirstOne) {
     const std::vector<ManoeuvreFigures> figures = measure_manoeuvres(100, true, 5, 2);
     ASSERT_FALSE(figures.empty());

@@ -61,7 +61,8 @@ TEST(SigmaCampaign, IsTrueAtEachSteadyRate) {
     }
 }
 
-// Each case alone within two standard errors, as the campaign judges it; all eight together, 4800 switches, without them.
+// Each case alone within two standard errors, as the campaign judges it; all eight together, 4800 switches, without
+// them.
 TEST(SigmaCampaign, IsTrueAtRest) {
     double sum = 0.0;
     int cases = 0;

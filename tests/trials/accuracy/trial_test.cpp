@@ -48,7 +48,8 @@ TEST(AccuracyTrial, AConstantWithoutNoiseHasNoError) {
         for (const SwitchError& e : of_method) EXPECT_NEAR(e.error_arcsec, 0.0, 2e-7);
 }
 
-// The drift of either mode is none of the switch between them; a constant fit takes its mean over the gap, which is zero.
+// The drift of either mode is none of the switch between them; a constant fit takes its mean over the gap, which is
+// zero.
 TEST(AccuracyTrial, MagneticDriftIsNoErrorOfTheSwitch) {
     GyroLaw gyro;
     gyro.scale_arcsec = 1e-8;
@@ -91,8 +92,9 @@ ErrorFigures first_by_phase(const MotionLaw& motion, std::int64_t learn_ticks) {
     return figures_of(all);
 }
 
-// What whole counts have shown before stays in no motion that is read by phase, and the first switches, of which the scale of the false
-// angle is learnt, are as good as later ones. The mean square of 300 errors has a standard error of 8 %.
+// What whole counts have shown before stays in no motion that is read by phase, and the first switches, of which the
+// scale of the false angle is learnt, are as good as later ones. The mean square of 300 errors has a standard error of
+// 8 %.
 TEST(AccuracyTrial, TheFirstSwitchesByPhaseAreAsGoodAsLaterOnes) {
     for (const std::int64_t learn_ticks : {1000, 5000}) {
         const ErrorFigures random = first_by_phase({.bands = {{0.0, 20.0, 8485.0}}}, learn_ticks);

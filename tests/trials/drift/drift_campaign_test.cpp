@@ -85,8 +85,8 @@ TEST(DriftCampaign, KnowsTheWalkOfTheGyro) {
     c.drift.magnetic_arcsec_s = 0.0;
     c.drift.random_walk_arcsec_sqrt_s = 5.0;
     const DriftAtTime with = run(campaign({{"walks", c, {method(core::MagneticMethod::none)}}}))[0].at[1];
-    // Three gyros after 1000 s: 5/sqrt(1000) = 0.16 arcsec/s. Without the walk the gaps remain, 3 ticks in 800, in which it is
-    // interpolated: sqrt(3/800) of it and less.
+    // Three gyros after 1000 s: 5/sqrt(1000) = 0.16 arcsec/s. Without the walk the gaps remain, 3 ticks in 800, in
+    // which it is interpolated: sqrt(3/800) of it and less.
     EXPECT_GT(with.rms_arcsec_s, 0.04);
     EXPECT_LT(with.rms_less_walk_arcsec_s, 0.2 * with.rms_arcsec_s);
     EXPECT_GT(with.rms_less_walk_arcsec_s, 0.0);

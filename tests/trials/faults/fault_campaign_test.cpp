@@ -98,7 +98,8 @@ TEST(FaultCampaign, ABiasCurrentLostForLongerThanASecondComesBack) {
     }
 }
 
-// Right after a closing, where a re-lock falsifies the sum of the counter: at 15 ms after the opening the loop is closed.
+// Right after a closing, where a re-lock falsifies the sum of the counter: at 15 ms after the opening the loop is
+// closed.
 TEST(FaultCampaign, AJerkRightAfterASwitchIsWithinSigma) {
     for (const auto readout : {config::Readout::counts, config::Readout::phase}) {
         for (const auto relock : {core::RelockMethod::mean_square, core::RelockMethod::joint}) {

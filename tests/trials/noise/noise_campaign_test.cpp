@@ -27,7 +27,8 @@ TEST(NoiseCampaign, errors_are_as_large_as_claimed) {
     EXPECT_GT(found, present * 7 / 10);
 }
 
-// Of 150 gyros half have a ramp; beside a random walk or flicker of the rate it was often taken for that noise, 62 of 78 were found.
+// Of 150 gyros half have a ramp; beside a random walk or flicker of the rate it was often taken for that noise, 62 of
+// 78 were found.
 TEST(NoiseCampaign, ramps_are_found_beside_slow_noise) {
     const auto campaign = trials::run_noise_campaign({.n_gyros = 150, .n_samples = 1 << 12, .seed = 5});
     const auto& ramp = campaign.terms[4];

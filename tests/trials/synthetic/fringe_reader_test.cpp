@@ -47,7 +47,8 @@ TEST(FringeReader, WithoutPhotodiodesItCountsWholeFringes) {
     EXPECT_TRUE(std::isnan(reader.read(0.5, 1, true, draw).fringe));
 }
 
-// White noise n of both photodiodes of amplitude 1 is n/(2 pi) turns; the larger sine and the angle change it by a tenth.
+// White noise n of both photodiodes of amplitude 1 is n/(2 pi) turns; the larger sine and the angle change it by a
+// tenth.
 TEST(FringeReader, APlaceThatIsLearntHasTheNoiseOfThePhotodiodesAndNeverMissesACount) {
     const PhotodiodeLaw law{.reads = true, .learnt = true};
     const Track t = track(law, 20000);

@@ -51,7 +51,8 @@ public:
     // cost   that of both parts of the core; no allocation.
     [[nodiscard]] HalfOutput half(const core::SensorFrame& frame) noexcept;
 
-    // From now on the caller works between the half-periods (`work`), which may interrupt that; else a half does it at its end.
+    // From now on the caller works between the half-periods (`work`), which may interrupt that; else a half does it at
+    // its end.
     void work_in_background() noexcept { state_.compensation.bridge.background.worker.is_background = true; }
 
     // What the halves have left to do: up to 80 ms. `pause` is called within.
@@ -60,7 +61,8 @@ public:
     // The angle that is still due when no more halves come, one report at each call, until there is none.
     [[nodiscard]] core::DrainOutput drain() noexcept;
 
-    // Go on with other settings, which have passed `check`: at the border of a tick, which is where `is_within_tick` is false.
+    // Go on with other settings, which have passed `check`: at the border of a tick, which is where `is_within_tick` is
+    // false.
     void change(const Settings& settings) noexcept { settings_ = settings; }
     [[nodiscard]] bool is_within_tick() const noexcept { return state_.compensation.has_first; }
 

@@ -14,13 +14,14 @@ namespace zlg::firmware {
 
 // Begin anew: the gyro and its telemetry. The settings have passed `check`; no half-period may end meanwhile.
 //
-// counter  reading of the fringe counter when the first half begins; where it is not known the first half is not counted.
-// return   what is commanded for the first half.
+// counter  reading of the fringe counter when the first half begins; where it is not known the first half is not
+// counted. return   what is commanded for the first half.
 core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint64_t> counter = {}) noexcept;
 
 // Called by the background (background.hpp); each masks the interrupt while it works.
 //
-// try_change_settings  go on with other settings, which have passed `check`; false, and nothing is done, in the middle of a
+// try_change_settings  go on with other settings, which have passed `check`; false, and nothing is done, in the middle
+// of a
 //                      tick.
 [[nodiscard]] bool try_change_settings(const Settings& settings) noexcept;
 void hold_switching(bool held) noexcept;

@@ -27,7 +27,8 @@ void start_half_periods(std::uint64_t half_ticks) noexcept;
 // return  a frame with status `frame_missed` where nothing was received.
 [[nodiscard]] const core::SensorFrame& latched() noexcept;
 
-// The last pulse of a clock outside that came before the end of this half-period. Called in the interrupt, where there is a line.
+// The last pulse of a clock outside that came before the end of this half-period. Called in the interrupt, where there
+// is a line.
 [[nodiscard]] Pulse last_pulse() noexcept;
 
 // What is in force from the start of the next half-period.
@@ -36,7 +37,8 @@ void command(const core::ActuatorFrame& actuator) noexcept;
 // Somebody may listen on the serial line: without, no telemetry is made.
 [[nodiscard]] bool has_line() noexcept;
 
-// The serial line of telemetry and commands. Neither waits: they move as many bytes as can be moved now, and say how many.
+// The serial line of telemetry and commands. Neither waits: they move as many bytes as can be moved now, and say how
+// many.
 std::size_t send(std::span<const std::uint8_t> bytes) noexcept;
 std::size_t receive(std::span<std::uint8_t> bytes) noexcept;
 
@@ -44,8 +46,8 @@ std::size_t receive(std::span<std::uint8_t> bytes) noexcept;
 void store(const Settings& settings) noexcept;
 [[nodiscard]] const Settings* stored() noexcept;
 
-// Without a call for a quarter of a second the board notes why and begins anew. To be called by the background, and only when a
-// half-period has ended since the last call: so it shows that both are alive.
+// Without a call for a quarter of a second the board notes why and begins anew. To be called by the background, and
+// only when a half-period has ended since the last call: so it shows that both are alive.
 void kick_watchdog() noexcept;
 
 // Why the start before this one ended; kind `none` after power.

@@ -13,7 +13,8 @@ struct Pulse {
     std::uint64_t stamp_ticks = 0;  // of the last one
 };
 
-// When a tick ended. A pulse after that, or more than 2^32 ticks of the timer before it (seven minutes at 10 MHz), is none.
+// When a tick ended. A pulse after that, or more than 2^32 ticks of the timer before it (seven minutes at 10 MHz), is
+// none.
 [[nodiscard]] constexpr wire::TickTime time_of(std::uint64_t end_ticks, const Pulse& pulse) noexcept {
     const std::uint64_t since_ticks = end_ticks - pulse.stamp_ticks;
     if (pulse.n == 0 || since_ticks > UINT32_MAX) return {.timer_ticks = end_ticks};

@@ -17,9 +17,9 @@ struct ExpParts {
 // 2^k as a double, -1022 <= k <= 1023 modulo 2^64.
 inline double power_of_two(std::uint64_t k) noexcept { return std::bit_cast<double>((k + 1023u) << 52); }
 
-// e^(x + rest), |x| <= 800 and |rest| within a unit in the last place of x: 1 + r + r^2/2 + r^3 P(r), r = x - k ln 2. Up to
-// r^2/2, of the head of r, nothing is lost. polynomial error 2^-53 of r^3 P(r), which is at most 0.01 of
-// the whole
+// e^(x + rest), |x| <= 800 and |rest| within a unit in the last place of x: 1 + r + r^2/2 + r^3 P(r), r = x - k ln 2.
+// Up to r^2/2, of the head of r, nothing is lost. polynomial error 2^-53 of r^3 P(r), which is at most 0.01 of the
+// whole
 inline ExpParts exp_parts(double x, double rest) noexcept {
     constexpr double one_over_ln2 = 0x1.71547652b82fep+0;
     const double shifted = x * one_over_ln2 + to_whole;
@@ -40,7 +40,8 @@ inline ExpParts exp_parts(double x, double rest) noexcept {
             .exponent = std::bit_cast<std::uint64_t>(shifted) - std::bit_cast<std::uint64_t>(to_whole)};
 }
 
-// The double next to them, for exponents of +-1200: two factors, of which only the second rounds, overflows or underflows.
+// The double next to them, for exponents of +-1200: two factors, of which only the second rounds, overflows or
+// underflows.
 inline double value_of(const ExpParts& parts) noexcept {
     const std::uint64_t half = ((parts.exponent + 2048u) >> 1) - 1024u;
     return (parts.mantissa.high + parts.mantissa.low) * power_of_two(half) * power_of_two(parts.exponent - half);

@@ -7,7 +7,8 @@
 
 namespace zlg::core::maths {
 
-// The squares of the heads are exact and their sum is; only sum, root and, where it is subnormal, the result are rounded.
+// The squares of the heads are exact and their sum is; only sum, root and, where it is subnormal, the result are
+// rounded.
 double hypot(double x, double y) noexcept {
     const double across = __builtin_fabs(x);
     const double up = __builtin_fabs(y);

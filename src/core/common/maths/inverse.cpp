@@ -60,8 +60,9 @@ Sum tangent(double smaller, double larger, bool is_upper) noexcept {
 
 }  // namespace
 
-// n pi/4 +- atan(t), where t stays below tan(pi/8) in size. An infinite coordinate counts as 1, beside which the others are
-// zero, and so does the larger one of two zeros. Where the angle is small, it is the quotient itself, which may be subnormal.
+// n pi/4 +- atan(t), where t stays below tan(pi/8) in size. An infinite coordinate counts as 1, beside which the others
+// are zero, and so does the larger one of two zeros. Where the angle is small, it is the quotient itself, which may be
+// subnormal.
 double atan2(double y, double x) noexcept {
     constexpr double tan_of_pi_over_8 = 0x1.a827999fcef32p-2;
     if (x != x || y != y) return x + y;
@@ -89,7 +90,8 @@ double atan2(double y, double x) noexcept {
     return __builtin_copysign(is_small ? smaller / larger : angle, y);
 }
 
-// From 1/2 on asin(x) = pi/2 - 2 asin(s), s = sqrt((1 - x)/2), with what the root lost; of 0/0 the small number makes 0.
+// From 1/2 on asin(x) = pi/2 - 2 asin(s), s = sqrt((1 - x)/2), with what the root lost; of 0/0 the small number makes
+// 0.
 double asin(double x) noexcept {
     const double size = __builtin_fabs(x);
     const bool is_small = size < 0.5;

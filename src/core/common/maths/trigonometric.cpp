@@ -11,8 +11,8 @@
 namespace zlg::core::maths {
 namespace {
 
-// x less the nearest multiple of a right angle, |x| <= 2^23 (Cody and Waite's reduction): pi/2 in three parts of 30 bits,
-// whose multiples are exact, and the rest.
+// x less the nearest multiple of a right angle, |x| <= 2^23 (Cody and Waite's reduction): pi/2 in three parts of 30
+// bits, whose multiples are exact, and the rest.
 Reduced reduced_moderate(double x) noexcept {
     constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
     const double shifted = x * two_over_pi + to_whole;

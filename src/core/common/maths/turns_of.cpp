@@ -4,8 +4,8 @@
 
 namespace zlg::core {
 
-// The octant by the signs and the larger coordinate, half of it by tan(a - pi/4) = (q - 1)/(q + 1): the series is left with
-// |q| <= tan(pi/8).
+// The octant by the signs and the larger coordinate, half of it by tan(a - pi/4) = (q - 1)/(q + 1): the series is left
+// with |q| <= tan(pi/8).
 double turns_of(double x, double y) noexcept {
     constexpr double one_over_two_pi = 0.15915494309189535;
     constexpr double tan_of_pi_over_8 = 0.4142135623730951;

@@ -42,7 +42,8 @@ void fold(LearntMotion& m, double forget_ticks) noexcept {
     if (m.n_run < length) return;
     const int n_windows = m.n_run - length + 1;
     const double mean = m.sum / m.n_run;
-    // Sum over the windows of x at place i: that of the whole run without its last L - 1, then with one of these for one of the first.
+    // Sum over the windows of x at place i: that of the whole run without its last L - 1, then with one of these for
+    // one of the first.
     std::array<double, most_moment_steps> sum{};
     double off_run = 0.0;
     for (int s = 0; s < length - 1; ++s) off_run += of(m.recent, s);
@@ -56,7 +57,8 @@ void fold(LearntMotion& m, double forget_ticks) noexcept {
     for (int k = 0; k < length; ++k) {
         double all = of(m.product, k);
         if (m.goes_on) all += products_within(m.head.data(), length - 1, k);
-        // Products at the distance k whose earlier step is among the last L - 1 - k of the run, but for the first i of these.
+        // Products at the distance k whose earlier step is among the last L - 1 - k of the run, but for the first i of
+        // these.
         double off = products_within(m.recent.data(), length - 1, k);
         for (int i = 0; i + k < length; ++i) {
             const int j = i + k;

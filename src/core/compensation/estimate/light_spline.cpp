@@ -18,8 +18,9 @@ constexpr double gauss_weight[4] = {0.17392742256872693, 0.32607257743127307, 0.
 // g, in units of P: from next to nothing to a parabola.
 constexpr double smoothings[] = {1e-3, 1e-1, 1e1, 1e3, 1e5, 1e7};
 
-// Of the likeliest g so much is taken: a loop that slews or waits has kinks, which the likeliest one rounds off. A dead time of a few
-// halves then errs by as much as without (0.3 arcsec at a miss of 0.22), where the likeliest g makes it three times that.
+// Of the likeliest g so much is taken: a loop that slews or waits has kinks, which the likeliest one rounds off. A dead
+// time of a few halves then errs by as much as without (0.3 arcsec at a miss of 0.22), where the likeliest g makes it
+// three times that.
 constexpr double part_of_likeliest = 0.01;
 
 // g P. Of a cubic between two knots four values give the third derivative.

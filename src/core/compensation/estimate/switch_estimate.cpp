@@ -10,7 +10,8 @@
 namespace zlg::core {
 namespace {
 
-// Prior of the learnt motion alone: as likely as all of the bank; next to nothing before it is known from as many windows.
+// Prior of the learnt motion alone: as likely as all of the bank; next to nothing before it is known from as many
+// windows.
 constexpr double prior_of_learnt = 0.5;
 constexpr double prior_of_unknown = 0.05;
 
@@ -38,7 +39,8 @@ struct Problem {
     double wanted_halves = 0.0;                // of the rows without a reading
     double known_arcsec = 0.0;                 // of those with one
 
-    // Of a point after the gap with another point: what the error of a reading before the gap is has nothing to do with it.
+    // Of a point after the gap with another point: what the error of a reading before the gap is has nothing to do with
+    // it.
     [[nodiscard]] double error(int a, int b) const noexcept {
         return a < n_before || b < n_before ? 0.0 : errors.at(a - n_before, b - n_before);
     }
@@ -309,8 +311,8 @@ struct Candidate {
     double size = 0.0;
 };
 
-// Mean and variance of a mixture as its members come in, with weights relative to the best evidence so far (West, Comm. ACM 22
-// (1979) 532).
+// Mean and variance of a mixture as its members come in, with weights relative to the best evidence so far (West, Comm.
+// ACM 22 (1979) 532).
 struct Mixture {
     Candidate likeliest{};
     double sum = 0.0;               // of the weights; 0: it is empty
@@ -377,8 +379,8 @@ void add_likeliest(const Candidate& likeliest, std::span<const BankMember> bank,
         for (int s = 0; s <= r; ++s) problem.v.row(r)[s] += likeliest.size * kernel.at(s, r);
 }
 
-// The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the likeliest
-// member, which V now has.
+// The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the
+// likeliest member, which V now has.
 //
 // return  false where that is not positive definite.
 bool spread(const Problem& problem, Border& border, Triangle factor, SwitchEstimate& result) noexcept {

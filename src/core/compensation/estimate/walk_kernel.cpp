@@ -3,7 +3,8 @@
 namespace zlg::core {
 namespace {
 
-// Gauss and Legendre's four points and weights on -1..1: exact for polynomials to the seventh order; a^2 is of the sixth.
+// Gauss and Legendre's four points and weights on -1..1: exact for polynomials to the seventh order; a^2 is of the
+// sixth.
 constexpr double gauss_point[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
 constexpr double gauss_weight[4] = {0.34785484513745385, 0.6521451548625461, 0.6521451548625461, 0.34785484513745385};
 

@@ -10,16 +10,17 @@
 namespace zlg::core {
 namespace {
 
-// Shares of the roundings in the learnt moments that are taken out. Where the roundings repeat, at rest and at even rates, the
-// moments hold less of them than independent ones would be.
+// Shares of the roundings in the learnt moments that are taken out. Where the roundings repeat, at rest and at even
+// rates, the moments hold less of them than independent ones would be.
 constexpr double shares[] = {0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8};
 
-// On the diagonal, so that a motion that never changes has a covariance: of the variance of a reading, and of the learnt trace (what
-// its products leave of rounding).
+// On the diagonal, so that a motion that never changes has a covariance: of the variance of a reading, and of the
+// learnt trace (what its products leave of rounding).
 constexpr double least_of_reading = 0.01;
 constexpr double least_of_trace = 1e-13;
 
-// How far the bias may be off on either side of a gap, as a part of it: what half a degree makes of a coefficient of 2e-4.
+// How far the bias may be off on either side of a gap, as a part of it: what half a degree makes of a coefficient of
+// 2e-4.
 constexpr double bias_error = 1e-4;
 
 double reading_arcsec2(const CompensationConstants& gyro, const SwitchWindow& window) noexcept {
@@ -252,7 +253,8 @@ void add_roundings(const CompensationConstants& gyro, const SwitchWindow& window
         }
         for (int s = 0; s <= j; ++s) of_row[s] += now[static_cast<unsigned>(s)];
     }
-    // And of each border with itself, but for those between two rows of which neither was read: nothing was rounded there.
+    // And of each border with itself, but for those between two rows of which neither was read: nothing was rounded
+    // there.
     const double reading = reading_arcsec2(gyro, window);
     const auto is_read = [&](int j) { return j >= 0 && j < n && row_of(window, j).read; };
     for (int j = 0; j < n; ++j) {

@@ -17,7 +17,8 @@ struct WindowReadings {
     std::array<double, most_window_rows> angle_arcsec{};  // y + (1 + scale) d
 };
 
-// C: the learnt covariance, of which the roundings that the moments hold are taken out, as large a share as leaves it positive.
+// C: the learnt covariance, of which the roundings that the moments hold are taken out, as large a share as leaves it
+// positive.
 //
 // into  receives it, of all rows.
 void learnt_covariance(const CompensationConstants& gyro, const SwitchWindow& window, const MotionMoments& motion,
@@ -49,13 +50,13 @@ private:
 
 // The law of the counter's roundings: the covariance of two readings of a free-running counter.
 //
-// A reading is the whole part of a phase. Its rounding error is uniform over a count, and two readings between which the phase
-// turned by x counts, Gaussian with the variance s^2, have the covariance
+// A reading is the whole part of a phase. Its rounding error is uniform over a count, and two readings between which
+// the phase turned by x counts, Gaussian with the variance s^2, have the covariance
 //
 //   R(x, s^2) = (x^2 - x + 1/6)/2 exp(-2 pi^2 s^2),    x modulo 1                      [counts^2]
 //
-// the second Bernoulli polynomial, of whose Fourier series sum cos(2 pi k x)/(2 pi^2 k^2) the scatter leaves the first term.
-// Source: Widrow and Kollar, Quantization Noise, 2008, ch. 4 and 9.
+// the second Bernoulli polynomial, of whose Fourier series sum cos(2 pi k x)/(2 pi^2 k^2) the scatter leaves the first
+// term. Source: Widrow and Kollar, Quantization Noise, 2008, ch. 4 and 9.
 //
 // turn_counts  of which no fraction is known beyond 2^51: taken for whole there.
 // return       0 beyond a scatter of 2 counts^2, where the factor is below 1e-17.

@@ -130,8 +130,8 @@ void end_gap(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     state.gap = OpenGap{};
 }
 
-// Variance of what the re-lock ticks add to the angle of a switch: the random walk, the corrections from tick `from` on, those
-// after `end` as far as the last one tells, and all that is missing where nothing is subtracted.
+// Variance of what the re-lock ticks add to the angle of a switch: the random walk, the corrections from tick `from`
+// on, those after `end` as far as the last one tells, and all that is missing where nothing is subtracted.
 double relock_beyond(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
                      const Gap& gap, std::int64_t from, std::int64_t end) noexcept {
     const std::int64_t first = gap.first_tick + gap.n;
@@ -173,8 +173,8 @@ ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     return difference;
 }
 
-// An error that the points beside a gap have in common goes over to each of its ticks, and with those of the re-lock into the
-// angle of the switch, all with one sign.
+// An error that the points beside a gap have in common goes over to each of its ticks, and with those of the re-lock
+// into the angle of the switch, all with one sign.
 void widen_in_common(const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap, GapReport& report) noexcept {
     for (std::int64_t j = 0; j < gap.n; ++j) {
         double& sigma = at(state, gap.first_tick + j).row.sigma_arcsec;

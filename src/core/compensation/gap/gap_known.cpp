@@ -47,13 +47,14 @@ void count_in(double rounding_arcsec2, std::int64_t n_ticks, double variance_arc
 
 // The rows of a stretch get their sum, in (1) with w_j
 //
-// of a whole gap that is estimated: the regression of tick j on the sum, which takes what the sum tells off its variance; what the
-// sum is off by more than three standard deviations may be a rotation in any one of n ticks, each as likely:
+// of a whole gap that is estimated: the regression of tick j on the sum, which takes what the sum tells off its
+// variance; what the sum is off by more than three standard deviations may be a rotation in any one of n ticks, each as
+// likely:
 //
 //   r^2 ((1 - w_j)^2 + (n - 1) w_j^2)/n
 //
-// of another: without learnt motion, a parabola over a whole gap, constant over a part of one. Where the mean rate is an outlier, (2)
-// for a rotation in any one tick is added.
+// of another: without learnt motion, a parabola over a whole gap, constant over a part of one. Where the mean rate is
+// an outlier, (2) for a rotation in any one tick is added.
 void settle(GapBridgeState& state, const Gap& gap, const KnownStretch& s, double constant_arcsec,
             ExactSum& change) noexcept {
     if (s.first > s.last) return;

@@ -3,20 +3,21 @@
 //
 //   final_j = m_j + w_j r,  r = known sum - sum of m,  sum of w = 1                                      (1)
 //
-// m comes from the bridge, and w is proportional to j (n + 1 - j): the covariance with its sum of a rate that is a random walk
-// and known at both ends. A sum that the motion does not explain may be a
-// rotation within any one tick: it is tick j with probability w_j, which adds the variance
+// m comes from the bridge, and w is proportional to j (n + 1 - j): the covariance with its sum of a rate that is a
+// random walk and known at both ends. A sum that the motion does not explain may be a rotation within any one tick: it
+// is tick j with probability w_j, which adds the variance
 //
 //   r^2 w (1 - w)                                                                                        (2)
 //
 // Rows that were delivered already keep their value: the remaining ones get the whole residual.
 //
-// A rough sum S, of a re-lock, is used where its variance is less than those of the m together, or where it contradicts them:
+// A rough sum S, of a re-lock, is used where its variance is less than those of the m together, or where it contradicts
+// them:
 //
 //   r^2 > 9 (var S + n sum of var m)                                                                     (3)
 //
-// since errors of the m that are all alike add up to the last term. Where the sum of a part of a gap does (3), something turned
-// beside that part, too: each of the gap's other ticks may have turned by r, all with one sign.
+// since errors of the m that are all alike add up to the last term. Where the sum of a part of a gap does (3),
+// something turned beside that part, too: each of the gap's other ticks may have turned by r, all with one sign.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +28,8 @@
 
 namespace zlg::core {
 
-// Variances beyond which a rate, a sum or the points around a gap do not belong to the learnt motion: three standard deviations.
+// Variances beyond which a rate, a sum or the points around a gap do not belong to the learnt motion: three standard
+// deviations.
 inline constexpr double outlier_sq = 9.0;
 
 // The tick that was added last ends a stretch of its gap with a known sum.

@@ -13,12 +13,13 @@
 namespace zlg::core {
 namespace {
 
-// What a reading far from the centre is off by, all halves of a switch in common: the law of the bias by 1.5 %, its quartic term at the miss, and the
-// detuning itself by .002 wavelength.
+// What a reading far from the centre is off by, all halves of a switch in common: the law of the bias by 1.5 %, its
+// quartic term at the miss, and the detuning itself by .002 wavelength.
 constexpr double law_error_ratio = 0.015;
 constexpr double reading_error_lambda = 0.002;
 
-// Beyond so many standard deviations squared, and beyond the part of the bias, a second difference is not that of a motion.
+// Beyond so many standard deviations squared, and beyond the part of the bias, a second difference is not that of a
+// motion.
 constexpr double limit_sq = 25.0;
 constexpr double tolerated_bias_ratio = 0.02;
 
@@ -33,8 +34,9 @@ constexpr int min_points = 3;
 // Settled ticks from which on their scatter is known.
 constexpr double few_ticks = 25.0;
 
-// How far the roundings of whole counts repeat over the ticks of a mean, 0..1: at rest and at even rates they do not average out of
-// it. Their correlation (window_covariance.hpp) at a few distances, the longest half of the memory of the bias.
+// How far the roundings of whole counts repeat over the ticks of a mean, 0..1: at rest and at even rates they do not
+// average out of it. Their correlation (window_covariance.hpp) at a few distances, the longest half of the memory of
+// the bias.
 double repetition(const CompensationConstants& gyro, const MotionSpread& spread) noexcept {
     const double count = gyro.scale.value();
     const double turn = 2.0 * spread.mean_half_arcsec / count;
@@ -155,8 +157,8 @@ private:
         return at(state_, half / 2).half[static_cast<unsigned>(half % 2)];
     }
 
-    // A half that is recorded as lit but was not alternates with the bias in another way than the two behind it do: their second
-    // difference is then not one of the learnt motion. Without one nothing is believed.
+    // A half that is recorded as lit but was not alternates with the bias in another way than the two behind it do:
+    // their second difference is then not one of the learnt motion. Without one nothing is believed.
     [[nodiscard]] bool fits(std::int64_t half) noexcept {
         const MotionSpread& m = state_.spread;
         if (!(m.n_ticks >= few_ticks) || half + 2 >= 2 * end_ || half + 2 > 2 * end_of_gap_ + 1) return false;
@@ -214,8 +216,8 @@ private:
         const bool corrects = wanted && plan_.light != HalfLight::ticks;
         const bool by_records = corrects && plan_.light == HalfLight::records;
         const bool known = !by_records || (entry.half[0].false_arcsec2 >= 0.0F && entry.half[1].false_arcsec2 >= 0.0F);
-        // By the paper's equation; or by nobody, and then the false angle alternates from half to half, and a tick has little of it.
-        // Also one in which a fault may have begun unseen.
+        // By the paper's equation; or by nobody, and then the false angle alternates from half to half, and a tick has
+        // little of it. Also one in which a fault may have begun unseen.
         const bool is_corrected = !corrects && (!entry.settled || entry.relock_variance_arcsec2 > 0.0);
         const bool has_halves = entry.half[0].read && entry.half[1].read;
         if (!has_halves || !known || is_corrected || (k < 0 && !by_halves_)) {

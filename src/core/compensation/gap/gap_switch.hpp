@@ -1,8 +1,10 @@
 #pragma once
-// A gap and the ticks after it as the estimate of the switch sees them, and their final values by it (switch_estimate.hpp).
+// A gap and the ticks after it as the estimate of the switch sees them, and their final values by it
+// (switch_estimate.hpp).
 //
-// Rows of the window: half-ticks to eight ticks before and after the gap, ticks after these, in the gap ticks, or a few together
-// where it is long; lit halves of the gap are points. What was corrected before in another switch is a tick, with its variance.
+// Rows of the window: half-ticks to eight ticks before and after the gap, ticks after these, in the gap ticks, or a few
+// together where it is long; lit halves of the gap are points. What was corrected before in another switch is a tick,
+// with its variance.
 
 #include <cstdint>
 
@@ -19,7 +21,8 @@ struct SwitchAngle {
     RelockScale scale{};
 };
 
-// Ask for the estimate of a gap, from the ticks before `end`. false: there is no point on one side, or no place for one more.
+// Ask for the estimate of a gap, from the ticks before `end`. false: there is no point on one side, or no place for one
+// more.
 [[nodiscard]] bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                        const Gap& gap, std::int64_t end) noexcept;
 

@@ -80,8 +80,8 @@ double seen_lambda2(const CompensationConstants& g, const RelockTick& t) noexcep
     return measured && is_within(sq, 0.0, square(max_detuning.value())) ? sq : -1.0;
 }
 
-// What a tick can lack: no more than the <dl^2> of its first half can fall in it. Where that is not seen, the detuning was at most
-// `max_detuning` when the loop was closed, and of a square that falls by rho^4 from tick to tick tick n has
+// What a tick can lack: no more than the <dl^2> of its first half can fall in it. Where that is not seen, the detuning
+// was at most `max_detuning` when the loop was closed, and of a square that falls by rho^4 from tick to tick tick n has
 // (1 - rho^2) rho^(4 (n - 1)), at most 1/(2 n - 1); half of that is likely.
 double most_arcsec(const CompensationConstants& g, const RelockDriftState& s, const RelockTick& t) noexcept {
     const double seen = seen_lambda2(g, t);
@@ -97,8 +97,8 @@ FalseAngle or_missing(FalseAngle found, double most_arcsec) noexcept {
 //
 // slope  of (1 - q)/(1 + q) by minus the logarithm of the own deficit.
 //
-// The rounding of c_first - c_second is 2 e1 - e0 - e2, each e uniform over a count: variance 1/2 count^2, also where the phases
-// are known. Neighbouring ticks share a reading: covariance 1/12 count^2.
+// The rounding of c_first - c_second is 2 e1 - e0 - e2, each e uniform over a count: variance 1/2 count^2, also where
+// the phases are known. Neighbouring ticks share a reading: covariance 1/12 count^2.
 FalseAngle by_frequency(const CompensationConstants& g, const RelockTick& t, double own, double other, double q,
                         double slope, bool neighbours) noexcept {
     const double part = (1.0 - q) / (1.0 + q);
@@ -109,8 +109,8 @@ FalseAngle by_frequency(const CompensationConstants& g, const RelockTick& t, dou
     return false_angle(arcsec_per_hz(g, t) * own * part, square(g.scale.value()) * variance_counts2);
 }
 
-// A false rate is no larger than the deficit either; by counts a deficit within its rounding, of one count, is none. By phase the
-// light knows better where there is any, for an acceleration may hide the deficit.
+// A false rate is no larger than the deficit either; by counts a deficit within its rounding, of one count, is none. By
+// phase the light knows better where there is any, for an acceleration may hide the deficit.
 double most_by_frequency(const CompensationConstants& g, const RelockDriftState& s, const RelockTick& t,
                          double deficit) noexcept {
     const double most = most_arcsec(g, s, t);

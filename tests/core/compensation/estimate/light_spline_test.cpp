@@ -83,8 +83,8 @@ TEST(LightSpline, TheNoiseOfTheLightAddsNothingOnTheMeanAndScattersAsItSays) {
     }
 }
 
-// (Q c)^T cov c (Q c) holds its own noise, twice the trace: where nothing is detuned, the variance is claimed three times by the knots
-// alone. How much is smoothed is chosen from the same noise, which adds to what is claimed for.
+// (Q c)^T cov c (Q c) holds its own noise, twice the trace: where nothing is detuned, the variance is claimed three
+// times by the knots alone. How much is smoothed is chosen from the same noise, which adds to what is claimed for.
 TEST(LightSpline, WhereNothingIsDetunedTheVarianceIsClaimedInFullAndAtMostThreeTimes) {
     Random random{5};
     double square = 0.0, claimed = 0.0;

@@ -87,8 +87,8 @@ TEST(SwitchEstimate, AMagneticStepThatIsNotKnownLeavesTheMeanOfBothSides) {
     EXPECT_NEAR(found.variance_arcsec2, gap_halves * walk_of_half + gap_halves * gap_halves * of_rate, 1e-6);
 }
 
-// The mean rate is one estimate of them all, and the best is no worse: what the roundings at its four ends add, should they go
-// together, is a bound.
+// The mean rate is one estimate of them all, and the best is no worse: what the roundings at its four ends add, should
+// they go together, is a bound.
 TEST(SwitchEstimate, RoundingsOfTheCounterAddToTheVariance) {
     SwitchWindow window = even_window();
     const CompensationConstants gyro = quiet_gyro();

@@ -9,7 +9,8 @@ double influence(int kind, const Stretch& s, double q) {
     return (part(s.last) - part(s.first)) / kind;
 }
 
-// Boole's rule in pieces that end where the polynomials do: exact to the fifth order, and of the sixth by its fine step.
+// Boole's rule in pieces that end where the polynomials do: exact to the fifth order, and of the sixth by its fine
+// step.
 double direct(const Walk& walk, const Stretch& a, const Stretch& b) {
     constexpr int steps = 64;
     double sum = 0.0;

@@ -1,5 +1,5 @@
-// The estimates of switches beside the half-periods: whenever they are made in time, the angles are the same; and what happens where
-// they are not.
+// The estimates of switches beside the half-periods: whenever they are made in time, the angles are the same; and what
+// happens where they are not.
 #include "gap_bridge_support.hpp"
 
 namespace zlg::core::gap_bridge_support::background_test {

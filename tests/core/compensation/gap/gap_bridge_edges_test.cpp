@@ -1,5 +1,5 @@
-// Borders of the bridge that random logs do not meet: a state of many years, the last tick of a gap that is not too long,
-// amendments where no gap is.
+// Borders of the bridge that random logs do not meet: a state of many years, the last tick of a gap that is not too
+// long, amendments where no gap is.
 #include "gap_bridge_support.hpp"
 
 namespace zlg::core::gap_bridge_support::edges_test {

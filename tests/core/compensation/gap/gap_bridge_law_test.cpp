@@ -235,8 +235,8 @@ TEST(GapBridgeLaw, AConstantRateMoreShowsInEveryRowButNotInTheLumps) {
     }
 }
 
-// A double-double sum keeps 104 bits, and what a correction has lost as a double waits for the next one: so the two sums differ by
-// that residual and nothing else, also where the counter knows the sum over a gap.
+// A double-double sum keeps 104 bits, and what a correction has lost as a double waits for the next one: so the two
+// sums differ by that residual and nothing else, also where the counter knows the sum over a gap.
 TEST(GapBridgeLaw, SumsDifferByTheRoundingResidualAlone) {
     Random random{5};
     for (int k = 0; k < 200; ++k) {

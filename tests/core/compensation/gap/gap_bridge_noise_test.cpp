@@ -108,7 +108,8 @@ TEST(GapBridgeNoise, WithoutRoundingTheFactorsAreThoseOfTheWeights) {
     }
 }
 
-// Each of four points has a quarter of a line over the gap, by symmetry, and the error of a correction behind the gap stays there, too.
+// Each of four points has a quarter of a line over the gap, by symmetry, and the error of a correction behind the gap
+// stays there, too.
 TEST(GapBridgeNoise, TheErrorOfARelockIsInTheGapAndBehindIt) {
     constexpr double relock_arcsec2 = 0.7;
     const GapBridgeConfig config{.method = BridgeMethod::linear, .points_before = 2, .points_after = 2};
@@ -132,7 +133,8 @@ TEST(GapBridgeNoise, TheErrorOfARelockIsInTheGapAndBehindIt) {
     }
 }
 
-// In another unit of the angle every choice is the same, and every sigma but for the unit: no number of arcseconds decides.
+// In another unit of the angle every choice is the same, and every sigma but for the unit: no number of arcseconds
+// decides.
 TEST(GapBridgeNoise, TheSizeOfACountChangesNoChoice) {
     constexpr double smaller = 1.0 / 1024.0;
     const auto rows_of = [&](double unit) {
@@ -159,7 +161,8 @@ TEST(GapBridgeNoise, TheSizeOfACountChangesNoChoice) {
         EXPECT_NEAR(small[k].sigma_arcsec / smaller, large[k].sigma_arcsec, 1e-6 * large[k].sigma_arcsec) << k;
 }
 
-// A polynomial that stands in for an estimate is judged by the motion around the gap: of one tick that is the whole gap.
+// A polynomial that stands in for an estimate is judged by the motion around the gap: of one tick that is the whole
+// gap.
 TEST(GapBridgeNoise, SigmaOfAFirstGapOfOneTickIsThatOfItsTick) {
     int n_more = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {

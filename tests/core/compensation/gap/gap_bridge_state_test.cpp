@@ -98,8 +98,8 @@ TEST(LearningBridge, AJourneyThatBeginsAfterRestIsNotBridgedAsRest) {
     EXPECT_LT(automatic.nev, 3.0);
 }
 
-// Rest, then a ramp of the rate, and a gap in it. In the angle of the gap the errors of its ticks may cancel; each row must
-// do without that, and what is claimed of the rows must allow for what is claimed of their sum.
+// Rest, then a ramp of the rate, and a gap in it. In the angle of the gap the errors of its ticks may cancel; each row
+// must do without that, and what is claimed of the rows must allow for what is claimed of their sum.
 TEST(LearningBridge, TicksOfARampAreWithinTheirSigma) {
     struct Ramp {
         int n_ticks, n_ramp;

@@ -34,7 +34,8 @@ double missing_arcsec(RelockMethod method, RelockDriftState& state, const Tick& 
     return std::sqrt(out.tick.variance_arcsec2);
 }
 
-// What is left in tick n is at most 1/(2n - 1) of what the detuning may be, and no more than the light of its first half shows.
+// What is left in tick n is at most 1/(2n - 1) of what the detuning may be, and no more than the light of its first
+// half shows.
 TEST(RelockDriftLaw, ATickThatIsNotCorrectedClaimsWhatMayBeMissing) {
     const RelockMethod method = RelockMethod::mean_square;
     RelockDriftState state;
@@ -76,8 +77,9 @@ TEST(RelockDriftLaw, WhatIsMissingIsWithinWhatIsClaimed) {
                 }
 }
 
-// Deficits, in counts, of tick 1 and of a tick 2 that names no decay; and of 2 what is claimed of either. A deficit bounds the false
-// rate. By counts its rounding has a standard deviation of one count, within which it is none; by phase the light knows better.
+// Deficits, in counts, of tick 1 and of a tick 2 that names no decay; and of 2 what is claimed of either. A deficit
+// bounds the false rate. By counts its rounding has a standard deviation of one count, within which it is none; by
+// phase the light knows better.
 TEST(RelockDriftLaw, FrequencyClaimsTheDeficitThatItCannotRead) {
     constexpr double scale = 3.263, light = u_arcsec * 0.0004 / scale, most = u_arcsec * 0.03125 / scale;
     struct Case {

@@ -1,9 +1,9 @@
 #pragma once
 // How accurate is the angle across a switch: every method on the same records, beside the least error that is possible.
 //
-// The gyro of these trials is made of formulas, not of the twin: motion integrated exactly, a counter that truncates, a bias
-// that lacks chi f0 dl^2 along the true decay of the detuning, light samples of that decay with noise. Bounds come from dense
-// covariances of the motion and the noise, never from a method's own estimate of its error.
+// The gyro of these trials is made of formulas, not of the twin: motion integrated exactly, a counter that truncates, a
+// bias that lacks chi f0 dl^2 along the true decay of the detuning, light samples of that decay with noise. Bounds come
+// from dense covariances of the motion and the noise, never from a method's own estimate of its error.
 
 #include <cstdint>
 #include <functional>
@@ -175,8 +175,8 @@ struct Accuracy {
 // gaps  of each kind.
 [[nodiscard]] std::vector<ManoeuvreFigures> measure_manoeuvres(int gaps, bool quick, std::uint64_t seed, int threads);
 
-// The same families, and first gaps some 20 and 60 ticks after the start, each with the whole bank of the estimate and then without
-// one member of it after the other (walk_kernel.hpp).
+// The same families, and first gaps some 20 and 60 ticks after the start, each with the whole bank of the estimate and
+// then without one member of it after the other (walk_kernel.hpp).
 [[nodiscard]] std::vector<ManoeuvreFigures> measure_members(int gaps, std::uint64_t seed, int threads);
 
 // The motion is another one from the opening of the gap on; `manoeuvre` says which.

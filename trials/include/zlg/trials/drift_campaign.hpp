@@ -1,9 +1,10 @@
 #pragma once
-// Drift of long runs in closed loop, over many gyros that differ by their noise: what schedules and compensations leave.
+// Drift of long runs in closed loop, over many gyros that differ by their noise: what schedules and compensations
+// leave.
 //
 // The excess at time t is (delivered angle - true angle)/t less the non-magnetic drift, which no switching removes. The
-// random walk W of the gyro is in it: no method comes below W/sqrt(t). The twin knows its walk, so that the excess is given
-// without it as well, of the same runs.
+// random walk W of the gyro is in it: no method comes below W/sqrt(t). The twin knows its walk, so that the excess is
+// given without it as well, of the same runs.
 
 #include <cstdint>
 #include <limits>
@@ -19,8 +20,8 @@ struct DriftMethod {
     config::Compensation compensation;
 };
 
-// A gyro and the compensations of its records. They all take those of one run, unless its schedule is `measured`: then a
-// gyro has one method, whose measurements steer it.
+// A gyro and the compensations of its records. They all take those of one run, unless its schedule is `measured`: then
+// a gyro has one method, whose measurements steer it.
 struct DriftGyro {
     std::string name;
     config::Config config;  // [compensation] is replaced by that of each method, seed and phase of the motion are drawn
@@ -35,7 +36,8 @@ struct DriftCampaign {
     int threads = 1;
 };
 
-// Gyros without a magnetic drift over pure tones, 10 to 60 Hz, 1000 to 20 000 arcsec/s, 8 to 20 s from switch to switch: `joint` without the magnetic estimate and with it.
+// Gyros without a magnetic drift over pure tones, 10 to 60 Hz, 1000 to 20 000 arcsec/s, 8 to 20 s from switch to
+// switch: `joint` without the magnetic estimate and with it.
 [[nodiscard]] std::vector<DriftGyro> over_tones(int n, std::uint64_t seed);
 
 // Of one method, over all seeds.

@@ -41,8 +41,8 @@ struct FaultOutcome {
     std::string crash;                // what was thrown
 };
 
-// A gyro, its motion and a fault of this kind, as the seed draws them; from 1 ms to 60 s, evenly in the logarithm. Two at
-// once: another fault of any kind is near it. A laser is one that the processor knows perfectly.
+// A gyro, its motion and a fault of this kind, as the seed draws them; from 1 ms to 60 s, evenly in the logarithm. Two
+// at once: another fault of any kind is near it. A laser is one that the processor knows perfectly.
 [[nodiscard]] FaultTrial random_trial(std::optional<twin::FaultKind> kind, std::uint64_t seed,
                                       config::Fidelity fidelity = config::Fidelity::averaged, bool two_at_once = false);
 
@@ -78,13 +78,13 @@ struct FaultCampaign {
     std::vector<twin::FaultKind> kinds;  // none: all
 };
 
-// The figures, "none" first, then in the order of the kinds, then two at once (as many as of a kind), then all of them. They
-// don't depend on the number of threads.
+// The figures, "none" first, then in the order of the kinds, then two at once (as many as of a kind), then all of them.
+// They don't depend on the number of threads.
 [[nodiscard]] std::vector<FaultFigures> run(const FaultCampaign& campaign);
 
-// One line for each limit that is not kept; none of a campaign that is good. Of every kind: all recover, no NaN, no crash. Of
-// all faults together, of the pairs and of the gyros without fault each: 99.5 % of the ticks outside valid. Of all faults
-// together: a mean square of error over sigma of 0.5 to 1.5 outside.
+// One line for each limit that is not kept; none of a campaign that is good. Of every kind: all recover, no NaN, no
+// crash. Of all faults together, of the pairs and of the gyros without fault each: 99.5 % of the ticks outside valid.
+// Of all faults together: a mean square of error over sigma of 0.5 to 1.5 outside.
 [[nodiscard]] std::vector<std::string> complaints(const std::vector<FaultFigures>& figures);
 
 [[nodiscard]] std::string markdown(const std::vector<FaultFigures>& figures);

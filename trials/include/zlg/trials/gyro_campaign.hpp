@@ -1,8 +1,8 @@
 #pragma once
 // Random gyros in closed loop: every key that makes a gyro, over what a real one can have, at both fidelities.
 //
-// Nothing breaks in them. So none may be lost, no monitor may object, and what each switch leaves in the angle must be within
-// what is claimed of it.
+// Nothing breaks in them. So none may be lost, no monitor may object, and what each switch leaves in the angle must be
+// within what is claimed of it.
 
 #include <array>
 #include <cstdint>
@@ -70,9 +70,9 @@ struct GyroCampaign {
 // By number. They do not depend on the number of threads.
 [[nodiscard]] std::vector<GyroOutcome> run(const GyroCampaign& campaign);
 
-// One line for each limit that is not kept, with the command of the gyro where it is one: none lost, no false alarm, no unrepaired
-// tick, no NaN, no crash, no switch beyond 5 sigma without a flag; of all gyros with 5 switches, where they are 50 at least,
-// a median rms of error over sigma of 0.9 to 1.2.
+// One line for each limit that is not kept, with the command of the gyro where it is one: none lost, no false alarm, no
+// unrepaired tick, no NaN, no crash, no switch beyond 5 sigma without a flag; of all gyros with 5 switches, where they
+// are 50 at least, a median rms of error over sigma of 0.9 to 1.2.
 [[nodiscard]] std::vector<std::string> complaints(const std::vector<GyroOutcome>& outcomes);
 
 // A row for each fidelity and one for all; and one for each gyro.

@@ -1,8 +1,8 @@
 #pragma once
 // The magnetic estimator on bases that move: what is left of the sawtooth with it and without.
 //
-// A gyro with 0.7 arcsec/s that grow by 0.7 with 3000 s, and a random walk of 0.14 arcsec/sqrt(s). Only the magnetic part
-// of the angle is judged, over the last two intervals of a run that ends at draw.
+// A gyro with 0.7 arcsec/s that grow by 0.7 with 3000 s, and a random walk of 0.14 arcsec/sqrt(s). Only the magnetic
+// part of the angle is judged, over the last two intervals of a run that ends at draw.
 
 #include <cstdint>
 #include <functional>
@@ -33,8 +33,8 @@ struct MovingBase {
     std::function<BaseRate(chance::Draw draw, std::uint64_t seed)> make;
 };
 
-// Rest, motion at random, oscillations; motion in step with the switches, whose phase is that of the switches for odd seeds
-// and opposite for even ones.
+// Rest, motion at random, oscillations; motion in step with the switches, whose phase is that of the switches for odd
+// seeds and opposite for even ones.
 [[nodiscard]] std::vector<MovingBase> moving_bases(const MagneticGate& gate);
 
 struct GateResult {

@@ -34,12 +34,11 @@ struct NoiseCampaign {
     double low_probability = 0.0;  // share of fits whose goodness was below 0.05
 };
 
-// Each gyro has angle random walk and each other term with a chance of one half, but bias instability and a Markov term, which
-// few data tell apart, not together. Sizes are random, so that a term that is there shows: quantisation crosses the angle
-// random walk between 2 and 16 samples, the rate random walk crosses it between 1/1024 and 1/64 of the record, the floor of
-// the bias instability is 1.5 to 3 times the other noise there, the Markov term has 3 to 30 times the white noise in its
-// time, ramp and line 6 to 40
-// times what hides them.
+// Each gyro has angle random walk and each other term with a chance of one half, but bias instability and a Markov
+// term, which few data tell apart, not together. Sizes are random, so that a term that is there shows: quantisation
+// crosses the angle random walk between 2 and 16 samples, the rate random walk crosses it between 1/1024 and 1/64 of
+// the record, the floor of the bias instability is 1.5 to 3 times the other noise there, the Markov term has 3 to 30
+// times the white noise in its time, ramp and line 6 to 40 times what hides them.
 [[nodiscard]] NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task);
 
 [[nodiscard]] std::string campaign_text(const NoiseCampaign& campaign);

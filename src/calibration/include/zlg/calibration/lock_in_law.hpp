@@ -3,10 +3,11 @@
 //
 //   c_j + L^2 h_j = a r_j T + d + m mode_j        j: the settled ticks of one log in one mode
 //
-// with c_j the mean counts of a tick, r_j the known rate, a the scale factor, d and m the drifts, and L^2 h_j what lock-in takes from
-// both halves (core: lost_to_lock_in), which follows from the counts of the halves alone. Least squares in a, d, m and L^2, anew with the
-// L found until it stands. Its standard error is the larger one of two: by the residuals, and by leaving out one log at a time
-// (jackknife), for the dynamic zones near the bias make the residuals unequal. Where both modes tell L, half of their difference is added.
+// with c_j the mean counts of a tick, r_j the known rate, a the scale factor, d and m the drifts, and L^2 h_j what
+// lock-in takes from both halves (core: lost_to_lock_in), which follows from the counts of the halves alone. Least
+// squares in a, d, m and L^2, anew with the L found until it stands. Its standard error is the larger one of two: by
+// the residuals, and by leaving out one log at a time (jackknife), for the dynamic zones near the bias make the
+// residuals unequal. Where both modes tell L, half of their difference is added.
 
 #include <cstdint>
 #include <span>

@@ -36,7 +36,8 @@ struct LossCurve {
 };
 
 // law  of the same logs, determined.
-// return  not determined where the logs do not distinguish F from the linear law: from a third of the last point to that
+// return  not determined where the logs do not distinguish F from the linear law: from a third of the last point to
+// that
 //         point G/x^2 must change by 5 % and by 6 of its standard deviations; nor where the counter of a gyro at rest
 //         rounds alike after every re-lock.
 [[nodiscard]] LossCurve find_loss_curve(std::span<const LabLog> logs, const BiasLaw& law);

@@ -68,13 +68,14 @@ void apply_set(Config& config, std::string_view setting);
 void apply_pair(Config& config, std::string_view dotted_key, std::string_view value, std::string_view source_name);
 
 // The settings of a log: those of a known section; others (`flags`, notes of the laboratory) are none of ours.
-// Keys and values that a former version knew are stepped over (`former_keys_note` names them); elsewhere they are errors.
+// Keys and values that a former version knew are stepped over (`former_keys_note` names them); elsewhere they are
+// errors.
 //
 // errors  ConfigError: as apply_pair. It blames the log, not the user's configuration.
 void apply_log(Config& config, const Settings& log_settings, std::string_view log_name);
 
-// The length of a tick and the worth of a count are facts of a log that have no default: one of the layers of a configuration for
-// a log must have given them.
+// The length of a tick and the worth of a count are facts of a log that have no default: one of the layers of a
+// configuration for a log must have given them.
 //
 // errors  ConfigError: none has given tick_s, or scale_arcsec where it is used; the line says what gives it.
 void require_log_facts(const Config& config, std::string_view log_name, bool scale_is_used = true);

@@ -33,8 +33,9 @@ struct GyroControlOutput {
 // used), and while a reading may be wrong; the next good half has the difference over all of these, `span` halves. What
 // was not measured is recorded as 0; voltage and temperature keep their last finite value.
 //
-// Where the phase of the fringe is read, each reading is the whole count on that side of a border on which the phase lies,
-// and the record holds the place within the count. Where the phase cannot be trusted: the count as read, and no place.
+// Where the phase of the fringe is read, each reading is the whole count on that side of a border on which the phase
+// lies, and the record holds the place within the count. Where the phase cannot be trusted: the count as read, and no
+// place.
 //
 // A mode of the other helicity than was commanded is kept, and the command follows it. Near an end of its range the
 // piezo is led away by an additional switch, outside the schedule.
@@ -42,7 +43,8 @@ struct GyroControlOutput {
 // config   passed `check`.
 // state    from `initial_state`; every number in it stays finite, whatever the frames hold.
 // advice   what compensation has learnt by now, for a schedule that asks for it.
-// latency  a switch at the start of tick j is decided in half 2j - 1: halves 2j .. 2j + 2 gap_ticks - 1 are open, or fewer
+// latency  a switch at the start of tick j is decided in half 2j - 1: halves 2j .. 2j + 2 gap_ticks - 1 are open, or
+// fewer
 //          whole ticks where the gap may be shortened (mode_switch.hpp).
 // cost     bounded by the number of light samples; no allocation.
 [[nodiscard]] GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state, const SensorFrame& frame,

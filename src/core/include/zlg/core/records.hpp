@@ -38,8 +38,8 @@ struct SensorFrame {
     double coil_current_a = 0.0;
     double temperature_c = 0.0;
     std::uint32_t status = 0;  // bits of SensorStatus
-    // Both photodiodes of the beat, a quarter of a turn apart, sampled at the latch: any unit; a beat that counts up turns
-    // from fringe_c to fringe_s. And the quarter of the turn in which the counter's comparators stood, 0..3.
+    // Both photodiodes of the beat, a quarter of a turn apart, sampled at the latch: any unit; a beat that counts up
+    // turns from fringe_c to fringe_s. And the quarter of the turn in which the counter's comparators stood, 0..3.
     bool has_fringe = false;
     std::uint8_t fringe_quarter = 0;
     float fringe_c = 0.0f;
@@ -63,7 +63,8 @@ struct ActuatorFrame {
 
 // One row of the raw log: all that compensation knows of half-period `half`.
 //
-// A detuning or mean square that was not measured is 0 where control recorded the half. What a log has no column for is NaN.
+// A detuning or mean square that was not measured is 0 where control recorded the half. What a log has no column for is
+// NaN.
 struct HalfRecord {
     std::int64_t half = 0;
     std::int64_t counts = 0;           // counter difference over `span` halves, positive for positive rotation
@@ -79,8 +80,8 @@ struct HalfRecord {
     std::int32_t edge_offset_ticks = 0;
     // `counts` are those of so many halves, this one the last; those before have valid 0, counts 0, span 1.
     std::int32_t span = 1;
-    // Place within the count at the end of the half, 0..65535, 1/65536: the angle there is (sum of counts + fringe/65536)
-    // counts.
+    // Place within the count at the end of the half, 0..65535, 1/65536: the angle there is (sum of counts +
+    // fringe/65536) counts.
     float fringe = __builtin_nanf("");
     bool late = false;  // where a correction is due: its estimate was not ready, and the polynomial stands in
     bool lit = false;   // both beams were lit and steady throughout the half: its counts are good, in an open loop too

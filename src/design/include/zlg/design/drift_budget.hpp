@@ -71,7 +71,8 @@ struct DriftTerms {
 
 //   |nm| + sqrt(((|S| + |K[Om](t)|)/t)^2 + s^2/(t L))
 // Rms budget for such switches: the sawtooth as a certain error, that of the worst end as in worst_case_drift_arcsec_s,
-// warming included, the sum of the switches as a random one. For a gyro that does not warm up the first term is L Om0/t.
+// warming included, the sum of the switches as a random one. For a gyro that does not warm up the first term is L
+// Om0/t.
 [[nodiscard]] double random_sign_drift_arcsec_s(const DriftCase& task, double interval_s,
                                                 FirstSegment first = FirstSegment::full);
 

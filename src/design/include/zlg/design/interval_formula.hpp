@@ -16,8 +16,8 @@ namespace zlg::design {
 
 //   L = (s^2 t/(2 Om^2))^(1/3),   Om = (|Om(0)| + |Om(t)|)/2    first segment full
 //                                 Om = |Om(t)|/2                first segment half
-// Minimum of random_sign_drift_arcsec_s to first order in L/tau: switch errors that are independent with rms s. Infinite
-// for Om = 0.
+// Minimum of random_sign_drift_arcsec_s to first order in L/tau: switch errors that are independent with rms s.
+// Infinite for Om = 0.
 [[nodiscard]] double random_sign_interval_s(const DriftCase& task, FirstSegment first = FirstSegment::full);
 
 enum class RootStatus {

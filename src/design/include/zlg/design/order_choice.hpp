@@ -1,7 +1,8 @@
 #pragma once
 // Which order of the substituting polynomial leaves the smallest error, by motion and noise.
 //
-//   rms^2 = (A |H|)^2 / 2 + (g sigma)^2       motion of random phase, white noise of rms sigma a tick through the gain g
+//   rms^2 = (A |H|)^2 / 2 + (g sigma)^2       motion of random phase, white noise of rms sigma a tick through the gain
+//   g
 //
 // With points symmetric about the gap orders 2m and 2m + 1 give the same sum; the lower of equals is chosen.
 

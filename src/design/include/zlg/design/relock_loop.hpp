@@ -3,7 +3,8 @@
 //
 //   d(cmd)/dt = clip(dl, +-limit)/tau     d(hv)/dt = clip((cmd - hv)/RC, +-slew)     dl = miss - hv
 //
-// The limiter is electronics behind the tap of the light samples, which are never limited. Time runs from the closing; a tick is two halves of T/2 with the bias of opposite signs.
+// The limiter is electronics behind the tap of the light samples, which are never limited. Time runs from the closing;
+// a tick is two halves of T/2 with the bias of opposite signs.
 
 #include <limits>
 #include <vector>
@@ -40,7 +41,8 @@ struct RelockTrace {
 
 // n_ticks from the closing. |miss_lambda| <= 0.5, 1..10000 ticks.
 //
-// accuracy  1e-9 of the miss for a smooth loop; 1e-7 wavelength where limiter or slew put corners inside steps, 2e-6 from
+// accuracy  1e-9 of the miss for a smooth loop; 1e-7 wavelength where limiter or slew put corners inside steps, 2e-6
+// from
 //           4000 ticks on.
 // errors    DesignError for a number out of range.
 [[nodiscard]] RelockTrace simulate_relock(const RelockLoop& loop, double miss_lambda, int n_ticks);

@@ -2,9 +2,9 @@
 // The interval between switches of modes that makes a drift budget least.
 //
 // Long intervals let the magnetic drift pile up before it is reversed, short ones pay for many switches. Each method is
-// a budget with its own account of both; `optimum` is the global minimum of that budget over all 0 < L <= t: its slope is
-// known in closed form, is scanned on a logarithmic grid for changes of sign, and each zero is refined by the bracketing
-// method TOMS 748 (Alefeld, Potra and Shi, ACM Trans. Math. Softw. 21, 1995).
+// a budget with its own account of both; `optimum` is the global minimum of that budget over all 0 < L <= t: its slope
+// is known in closed form, is scanned on a logarithmic grid for changes of sign, and each zero is refined by the
+// bracketing method TOMS 748 (Alefeld, Potra and Shi, ACM Trans. Math. Softw. 21, 1995).
 
 #include <array>
 #include <optional>

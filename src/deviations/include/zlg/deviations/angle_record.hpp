@@ -10,8 +10,8 @@
 namespace zlg::deviations {
 
 // Increments and rates: the sum of what is known, their mean removed (no deviation depends on it), at every border of
-// intervals; a missing sample adds nothing and is not counted. Across it the angle is unknown: no deviation uses it as if
-// it were known. Phase: as it is, a missing one NaN.
+// intervals; a missing sample adds nothing and is not counted. Across it the angle is unknown: no deviation uses it as
+// if it were known. Phase: as it is, a missing one NaN.
 //
 // memory  8 bytes a sample; with gaps in increments or rates 12.
 class AngleRecord {

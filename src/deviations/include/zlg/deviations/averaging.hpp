@@ -20,10 +20,11 @@ namespace zlg::deviations {
 
 [[nodiscard]] std::vector<std::int64_t> all_factors(std::int64_t largest);
 
-// The nearest whole number of intervals to each tau, in rising order, each once; what was made of a tau is to be read from
-// the result.
+// The nearest whole number of intervals to each tau, in rising order, each once; what was made of a tau is to be read
+// from the result.
 //
-// errors  SeriesError: a tau that is not a positive number, nearer to 0 than to one interval, or over `largest` intervals.
+// errors  SeriesError: a tau that is not a positive number, nearer to 0 than to one interval, or over `largest`
+// intervals.
 [[nodiscard]] std::vector<std::int64_t> nearest_factors(std::span<const double> taus_s, double rate_hz,
                                                         std::int64_t largest);
 

@@ -12,12 +12,11 @@ namespace zlg::deviations {
 
 // Deviation of the record at averaging factors m.
 //
-//   increments and rate with gaps: a window counts where least_known_ratio of it is known; its rate is the mean of the known
-//   ones. Each difference is scaled by what fewer samples add: white noise of the rate keeps its expectation, in adev, oadev,
-//   hdev and ohdev exactly, in mdev, tdev and at the mirrored ends of totdev, where the known samples weigh differently, to a few
-//   percent at a ratio of 0.9; other noise is changed by less than the missing share. mdev: means weighted as without gaps.
-//   phase: only known angles are used.
-//   mtotdev, htotdev: only pieces without a gap.
+//   increments and rate with gaps: a window counts where least_known_ratio of it is known; its rate is the mean of the
+//   known ones. Each difference is scaled by what fewer samples add: white noise of the rate keeps its expectation, in
+//   adev, oadev, hdev and ohdev exactly, in mdev, tdev and at the mirrored ends of totdev, where the known samples
+//   weigh differently, to a few percent at a ratio of 0.9; other noise is changed by less than the missing share. mdev:
+//   means weighted as without gaps. phase: only known angles are used. mtotdev, htotdev: only pieces without a gap.
 //
 // accuracy  1e-12 of the definition, relative, also of a rate that walks at random
 // cost      10^7 samples, 93 taus: see docs/reliability.md

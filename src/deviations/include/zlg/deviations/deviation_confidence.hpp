@@ -15,7 +15,8 @@ struct Interval {
 
 // For rate noise of spectrum f^noise.
 //
-// noise   2 white angle (quantisation), 1, 0 white rate (angle random walk), -1 (bias instability), -2 rate random walk,
+// noise   2 white angle (quantisation), 1, 0 white rate (angle random walk), -1 (bias instability), -2 rate random
+// walk,
 //         and for Hadamard deviations -3 and -4 (others: -2 is taken).
 // n_intervals  without gaps.
 // source  the covariances of all pairs of terms, and for the skewness of all triples, as in C. Greenhall, W. Riley,

@@ -14,8 +14,8 @@ namespace zlg::deviations {
 // The total deviations are biased by the mirroring, by a factor that the noise decides.
 //
 // removed      divided by the factor as it is, so that the interval is that of the deviation without mirroring
-// published    divided by that of NIST Special Publication 1065, whose tables have it; of mtotdev it is 3 % off and more
-// as_computed  neither, as Stable32 and AllanTools print them
+// published    divided by that of NIST Special Publication 1065, whose tables have it; of mtotdev it is 3 % off and
+// more as_computed  neither, as Stable32 and AllanTools print them
 enum class TotalBias { removed, published, as_computed };
 
 [[nodiscard]] std::string_view name_of(TotalBias bias);

@@ -20,8 +20,8 @@ struct StreamConfig {
 };
 
 // Averagings up to `window` use every start, so they are what `deviation` gives. Longer ones use every s-th, s the
-// smallest power of two with m <= window s: at `window` starts within one averaging time the neighbours differ by next to
-// nothing, and the degrees of freedom are the same.
+// smallest power of two with m <= window s: at `window` starts within one averaging time the neighbours differ by next
+// to nothing, and the degrees of freedom are the same.
 //
 // memory  about 100 bytes * window * (1 + log2(largest factor/window)), whatever the length.
 class DeviationStream {

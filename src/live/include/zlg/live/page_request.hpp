@@ -19,8 +19,8 @@ struct PageRequest {
 
 enum class Reply { page, records, bad_request, not_found, not_allowed };
 
-// Only GET of `/` and `/records`, by a name of this machine and from no page but our own: another site whose name was made to lead here
-// (DNS rebinding) has its own name in Host, and one that merely points here has it in Origin.
+// Only GET of `/` and `/records`, by a name of this machine and from no page but our own: another site whose name was
+// made to lead here (DNS rebinding) has its own name in Host, and one that merely points here has it in Origin.
 //
 // port  at which the server listens.
 [[nodiscard]] Reply reply_to(const PageRequest& request, std::uint16_t port);

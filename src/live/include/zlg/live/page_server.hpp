@@ -9,10 +9,11 @@
 
 namespace zlg::live {
 
-// Listens at 127.0.0.1 from a thread of its own: `/` is the page, `/records` the events of the book, ten times a second. What is asked otherwise is
-// refused (page_request.hpp), and so is what lasts too long or is too large.
+// Listens at 127.0.0.1 from a thread of its own: `/` is the page, `/records` the events of the book, ten times a
+// second. What is asked otherwise is refused (page_request.hpp), and so is what lasts too long or is too large.
 //
-// A page that takes its events slowly is sent the next when it has taken the one before; after a minute without progress its connection ends.
+// A page that takes its events slowly is sent the next when it has taken the one before; after a minute without
+// progress its connection ends.
 class PageServer {
 public:
     static constexpr int most_pages = 32;  // streams at a time; another gets status 503

@@ -1,10 +1,10 @@
 #pragma once
 // What pages show of a gyro: its newest records, and in bounded memory what came before.
 //
-// One thread adds records, others ask for events: pieces of the stream of server-sent events (WHATWG HTML, section 9.2), each a name and one line of
-// JSON. A page that is not far behind gets every record; one that is, or that is new, gets a snapshot, from which it goes on.
-// Whoever asks holds the book while the records are copied and, once a second, while the Allan deviation is computed: some
-// milliseconds, and no page can make it longer.
+// One thread adds records, others ask for events: pieces of the stream of server-sent events (WHATWG HTML,
+// section 9.2), each a name and one line of JSON. A page that is not far behind gets every record; one that is, or that
+// is new, gets a snapshot, from which it goes on. Whoever asks holds the book while the records are copied and, once a
+// second, while the Allan deviation is computed: some milliseconds, and no page can make it longer.
 
 #include <cstdint>
 #include <memory>
@@ -50,14 +50,18 @@ public:
 
     // What brings a page to that place. `snapshot` or `rows`, with
     //
-    //   both      tick_s (null before the first record), first (the number of the first row), rows, ended, since_start: {flags, health} (bits that
+    //   both      tick_s (null before the first record), first (the number of the first row), rows, ended, since_start:
+    //   {flags, health} (bits that
     //             were ever raised)
-    //   rows      a list for each record: dtheta, dtheta_final, sigma, arcsec (null: not known); mode; flags; angle: the sum of dtheta_final up to
+    //   rows      a list for each record: dtheta, dtheta_final, sigma, arcsec (null: not known); mode; flags; angle:
+    //   the sum of dtheta_final up to
     //             and with it, arcsec; detuning, lambda; piezo voltage, V; temperature, C; bits of health
-    //   gap       of the newest gap whose surroundings are complete, where the page does not have it: first (row), ticks, mode (after it), and
+    //   gap       of the newest gap whose surroundings are complete, where the page does not have it: first (row),
+    //   ticks, mode (after it), and
     //             lists of dtheta and dtheta_final (`final`) from the row `shown` on
     //   allan     now and then: averaging times, s, and the overlapping Allan deviation of dtheta_final there, arcsec/s
-    //   snapshot  also source, flag_names, health_names (empty: the source tells none), and history: times, s, and angles, arcsec, of the whole
+    //   snapshot  also source, flag_names, health_names (empty: the source tells none), and history: times, s, and
+    //   angles, arcsec, of the whole
     //             record, thinned
     [[nodiscard]] Event event(Position from) const;
 

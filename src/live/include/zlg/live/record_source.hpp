@@ -58,8 +58,8 @@ public:
 // An angle log that grows (HDF5), until its writer closes it.
 [[nodiscard]] std::unique_ptr<RecordSource> log_source(logs::AngleReader log);
 
-// A raw log that grows (HDF5), through this compensation; detuning is the mean of a tick's halves, voltage and temperature those of
-// the second half.
+// A raw log that grows (HDF5), through this compensation; detuning is the mean of a tick's halves, voltage and
+// temperature those of the second half.
 //
 // name          of the log, in warnings.
 // compensation  passed `check`.

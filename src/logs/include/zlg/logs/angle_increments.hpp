@@ -26,8 +26,8 @@ public:
 
     // Fills both, which are of one length, as far as it can; returns how many, 0 at the end.
     //
-    // errors  FormatError: a row that is not good; those before it have been returned. Of an HDF5 log only the columns that
-    // are read are judged.
+    // errors  FormatError: a row that is not good; those before it have been returned. Of an HDF5 log only the columns
+    // that are read are judged.
     std::size_t read(std::span<double> dtheta_arcsec, std::span<std::uint32_t> flags);
 
 private:

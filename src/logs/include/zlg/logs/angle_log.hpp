@@ -46,10 +46,11 @@ private:
 // meanwhile and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
 class AngleWriter {
 public:
-    // Settings `flags` and `tick_s`, as a reader hands them out, stand for the writer's own lines, or as HDF5 attributes, of
-    // that name. A `tick_s` of NaN is not known and not written.
+    // Settings `flags` and `tick_s`, as a reader hands them out, stand for the writer's own lines, or as HDF5
+    // attributes, of that name. A `tick_s` of NaN is not known and not written.
     //
-    // errors  IoError (another suffix included), FormatError (a setting with a line break; HDF5: a tick_s of no number).
+    // errors  IoError (another suffix included), FormatError (a setting with a line break; HDF5: a tick_s of no
+    // number).
     AngleWriter(const std::string& path, double tick_s, const Settings& settings, bool force,
                 const AngleWriterOptions& options = {});
     ~AngleWriter();

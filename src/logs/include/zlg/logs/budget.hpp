@@ -21,8 +21,8 @@ public:
     // Bytes of what is unpacked into memory.
     void take_unpacked(std::size_t bytes);
 
-    // Pieces that a reader looks up one by one, and those that are packed unpacks whole, whatever they hold of the values: of
-    // each 32 values, or a quarter of those that are unpacked.
+    // Pieces that a reader looks up one by one, and those that are packed unpacks whole, whatever they hold of the
+    // values: of each 32 values, or a quarter of those that are unpacked.
     void take_chunks(std::size_t n, std::size_t unpacked_values_of_one);
 
 private:

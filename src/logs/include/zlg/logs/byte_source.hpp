@@ -16,7 +16,8 @@ struct SourceError : std::invalid_argument {
 class ByteSource {
 public:
     // source  a path, `-` for standard input, `tcp:HOST:PORT` or `unix:PATH`.
-    // baud    of a serial device, which is set to eight bits without parity and to nothing else that would change a byte.
+    // baud    of a serial device, which is set to eight bits without parity and to nothing else that would change a
+    // byte.
     //
     // errors  SourceError: a speed that no serial device has, a malformed address; IoError: it cannot be opened.
     ByteSource(const std::string& source, int baud);

@@ -25,8 +25,9 @@ struct ColumnFile {
     std::vector<std::pair<std::string, std::int64_t>> marks;  // attributes of the root, up to 2^53 in size
 };
 
-// Writes PATH.new and renames it to PATH: the file is as before or whole, whatever happens. A PATH.new that is there is what a
-// killed program has left. PATH may be a file that was read: who asks for it has to know (text::refuse_input). Texts are of fixed length and filled up with zeros, in UTF-8.
+// Writes PATH.new and renames it to PATH: the file is as before or whole, whatever happens. A PATH.new that is there is
+// what a killed program has left. PATH may be a file that was read: who asks for it has to know (text::refuse_input).
+// Texts are of fixed length and filled up with zeros, in UTF-8.
 //
 // errors  IoError: the disk is full, no permission, or any other failure to write: PATH is then as before.
 void write_columns(const std::string& path, const ColumnFile& file);

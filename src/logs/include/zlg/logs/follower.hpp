@@ -19,7 +19,8 @@ inline constexpr int default_baud = 921600;
 class Follower {
 public:
     // source, baud  as ByteSource has them.
-    // duration_s    end after rows of so long; nothing: when the source ends. A clock is the caller's, who calls `stop`.
+    // duration_s    end after rows of so long; nothing: when the source ends. A clock is the caller's, who calls
+    // `stop`.
     //
     // errors  those of ByteSource; SourceError: a duration that is not within 0..1e9 s.
     Follower(const std::string& source, int baud, std::optional<double> duration_s);

@@ -33,8 +33,8 @@ struct ForeignTable {
     std::function<TextTable(const std::vector<std::int64_t>& wanted, std::int64_t times)> read;
 };
 
-// errors  IoError; FormatError: the file cannot be read as a table; MappingError: more than one table, or more than one way
-// to read it; the line names the key that decides.
+// errors  IoError; FormatError: the file cannot be read as a table; MappingError: more than one table, or more than one
+// way to read it; the line names the key that decides.
 [[nodiscard]] ForeignTable foreign_table(const std::string& path, const Mapping& mapping);
 
 // By number or by name, in any case of its letters, with or without its unit.

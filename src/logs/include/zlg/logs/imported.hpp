@@ -1,7 +1,8 @@
 #pragma once
 // Rows of our own logs from a file of another program.
 //
-// What the file itself says is taken and said; what it leaves open is asked for. Nothing that a number depends on is guessed.
+// What the file itself says is taken and said; what it leaves open is asked for. Nothing that a number depends on is
+// guessed.
 
 #include <optional>
 #include <string>
@@ -38,11 +39,11 @@ struct ImportedRaw {
     std::vector<std::string> notes;
 };
 
-// Half-periods: rows that are missing by the times or the numbers of the halves become halves with `valid` 0; rows of a part of a
-// half are added up where whole numbers of them make a half.
+// Half-periods: rows that are missing by the times or the numbers of the halves become halves with `valid` 0; rows of a
+// part of a half are added up where whole numbers of them make a half.
 //
-// errors  MappingError: something is missing or contradicts the file; FormatError: a value that a raw log cannot hold, times
-// that do not say where rows are missing, rows that do not make halves exactly; the reason is in the line.
+// errors  MappingError: something is missing or contradicts the file; FormatError: a value that a raw log cannot hold,
+// times that do not say where rows are missing, rows that do not make halves exactly; the reason is in the line.
 [[nodiscard]] ImportedRaw imported_raw(const ForeignLook& look);
 
 struct ImportedAxis {
@@ -61,9 +62,9 @@ struct ImportedAxes {
 // errors  as imported_raw().
 [[nodiscard]] ImportedAxes imported_axes(const ForeignLook& look);
 
-// The angle log of one axis: a row a sample, sigma_arcsec unknown (inf). A missing sample is flagged `invalid` and `unrepaired` and turns by
-// nothing; where angles were recorded the turn over missing ones is spread evenly and flagged `interpolated` in place of
-// `unrepaired`.
+// The angle log of one axis: a row a sample, sigma_arcsec unknown (inf). A missing sample is flagged `invalid` and
+// `unrepaired` and turns by nothing; where angles were recorded the turn over missing ones is spread evenly and flagged
+// `interpolated` in place of `unrepaired`.
 [[nodiscard]] std::vector<core::AngleRow> angle_rows(const ImportedAxis& axis);
 
 }  // namespace zlg::logs

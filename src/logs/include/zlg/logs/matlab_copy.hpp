@@ -1,9 +1,10 @@
 #pragma once
 // A log for MATLAB: a file of its level 5 (`-v6`), one variable a column.
 //
-// Every column is a vector of doubles, named as in a CSV log; `light` and `light_b` are samples by halves, as h5read gives them;
-// `truth_dtheta_arcsec` is the true increment. `settings` is the text of /config in an HDF5 log; `tick_s`, `scale_arcsec` and
-// `timer_hz` are there where the log says them. zlg itself reads such a file as one of another program.
+// Every column is a vector of doubles, named as in a CSV log; `light` and `light_b` are samples by halves, as h5read
+// gives them; `truth_dtheta_arcsec` is the true increment. `settings` is the text of /config in an HDF5 log; `tick_s`,
+// `scale_arcsec` and `timer_hz` are there where the log says them. zlg itself reads such a file as one of another
+// program.
 
 #include <memory>
 #include <string>
@@ -14,7 +15,8 @@
 
 namespace zlg::logs {
 
-// The rows are held in memory until `close`, as MATLAB will hold them. The file appears under its name then, whole, or not at all.
+// The rows are held in memory until `close`, as MATLAB will hold them. The file appears under its name then, whole, or
+// not at all.
 template <class Table>
 class MatlabCopy {
 public:

@@ -15,8 +15,8 @@ class LogSource;
 template <class Table>
 class LogSink;
 
-// Reads rows in order and checks every one by the rules of RawTable and RawSequence, where also stands what a row holds of
-// an optional column that is absent. The format is recognised by the content.
+// Reads rows in order and checks every one by the rules of RawTable and RawSequence, where also stands what a row holds
+// of an optional column that is absent. The format is recognised by the content.
 class RawReader {
 public:
     // An HDF5 log may be open in a writer, or left behind by one that was killed: its whole rows are there.
@@ -53,19 +53,19 @@ private:
 
 // Writes a raw log with the required and the given columns, in the format that the suffix says: .csv, .h5 or .hdf5.
 //
-// It appears under its name at `close`, whole, or not at all. As HDF5 it grows as PATH.part, which can be read meanwhile
-// and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
+// It appears under its name at `close`, whole, or not at all. As HDF5 it grows as PATH.part, which can be read
+// meanwhile and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
 class RawWriter {
 public:
-    // errors  IoError (another suffix included), FormatError (a setting with a line break, light samples in a CSV log, edge
-    // offsets without timer_hz).
+    // errors  IoError (another suffix included), FormatError (a setting with a line break, light samples in a CSV log,
+    // edge offsets without timer_hz).
     RawWriter(const std::string& path, const Settings& settings, bool force,
               const RawColumns& columns = all_raw_columns, const RawWriterOptions& options = {});
     ~RawWriter();
     RawWriter(RawWriter&&) noexcept;
 
-    // errors  IoError; FormatError: a real number that no reader would accept; a shifted edge or a span without the column
-    // for it; another number of light samples than announced.
+    // errors  IoError; FormatError: a real number that no reader would accept; a shifted edge or a span without the
+    // column for it; another number of light samples than announced.
     void write(const core::HalfRecord& record, const core::LightSamples& light = {});
 
     // Makes all rows so far visible to readers of PATH.part. errors  IoError.

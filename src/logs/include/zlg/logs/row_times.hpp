@@ -28,7 +28,8 @@ struct RowTimes {
 
 // Empty where the column, recognised by its place or its name, does not rise as times do.
 //
-// errors  FormatError: a time that is missing or earlier than the one before, in a column that is said to be one; the line
+// errors  FormatError: a time that is missing or earlier than the one before, in a column that is said to be one; the
+// line
 //         names the setting that says there is none.
 [[nodiscard]] std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said,
                                                 const std::string& none = "time_column = 0");
@@ -36,8 +37,9 @@ struct RowTimes {
 // Whole numbers that rise by 1, without a unit in the name: they may merely number the rows.
 [[nodiscard]] bool numbers_rows(const TextColumn& column, const RowTimes& times);
 
-// Why these times are not those of so many rows a second; empty where they may be: in the unit that the column's name has,
-// or else in seconds or in thousandths, millionths or milliardths of one. Rows that are merely numbered say nothing.
+// Why these times are not those of so many rows a second; empty where they may be: in the unit that the column's name
+// has, or else in seconds or in thousandths, millionths or milliardths of one. Rows that are merely numbered say
+// nothing.
 [[nodiscard]] std::string contradiction(const TextColumn& column, const RowTimes& times, double rate_hz);
 
 // The unit in which they are, where neither is it in the column's name nor are they seconds; empty else.
@@ -46,8 +48,8 @@ struct RowTimes {
 // "column 1, 'time', rises by 0.01 a row, which is 100 Hz in seconds".
 [[nodiscard]] std::string rate_in_words(const TextColumn& column, const RowTimes& times);
 
-// More rows are missing than may be filled in (budget.hpp): `column` for messages, `values` of it, `if_none` what to say if
-// none are missing. errors  FormatError: names the largest jump.
+// More rows are missing than may be filled in (budget.hpp): `column` for messages, `values` of it, `if_none` what to
+// say if none are missing. errors  FormatError: names the largest jump.
 void refuse_many_missing(const std::string& path, const std::string& column, std::span<const double> values,
                          const RowTimes& times, const std::string& if_none);
 

@@ -1,5 +1,6 @@
 #pragma once
-// One column of a log, as a row of the table that the readers and writers of both formats and Python's arrays go through.
+// One column of a log, as a row of the table that the readers and writers of both formats and Python's arrays go
+// through.
 
 #include <cstddef>
 #include <functional>

@@ -2,7 +2,8 @@
 // Columns of numbers in a plain text file.
 //
 // Columns are parted by blanks, tabs, semicolons, commas or bars; the decimal mark is a point or a comma. Both are
-// recognised together from the first lines, and a file that can be read in two ways is refused. Thousands are not parted.
+// recognised together from the first lines, and a file that can be read in two ways is refused. Thousands are not
+// parted.
 
 #include <cstdint>
 #include <optional>
@@ -41,10 +42,11 @@ struct TextTable {
     std::int64_t n_columns = 0;
 };
 
-// A line of words above the numbers is their header; the last comment above them is, where it has as many words. Columns of
-// times are recognised by their name, or as a first column without a name that was not asked for.
+// A line of words above the numbers is their header; the last comment above them is, where it has as many words.
+// Columns of times are recognised by their name, or as a first column without a name that was not asked for.
 //
-// errors  IoError; FormatError: what the file is, where it is no text; lines that can be read in no way or in two; a line
+// errors  IoError; FormatError: what the file is, where it is no text; lines that can be read in no way or in two; a
+// line
 //         with more or fewer fields than the first; no such column; another word than a finite number; no rows.
 [[nodiscard]] TextTable read_text_table(const std::string& path, const TextLayout& layout);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Whether the column that is read holds times, and what the times of the rows say of the rows per second. The words are for
-// the program's messages; who calls decides what is refused.
+// Whether the column that is read holds times, and what the times of the rows say of the rows per second. The words are
+// for the program's messages; who calls decides what is refused.
 
 #include <optional>
 #include <string>
@@ -17,7 +17,8 @@ struct TimeQuestion {
     std::optional<double> rate_hz;  // unset: nothing to hold the times against
 };
 
-// Why the first column is not read: nobody asked for it, and it holds times by its name or by how it rises. Empty: it is.
+// Why the first column is not read: nobody asked for it, and it holds times by its name or by how it rises. Empty: it
+// is.
 [[nodiscard]] std::string mistaken_times(const TextTable& table, const std::string& path, const TextLayout& layout,
                                          const TimeQuestion& question);
 

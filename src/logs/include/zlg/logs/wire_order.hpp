@@ -1,5 +1,6 @@
 #pragma once
-// Which messages of a line are news, and in which order: what comes again or late is left out, what fits nothing is refused.
+// Which messages of a line are news, and in which order: what comes again or late is left out, what fits nothing is
+// refused.
 //
 // No message counts alone: it is held until the next one continues it. So one message that is not the gyro's, however
 // whole, neither begins anything nor ends it. The rules are those of docs/wire.md, "Order of the messages".

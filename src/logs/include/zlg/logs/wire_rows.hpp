@@ -1,8 +1,9 @@
 #pragma once
 // The angle log out of a gyro's line: rows from whatever bytes arrive, and what was lost on the way.
 //
-// Each message brings the row of a settled tick, and the sums of both columns up to it. So a loss takes the rows, but not
-// the angle: the missing rows share what the sums have grown by. What was reported of such a tick in real time is kept.
+// Each message brings the row of a settled tick, and the sums of both columns up to it. So a loss takes the rows, but
+// not the angle: the missing rows share what the sums have grown by. What was reported of such a tick in real time is
+// kept.
 
 #include <cstdint>
 #include <deque>
@@ -47,8 +48,8 @@ struct WireSummary : OrderSummary {
 
 class WireRows {
 public:
-    // Any bytes, in pieces of any length. Rows that follow from them wait in `next`: a message brings 2 max_lost_rows at
-    // most. Each is taken when the next one shows that it fits.
+    // Any bytes, in pieces of any length. Rows that follow from them wait in `next`: a message brings 2 max_lost_rows
+    // at most. Each is taken when the next one shows that it fits.
     void take(std::span<const std::uint8_t> bytes);
 
     // Nothing more comes: the ticks that are not settled follow as rows too, with flag_final_lost.

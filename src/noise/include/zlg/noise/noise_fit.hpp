@@ -10,8 +10,9 @@
 // not be distinguished from a rate random walk in them.
 //
 // A term is reported where the data refuse to do without it: of all sets of terms the one with the least
-// -2 log likelihood + 6.6 for each coefficient is reported (a chance of 0.5 % each for one that is absent; a Markov term
-// has two). Its standard error includes that of the other terms and, for few degrees of freedom, its own uncertainty.
+// -2 log likelihood + 6.6 for each coefficient is reported (a chance of 0.5 % each for one that is absent; a Markov
+// term has two). Its standard error includes that of the other terms and, for few degrees of freedom, its own
+// uncertainty.
 
 #include <cstdint>
 #include <limits>

@@ -7,8 +7,8 @@
 //   bias instability    B    B^2/(2 pi f)                            2 ln2/pi B^2
 //   rate random walk    K    K^2/(2 pi f)^2                          K^2 tau/3
 //   ramp                R    -                                       R^2 tau^2/2
-//   Markov            s, T   2 s^2 T/(1 + (2 pi f T)^2)              s^2 (T/tau)^2 (2 tau/T - 3 + 4 e^(-tau/T) - e^(-2 tau/T))
-//   sinusoid          A, f   a line                                  A^2 sin^4(pi f tau)/(pi f tau)^2
+//   Markov            s, T   2 s^2 T/(1 + (2 pi f T)^2)              s^2 (T/tau)^2 (2 tau/T - 3 + 4 e^(-tau/T) - e^(-2
+//   tau/T)) sinusoid          A, f   a line                                  A^2 sin^4(pi f tau)/(pi f tau)^2
 //
 // 1 arcsec/s = 1 deg/h. A standard deviation s of the Markov term is q_c sqrt(T/2), q_c its driving noise.
 
@@ -43,12 +43,12 @@ struct NoiseTerms {
 // Of third differences, so without ramp; white noise gives N^2/tau too.
 [[nodiscard]] double hadamard_variance(const NoiseTerms& terms, double tau_s);
 
-// Two-sided spectrum of the rate, (arcsec/s)^2/Hz, at 0 < f <= rate/2, without the sinusoids. Quantisation as of samples
-// of that rate: 4 Q^2 sin^2(pi f/rate) rate.
+// Two-sided spectrum of the rate, (arcsec/s)^2/Hz, at 0 < f <= rate/2, without the sinusoids. Quantisation as of
+// samples of that rate: 4 Q^2 sin^2(pi f/rate) rate.
 [[nodiscard]] double rate_spectrum(const NoiseTerms& terms, double frequency_hz, double rate_hz);
 
-// Generalised covariance of the angle at a distance t >= 0, but for quantisation: E of the product of two differences of
-// the angle follows from it, for differences that cancel constants (and straight lines and parabolas where there are
+// Generalised covariance of the angle at a distance t >= 0, but for quantisation: E of the product of two differences
+// of the angle follows from it, for differences that cancel constants (and straight lines and parabolas where there are
 // bias instability or rate random walk). arcsec^2
 [[nodiscard]] double angle_covariance(const NoiseTerms& terms, double t_s);
 

@@ -1,8 +1,8 @@
 #pragma once
 // Noise as data sheets, processors and other tools write it: see docs/noise.md.
 //
-// Continuous forms are spectra, and do not depend on a sampling rate; discrete forms are what one sample of a given rate
-// has. They differ in number and in unit, and so do their names.
+// Continuous forms are spectra, and do not depend on a sampling rate; discrete forms are what one sample of a given
+// rate has. They differ in number and in unit, and so do their names.
 
 #include <zlg/noise/noise_terms.hpp>
 

@@ -1,9 +1,9 @@
 #pragma once
 // The spectrum of a rate with gaps, averaged over the record or piece by piece.
 //
-// Each piece is freed of the mean of what is known in it and weighted by a Hann window; a missing sample weighs nothing and
-// the sum of the squared weights that are left is the scale. Gaps are neither filled nor cut out, so that frequencies stay
-// where they are; what leaks is that of the window with holes.
+// Each piece is freed of the mean of what is known in it and weighted by a Hann window; a missing sample weighs nothing
+// and the sum of the squared weights that are left is the scale. Gaps are neither filled nor cut out, so that
+// frequencies stay where they are; what leaks is that of the window with holes.
 
 #include <cstddef>
 #include <span>

@@ -27,7 +27,8 @@ struct ClusterFit {
 
 enum class Laws {
     distinct,
-    alike  // by the pseudo-inverse: a combination that the clusters do not determine stays small, a column of zeros has no part
+    alike  // by the pseudo-inverse: a combination that the clusters do not determine stays small, a column of zeros has
+           // no part
 };
 
 // clusters  1 or more, of equal size.

@@ -12,8 +12,9 @@ struct Minimum {
     double value = 0.0;
 };
 
-// The least of n + 1 equally spaced points of [low, high], then Brent's method between its neighbours: the global minimum wherever
-// the function has one minimum at most within two steps. A point where f is not a number is passed over.
+// The least of n + 1 equally spaced points of [low, high], then Brent's method between its neighbours: the global
+// minimum wherever the function has one minimum at most within two steps. A point where f is not a number is passed
+// over.
 template <class Function>
 Minimum scanned_minimum(Function f, double low, double high, int n) {
     const double step = (high - low) / n;
@@ -23,7 +24,8 @@ Minimum scanned_minimum(Function f, double low, double high, int n) {
         const double value = f(x);
         if (value < best.value) best = {x, value};
     }
-    // A parabola knows the place of its minimum to half the digits of its values only; 20 bits of two steps ask for no more.
+    // A parabola knows the place of its minimum to half the digits of its values only; 20 bits of two steps ask for no
+    // more.
     constexpr int bits = 20;
     std::uintmax_t max_steps = 60;
     const auto [at, value] = boost::math::tools::brent_find_minima(f, std::max(low, best.at - step),

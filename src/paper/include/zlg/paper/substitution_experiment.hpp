@@ -2,15 +2,15 @@
 // The twin as an experiment on the substitution of a gap, held against its theory.
 //
 // One experiment is a run of many switches. From the middle between two switches to the middle of the next interval the
-// case oscillates with a phase of its own, drawn for that switch, so the errors of the switches are independent samples.
-// Nothing but the motion and the noise is left to make them: the miss is the natural one, re-lock is corrected by mean
-// squares, and the high-voltage stage is made fast enough to arrive within the gap.
+// case oscillates with a phase of its own, drawn for that switch, so the errors of the switches are independent
+// samples. Nothing but the motion and the noise is left to make them: the miss is the natural one, re-lock is corrected
+// by mean squares, and the high-voltage stage is made fast enough to arrive within the gap.
 //
-// The motion makes an error A (Re H sin phase + Im H cos phase), phase in the middle of the gap (design::ErrorResponse).
-// A regression on the two quadratures separates it from the noise. What the noise should be: the rounding of the count,
-// the random walk, the light noise of the re-lock correction and the magnetic drift, which is not the same on the two
-// sides of a gap, each through the weights of the sum. Slow motion leaves the roundings of neighbouring ticks correlated;
-// that is in the theory too.
+// The motion makes an error A (Re H sin phase + Im H cos phase), phase in the middle of the gap
+// (design::ErrorResponse). A regression on the two quadratures separates it from the noise. What the noise should be:
+// the rounding of the count, the random walk, the light noise of the re-lock correction and the magnetic drift, which
+// is not the same on the two sides of a gap, each through the weights of the sum. Slow motion leaves the roundings of
+// neighbouring ticks correlated; that is in the theory too.
 
 #include <array>
 #include <cstdint>
@@ -43,9 +43,9 @@ struct Component {
     friend bool operator==(const Component&, const Component&) = default;
 };
 
-// One fit of one experiment. "extremum" and "crossing" are the errors of motion, less noise, at a switch with an extremum
-// (phase pi/2) and with a rising zero crossing (phase 0) of the rate in the middle of the gap. At a constant rate "extremum"
-// is the error at the highest rate; "crossing" is then 0 with standard error 0.
+// One fit of one experiment. "extremum" and "crossing" are the errors of motion, less noise, at a switch with an
+// extremum (phase pi/2) and with a rising zero crossing (phase 0) of the rate in the middle of the gap. At a constant
+// rate "extremum" is the error at the highest rate; "crossing" is then 0 with standard error 0.
 struct SubstitutionPoint {
     design::Fit fit = design::Fit::interpolation;  // extrapolation: what is delivered in real time
     int order = 0;
@@ -88,8 +88,9 @@ struct ChiSquare {
 
 // Squared deviation from theory over squared standard error: of the extremum and of the crossing, and of the rms.
 //
-// Points of one experiment share its noise, and with symmetric points constant and linear are one estimator. Independent
-// are points of one fit and one order from different experiments. Components without a standard error are left out.
+// Points of one experiment share its noise, and with symmetric points constant and linear are one estimator.
+// Independent are points of one fit and one order from different experiments. Components without a standard error are
+// left out.
 [[nodiscard]] ChiSquare chi2_per_dof(std::span<const SubstitutionPoint> points);
 [[nodiscard]] ChiSquare rms_chi2_per_dof(std::span<const SubstitutionPoint> points);
 

@@ -19,15 +19,16 @@ struct LogCompensation {
     std::vector<std::string> warnings;  // what was asked and is not done
 };
 
-// compensation.relock unset: mean_square where the log has the column for it, none where not; an explicit method is obeyed or
-// refused.
+// compensation.relock unset: mean_square where the log has the column for it, none where not; an explicit method is
+// obeyed or refused.
 //
-// The log's detunings have come through the curve that its settings name; where these name none, they come through that of
-// [perimeter] here.
+// The log's detunings have come through the curve that its settings name; where these name none, they come through that
+// of [perimeter] here.
 //
 // config    what the user asks for over the settings of the log, or without them.
 // log_name  begins every line.
-// errors    config::ConfigError: the log lacks the column that the method needs; edges are shifted and longer than half a tick, or
+// errors    config::ConfigError: the log lacks the column that the method needs; edges are shifted and longer than half
+// a tick, or
 //           their timer is none; those of `rig::compensation_config`.
 [[nodiscard]] LogCompensation log_compensation(const config::Config& config, const logs::RawHeader& log,
                                                const std::string& log_name);

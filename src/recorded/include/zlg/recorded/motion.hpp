@@ -8,7 +8,8 @@ namespace zlg::recorded {
 
 // As rig::motion; of the kind "file", what the motion file holds.
 //
-// errors  logs::IoError, logs::FormatError: also a number that is missing, or rows that are, by the times of the others;
+// errors  logs::IoError, logs::FormatError: also a number that is missing, or rows that are, by the times of the
+// others;
 //         config::ConfigError: a column of times by default, times that contradict motion.rate_hz.
 [[nodiscard]] twin::Motion motion(const config::Config& config);
 

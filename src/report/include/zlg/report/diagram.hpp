@@ -12,7 +12,8 @@ struct Diagram {
     std::string file;
 };
 
-// A drawing from the text of its file, whose first element has an id, a title and a description, without markup in them.
+// A drawing from the text of its file, whose first element has an id, a title and a description, without markup in
+// them.
 //
 // errors  std::out_of_range for a text without one of them.
 [[nodiscard]] Diagram diagram_of(std::string file);

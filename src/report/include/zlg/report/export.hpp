@@ -12,8 +12,8 @@ namespace zlg::report {
 [[nodiscard]] std::string svg_file(const Figure& figure);
 [[nodiscard]] std::string svg_file(const Diagram& diagram);
 
-// What the curves show, one point per row: series,x,y,y_error. Lines that begin with # name the figure, its axes and its
-// bands. Reals in the shortest form that reads back; an error that a point does not have is an empty field.
+// What the curves show, one point per row: series,x,y,y_error. Lines that begin with # name the figure, its axes and
+// its bands. Reals in the shortest form that reads back; an error that a point does not have is an empty field.
 [[nodiscard]] std::string csv(const Figure& figure);
 
 // A field of a CSV row in quotes, with those within doubled.

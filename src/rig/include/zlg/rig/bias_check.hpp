@@ -5,11 +5,11 @@
 //
 //   b = bias_sign * mode * (n_h - n_(h-1))/2
 //
-// is the bias in a half and half the change of the rotation from one to the other. Where the columns are wrong it is as large, and
-// negative. A single half proves nothing: a fault or a jerk may do that. Halves in a row do.
+// is the bias in a half and half the change of the rotation from one to the other. Where the columns are wrong it is as
+// large, and negative. A single half proves nothing: a fault or a jerk may do that. Halves in a row do.
 //
-// A counter that drops the direction counts the bias the same way in both signs: b is then near 0 in the whole log, and the counts
-// are not.
+// A counter that drops the direction counts the bias the same way in both signs: b is then near 0 in the whole log, and
+// the counts are not.
 
 #include <cstdint>
 #include <string>
@@ -26,8 +26,8 @@ public:
 
     void take(const core::HalfRecord& half);
 
-    // One line where 32 halves in a row contradict the columns, whatever lies between them that shows no bias, or where nearly
-    // all halves count the bias one way; else empty.
+    // One line where 32 halves in a row contradict the columns, whatever lies between them that shows no bias, or where
+    // nearly all halves count the bias one way; else empty.
     [[nodiscard]] std::string complaint(const std::string& log_name) const;
     // The first of both: it holds whatever the bias is.
     [[nodiscard]] bool is_contradicted() const { return lasts_; }

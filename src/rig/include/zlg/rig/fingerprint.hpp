@@ -1,8 +1,8 @@
 #pragma once
 // The fingerprint of a run: 64 bits that stand for all that passed between the gyro, its processor and the outside.
 //
-// A configuration and a seed name one run, on every machine. Two runs with the same fingerprint agree to the last bit in every
-// sensor frame, actuator frame, half record, truth and angle; docs/logs.md says how the bits are made.
+// A configuration and a seed name one run, on every machine. Two runs with the same fingerprint agree to the last bit
+// in every sensor frame, actuator frame, half record, truth and angle; docs/logs.md says how the bits are made.
 
 #include <array>
 #include <cstddef>
@@ -32,8 +32,9 @@ private:
 
     [[nodiscard]] std::uint64_t halves() const;
 
-    // The bytes of a half are hashed when the next half comes. Just written, numbers of different sizes cannot be read as whole
-    // words yet; and a hash mostly waits for its own products, beside which the processor lays out the next half.
+    // The bytes of a half are hashed when the next half comes. Just written, numbers of different sizes cannot be read
+    // as whole words yet; and a hash mostly waits for its own products, beside which the processor lays out the next
+    // half.
     std::array<unsigned char, max_half_bytes> last_half_;
     std::size_t n_last_half_ = 0;
     std::uint64_t before_last_ = 0;  // hash of the halves before it

@@ -1,16 +1,17 @@
 #pragma once
 // Whether the places within the count, column `fringe` of a recorded log, belong to its counts.
 //
-// Borders of halves, two halves apart, have the angle S + p: the sum S of the counts and the place p, both in counts. The
-// difference of the eighth order over nine of them removes a motion of up to a tenth of the rate of the ticks, and the bias;
-// of a place that is spread evenly over its count it has the variance C(16, 8)/12, here the unit. So with
+// Borders of halves, two halves apart, have the angle S + p: the sum S of the counts and the place p, both in counts.
+// The difference of the eighth order over nine of them removes a motion of up to a tenth of the rate of the ticks, and
+// the bias; of a place that is spread evenly over its count it has the variance C(16, 8)/12, here the unit. So with
 //
 //   y = D8 S,  q = D8 p,  x = y + q:   right places  <y^2 - x^2> = <q^2>, for x is the motion, which knows nothing of p
 //                                      others        <y^2 - x^2> = -<q^2>, for y knows nothing of q
 //
-// whatever the motion; its part of y, where it is rougher than two units, makes the mean uncertain, and nothing is decided.
-// Where the angle has been evenly in all parts of a count, x knows nothing of a right place at all, <x q> = 0: half a place, a
-// random one in ten or a periodic error show there. Places that stand still while the counts move show y without q. Squares are limited, so that a single jerk decides nothing.
+// whatever the motion; its part of y, where it is rougher than two units, makes the mean uncertain, and nothing is
+// decided. Where the angle has been evenly in all parts of a count, x knows nothing of a right place at all, <x q> = 0:
+// half a place, a random one in ten or a periodic error show there. Places that stand still while the counts move show
+// y without q. Squares are limited, so that a single jerk decides nothing.
 
 #include <array>
 #include <cstdint>
@@ -24,8 +25,8 @@ class PlaceCheck {
 public:
     void take(const core::HalfRecord& half);
 
-    // One line where places contradict the counts in a stretch of 4096 differences, a last one of 512 or more among them;
-    // empty where none does, and where nothing can be decided.
+    // One line where places contradict the counts in a stretch of 4096 differences, a last one of 512 or more among
+    // them; empty where none does, and where nothing can be decided.
     [[nodiscard]] std::string complaint(const std::string& log_name) const;
 
 private:

@@ -9,8 +9,8 @@
 
 namespace zlg::rig {
 
-// The message; where it names none of the keys that were set, these are added: in a rule between keys the one at fault may
-// be another than the one named.
+// The message; where it names none of the keys that were set, these are added: in a rule between keys the one at fault
+// may be another than the one named.
 [[nodiscard]] std::string named(const config::Config& config, const std::string& message);
 
 // errors  config::ConfigError, always: `key = value, key = value: allowed is ...`, with what `named` adds.

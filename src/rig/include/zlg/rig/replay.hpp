@@ -33,8 +33,8 @@ void hand_over_rest(const Drain& drain, const OnRow& on_row, const OnGap& on_gap
     }
 }
 
-// One compensation and its state. Every tick of two halves gives one final row, in the order of the ticks: some ticks later, or
-// at `end`.
+// One compensation and its state. Every tick of two halves gives one final row, in the order of the ticks: some ticks
+// later, or at `end`.
 class Replay {
 public:
     // config  passed `check`.
@@ -70,7 +70,8 @@ public:
     // One line where the loop was opened and no false drift after it is subtracted; empty otherwise.
     [[nodiscard]] std::string uncorrected(const std::string& log_name) const;
 
-    // One line for each kind of columns that contradict the counts, or each other: mode and bias_sign, fringe, loop_closed.
+    // One line for each kind of columns that contradict the counts, or each other: mode and bias_sign, fringe,
+    // loop_closed.
     [[nodiscard]] std::vector<std::string> contradictions(const std::string& log_name) const;
 
     [[nodiscard]] double angle_arcsec() const { return angle_arcsec_; }  // accumulated, up to the last whole tick

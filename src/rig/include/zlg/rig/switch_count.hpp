@@ -24,9 +24,10 @@ struct SwitchTally {
 // One line for a reader; empty where all were made.
 [[nodiscard]] std::string sentence(const SwitchTally& tally);
 
-// Follows a closed loop, half by half. A switch begins where the loop opens for the other helicity; it has succeeded when
-// the control sees the mode that it was meant for, and failed when the gyro went back, was searched for, or holds
-// nothing by the time at which the control would have given up. One that is due and waits for an interval, or for the end, is withheld.
+// Follows a closed loop, half by half. A switch begins where the loop opens for the other helicity; it has succeeded
+// when the control sees the mode that it was meant for, and failed when the gyro went back, was searched for, or holds
+// nothing by the time at which the control would have given up. One that is due and waits for an interval, or for the
+// end, is withheld.
 class SwitchCount {
 public:
     // errors  config::ConfigError, as `control_config`.

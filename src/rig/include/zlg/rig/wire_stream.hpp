@@ -23,8 +23,8 @@ public:
     // errors  config::ConfigError.
     WireStream(const config::Config& config, std::uint16_t session = 1);
 
-    // Append to `bytes` what is sent after this half, the one that `loop` has just made: a message at the end of each tick,
-    // another one of the state each second.
+    // Append to `bytes` what is sent after this half, the one that `loop` has just made: a message at the end of each
+    // tick, another one of the state each second.
     void take(const ClosedLoop& loop, const LoopHalf& half, std::vector<std::uint8_t>& bytes);
 
     // The rows that are settled when measuring stops.

@@ -43,11 +43,12 @@ struct AnalysisResult {
     std::vector<TableResult> tables;
 };
 
-// What is written for Kalibr of these axes: the largest angle random walk and rate random walk of them; where none has rate random
-// walk the largest of its 95 % limits, for Kalibr refuses 0. An axis whose error stands behind it does not count, the error does.
+// What is written for Kalibr of these axes: the largest angle random walk and rate random walk of them; where none has
+// rate random walk the largest of its 95 % limits, for Kalibr refuses 0. An axis whose error stands behind it does not
+// count, the error does.
 //
-// errors  deviations::SeriesError: no terms are fitted to an axis or they do not describe it; no axis has angle random walk; no rate
-// random walk and no limit of it.
+// errors  deviations::SeriesError: no terms are fitted to an axis or they do not describe it; no axis has angle random
+// walk; no rate random walk and no limit of it.
 [[nodiscard]] noise::KalibrGyro kalibr_gyro(const std::vector<AxisResult>& axes);
 
 inline constexpr double earth_rate_arcsec_s = 15.041067;
@@ -56,8 +57,9 @@ inline constexpr double earth_rate_arcsec_s = 15.041067;
 [[nodiscard]] double earth_vertical_arcsec_s(double latitude_deg);
 [[nodiscard]] double earth_horizontal_arcsec_s(double latitude_deg);
 
-// errors  config::ConfigError: no deviation is asked for, or mtotdev or htotdev at averaging times that take many minutes and are not
-// in taus_s; deviations::SeriesError, with the axis' name: nothing known, all equal, too short for a deviation, a tau that it does not have.
+// errors  config::ConfigError: no deviation is asked for, or mtotdev or htotdev at averaging times that take many
+// minutes and are not in taus_s; deviations::SeriesError, with the axis' name: nothing known, all equal, too short for
+// a deviation, a tau that it does not have.
 [[nodiscard]] AxisResult analyze_axis(const AnalysisTask& task, AxisRecord record);
 
 // Axes that are errors are passed over.

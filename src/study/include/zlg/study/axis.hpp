@@ -23,8 +23,8 @@ struct AxisRecord {
     std::vector<double> rates_arcsec_s;    // NaN where nothing was measured
     std::vector<std::int8_t> mode;         // of a switched gyro, as many
     std::vector<double> bridged_arcsec_s;  // the same with the gaps as compensation filled them, or empty
-    // Where angles were recorded, not what was turned between them: those, one more than rates. The deviations are taken of
-    // them, so that one that is missing harms no longer averaging time.
+    // Where angles were recorded, not what was turned between them: those, one more than rates. The deviations are
+    // taken of them, so that one that is missing harms no longer averaging time.
     std::vector<double> phase_arcsec{};
     bool is_error = false;  // of the axis before it, whose truth is known: no rotation of its own
 };
@@ -57,8 +57,8 @@ struct AxisResult {
     // What the noise lets it differ by: see docs/noise.md, "Mean rate and the Earth". NaN: not known.
     double mean_sigma_arcsec_s = 0.0;
     std::vector<deviations::DeviationCurve> curves;  // those asked for
-    // What readouts and the error of the mean are taken from: the first of oadev, adev, totdev that was asked for, or else oadev
-    // at octaves. Without points where the record has none.
+    // What readouts and the error of the mean are taken from: the first of oadev, adev, totdev that was asked for, or
+    // else oadev at octaves. Without points where the record has none.
     deviations::DeviationCurve allan;
     std::optional<noise::NoiseFit> fit;
     std::string no_fit;  // why there is none

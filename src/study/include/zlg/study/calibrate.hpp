@@ -47,15 +47,18 @@ struct CalibrationTask {
 
 // Every log is read once, row by row.
 //
-// errors  config::ConfigError: rates that no gyro has or that do not go with the logs, a log that is named twice, logs whose
-//         reference temperature or loop differ, tick or scale that nobody says or that are contradicted; logs::FormatError: logs
-//         of different ticks or scales, one without a whole tick, one whose settings are wrong; those of `open`.
+// errors  config::ConfigError: rates that no gyro has or that do not go with the logs, a log that is named twice, logs
+// whose
+//         reference temperature or loop differ, tick or scale that nobody says or that are contradicted;
+//         logs::FormatError: logs of different ticks or scales, one without a whole tick, one whose settings are wrong;
+//         those of `open`.
 [[nodiscard]] CalibrationResult calibrate(const CalibrationTask& task);
 
 // The signals of the discriminator's curve, as its points were found; empty where it was not determined.
 [[nodiscard]] std::vector<double> curve_signals(const CalibrationResult& result);
 
-// A configuration: the constants that were determined, with tick, scale and reference temperature; the others as comments.
+// A configuration: the constants that were determined, with tick, scale and reference temperature; the others as
+// comments.
 [[nodiscard]] std::string calibration_toml(const CalibrationResult& result);
 
 // The same of what follows from a laser instead of from logs.

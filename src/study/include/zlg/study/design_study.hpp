@@ -48,11 +48,12 @@ struct DesignResult {
 // The gyro's drift as the theory sees it; the run is that of the configuration.
 [[nodiscard]] design::DriftCase drift_case(const config::Config& config, double run_s);
 
-// The interval that `interval_s = "optimal"` stands for in a run of run_s, but for the shortest that a switch needs: the
-// minimum of what is to be expected of independent switch errors and an end that nobody knows, with the first segment that
-// is configured.
+// The interval that `interval_s = "optimal"` stands for in a run of run_s, but for the shortest that a switch needs:
+// the minimum of what is to be expected of independent switch errors and an end that nobody knows, with the first
+// segment that is configured.
 //
-// The magnetic drift is in it as [drift] has it: what compensation.magnetic = "estimate" takes out of it is not foreseen.
+// The magnetic drift is in it as [drift] has it: what compensation.magnetic = "estimate" takes out of it is not
+// foreseen.
 //
 // switch_error_arcsec  rms, as study::switch_error_arcsec has it.
 [[nodiscard]] design::Optimum best_interval(const config::Config& config, double switch_error_arcsec, double run_s);

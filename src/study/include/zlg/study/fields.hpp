@@ -1,8 +1,8 @@
 #pragma once
 // What of each result leaves the program as numbers and texts: to JSON, to the table of switches, to Python.
 //
-// BOOST_HANA_ADAPT_STRUCT lists members of a struct; for_each_field goes through such a list. A member that only one face shows,
-// that it shows under another name, or that holds a result itself, is a matter of that face.
+// BOOST_HANA_ADAPT_STRUCT lists members of a struct; for_each_field goes through such a list. A member that only one
+// face shows, that it shows under another name, or that holds a result itself, is a matter of that face.
 
 #include <boost/hana/accessors.hpp>
 #include <boost/hana/adapt_struct.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 // The half-wave voltage as the switches of a recorded log measured it.
 //
-// The core's sequencer of switches is led through the records: its loop opens and closes where that of the log did. So lock and
-// readings are judged as in the gyro, and the filter has the same measurements.
+// The core's sequencer of switches is led through the records: its loop opens and closes where that of the log did. So
+// lock and readings are judged as in the gyro, and the filter has the same measurements.
 
 #include <cstdint>
 #include <map>

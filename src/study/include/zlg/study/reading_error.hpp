@@ -9,8 +9,8 @@
 
 namespace zlg::study {
 
-// Readout by counts: error of the counter, which rounds down. By phase: of count and place together, or of the middle of the
-// count where the place is not known. Of a laser, whose true phase is not known, 0.
+// Readout by counts: error of the counter, which rounds down. By phase: of count and place together, or of the middle
+// of the count where the place is not known. Of a laser, whose true phase is not known, 0.
 [[nodiscard]] inline double reading_error_arcsec(const config::Config& config, const rig::LoopHalf& half) {
     const double rounding_arcsec = half.truth.rounding_arcsec;
     const bool by_phase = config.gyro.readout == config::Readout::phase;

@@ -31,15 +31,16 @@ struct RunResult {
     std::int64_t ticks = 0;
     std::string fingerprint;              // rig::Fingerprint of the gyro that switches and of the rows of `configured`
     std::vector<VariantResult> variants;  // one_mode first, configured last
-    // As configured, with compensation.magnetic = "estimate"; without a name where it was not asked for. Beside the list, whose
-    // names and order are those of old files.
+    // As configured, with compensation.magnetic = "estimate"; without a name where it was not asked for. Beside the
+    // list, whose names and order are those of old files.
     VariantResult magnetic_estimate;
     std::vector<SwitchLine> switches;  // of the configured compensation
     std::vector<MagnifiedTick> magnified;
     // True false drift on ticks 1, 2, ... after the loop is closed, averaged over the switches with their sign, deg/h.
     std::vector<double> relock_false_drift_deg_h;
     rig::SwitchTally tally;  // of what the control tried
-    // Health bits of trouble, as `trouble.hpp` has them, and ticks outside the switches whose counts could not be trusted.
+    // Health bits of trouble, as `trouble.hpp` has them, and ticks outside the switches whose counts could not be
+    // trusted.
     std::uint32_t health_raised = 0;
     std::int64_t invalid_ticks = 0;
     // By phase: measured ticks whose end was read as a whole count, and those of them with health_fringe_lost.
@@ -58,8 +59,8 @@ struct RunTask {
     config::Config config;
     std::vector<std::string> warnings;  // of the configuration, for the result
     int threads = 1;
-    // Names of the variants that are computed beside `configured`, one_mode and magnetic_estimate among them; unset: all. A run of
-    // `configured` alone costs a fraction. What is computed has the same bits whatever else is.
+    // Names of the variants that are computed beside `configured`, one_mode and magnetic_estimate among them; unset:
+    // all. A run of `configured` alone costs a fraction. What is computed has the same bits whatever else is.
     std::optional<std::vector<std::string>> variants;
     // Whether the result has what only a page shows: curves and the magnified switch.
     bool has_figures = true;

@@ -1,7 +1,8 @@
 #pragma once
 // The table of switches: of a gyro that runs, and of a recorded log.
 //
-// All but the half-wave voltage (half_wave_replay.hpp) and the true error follows from the records and from what compensation makes of them.
+// All but the half-wave voltage (half_wave_replay.hpp) and the true error follows from the records and from what
+// compensation makes of them.
 
 #include <cstdint>
 #include <deque>

@@ -15,10 +15,10 @@ struct SwitchTrial {
     double alternating_arcsec = 0.0;  // mean with the sign of the false drift: the next switch takes it back
 };
 
-// Switches of the gyro on the twin, without drift and faults, at three short intervals so that a vibration meets them at
-// unlike phases. The first ones, in which bridge and piezo learn, are left out; so is the random walk of their windows,
-// which a gyro has without switching too. What is left is known no better than the walk's own scatter, the standard error
-// sqrt(2 sum walk^4)/(n - 1) of the mean square: no less is ever claimed.
+// Switches of the gyro on the twin, without drift and faults, at three short intervals so that a vibration meets them
+// at unlike phases. The first ones, in which bridge and piezo learn, are left out; so is the random walk of their
+// windows, which a gyro has without switching too. What is left is known no better than the walk's own scatter, the
+// standard error sqrt(2 sum walk^4)/(n - 1) of the mean square: no less is ever claimed.
 //
 // Of a loop that needs many seconds to lock fewer switches are tried. Of a motion file as much is used as it holds. The
 // seed is that of the configuration: the answer is the same each time.

@@ -13,15 +13,16 @@
 
 namespace zlg::study {
 
-// What stays in the angle for ever, from gap tick 1 to the last tick of the re-lock, without the drift in it, which is no
-// error of the switch:
+// What stays in the angle for ever, from gap tick 1 to the last tick of the re-lock, without the drift in it, which is
+// no error of the switch:
 //
 //   sum (final - true) + r_before - r_end - T sum nm - T sum_measured (m Om - taken out)
 //
-// with r the rounding of the counter, counter less phase, at the end of the tick before the gap and of the last tick: the
-// next ticks give the latter back, and the former is part of the final angle before. Both edges of the gap keep theirs.
-// m Om is the magnetic drift in the mode m of a measured tick. In the gap it counts as nothing: the mean of the modes
-// before and after. The random walk of these ticks is not known to anyone and stays in. docs/accuracy.md has the same.
+// with r the rounding of the counter, counter less phase, at the end of the tick before the gap and of the last tick:
+// the next ticks give the latter back, and the former is part of the final angle before. Both edges of the gap keep
+// theirs. m Om is the magnetic drift in the mode m of a measured tick. In the gap it counts as nothing: the mean of the
+// modes before and after. The random walk of these ticks is not known to anyone and stays in. docs/accuracy.md has the
+// same.
 struct SwitchError {
     SwitchWindow window;
     double error_arcsec = 0.0;

@@ -1,9 +1,9 @@
 #pragma once
 // RESULTS.part: the rows of a sweep that is under way, as lines of text in the order in which they came.
 //
-// Its first lines are the description. Each row is one line with a checksum, written by one call of the system: a program that is
-// killed leaves whole lines, and at most one torn one at the end, which the next one cuts off. While a program writes the file,
-// it holds a lock on it.
+// Its first lines are the description. Each row is one line with a checksum, written by one call of the system: a
+// program that is killed leaves whole lines, and at most one torn one at the end, which the next one cuts off. While a
+// program writes the file, it holds a lock on it.
 
 #include <string>
 
@@ -26,7 +26,8 @@ public:
     // Those that it held when it was opened.
     [[nodiscard]] const Rows& rows() const { return rows_; }
 
-    // From one thread at a time. errors  logs::IoError: the disk is full, or any other failure: the file holds what it did before.
+    // From one thread at a time. errors  logs::IoError: the disk is full, or any other failure: the file holds what it
+    // did before.
     void append(const Row& row);
 
     // The results are in their own file.

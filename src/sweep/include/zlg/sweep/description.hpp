@@ -81,8 +81,8 @@ inline constexpr std::int64_t max_gyros = 10'000'000;
 // How many points the grid has: the product over the parameters that are drawn so; 1 without any.
 [[nodiscard]] std::int64_t grid_points(const Description& description);
 
-// Whether results of two sweeps, as their to_toml, go together: their gyros are the same as far as both have them. The limits
-// of the metrics may differ, and the number of gyros where it may grow.
+// Whether results of two sweeps, as their to_toml, go together: their gyros are the same as far as both have them. The
+// limits of the metrics may differ, and the number of gyros where it may grow.
 //
 // return  empty where they do; else what differs, `has `seed = 1`, this one `seed = 2``.
 [[nodiscard]] std::string difference(const std::string& theirs, const std::string& ours);

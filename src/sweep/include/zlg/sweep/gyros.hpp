@@ -50,10 +50,12 @@ public:
     // errors  config::ConfigError where the drawn values are out of range or contradict each other.
     [[nodiscard]] config::Config config(std::int64_t gyro) const;
 
-    // Runs twin and core of a gyro, by itself: from any thread, the same bits. Nothing is computed that no metric asks for.
+    // Runs twin and core of a gyro, by itself: from any thread, the same bits. Nothing is computed that no metric asks
+    // for.
     //
     // is_stopped  looked at some hundred times in a run.
-    // errors      Stopped; logs::IoError, logs::FormatError of a motion file, which must stay as it is. What is wrong with the gyro is in its row.
+    // errors      Stopped; logs::IoError, logs::FormatError of a motion file, which must stay as it is. What is wrong
+    // with the gyro is in its row.
     [[nodiscard]] Row run(std::int64_t gyro, const std::function<bool()>& is_stopped = {}) const;
 
     // The line of a shell that runs this gyro alone, with the same fingerprint.

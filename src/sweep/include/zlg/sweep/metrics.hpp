@@ -1,8 +1,9 @@
 #pragma once
 // The numbers of a run's summary, by name.
 //
-// `configured.switch_error_rms_arcsec`: of a variant what `zlg run --json` says of it; likewise of magnetic_estimate. Without a
-// point: of the whole run, as `switches_failed`. `relock_false_drift_deg_h.1`: of the first tick after closing, and so on.
+// `configured.switch_error_rms_arcsec`: of a variant what `zlg run --json` says of it; likewise of magnetic_estimate.
+// Without a point: of the whole run, as `switches_failed`. `relock_false_drift_deg_h.1`: of the first tick after
+// closing, and so on.
 
 #include <optional>
 #include <string>

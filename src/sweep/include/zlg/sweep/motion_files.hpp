@@ -14,8 +14,8 @@ namespace zlg::sweep {
 // errors  logs::IoError: a file cannot be read, is no regular file, or has another checksum than the description says.
 [[nodiscard]] Description with_motion_checksums(Description description);
 
-// The files of `motion_checksums` while gyros read them, as the system stamps them: a file that is written meanwhile is seen without
-// reading it again.
+// The files of `motion_checksums` while gyros read them, as the system stamps them: a file that is written meanwhile is
+// seen without reading it again.
 class MotionWatch {
 public:
     explicit MotionWatch(const Description& description);

@@ -1,7 +1,8 @@
 #pragma once
 // The results of a sweep as a file: columns of HDF5 with units, one row a gyro.
 //
-// The bytes are a function of the description and of the rows: in whatever order, by however many threads and parts they came.
+// The bytes are a function of the description and of the rows: in whatever order, by however many threads and parts
+// they came.
 
 #include <cstdint>
 #include <map>
@@ -12,7 +13,8 @@
 
 namespace zlg::sweep {
 
-// By the number of the gyro. There may be fewer than the description has: those of a part, or of a merger of some parts.
+// By the number of the gyro. There may be fewer than the description has: those of a part, or of a merger of some
+// parts.
 using Rows = std::map<std::int64_t, Row>;
 
 struct Results {

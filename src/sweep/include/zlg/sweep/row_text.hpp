@@ -1,5 +1,6 @@
 #pragma once
-// One row as one line of text with a checksum: as it stands in a checkpoint, and as it goes from one process to another.
+// One row as one line of text with a checksum: as it stands in a checkpoint, and as it goes from one process to
+// another.
 
 #include <optional>
 #include <string>

@@ -10,20 +10,21 @@
 
 namespace zlg::sweep {
 
-// Spearman's rank correlation of two columns; equal values share the mean of their ranks. Nothing with fewer than three rows, or
-// where a column does not vary.
+// Spearman's rank correlation of two columns; equal values share the mean of their ranks. Nothing with fewer than three
+// rows, or where a column does not vary.
 [[nodiscard]] std::optional<double> rank_correlation(std::span<const double> x, std::span<const double> y);
 
-// As many independent gyros as the rows of Saltelli's design are worth where the rank correlation with one parameter is sought. In a row
-// that parameter has its value of A in d gyros, and that of B in two; its correlation with the sum of a function of each other parameter
-// has a variance of ((d - 1)^2 + 3)/((d + 2)^2 n_rows).
+// As many independent gyros as the rows of Saltelli's design are worth where the rank correlation with one parameter is
+// sought. In a row that parameter has its value of A in d gyros, and that of B in two; its correlation with the sum of
+// a function of each other parameter has a variance of ((d - 1)^2 + 3)/((d + 2)^2 n_rows).
 [[nodiscard]] std::size_t independent_gyros(std::size_t n_rows, std::size_t n_parameters);
 
-// |rank correlation| beyond which two independent columns of n rows lie with a probability of 5 %, by the normal law: 1.96/sqrt(n - 1).
+// |rank correlation| beyond which two independent columns of n rows lie with a probability of 5 %, by the normal
+// law: 1.96/sqrt(n - 1).
 [[nodiscard]] double chance_correlation(std::size_t n);
 
-// The values of a function on Saltelli's design of N rows and d inputs: of the points A, of the points B, and by input of
-// A with the one column from B.
+// The values of a function on Saltelli's design of N rows and d inputs: of the points A, of the points B, and by input
+// of A with the one column from B.
 struct SobolDesign {
     std::vector<double> a;
     std::vector<double> b;
@@ -53,12 +54,14 @@ struct SobolIndices {
 // n_resamples draws of rows with replacement, each with the V of its own rows.
 //
 // seed    of the draws, which depend on nothing else.
-// errors  std::invalid_argument: columns of different lengths, or no input. With fewer than two whole rows, or no variance,
+// errors  std::invalid_argument: columns of different lengths, or no input. With fewer than two whole rows, or no
+// variance,
 //         every index is NaN.
 [[nodiscard]] SobolIndices sobol_indices(const SobolDesign& design, int n_resamples = 1000, std::uint64_t seed = 1);
 
-// Values on rows of points, in either order in use: the block A, the block B and the blocks A_B^1 ... A_B^d (OpenTURNS), or for
-// each row A, A_B^1 ... A_B^d, B (SALib; also a sweep with `sensitivity`). Which, the points themselves say.
+// Values on rows of points, in either order in use: the block A, the block B and the blocks A_B^1 ... A_B^d
+// (OpenTURNS), or for each row A, A_B^1 ... A_B^d, B (SALib; also a sweep with `sensitivity`). Which, the points
+// themselves say.
 //
 // points  row by row, n_inputs numbers each.
 // errors  std::invalid_argument: they are no such design.

@@ -23,18 +23,20 @@ struct Yield {
 
 // Counts a yield, with the interval of E. B. Wilson (J. Am. Stat. Assoc. 22, 1927, 209).
 //
-// With sensitivity, the gyros of one row of Saltelli's design share nearly all of their values: the rows are clusters of a
-// sample, and the ratio estimate for clusters (W. G. Cochran, Sampling Techniques, 3rd edition, 1977, section 3.12) says how much a
-// gyro is worth. With r rows, of which row i has m_i gyros and a_i that pass,
+// With sensitivity, the gyros of one row of Saltelli's design share nearly all of their values: the rows are clusters
+// of a sample, and the ratio estimate for clusters (W. G. Cochran, Sampling Techniques, 3rd edition, 1977,
+// section 3.12) says how much a gyro is worth. With r rows, of which row i has m_i gyros and a_i that pass,
 //
 //   p = sum a_i/sum m_i,   v = r/(r - 1) sum (a_i - p m_i)^2/(sum m_i)^2                                  (1)
 //
-// Were all gyros of a row to do the same, it would be v1 = p (1 - p)/r', r' = (sum m_i)^2/sum m_i^2. What v says rests on the rows in which a
-// gyro does what most do not: with k of them, 8 more are presumed whose gyros pass or fail together,
+// Were all gyros of a row to do the same, it would be v1 = p (1 - p)/r', r' = (sum m_i)^2/sum m_i^2. What v says rests
+// on the rows in which a gyro does what most do not: with k of them, 8 more are presumed whose gyros pass or fail
+// together,
 //
 //   var p = (k v + 8 v1)/(k + 8)                                                                         (2)
 //
-// and the interval is Wilson's of p (1 - p)/var p independent gyros, r' at least and all at most; r' where all or none pass.
+// and the interval is Wilson's of p (1 - p)/var p independent gyros, r' at least and all at most; r' where all or none
+// pass.
 class YieldCount {
 public:
     explicit YieldCount(const Description& description);

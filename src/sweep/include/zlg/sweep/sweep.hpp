@@ -16,8 +16,8 @@ struct Part {
     std::int64_t n = 1;
 };
 
-// Who runs the gyros `asked`: each once, in any order and anywhere, its row to `take`, from one thread or many. Returns false
-// where it was stopped before the end.
+// Who runs the gyros `asked`: each once, in any order and anywhere, its row to `take`, from one thread or many. Returns
+// false where it was stopped before the end.
 using Crew = std::function<bool(const Gyros& gyros, const std::vector<std::int64_t>& asked,
                                 const std::function<void(Row)>& take)>;
 
@@ -39,16 +39,18 @@ struct Outcome {
     std::string checkpoint;   // its path: RESULTS.part, beside what RESULTS names where it is a link
 };
 
-// Interrupted or killed at any time, the same call goes on, and repeats at most the gyros that were in flight. The bytes of
-// RESULTS depend neither on threads nor on how often that happened. A gyro that fails is a row; see gyros.hpp.
+// Interrupted or killed at any time, the same call goes on, and repeats at most the gyros that were in flight. The
+// bytes of RESULTS depend neither on threads nor on how often that happened. A gyro that fails is a row; see gyros.hpp.
 //
-// errors  config::ConfigError: the file has more gyros than the description; logs::IoError: of another sweep, the disk is
+// errors  config::ConfigError: the file has more gyros than the description; logs::IoError: of another sweep, the disk
+// is
 //         full, and so on; logs::FormatError: damaged; those of a motion file, which must not change between calls.
 [[nodiscard]] Outcome run(const Task& task);
 
 // Results and checkpoints of one sweep in any order, with gyros in common or not, as one file.
 //
-// errors  logs::IoError: they are of different sweeps, `out` exists and not `force`; logs::FormatError: damaged, or they
+// errors  logs::IoError: they are of different sweeps, `out` exists and not `force`; logs::FormatError: damaged, or
+// they
 //         contradict each other.
 struct Merged {
     Description description;

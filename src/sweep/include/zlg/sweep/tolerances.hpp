@@ -1,5 +1,6 @@
 #pragma once
-// Which tolerances must be held for a wanted part of the gyros to pass: read from the gyros of one sweep over wider ranges.
+// Which tolerances must be held for a wanted part of the gyros to pass: read from the gyros of one sweep over wider
+// ranges.
 
 #include <cstddef>
 #include <optional>
@@ -25,15 +26,17 @@ struct Range {
     [[nodiscard]] double above(double way) const { return nominal + way * (max - nominal); }
 };
 
-// The gyros of a sweep by how far each of their parameters is from its nominal value. The ranges are those of the parameters that are drawn from
-// an interval; of a normal law, from the least to the greatest value of the rows. So every gyro lies within the full ranges.
+// The gyros of a sweep by how far each of their parameters is from its nominal value. The ranges are those of the
+// parameters that are drawn from an interval; of a normal law, from the least to the greatest value of the rows. So
+// every gyro lies within the full ranges.
 class Placement {
 public:
     Placement(const Gyros& gyros, const Rows& rows);
 
     [[nodiscard]] const std::vector<Range>& ranges() const { return ranges_; }
 
-    // Of the gyros of which every parameter lies within its part of the way, one for each range; nothing where there are none.
+    // Of the gyros of which every parameter lies within its part of the way, one for each range; nothing where there
+    // are none.
     [[nodiscard]] std::optional<Yield> yield_within(const std::vector<double>& ways) const;
 
 private:
@@ -54,9 +57,10 @@ struct Tolerances {
     bool is_reached = false;     // that yield is at least the wanted one
 };
 
-// From the full ranges the tolerance of one parameter after the other is drawn in by a tenth, each time that one by which the
-// yield grows most for each gyro that is lost, until it is reached or what is left is worth fewer than `least_worth` independent gyros. Chosen by
-// the sample that it is read from, the yield is a little too good: a sweep over these tolerances verifies it.
+// From the full ranges the tolerance of one parameter after the other is drawn in by a tenth, each time that one by
+// which the yield grows most for each gyro that is lost, until it is reached or what is left is worth fewer than
+// `least_worth` independent gyros. Chosen by the sample that it is read from, the yield is a little too good: a sweep
+// over these tolerances verifies it.
 [[nodiscard]] Tolerances tolerances(const Placement& placement, double wanted_yield, double least_worth = 30.0);
 
 }  // namespace zlg::sweep

@@ -9,8 +9,8 @@ namespace zlg::text {
 
 enum class Lines { one, many };  // whether a line feed is an end of line or one more control character
 
-// Control characters (those of Unicode's C1 and its line separators too) and bytes that are no UTF-8 become \uXXXX, as JSON
-// and TOML write them.
+// Control characters (those of Unicode's C1 and its line separators too) and bytes that are no UTF-8 become \uXXXX, as
+// JSON and TOML write them.
 [[nodiscard]] std::string escaped(std::string_view text, Lines lines = Lines::one);
 
 // Text that is no UTF-8 is taken for Latin-1, in which every byte is a letter: so German Excel writes its degree sign.

@@ -1,9 +1,10 @@
 #pragma once
 // What a program reads must never be what it writes, under whatever name.
 //
-// All that opens a file for reading notes it here, all that makes a file asks here, so that no verb and no pair of files is
-// forgotten. A file is known by its device and inode: symbolic and hard links lead to the same one. The list belongs to the
-// process, as the files do; it stays empty until a program asks for it, for a library's user may well write what he has read.
+// All that opens a file for reading notes it here, all that makes a file asks here, so that no verb and no pair of
+// files is forgotten. A file is known by its device and inode: symbolic and hard links lead to the same one. The list
+// belongs to the process, as the files do; it stays empty until a program asks for it, for a library's user may well
+// write what he has read.
 
 #include <stdexcept>
 #include <string>

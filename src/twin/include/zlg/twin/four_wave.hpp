@@ -62,7 +62,8 @@ public:
 
     // perimeter_lambda  in wavelengths; left modes are centred at whole ones, right modes between. Within +-1e6.
     // field_g           along the cw direction, finite; positive raises the left cw line by the Zeeman shift.
-    // accuracy          integrals to 1e-12. The pulling is that of the unsaturated gas. Of waves that burn the very same
+    // accuracy          integrals to 1e-12. The pulling is that of the unsaturated gas. Of waves that burn the very
+    // same
     //                   hole (one isotope, coupling 1, no field, zero detuning) which one lives is arbitrary.
     // cost              about 1.1 us.
     [[nodiscard]] LaserLight at(double perimeter_lambda, double field_g) const;

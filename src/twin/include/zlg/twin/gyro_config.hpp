@@ -42,7 +42,8 @@ struct GyroConfig {
     Readout readout = Readout::counts;
 };
 
-// [light]: the photodiodes of the two beams, and the power that they see. In units of the mean light of beam A at t = 0:
+// [light]: the photodiodes of the two beams, and the power that they see. In units of the mean light of beam A at t =
+// 0:
 //
 //   A' = A p + offset_a,  B' = B p gain_b (1 + gain_drift t) + offset_b,  p = exp(-power_decay t)
 struct LightConfig {
@@ -99,7 +100,8 @@ struct PiezoConfig {
     // operators of the model go.
     double hysteresis = 0.0;
     double hysteresis_stroke_v = 300.0;
-    // Growth of a stroke per decade of time, from 10 ms to 10^4 s; 0: none. Beyond 0.05 it would rival the stroke itself.
+    // Growth of a stroke per decade of time, from 10 ms to 10^4 s; 0: none. Beyond 0.05 it would rival the stroke
+    // itself.
     double creep_per_decade = 0.0;
     double mirror_hz = 0.0;        // resonance of the mirror; 0: rigid
     double mirror_damping = 0.05;  // of that resonance, as a part of the critical

@@ -21,22 +21,22 @@ struct LaserConfig {
     double upper_isotope_ratio = 0.5;          // share of the isotope with the higher frequency, neon 22
 
     double zeeman_hz_per_g = 1.82e6;  // shift of one circular component
-    // Cross-saturation of waves on opposite components; same component: 1. Up to 1 the waves have one steady state; above,
-    // which of several would depend on the past.
+    // Cross-saturation of waves on opposite components; same component: 1. Up to 1 the waves have one steady state;
+    // above, which of several would depend on the past.
     double opposite_sigma_coupling = 0.6;
     double bias_field_g = 15.0;  // plateau of the square bias; its sign alternates
 
     double lock_in_left_hz = 150.0;  // beat frequency below which equal waves lock, of either helicity
     double lock_in_right_hz = 150.0;
-    // eps: by how much the waves scattered back miss each other's phase. At a quarter of a turn equal mirrors do not lock
-    // equal waves, whatever they scatter.
+    // eps: by how much the waves scattered back miss each other's phase. At a quarter of a turn equal mirrors do not
+    // lock equal waves, whatever they scatter.
     double scatter_phase_deg = 0.0;
     double comparator_threshold = 0.1;  // in parts of the beat's amplitude at zero detuning and zero field
     Quadrature quadrature = Quadrature::x1;
 };
 
-// Refuse members that do not make a gas: lines that no table can hold, and gain for more than two neighbouring modes. Each member
-// for itself is within the range of its key.
+// Refuse members that do not make a gas: lines that no table can hold, and gain for more than two neighbouring modes.
+// Each member for itself is within the range of its key.
 //
 // errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.
 void validate(const LaserConfig& config);

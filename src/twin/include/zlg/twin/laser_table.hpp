@@ -16,7 +16,8 @@ class LaserGrid;
 
 class LaserTable {
 public:
-    // max_field_g  the table spans -max_field_g..max_field_g and all perimeters, which repeat after one wavelength, with
+    // max_field_g  the table spans -max_field_g..max_field_g and all perimeters, which repeat after one wavelength,
+    // with
     //              the helicities exchanged after half of one.
     // errors       std::invalid_argument as validate(LaserConfig), or max_field_g not within 1e-6..1e5;
     //              std::runtime_error where even the finest grid errs by more than max_error.

@@ -29,8 +29,8 @@ public:
     // errors  std::invalid_argument: no increments, one that is not finite, a rate that is not positive.
     static Motion from_increments(std::vector<double> increment_arcsec, double rate_hz);
 
-    // `base`, and added to it a rate in steps, 0 before the first. Steps may be added at any time, as by a hand that turns the
-    // gyro while it runs, each later than the one before.
+    // `base`, and added to it a rate in steps, 0 before the first. Steps may be added at any time, as by a hand that
+    // turns the gyro while it runs, each later than the one before.
     static Motion with_steps(Motion base, std::shared_ptr<const std::vector<RateStep>> steps);
 
     // Rotation from t0_s to t1_s. Beyond the end of sampled motion the case rests.

@@ -28,9 +28,9 @@ public:
     // Live through the next half-period under `actuator`. The loop counts as closed before the first one.
     //
     // edge_offset_ticks shifts the reversal that ends this half, in ticks of 0.1 us, positive is later; the counter is
-    // latched at the shifted reversal, and the stamp tells when. Only `laser` obeys: the averaged model has no phases for
-    // it to act on. Everything else, the truth included, stays on the grid of equal halves.
-    // errors  std::invalid_argument for a frame that hardware could not obey; std::overflow_error where a half brings
+    // latched at the shifted reversal, and the stamp tells when. Only `laser` obeys: the averaged model has no phases
+    // for it to act on. Everything else, the truth included, stays on the grid of equal halves. errors
+    // std::invalid_argument for a frame that hardware could not obey; std::overflow_error where a half brings
     //         more fringes than 64 bits tell.
     // return  until the next call.
     // cost    about 0.3 us with 16 light samples, of `laser` about 2.7 us; no allocation.

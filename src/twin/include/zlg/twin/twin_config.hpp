@@ -25,8 +25,9 @@ struct TwinConfig {
     LightConfig light{};
     PhotodiodesConfig photodiodes{};
 
-    // Of fidelity laser alone, which in turn takes its bias, chi and discriminator from the gas and its random walk from lock-in:
-    // gyro.bias_hz, bias_chi and discriminator_per_lambda and drift.random_walk_arcsec_sqrt_s do nothing there.
+    // Of fidelity laser alone, which in turn takes its bias, chi and discriminator from the gas and its random walk
+    // from lock-in: gyro.bias_hz, bias_chi and discriminator_per_lambda and drift.random_walk_arcsec_sqrt_s do nothing
+    // there.
     LaserConfig laser{};
 
     double coil_noise_a = 0.001;  // of the coil's current as it is read, whose plateau is 1 A; 12 bits for +-2 A
@@ -36,7 +37,8 @@ struct TwinConfig {
     double vibration_hz = default_vibration_hz;
 };
 
-// The averaged gyro of the same bias: its mean over a half, edges included, in counts; chi; the slope of the discriminator.
+// The averaged gyro of the same bias: its mean over a half, edges included, in counts; chi; the slope of the
+// discriminator.
 [[nodiscard]] GyroConfig with_laser(GyroConfig gyro, Quadrature quadrature, const AveragedLaser& laser);
 
 }  // namespace zlg::twin

@@ -1,5 +1,6 @@
 #pragma once
-// The integrated angle as it goes over the line: a fixed-point number that wraps, so that nothing is lost with a message.
+// The integrated angle as it goes over the line: a fixed-point number that wraps, so that nothing is lost with a
+// message.
 
 #include <bit>
 #include <cstdint>
@@ -8,8 +9,8 @@ namespace zlg::wire {
 
 // Exact sum of doubles modulo 2^36 arcsec, in units of 2^-92 arcsec.
 //
-// What goes over the line is the upper word: units of 2^-28 arcsec (3.7e-9), rounded down. The difference of two readings is
-// the rotation between them as long as that is less than 2^35 arcsec: 6.6 hours at 400 deg/s.
+// What goes over the line is the upper word: units of 2^-28 arcsec (3.7e-9), rounded down. The difference of two
+// readings is the rotation between them as long as that is less than 2^35 arcsec: 6.6 hours at 400 deg/s.
 struct AngleRegister {
     std::uint64_t high = 0;
     std::uint64_t low = 0;

@@ -31,7 +31,8 @@ struct CommandOutput {
 
 // Answer one message.
 //
-// Parameters are stored all or none: only where the core's `check` of control and of compensation passes with all of them.
+// Parameters are stored all or none: only where the core's `check` of control and of compensation passes with all of
+// them.
 //
 // state  settings that passed `check` of both parts; they do so afterwards.
 // cost   up to 17 checks of the core's configuration; no allocation. For the background, not for the interrupt.

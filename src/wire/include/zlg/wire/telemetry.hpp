@@ -1,5 +1,6 @@
 #pragma once
-// The message of every tick: what real time needs of this tick, and all that the log needs of the tick that is settled now.
+// The message of every tick: what real time needs of this tick, and all that the log needs of the tick that is settled
+// now.
 
 #include <cstdint>
 #include <optional>
@@ -79,7 +80,8 @@ struct TickReport {
 [[nodiscard]] Telemetry telemetry_of(TelemetryState& state, const core::AngleRow& row,
                                      const TickReport& report) noexcept;
 
-// Ticks without a message of their own: their sums are part of the next message. `of_them` was all zeros before the first of them.
+// Ticks without a message of their own: their sums are part of the next message. `of_them` was all zeros before the
+// first of them.
 void skip(TelemetryState& state, const TelemetryState& of_them) noexcept;
 
 [[nodiscard]] Frame frame_of(Sender& sender, const Telemetry& telemetry) noexcept;

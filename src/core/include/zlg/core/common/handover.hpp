@@ -1,6 +1,6 @@
 #pragma once
-// Numbers that pass between the half-period's interrupt and what it interrupts: written by one side and read by the other, with all
-// that was written before.
+// Numbers that pass between the half-period's interrupt and what it interrupts: written by one side and read by the
+// other, with all that was written before.
 
 namespace zlg::core {
 

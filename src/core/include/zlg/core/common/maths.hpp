@@ -1,6 +1,6 @@
 #pragma once
-// Elementary functions that give the same bits on every machine: additions, multiplications, divisions, square roots and
-// operations on the bits only, each rounded as IEEE 754 says. docs/decisions.md has their errors.
+// Elementary functions that give the same bits on every machine: additions, multiplications, divisions, square roots
+// and operations on the bits only, each rounded as IEEE 754 says. docs/decisions.md has their errors.
 
 namespace zlg::core {
 
@@ -17,9 +17,9 @@ inline constexpr double not_a_number = __builtin_nan("");
 // whose larger one is at least 1e-300 in size.
 [[nodiscard]] double turns_of(double x, double y) noexcept;
 
-// As in C, but for errno and the flags of floating point: what annex F of the C standard says of zeros, infinities and NaN
-// holds. Every result is less than one unit in its last place from the true value, subnormal results too. The bits of a NaN
-// differ between processors.
+// As in C, but for errno and the flags of floating point: what annex F of the C standard says of zeros, infinities and
+// NaN holds. Every result is less than one unit in its last place from the true value, subnormal results too. The bits
+// of a NaN differ between processors.
 namespace maths {
 
 struct SinCos {
@@ -36,8 +36,8 @@ struct SinCos {
 [[nodiscard]] double cos(double x) noexcept;
 [[nodiscard]] SinCos sincos(double x) noexcept;
 
-// Of t turns, sin(2 pi t): exactly 0 and +-1 at multiples of a quarter turn; a zero sine has the sign of t, a zero cosine is
-// positive.
+// Of t turns, sin(2 pi t): exactly 0 and +-1 at multiples of a quarter turn; a zero sine has the sign of t, a zero
+// cosine is positive.
 [[nodiscard]] double sin_turns(double t) noexcept;
 [[nodiscard]] double cos_turns(double t) noexcept;
 [[nodiscard]] SinCos sincos_turns(double t) noexcept;

@@ -1,6 +1,7 @@
 #pragma once
 // The usual path of logarithm, sine and cosine, without branches and special values: for loops that the compiler makes
-// vectors of, and for maths.hpp. The same bits on every machine, if the compiler fuses no multiplication with an addition
+// vectors of, and for maths.hpp. The same bits on every machine, if the compiler fuses no multiplication with an
+// addition
 // (-ffp-contract=off, which zlg::core passes on): +, -, *, / and operations on the bits alone.
 //
 // The coefficients are minimax fits in doubles (Sollya's fpminimax, relative error); each polynomial says how far it is
@@ -19,8 +20,8 @@ struct Sum {
     double low = 0.0;
 };
 
-// Adding it to a number of up to 2^51 in size leaves the nearest whole number in the lowest bits of the sum; subtracting
-// it again leaves that number.
+// Adding it to a number of up to 2^51 in size leaves the nearest whole number in the lowest bits of the sum;
+// subtracting it again leaves that number.
 inline constexpr double to_whole = 0x1.8p52;
 
 inline constexpr double ln2_high = 0x1.62e42fefa38p-1;  // 42 bits: its product with an exponent is exact
@@ -104,7 +105,8 @@ struct Scaled {
     return sum_of(head * two_pi_high, head * two_pi_low + tail * two_pi);
 }
 
-// Sine and cosine of t turns, |t| <= 2^48. accuracy 0.9 units in the last place for |t| >= 2^-900; a zero has either sign
+// Sine and cosine of t turns, |t| <= 2^48. accuracy 0.9 units in the last place for |t| >= 2^-900; a zero has either
+// sign
 //
 // The quarter turns are taken off exactly.
 [[nodiscard]] inline SinCos sincos_turns_kernel(double t) noexcept {

@@ -1,7 +1,8 @@
 #pragma once
 // The linear algebra of the core: a lower triangle by rows, its Cholesky factor, and rows that border it.
 //
-//   A = L L^T        row b of a border becomes L^-1 b: appended rows of right-hand sides are eliminated as rows of the factor are
+//   A = L L^T        row b of a border becomes L^-1 b: appended rows of right-hand sides are eliminated as rows of the
+//   factor are
 //
 // A symmetric matrix and its factor have the same form, so that a factor takes the place of its matrix.
 // The sums run in one order, so that every processor gives the same bits; four columns at a time keep its adder busy.

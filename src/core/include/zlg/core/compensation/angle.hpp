@@ -34,9 +34,9 @@ struct ExactSum {
     [[nodiscard]] constexpr double value() const noexcept { return high + low; }
 };
 
-// The angle since the start. A measured tick adds its counts and parts of a count; only what differs from scale * counts, such as a
-// correction or a bridged tick, enters the remainder. A gyro that measures for a month without a switch has a remainder
-// of zero.
+// The angle since the start. A measured tick adds its counts and parts of a count; only what differs from scale *
+// counts, such as a correction or a bridged tick, enters the remainder. A gyro that measures for a month without a
+// switch has a remainder of zero.
 struct Angle {
     std::int64_t counts = 0;
     std::int32_t parts = 0;  // of a count beyond them: 1/65536, 0..65535
@@ -44,8 +44,8 @@ struct Angle {
 
     friend constexpr bool operator==(const Angle&, const Angle&) = default;
 
-    // Add the increment `dtheta_arcsec` of a tick, of which scale_arcsec * (tick_counts + tick_parts/65536) comes from the
-    // counter, |tick_parts| below 65536.
+    // Add the increment `dtheta_arcsec` of a tick, of which scale_arcsec * (tick_counts + tick_parts/65536) comes from
+    // the counter, |tick_parts| below 65536.
     constexpr void add(std::int64_t tick_counts, double scale_arcsec, double dtheta_arcsec,
                        std::int32_t tick_parts = 0) noexcept {
         // Unsigned, so that even a wild sum of counts wraps instead of being undefined.

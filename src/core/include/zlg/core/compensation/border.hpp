@@ -4,9 +4,9 @@
 //
 //   angle at a border = (sum of counts + parts/65536) K
 //
-// A reading without a phase lies anywhere in its count: it stands for the middle, with the variance 1/12. So the angle of
-// a half is the difference of its two borders whatever is known of either, and the sum over halves is that of the first
-// and the last border: a phase that comes and goes loses nothing.
+// A reading without a phase lies anywhere in its count: it stands for the middle, with the variance 1/12. So the angle
+// of a half is the difference of its two borders whatever is known of either, and the sum over halves is that of the
+// first and the last border: a phase that comes and goes loses nothing.
 
 #include <cstdint>
 
@@ -52,8 +52,8 @@ private:
     return with_phase ? gyro.fringe_noise_counts * gyro.fringe_noise_counts + of_parts : 1.0 / 12.0;
 }
 
-// Variance of a tick by both readings; twice the covariance of two neighbouring ticks, without its sign. `with_phase`: the
-// place within the count is read.
+// Variance of a tick by both readings; twice the covariance of two neighbouring ticks, without its sign. `with_phase`:
+// the place within the count is read.
 [[nodiscard]] constexpr double rounding_arcsec2(const CompensationConstants& gyro, bool with_phase) noexcept {
     if (!with_phase) return rounding_arcsec2(gyro);
     return gyro.scale.value() * gyro.scale.value() * 2.0 * reading_counts2(gyro, true);

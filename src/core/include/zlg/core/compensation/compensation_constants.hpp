@@ -1,6 +1,6 @@
 #pragma once
-// What compensation presumes of the gyro and of its record: each constant that more than one module needs, and the laws of the
-// bias and of the light with it.
+// What compensation presumes of the gyro and of its record: each constant that more than one module needs, and the laws
+// of the bias and of the light with it.
 
 #include <zlg/core/common/discriminator_curve.hpp>
 #include <zlg/core/units.hpp>
@@ -31,8 +31,9 @@ struct CompensationConstants {
     DiscriminatorCurve control_curve{};  // that they have come through already: it scales their noise
 };
 
-// Of a configuration of the compensation. The numbers of the enumerators are sent over the gyro's line (docs/wire.md) and do not
-// change. Of the constants, those of timer and plateau are `edges`, that of the random walk is `random_walk`, the others are `relock`.
+// Of a configuration of the compensation. The numbers of the enumerators are sent over the gyro's line (docs/wire.md)
+// and do not change. Of the constants, those of timer and plateau are `edges`, that of the random walk is
+// `random_walk`, the others are `relock`.
 enum class GyroCompensationFault : unsigned char {
     none,
     relock,
@@ -46,8 +47,8 @@ enum class GyroCompensationFault : unsigned char {
 
 [[nodiscard]] GyroCompensationFault check(const CompensationConstants& gyro) noexcept;
 
-// Twice the covariance of two neighbouring ticks, without its sign, and the variance of one: of the rounding of the counter's
-// readings, each uniform over a count.
+// Twice the covariance of two neighbouring ticks, without its sign, and the variance of one: of the rounding of the
+// counter's readings, each uniform over a count.
 [[nodiscard]] constexpr double rounding_arcsec2(const CompensationConstants& gyro) noexcept {
     return gyro.scale.value() * gyro.scale.value() / 6.0;
 }
@@ -57,7 +58,8 @@ enum class GyroCompensationFault : unsigned char {
     return gyro.random_walk.value() * gyro.random_walk.value() * gyro.tick.value();
 }
 
-// u = chi f0 K T/2: false angle of a tick for each square of a wavelength by which the mean squares of its halves differ.
+// u = chi f0 K T/2: false angle of a tick for each square of a wavelength by which the mean squares of its halves
+// differ.
 [[nodiscard]] constexpr double arcsec_per_lambda2(const CompensationConstants& gyro, Hertz bias) noexcept {
     return 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
 }

@@ -8,8 +8,8 @@
 //   eq (17)  their difference is added in ONE tick, j = n + 1 + points_after, or in the first measured tick after it
 //            where that one lies in the next gap
 //
-// With `auto` the estimate of the switch (switch_estimate.hpp) takes the place of (15), made once, from all ticks around the gap
-// when the last of them is in; `points_after` of (17) is then `ticks_to_correction`.
+// With `auto` the estimate of the switch (switch_estimate.hpp) takes the place of (15), made once, from all ticks
+// around the gap when the last of them is in; `points_after` of (17) is then `ticks_to_correction`.
 //
 // Only measured ticks take part, with their final values; where some of the standard positions are missing, the fit is
 // made with the others, of an order that they allow. At the start of a log eq (14) is used in reversed time.
@@ -31,14 +31,15 @@ namespace zlg::core {
 
 // Advance by one tick.
 //
-// return  dtheta of this tick; the final row of the tick `final_delay_ticks` ago, once there is one; the report of a gap
+// return  dtheta of this tick; the final row of the tick `final_delay_ticks` ago, once there is one; the report of a
+// gap
 //         that was resolved now.
 // cost    bounded: where a gap is resolved 16 ticks by 16 points, or one estimate.
 [[nodiscard]] AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
                                const TickInput& tick) noexcept;
 
-// What the half-periods have asked for, and what can be learnt by now. `step` does it itself, but where the background does: there it
-// is to be called between the half-periods, by one caller, whom `step` may interrupt.
+// What the half-periods have asked for, and what can be learnt by now. `step` does it itself, but where the background
+// does: there it is to be called between the half-periods, by one caller, whom `step` may interrupt.
 //
 // bank  members of the estimate: a trial may hand fewer.
 void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,

@@ -69,8 +69,8 @@ struct GapBridgeState {
     std::int64_t next_tick = 0, next_final = 0;
     OpenGap gap{};
     int n_pending = 0;
-    // Magnetic drift in a tick of mode +1 that is still in the values, as far as it is known. The points of a gap lose it, for at
-    // the gap it steps: an estimate across it would take the step for a false angle or for motion.
+    // Magnetic drift in a tick of mode +1 that is still in the values, as far as it is known. The points of a gap lose
+    // it, for at the gap it steps: an estimate across it would take the step for a false angle or for motion.
     double magnetic_arcsec = 0.0;
     double magnetic_variance_arcsec2 = 0.0;
     double common_arcsec2 = 0.0;          // of the last measured tick, as in TickInput

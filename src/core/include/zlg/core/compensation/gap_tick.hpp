@@ -9,7 +9,8 @@
 
 namespace zlg::core {
 
-// What a half-tick was read as, where its counts are an angle: after the loop is closed, or before it where both beams are lit.
+// What a half-tick was read as, where its counts are an angle: after the loop is closed, or before it where both beams
+// are lit.
 struct HalfReading {
     bool read = false;
     bool lit = false;             // in a gap

@@ -1,21 +1,22 @@
 #pragma once
-// What is learnt of the motion: second moments of all windows of L settled steps in a row, forgotten exponentially. A step is a half,
-// or a tick where the windows would be too long.
+// What is learnt of the motion: second moments of all windows of L settled steps in a row, forgotten exponentially. A
+// step is a half, or a tick where the windows would be too long.
 //
 //   C_ij = sum over windows t of x_(t+i) x_(t+j)                                                            (1)
 //
-// the covariance method of linear prediction (Makhoul, Proc. IEEE 63 (1975) 561). It is positive, and not smeared by a taper as
-// autocovariances are. For all windows of a run of n steps it follows from the products of the run by their distance k,
+// the covariance method of linear prediction (Makhoul, Proc. IEEE 63 (1975) 561). It is positive, and not smeared by a
+// taper as autocovariances are. For all windows of a run of n steps it follows from the products of the run by their
+// distance k,
 //
 //   P_k = sum over s of x_s x_(s+k),    C_i(i+k) = P_k - (those with s < i) - (those with s > n - L + i)    (2)
 //
-// so that a step costs L products, and the matrix L^2 only where a run ends: at a gap, or after `block_halves`. The next run then
-// begins with the last L - 1 steps of this one, and no window is lost; their own products are added with the matrix. The mean of a
-// run is taken off: contrasts do not see it, but the law of the roundings does. The sums are made alike in both directions of
-// time.
+// so that a step costs L products, and the matrix L^2 only where a run ends: at a gap, or after `block_halves`. The
+// next run then begins with the last L - 1 steps of this one, and no window is lost; their own products are added with
+// the matrix. The mean of a run is taken off: contrasts do not see it, but the law of the roundings does. The sums are
+// made alike in both directions of time.
 //
-// Steps go in by parts that end where the index of their last half is a multiple of `part_halves`: what a memory holds is a
-// function of the indices of halves, whenever it is computed.
+// Steps go in by parts that end where the index of their last half is a multiple of `part_halves`: what a memory holds
+// is a function of the indices of halves, whenever it is computed.
 
 #include <array>
 #include <cstdint>

@@ -1,20 +1,21 @@
 #pragma once
-// The detuning after the loop is closed, free-form from the light samples: a cubic smoothing spline, and the false angles
-// that follow from it, with the covariance of their errors.
+// The detuning after the loop is closed, free-form from the light samples: a cubic smoothing spline, and the false
+// angles that follow from it, with the covariance of their errors.
 //
 //   dl(t) = sum of c_i B_i(t),   (A^T A + g P) c = A^T x,   cov c = s^2 (A^T A + g P)^-1                     (1)
 //   d_h = k (c^T Q_h c - tr(Q_h cov c)),   Q_h = integral of B B^T over half h,   k = chi f0 K T/2           (2)
 //   cov(d_h, d_g) = 4 k^2 (Q_h c)^T cov c (Q_g c) + 2 k^2 tr(Q_h cov c Q_g cov c)                            (3)
 //
-// x are the samples, A the basis at their times, s^2 their variance: that of the residuals of the knots alone (g = 0) where it is
-// larger than the configured one. c^T P c is the integral of (1 + t)^3 times the square of the third derivative, t in half-periods:
-// the longer a loop has been closed the slower it moves. It is taken as white noise: g is a hundredth of the one that the samples make likeliest
-// (Wahba, Spline Models for Observational Data, 1990, ch. 4.8). So a slow loop is smoothed over many halves, and a fast one by its
-// knots. The trace of (2) takes off what the noise of the light adds to a mean square. (3) is the covariance of two quadratic
-// forms of a Gaussian vector (Searle, Linear Models, 1971, ch. 2.5). Basis: de Boor, A Practical Guide to Splines, ch. X.
+// x are the samples, A the basis at their times, s^2 their variance: that of the residuals of the knots alone (g = 0)
+// where it is larger than the configured one. c^T P c is the integral of (1 + t)^3 times the square of the third
+// derivative, t in half-periods: the longer a loop has been closed the slower it moves. It is taken as white noise: g
+// is a hundredth of the one that the samples make likeliest (Wahba, Spline Models for Observational Data, 1990,
+// ch. 4.8). So a slow loop is smoothed over many halves, and a fast one by its knots. The trace of (2) takes off what
+// the noise of the light adds to a mean square. (3) is the covariance of two quadratic forms of a Gaussian vector
+// (Searle, Linear Models, 1971, ch. 2.5). Basis: de Boor, A Practical Guide to Splines, ch. X.
 //
-// The knots are a half-period apart for eight ticks, in which a loop closes, and then wider and wider: a knot at every half to
-// the end lets the noise of late halves through.
+// The knots are a half-period apart for eight ticks, in which a loop closes, and then wider and wider: a knot at every
+// half to the end lets the noise of late halves through.
 
 #include <array>
 #include <cstdint>
@@ -38,7 +39,8 @@ struct LightBasis {
 // halves  1..160
 [[nodiscard]] LightBasis light_basis(int halves) noexcept;
 
-// Between two knots four terms are not 0, those from `first` on; they follow from six knots, the third of which is at or before.
+// Between two knots four terms are not 0, those from `first` on; they follow from six knots, the third of which is at
+// or before.
 struct BasisSpan {
     int first = 0;
     std::array<double, 6> knot{};

@@ -30,8 +30,8 @@ struct RelockDriftConfig {
     bool presumes = false;
 };
 
-// One measured tick, its halves in order of time. A detuning of NaN or 0 was not measured; the temperature is that of the first
-// half, sampled in the middle of the tick.
+// One measured tick, its halves in order of time. A detuning of NaN or 0 was not measured; the temperature is that of
+// the first half, sampled in the middle of the tick.
 struct RelockTick {
     const HalfRecord& first;
     const HalfRecord& second;
@@ -73,15 +73,15 @@ void enter_gap(RelockDriftState& state) noexcept;
 // A measured tick.
 //
 // return  what to subtract. `known` is false where the data do not allow a correction (no detuning, or a ratio outside
-//         (0, 1)): what is missing is then as large as the light of its first half lets it be, or without light as half of what
-//         `max_detuning` does, of which tick i has no more than a part 1/(2i - 1), however the loop settles.
+//         (0, 1)): what is missing is then as large as the light of its first half lets it be, or without light as half
+//         of what `max_detuning` does, of which tick i has no more than a part 1/(2i - 1), however the loop settles.
 //         With `frequency` it is no larger than the tick's own deficit f_i - f0 either. No number in it is ever NaN.
 [[nodiscard]] RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfig& config,
                                      RelockDriftState& state, const RelockTick& tick) noexcept;
 
-// Variance of what no correction subtracts from a tick: before the first gap of a log, and later than `ticks` after one. Where the
-// light shows a false angle beyond its noise, because the loop still settled or the perimeter was pushed, its square and the noise of
-// the light. It is found by a trial step from the state just after a gap.
+// Variance of what no correction subtracts from a tick: before the first gap of a log, and later than `ticks` after
+// one. Where the light shows a false angle beyond its noise, because the loop still settled or the perimeter was
+// pushed, its square and the noise of the light. It is found by a trial step from the state just after a gap.
 //
 // state             before `step` takes this tick.
 // variance_arcsec2  of the tick.

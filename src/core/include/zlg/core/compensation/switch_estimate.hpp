@@ -11,12 +11,13 @@
 //   V = C + E + D R D^T          C motion, learnt; E bias, false angles and their scale; R roundings by their law
 //   V_m = V + s_m^2 K_m          the bank: nothing, or a walk that was not learnt (walk_kernel.hpp)
 //
-// Each member gives the generalised least-squares estimate of what is wanted, with an unknown constant rate; the members are
-// weighed by their restricted likelihood and a prior, and the estimate is the mean of the mixture (Searle, Casella and
-// McCulloch, Variance Components, 1992, ch. 6; kriging with an unknown mean: Stein, Interpolation of Spatial Data, 1999).
+// Each member gives the generalised least-squares estimate of what is wanted, with an unknown constant rate; the
+// members are weighed by their restricted likelihood and a prior, and the estimate is the mean of the mixture (Searle,
+// Casella and McCulloch, Variance Components, 1992, ch. 6; kriging with an unknown mean: Stein, Interpolation of
+// Spatial Data, 1999).
 //
-// The mixture decides the angle of all that is wanted. How it is spread over the rows follows from the covariance of the likeliest
-// member, given that sum: as of Gaussian variables whose sum is known.
+// The mixture decides the angle of all that is wanted. How it is spread over the rows follows from the covariance of
+// the likeliest member, given that sum: as of Gaussian variables whose sum is known.
 //
 // A pure function: no state, no stages. The scale of chi f0 goes in and out by value.
 

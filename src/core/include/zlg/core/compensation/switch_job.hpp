@@ -1,9 +1,10 @@
 #pragma once
 // What is computed beside the half-periods: what is learnt of the motion, and the estimates of switches.
 //
-// A half-period only asks, with a snapshot of the halves around the gap, and takes the answer in a tick that is a function of the
-// asking one: so the angles are the same whenever between the two it was computed. What is learnt is read from the history, tick
-// by tick up to the asking one. On a host that is done at once, on the gyro's processor between the interrupts.
+// A half-period only asks, with a snapshot of the halves around the gap, and takes the answer in a tick that is a
+// function of the asking one: so the angles are the same whenever between the two it was computed. What is learnt is
+// read from the history, tick by tick up to the asking one. On a host that is done at once, on the gyro's processor
+// between the interrupts.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +28,8 @@ struct SwitchPlan {
     bool is_solvable = false;  // points on both sides, and enough of them
     HalfLight light = HalfLight::none;
     double magnetic_arcsec = 0.0;  // that the points have lost, of mode +1
-    // Square of what lit halves that were refused are off by: as much may each half of the gap that was not read have turned.
+    // Square of what lit halves that were refused are off by: as much may each half of the gap that was not read have
+    // turned.
     double unread_arcsec2 = 0.0;
     SwitchWindow window{};
     int n_late = 0;  // ticks behind the window that the light corrects
@@ -46,7 +48,8 @@ struct SwitchJob {
     SwitchPlan plan{};
     RelockScale scale{};
     SwitchEstimate found{};
-    // Of ticks behind the window, what the light alone says that they were turned by, for a first half of positive sign.
+    // Of ticks behind the window, what the light alone says that they were turned by, for a first half of positive
+    // sign.
     std::array<float, most_late_ticks> late_arcsec{}, late_arcsec2{};
 
     friend bool operator==(const SwitchJob&, const SwitchJob&) = default;

@@ -1,6 +1,6 @@
 #pragma once
-// The light of a switch: the samples of the halves from the first one in which both beams are lit, or the loop is closed, gathered
-// for the fit of the detuning (light_spline.hpp); and what the record of a half says of its detuning.
+// The light of a switch: the samples of the halves from the first one in which both beams are lit, or the loop is
+// closed, gathered for the fit of the detuning (light_spline.hpp); and what the record of a half says of its detuning.
 
 #include <cstdint>
 
@@ -36,9 +36,10 @@ struct SwitchLight {
 //   both beams   dl = sign F((A - w B)/(A + w B)/K),  w = mean(A)/mean(B) (1 - sign K x)/(1 + sign K x)
 //   beam A       dl = sign F((A/level - 1)/K),        level = mean(A)/(1 + sign K x)
 //
-// with F the inverse of the discriminator and the recorded mean x of the half, apparent: what the control has balanced the
-// photodiodes by is in it. Damage, and light of another mode, is not used: a sample that is not finite or not positive, a beam whose
-// samples are all the same although there is noise, detunings beyond the curve or beyond any perimeter.
+// with F the inverse of the discriminator and the recorded mean x of the half, apparent: what the control has balanced
+// the photodiodes by is in it. Damage, and light of another mode, is not used: a sample that is not finite or not
+// positive, a beam whose samples are all the same although there is noise, detunings beyond the curve or beyond any
+// perimeter.
 //
 // counts  its light is that of the new mode: measured, or lit in an open loop.
 // index   of the half.

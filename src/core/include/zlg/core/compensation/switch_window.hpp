@@ -19,7 +19,8 @@ inline constexpr int most_window_points = most_points_before + most_points_after
 inline constexpr int most_rows_without = 16;
 inline constexpr int most_window_rows = most_window_points + most_rows_without;
 
-// A stretch of the window whose angle was read, or is wanted, as one number. The rows follow one another without a hole.
+// A stretch of the window whose angle was read, or is wanted, as one number. The rows follow one another without a
+// hole.
 struct WindowRow {
     Stretch halves{};
     bool read = false;             // its angle was read: a point
@@ -27,7 +28,8 @@ struct WindowRow {
     bool after_gap = false;        // on that side of it
     double y_arcsec = 0.0;         // as read, without the bias
     double recorded_arcsec = 0.0;  // false angle by the record of the light, as d_r, where it is not that of `light`
-    // Standard deviation of an error that all rows with one have in common, with its sign: of a light that is read far from the centre.
+    // Standard deviation of an error that all rows with one have in common, with its sign: of a light that is read far
+    // from the centre.
     double common_arcsec = 0.0;
     double error_arcsec2 = 0.0;  // variance of what else it may hold, which stays in the angle if it is wanted
 
@@ -43,7 +45,8 @@ struct SwitchWindow {
     bool with_phase = false;                                  // readings by phase, not of whole counts
     // Variance of the magnetic drift in a tick, as far as it is not known and steps at the gap.
     double magnetic_variance_arcsec2 = 0.0;
-    // Variance of what was taken off a half as the bias, beyond what the bias errs by itself: a mean of readings that repeat.
+    // Variance of what was taken off a half as the bias, beyond what the bias errs by itself: a mean of readings that
+    // repeat.
     double bias_variance_arcsec2 = 0.0;
     // Halves from `light_start` on whose false angle is corrected; none where `light` is empty.
     int light_start = 0;

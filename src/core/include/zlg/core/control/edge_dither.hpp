@@ -70,8 +70,8 @@ struct RateReading {
     std::int8_t helicity = 1;  // that lased: +1 or -1; the bias beat has the sign of bias times helicity
 };
 
-// Advance by one half-period: the shift of the reversal that ends the half to come, in ticks of the timer; positive is later.
-// No edge moves by more than 1.01 cycles.
+// Advance by one half-period: the shift of the reversal that ends the half to come, in ticks of the timer; positive is
+// later. No edge moves by more than 1.01 cycles.
 //
 // next_sign  of the bias in the half to come: +1 or -1, against that of the half just latched.
 // method     `automatic` takes the law that the rate asks for; none: no edge moves.

@@ -3,13 +3,13 @@
 //
 //   c = c_0 + a cos p,  s = s_0 + b sin(p + e)                                                           (1)
 //
-// Offsets, amplitudes and the angle e between the photodiodes make an ellipse of the circle. It is fitted to the samples
-// by least squares of
+// Offsets, amplitudes and the angle e between the photodiodes make an ellipse of the circle. It is fitted to the
+// samples by least squares of
 //
 //   A c^2 + B c s + C s^2 + D c + E s = 1                                                                (2)
 //
-// and mapped back to the circle. Only where the phases cover the circle is the fit well conditioned: a block takes up to
-// `samples_a_bin` samples of each octant and of each sign of the beat, and is used when it has all of them. At rest,
+// and mapped back to the circle. Only where the phases cover the circle is the fit well conditioned: a block takes up
+// to `samples_a_bin` samples of each octant and of each sign of the beat, and is used when it has all of them. At rest,
 // where the same phases come again and again, nothing is learnt. Blocks are added to a memory that forgets a quarter
 // each time.
 //

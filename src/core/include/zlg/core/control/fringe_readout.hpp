@@ -12,13 +12,13 @@
 // finite, saturated or stuck, that lies off the circle, or that contradicts the quarter; an ellipse that is not learnt;
 // noise far beyond what is presumed.
 //
-// A skew tau between latch and sampling shows in d: the beat turns round at the latch, where its frequency goes from f to
-// -f within the edge time t_e, at the rate 2 f/t_e; so the phase is tau^2 f/t_e behind in the sense of the beat that ends,
-// 1.2e9 tau^2 turns for the default gyro.
+// A skew tau between latch and sampling shows in d: the beat turns round at the latch, where its frequency goes from f
+// to -f within the edge time t_e, at the rate 2 f/t_e; so the phase is tau^2 f/t_e behind in the sense of the beat that
+// ends, 1.2e9 tau^2 turns for the default gyro.
 //
-// The comparators follow the phase by a lag, in the sense of the beat, so that d has it as its mean. A rotation of r turns a
-// second against the beat lets it turn round before the latch: there it has turned back by r^2 t_e/(4 f), up to two lags
-// before the comparators follow.
+// The comparators follow the phase by a lag, in the sense of the beat, so that d has it as its mean. A rotation of r
+// turns a second against the beat lets it turn round before the latch: there it has turned back by r^2 t_e/(4 f), up to
+// two lags before the comparators follow.
 
 #include <cstdint>
 

@@ -1,24 +1,28 @@
 #pragma once
-// Balance of the two photodiodes: the constant inequality of the beams is learnt and taken off before anything is judged.
+// Balance of the two photodiodes: the constant inequality of the beams is learnt and taken off before anything is
+// judged.
 //
-// The light signal S = (A - B)/(A + B) is the detuning, whose sign turns with the bias, and what the photodiodes are unequal
-// by, which does not turn. With w (B - o) in place of B, for the two halves of a tick and the means a and b of the beams,
+// The light signal S = (A - B)/(A + B) is the detuning, whose sign turns with the bias, and what the photodiodes are
+// unequal by, which does not turn. With w (B - o) in place of B, for the two halves of a tick and the means a and b of
+// the beams,
 //
 //   (S_1 + S_2)/2 = (a - w (b - o))/(a + w (b - o))                                                (1)
 //
 // and w is led to where this is 0, as a mean over 100 ticks in which the detuning stands.
 //
-// An offset is a part of the light that does not fall with it: far from the centre, where the light P = A + w (B - o) is less
-// than its level P_0, it is seen as a jump of the detuning where the bias is reversed. An offset of w P_0/2 makes the jump
+// An offset is a part of the light that does not fall with it: far from the centre, where the light P = A + w (B - o)
+// is less than its level P_0, it is seen as a jump of the detuning where the bias is reversed. An offset of w P_0/2
+// makes the jump
 //
 //   h = F'/K (P_0/P - 1 + S^2)                                                                     (2)
 //
-// by which o, of which only the difference of both beams matters, is learnt in every re-lock: Kalman's filter of one state. A
-// bend of the way at the reversals, of the steps of a digital loop, makes jumps that alternate and fall as S: of each jump and
-// S/S' times the one before, that is free of them.
+// by which o, of which only the difference of both beams matters, is learnt in every re-lock: Kalman's filter of one
+// state. A bend of the way at the reversals, of the steps of a digital loop, makes jumps that alternate and fall as S:
+// of each jump and S/S' times the one before, that is free of them.
 //
-// A slower mean of w follows it. A weight that has left it by more than 1.33 % has drifted by that within `balance_ticks`
-// of the limits, by .2 an hour where these are 4 minutes: a fault of a photodiode or of a beam, although the detuning is still read.
+// A slower mean of w follows it. A weight that has left it by more than 1.33 % has drifted by that within
+// `balance_ticks` of the limits, by .2 an hour where these are 4 minutes: a fault of a photodiode or of a beam,
+// although the detuning is still read.
 
 #include <zlg/core/control/light_monitor.hpp>
 
@@ -73,7 +77,8 @@ struct BalancedHalf {
     double light = 0.0;     // P
 };
 
-// Variance of the jump of the detuning from the half before to this one, by what is not known of the offset; for F' = 1.
+// Variance of the jump of the detuning from the half before to this one, by what is not known of the offset; for F'
+// = 1.
 [[nodiscard]] double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& half,
                                           double signal_per_lambda) noexcept;
 

@@ -89,7 +89,8 @@ struct LightMonitorOutput {
 // differences that no smooth change of the detuning affects, however fast, and through the curve of the discriminator.
 // A detuning beyond the next mode is not used at all.
 //
-// latency  stuck and noisy: two halves; contradicted: eight; unbalanced: eight by the difference of two halves, at once by
+// latency  stuck and noisy: two halves; contradicted: eight; unbalanced: eight by the difference of two halves, at once
+// by
 //          the bias or on the way to a lock.
 [[nodiscard]] LightMonitorOutput step(const MonitorLimits& limits, LightMonitorState& state,
                                       const LightMonitorInput& input) noexcept;

@@ -4,10 +4,10 @@
 //
 // `open` .. `searching` are attempts to hold a mode: the loop is open for gap_ticks at a chosen voltage and helicity,
 // then it is closed until it is locked or has failed. A switch closes it earlier, from gap_min_ticks on, at a tick
-// border at which it has arrived: piezo at rest, usable light in the last half, and a detuning, with the rest of the move
-// added, within arrival_tolerance. Locked: settle_ticks in a row within the tolerance, with light in both directions.
-// Failed: no lock by lock_timeout_ticks, or dark for dark_ticks. A half of which nothing is known (frame missed, samples
-// not finite) neither helps nor hurts a lock; time goes on.
+// border at which it has arrived: piezo at rest, usable light in the last half, and a detuning, with the rest of the
+// move added, within arrival_tolerance. Locked: settle_ticks in a row within the tolerance, with light in both
+// directions. Failed: no lock by lock_timeout_ticks, or dark for dark_ticks. A half of which nothing is known (frame
+// missed, samples not finite) neither helps nor hurts a lock; time goes on.
 //
 //   state      | due           | gap over            | locked                   | failed (seen on a tick border)
 //   -----------+---------------+---------------------+--------------------------+-------------------------------
@@ -131,7 +131,8 @@ struct SwitchDirection {
 
 [[nodiscard]] ModeSwitchState initial_state(const ModeSwitchConfig& config) noexcept;
 
-// Advance by one half-period: what was seen of it in, what to command for the next in the state; the event, where a lock ends one.
+// Advance by one half-period: what was seen of it in, what to command for the next in the state; the event, where a
+// lock ends one.
 //
 // A switch: U+ is the mean of the last readings, polarity is inverted, U- = U+ + sign U_lambda/2 + offset goes to the
 // second input, and the loop stays open for the gap. The lock that ends it measures |U- - U+|.

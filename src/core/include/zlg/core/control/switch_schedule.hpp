@@ -76,9 +76,10 @@ struct SwitchScheduleInput {
 //
 //   fixed     opening k is due before tick first_tick + k interval_ticks, k = 0, 1, ...; a late one does not move the
 //             grid. Should the tick jump over a whole interval, the grid is laid anew from there.
-//   measured  due where the time in mode + exceeds that in mode - by interval/2, or the other way round: so the sawtooth
-//             stays centred while the interval changes, and a late opening is made good by the next one. With a full first
-//             segment its centre is half of the first interval. Up to 1/16 of the interval is left out, a
+//   measured  due where the time in mode + exceeds that in mode - by interval/2, or the other way round: so the
+//   sawtooth
+//             stays centred while the interval changes, and a late opening is made good by the next one. With a full
+//             first segment its centre is half of the first interval. Up to 1/16 of the interval is left out, a
 //             different part each time, so that no vibration keeps step. 15/16 of min_ticks pass between two openings
 //             at least; what exceeds max_ticks is forgotten. From one opening to the next the interval changes by a
 //             factor of 2 at most.
