@@ -181,10 +181,14 @@ double scatter_ratio(const std::vector<Reading>& readings, const BiasLaw& law, d
 // A gyro that is shaken or walks reaches 4.
 constexpr double max_scatter_ratio = 100.0;
 
+// Of counts that do not follow bias_sign * mode one log in four shows a bias of more than its error, one in a million
+// of five times that.
+constexpr double least_deviations = 5.0;
+
 // Why counts, mode and bias_sign make no bias together; empty where they do.
 std::string contradiction_of(const BiasLaw& law) {
     const auto& [determined, value, sigma, reason] = law.bias_hz;
-    if (!(std::abs(value) > sigma))
+    if (!(std::abs(value) > least_deviations * sigma))
         return fmt::format("it comes out as {:.3g} +- {:.3g} Hz: the counts do not follow bias_sign * mode", value,
                            sigma);
     if (!(value > 0.0))

@@ -84,7 +84,10 @@ def test_the_same_numbers_as_the_program_whatever_is_configured(settings, tmp_pa
     settings = ("run.duration_s=40", "switching.interval_s=8", *settings)
     sets = [word for setting in settings for word in ("--set", setting)]
     command = [PROGRAM, "run", *sets, "--json", "--out", tmp_path / "run"]
-    program = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    # 1 where more than one switch in ten failed, as of the short laser with a fast re-lock.
+    done = subprocess.run(command, check=False, capture_output=True)
+    assert done.returncode in (0, 1), done.stderr
+    program = json.loads(done.stdout)
     result = zlg.run(zlg.Config.of(*settings))
     members = {
         "drift_arcsec_s": "drift_arcsec_s",
