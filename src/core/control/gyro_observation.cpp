@@ -77,6 +77,7 @@ void balance_light(const GyroControlConfig& c, GyroControlState& s, const Observ
     // The jump of a beam that has faded is not that of an offset.
     if (o.monitored.has_jump && half.is_read && !s.light_monitor.is_unbalanced)
         learn_offset(s.light_balance, half, s.light_monitor.jump, c.detector.discriminator_per_lambda);
+    half.has_faded = s.light_monitor.is_unbalanced;
     follow(c.limits, s.light_balance, half);
 }
 

@@ -12,6 +12,10 @@ namespace {
 constexpr double memory_ticks = 100.0;
 
 constexpr double max_change = 0.0133;
+constexpr double max_fade = 0.2;
+
+// Of a settled gyro, of which one half in four is followed: ten seconds.
+constexpr std::int32_t max_faded = 1000;
 
 // A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
 constexpr double max_weight = 100.0;
@@ -57,7 +61,11 @@ void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const Balan
     const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
     const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5) / n;
     const double weight = s.weight * (1.0 + odd) / (1.0 - odd);
-    if (is_possible(weight)) s.weight = weight;
+    // A beam that fades within minutes by more than a fifth comes back: followed all the way, it would then be too
+    // bright.
+    const bool is_near = s.n_ticks < memory_ticks || size(weight - s.slow_weight) < max_fade * s.slow_weight ||
+                         size(weight - s.slow_weight) < size(s.weight - s.slow_weight);
+    if (is_near && is_possible(weight)) s.weight = weight;
     s.level += (half.light - s.level) / n;
     s.slow_weight += (s.weight - s.slow_weight) / s.n_ticks;
     s.changes = s.n_ticks >= memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
@@ -106,9 +114,12 @@ void learn_offset(LightBalanceState& state, const BalancedHalf& half, const Detu
 }
 
 void follow(const MonitorLimits& limits, LightBalanceState& state, const BalancedHalf& half) noexcept {
-    const bool stands =
-        size(half.signal - state.former_signal) < max_fall && (!half.settles || state.n_ticks < known_ticks);
-    if (!half.is_first && half.is_read && state.has_last && stands) learn_weight(limits, state, half);
+    // Most beams that fade come back soon, and are then as they were.
+    state.n_faded = half.has_faded ? state.n_faded + (state.n_faded < max_faded) : 0;
+    const bool is_known = state.n_ticks >= known_ticks;
+    const bool waits = is_known && (half.settles || (state.n_faded > 0 && state.n_faded < max_faded));
+    const bool stands = size(half.signal - state.former_signal) < max_fall;
+    if (!half.is_first && half.is_read && state.has_last && stands && !waits) learn_weight(limits, state, half);
     state.former_signal = half.is_read ? state.last_signal : 1.0;
     state.has_last = half.is_read;
     state.last_signal = half.signal;

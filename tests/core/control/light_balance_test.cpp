@@ -200,7 +200,8 @@ TEST(LightBalance, WhateverTheLightIsTheStateStaysFinite) {
     const auto one_of = [&random](const auto& values) { return values[random() % std::size(values)]; };
     LightBalanceState state;
     for (int k = 0; k < 200'000; ++k) {
-        const BalancedHalf half{k % 2 == 0, random() % 8 != 0, random() % 2 == 0, one_of(signals), one_of(lights)};
+        const BalancedHalf half{k % 2 == 0,        random() % 8 != 0, random() % 2 == 0,
+                                random() % 8 == 0, one_of(signals),   one_of(lights)};
         ASSERT_GE(unknown_jump_lambda2(state, half, slope), 0.0) << k;
         learn_offset(state, half, {one_of(jumps), one_of(variances)}, slope);
         follow(config, state, half);

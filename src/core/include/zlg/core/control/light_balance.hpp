@@ -24,6 +24,8 @@
 // `balance_ticks` of the limits, by .2 an hour where these are 4 minutes: a fault of a photodiode or of a beam,
 // although the detuning is still read.
 
+#include <cstdint>
+
 #include <zlg/core/control/light_monitor.hpp>
 
 namespace zlg::core {
@@ -48,6 +50,7 @@ struct LightBalanceState {
     double jumps = 0.0, weights = 0.0;  // sums of h J/r and h^2/r of recent ones
     SeenJump seen{};                    // the last one
     double n_ticks = 0.0;               // that were learnt from, up to `balance_ticks`
+    std::int32_t n_faded = 0;           // halves in a row, of those that are followed, in which a beam had faded
     bool changes = false;               // the balance has changed
     bool has_last = false;              // the half before was read:
     double last_signal = 0.0;           // its S
@@ -70,11 +73,12 @@ inline constexpr double known_ticks = 40.0;
 
 // One half of balanced light, its means.
 struct BalancedHalf {
-    bool is_first = false;  // of its tick
-    bool is_read = false;   // it was closed, lit both ways, and followed the half before
-    bool settles = false;   // the loop has not locked yet: once w is known, it is not learnt there
-    double signal = 0.0;    // S
-    double light = 0.0;     // P
+    bool is_first = false;   // of its tick
+    bool is_read = false;    // it was closed, lit both ways, and followed the half before
+    bool settles = false;    // the loop has not locked yet: once w is known, it is not learnt there
+    bool has_faded = false;  // by the monitor: a beam against the other
+    double signal = 0.0;     // S
+    double light = 0.0;      // P
 };
 
 // Variance of the jump of the detuning from the half before to this one, by what is not known of the offset; for F'
