@@ -14,8 +14,8 @@ constexpr double memory_ticks = 100.0;
 constexpr double max_change = 0.0133;
 constexpr double max_fade = 0.2;
 
-// Of a settled gyro, of which one half in four is followed: ten seconds.
-constexpr std::int32_t max_faded = 1000;
+// Ticks of a settled gyro, of which one in four is followed: ten seconds.
+constexpr std::int32_t max_faded = 500;
 
 // A beam that is a hundred times as bright as the other one is no inequality of photodiodes.
 constexpr double max_weight = 100.0;
@@ -71,6 +71,16 @@ void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const Balan
     s.changes = s.n_ticks >= memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
 }
 
+// Most beams that fade come back soon, and are then as they were.
+bool teaches(LightBalanceState& s, const BalancedHalf& half) noexcept {
+    if (s.n_ticks < known_ticks) return true;
+    if (half.settles) return false;
+    if (!half.has_faded) s.n_faded = 0;
+    if (!half.has_faded || s.n_faded >= max_faded) return true;
+    ++s.n_faded;
+    return false;
+}
+
 }  // namespace
 
 double unknown_jump_lambda2(const LightBalanceState& state, const BalancedHalf& half,
@@ -114,12 +124,9 @@ void learn_offset(LightBalanceState& state, const BalancedHalf& half, const Detu
 }
 
 void follow(const MonitorLimits& limits, LightBalanceState& state, const BalancedHalf& half) noexcept {
-    // Most beams that fade come back soon, and are then as they were.
-    state.n_faded = half.has_faded ? state.n_faded + (state.n_faded < max_faded) : 0;
-    const bool is_known = state.n_ticks >= known_ticks;
-    const bool waits = is_known && (half.settles || (state.n_faded > 0 && state.n_faded < max_faded));
     const bool stands = size(half.signal - state.former_signal) < max_fall;
-    if (!half.is_first && half.is_read && state.has_last && stands && !waits) learn_weight(limits, state, half);
+    if (!half.is_first && half.is_read && state.has_last && stands && teaches(state, half))
+        learn_weight(limits, state, half);
     state.former_signal = half.is_read ? state.last_signal : 1.0;
     state.has_last = half.is_read;
     state.last_signal = half.signal;

@@ -50,7 +50,7 @@ struct LightBalanceState {
     double jumps = 0.0, weights = 0.0;  // sums of h J/r and h^2/r of recent ones
     SeenJump seen{};                    // the last one
     double n_ticks = 0.0;               // that were learnt from, up to `balance_ticks`
-    std::int32_t n_faded = 0;           // halves in a row, of those that are followed, in which a beam had faded
+    std::int32_t n_faded = 0;           // ticks in a row, of those that are followed, in which a beam had faded
     bool changes = false;               // the balance has changed
     bool has_last = false;              // the half before was read:
     double last_signal = 0.0;           // its S
