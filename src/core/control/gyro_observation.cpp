@@ -63,7 +63,6 @@ void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observatio
 
 void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     const bool good = o.counted && !o.beyond && !o.commuted.sign_error && !o.polarity_error;
-    o.beat_sign = o.beat_sign;
     o.bias = step(c.limits, s.bias_monitor, good, o.counts, o.beat_sign, o.settled && s.was_lit);
     // A half without light makes the difference to the next one meaningless.
     const bool was_lit = s.was_lit || (o.loop_closed && s.was_steady);

@@ -26,6 +26,7 @@ struct Gyro {
     double droop = 13.5;
     LightBalanceState state{};
     int halves = 0;
+    bool has_faded = false;
 
     [[nodiscard]] Beams seen(int sign, double detuning_lambda) const {
         const double power = 1.0 - droop * detuning_lambda * detuning_lambda;
@@ -42,6 +43,7 @@ struct Gyro {
         const Beams light = seen(sign(), detuning_lambda);
         return {.is_first = halves % 2 == 0,
                 .is_read = true,
+                .has_faded = has_faded,
                 .signal = signal(light),
                 .light = light.a + weight_of(state).of(light.b)};
     }
@@ -187,6 +189,25 @@ TEST(LightBalance, OnlyAFastDriftIsAFault) {
             seen |= gyro.state.changes;
         }
         EXPECT_EQ(seen, is_fault) << drift_per_h;
+    }
+}
+
+// A beam that comes back within ten seconds finds the balance as it was; one that is away for a minute, to a tenth of
+// its light, is followed by a fifth of the slower mean, which grows meanwhile by (32.5/20.5)^.2, and is not too bright
+// afterwards: it is learnt anew.
+TEST(LightBalance, ABeamThatFadesAndComesBackIsNotTooBright) {
+    for (const auto& [ticks, most] : {std::pair{450, 1e-4}, {12'000, 0.316}}) {
+        Gyro gyro{.gain_b = 1.1};
+        gyro.ticks(20'000);
+        const double before = gyro.state.weight;
+        gyro.gain_b = 0.11;
+        gyro.has_faded = true;
+        gyro.ticks(ticks);
+        EXPECT_NEAR(gyro.state.weight / before, 1.0, most) << ticks;
+        gyro.gain_b = 1.1;
+        gyro.has_faded = false;
+        gyro.ticks(3000);
+        EXPECT_NEAR(gyro.state.weight / before, 1.0, 1e-4) << ticks;
     }
 }
 
