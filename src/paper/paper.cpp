@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include <zlg/config/schema.hpp>
 #include <zlg/study/how_made.hpp>
 #include <zlg/study/run.hpp>
 
@@ -41,6 +42,17 @@ report::Section claims_section(const std::vector<Claim>& claims) {
         .section;
 }
 
+// The paper's photodiodes are equal, unless asked otherwise.
+config::Config with_equal_light(config::Config config) {
+    const auto set = [&](const char* key, double& value, double equal) {
+        if (!config::is_given(config, key)) value = equal;
+    };
+    set("light.gain_b", config.light.gain_b, twin::equal_light.gain_b);
+    set("light.gain_drift_per_h", config.light.gain_drift_per_h, twin::equal_light.gain_drift_per_h);
+    set("light.power_decay_per_h", config.light.power_decay_per_h, twin::equal_light.power_decay_per_h);
+    return config;
+}
+
 }  // namespace
 
 const char* verdict_name(Verdict verdict) {
@@ -55,7 +67,9 @@ std::string verdict_counts(const std::vector<Claim>& claims) {
     return text;
 }
 
-Paper recompute_paper(const PaperTask& task) {
+Paper recompute_paper(const PaperTask& asked) {
+    PaperTask task = asked;
+    task.config = with_equal_light(asked.config);
     const study::RunResult run = run_of(task);
     SubstitutionFigures substitution = substitution_of(task);
     Paper paper{.config = task.config,

@@ -21,6 +21,7 @@ using namespace zlg;
 
 config::Config laser_gyro() {
     config::Config c;
+    c.light = twin::equal_light;
     c.gyro.fidelity = config::Fidelity::laser;
     c.motion.kind = config::MotionKind::rest;
     c.switching.interval_s = 1.0;

@@ -30,7 +30,7 @@ TEST(BeamPhotodiodes, MakeOfEverySampleWhatTheirLawSays) {
     const LightConfig light{
         .gain_b = 0.7, .gain_drift_per_h = 400.0, .offset_a = 0.02, .offset_b = -0.03, .power_decay_per_h = 900.0};
     for (const TwinConfig& config : both_fidelities()) {
-        const auto plain = moved(config, {}, 100);
+        const auto plain = moved(config, equal_light, 100);
         const auto seen = moved(config, light, 100);
         for (std::size_t h = 0; h < plain.size(); ++h) {
             const double hours = (static_cast<double>(h) + 0.5) * half_s / 3600.0;
@@ -58,8 +58,8 @@ TEST(BeamPhotodiodes, OfEqualBeamsChangeNoBit) {
     for (TwinConfig config : both_fidelities()) {
         config.gyro.light_noise_lambda = 0.0033;
         config.gyro.readout = Readout::phase;
-        const auto neutral = moved(config, {.gain_b = 1.0}, 40);
-        const auto plain = moved(config, {}, 40);
+        const auto neutral = moved(config, {1.0, 0.0, 0.0, 0.0, 0.0}, 40);
+        const auto plain = moved(config, equal_light, 40);
         for (std::size_t h = 0; h < plain.size(); ++h) {
             EXPECT_EQ(plain[h].sensor.light_a, neutral[h].sensor.light_a);
             EXPECT_EQ(plain[h].sensor.light_b, neutral[h].sensor.light_b);
@@ -78,7 +78,7 @@ TEST(BeamPhotodiodes, TheBeatFallsWithThePowerAndNotWithTheGains) {
                               .angle_error_deg = 0.0,
                               .noise = 0.0,
                               .adc_bits = 24};
-        const auto plain = moved(config, {}, 100);
+        const auto plain = moved(config, equal_light, 100);
         const auto seen = moved(config, {.gain_b = 0.5, .offset_b = 0.1, .power_decay_per_h = 7200.0}, 100);
         for (std::size_t h = 0; h < plain.size(); ++h) {
             const double power = std::exp(-2.0 * static_cast<double>(h + 1) * half_s);  // the latch ends the half

@@ -1,5 +1,5 @@
 #pragma once
-// A gyro without noise or drift, and the moves that the tests make with it.
+// A gyro without noise or drift, of equal photodiodes, and the moves that the tests make with it.
 
 #include <array>
 #include <cstdint>
@@ -11,6 +11,7 @@ namespace zlg::twin {
 
 inline TwinConfig quiet_gyro() {
     TwinConfig config;
+    config.light = equal_light;
     config.gyro.light_noise_lambda = 0.0;
     config.drift.magnetic_arcsec_s = 0.0;
     config.drift.magnetic_thermal_arcsec_s = 0.0;

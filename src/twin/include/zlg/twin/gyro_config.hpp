@@ -54,6 +54,9 @@ struct LightConfig {
     double power_decay_per_h = 0.0;
 };
 
+// What theory is held against.
+inline constexpr LightConfig equal_light{.gain_b = 1.0, .gain_drift_per_h = 0.0, .power_decay_per_h = 0.0};
+
 // Of the converter of the photodiodes of the beat, over the beat's amplitude at the centre; both signs.
 inline constexpr double photodiode_range = 2.0;
 
