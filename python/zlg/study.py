@@ -80,7 +80,7 @@ class RunResult(Shown):
     switches: Switches
     #: in words, one sentence each: length, switches, faults and what the core made of them
     what_happened: list[str]
-    #: outside the switches, whose counts could not be trusted, from the first one on whose counts could
+    #: outside the switches, whose counts could not be trusted
     ticks_invalid: int
     #: true false drift 1, 2, ... ticks after the loop is closed, deg/h, mean over the switches
     relock_false_drift_deg_h: NDArray[np.float64]

@@ -136,9 +136,7 @@ private:
         if (!is_configured(v)) return;
         fingerprint_.take(row);
         switches_.take(row);
-        const bool is_invalid = (row.flags & core::flag_invalid) != 0;
-        has_started_ = has_started_ || !is_invalid;
-        if (has_started_ && is_invalid && (row.flags & core::flag_switching) == 0) ++invalid_ticks_;
+        if ((row.flags & core::flag_invalid) != 0 && (row.flags & core::flag_switching) == 0) ++invalid_ticks_;
         if (task_.has_figures) magnify(waiting.shown, row);
         if (task_.on_row) task_.on_row(row, waiting.true_arcsec);
     }
@@ -209,7 +207,6 @@ private:
     std::array<WaitingTick, core::history_ticks> waiting_{};  // by tick modulo the size: a final row comes sooner
     std::uint32_t health_ = 0;
     std::uint32_t health_raised_ = 0;
-    bool has_started_ = false;
     std::int64_t invalid_ticks_ = 0;
     std::int64_t whole_count_ticks_ = 0, fringe_lost_ticks_ = 0;
     std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen

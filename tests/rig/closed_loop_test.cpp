@@ -13,7 +13,6 @@ using namespace zlg;
 
 config::Config every_second() {
     config::Config c;
-    c.light = twin::equal_light;
     c.switching.interval_s = 1.0;
     return c;
 }

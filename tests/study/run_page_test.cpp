@@ -44,10 +44,7 @@ TEST(RunPage, the_magnified_switch_holds_its_gap) {
 }
 
 TEST(RunPage, of_a_run_without_a_switch_says_no_more_than_there_is) {
-    study::RunTask task;
-    task.config.run.duration_s = 2.0;
-    task.config.light = twin::equal_light;  // else the first ticks are invalid, and bridged by each variant in its way
-    const auto page = study::run_page({}, study::run(task));
+    const auto page = study::run_page({}, run_of(2.0));
     ASSERT_EQ(page.sections.size(), 2u) << "the result, and how it was made";
     EXPECT_EQ(page.verdict.find("No switch in this run of 2 s, for the interval is 90 s"), 0u) << page.verdict;
     const auto& rows = page.sections.front().tables.front().rows;

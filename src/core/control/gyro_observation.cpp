@@ -175,8 +175,12 @@ void decide_valid(const GyroControlConfig& c, GyroControlState& s, Observation& 
     if (o.lased && (o.bias.lost || o.bias.reversed)) o.bias_wrong = true;
     o.valid = o.reading.trusted && !loses<Loses::counts>(c, s, o);
     match_halves(s, o);
-    // Away from a lock the detuning moves: without its mean square the false angle would stay unnoticed.
-    if ((s.light_spoilt || o.monitored.withheld) && !o.has_mean_square && !o.settled) o.valid = false;
+    // Away from a lock the detuning moves: without its mean square the false angle would stay unnoticed. A gyro that
+    // starts at the centre has none to speak of, however unequal its beams turn out to be: two halves together show it.
+    const bool starts_centred = is_learning(s.light_balance) && !o.monitored.withheld &&
+                                size(c.detector.discriminator_per_lambda * o.light.detuning.value()) < unsure_signal;
+    if ((s.light_spoilt || o.monitored.withheld) && !o.has_mean_square && !o.settled && !starts_centred)
+        o.valid = false;
     o.unsteady = step(c.limits, s.detuning_monitor, s.half % 2 != 0, o.valid && o.loop_closed, o.settled,
                       o.has_mean_square, o.light.mean_sq_lambda2);
     if (o.unsteady) o.valid = false;
