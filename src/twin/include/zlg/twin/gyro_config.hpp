@@ -47,11 +47,11 @@ struct GyroConfig {
 //
 //   A' = A p + offset_a,  B' = B p gain_b (1 + gain_drift t) + offset_b,  p = exp(-power_decay t)
 struct LightConfig {
-    double gain_b = 1.0;            // of the photodiode of beam B over that of A, at t = 0
-    double gain_drift_per_h = 0.0;  // of that, relative
+    double gain_b = 1.03;             // of the photodiode of beam B over that of A, at t = 0
+    double gain_drift_per_h = 0.005;  // of that, relative
     double offset_a = 0.0;
     double offset_b = 0.0;
-    double power_decay_per_h = 0.0;
+    double power_decay_per_h = 0.01;
 };
 
 // What theory is held against.
