@@ -8,7 +8,6 @@
 
 #include "manoeuvres.hpp"
 #include "parts.hpp"
-#include "statistics.hpp"
 
 namespace zlg::trials {
 namespace {
@@ -146,10 +145,8 @@ ManoeuvreFigures figures_of_kind(const Base& base, const Kind& kind, std::size_t
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::vector<SwitchError> of_kind;
         for (const auto& part : parts) of_kind.insert(of_kind.end(), part[k][m].begin(), part[k][m].end());
-        f.methods.push_back({.method = methods[m].name,
-                             .of_paper = is_of_paper(methods[m].name),
-                             .whole = figures_of(of_kind),
-                             .relock = {}});
+        f.methods.push_back(
+            {.method = methods[m].name, .of_paper = is_of_paper(methods[m].name), .whole = figures_of(of_kind)});
     }
     return f;
 }

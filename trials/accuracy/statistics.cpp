@@ -1,4 +1,4 @@
-#include "statistics.hpp"
+#include "parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,14 +34,6 @@ ErrorFigures figures_of(const std::vector<SwitchError>& errors) {
     f.nev_standard_error = std::sqrt(std::max(0.0, fourth_powers / claimed - f.nev * f.nev) / claimed);
     f.within_3_sigma_ratio /= claimed;
     return f;
-}
-
-ErrorFigures relock_figures_of(std::vector<SwitchError> errors) {
-    for (SwitchError& e : errors) {
-        e.error_arcsec = e.relock_error_arcsec;
-        e.sigma_arcsec = 0.0;
-    }
-    return figures_of(errors);
 }
 
 }  // namespace zlg::trials

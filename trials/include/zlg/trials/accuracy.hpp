@@ -6,12 +6,8 @@
 // from dense covariances of the motion and the noise, never from a method's own estimate of its error.
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
-
-#include <zlg/report/page.hpp>
-#include <zlg/trials/drift_campaign.hpp>
 
 namespace zlg::trials {
 
@@ -32,8 +28,7 @@ struct ErrorFigures {
 struct MethodFigures {
     std::string method;
     bool of_paper = false;
-    ErrorFigures whole;   // permanent error of the angle, one switch
-    ErrorFigures relock;  // of the false angle alone, as far as the method states one
+    ErrorFigures whole;  // permanent error of the angle, one switch
 };
 
 // Least rms errors of one switch; 0 where no bound is known.
@@ -61,7 +56,6 @@ enum class CaseGroup : unsigned char {
 struct CaseFigures {
     CaseGroup group = CaseGroup::paper;
     std::string name;
-    double swept_hz = 0.0;  // of a case of the sweep of frequencies, 0: of another
     SwitchBound bound;
     std::vector<MethodFigures> methods;
 };
@@ -121,17 +115,6 @@ struct ManoeuvreFigures {
     std::vector<MethodFigures> methods;
 };
 
-// Drift beyond the true rotation after some time, in many runs.
-struct SwitchingDrift {
-    std::string name;
-    std::string method;
-    bool of_paper = false;
-    int runs = 0;
-    std::vector<double> rms_arcsec_s;  // by accuracy_run_lengths_s
-};
-
-inline const std::vector<double> accuracy_run_lengths_s{600.0, 900.0, 3600.0};
-
 // A limit and the figure held against it.
 //
 // within_chance  the limit is exceeded, but by less than two standard errors.
@@ -145,13 +128,11 @@ struct Criterion {
 };
 
 struct AccuracyTask {
-    bool quick = false;      // a tenth of the trials and the main cases only: a minute or two
-    double share = 1.0;      // of the trials of each case
-    bool long_runs = false;  // the twin in closed loop over 36 000 s as well: half an hour of one processor
+    bool quick = false;  // a tenth of the trials and the main cases only: a minute or two
+    double share = 1.0;  // of the trials of each case
     std::uint64_t seed = 1;
     int threads = 2;
     std::vector<Recording> recordings;
-    std::function<void(double)> on_progress;  // optional; 0..1
 };
 
 struct Accuracy {
@@ -159,11 +140,9 @@ struct Accuracy {
     std::vector<CaseFigures> cases;
     std::vector<RecordingFigures> recordings;
     std::vector<RelockFigures> relock;
-    std::vector<SwitchingDrift> drift;
     std::vector<ManoeuvreFigures> manoeuvres;
     std::vector<ManoeuvreFigures> changes;
     std::vector<GapLengthFigures> gap_lengths;
-    std::vector<DriftFigures> long_runs;  // the twin in closed loop over 36 000 s, where asked for
     std::vector<Criterion> criteria;
 };
 
@@ -184,10 +163,9 @@ struct Accuracy {
 
 [[nodiscard]] RecordingFigures measure_recording(const Recording& recording);
 
-[[nodiscard]] std::string markdown(const Accuracy& accuracy);
-[[nodiscard]] report::Page accuracy_page(const Accuracy& accuracy);
+// Of the default, over that of the paper's polynomial that errs least in all of these gaps.
+[[nodiscard]] double over_best_polynomial(const ManoeuvreFigures& figures);
 
-// The error of a switch against the frequency of a sine, of a campaign that is not quick.
-[[nodiscard]] report::Figure frequency_figure(const Accuracy& accuracy);
+[[nodiscard]] std::string markdown(const Accuracy& accuracy);
 
 }  // namespace zlg::trials

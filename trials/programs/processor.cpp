@@ -5,8 +5,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+
+#include <fmt/format.h>
 
 #include <zlg/processor/qemu.hpp>
 #include <zlg/rig/closed_loop.hpp>
@@ -15,11 +18,10 @@
 #include <zlg/trials/compared.hpp>
 #include <zlg/trials/scenarios.hpp>
 
-#include "command.hpp"
+#include "campaigns.hpp"
 
+namespace zlg::trials {
 namespace {
-
-using namespace zlg;
 
 constexpr double scenario_s = 20.0;
 
@@ -37,8 +39,8 @@ struct Total {
     std::uint64_t hash = 0;
 };
 
-void run(const trials::Scenario& scenario, processor::QemuProcessor& image, Total& total) {
-    trials::ComparedProcessor both{image};
+void run(const Scenario& scenario, processor::QemuProcessor& image, Total& total) {
+    ComparedProcessor both{image};
     rig::ClosedLoop loop{scenario.config, rig::motion(scenario.config), &both};
     const std::int64_t halves = 2 * rig::run_ticks(scenario.config, rig::motion(scenario.config));
     for (std::int64_t k = 0; k < halves; ++k) {
@@ -76,25 +78,32 @@ void print(const Total& t, double wall_s) {
     if (!t.first_difference.empty()) fmt::print(stderr, "first difference: {}\n", t.first_difference);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    std::string image_file;
+struct Task {
+    std::string image;
     double minutes = 10.0;
     std::uint64_t seed = 1;
-    CLI::App app{"The image of the processor against this program, bit by bit", "zlg_processor_bits"};
-    app.add_option("IMAGE", image_file)->required();
-    app.add_option("GYRO_MINUTES", minutes)->check(CLI::PositiveNumber);
-    app.add_option("SEED", seed);
-    return trials::run_command(app, argc, argv, [&] {
-        const auto start = std::chrono::steady_clock::now();
-        Total total;
-        std::optional<processor::QemuProcessor> image;
-        for (std::int64_t k = 0; k < static_cast<std::int64_t>(minutes * 60.0 / scenario_s); ++k) {
-            if (k % 10 == 0) image.emplace(processor::QemuOptions{.image = image_file});
-            run(trials::scenario(seed, k, scenario_s), *image, total);
-        }
-        print(total, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        return total.differing == 0 && total.states_differing == 0 ? 0 : 1;
-    });
+};
+
+int compare(const Task& task) {
+    const auto start = std::chrono::steady_clock::now();
+    Total total;
+    std::optional<processor::QemuProcessor> image;
+    for (std::int64_t k = 0; k < static_cast<std::int64_t>(task.minutes * 60.0 / scenario_s); ++k) {
+        if (k % 10 == 0) image.emplace(processor::QemuOptions{.image = task.image});
+        run(scenario(task.seed, k, scenario_s), *image, total);
+    }
+    print(total, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    return total.differing == 0 && total.states_differing == 0 ? 0 : 1;
 }
+
+}  // namespace
+
+Work processor_bits(CLI::App& app) {
+    const auto task = std::make_shared<Task>();
+    app.add_option("IMAGE", task->image)->required();
+    app.add_option("GYRO_MINUTES", task->minutes)->check(CLI::PositiveNumber);
+    app.add_option("--seed", task->seed);
+    return [task] { return compare(*task); };
+}
+
+}  // namespace zlg::trials
