@@ -24,7 +24,7 @@ using namespace zlg;
 constexpr int n_halves = 400'000;
 constexpr int n_pairs = 5;
 constexpr double max_times_noise = 6.0;
-constexpr double max_times_noise_of_laser = 60.0;
+constexpr double max_times_noise_of_laser = 30.0;
 volatile double sink = 0.0;  // what is computed must not be left out
 
 void draw_noise(const config::Config& config) {

@@ -13,8 +13,7 @@ namespace zlg::trials {
 
 struct ErrorFigures {
     std::int64_t n = 0;
-    std::int64_t claimed = 0;  // with a finite sigma
-    double mean_arcsec = 0.0;
+    std::int64_t claimed = 0;     // with a finite sigma
     double bias_arcsec = 0.0;     // mean with the sign of the false angle
     double standard_error = 0.0;  // of either
     double rms_arcsec = 0.0;
@@ -33,10 +32,9 @@ struct MethodFigures {
 
 // Least rms errors of one switch; 0 where no bound is known.
 struct SwitchBound {
-    double ticks_arcsec = 0.0;       // from ticks, constant rate unknown
-    double halves_arcsec = 0.0;      // from half-periods, constant rate unknown
-    double known_rate_arcsec = 0.0;  // from half-periods, constant rate known
-    double relock_arcsec = 0.0;      // false angle by the light alone
+    double ticks_arcsec = 0.0;   // from ticks, constant rate unknown
+    double halves_arcsec = 0.0;  // from half-periods, constant rate unknown
+    double relock_arcsec = 0.0;  // false angle by the light alone
 };
 
 enum class CaseGroup : unsigned char {
@@ -110,8 +108,6 @@ struct RelockFigures {
 struct ManoeuvreFigures {
     std::string base;       // the motion before
     std::string manoeuvre;  // empty: nothing happens
-    bool is_ramp = true;    // false: another law than that of the bounds
-    double duration_s = 0.0;
     std::vector<MethodFigures> methods;
 };
 

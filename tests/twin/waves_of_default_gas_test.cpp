@@ -11,7 +11,7 @@
 #include <zlg/twin/laser_table.hpp>
 #include <zlg/twin/laser_zones.hpp>
 
-namespace zlg::twin {
+namespace zlg::twin::default_gas {
 namespace {
 
 constexpr double field_g = 15.0;
@@ -57,4 +57,4 @@ TEST(DefaultGas, HasABiasThatGrowsWithItsGainAndASlopeThatFalls) {
 }
 
 }  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::default_gas
