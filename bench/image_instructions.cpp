@@ -1,9 +1,8 @@
 // Runs the processor's image through the scripts, and in closed loop with the twin.
 //
-// usage: zlg_image_instructions IMAGE EMULATOR [LINE]
+// usage: zlg_image_instructions IMAGE EMULATOR
 //
-// bench/count_image runs it with an emulator that counts; LINE is where the gyro's line leads. Its lines, with tabs
-// between the words:
+// bench/count_image runs it with an emulator that counts. Its lines, with tabs between the words:
 //   halves NAME NUMBER       so many half-periods of this script, in the order in which they ran
 //   stack_used_bytes NUMBER  the most in all of them
 //   state NAME NUMBER        bytes that a part of the image remembers in
@@ -86,11 +85,11 @@ void print_sizes() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3 && argc != 4) {
-        fmt::print(stderr, "usage: zlg_image_instructions IMAGE EMULATOR [LINE]\n");
+    if (argc != 3) {
+        fmt::print(stderr, "usage: zlg_image_instructions IMAGE EMULATOR\n");
         return 2;
     }
-    processor::QemuProcessor processor{{.image = argv[1], .program = argv[2], .line = argc == 4 ? argv[3] : "null"}};
+    processor::QemuProcessor processor{{.image = argv[1], .program = argv[2]}};
     for (const auto& script : bench::scripts()) run_script(processor, script);
     for (const auto& scenario : scenarios()) run_in_loop(processor, scenario);
     fmt::print("stack_used_bytes\t{}\n", processor.stack_used_bytes());

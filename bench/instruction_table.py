@@ -79,16 +79,6 @@ def worst_of(halves, names):
             "by_module": {m: counts[m] for m in names if m != WHOLE and counts[m]}}
 
 
-def show(table):
-    print(f"{table['halves']} half-periods, {table['compiler']}\n")
-    print(f"{'module':<32}{'typical':>8}{'most':>8}  most in the script")
-    for name, row in table["modules"].items():
-        print(f"{name:<32}{row['typical']:>8}{row['most']:>8}  {row['most_in']}")
-    print(f"\n{'script: control + compensation':<32}{'typical':>8}{'most':>8}")
-    for name, row in table["scripts"].items():
-        print(f"{name:<32}{row['typical']:>8}{row['most']:>8}")
-
-
 def figures(table):
     """Every figure of the modules and scripts that is compared, by name."""
     flat = {}
@@ -142,11 +132,11 @@ def write_table(path, table):
     path.write_text("\n".join(lines_of("", table)) + "\n", encoding="utf-8")
 
 
-def command_line(doc, *actions):
-    """A parser that knows one of --check, --renew and `actions`."""
+def command_line(doc):
+    """A parser that knows one of --check and --renew."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     action = parser.add_mutually_exclusive_group()
-    for name in ("--check", "--renew", *actions):
+    for name in ("--check", "--renew"):
         action.add_argument(name, action="store_true")
     return parser
 

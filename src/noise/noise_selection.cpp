@@ -14,7 +14,7 @@ namespace {
 
 // Costs in -2 log likelihood. Of one coefficient that may not be negative: half of chi-square beyond 6.63 is 0.5 %.
 constexpr double cost = 6.6;
-// Of a Markov term, whose time is free too: of 654 records without one 10 showed one (zlg_noise_campaign,
+// Of a Markov term, whose time is free too: of 654 records without one 10 showed one (zlg_trials noise,
 // docs/noise.md).
 constexpr double markov_cost = 12.0;
 // The scatter of the variances depends on the terms and the terms on the scatter: the first round starts from a fit of

@@ -1,6 +1,4 @@
 // Ten million deviates against the normal law: moments, the whole distribution function, the tails.
-//
-// trials/programs/normal_law.cpp does the same for a thousand million.
 
 #include <zlg/chance/address.hpp>
 

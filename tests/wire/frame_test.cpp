@@ -229,7 +229,7 @@ TEST(Frame, AfterAnyNoiseTheNextFrameButOneArrives) {
     }
 }
 
-// A share of the campaign zlg_wire_damage; 2e5 frames let one pass in 20 000 runs.
+// 2e5 frames let one pass in 20 000 runs.
 TEST(Frame, OfDamagedFramesNonePasses) {
     Line line;
     const Bytes stream = line.frames(200);

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include <zlg/chance/draw.hpp>
 #include <zlg/numeric/parallel.hpp>
 
 #include "bound.hpp"
 #include "parts.hpp"
-#include "statistics.hpp"
 
 namespace zlg::trials {
 namespace {
@@ -45,13 +43,11 @@ std::vector<Job> jobs_of(const std::vector<AccuracyCase>& cases, std::uint64_t s
 
 // By method, over all trials of the case.
 CaseFigures figures_of_case(const AccuracyCase& c, const std::vector<std::vector<SwitchError>>& errors) {
-    CaseFigures figures{.group = c.group, .name = c.name, .swept_hz = c.swept_hz};
+    CaseFigures figures{.group = c.group, .name = c.name};
     if (c.has_bound) figures.bound = bound_of(c.gyro, c.motion);
     for (std::size_t m = 0; m < c.methods.size(); ++m)
-        figures.methods.push_back({.method = c.methods[m],
-                                   .of_paper = is_of_paper(c.methods[m]),
-                                   .whole = figures_of(errors[m]),
-                                   .relock = relock_figures_of(errors[m])});
+        figures.methods.push_back(
+            {.method = c.methods[m], .of_paper = is_of_paper(c.methods[m]), .whole = figures_of(errors[m])});
     return figures;
 }
 
@@ -62,14 +58,9 @@ std::vector<CaseFigures> measure_cases(const AccuracyTask& task) {
     for (AccuracyCase& c : cases) c.switches = std::max(1, static_cast<int>(std::lround(task.share * c.switches)));
     const std::vector<Job> jobs = jobs_of(cases, task.seed);
     std::vector<std::vector<std::vector<SwitchError>>> errors(jobs.size());
-    std::size_t done = 0;
-    std::mutex mutex;
     numeric::in_parallel(jobs.size(), task.threads, [&](std::size_t k) {
         const AccuracyCase& c = cases[jobs[k].of_case];
         errors[k] = run_trial(jobs[k].trial, methods_for(config_of(c.gyro), c.methods));
-        const std::scoped_lock lock{mutex};
-        ++done;
-        if (task.on_progress) task.on_progress(static_cast<double>(done) / static_cast<double>(jobs.size()));
     });
     std::vector<CaseFigures> figures(cases.size());
     numeric::in_parallel(cases.size(), task.threads, [&](std::size_t c) {
@@ -90,12 +81,10 @@ Accuracy measure_accuracy(const AccuracyTask& task) {
     for (RecordingFigures& r : measure_vehicles(task)) accuracy.recordings.push_back(std::move(r));
     accuracy.cases = measure_cases(task);
     accuracy.relock = measure_relock(task);
-    accuracy.drift = measure_drift(task);
     const int gaps = std::max(1, static_cast<int>(std::lround(task.share * (task.quick ? 100.0 : 500.0))));
     accuracy.manoeuvres = measure_manoeuvres(gaps, task.quick, task.seed, task.threads);
     accuracy.changes = measure_changes(gaps, task.quick, task.seed, task.threads);
     accuracy.gap_lengths = measure_gap_lengths(task);
-    if (task.long_runs) accuracy.long_runs = measure_long_runs(task);
     accuracy.criteria = judge(accuracy);
     return accuracy;
 }

@@ -101,11 +101,12 @@ struct Layout {
     [[nodiscard]] int all() const { return halves + edges + lit; }
 };
 
-MatrixXd covariance_of(const GyroLaw& g, const MotionLaw& motion, double constant_arcsec_s, const Layout& at) {
+MatrixXd covariance_of(const GyroLaw& g, const MotionLaw& motion, const Layout& at) {
+    constexpr double unknown_arcsec_s = 1e5;  // far above any rate, yet small enough to keep C well conditioned
     MatrixXd covariance = MatrixXd::Zero(at.all(), at.all());
     const double half_s = 0.5 * g.tick_s;
     const auto lags = increment_covariance(motion, half_s, static_cast<std::size_t>(at.halves));
-    const double constant = constant_arcsec_s * half_s * constant_arcsec_s * half_s;
+    const double constant = unknown_arcsec_s * half_s * unknown_arcsec_s * half_s;
     for (int i = 0; i < at.halves; ++i)
         for (int j = 0; j < at.halves; ++j)
             covariance(i, j) = lags[static_cast<std::size_t>(std::abs(i - j))] + constant;
@@ -115,9 +116,9 @@ MatrixXd covariance_of(const GyroLaw& g, const MotionLaw& motion, double constan
     return covariance;
 }
 
-LinearModel model_of(const GyroLaw& g, const MotionLaw& motion, double constant_arcsec_s) {
+LinearModel model_of(const GyroLaw& g, const MotionLaw& motion) {
     const Layout at{g};
-    LinearModel m{.covariance = covariance_of(g, motion, constant_arcsec_s, at),
+    LinearModel m{.covariance = covariance_of(g, motion, at),
                   .observed = MatrixXd::Zero(closed_halves + at.lit, at.all()),
                   .target = VectorXd::Zero(at.all())};
     for (int row = 0; row < closed_halves + at.lit; ++row) {
@@ -159,15 +160,12 @@ double alternating_sum_sigma(const MatrixXd& covariance) {
 }  // namespace
 
 SwitchBound bound_of(const GyroLaw& gyro, const MotionLaw& motion) {
-    constexpr double unknown_arcsec_s = 1e5;  // far above any rate, yet small enough to keep C well conditioned
     GyroLaw unlit = gyro;
     unlit.lit_halves = 0;
-    const LinearModel whole_ticks = model_of(unlit, motion, unknown_arcsec_s);
-    const LinearModel free_rate = model_of(gyro, motion, unknown_arcsec_s);
-    const LinearModel known_rate = model_of(gyro, motion, 0.0);
-    return {.ticks_arcsec = min_error(whole_ticks, pairs_of(whole_ticks.observed)),
-            .halves_arcsec = min_error(free_rate, free_rate.observed),
-            .known_rate_arcsec = min_error(known_rate, known_rate.observed),
+    const LinearModel ticks = model_of(unlit, motion);
+    const LinearModel halves = model_of(gyro, motion);
+    return {.ticks_arcsec = min_error(ticks, pairs_of(ticks.observed)),
+            .halves_arcsec = min_error(halves, halves.observed),
             .relock_arcsec = alternating_sum_sigma(false_angle_covariance(unlit))};
 }
 

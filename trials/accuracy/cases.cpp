@@ -155,10 +155,8 @@ AccuracyCase make_case(CaseGroup group, const std::string& name, const std::stri
 }
 
 void add_sweep(std::vector<AccuracyCase>& cases, CaseGroup group, const char* readout) {
-    for (const double frequency : {0.5, 2.0, 5.0, 7.03, 10.0, 15.0, 18.3, 20.0, 25.0, 30.0, 40.0}) {
+    for (const double frequency : {0.5, 2.0, 5.0, 7.03, 10.0, 15.0, 18.3, 20.0, 25.0, 30.0, 40.0})
         cases.push_back(make_case(group, fmt::format("{:.2f} Hz", frequency), readout, tone(frequency), 400));
-        cases.back().swept_hz = frequency;
-    }
 }
 
 std::vector<AccuracyCase> accuracy_cases(bool quick) {

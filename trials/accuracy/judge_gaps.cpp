@@ -48,35 +48,34 @@ const ErrorFigures* find_whole(const Accuracy& accuracy, CaseGroup group, const 
     return nullptr;
 }
 
+// Of one case, where the campaign has it.
+void add_rms_limit(const Accuracy& accuracy, CaseGroup group, const std::string& name, const char* table,
+                   const std::string& what, double limit, std::vector<Criterion>& out) {
+    const ErrorFigures* f = find_whole(accuracy, group, name);
+    if (f == nullptr) return;
+    Worst w;
+    w.add(f->rms_arcsec, rms_error(*f), name);
+    out.push_back({table, fmt::format("{}: rms at most {}\"", what, limit), w.text(), w.against(limit)});
+}
+
 void add_phase(const Accuracy& accuracy, std::vector<Criterion>& out) {
-    const auto add = [&](const char* name, double limit) {
-        const std::string full = fmt::format("{}, {}", name, readouts[2]);
-        const ErrorFigures* f = find_whole(accuracy, CaseGroup::phase, full);
-        if (f == nullptr) return;
-        Worst w;
-        w.add(f->rms_arcsec, rms_error(*f), full);
-        out.push_back({"m", fmt::format("by phase, {}: rms at most {}\"", name, limit), w.text(), w.against(limit)});
-    };
-    add(main_case::rest, 0.01);
-    add(main_case::tone, 0.012);
-    add(main_case::tone_with_walk, 0.045);
-    add(main_case::band, 0.32);
-    add(main_case::learnt_band, 0.32);
+    for (const auto& [name, limit] : {std::pair{main_case::rest, 0.01},
+                                      {main_case::tone, 0.012},
+                                      {main_case::tone_with_walk, 0.045},
+                                      {main_case::band, 0.32},
+                                      {main_case::learnt_band, 0.32}})
+        add_rms_limit(accuracy, CaseGroup::phase, fmt::format("{}, {}", name, readouts[2]), "m",
+                      fmt::format("by phase, {}", name), limit, out);
 }
 
 // From 60 ticks after the start on.
 void add_first_gaps(const Accuracy& accuracy, std::vector<Criterion>& out) {
     add_nev_limits(accuracy, CaseGroup::first_gap, "k", "first gap 60 to 300 ticks after the start", {0.3, 2.5}, out,
                    "gap at 60 to 300");
-    for (const auto& [readout, limit] : {std::pair{readouts[0], 1.0}, std::pair{readouts[1], 0.3}}) {
-        const std::string name = fmt::format("20.06 Hz, first gap at 60 to 300 ticks, {}", readout);
-        const ErrorFigures* f = find_whole(accuracy, CaseGroup::first_gap, name);
-        if (f == nullptr) continue;
-        Worst w;
-        w.add(f->rms_arcsec, rms_error(*f), name);
-        out.push_back({"k", fmt::format("the same over 20.06 Hz, {}: rms at most {}\"", readout, limit), w.text(),
-                       w.against(limit)});
-    }
+    for (const auto& [readout, limit] : {std::pair{readouts[0], 1.0}, std::pair{readouts[1], 0.3}})
+        add_rms_limit(accuracy, CaseGroup::first_gap,
+                      fmt::format("20.06 Hz, first gap at 60 to 300 ticks, {}", readout), "k",
+                      fmt::format("the same over 20.06 Hz, {}", readout), limit, out);
 }
 
 void add_changes(const Accuracy& accuracy, std::vector<Criterion>& out) {
@@ -108,15 +107,9 @@ void add_lit(const Accuracy& accuracy, std::vector<Criterion>& out) {
             out.push_back({"n", fmt::format(fmt::runtime(wanted), name), inverse.text(), inverse.against(most)});
     };
     add(main_case::vibration, "lit halves, {}: error over that without them at most 1/2.5", 1.0 / 2.5);
-    for (const auto& [readout, limit] : {std::pair{readouts[0], 9.5}, std::pair{readouts[1], 5.0}}) {
-        const std::string name = fmt::format("{}{}, {}", main_case::vibration, lit_halves_name, readout);
-        const ErrorFigures* f = find_whole(accuracy, CaseGroup::lit, name);
-        if (f == nullptr) continue;
-        Worst w;
-        w.add(f->rms_arcsec, rms_error(*f), name);
-        out.push_back(
-            {"n", fmt::format("lit halves, {}: rms at most {}\"", readout, limit), w.text(), w.against(limit)});
-    }
+    for (const auto& [readout, limit] : {std::pair{readouts[0], 9.5}, std::pair{readouts[1], 5.0}})
+        add_rms_limit(accuracy, CaseGroup::lit, fmt::format("{}{}, {}", main_case::vibration, lit_halves_name, readout),
+                      "n", fmt::format("lit halves, {}", readout), limit, out);
     add(main_case::tone, "lit halves, {}: error over that without them at most 1", 1.0);
 }
 

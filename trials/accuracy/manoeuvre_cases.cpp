@@ -8,7 +8,6 @@
 
 #include "manoeuvres.hpp"
 #include "parts.hpp"
-#include "statistics.hpp"
 
 namespace zlg::trials {
 namespace {
@@ -138,18 +137,12 @@ using Parts = std::vector<std::vector<std::vector<std::vector<SwitchError>>>>;
 
 ManoeuvreFigures figures_of_kind(const Base& base, const Kind& kind, std::size_t k,
                                  const std::vector<AccuracyMethod>& methods, const Parts& parts) {
-    ManoeuvreFigures f{.base = base.name,
-                       .manoeuvre = kind.name,
-                       .is_ramp = kind.manoeuvre.law == ManoeuvreLaw::ramp,
-                       .duration_s = kind.manoeuvre.duration_s,
-                       .methods = {}};
+    ManoeuvreFigures f{.base = base.name, .manoeuvre = kind.name, .methods = {}};
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::vector<SwitchError> of_kind;
         for (const auto& part : parts) of_kind.insert(of_kind.end(), part[k][m].begin(), part[k][m].end());
-        f.methods.push_back({.method = methods[m].name,
-                             .of_paper = is_of_paper(methods[m].name),
-                             .whole = figures_of(of_kind),
-                             .relock = {}});
+        f.methods.push_back(
+            {.method = methods[m].name, .of_paper = is_of_paper(methods[m].name), .whole = figures_of(of_kind)});
     }
     return f;
 }

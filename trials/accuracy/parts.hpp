@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <zlg/config/config.hpp>
-#include <zlg/report/page.hpp>
 #include <zlg/trials/accuracy.hpp>
 
 #include "synthetic/laws.hpp"
@@ -50,7 +49,6 @@ inline constexpr const char* lit_halves_name = ", three halves lit";
 struct AccuracyCase {
     CaseGroup group = CaseGroup::paper;
     std::string name;
-    double swept_hz = 0.0;  // of the sweep of frequencies, 0: not of it
     GyroLaw gyro;
     MotionLaw motion;
     int switches = 400;
@@ -81,16 +79,8 @@ inline constexpr const char* readouts[] = {"x1", "x4", "phase"};
 
 [[nodiscard]] std::vector<RelockFigures> measure_relock(const AccuracyTask& task);
 
-[[nodiscard]] std::vector<SwitchingDrift> measure_drift(const AccuracyTask& task);
-
-// The twin in closed loop, with the schedule that measures and at the paper's fixed intervals.
-[[nodiscard]] std::vector<DriftFigures> measure_long_runs(const AccuracyTask& task);
-
 // The recordings again, with gaps of 1 to 10 ticks.
 [[nodiscard]] std::vector<GapLengthFigures> measure_gap_lengths(const AccuracyTask& task);
-
-// The error of `auto` over that of the best of the paper's methods, of one kind of manoeuvre.
-[[nodiscard]] double over_best_polynomial(const ManoeuvreFigures& figures);
 
 [[nodiscard]] std::vector<Criterion> judge(const Accuracy& accuracy);
 
@@ -100,11 +90,9 @@ void add_manoeuvre_criteria(const Accuracy& accuracy, std::vector<Criterion>& ou
 // The part of them that concerns gap lengths, first gaps, changes of the motion, the phase and lit halves.
 void add_gap_criteria(const Accuracy& accuracy, std::vector<Criterion>& out);
 
-[[nodiscard]] const MethodFigures* find_method(const std::vector<MethodFigures>& methods, const std::string& name);
+// Many errors and the sigmas that were claimed for them, in a few figures.
+[[nodiscard]] ErrorFigures figures_of(const std::vector<SwitchError>& errors);
 
-// A table of the campaign in each section, the same for the page and for the terminal; and every method in every case,
-// for the page.
-[[nodiscard]] std::vector<report::Section> tables_of(const Accuracy& accuracy);
-[[nodiscard]] std::vector<report::Section> detailed_tables_of(const Accuracy& accuracy);
+[[nodiscard]] const MethodFigures* find_method(const std::vector<MethodFigures>& methods, const std::string& name);
 
 }  // namespace zlg::trials

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include <Eigen/Dense>
@@ -13,7 +14,6 @@
 #include <zlg/twin/motion.hpp>
 
 #include "parts.hpp"
-#include "statistics.hpp"
 #include "synthetic/vehicles.hpp"
 
 namespace zlg::trials {
@@ -172,58 +172,50 @@ std::vector<AccuracyMethod> bridges_for(const Recording& r) {
     return methods;
 }
 
+// By bridge, then by gap.
+std::vector<std::vector<SwitchError>> errors_of_bridges(const Recording& r, const Column& column, std::size_t n_gaps) {
+    std::vector<std::vector<SwitchError>> errors;
+    for (const AccuracyMethod& method : bridges_for(r)) errors.push_back(errors_of(r, column, n_gaps, method.config));
+    return errors;
+}
+
 AxisFigures measure_axis(const Recording& r, int number, const std::vector<double>& increment_arcsec) {
     const Column column = counted(r, increment_arcsec);
     const std::vector<std::int64_t> gaps = gaps_of(r, column.counts.size());
     AxisFigures axis{.column = number, .fit_rms_arcsec = fit_rms(r, column, gaps)};
-    for (const AccuracyMethod& method : bridges_for(r)) {
-        const bool of_paper = method.config.bridge.method != core::BridgeMethod::automatic;
-        const auto errors = errors_of(r, column, gaps.size(), method.config);
-        axis.methods.push_back({.method = method.name, .of_paper = of_paper, .whole = figures_of(errors)});
-    }
+    const std::vector<AccuracyMethod> methods = bridges_for(r);
+    const auto errors = errors_of_bridges(r, column, gaps.size());
+    for (std::size_t m = 0; m < errors.size(); ++m)
+        axis.methods.push_back({.method = methods[m].name, .of_paper = m > 0, .whole = figures_of(errors[m])});
     return axis;
 }
 
-// rms of all gaps, and of those in which the first of the methods does not err most.
-struct Trimmed {
-    double all = 0.0, usual = 0.0;
-};
-
-std::vector<Trimmed> trimmed_rms(const std::vector<std::vector<SwitchError>>& errors) {
-    const std::size_t n = errors[0].size();
-    std::vector<std::size_t> order(n);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto size_of = [&](std::size_t k) { return std::abs(errors[0][k].error_arcsec); };
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return size_of(a) < size_of(b); });
-    const std::size_t usual = n - n / 100;
-    std::vector<Trimmed> all;
-    for (const auto& of_method : errors) {
-        double sum = 0.0, usual_sum = 0.0;
-        for (std::size_t k = 0; k < n; ++k) {
-            const double square = of_method[order[k]].error_arcsec * of_method[order[k]].error_arcsec;
-            sum += square;
-            if (k < usual) usual_sum += square;
-        }
-        all.push_back({std::sqrt(sum / static_cast<double>(n)), std::sqrt(usual_sum / static_cast<double>(usual))});
-    }
-    return all;
+// rms of the gaps named.
+double rms(const std::vector<SwitchError>& errors, std::span<const std::size_t> gaps) {
+    double sum = 0.0;
+    for (const std::size_t k : gaps) sum += errors[k].error_arcsec * errors[k].error_arcsec;
+    return std::sqrt(sum / static_cast<double>(gaps.size()));
 }
 
 GapLengthFigures measure_gap_length(const Recording& r, int number, const Column& column) {
-    const std::vector<std::int64_t> gaps = gaps_of(r, column.counts.size());
-    GapLengthFigures f{.recording = r.name, .column = number, .gap_ticks = r.gap_ticks};
-    std::vector<std::vector<SwitchError>> errors;
-    for (const AccuracyMethod& method : bridges_for(r))
-        errors.push_back(errors_of(r, column, gaps.size(), method.config));
-    const std::vector<Trimmed> rms = trimmed_rms(errors);
-    f.n = static_cast<std::int64_t>(gaps.size());
-    f.nev = figures_of(errors[0]).nev;
-    f.rms_arcsec = rms[0].all;
-    f.usual_rms_arcsec = rms[0].usual;
-    f.best_arcsec = f.usual_best_arcsec = 1e300;
-    for (std::size_t m = 1; m < rms.size(); ++m) {
-        f.best_arcsec = std::min(f.best_arcsec, rms[m].all);
-        f.usual_best_arcsec = std::min(f.usual_best_arcsec, rms[m].usual);
+    const std::size_t n = gaps_of(r, column.counts.size()).size();
+    const auto errors = errors_of_bridges(r, column, n);
+    std::vector<std::size_t> gaps(n);
+    std::iota(gaps.begin(), gaps.end(), std::size_t{0});
+    std::ranges::stable_sort(gaps, {}, [&](std::size_t k) { return std::abs(errors[0][k].error_arcsec); });
+    const auto usual = std::span{gaps}.first(n - n / 100);
+    GapLengthFigures f{.recording = r.name,
+                       .column = number,
+                       .gap_ticks = r.gap_ticks,
+                       .n = static_cast<std::int64_t>(n),
+                       .rms_arcsec = rms(errors[0], gaps),
+                       .best_arcsec = 1e300,
+                       .usual_rms_arcsec = rms(errors[0], usual),
+                       .usual_best_arcsec = 1e300,
+                       .nev = figures_of(errors[0]).nev};
+    for (std::size_t m = 1; m < errors.size(); ++m) {
+        f.best_arcsec = std::min(f.best_arcsec, rms(errors[m], gaps));
+        f.usual_best_arcsec = std::min(f.usual_best_arcsec, rms(errors[m], usual));
     }
     return f;
 }

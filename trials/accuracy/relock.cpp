@@ -9,7 +9,6 @@
 
 #include "bound.hpp"
 #include "parts.hpp"
-#include "statistics.hpp"
 #include "synthetic/gyro.hpp"
 
 namespace zlg::trials {

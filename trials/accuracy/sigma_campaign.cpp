@@ -9,7 +9,6 @@
 #include <zlg/numeric/parallel.hpp>
 
 #include "parts.hpp"
-#include "statistics.hpp"
 #include "trial.hpp"
 
 namespace zlg::trials {

@@ -1,4 +1,4 @@
-#include "statistics.hpp"
+#include "parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@ ErrorFigures figures_of(const std::vector<SwitchError>& errors) {
     if (errors.empty()) return f;
     double fourth_powers = 0.0;
     for (const SwitchError& e : errors) {
-        f.mean_arcsec += e.error_arcsec;
         f.bias_arcsec += e.sign * e.error_arcsec;
         f.rms_arcsec += e.error_arcsec * e.error_arcsec;
         f.worst_arcsec = std::max(f.worst_arcsec, std::abs(e.error_arcsec));
@@ -22,7 +21,6 @@ ErrorFigures figures_of(const std::vector<SwitchError>& errors) {
         ++f.claimed;
     }
     const auto n = static_cast<double>(f.n);
-    f.mean_arcsec /= n;
     f.bias_arcsec /= n;
     const double mean_square = f.rms_arcsec / n;
     f.rms_arcsec = std::sqrt(mean_square);
@@ -34,14 +32,6 @@ ErrorFigures figures_of(const std::vector<SwitchError>& errors) {
     f.nev_standard_error = std::sqrt(std::max(0.0, fourth_powers / claimed - f.nev * f.nev) / claimed);
     f.within_3_sigma_ratio /= claimed;
     return f;
-}
-
-ErrorFigures relock_figures_of(std::vector<SwitchError> errors) {
-    for (SwitchError& e : errors) {
-        e.error_arcsec = e.relock_error_arcsec;
-        e.sigma_arcsec = 0.0;
-    }
-    return figures_of(errors);
 }
 
 }  // namespace zlg::trials

@@ -1,23 +1,80 @@
+// The tables of a campaign as Markdown.
+
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <zlg/report/number_text.hpp>
 
-#include "case_groups.hpp"
 #include "parts.hpp"
 
 namespace zlg::trials {
 namespace {
 
-using report::fixed_number;
-using Rows = std::vector<std::vector<std::string>>;
+struct Group {
+    CaseGroup group;
+    const char* heading;
+    const char* caption;
+};
 
-report::Section section(std::string heading, std::string caption, std::vector<std::string> header, Rows rows = {}) {
-    report::Section s;
-    s.heading = std::move(heading);
-    s.tables.push_back({.caption = std::move(caption), .header = std::move(header), .rows = std::move(rows)});
-    return s;
+constexpr std::array<Group, 7> groups{{
+    {CaseGroup::paper, "(a) The paper's case",
+     "A sine of 12 000 \"/s at 20.06 Hz, gaps of 3 ticks, a miss of 0.22 wavelength that the loop removes with a "
+     "constant slew and an exponential tail, 16 light samples a half with noise of 0.0033 wavelength."},
+    {CaseGroup::grid, "(b) Frequency, amplitude, gap, light and miss", "The paper's case with one thing changed."},
+    {CaseGroup::broadband, "(c) Random vibration",
+     "Gaussian motion with a flat spectrum between the frequencies named."},
+    {CaseGroup::non_stationary, "(d) Coning and shock",
+     "Motion that is not stationary: its amplitude rises and falls, or it consists of shocks."},
+    {CaseGroup::loops, "(f) Loops",
+     "The paper's case with other ways in which the detuning decays, and with a bias scale that is not as presumed."},
+    {CaseGroup::warm_up, "(g) Warm-up", "The paper's case with a magnetic drift of 0.7 \"/s that grows by A."},
+    {CaseGroup::rest, "(h) Rest",
+     "A constant rate of up to 15 \"/s. Roundings repeat here, so the bound for independent ones does not hold."},
+}};
+
+constexpr std::array<Group, 4> gap_groups{{
+    {CaseGroup::gap_lengths, "(j) Gaps of 1 to 10 ticks",
+     "Switches come 3 to 3.4 s apart; the tones have 12 000 \"/s each."},
+    {CaseGroup::first_gap, "(k) The first gap",
+     "The first gap of a log, at a random tick of those named. Tones of 12 000 \"/s. By phase the ellipse of the "
+     "photodiodes is not known at the start."},
+    {CaseGroup::phase, "(m) The phase of the fringe",
+     "Photodiodes with offsets of 10 %, amplitudes that differ by 10 %, 5 degrees of angle, 1 % of noise and 12 bits; "
+     "the core learns and corrects their ellipse. Without a random walk, but for the case that names one. Switches "
+     "come 5 to 5.6 s apart. The bound takes only the noise of the photodiodes in place of the rounding."},
+    {CaseGroup::lit, "(n) Lit halves of a gap",
+     "The last three of the six halves of a gap have counts and light, at the full miss. Switches come 5 to 5.6 s "
+     "apart."},
+}};
+
+constexpr const char* manoeuvre_caption =
+    "A gyro whose motion was even until then meets a gap and, at the same time, a manoeuvre that it has never "
+    "seen: its rate changes within the duration named, from a beginning within eight ticks before the gap, in it, "
+    "or within eight ticks after it, or it has changed within the eight ticks before. Gaps of 3 ticks, a miss of 0.22 "
+    "wavelength.";
+
+constexpr const char* change_caption =
+    "Until the opening of the gap the motion is even, from there on it is another one, with a phase of its own. 10 Hz "
+    "and 20 Hz are sines of 12 000 \"/s. Gaps of 3 ticks, a miss of 0.22 wavelength.";
+
+using report::fixed_number;
+
+using Row = std::vector<std::string>;
+
+std::string row_text(const Row& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
+
+// Nothing where there are no rows.
+std::string section(const std::string& heading, const std::string& caption, const Row& header,
+                    const std::vector<Row>& rows) {
+    if (rows.empty()) return "";
+    std::string text = fmt::format("## {}\n\n{}\n\n{}|", heading, caption, row_text(header));
+    for (std::size_t k = 0; k < header.size(); ++k) text += "---|";
+    text += "\n";
+    for (const Row& row : rows) text += row_text(row);
+    return text + "\n";
 }
 
 std::string ratio_text(double value, double over) { return over > 0.0 ? fixed_number(value / over, 2) : "-"; }
@@ -40,15 +97,12 @@ std::string within_text(const ErrorFigures& f) {
 std::string once(bool first, std::string text) { return first ? std::move(text) : ""; }
 
 // One line for each case: what is possible, the paper's methods, ours, and what the default claims.
-report::Section summary_table(const Accuracy& accuracy, const Group& group) {
-    report::Section s =
-        section(group.heading, group.caption,
-                {"case", "bound, ticks, \"", "bound, halves, \"", "constant, \"", "quadratic, \"", "ticks, auto, \"",
-                 "auto, \"", "auto/bound", "worst, \"", "bias, \"", "NEV", "within 3 sigma, %"});
+std::string summary_table(const Accuracy& accuracy, const Group& group) {
+    std::vector<Row> rows;
     for (const CaseFigures& c : accuracy.cases) {
         const MethodFigures* automatic = find_method(c.methods, method_name::automatic);
         if (c.group != group.group || automatic == nullptr) continue;
-        std::vector<std::string> row{c.name, bound_text(c, c.bound.ticks_arcsec), bound_text(c, c.bound.halves_arcsec)};
+        Row row{c.name, bound_text(c, c.bound.ticks_arcsec), bound_text(c, c.bound.halves_arcsec)};
         for (const char* name :
              {method_name::constant, method_name::quadratic, method_name::automatic_ticks, method_name::automatic}) {
             const MethodFigures* m = find_method(c.methods, name);
@@ -57,13 +111,16 @@ report::Section summary_table(const Accuracy& accuracy, const Group& group) {
         const ErrorFigures& f = automatic->whole;
         row.insert(row.end(), {ratio_text(f.rms_arcsec, c.bound.halves_arcsec), fixed_number(f.worst_arcsec, 1),
                                bias_text(f, 2), fixed_number(f.nev, 2), within_text(f)});
-        s.tables[0].rows.push_back(std::move(row));
+        rows.push_back(std::move(row));
     }
-    return s;
+    return section(group.heading, group.caption,
+                   {"case", "bound, ticks, \"", "bound, halves, \"", "constant, \"", "quadratic, \"", "ticks, auto, \"",
+                    "auto, \"", "auto/bound", "worst, \"", "bias, \"", "NEV", "within 3 sigma, %"},
+                   rows);
 }
 
-report::Section case_table(const Accuracy& accuracy, const Group& group) {
-    Rows rows;
+std::string case_table(const Accuracy& accuracy, const Group& group) {
+    std::vector<Row> rows;
     for (const CaseFigures& c : accuracy.cases) {
         if (c.group != group.group) continue;
         for (const MethodFigures& m : c.methods) {
@@ -78,11 +135,11 @@ report::Section case_table(const Accuracy& accuracy, const Group& group) {
     return section(fmt::format("{}: every method", group.heading), group.caption,
                    {"case", "bound, ticks, \"", "bound, halves, \"", "method", "rms, \"", "worst, \"", "bias, \"",
                     "rms/bound", "NEV", "within 3 sigma, %"},
-                   std::move(rows));
+                   rows);
 }
 
-report::Section recording_table(const RecordingFigures& r) {
-    Rows rows;
+std::string recording_table(const RecordingFigures& r) {
+    std::vector<Row> rows;
     for (const AxisFigures& a : r.axes) {
         for (const MethodFigures& m : a.methods) {
             const bool first = &m == &a.methods.front();
@@ -96,11 +153,11 @@ report::Section recording_table(const RecordingFigures& r) {
                    "Gaps made in a recording; no re-lock. The fit has the 8 + 8 weights that are best on "
                    "average over the whole recording, known only afterwards.",
                    {"column", "fit, \"", "method", "rms, \"", "worst, \"", "rms/fit", "NEV", "within 3 sigma, %"},
-                   std::move(rows));
+                   rows);
 }
 
-report::Section light_table(const Accuracy& accuracy) {
-    Rows rows;
+std::string light_table(const Accuracy& accuracy) {
+    std::vector<Row> rows;
     for (const RelockFigures& f : accuracy.relock)
         rows.push_back({f.name, fixed_number(f.bound_arcsec, 2), bias_text(f.error, 3),
                         fixed_number(f.error.sd_arcsec, 3), ratio_text(f.error.sd_arcsec, f.bound_arcsec),
@@ -108,76 +165,15 @@ report::Section light_table(const Accuracy& accuracy) {
     return section("False angle by the light alone",
                    "The free-form decay of the detuning that `joint` makes from the light samples, x1 counts, 16 "
                    "samples a half: its false angle of the first eight ticks less the true one.",
-                   {"loop", "bound, \"", "bias, \"", "sd, \"", "sd/bound", "NEV"}, std::move(rows));
+                   {"loop", "bound, \"", "bias, \"", "sd, \"", "sd/bound", "NEV"}, rows);
 }
 
-bool corrects_relock(const MethodFigures& m) {
-    return m.method != method_name::uncorrected && m.method != method_name::linear && m.method != method_name::constant;
-}
-
-report::Section relock_table(const Accuracy& accuracy) {
-    Rows rows;
-    for (const CaseFigures& c : accuracy.cases) {
-        if (c.group != CaseGroup::paper && c.group != CaseGroup::loops) continue;
-        bool first = true;
-        for (const MethodFigures& m : c.methods) {
-            if (!corrects_relock(m)) continue;
-            rows.push_back({once(first, c.name), once(first, fixed_number(c.bound.relock_arcsec, 2)), m.method,
-                            bias_text(m.relock, 2), fixed_number(m.relock.sd_arcsec, 2),
-                            ratio_text(m.relock.sd_arcsec, c.bound.relock_arcsec)});
-            first = false;
-        }
-    }
-    return section("False angle after re-lock",
-                   "What a method subtracts less what was false. The bound is that of the light alone: a "
-                   "cubic spline with knots half a tick apart. A method that weighs the counts too may be below it.",
-                   {"case", "bound of the light, \"", "method", "bias, \"", "sd, \"", "sd/bound"}, std::move(rows));
-}
-
-report::Section drift_table(const Accuracy& accuracy) {
-    report::Section s = section("Drift",
-                                "Delivered less true angle over time, rms over runs of the paper's case with x1 "
-                                "counts, a magnetic drift of 0.7 \"/s that grows by A, and a first segment of half "
-                                "length. There is no non-magnetic drift and no random walk in it.",
-                                {"case", "method", "runs"});
-    report::Table& t = s.tables[0];
-    for (double run_s : accuracy_run_lengths_s) t.header.push_back(fmt::format("{:.0f} s, \"/s", run_s));
-    std::string last;
-    for (const SwitchingDrift& d : accuracy.drift) {
-        std::vector<std::string> row{once(d.name != last, d.name), d.method, fmt::format("{}", d.runs)};
-        last = d.name;
-        for (std::size_t k = 0; k < accuracy_run_lengths_s.size(); ++k)
-            row.push_back(k < d.rms_arcsec_s.size() ? fixed_number(d.rms_arcsec_s[k], 5) : "-");
-        t.rows.push_back(std::move(row));
-    }
-    return s;
-}
-
-report::Section long_run_table(const Accuracy& accuracy) {
-    report::Section s = section("Long runs in closed loop",
-                                "The twin under the core's control, sine of 12 000 \"/s at 20.06 Hz, x1 counts, miss "
-                                "of 0.22 "
-                                "wavelength, magnetic drift of 0.7 \"/s that grows by 0.7 \"/s. Drift in excess of the "
-                                "non-magnetic one, rms over runs; a random walk of 0.14 \"/sqrt(s) is in it.",
-                                {"switching", "compensation", "switches"});
-    report::Table& t = s.tables[0];
-    for (const DriftAtTime& at : accuracy.long_runs.front().at)
-        t.header.push_back(fmt::format("{:.0f} s, \"/s", at.time_s));
-    for (const DriftFigures& d : accuracy.long_runs) {
-        std::vector<std::string> row{d.gyro, d.method, fixed_number(d.switches, 0)};
-        for (const DriftAtTime& at : d.at) row.push_back(fixed_number(at.rms_arcsec_s, 5));
-        t.rows.push_back(std::move(row));
-    }
-    return s;
-}
-
-report::Section manoeuvre_table(const std::vector<ManoeuvreFigures>& figures, std::string heading,
-                                std::string caption) {
-    Rows rows;
+std::string manoeuvre_table(const std::vector<ManoeuvreFigures>& figures, const char* heading, const char* caption) {
+    std::vector<Row> rows;
     std::string last;
     for (const ManoeuvreFigures& f : figures) {
         const ErrorFigures& ours = find_method(f.methods, method_name::automatic)->whole;
-        std::vector<std::string> row{once(f.base != last, f.base), f.manoeuvre.empty() ? "none" : f.manoeuvre};
+        Row row{once(f.base != last, f.base), f.manoeuvre.empty() ? "none" : f.manoeuvre};
         last = f.base;
         for (const char* name : {method_name::constant, method_name::linear, method_name::quadratic})
             row.push_back(fixed_number(find_method(f.methods, name)->whole.rms_arcsec, 2));
@@ -185,14 +181,14 @@ report::Section manoeuvre_table(const std::vector<ManoeuvreFigures>& figures, st
                                nev_text(ours), within_text(ours)});
         rows.push_back(std::move(row));
     }
-    return section(std::move(heading), std::move(caption),
+    return section(heading, caption,
                    {"motion before", "manoeuvre", "constant, \"", "linear, \"", "quadratic, \"", "auto, \"",
                     "auto/best polynomial", "NEV", "within 3 sigma, %"},
-                   std::move(rows));
+                   rows);
 }
 
-report::Section gap_length_table(const Accuracy& accuracy) {
-    Rows rows;
+std::string gap_length_table(const Accuracy& accuracy) {
+    std::vector<Row> rows;
     for (const GapLengthFigures& f : accuracy.gap_lengths)
         rows.push_back({f.recording, fmt::format("{}", f.column), fmt::format("{}", f.gap_ticks),
                         fmt::format("{}", f.n), fixed_number(f.best_arcsec, 3), fixed_number(f.rms_arcsec, 3),
@@ -204,59 +200,45 @@ report::Section gap_length_table(const Accuracy& accuracy) {
         "the worst 1 % are the gaps but for those in which `auto` errs most.",
         {"recording", "column", "ticks", "gaps", "best polynomial, \"", "auto, \"", "auto/best",
          "auto/best without the worst 1 %", "NEV"},
-        std::move(rows));
+        rows);
 }
 
 const char* name_of(Verdict verdict) {
     return verdict == Verdict::met ? "yes" : verdict == Verdict::missed ? "NO" : "within chance";
 }
 
-report::Section criteria_table(const Accuracy& accuracy) {
+std::string criteria_table(const Accuracy& accuracy) {
     const auto n_of = [&](Verdict verdict) {
         return std::ranges::count(accuracy.criteria, verdict, &Criterion::verdict);
     };
-    Rows rows;
+    std::vector<Row> rows;
     for (const Criterion& c : accuracy.criteria) rows.push_back({c.table, c.wanted, c.got, name_of(c.verdict)});
     return section(
         "Wanted and got",
         fmt::format("Of {} limits {} are met, {} are missed, and {} are exceeded by less than two standard "
                     "errors (\"within chance\").",
                     accuracy.criteria.size(), n_of(Verdict::met), n_of(Verdict::missed), n_of(Verdict::within_chance)),
-        {"table", "wanted", "got", "met"}, std::move(rows));
-}
-
-void add_filled(std::vector<report::Section>& sections, report::Section section) {
-    if (!section.tables[0].rows.empty()) sections.push_back(std::move(section));
+        {"table", "wanted", "got", "met"}, rows);
 }
 
 }  // namespace
 
-std::vector<report::Section> tables_of(const Accuracy& accuracy) {
-    std::vector<report::Section> tables{criteria_table(accuracy)};
+std::string markdown(const Accuracy& accuracy) {
+    std::string text = criteria_table(accuracy);
     for (const Group& group : groups) {
-        add_filled(tables, summary_table(accuracy, group));
+        text += summary_table(accuracy, group);
         if (group.group != CaseGroup::non_stationary) continue;
-        for (const RecordingFigures& r : accuracy.recordings) tables.push_back(recording_table(r));
+        for (const RecordingFigures& r : accuracy.recordings) text += recording_table(r);
     }
-    tables.push_back(case_table(accuracy, groups.front()));
-    tables.push_back(light_table(accuracy));
-    add_filled(tables, manoeuvre_table(accuracy.manoeuvres, "(i) First manoeuvres", manoeuvre_caption));
+    text += case_table(accuracy, groups.front());
+    text += light_table(accuracy);
+    text += manoeuvre_table(accuracy.manoeuvres, "(i) First manoeuvres", manoeuvre_caption);
     for (const Group& group : gap_groups) {
-        add_filled(tables, summary_table(accuracy, group));
+        text += summary_table(accuracy, group);
         if (group.group == CaseGroup::first_gap)
-            add_filled(tables, manoeuvre_table(accuracy.changes, "(l) Another motion from the gap on", change_caption));
+            text += manoeuvre_table(accuracy.changes, "(l) Another motion from the gap on", change_caption);
     }
-    add_filled(tables, gap_length_table(accuracy));
-    tables.push_back(drift_table(accuracy));
-    if (!accuracy.long_runs.empty()) tables.push_back(long_run_table(accuracy));
-    return tables;
-}
-
-std::vector<report::Section> detailed_tables_of(const Accuracy& accuracy) {
-    std::vector<report::Section> tables;
-    for (std::size_t k = 1; k < groups.size(); ++k) add_filled(tables, case_table(accuracy, groups[k]));
-    tables.push_back(relock_table(accuracy));
-    return tables;
+    return text + gap_length_table(accuracy);
 }
 
 }  // namespace zlg::trials

@@ -52,10 +52,10 @@ private:
     std::size_t at_ = 0;
 };
 
-// What is true of a tick, or of the window of a switch: rotation, random walk, false rotation, rounding of the counter
-// (of a window at its end less at its beginning), sign of the false angle.
+// What is true of a tick, or of the window of a switch: rotation, random walk, rounding of the counter (of a window at
+// its end less at its beginning), sign of the false angle.
 struct Truth {
-    double rotation_arcsec = 0.0, walk_arcsec = 0.0, false_arcsec = 0.0, rounding_arcsec = 0.0;
+    double rotation_arcsec = 0.0, walk_arcsec = 0.0, rounding_arcsec = 0.0;
     int sign = 1;
 };
 
@@ -80,7 +80,6 @@ public:
         std::vector<SwitchError> errors = errors_;
         for (std::size_t k = 0; k < errors.size(); ++k) {
             errors[k].error_arcsec -= truth[k].rotation_arcsec + truth[k].rounding_arcsec;
-            errors[k].relock_error_arcsec -= truth[k].false_arcsec;
             errors[k].sign = truth[k].sign;
         }
         return errors;
@@ -93,7 +92,6 @@ private:
         const auto k = static_cast<std::size_t>(in);
         SwitchError& e = errors_[k];
         e.error_arcsec += row.dtheta_final_arcsec;
-        e.relock_error_arcsec += row.relock_arcsec;
         if (row.tick < windows_.opening(k) || row.tick >= windows_.closing(k)) return;
         if (!(row.sigma_arcsec > 0.0 && std::isfinite(row.sigma_arcsec))) return;
         const double error = row.dtheta_final_arcsec - true_of(row.tick);
@@ -124,7 +122,6 @@ Truth advance_tick(std::int64_t tick, SyntheticGyro& gyro, std::vector<MethodErr
         // The magnetic drift of either mode is no error of the switch between them.
         now.rotation_arcsec += half.true_arcsec + half.magnetic_arcsec;
         now.walk_arcsec += half.walk_arcsec;
-        now.false_arcsec += half.false_arcsec;
         now.rounding_arcsec = half.rounding_arcsec;
         if (h == 0) now.sign = half.record.bias_sign * half.record.mode;
         for (MethodErrors& m : methods) {
@@ -155,7 +152,6 @@ std::vector<std::vector<SwitchError>> run_trial(const SwitchTrial& trial, const 
         if (const std::ptrdiff_t in = windows.of(tick); in >= 0) {
             const auto k = static_cast<std::size_t>(in);
             truth[k].rotation_arcsec += now.rotation_arcsec;
-            truth[k].false_arcsec += now.false_arcsec;
             // The random walk of the ticks that the switch disturbs is part of its error.
             if (tick < windows.opening(k) || tick >= windows.closing(k) + disturbed_ticks)
                 truth[k].rotation_arcsec += now.walk_arcsec;

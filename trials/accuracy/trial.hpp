@@ -32,10 +32,9 @@ struct SwitchTrial {
 // is the error of the gap, of the false angle, and the roundings at the two edges of the gap.
 struct SwitchError {
     double error_arcsec = 0.0;
-    double sigma_arcsec = 0.0;         // claimed; infinite where no claim is made
-    double relock_error_arcsec = 0.0;  // false angle subtracted, less the true one
-    int sign = 1;                      // of the false angle
-    double tick_squares = 0.0;         // sum of (error/sigma)^2 over the ticks of the gap that claim a sigma
+    double sigma_arcsec = 0.0;  // claimed; infinite where no claim is made
+    int sign = 1;               // of the false angle
+    double tick_squares = 0.0;  // sum of (error/sigma)^2 over the ticks of the gap that claim a sigma
     int ticks_claimed = 0;
 };
 

@@ -185,7 +185,7 @@ std::vector<DriftFigures> run(const DriftCampaign& campaign) {
     const auto seeds = static_cast<std::size_t>(campaign.seeds);
     std::vector<RunOfGyro> runs(campaign.gyros.size() * seeds);
     numeric::in_parallel(runs.size(), campaign.threads, [&](std::size_t k) {
-        runs[k] = run_one(campaign, campaign.gyros[k / seeds], campaign.first_seed + k % seeds);
+        runs[k] = run_one(campaign, campaign.gyros[k / seeds], campaign.seed + k % seeds);
     });
     return figures_of(campaign, runs);
 }

@@ -94,20 +94,17 @@ void add_in_step(std::vector<MovingBase>& all, const MagneticGate& gate) {
     const double hz = 0.5 / mean_s;
     const double start = gate.first_segment == core::FirstSegment::half ? 0.25 : 0.0;
     const auto phase_of = [=](std::uint64_t seed) { return start + (seed % 2 == 0 ? 0.5 : 0.0); };
-    for (const double a : {0.5, 1.0, 2.0, 5.0, 10.0, 25.0, 100.0, 1000.0})
-        all.push_back({fmt::format("in step: sine of {} arcsec/s", a),
-                       [=](const Draw&, std::uint64_t seed) { return sine(a, hz, phase_of(seed)); }});
-    for (const double a : {1.0, 10.0, 100.0})
-        for (const double ratio : {1.001, 0.995, 1.02, 0.95})
-            all.push_back({fmt::format("near step: sine of {} arcsec/s, {} of that frequency", a, ratio),
-                           [=](const Draw&, std::uint64_t seed) { return sine(a, hz * ratio, phase_of(seed)); }});
-    for (const double a : {0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 100.0, 1000.0})
-        all.push_back({fmt::format("in step: square wave of {} arcsec/s", a),
-                       [=](const Draw&, std::uint64_t seed) { return square(a, hz, phase_of(seed)); }});
-    for (const double a : {1.0, 10.0, 100.0})
-        for (const double ratio : {1.001, 0.995, 1.02, 0.95})
-            all.push_back({fmt::format("near step: square wave of {} arcsec/s, {} of that frequency", a, ratio),
-                           [=](const Draw&, std::uint64_t seed) { return square(a, hz * ratio, phase_of(seed)); }});
+    const auto add_waves = [&](const char* name, const auto& wave, double medium) {
+        for (const double a : {0.5, 1.0, 2.0, 5.0, 10.0, medium, 100.0, 1000.0})
+            all.push_back({fmt::format("in step: {} of {} arcsec/s", name, a),
+                           [=](const Draw&, std::uint64_t seed) { return wave(a, hz, phase_of(seed)); }});
+        for (const double a : {1.0, 10.0, 100.0})
+            for (const double ratio : {1.001, 0.995, 1.02, 0.95})
+                all.push_back({fmt::format("near step: {} of {} arcsec/s, {} of that frequency", name, a, ratio),
+                               [=](const Draw&, std::uint64_t seed) { return wave(a, hz * ratio, phase_of(seed)); }});
+    };
+    add_waves("sine", sine, 25.0);
+    add_waves("square wave", square, 30.0);
     for (const double a : {1.0, 10.0, 100.0})
         for (const double shift : {0.05, 0.15})
             all.push_back({fmt::format("square wave of {} arcsec/s, {} of a period late", a, shift),

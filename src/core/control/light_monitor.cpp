@@ -11,7 +11,7 @@ namespace zlg::core {
 namespace {
 
 // Halves in a row before a fault is reported. These and the other limits of this file were set by hand and judged by
-// zlg_fault_campaign (docs/faults.md), where no other reason is given.
+// zlg_trials faults (docs/faults.md), where no other reason is given.
 constexpr std::int32_t spoilt_debounce = 2;
 constexpr std::int32_t balance_debounce = 8;
 constexpr std::int32_t contradicted_debounce = 8;

@@ -66,19 +66,10 @@ TEST(AccuracyBound, OfTheLightIsTheCramerRaoBoundOfASpline) {
     EXPECT_NEAR(of(LoopShape::second_order), 0.75, 0.01);
 }
 
-// With light without noise and a counter without rounding nothing but the motion is left, and a tone is known from few
-// ticks.
-TEST(AccuracyBound, OfAKnownToneWithoutNoiseIsNothing) {
-    GyroLaw g = counted(1e-4);
-    g.light_noise_lambda = 1e-7;
-    EXPECT_LT(bound_of(g, tone(7.0)).known_rate_arcsec, 1e-2);
-}
-
 TEST(AccuracyBound, MoreKnowledgeIsNeverWorse) {
     for (const MotionLaw& motion : {tone(7.03), tone(20.06), band(20.0)}) {
         const SwitchBound b = bound_of(counted(3.263), motion);
         EXPECT_LE(b.halves_arcsec, b.ticks_arcsec);
-        EXPECT_LE(b.known_rate_arcsec, b.halves_arcsec);
     }
 }
 

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/parts.hpp"
-#include "accuracy/statistics.hpp"
 #include "accuracy/trial.hpp"
 
 namespace zlg::trials {

@@ -130,7 +130,7 @@ TEST(DriftCampaign, DoesNotDependOnTheNumberOfThreads) {
     const std::string one = markdown(run(c));
     c.threads = 3;
     EXPECT_EQ(markdown(run(c)), one);
-    c.first_seed = 2;
+    c.seed = 2;
     EXPECT_NE(markdown(run(c)), one);
 }
 

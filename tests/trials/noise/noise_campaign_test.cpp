@@ -6,7 +6,7 @@ namespace {
 
 using namespace zlg;
 
-// The campaign itself is `zlg_noise_campaign`; a few short records show that it counts.
+// The campaign itself is `zlg_trials noise`; a few short records show that it counts.
 TEST(NoiseCampaign, errors_are_as_large_as_claimed) {
     const auto campaign = trials::run_noise_campaign({.n_gyros = 24, .n_samples = 1 << 13, .seed = 3});
     ASSERT_EQ(campaign.terms.size(), 9u);

@@ -6,19 +6,14 @@
 // from dense covariances of the motion and the noise, never from a method's own estimate of its error.
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
-
-#include <zlg/report/page.hpp>
-#include <zlg/trials/drift_campaign.hpp>
 
 namespace zlg::trials {
 
 struct ErrorFigures {
     std::int64_t n = 0;
-    std::int64_t claimed = 0;  // with a finite sigma
-    double mean_arcsec = 0.0;
+    std::int64_t claimed = 0;     // with a finite sigma
     double bias_arcsec = 0.0;     // mean with the sign of the false angle
     double standard_error = 0.0;  // of either
     double rms_arcsec = 0.0;
@@ -32,16 +27,14 @@ struct ErrorFigures {
 struct MethodFigures {
     std::string method;
     bool of_paper = false;
-    ErrorFigures whole;   // permanent error of the angle, one switch
-    ErrorFigures relock;  // of the false angle alone, as far as the method states one
+    ErrorFigures whole;  // permanent error of the angle, one switch
 };
 
 // Least rms errors of one switch; 0 where no bound is known.
 struct SwitchBound {
-    double ticks_arcsec = 0.0;       // from ticks, constant rate unknown
-    double halves_arcsec = 0.0;      // from half-periods, constant rate unknown
-    double known_rate_arcsec = 0.0;  // from half-periods, constant rate known
-    double relock_arcsec = 0.0;      // false angle by the light alone
+    double ticks_arcsec = 0.0;   // from ticks, constant rate unknown
+    double halves_arcsec = 0.0;  // from half-periods, constant rate unknown
+    double relock_arcsec = 0.0;  // false angle by the light alone
 };
 
 enum class CaseGroup : unsigned char {
@@ -61,7 +54,6 @@ enum class CaseGroup : unsigned char {
 struct CaseFigures {
     CaseGroup group = CaseGroup::paper;
     std::string name;
-    double swept_hz = 0.0;  // of a case of the sweep of frequencies, 0: of another
     SwitchBound bound;
     std::vector<MethodFigures> methods;
 };
@@ -116,21 +108,8 @@ struct RelockFigures {
 struct ManoeuvreFigures {
     std::string base;       // the motion before
     std::string manoeuvre;  // empty: nothing happens
-    bool is_ramp = true;    // false: another law than that of the bounds
-    double duration_s = 0.0;
     std::vector<MethodFigures> methods;
 };
-
-// Drift beyond the true rotation after some time, in many runs.
-struct SwitchingDrift {
-    std::string name;
-    std::string method;
-    bool of_paper = false;
-    int runs = 0;
-    std::vector<double> rms_arcsec_s;  // by accuracy_run_lengths_s
-};
-
-inline const std::vector<double> accuracy_run_lengths_s{600.0, 900.0, 3600.0};
 
 // A limit and the figure held against it.
 //
@@ -145,13 +124,11 @@ struct Criterion {
 };
 
 struct AccuracyTask {
-    bool quick = false;      // a tenth of the trials and the main cases only: a minute or two
-    double share = 1.0;      // of the trials of each case
-    bool long_runs = false;  // the twin in closed loop over 36 000 s as well: half an hour of one processor
+    bool quick = false;  // a tenth of the trials and the main cases only: a minute or two
+    double share = 1.0;  // of the trials of each case
     std::uint64_t seed = 1;
     int threads = 2;
     std::vector<Recording> recordings;
-    std::function<void(double)> on_progress;  // optional; 0..1
 };
 
 struct Accuracy {
@@ -159,11 +136,9 @@ struct Accuracy {
     std::vector<CaseFigures> cases;
     std::vector<RecordingFigures> recordings;
     std::vector<RelockFigures> relock;
-    std::vector<SwitchingDrift> drift;
     std::vector<ManoeuvreFigures> manoeuvres;
     std::vector<ManoeuvreFigures> changes;
     std::vector<GapLengthFigures> gap_lengths;
-    std::vector<DriftFigures> long_runs;  // the twin in closed loop over 36 000 s, where asked for
     std::vector<Criterion> criteria;
 };
 
@@ -184,10 +159,9 @@ struct Accuracy {
 
 [[nodiscard]] RecordingFigures measure_recording(const Recording& recording);
 
-[[nodiscard]] std::string markdown(const Accuracy& accuracy);
-[[nodiscard]] report::Page accuracy_page(const Accuracy& accuracy);
+// Of the default, over that of the paper's polynomial that errs least in all of these gaps.
+[[nodiscard]] double over_best_polynomial(const ManoeuvreFigures& figures);
 
-// The error of a switch against the frequency of a sine, of a campaign that is not quick.
-[[nodiscard]] report::Figure frequency_figure(const Accuracy& accuracy);
+[[nodiscard]] std::string markdown(const Accuracy& accuracy);
 
 }  // namespace zlg::trials

@@ -32,7 +32,7 @@ struct DriftCampaign {
     std::vector<DriftGyro> gyros;
     std::vector<double> times_s;  // growing; the last one is the length of the run
     std::int64_t seeds = 10;
-    std::uint64_t first_seed = 1;
+    std::uint64_t seed = 1;  // the first
     int threads = 1;
 };
 
