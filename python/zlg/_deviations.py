@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, Optional, Union
+from typing import Any, Literal, NamedTuple, Optional, Protocol, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -113,96 +113,50 @@ def deviation(
     return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, options))
 
 
-def _known(
-    kind: str, data: ArrayLike, rate: float, data_type: Optional[str], taus: Taus, valid: Optional[ArrayLike],
-    bias: TotalBias = "removed",
-) -> Known:  # fmt: skip
-    if data_type is None:
-        raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
-    called = "rate" if data_type == "freq" else data_type
-    samples = _zlg.Samples(floats(data), rate, called, "1", mask(valid))
-    options = _zlg.DeviationOptions(0.6827, 0.9, None, bias, 1)
-    d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, options))
-    return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
+class Estimator(Protocol):
+    """A deviation with the signature that users of other tools know."""
+
+    def __call__(
+        self, data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+        valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
+    ) -> Known: ...  # fmt: skip
 
 
-def adev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
-) -> Known:  # fmt: skip
-    """Allan deviation, from windows side by side, in the unit of the data (a rate).
+def _estimator(kind: str, name: str) -> Estimator:
+    def estimate(
+        data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
+        valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
+    ) -> Known:  # fmt: skip
+        if data_type is None:
+            raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
+        called = "rate" if data_type == "freq" else data_type
+        samples = _zlg.Samples(floats(data), rate, called, "1", mask(valid))
+        options = _zlg.DeviationOptions(0.6827, 0.9, None, bias, 1)
+        d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, options))
+        return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
+
+    estimate.__name__ = estimate.__qualname__ = kind
+    estimate.__doc__ = f"""{name}, in the unit of the data (a rate; of tdev an angle).
 
     data       shape (samples,); NaN or valid == False: missing
     rate       samples per second
     data_type  "increments", "rate" (also "freq") or "phase"; must be given
     taus       "octave" (default), "decade", "log", "all", or times in s, of which those that the record has no term of are left out
+    bias       of totdev, mtotdev, htotdev: by default that of mirroring stays, as with AllanTools and Stable32; others as of `deviation`
     Returns (taus, devs, errs, ns), each of shape (taus,). Raises SeriesError; TypeError without data_type.
     """
-    return _known("adev", data, rate, data_type, taus, valid)
+    return estimate
 
 
-def oadev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
-) -> Known:  # fmt: skip
-    """Overlapping Allan deviation; as `adev`."""
-    return _known("oadev", data, rate, data_type, taus, valid)
-
-
-def mdev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
-) -> Known:  # fmt: skip
-    """Modified Allan deviation; as `adev`."""
-    return _known("mdev", data, rate, data_type, taus, valid)
-
-
-def tdev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
-) -> Known:  # fmt: skip
-    """Time deviation, tau/sqrt(3) times the modified one: an angle; as `adev`."""
-    return _known("tdev", data, rate, data_type, taus, valid)
-
-
-def hdev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
-) -> Known:  # fmt: skip
-    """Hadamard deviation; as `adev`."""
-    return _known("hdev", data, rate, data_type, taus, valid)
-
-
-def ohdev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None,
-) -> Known:  # fmt: skip
-    """Overlapping Hadamard deviation; as `adev`."""
-    return _known("ohdev", data, rate, data_type, taus, valid)
-
-
-def totdev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
-) -> Known:  # fmt: skip
-    """Total deviation; as `adev`. By default with the bias of mirroring, as AllanTools and Stable32; `bias` as of `deviation`."""
-    return _known("totdev", data, rate, data_type, taus, valid, bias)
-
-
-def mtotdev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
-) -> Known:  # fmt: skip
-    """Modified total deviation; as `adev`. By default with the bias of mirroring, as AllanTools and Stable32; `bias` as of `deviation`."""
-    return _known("mtotdev", data, rate, data_type, taus, valid, bias)
-
-
-def htotdev(
-    data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-    valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
-) -> Known:  # fmt: skip
-    """Hadamard total deviation; as `adev`. By default with the bias of mirroring, as AllanTools and Stable32; `bias` as of `deviation`."""
-    return _known("htotdev", data, rate, data_type, taus, valid, bias)
+adev = _estimator("adev", "Allan deviation, from windows side by side")
+oadev = _estimator("oadev", "Overlapping Allan deviation")
+mdev = _estimator("mdev", "Modified Allan deviation")
+tdev = _estimator("tdev", "Time deviation, tau/sqrt(3) times the modified one")
+hdev = _estimator("hdev", "Hadamard deviation")
+ohdev = _estimator("ohdev", "Overlapping Hadamard deviation")
+totdev = _estimator("totdev", "Total deviation")
+mtotdev = _estimator("mtotdev", "Modified total deviation")
+htotdev = _estimator("htotdev", "Hadamard total deviation")
 
 
 def deviations_of_log(
