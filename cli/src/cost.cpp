@@ -2,8 +2,6 @@
 
 #include <sys/statvfs.h>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -17,12 +15,10 @@ namespace zlg::cli {
 namespace {
 
 constexpr double announced_bytes = 1e9;
-constexpr double announced_s = 30.0;
+constexpr double announced_s = 300.0;  // the paper recomputed, a minute or so, is no news
 
 // An estimate that is a third too high must not refuse what would fit.
 constexpr double certain = 2.0 / 3.0;
-
-bool is_announced = false;
 
 std::string size_text(double bytes) {
     if (bytes >= 1e15) return fmt::format("{:.3g} PB", bytes / 1e15);
@@ -41,43 +37,6 @@ std::optional<double> free_bytes(const std::string& out) {
     return static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
 }
 
-void require_room(const Cost& cost) {
-    const double bytes = static_cast<double>(cost.ticks) * cost.bytes_a_tick;
-    const std::optional<double> room = free_bytes(cost.out);
-    if (!room || certain * bytes <= *room) return;
-    throw logs::IoError{fmt::format(
-        "{}: {:.6g} ticks need about {} of disk, {} are free; allowed is a shorter run.duration_s or a longer "
-        "gyro.tick_s",
-        cost.out.empty() ? "--out" : cost.out, static_cast<double>(cost.ticks), size_text(bytes), size_text(*room))};
-}
-
-double measured_s(const std::function<void(std::int64_t)>& work, std::int64_t ticks) {
-    using Clock = std::chrono::steady_clock;
-    const auto started = Clock::now();
-    work(ticks);
-    return std::chrono::duration<double>{Clock::now() - started}.count();
-}
-
-// More than it will be, where that is below what is announced.
-double estimated_s(std::int64_t ticks, const std::function<void(std::int64_t)>& work) {
-    constexpr std::int64_t few = 500;
-    // No tick of any twin or processor lasts 3 ms.
-    if (ticks < 20 * few) return 0.0;
-    const double few_s = measured_s(work, few);
-    const double max_s = few_s * static_cast<double>(ticks) / static_cast<double>(few);
-    if (max_s < announced_s) return max_s;
-    // What comes before the first tick is in both measurements; the first of them may have waited for the disk.
-    const std::int64_t more = std::min<std::int64_t>(4000, ticks / 10);
-    const double more_s = measured_s(work, more);
-    const double start_and_few_s = std::min(few_s, measured_s(work, few));
-    return std::max(0.0, more_s - start_and_few_s) * static_cast<double>(ticks) / static_cast<double>(more - few);
-}
-
-std::string cost_text(double time_s, double bytes) {
-    const std::string disk = bytes > 0.0 ? fmt::format(" and {} of disk", size_text(bytes)) : "";
-    return fmt::format("warning: this takes about {}{}", time_text(time_s), disk);
-}
-
 }  // namespace
 
 std::string time_text(double s) {
@@ -88,17 +47,15 @@ std::string time_text(double s) {
     return fmt::format("{:.2g} s", s);
 }
 
-void announce(const Cost& cost, const std::function<void(std::int64_t)>& work) {
-    require_room(cost);
-    const auto ticks = static_cast<double>(cost.ticks);
-    const double time_s = estimated_s(cost.ticks, work);
-    const double bytes = ticks * cost.bytes_a_tick;
-    if (time_s < announced_s && bytes < announced_bytes) return;
-    is_announced = true;
-    complain(fmt::format("{}: {:.6g} ticks", cost_text(time_s, bytes), ticks));
+void require_room(std::int64_t ticks, double bytes_a_tick, const std::string& out) {
+    const double bytes = static_cast<double>(ticks) * bytes_a_tick;
+    const std::optional<double> room = free_bytes(out);
+    if (!room || certain * bytes <= *room) return;
+    throw logs::IoError{fmt::format(
+        "{}: {:.6g} ticks need about {} of disk, {} are free; allowed is a shorter run.duration_s or a longer "
+        "gyro.tick_s",
+        out.empty() ? "--out" : out, static_cast<double>(ticks), size_text(bytes), size_text(*room))};
 }
-
-Growth::Growth(std::string part) : part_{std::move(part)}, is_watched_{!part_.empty()} {}
 
 double Growth::expected_bytes(double fraction) {
     // Less may be the beginning of the file, or a block that is not yet full.
@@ -117,14 +74,14 @@ double Growth::expected_bytes(double fraction) {
 
 void Growth::look(double past_s, double fraction) {
     constexpr double early_s = 1.0;
-    if (!is_watched_ || fraction <= 0.0 || (bytes_ > 0.0 && past_s < early_s)) return;
-    bytes_ = expected_bytes(fraction);
+    if (is_over_ || fraction <= 0.0 || (bytes_ > 0.0 && past_s < early_s)) return;
+    if (!part_.empty()) bytes_ = expected_bytes(fraction);
     if (past_s < early_s) return;
-    is_watched_ = false;
+    is_over_ = true;
     const double time_s = past_s / fraction;
-    if (is_announced || (time_s < announced_s && bytes_ < announced_bytes)) return;
-    is_announced = true;
-    complain(cost_text(time_s, bytes_));
+    if (time_s < announced_s && bytes_ < announced_bytes) return;
+    const std::string disk = bytes_ > 0.0 ? fmt::format(" and {} of disk", size_text(bytes_)) : "";
+    complain(fmt::format("warning: this takes about {}{}", time_text(time_s), disk));
 }
 
 }  // namespace zlg::cli

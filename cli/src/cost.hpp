@@ -2,16 +2,10 @@
 // What work will cost, before it begins or soon after.
 
 #include <cstdint>
-#include <functional>
 #include <string>
+#include <utility>
 
 namespace zlg::cli {
-
-struct Cost {
-    std::int64_t ticks = 0;
-    double bytes_a_tick = 0.0;
-    std::string out;  // a file or folder on the disk that takes them; empty: where the program was called
-};
 
 // Bytes a tick of what a run writes, as runs of the paper's gyro show; other gyros differ by a few tens of percent.
 inline constexpr double raw_hdf5_bytes = 107.0;
@@ -22,17 +16,15 @@ inline constexpr double wire_bytes = 124.0;
 // For a reader: "12 s", "3.4 hours".
 [[nodiscard]] std::string time_text(double s);
 
-// A warning of work that lasts over half a minute or fills a gigabyte; says nothing of less.
-//
-// work    does so many ticks of it, for its time to be measured.
+// out     a file or folder on the disk that takes the run; empty: where the program was called.
 // errors  logs::IoError where the disk cannot take two thirds of it: key, what is needed, what is free.
-void announce(const Cost& cost, const std::function<void(std::int64_t ticks)>& work);
+void require_room(std::int64_t ticks, double bytes_a_tick, const std::string& out);
 
-// The same of work whose cost shows only while it goes on, by a file that grows; silent where `announce` was not.
+// A second after work has begun, a warning of what lasts over five minutes or fills a gigabyte.
 class Growth {
 public:
-    // part  empty: nothing is watched.
-    explicit Growth(std::string part);
+    // part  the file that grows; empty: only the time is watched.
+    explicit Growth(std::string part) : part_{std::move(part)} {}
 
     // To be called now and then: what part of the work was done in which time.
     //
@@ -43,7 +35,7 @@ private:
     double expected_bytes(double fraction);
 
     std::string part_;
-    bool is_watched_;
+    bool is_over_ = false;
     double bytes_ = 0.0;
 };
 

@@ -129,9 +129,7 @@ void add_help(CLI::App& program) {
     help->callback([name, &program] {
         const CLI::App* verb = name->empty() ? &program : find_verb(program, *name);
         if (verb == nullptr) throw UsageError{unknown_verb(program, *name)};
-        // Not App::help, which for the program shows the verb that was parsed: this one.
-        const std::string call = verb == &program ? "zlg" : "zlg " + *name;
-        print(program.get_formatter()->make_help(verb, call, CLI::AppFormatMode::Normal));
+        print(help_text(program, *verb));
     });
 }
 
@@ -145,6 +143,12 @@ const CLI::App* find_verb(const CLI::App& program, const std::string& name) {
     const std::vector<const CLI::App*> all = all_verbs(program);
     const auto found = std::ranges::find(all, name, &CLI::App::get_name);
     return found == all.end() ? nullptr : *found;
+}
+
+std::string help_text(const CLI::App& program, const CLI::App& app) {
+    // Not App::help, which for the program shows the verb that was parsed.
+    const std::string call = &app == &program ? "zlg" : "zlg " + app.get_name();
+    return program.get_formatter()->make_help(&app, call, CLI::AppFormatMode::Normal);
 }
 
 void complete_help(CLI::App& program) {

@@ -16,6 +16,9 @@ void complete_help(CLI::App& program);
 // Null where there is none of this name.
 [[nodiscard]] const CLI::App* find_verb(const CLI::App& program, const std::string& name);
 
+// What --help prints of the program, or of a verb of it.
+[[nodiscard]] std::string help_text(const CLI::App& program, const CLI::App& app);
+
 // One line: a verb of this name is not there, and which one is the nearest.
 [[nodiscard]] std::string unknown_verb(const CLI::App& program, const std::string& name);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <zlg/config/schema.hpp>
 #include <zlg/logs/table_file.hpp>
 
 #include "help.hpp"
@@ -29,42 +30,48 @@ std::string roff(std::string_view text) {
     return made;
 }
 
-std::string upper(std::string text) {
-    for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    return text;
+// The page zlg(1), or zlg-VERB(1): what --help prints.
+std::string man_page(const std::string& name, const CLI::App& app, const std::string& help) {
+    return fmt::format(
+        ".TH {0} 1 \"\" \"zlg {1}\" \"User Commands\"\n.SH NAME\n{2} \\- {3}\n.SH DESCRIPTION\n.nf\n{4}\n.fi\n"
+        ".SH EXIT STATUS\n0: all is well; 1: the result is a \"no\"; 2: wrong usage or configuration; 3: input or "
+        "output that is no good\n.SH SEE ALSO\n.BR zlg (1)\n",
+        name, ZLG_VERSION, roff(name), roff(app.get_description()), roff(help));
 }
 
-// An option with what it takes; of an argument the name is enough.
-std::string name_and_value(const CLI::Option& option) {
-    if (option.nonpositional()) {
-        const bool takes_value = option.get_expected_max() > 0;
-        return fmt::format("\\fB{}\\fR{}", roff(option.get_name(false, true)),
-                           takes_value ? fmt::format(" \\fI{}\\fR", roff(option.get_type_name())) : "");
-    }
-    return fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
-}
-
-std::string option_list(const CLI::App& app) {
+// The long names, of options that are no secret.
+std::string option_words(const CLI::App& app) {
     std::string made;
     for (const CLI::Option* option : app.get_options())
-        if (!option->get_group().empty())
-            made += fmt::format(".TP\n{}\n{}\n", name_and_value(*option), roff(option->get_description()));
+        if (!option->get_group().empty() && !option->get_lnames().empty())
+            made += fmt::format("--{} ", option->get_lnames().front());
     return made;
 }
 
-std::string footer_of(const CLI::App& app) {
-    const std::string footer = app.get_footer();
-    return footer.empty() ? "" : fmt::format(".SH NOTES\n.nf\n{}\n.fi\n", roff(footer));
+std::string bash_completion(const CLI::App& program) {
+    std::string keys, verbs, cases;
+    for (const config::KeyInfo& key : config::describe_keys()) keys += fmt::format("{}.{}= ", key.section, key.name);
+    for (const CLI::App* verb : all_verbs(program)) {
+        verbs += verb->get_name() + " ";
+        cases += fmt::format("        {}) words='{}' ;;\n", verb->get_name(), option_words(*verb));
+    }
+    return fmt::format(R"(# Completion of zlg for bash.
+_zlg() {{
+    local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} words
+    if [ "$before" = --set ]; then
+        compopt -o nospace
+        COMPREPLY=($(compgen -W '{}' -- "$word"))
+        return
+    fi
+    case ${{COMP_WORDS[1]}} in
+{}        *) words='{}{}' ;;
+    esac
+    [[ $COMP_CWORD -gt 1 && $word != -* ]] || COMPREPLY=($(compgen -W "$words" -- "$word"))
+}}
+complete -o default -F _zlg zlg
+)",
+                       keys, cases, verbs, option_words(program));
 }
-
-std::string head(const std::string& name, const CLI::App& app) {
-    return fmt::format(".TH {} 1 \"\" \"zlg {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n", upper(name),
-                       ZLG_VERSION, roff(name), roff(app.get_description()));
-}
-
-constexpr std::string_view exit_status =
-    ".SH EXIT STATUS\n.TP\n0\nall is well\n.TP\n1\nthe result is a \"no\"\n"
-    ".TP\n2\nwrong usage or configuration\n.TP\n3\ninput or output that is no good\n";
 
 void write(const std::filesystem::path& path, const std::string& text) {
     logs::TableFile file{path, true};
@@ -74,34 +81,16 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 void write_manual(const CLI::App& program, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder / "man1");
-    write(folder / "man1" / "zlg.1", man_page(program));
-    for (const CLI::App* verb : all_verbs(program))
-        write(folder / "man1" / ("zlg-" + verb->get_name() + ".1"), man_page(program, *verb));
-    for (const std::string shell : {"bash", "zsh", "fish"})
-        write(folder / ("zlg." + shell), completion(program, shell));
+    write(folder / "man1" / "zlg.1", man_page("zlg", program, help_text(program, program)));
+    for (const CLI::App* verb : all_verbs(program)) {
+        const std::string name = "zlg-" + verb->get_name();
+        write(folder / "man1" / (name + ".1"), man_page(name, *verb, help_text(program, *verb)));
+    }
+    write(folder / "zlg.bash", bash_completion(program));
     throw CLI::Success{};
 }
 
 }  // namespace
-
-std::string man_page(const CLI::App& program) {
-    std::string made = head("zlg", program);
-    made += ".B zlg\n\\fIVERB\\fR [\\fIOPTIONS\\fR]\n.SH VERBS\n";
-    for (const CLI::App* verb : all_verbs(program))
-        made += fmt::format(".TP\n\\fB{}\\fR\n{}; see\n.BR zlg\\-{} (1)\n", verb->get_name(),
-                            roff(verb->get_description()), verb->get_name());
-    made += ".SH OPTIONS\n" + option_list(program) + std::string{exit_status} + footer_of(program);
-    return made;
-}
-
-std::string man_page(const CLI::App& program, const CLI::App& verb) {
-    std::string made = head("zlg-" + verb.get_name(), verb);
-    made += fmt::format(".B zlg {}\n", verb.get_name());
-    for (const CLI::Option* option : verb.get_options())
-        if (!option->nonpositional()) made += roff(option->get_name(true)) + "\n";
-    made += "[\\fIOPTIONS\\fR]\n.SH OPTIONS\n" + option_list(verb) + std::string{exit_status} + footer_of(verb);
-    return made + fmt::format(".SH SEE ALSO\n.BR {} (1)\n", program.get_name());
-}
 
 void add_manual(CLI::App& program) {
     const auto write_all = [&program](const std::string& folder) { write_manual(program, folder); };

@@ -11,13 +11,9 @@
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
 #include <zlg/paper/paper.hpp>
-#include <zlg/recorded/motion.hpp>
 #include <zlg/report/export.hpp>
-#include <zlg/rig/wiring.hpp>
-#include <zlg/study/run.hpp>
 
 #include "as_json.hpp"
-#include "cost.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -134,23 +130,10 @@ std::string text(const paper::Paper& paper, const std::string& folder, std::size
         paper::verdict_counts(paper.claims), printable(folder), page_name, n_files);
 }
 
-// What every paper costs, a minute or so, is no news; what a longer run than the paper's adds is.
-void announce_run(const paper::PaperTask& task) {
-    constexpr double paper_s = 3600.0;
-    if (task.config.run.duration_s.value_or(paper_s) <= paper_s) return;
-    announce({.ticks = rig::run_ticks(task.config, recorded::motion(task.config)), .bytes_a_tick = 0.0, .out = {}},
-             [&task](std::int64_t ticks) {
-                 config::Config beginning = task.config;
-                 beginning.run.duration_s = static_cast<double>(ticks) * task.config.gyro.tick_s;
-                 (void)study::run({.config = beginning, .threads = task.threads});
-             });
-}
-
 void run(const Options& options) {
     if (options.out.empty()) throw UsageError{"--out is missing: name the folder to write into"};
     paper::PaperTask task{.config = load_config(options), .threads = options.threads};
     Folder folder{options.out, options.force};
-    announce_run(task);
     Progress progress;
     task.on_progress = [&](double fraction) { progress.show(fraction); };
     const paper::Paper paper = paper::recompute_paper(task);

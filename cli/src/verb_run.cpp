@@ -10,12 +10,11 @@
 #include <zlg/core/health.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/raw_log.hpp>
-#include <zlg/recorded/motion.hpp>
-#include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
 #include <zlg/study/what_happened.hpp>
+#include <zlg/twin/motion.hpp>
 
 #include "as_json.hpp"
 #include "cost.hpp"
@@ -129,28 +128,6 @@ double bytes_a_tick(const RunOptions& options, logs::LogFormat format, int light
            (kept == KeptLogs::none ? 0.0 : angles_bytes);
 }
 
-// The least that a run does of a tick. A file is not read again for it.
-void advance(const config::Config& config, const twin::Motion& motion, std::int64_t ticks) {
-    rig::ClosedLoop loop{config, motion};
-    for (std::int64_t half = 0; half < 2 * ticks; ++half) (void)loop.advance();
-}
-
-// A motion file may be a pipe, which can be read once.
-void announce_run(const config::Config& config, const RunOptions& options, logs::LogFormat format, int light_samples) {
-    const bool has_file = config.motion.kind == config::MotionKind::file;
-    if (has_file && !std::filesystem::is_regular_file(config.motion.path)) return;
-    const twin::Motion motion = recorded::motion(config);
-    announce({.ticks = rig::run_ticks(config, motion),
-              .bytes_a_tick = bytes_a_tick(options, format, light_samples),
-              .out = options.out},
-             [&](std::int64_t ticks) {
-                 if (has_file) return advance(config, motion, ticks);
-                 config::Config beginning = config;
-                 beginning.run.duration_s = static_cast<double>(ticks) * config.gyro.tick_s;
-                 (void)study::run({.config = beginning, .threads = options.threads});
-             });
-}
-
 // The page of the lab that goes beside the report; empty: none.
 //
 // errors  UsageError for a run that the page could not repeat; logs::IoError where there is no page.
@@ -176,13 +153,17 @@ void run(const RunOptions& options) {
     const study::Resolved resolved = resolve(load_config(options));
     const config::Config& config = resolved.config;
     const std::string lab = asked_lab_page(options, config);
-    announce_run(config, options, format, logged_light_samples(options, config, format));
+    const int light_samples = logged_light_samples(options, config, format);
+    // How long a motion file is shows only when it is read.
+    if (config.motion.kind != config::MotionKind::file)
+        require_room(rig::run_ticks(config, twin::Motion::rest()), bytes_a_tick(options, format, light_samples),
+                     options.out);
     const Interruptible interruptible;
     std::string raw_part;
     std::string angles_part;
     rig::SwitchTally tally;
     try {
-        RunFiles files{options.out, options.force, config, format, kept, logged_light_samples(options, config, format)};
+        RunFiles files{options.out, options.force, config, format, kept, light_samples};
         if (!lab.empty()) files.add_lab(lab, options.force);
         raw_part = files.raw_part();
         angles_part = files.angles_part();

@@ -80,20 +80,6 @@ void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::Ra
     }
 }
 
-void announce_simulation(const config::Config& config, const twin::Motion& motion, std::int64_t ticks,
-                         const SimulateOptions& options, logs::LogFormat format) {
-    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
-    announce({.ticks = ticks,
-              .bytes_a_tick = (format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes) +
-                              (options.wire.empty() ? 0.0 : wire_bytes) +
-                              light_bytes * logged_light_samples(options, config, format),
-              .out = options.out},
-             [&](std::int64_t n) {
-                 rig::ClosedLoop loop{config, motion};
-                 for (std::int64_t half = 0; half < 2 * n; ++half) (void)loop.advance();
-             });
-}
-
 void simulate(const SimulateOptions& options) {
     const logs::LogFormat format = log_format(options.out);
     if (!options.wire.empty() &&
@@ -105,7 +91,11 @@ void simulate(const SimulateOptions& options) {
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};
     rig::SwitchCount count{config};
-    announce_simulation(config, motion, ticks, options, format);
+    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
+    require_room(ticks,
+                 (format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes) +
+                     (options.wire.empty() ? 0.0 : wire_bytes) + light_bytes * light_samples,
+                 options.out);
     const Interruptible interruptible;
     std::string part;
     try {

@@ -1,4 +1,4 @@
-"""Man pages and completions that the program makes of its own tables."""
+"""Man pages and completion that the program makes of its own tables."""
 
 import re
 import shutil
@@ -23,15 +23,12 @@ class Manual(unittest.TestCase):
         cls.pages = {page.stem: page.read_text() for page in (cls.folder / "man1").iterdir()}
         cls.verbs = sorted(name.removeprefix("zlg-") for name in cls.pages if name != "zlg")
 
-    def test_every_option_of_every_verb_is_in_its_page_and_in_the_completions(self):
+    def test_every_option_of_every_verb_is_in_its_page(self):
         self.assertGreaterEqual(len(self.verbs), 10)
-        fish = (self.folder / "zlg.fish").read_text()
         for verb in self.verbs:
-            self.assertIn(f"zlg\\-{verb} (1)", self.pages["zlg"])
-            options = set(re.findall(r"--[a-z][a-z-]*", run(ZLG, verb, "--help")))
-            for option in options & {"--out", "--set", "--threads", "--force", "--json", "--config", "--seed"}:
-                self.assertIn(f"\\fB{option.replace('-', chr(92) + '-')}\\fR", self.pages[f"zlg-{verb}"])
-                self.assertRegex(fish, rf"__fish_seen_subcommand_from {verb}' -l {option[2:]} ")
+            self.assertRegex(self.pages["zlg"], rf"\n  {verb} ")
+            for option in re.findall(r"--[a-z][a-z-]*", run(ZLG, verb, "--help")):
+                self.assertIn(option.replace("-", "\\-"), self.pages[f"zlg-{verb}"])
 
     def completed(self, *words):
         """What bash offers where the last word is being typed."""
