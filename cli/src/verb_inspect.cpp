@@ -8,6 +8,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/file_nature.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -15,7 +16,6 @@
 
 #include "as_json.hpp"
 #include "failure.hpp"
-#include "foreign_file.hpp"
 #include "log_settings.hpp"
 #include "options.hpp"
 #include "output.hpp"
@@ -268,8 +268,9 @@ json inspect_log(const InspectOptions& options) {
     const logs::LogKind kind = logs::recognise(options.file);
     if (is_raw(kind)) return inspect_raw(options);
     if (is_angles(kind)) return inspect_angles(options);
-    throw logs::FormatError{
-        fmt::format("{}: neither a raw log nor an angle log; {}", options.file, foreign_file(options.file))};
+    const std::string nature = logs::foreign_nature(options.file);
+    throw logs::FormatError{fmt::format("{}: neither a raw log nor an angle log{}; zlg import says what is in it",
+                                        options.file, nature.empty() ? "" : ", but " + nature)};
 }
 
 void inspect(const InspectOptions& options) {

@@ -1,7 +1,9 @@
 #include <zlg/design/substitution_noise.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "range_check.hpp"
 
@@ -54,6 +56,22 @@ double sigma_ratio_to_constant(const Substitution& s) {
     Substitution constant = s;
     constant.order = 0;
     return sum_gain(s, TickNoise::white) / sum_gain(constant, TickNoise::white);
+}
+
+std::optional<double> crossing_ratio(Substitution substitution, int low, int high, double frequency_hz) {
+    // Orders 2m and 2m + 1 of symmetric points are equal within this, relative: far above the rounding of the sums and
+    // far below any difference of interest.
+    constexpr double equal_within = 1e-9;
+    const auto of_order = [&](int order) {
+        substitution.order = order;
+        const double gain = sum_gain(substitution, TickNoise::white);
+        return std::pair{std::norm(ErrorResponse(substitution)(frequency_hz)), gain * gain};
+    };
+    const auto [low_motion, low_noise] = of_order(low);
+    const auto [high_motion, high_noise] = of_order(high);
+    const double motion = low_motion - high_motion;
+    if (!(motion > equal_within * low_motion)) return std::nullopt;
+    return substitution.tick_s * std::sqrt(std::max(0.0, 2.0 * (high_noise - low_noise) / motion));
 }
 
 double constant_noise_as_printed_arcsec(double noise_arcsec, int n) {

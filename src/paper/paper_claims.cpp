@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <zlg/design/order_choice.hpp>
+#include <zlg/design/substitution_noise.hpp>
 #include <zlg/design/perimeter_response.hpp>
 #include <zlg/design/relock_loop.hpp>
 #include <zlg/design/relock_tables.hpp>
@@ -41,7 +41,7 @@ double phase_margin_deg(double tau_s) { return design::margins({.tau_s = tau_s})
 // From this amplitude of the rate the parabola is better than the constant.
 double crossing_arcsec_s(double frequency_hz) {
     const design::Substitution substitution;
-    const auto ratio = design::crossing_ratio({.substitution = substitution}, 0, 2, frequency_hz);
+    const auto ratio = design::crossing_ratio(substitution, 0, 2, frequency_hz);
     return ratio.value_or(std::nan("")) * paper_noise_arcsec / 3.0 / substitution.tick_s;
 }
 

@@ -86,25 +86,6 @@ report::Table substitution_table(const DesignResult& result) {
     return t;
 }
 
-// Where each order begins to win: the boundary of the map as one line per order.
-Figure order_figure(const DesignResult& result) {
-    Figure f = report::blank_figure(
-        "order-map", "Which order is best where",
-        "Each mark is a motion (frequency, amplitude of the angle in a tick over the noise of a tick) at which that "
-        "order leaves the smallest error.",
-        "frequency, Hz", "amplitude \u00D7 T / noise of a tick");
-    f.log_y = true;
-    for (int order = 0; order < design::n_orders; ++order) {
-        Series s = blank_series(fmt::format("order {}", order), Mark::points);
-        for (std::size_t row = 0; row < result.order_map.size(); ++row)
-            for (std::size_t column = 0; column < result.order_map[row].size(); ++column)
-                if (result.order_map[row][column] == order)
-                    add_point(s, result.map_frequency_hz[row], result.map_ratio[column]);
-        if (!s.x.empty()) f.series.push_back(std::move(s));
-    }
-    return f;
-}
-
 report::Table loop_table(const LoopLine& l) {
     return {.caption = "The perimeter loop.",
             .header = {"quantity", "value"},
@@ -216,8 +197,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
          .paragraphs = {"Orders 0 and 1, and orders 2 and 3, give the same angle of the gap when the points lie "
                         "symmetrically. Re-lock: uncorrected its whole false angle, else the light noise of a "
                         "mean-square correction, in the angle itself and through the points after the gap."},
-         .tables = {substitution_table(result)},
-         .figures = {order_figure(result)}});
+         .tables = {substitution_table(result)}});
     page.sections.push_back({.heading = "Perimeter loop",
                              .tables = {loop_table(result.loop), miss_table(result.loop)},
                              .figures = {false_drift_figure(result.loop, config.gyro.tick_s),

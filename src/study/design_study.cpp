@@ -26,16 +26,6 @@ RunLine run_line(const config::Config& config, double switch_error, double run_s
     return line;
 }
 
-void add_order_map(const config::Config& config, DesignResult& result) {
-    for (int k = 1; k <= 20; ++k) result.map_frequency_hz.push_back(k * 0.01 / config.gyro.tick_s);
-    for (int k = -2; k <= 12; ++k) result.map_ratio.push_back(std::pow(10.0, 0.25 * k));
-    const design::OrderQuestion question{.substitution = {.n = static_cast<int>(config.switching.gap_ticks),
-                                                          .points = points_of(config.compensation),
-                                                          .tick_s = config.gyro.tick_s},
-                                         .highest_order = highest_order(config.compensation)};
-    result.order_map = design::order_map(question, result.map_frequency_hz, result.map_ratio);
-}
-
 }  // namespace
 
 design::DriftCase drift_case(const config::Config& config, double run_s) {
@@ -78,7 +68,6 @@ DesignResult designed(const config::Config& config) {
         result.runs.push_back(run_line(config, result.switch_error_arcsec, run_s));
     }
     result.substitution = substitution_lines(config);
-    add_order_map(config, result);
     result.loop = loop_line(config);
     return result;
 }

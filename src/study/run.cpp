@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <exception>
+#include <future>
 #include <map>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -283,28 +282,13 @@ RunResult run(const RunTask& task) {
     const twin::Motion motion = recorded::motion(task.config);
     const std::int64_t ticks = rig::run_ticks(task.config, motion);
     RunResult result{.tick_s = task.config.gyro.tick_s, .ticks = ticks, .warnings = task.warnings};
-    VariantResult unswitched;
-    const bool has_unswitched = is_wanted(task.variants, "one_mode");
-    if (!has_unswitched) {
-        switching_run(task, motion, ticks, result);
-    } else if (task.threads > 1) {
-        std::exception_ptr failure;
-        std::jthread beside{[&] {
-            try {
-                unswitched = one_mode(task, motion, ticks);
-            } catch (...) {
-                failure = std::current_exception();
-            }
-        }};
-        switching_run(task, motion, ticks, result);
-        beside.join();
-        if (failure) std::rethrow_exception(failure);
-    } else {
-        switching_run(task, motion, ticks, result);
-        unswitched = one_mode(task, motion, ticks);
-    }
+    std::future<VariantResult> unswitched;
+    if (is_wanted(task.variants, "one_mode"))
+        unswitched = std::async(task.threads > 1 ? std::launch::async : std::launch::deferred,
+                                [&] { return one_mode(task, motion, ticks); });
+    switching_run(task, motion, ticks, result);
     if (auto late = late_switches(task.config, result.switches)) result.warnings.push_back(std::move(*late));
-    if (has_unswitched) result.variants.insert(result.variants.begin(), std::move(unswitched));
+    if (unswitched.valid()) result.variants.insert(result.variants.begin(), unswitched.get());
     return result;
 }
 

@@ -135,4 +135,57 @@ TEST(SubstitutionNoise, RefusesWhatIsOutOfRange) {
     EXPECT_THROW((void)relock_residual_arcsec({}, std::array<double, 1>{nan}), DesignError);
 }
 
+// rms over phases of the error of simulated ticks, with the noise of the exact weights.
+double simulated_rms(Substitution s, int order, double amplitude, double f, double sigma) {
+    s.order = order;
+    double square = 0.0;
+    for (int k = 0; k < 16; ++k) {
+        const double e = simulated_error(s, 1, s.n, amplitude, f, 2.0 * std::numbers::pi * k / 16);
+        square += e * e / 16;
+    }
+    for (const Rational& w : exact_weights(s, 1, s.n)) square += std::pow(w.convert_to<double>() * sigma, 2);
+    return std::sqrt(square);
+}
+
+// The paper's rows: amplitude 12 000 arcsec/s at 20 Hz, three ticks.
+TEST(SubstitutionNoise, RmsErrorsOfAToneOfRandomPhase) {
+    const Tone tone{12000.0, 20.0};
+    const auto rms = [&](Substitution s, int order, double sigma) {
+        s.order = order;
+        return std::hypot(rms_arcsec(ErrorResponse(s), tone), sum_gain(s, TickNoise::white) * sigma);
+    };
+    EXPECT_NEAR(rms({}, 0, 1.6), 109, 0.5);
+    EXPECT_NEAR(rms({}, 0, 0.53), 109, 0.5);
+    EXPECT_NEAR(rms({}, 2, 1.6), 19.9, 0.05);
+    EXPECT_NEAR(rms({}, 2, 0.53), 19.1, 0.05);
+    Substitution quartic;
+    quartic.points = {4, 3, 3};
+    EXPECT_NEAR(rms(quartic, 4, 1.6), 9.6, 0.05);
+    EXPECT_NEAR(rms(quartic, 4, 0.53), 4.8, 0.05);
+}
+
+TEST(SubstitutionNoise, TheOrdersChangePlacesAtTheCrossing) {
+    for (const double f : {1.0, 5.0, 10.0, 20.0}) {
+        const auto ratio = crossing_ratio({}, 0, 2, f);
+        ASSERT_TRUE(ratio.has_value());
+        const double sigma = 1.6;
+        const auto rms = [&](int order, double factor) {
+            return simulated_rms({}, order, factor * *ratio * sigma / 0.005, f, sigma);
+        };
+        EXPECT_NEAR(rms(0, 1.0), rms(2, 1.0), 1e-9 * rms(0, 1.0));
+        EXPECT_LT(rms(0, 0.999), rms(2, 0.999));
+        EXPECT_GT(rms(0, 1.001), rms(2, 1.001));
+    }
+    EXPECT_FALSE(crossing_ratio({}, 0, 1, 20.0).has_value());  // the same estimator
+    EXPECT_FALSE(crossing_ratio({}, 2, 0, 20.0).has_value());
+    EXPECT_THROW((void)crossing_ratio({}, 0, 4, 1.0), DesignError);
+}
+
+// Extrapolated over three ticks at 20 Hz the line is worse than the constant in motion, 312 to 259, and in noise.
+TEST(SubstitutionNoise, AnOrderThatIsBetterInBothWinsFromTheStart) {
+    const auto ratio = crossing_ratio({.fit = Fit::extrapolation}, 1, 0, 20.0);
+    ASSERT_TRUE(ratio.has_value());
+    EXPECT_EQ(*ratio, 0.0);
+}
+
 }  // namespace

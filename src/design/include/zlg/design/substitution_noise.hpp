@@ -8,6 +8,7 @@
 // beside it; the sigma of a tick is LSB/sqrt 6 and its error triangular. Both presume roundings that are independent
 // from tick to tick; at rest, without jitter of the bias, they are not.
 
+#include <optional>
 #include <span>
 
 #include <zlg/design/substitution.hpp>
@@ -24,6 +25,14 @@ enum class TickNoise { white, counter };
 
 // The sigma of the sum at this order over that at order 0, with the same fit and points (white noise).
 [[nodiscard]] double sigma_ratio_to_constant(const Substitution& substitution);
+
+// The ratio of amplitude to white noise, A T/sigma, from which the order `high` beats `low` at this frequency, in rms
+// over phases, (A |H|)^2/2 + (g sigma)^2:
+//
+//   A T/sigma = T sqrt( 2 (g_high^2 - g_low^2) / (|H_low|^2 - |H_high|^2) )
+//
+// Nothing where the higher order never wins. 0 where it always does. The order of `substitution` is ignored.
+[[nodiscard]] std::optional<double> crossing_ratio(Substitution substitution, int low, int high, double frequency_hz);
 
 // 3 sigma of the gap filled with a constant from four ticks, A = noise_arcsec being 3 sigma of one tick.
 //

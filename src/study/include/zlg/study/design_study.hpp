@@ -7,7 +7,6 @@
 #include <zlg/config/config.hpp>
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/interval_formula.hpp>
-#include <zlg/design/order_choice.hpp>
 #include <zlg/design/switching_interval.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/design_lines.hpp>
@@ -39,9 +38,6 @@ struct DesignResult {
     std::vector<IntervalLine> intervals;
     std::vector<RunLine> runs;
     std::vector<SubstitutionLine> substitution;
-    std::vector<std::vector<int>> order_map;  // best order: frequencies by rows, amplitude T over noise by columns
-    std::vector<double> map_frequency_hz;
-    std::vector<double> map_ratio;
     LoopLine loop;
 };
 
