@@ -124,7 +124,8 @@ CoilMonitorOutput step(const MonitorLimits& limits, CoilMonitorState& state, int
     state.even += smoothed * (deviation - state.even);
     state.deviation = deviation;
     const double limit_odd = larger(0.5 * limits.coil_ratio, two_deviations * state.spread);
-    out.unbalanced = jump || size(state.odd) > limit_odd || are_apart(state, most_asymmetry);
+    out.unbalanced = jump || size(state.odd) > limit_odd ||
+                     size(state.level_a[1] - state.level_a[0]) > 2.0 * most_asymmetry * state.level_a[0];
     out.off = out.unbalanced || size(state.even) > limit_odd;
     if (out.off) {
         const bool is_new = watch(state, place, now_a, limit) >= new_level_halves;

@@ -32,10 +32,11 @@ std::uint32_t hashed(std::uint32_t x) noexcept {
 
 // None of these is stuck.
 void acquit(CounterMonitorState& s, std::uint32_t bits) noexcept {
-    for (std::uint32_t left = bits & s.suspected; left != 0; left &= left - 1)
-        s.readings[static_cast<std::size_t>(std::countr_zero(left))] = 0;
+    std::uint32_t left = bits & s.suspected;
+    if (left == 0) return;
     s.suspected &= ~bits;
     s.stuck &= ~bits;
+    for (; left != 0; left &= left - 1) s.readings[static_cast<std::size_t>(std::countr_zero(left))] = 0;
 }
 
 // In a reading these bits show what they should not. It is told from others by itself and the one before of its sign.
@@ -63,7 +64,8 @@ void compare(CounterMonitorState& s) noexcept {
     std::uint32_t wrong = 0;
     if (residual > usual + 1) {
         const std::uint32_t apart = (residual - usual + 2) / 4;
-        wrong = ((r < 0 ? y3 + apart : y3 - apart) ^ y3) & judged & bits_of(residual);
+        wrong = ((r < 0 ? y3 + apart : y3 - apart) ^ y3) & judged;
+        if (wrong != 0) wrong &= bits_of(residual);
     }
     if (wrong != 0) return accuse(s, wrong, residual, usual);
     s.rough += std::min(residual, 4 * usual + 4) - usual;
@@ -76,12 +78,14 @@ bool step(CounterMonitorState& state, bool counted, std::uint64_t reading) noexc
     acquit(state, low ^ state.last[6]);
     for (std::size_t n = 1; n < state.last.size(); ++n) state.last[n - 1] = state.last[n];
     state.last[6] = low;
-    state.n_known = !counted ? 1 : state.n_known < 7 ? state.n_known + 1 : 7;
     if (++state.n_calm >= calm_halves) {
         acquit(state, judged);
         state.n_calm = 0;
     }
-    if (state.n_known == 7) compare(state);
+    state.n_known = counted ? state.n_known + 1 : 1;
+    if (state.n_known < 7) return state.stuck != 0;
+    state.n_known = 7;
+    compare(state);
     return state.stuck != 0;
 }
 
