@@ -17,38 +17,53 @@ constexpr double coil_followed = 1.0 / 1024.0;
 constexpr double eight_differences = 14.2;
 constexpr double two_deviations = 2.5;
 
+// A difference of the signs of one per cent is damage whatever was learnt.
+constexpr double most_asymmetry = 0.005;
+// Four deviations of a noise of one per cent, until it is known.
+constexpr double first_asymmetry = 0.03;
+
 // Beyond, a current is damage; below, it is none.
 constexpr double max_a = 1e9;
 constexpr double min_a = 1e-6;
 
 double larger(double x, double y) noexcept { return x > y ? x : y; }
 
-// The first level of each sign, then their mean and how far a half is from it.
-void learn(CoilMonitorState& s, std::size_t place, double current_a) noexcept {
-    if (current_a < min_a) {
-        s.n_learnt = 0;
-        return;
-    }
+// Difference of the two signs over their sum.
+double asymmetry(double negative_a, double positive_a) noexcept {
+    return size(positive_a - negative_a) / (positive_a + negative_a);
+}
+
+// Whether the signs differ, in absolute terms, by more than a limit and two deviations.
+bool are_apart(const CoilMonitorState& s, double limit_ratio) noexcept {
+    const auto& [negative_a, positive_a] = s.level_a;
+    const double limit = limit_ratio + 0.5 * two_deviations * s.spread;
+    return size(positive_a - negative_a) > limit * (positive_a + negative_a);
+}
+
+// The first level of each sign, then their mean and how far a half is from it; returns whether the signs differ.
+bool learn(CoilMonitorState& s, std::size_t place, double current_a) noexcept {
+    const auto& [negative_a, positive_a] = s.level_a;
+    if (larger(current_a, s.level_a[1 - place]) < min_a) return false;
     double& level_a = s.level_a[place];
     const std::int32_t n = s.n_learnt / 2;
-    const double deviation = s.n_learnt < 2 ? 0.0 : (current_a - level_a) / level_a;
-    level_a = s.n_learnt < 2 ? current_a : level_a + (current_a - level_a) / (n + 1);
+    if (n == 0) level_a = current_a;
+    const double deviation = 2.0 * (current_a - level_a) / (negative_a + positive_a);
+    level_a += (current_a - level_a) / (n + 1);
     if (n > 0) s.spread += (size(deviation) - s.spread) / (s.n_learnt - 1);
-    // Not one level: begin again.
-    s.n_learnt = size(deviation) < 0.1 ? s.n_learnt + 1 : 0;
+    const bool jump = size(deviation) >= 0.1;
+    const bool unbalanced = jump || (s.n_learnt > 0 && are_apart(s, n < 2 ? first_asymmetry : most_asymmetry));
+    // Not one level: begin again. What differs is not learnt.
+    if (!unbalanced || s.n_learnt == 0) ++s.n_learnt;
+    if (jump) s.n_learnt = 0;
     if (s.n_learnt == 0) s.spread = 0.0;
     if (s.n_learnt == coil_learning_halves) s.first_a = s.level_a;
+    return unbalanced;
 }
 
 void follow(CoilMonitorState& s, std::size_t place, double current_a, double deviation) noexcept {
     s.level_a[place] += coil_followed * (current_a - s.level_a[place]);
     s.spread += coil_followed * (size(deviation) - s.spread);
     s.n_steady = 0;
-}
-
-// Difference of the two signs over their sum.
-double asymmetry(double negative_a, double positive_a) noexcept {
-    return size(positive_a - negative_a) / (positive_a + negative_a);
 }
 
 // The means of both signs since the current is off and steady; halves in a row.
@@ -96,7 +111,7 @@ CoilMonitorOutput step(const MonitorLimits& limits, CoilMonitorState& state, int
     if (!(limits.coil_ratio > 0.0) || !(now_a < max_a)) return out;
     const std::size_t place = sign > 0 ? 1 : 0;
     if (state.n_learnt < coil_learning_halves) {
-        learn(state, place, now_a);
+        out.off = out.unbalanced = learn(state, place, now_a);
         return out;
     }
     const double deviation = now_a / state.level_a[place] - 1.0;
@@ -109,7 +124,8 @@ CoilMonitorOutput step(const MonitorLimits& limits, CoilMonitorState& state, int
     state.even += smoothed * (deviation - state.even);
     state.deviation = deviation;
     const double limit_odd = larger(0.5 * limits.coil_ratio, two_deviations * state.spread);
-    out.unbalanced = jump || size(state.odd) > limit_odd;
+    out.unbalanced = jump || size(state.odd) > limit_odd ||
+                     size(state.level_a[1] - state.level_a[0]) > 2.0 * most_asymmetry * state.level_a[0];
     out.off = out.unbalanced || size(state.even) > limit_odd;
     if (out.off) {
         const bool is_new = watch(state, place, now_a, limit) >= new_level_halves;

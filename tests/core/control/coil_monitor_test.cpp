@@ -100,6 +100,31 @@ TEST(CoilMonitor, AnAsymmetryIsSeenAtOnceAndIsNoNewLevel) {
     }
 }
 
+// In absolute terms: no history tells what the signs should be.
+TEST(CoilMonitor, AnAsymmetryFromTheStartIsSeenAtOnceAndTeachesNothing) {
+    for (const double part : {0.008, 0.01, 0.02, 0.07, 0.2, 1.0, -0.07}) {
+        for (const double noise : {0.0, 1e-3}) {
+            Coil coil;
+            coil.noise = noise;
+            coil.positive = 1.0 + part;
+            coil.negative = 1.0 - part;
+            const int late = std::abs(part) > 0.03 ? 1 : (std::abs(part) < 0.01 ? 30 : 8);
+            EXPECT_GE(coil.n_unbalanced(1200), 1200 - late) << part << ", noise " << noise;
+            coil.set(1.0);
+            (void)coil.n_off(200);
+            EXPECT_EQ(coil.n_off(3000), 0) << part << ", noise " << noise;
+        }
+    }
+}
+
+TEST(CoilMonitor, SignsThatGrowApartAreNotFollowedBeyondOnePerCent) {
+    Coil coil{500};
+    int k = 0;
+    for (; k < 300000 && !coil.half().unbalanced; ++k) coil.positive = 1.0 + 0.1 * k / 300000.0;
+    EXPECT_NEAR(coil.positive, 1.01, 0.002);
+    EXPECT_EQ(coil.n_unbalanced(1000), 1000);
+}
+
 // The angle of a tick holds the difference of its halves only.
 TEST(CoilMonitor, ALossInBothSignsIsOffButUnbalancedOnlyWhereItBegins) {
     Coil coil{500};

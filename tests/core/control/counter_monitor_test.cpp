@@ -111,7 +111,7 @@ TEST(CounterMonitor, AStuckBitIsFoundAfterSixTimesItsValueOfRotation) {
                 if (2.0 * counts > 400.0 * std::abs(rate)) continue;
                 const int most = static_cast<int>(12.0 * counts / std::abs(rate)) + 400;
                 EXPECT_LT(counter.until_stuck(most), most) << "bit " << bit << " at " << at_1 << ", rate " << rate;
-                EXPECT_EQ(counter.state.suspect.value, 1u << bit);
+                EXPECT_EQ(counter.state.stuck, 1u << bit);
             }
         }
     }
@@ -128,6 +128,35 @@ TEST(CounterMonitor, AStuckBitIsFoundInASlowSwing) {
             ASSERT_TRUE(!found || k >= 2000);
         }
         EXPECT_TRUE(found) << bit;
+    }
+}
+
+// A swing, two tones, a vibration of 16 halves: no rotation is even.
+TEST(CounterMonitor, AStuckBitIsFoundInAnyMotion) {
+    struct Tone {
+        double counts, frequency_hz;
+    };
+    struct Case {
+        Tone first, second;
+        int most_bit, most_halves;
+    };
+    for (const Case& c : {Case{{9.2, 7.0}, {0.0, 0.0}, 7, 250}, Case{{6.1, 3.1}, {2.3, 11.3}, 7, 250},
+                          Case{{3.1, 24.7}, {0.2, 61.0}, 3, 200}}) {
+        for (int bit = 1; bit <= c.most_bit; ++bit) {
+            for (const bool at_1 : {false, true}) {
+                Counter counter;
+                int after = 0;
+                for (int k = 0; k < 1000 + c.most_halves && after == 0; ++k) {
+                    if (k == 1000) counter.stick(bit, at_1);
+                    const double t = 0.0025 * k;
+                    counter.rate = 0.01 + c.first.counts * std::sin(2.0 * pi * c.first.frequency_hz * t) +
+                                   c.second.counts * std::sin(2.0 * pi * c.second.frequency_hz * t);
+                    if (counter.half()) after = k - 999;
+                }
+                EXPECT_GT(after, 0) << "bit " << bit << " at " << at_1 << ", " << c.first.frequency_hz << " Hz";
+                EXPECT_EQ(counter.state.stuck, 1u << bit) << bit;
+            }
+        }
     }
 }
 

@@ -1,50 +1,32 @@
 #pragma once
 // The fringe counter, bit by bit: whether one of them is stuck, at 0 or at 1.
 //
-// A stuck bit k puts an error of 0 or 2^k into a reading, by what the bit should be. So the counter is followed as a
-// steady rotation goes on, x for the readings of either bias sign and one rate v for both, and the error e that makes
-// the reading fit best is taken off:
+// Each reading y is predicted from three neighbours on either side, which may turn and swing as they like: a cubic and
+// an even alternation, as the bias makes it, are predicted exactly.
 //
-//   p = x_(h-2) + 2 v,   d = R_h - e_h - p,   e_h = 0, or the 2^k of the bit under suspicion, either way
-//   x_h = p + d/4,       v <- v + d/32
+//   p = ((y_-1 + y_+1) + 2 (y_-2 + y_+2) - (y_-3 + y_+3))/4,   R = 4 (y - p)
 //
-// A first d near a power of two, larger than the tolerance, puts that bit under suspicion. The suspicion ends where the
-// bit changes. It grows by one where the counter has moved on by 2^k while the error came or went, always one way and
-// with every d within the tolerance: then the true counter has passed both values of the bit. A counter that stands
-// still or swings to and fro over the same few readings proves nothing.
-//
-//   tolerance = 1 count + 2 a,   a: the mean size of d, which grows no faster than by 1/64 of a larger d
+// A bit is accused by a reading in which it shows another value than in p, taken nearer to the reading by the usual
+// size of R, if it may have made that R: its errors, 0 or 2^k in each of the seven readings, make multiples of 2^k up
+// to 6 of them. It is stuck where enough readings have accused it, no two alike, and acquitted by the first half in
+// which it changes. A motion that returns to the same few readings proves nothing.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace zlg::core {
 
-// A bit under suspicion.
-struct SuspectedBit {
-    std::uint32_t value = 0;                // 2^k; 0: none
-    std::uint32_t shown = 0;                // what it shows: 0 or its value
-    std::array<std::int8_t, 2> error_of{};  // of the last two readings: e over 2^k
-    bool has_from = false;
-    bool has_toggled = false;   // the error has come or gone since then
-    bool upwards = false;       // the way of the counter
-    std::uint32_t from = 0;     // the counter without the error, where the suspicion grew last
-    std::int32_t n_passed = 0;  // so many times it did
-    std::int32_t n_calm = 0;    // halves since
-
-    friend constexpr bool operator==(const SuspectedBit&, const SuspectedBit&) = default;
-};
+inline constexpr std::size_t judged_bits = 13;
 
 struct CounterMonitorState {
-    std::int32_t n_known = 0;              // readings in a row, one a half, up to 4
-    bool is_odd = false;                   // the half
-    std::array<std::uint32_t, 2> place{};  // x at the last half and the one before, 1/256 count
-    std::int32_t rate = 0;                 // v, 1/8192 count
-    std::int32_t rough = 256;              // a, 1/256 count
-    std::int32_t n_lost = 0;               // of the last halves, so many more with a d beyond the tolerance than within
-    SuspectedBit suspect{};
-    std::uint32_t cleared = 0;  // bits that were under suspicion and have changed
-    bool stuck = false;         // the one under suspicion
+    std::int32_t n_known = 0;                           // readings in a row, one a half, up to 7
+    std::array<std::uint32_t, 7> last{};                // the last ones
+    std::uint32_t rough = 128;                          // 64 times the usual |R|: the mean of those that accuse none
+    std::uint32_t suspected = 0;                        // bits that were accused since they changed last
+    std::uint32_t stuck = 0;                            // of these, those with enough readings
+    std::int32_t n_calm = 0;                            // halves since the last that was new
+    std::array<std::uint64_t, judged_bits> readings{};  // that accuse each bit, hashed to 64 places
 
     friend constexpr bool operator==(const CounterMonitorState&, const CounterMonitorState&) = default;
 };
@@ -52,12 +34,11 @@ struct CounterMonitorState {
 // Advance by one half-period; returns whether a bit is stuck: no later counts are to be trusted.
 //
 // counted  the reading is that of this half, the one before was that of the half before, and the gyro lased in both.
-// latency  six times 2^k counts of rotation, and at least 20 halves. A bit that changes again is accepted at once, and
-// so is
-//          any after 400 halves in which the suspicion did not grow.
+// latency  26 accusing readings for bit 1, 12 from bit 8 on: some 90 halves where a half turns by 2^k and more, else
+//          ten times 2^k counts of rotation. A bit that changes again is accepted at once, and so is any after 400
+//          halves without a new accusation.
 // errors   bit 0 is not judged (a count more or less is within every sigma), nor are those from 13 on, whose errors are
-//          out of the bias's band. Bit k is judged where the tolerance is at most 2^k. Of two stuck bits the one is
-//          found whose error comes and goes while that of the other stays.
+//          out of the bias's band.
 [[nodiscard]] bool step(CounterMonitorState& state, bool counted, std::uint64_t reading) noexcept;
 
 }  // namespace zlg::core
