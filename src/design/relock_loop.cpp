@@ -25,7 +25,7 @@ void check(const RelockLoop& loop, double miss_lambda, int n_ticks) {
 void check(const BiasLaw& law) {
     require_positive("bias law", "scale_arcsec", law.scale_arcsec);
     require_positive("bias law", "bias_hz", law.bias_hz);
-    require_not_negative("bias law", "chi", law.chi);
+    require(std::isfinite(law.chi), "bias law", "chi", law.chi, "a number");
 }
 
 // Integrals of dl and dl^2 travel with the state, so the means over a half are as exact as the motion.
