@@ -86,7 +86,7 @@ LogCompensation log_compensation(const config::Config& config, const logs::RawHe
     made.compensation.relock.presumes = made.lacks_detuning;
     made.config.compensation.relock = relock;
     if (const auto note = config::former_keys_note(log.settings, log_name)) made.notes.push_back(*note);
-    if (const std::string line = presumed(config, log, relock, log_name); !line.empty()) made.notes.push_back(line);
+    made.presumed = presumed(config, log, relock, log_name);
     if (relock == RelockMethod::joint && log.light_samples == 0)
         made.notes.push_back(
             fmt::format("{}: holds no light samples; compensation.relock = \"joint\" takes the mean "
