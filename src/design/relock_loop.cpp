@@ -160,7 +160,7 @@ std::vector<double> false_drift_arcsec_s(const BiasLaw& law, const RelockTrace& 
 }
 
 double false_angle_law_arcsec(double deficit_arcsec_s, double tick_s) {
-    require_not_negative("false angle", "deficit_arcsec_s", deficit_arcsec_s);
+    require(std::isfinite(deficit_arcsec_s), "false angle", "deficit_arcsec_s", deficit_arcsec_s, "a number");
     require_positive("false angle", "tick_s", tick_s);
     return 0.25 * tick_s * deficit_arcsec_s;
 }
