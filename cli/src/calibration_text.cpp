@@ -1,6 +1,7 @@
 #include "calibration_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "output.hpp"
 
@@ -49,6 +50,8 @@ std::string calibration_text(const study::CalibrationResult& result) {
         text += fmt::format("{:<46}{:>16.8g}{:>12.3g}{}\n", c.key, c.estimate.value, c.estimate.sigma,
                             c.unit.empty() ? "" : "  " + c.unit);
     }
+    if (const std::vector<double>& higher = result.calibration.chi_higher; !higher.empty())
+        text += fmt::format("gyro.bias_chi_higher = [{:.6g}]\n", fmt::join(higher, ", "));
     for (const Constant& c : result.calibration.constants)
         if (!c.estimate.determined) text += fmt::format("{}: not determined: {}\n", c.key, c.estimate.reason);
     text += curve_text(result);
@@ -91,6 +94,7 @@ json calibration_json(const study::CalibrationResult& result) {
     }
     return {{"constants", constants},
             {"not_determined", not_determined},
+            {"bias_chi_higher", result.calibration.chi_higher},
             {"discriminator", discriminator},
             {"goodness", goodness},
             {"files", files},

@@ -93,6 +93,7 @@ recorded::LogCompensation log_compensation(const Options& options, const logs::R
                         "angles come from {}",
                         log_path, by_phase ? "phase" : "count", log.has_fringe ? "has" : "lacks",
                         log.has_fringe ? "counts and fringe" : "whole counts"));
+    if (!made.presumed.empty()) made.notes.push_back(made.presumed);
     for (const std::string& note : made.notes) complain("note: " + note);
     for (const std::string& warning : made.warnings) complain("warning: " + warning);
     return made;

@@ -73,6 +73,8 @@ class Calibration(Shown):
     constants: list[Constant]
     #: why a constant is not among them, by its key
     not_determined: dict[str, str]
+    #: gyro.bias_chi_higher, with the bias_chi of `constants`; of a parabola none
+    bias_chi_higher: list[float]
     #: None: not determined
     discriminator: Optional[Discriminator]
     goodness: list[Goodness]

@@ -115,7 +115,9 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
     const std::vector<LabLog> straight = c.curve.determined ? straightened(logs, c.curve) : std::vector<LabLog>{};
     // Those of which the detuning is used, by the curve where there is one.
     const std::span<const LabLog> seen = c.curve.determined ? std::span{straight} : logs;
-    add(bias, find_bias_loss(seen, bias), c);
+    const BiasLoss loss = find_bias_loss(seen, bias, c.curve.determined ? 1 : 4);
+    c.chi_higher = loss.higher;
+    add(bias, loss, c);
     if (c.curve.determined)
         c.goodness.push_back({"curve_chi2_per_dof", c.curve.chi2_per_dof,
                               fmt::format("residuals of {} re-locks over white rounding; about 1", c.curve.n_relocks)});

@@ -118,6 +118,7 @@ void LabReader::take_tick(const core::HalfRecord& first, const core::HalfRecord&
     if (!good) {
         end_segment();
         gap_before_ = true;
+        gap_end_ = core::border_of(second);
         return;
     }
     if (in_segment_ && log_.segments.back().mode != first.mode) end_segment();
@@ -134,7 +135,8 @@ void LabReader::take_tick(const core::HalfRecord& first, const core::HalfRecord&
 void LabReader::begin_segment(const core::HalfRecord& first) {
     in_segment_ = true;
     log_.segments.push_back({.mode = first.mode, .after_gap = gap_before_, .first_tick = first.half / 2});
-    if (gap_before_) log_.relocks.push_back({.segment = std::ssize(log_.segments) - 1, .halves = {}});
+    if (gap_before_)
+        log_.relocks.push_back({.segment = std::ssize(log_.segments) - 1, .halves = {}, .before = gap_end_});
     starts_.emplace_back();
     gap_before_ = false;
     log_.scatter.interrupt();

@@ -29,22 +29,6 @@ constexpr double uncertainty_of_terms = 0.3;
 // x0 over the last point.
 constexpr std::array<double, 14> places{0.06, 0.08, 0.1, 0.13, 0.16, 0.2, 0.25, 0.32, 0.4, 0.5, 0.64, 0.8, 1.0, 1.3};
 
-double square(double x) { return x * x; }
-
-// A half as two equal groups of samples.
-struct Groups {
-    double above;
-    double below;
-
-    Groups(const core::HalfRecord& r, double noise_lambda2) {
-        const double spread2 = r.detuning_sq_lambda2 - square(r.detuning_lambda) - noise_lambda2;
-        const double spread = std::sqrt(std::fmax(spread2, 0.0));
-        above = r.detuning_lambda + spread;
-        below = r.detuning_lambda - spread;
-    }
-    [[nodiscard]] double farthest() const { return std::fmax(std::abs(above), std::abs(below)); }
-};
-
 using Terms = Eigen::Matrix<double, n_terms, 1>;
 
 Terms terms(double x, double x0) {
@@ -104,13 +88,6 @@ double farthest_lambda(const Relocks& relocks) {
     }
     std::ranges::sort(farthest, std::greater{});
     return farthest[farthest.size() / 5];
-}
-
-bool has_detunings(const Relocks& relocks) {
-    return std::ranges::all_of(relocks.views, [](const RelockView& view) {
-        return std::ranges::all_of(view.relock->halves,
-                                   [](const core::HalfRecord& r) { return std::abs(r.detuning_lambda) < 1e3; });
-    });
 }
 
 // How far the loss over the square of the detuning falls from a third of the last point to that point.
@@ -187,10 +164,10 @@ LossCurve find_loss_curve(std::span<const LabLog> logs, const BiasLaw& law) {
     if (!law.bias_hz.determined) return refused_curve("the bias frequency is not determined");
     const Relocks relocks{logs};
     const std::int64_t n = std::ssize(relocks.views);
-    if (n < min_relocks_of_curve || !has_detunings(relocks))
+    if (n < min_relocks_of_curve || !relocks.has_detunings())
         return refused_curve(
             fmt::format("{} re-locks with the columns detuning_lambda and detuning_sq_lambda2; {} or more are needed",
-                        has_detunings(relocks) ? n : 0, min_relocks_of_curve));
+                        relocks.has_detunings() ? n : 0, min_relocks_of_curve));
     const double last_lambda = farthest_lambda(relocks);
     if (!(last_lambda > 0.0 && last_lambda < 1e3)) return refused_curve("no re-lock shows in the detuning");
     const Fit fit = best_fit(relocks, law, n_terms, last_lambda);

@@ -56,8 +56,8 @@ void take_repeated(const std::vector<RelockBorders>& all, LossFit& fit) {
         dof += (kind.n - 1.0) * static_cast<double>(kind.x.rows() - 1);
     }
     const double scattered = dof > 0.0 ? scatter / dof : 0.0;
-    fit.repeated_ratio = std::max(0.0, 1.0 - scattered / rounding_counts2);
-    fit.repeated_covariance = fit.repeated_ratio * rounding_counts2 * (fit.inverse * shared * fit.inverse);
+    fit.repeated_ratio = std::max(0.0, 1.0 - scattered / fit.rounding);
+    fit.repeated_covariance = fit.repeated_ratio * fit.rounding * (fit.inverse * shared * fit.inverse);
 }
 
 }  // namespace
@@ -66,14 +66,15 @@ LossFit fit_losses(const std::vector<RelockBorders>& all, numeric::Laws laws) {
     std::vector<numeric::Cluster> clusters;
     for (const RelockBorders& b : all) {
         clusters.push_back({b.x.transpose() * b.x, b.x.transpose() * b.y});
-        clusters.back().information(0, 0) -= b.noise;
+        clusters.back().information.topLeftCorner(b.noise.rows(), b.noise.cols()) -= b.noise;
     }
     LossFit fit{fit_clusters(clusters, laws)};
-    double expected = -rounding_counts2 * static_cast<double>(fit.coefficient.size());
+    fit.rounding = all.front().rounding;
+    double expected = -fit.rounding * static_cast<double>(fit.coefficient.size());
     for (const RelockBorders& b : all) {
         fit.residual += (b.y - b.x * fit.coefficient).squaredNorm();
-        expected +=
-            rounding_counts2 * static_cast<double>(b.y.size() - 1) + fit.coefficient[0] * fit.coefficient[0] * b.noise;
+        const auto c = fit.coefficient.head(b.noise.rows());
+        expected += fit.rounding * static_cast<double>(b.y.size() - 1) + c.dot(b.noise * c);
     }
     fit.chi2_per_dof = fit.residual / expected;
     take_repeated(all, fit);
@@ -90,16 +91,23 @@ RelockBorders relock_borders(const RelockView& view, const BiasLaw& law, std::si
     const Eigen::Index n = halves_used(view, transient);
     RelockBorders all{Eigen::VectorXd::Zero(n + 1), Eigen::MatrixXd::Zero(n + 1, n_laws + 1)};
     Eigen::RowVectorXd loss = Eigen::RowVectorXd::Zero(n_laws);
+    const auto place = [&view](const core::Border& border) {
+        return view.with_phase ? core::counts_and_parts(0, border.parts()) : 0.0;
+    };
+    double counted = 0.0;
+    all.y[0] = place(view.relock->before);
     const double first_sign = halves[0].bias_sign * halves[0].mode;
     for (Eigen::Index h = 0; h < n; ++h) {
         const core::HalfRecord& r = halves[static_cast<std::size_t>(h)];
         const double cycles = 0.5 * view.log->tick_s * law.at_hz(r.temperature_c) * r.bias_sign * r.mode;
         losses(r, loss);
-        all.y[h + 1] = all.y[h] + static_cast<double>(r.counts) - cycles - view.counts_per_half;
+        counted = counted + static_cast<double>(r.counts) - cycles - view.counts_per_half;
+        all.y[h + 1] = counted + place(core::border_of(r));
         all.x.row(h + 1).head(n_laws) = all.x.row(h).head(n_laws) - cycles * loss;
         all.x(h + 1, n_laws) = h % 2 == 0 ? first_sign : 0.0;
     }
     RelockBorders b = averaged(all, static_cast<Eigen::Index>(transient + 1));
+    if (view.with_phase) b.rounding = place_counts2;
     b.kind = (first_sign > 0.0 ? 1 : 0) + (halves[0].mode > 0 ? 2 : 0);
     b.y.array() -= b.y.mean();
     b.x.rowwise() -= b.x.colwise().mean().eval();

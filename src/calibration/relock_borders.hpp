@@ -4,9 +4,9 @@
 //   y_k = sum of the counts before border k, less rotation and an undisturbed bias
 //   x_k = the same sum of -s_h f (T/2) g_h, for the loss g_h that a law gives per unit of its coefficient
 //
-// The counter rounds at each border once, so that the rows are of independent errors. Borders after the transient make
-// one row for each of the two readings that a settled counter repeats. The last column is the parity of the border: an
-// error of f shows there.
+// With the places within the count, where all re-locks have them. The counter rounds at each border once, so that the
+// rows are of independent errors. Borders after the transient make one row for each of the two readings that a settled
+// counter repeats. The last column is the parity of the border: an error of f shows there.
 
 #include <functional>
 #include <vector>
@@ -21,12 +21,15 @@
 namespace zlg::calibration {
 
 inline constexpr double rounding_counts2 = 1.0 / 12.0;  // of one border
+// By phase: what the settled counts leave of the rotation over a re-lock, and the random walk, of a gyro at rest.
+inline constexpr double place_counts2 = 1e-5;
 
 struct RelockBorders {
     Eigen::VectorXd y;
     Eigen::MatrixXd x;
-    int kind = 0;        // of the re-lock: helicity and first sign of the bias
-    double noise = 0.0;  // what light noise adds to the sum of squares of the first law's column
+    double rounding = rounding_counts2;  // variance of one border
+    int kind = 0;                        // of the re-lock: helicity and first sign of the bias
+    Eigen::MatrixXd noise = {};          // what light noise adds to the products of the laws' columns; empty: nothing
 };
 
 // As long again as the transient for the rest: every half of it brings light noise.
@@ -42,6 +45,7 @@ using LossLaws = std::function<void(const core::HalfRecord&, Eigen::Ref<Eigen::R
 // The loss of bias by these laws, and the parity, from the borders of all re-locks. Rounding that does not scatter from
 // one re-lock of a kind to the next is an unknown that all of them share.
 struct LossFit : numeric::ClusterFit {
+    double rounding = 0.0;                // variance of one border
     double residual = 0.0;                // sum of squares
     double chi2_per_dof = 0.0;            // over rounding and light noise
     double repeated_ratio = 0.0;          // part of the variance of rounding that is the same after every re-lock

@@ -24,6 +24,11 @@ void collect(const LabLog& log, std::vector<RelockView>& views) {
     }
 }
 
+bool has_phase(const Relock& relock) {
+    return relock.before.is_known() &&
+           std::ranges::all_of(relock.halves, [](const core::HalfRecord& r) { return core::border_of(r).is_known(); });
+}
+
 double excess(const RelockView& view, std::size_t half) {
     return view.relock->halves[half].detuning_sq_lambda2 - view.log->square.mean;
 }
@@ -33,6 +38,8 @@ double excess(const RelockView& view, std::size_t half) {
 Relocks::Relocks(std::span<const LabLog> logs) {
     for (const LabLog& log : logs) collect(log, views);
     if (views.empty()) return;
+    const bool with_phase = std::ranges::all_of(views, [](const RelockView& view) { return has_phase(*view.relock); });
+    for (RelockView& view : views) view.with_phase = with_phase;
     std::vector<double> mean(relock_halves, 0.0);
     for (const RelockView& view : views)
         for (std::size_t h = 0; h < mean.size(); ++h) mean[h] += excess(view, h) / static_cast<double>(views.size());
@@ -43,6 +50,13 @@ Relocks::Relocks(std::span<const LabLog> logs) {
     // Below this the noise of a mean square would look like a fall.
     for (std::size_t h = 0; h < transient_halves; ++h)
         if (mean[h] > 4.0 * least) steepest_fall = std::min(steepest_fall, std::max(0.0, mean[h + 1] / mean[h]));
+}
+
+bool Relocks::has_detunings() const {
+    return std::ranges::all_of(views, [](const RelockView& view) {
+        return std::ranges::all_of(view.relock->halves,
+                                   [](const core::HalfRecord& r) { return std::abs(r.detuning_lambda) < 1e3; });
+    });
 }
 
 }  // namespace zlg::calibration

@@ -4,6 +4,7 @@
 #include <functional>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
 #include <zlg/text/toml_text.hpp>
 
 #include "key.hpp"
@@ -146,6 +147,8 @@ void check(const Config& config) {
     check_times(config.gyro, config.switching);
     check_interval_limits(config.gyro, config.switching);
     check_discriminator(config.perimeter);
+    if (const std::size_t n = config.gyro.bias_chi_higher.size(); n > core::LossBend{}.term.size())
+        throw ConfigError(fmt::format("gyro.bias_chi_higher: {} numbers; allowed is up to 3", n));
     check_dither(config);
     check_motion(config.motion);
     check_faults(config.faults);

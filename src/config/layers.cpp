@@ -225,6 +225,14 @@ bool is_given(const Config& config, std::string_view dotted_key) {
     return config.given.contains(dotted_key) || value_text(*key, config) != value_text(*key, Config{});
 }
 
+std::string not_given(const Config& config, std::span<const std::string_view> dotted_keys) {
+    std::string list;
+    for (const auto& [key, value] : to_settings(config))
+        if (std::ranges::find(dotted_keys, key) != dotted_keys.end() && !is_given(config, key))
+            list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", key, value);
+    return list;
+}
+
 void apply_toml(Config& config, std::string_view text, std::string_view source_name) {
     const toml::table document = parse_document(text, source_name);
     Config result = config;

@@ -25,7 +25,7 @@ void check(const RelockLoop& loop, double miss_lambda, int n_ticks) {
 void check(const BiasLaw& law) {
     require_positive("bias law", "scale_arcsec", law.scale_arcsec);
     require_positive("bias law", "bias_hz", law.bias_hz);
-    require_not_negative("bias law", "chi", law.chi);
+    require(std::isfinite(law.chi), "bias law", "chi", law.chi, "a number");
 }
 
 // Integrals of dl and dl^2 travel with the state, so the means over a half are as exact as the motion.
@@ -160,7 +160,7 @@ std::vector<double> false_drift_arcsec_s(const BiasLaw& law, const RelockTrace& 
 }
 
 double false_angle_law_arcsec(double deficit_arcsec_s, double tick_s) {
-    require_not_negative("false angle", "deficit_arcsec_s", deficit_arcsec_s);
+    require(std::isfinite(deficit_arcsec_s), "false angle", "deficit_arcsec_s", deficit_arcsec_s, "a number");
     require_positive("false angle", "tick_s", tick_s);
     return 0.25 * tick_s * deficit_arcsec_s;
 }

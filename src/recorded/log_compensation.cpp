@@ -49,6 +49,20 @@ void add_curves(const config::Config& config, const logs::RawHeader& log, const 
                         log_name));
 }
 
+// What the user ought to know where neither a log nor a configuration has said it.
+std::string presumed(const config::Config& config, const logs::RawHeader& log, RelockMethod relock,
+                     const std::string& log_name) {
+    std::vector<std::string_view> keys{"gyro.bias_hz", "drift.random_walk_arcsec_sqrt_s"};
+    if (log.has_temperature) keys.push_back("gyro.bias_temperature_coefficient_per_c");
+    if (log.has_edge_offset) keys.push_back("gyro.bias_edge_s");
+    if (relock != RelockMethod::none && relock != RelockMethod::frequency)
+        keys.insert(keys.end(), {"gyro.bias_chi", "gyro.light_noise_lambda"});
+    if (relock == RelockMethod::joint && log.light_samples > 0) keys.push_back("gyro.discriminator_per_lambda");
+    const std::string list = config::not_given(config, keys);
+    return list.empty() ? list
+                        : fmt::format("{}: presumed, given by neither log nor configuration: {}", log_name, list);
+}
+
 core::Hertz timer_of(const config::Config& config, const logs::RawHeader& log) {
     const config::Gyro& g = config.gyro;
     if (!(g.bias_edge_s < 0.5 * g.tick_s))
@@ -72,6 +86,7 @@ LogCompensation log_compensation(const config::Config& config, const logs::RawHe
     made.compensation.relock.presumes = made.lacks_detuning;
     made.config.compensation.relock = relock;
     if (const auto note = config::former_keys_note(log.settings, log_name)) made.notes.push_back(*note);
+    made.presumed = presumed(config, log, relock, log_name);
     if (relock == RelockMethod::joint && log.light_samples == 0)
         made.notes.push_back(
             fmt::format("{}: holds no light samples; compensation.relock = \"joint\" takes the mean "

@@ -1,5 +1,8 @@
 // From a configuration to the parameters of the compensation.
 
+#include <algorithm>
+#include <cmath>
+
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/maths.hpp>
 #include <zlg/rig/refusal.hpp>
@@ -11,6 +14,20 @@
 namespace zlg::rig {
 namespace {
 
+// The core has further terms over chi, which is then not 0: less than this is no angle.
+constexpr double least_chi = 1e-6;
+
+double chi_of(const config::Gyro& g) {
+    return g.bias_chi_higher.empty() || std::abs(g.bias_chi) > least_chi ? g.bias_chi : least_chi;
+}
+
+core::LossBend bend_of(const config::Gyro& g) {
+    core::LossBend bend;
+    for (std::size_t k = 0; k < std::min(g.bias_chi_higher.size(), bend.term.size()); ++k)
+        bend.term[k] = g.bias_chi_higher[k] / chi_of(g);
+    return bend;
+}
+
 // Without `record_curve`, which depends on how the log was recorded: `asked_compensation` sets it.
 core::CompensationConstants constants_of(const config::Config& config) {
     const config::Gyro& g = config.gyro;
@@ -18,7 +35,8 @@ core::CompensationConstants constants_of(const config::Config& config) {
             .scale = core::Arcsec{g.scale_arcsec},
             .random_walk = core::ArcsecPerRootSecond{config.drift.random_walk_arcsec_sqrt_s},
             .bias = core::Hertz{g.bias_hz},
-            .chi = g.bias_chi,
+            .chi = chi_of(g),
+            .bend = bend_of(g),
             .temperature_coefficient_per_c = g.bias_temperature_coefficient_per_c,
             .reference_temperature = core::Celsius{g.reference_temperature_c},
             .centre = core::Wavelengths{config.perimeter.discriminator_centre_lambda},

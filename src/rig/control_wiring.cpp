@@ -60,8 +60,9 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     // take.
     const bool reads_true = g.fidelity != config::Fidelity::laser || made.detector.curve.n_nodes > 0;
     if (!reads_true) made.limits.light_gain = 10.0;
-    if (reads_true && g.bias_chi > 0.0 && bias_counts >= 100.0) made.limits.bias_chi = g.bias_chi;
-    const double false_counts = bias_counts * g.bias_chi;
+    if (reads_true && g.bias_chi > 0.0 && g.bias_chi_higher.empty() && bias_counts >= 100.0)
+        made.limits.bias_chi = g.bias_chi;
+    const double false_counts = bias_counts * std::abs(g.bias_chi);
     if (false_counts > 0.0) {
         const double noise_lambda2 = g.light_noise_lambda * g.light_noise_lambda;
         made.limits.detuning_change_lambda2 = std::min(1.0 / false_counts + 20.0 * noise_lambda2, 1e6);

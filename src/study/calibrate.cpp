@@ -180,6 +180,15 @@ std::string far_reference(const CalibrationTask& task, const Lab& lab, const cal
         nearest_c, reference_c, bias_coefficient);
 }
 
+// Coefficients that were found were not presumed.
+std::string presumed_line(const Lab& lab, const calibration::Calibration& found) {
+    std::vector<std::string_view> keys{"gyro.reference_temperature_c", "perimeter.loop"};
+    for (const calibration::Constant& c : found.constants)
+        if (!c.estimate.determined && c.key.ends_with("temperature_coefficient_per_c")) keys.push_back(c.key);
+    const std::string list = config::not_given(lab.configs.front(), keys);
+    return list.empty() ? list : fmt::format("presumed, given by neither log nor configuration: {}", list);
+}
+
 // A bias that does not show is none of a log whose bias is found: it is smaller than was presumed.
 void add_contradictions(const Lab& lab, CalibrationResult& result) {
     const std::vector<calibration::Constant>& constants = result.calibration.constants;
@@ -222,6 +231,7 @@ CalibrationResult calibrate(const CalibrationTask& task) {
                              .warnings = std::move(lab.warnings)};
     refuse_beyond_ranges(result.calibration);
     add_contradictions(lab, result);
+    if (const std::string line = presumed_line(lab, result.calibration); !line.empty()) result.warnings.push_back(line);
     result.reference_warning = far_reference(task, lab, result.calibration);
     if (!result.reference_warning.empty()) result.warnings.push_back(result.reference_warning);
     return result;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
@@ -12,6 +14,8 @@ using calibration::Constant;
 constexpr std::string_view scale_name = "detuning_scale";
 // What the compensation is told with its sigma.
 constexpr std::string_view lock_in_key = "compensation.lock_in_hz";
+
+constexpr std::string_view chi_key = "gyro.bias_chi";
 
 std::string with_unit(const std::string& text, const std::string& unit) {
     return unit.empty() ? text : text + " " + unit;
@@ -35,6 +39,11 @@ std::string toml_line(const Constant& c) {
                        with_unit(fmt::format("{:.3g}", c.estimate.sigma), c.unit));
 }
 
+bool is_determined(const CalibrationResult& result, std::string_view key) {
+    return std::ranges::any_of(result.calibration.constants,
+                               [key](const Constant& c) { return c.key == key && c.estimate.determined; });
+}
+
 std::string toml_section(const CalibrationResult& result, const std::string& section) {
     std::string text;
     for (const Constant& c : result.calibration.constants)
@@ -54,7 +63,7 @@ std::string scale_comment(const Constant& c, bool has_curve) {
         "needs it\n"
         "# for these logs. To log true wavelengths from now on, multiply discriminator_per_lambda by {1:.6g} and "
         "bias_chi by "
-        "{3:.6g}.\n",
+        "{3:.6g}, bias_chi_higher by its square and the powers after.\n",
         c.key, c.estimate.value, c.estimate.sigma, c.estimate.value * c.estimate.value);
 }
 
@@ -109,6 +118,7 @@ std::string calibration_toml(const CalibrationResult& result) {
     for (const char* name : {"tick_s", "scale_arcsec", "reference_temperature_c"})
         text += fmt::format("{} = {}\n", name, text_of(result.config, fmt::format("gyro.{}", name)));
     text += toml_section(result, "gyro");
+    if (is_determined(result, chi_key)) text += list_line("bias_chi_higher", result.calibration.chi_higher);
     if (!result.reference_warning.empty()) text += fmt::format("# warning: {}\n", result.reference_warning);
     for (const Constant& c : result.calibration.constants)
         if (c.key == scale_name) text += scale_comment(c, result.calibration.curve.determined);

@@ -75,7 +75,7 @@ BiasArea AveragedGyro::bias_area(bool is_steady, TwinTruth& truth) {
     const std::span<const double> nodes = course_.nodes();
     const Mode start = lasing_mode(nodes.front());
     garbage_cycles_ = 0.0;
-    BiasArea area;
+    BiasArea area{config_.gyro.bias_chi_higher};
     area.subtract_edge(start, config_.gyro.bias_edge_s);
     if (is_steady)
         area.add_whole(start, nodes, housing_.half_s());
@@ -102,7 +102,7 @@ void AveragedGyro::add_pieces(BiasArea& area, TwinTruth& truth) {
     }
 }
 
-//   cycles = sign p int helicity (1 - chi dl^2) shape dt + (rotation + drift)/scale
+//   cycles = sign p int helicity (1 - chi dl^2 - h) shape dt + (rotation + drift)/scale
 //
 // Rotation is counted for the lit part of the half only: in the rest the counter shows garbage.
 void AveragedGyro::count(const BiasArea& area, int bias_sign, TwinHalf& half) {
@@ -111,7 +111,8 @@ void AveragedGyro::count(const BiasArea& area, int bias_sign, TwinHalf& half) {
                                housing_.turned_arcsec(housing_.start_s(), housing_.end_s());
 
     const double signed_hz = bias_sign * plateau_hz();
-    const double false_cycles = -signed_hz * config_.gyro.bias_chi * area.shaped_square();
+    const double false_cycles =
+        -signed_hz * config_.gyro.bias_chi * area.shaped_square() - signed_hz * area.shaped_higher();
     half.truth.false_relock_arcsec = config_.gyro.scale_arcsec * false_cycles;
 
     const double lit_part = half.truth.lit ? 1.0 : area.lit_s() / half_s;

@@ -45,6 +45,46 @@ TEST(BiasLoss, does_not_depend_on_the_course_of_the_transient) {
     EXPECT_NEAR(stepped.chi.value, 4.0, 4.0 * stepped.chi.sigma + 0.02);
 }
 
+// Neither of them is the default's business: what was found is used.
+TEST(BiasLoss, none_and_one_that_grows_are_results) {
+    for (const double chi : {0.3, 0.0, -0.4, -4.0}) {
+        for (const double miss : {0.05, 0.2}) {
+            const BiasLoss loss = loss_of(one_log({.chi = chi, .miss_lambda = miss}, 300.0));
+            ASSERT_TRUE(loss.chi.determined) << loss.chi.reason;
+            EXPECT_LT(std::abs(errors_off(loss.chi, chi)), 4.0) << loss.chi.value << " +- " << loss.chi.sigma;
+            EXPECT_TRUE(loss.higher.empty()) << chi << ' ' << miss;
+        }
+    }
+}
+
+// Relative losses of 7e-4, 2e-4, -9.2e-3 and -1.2e-2 at 0.05, 0.1, 0.15 and 0.2 wavelength: of a saturated gas.
+TEST(BiasLoss, a_loss_that_changes_its_sign_takes_more_powers) {
+    const SyntheticGyro gyro{.chi = 0.33057,
+                             .chi_higher = {-21.0, -1386.67, 38095.2},
+                             .miss_lambda = 0.2,
+                             .light_samples = 64,
+                             .light_noise_lambda = 0.001,
+                             .with_phase = true};
+    const BiasLoss loss = loss_of(one_log(gyro, 600.0));
+    ASSERT_TRUE(loss.chi.determined) << loss.chi.reason;
+    for (const double dl : {0.05, 0.1, 0.15, 0.19}) {
+        const auto at = [dl](double chi, const std::vector<double>& higher) {
+            double sum = chi * dl * dl;
+            for (std::size_t k = 0; k < higher.size(); ++k) sum += higher[k] * std::pow(dl, 2 * k + 4);
+            return sum;
+        };
+        EXPECT_NEAR(at(loss.chi.value, loss.higher), at(gyro.chi, gyro.chi_higher), 3e-4) << dl;
+    }
+}
+
+// The counter's rounding, 1/12 count^2, goes where the places within the count are known.
+TEST(BiasLoss, by_phase_it_is_known_tenfold) {
+    const BiasLoss loss = loss_of(one_log({.light_noise_lambda = 0.0003, .with_phase = true}, 120.0));
+    EXPECT_LT(std::abs(errors_off(loss.chi, 4.0)), 4.0);
+    EXPECT_LT(loss.chi.sigma, 0.005);
+    EXPECT_TRUE(loss.higher.empty());
+}
+
 // Plain least squares would lose a quarter of chi here.
 TEST(BiasLoss, light_noise_does_not_pull_it_down) {
     const auto logs =
@@ -97,9 +137,10 @@ TEST(BiasLoss, a_column_that_tells_nothing_is_named) {
     }
 }
 
-TEST(BiasLoss, no_loss_is_not_claimed_by_a_counter_that_stands) {
+TEST(BiasLoss, a_counter_that_stands_states_its_error) {
     for (const double chi : {0.0, -4.0}) {
         const BiasLoss loss = loss_of(one_log({.chi = chi, .rate_arcsec_s = 0.0}, 60.0));
-        EXPECT_FALSE(loss.chi.determined) << loss.chi.value << " +- " << loss.chi.sigma;
+        EXPECT_TRUE(loss.higher.empty());
+        if (loss.chi.determined) EXPECT_LT(std::abs(errors_off(loss.chi, chi)), 4.0);
     }
 }

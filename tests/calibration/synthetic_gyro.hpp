@@ -21,6 +21,7 @@ struct SyntheticGyro {
     double start_c = 20.0;
     double rise_c = 0.0;  // at an even pace over the log
     double chi = 4.0;
+    std::vector<double> chi_higher = {};  // loss by dl^4, dl^6, ...
     double miss_lambda = 0.2;
     double tau_s = 0.012;
     bool stepped = false;         // the detuning goes from border to border with a lag of 0.8 ms
@@ -45,7 +46,8 @@ struct SyntheticGyro {
     int gap_ticks = 3;
     int mode_changes = 1;  // 0: the same mode after every gap
     std::uint64_t seed = 1;
-    double lock_hz = 0.0;  // of a gyro whose field turns round in no time
+    bool with_phase = false;  // the places within the count are read
+    double lock_hz = 0.0;     // of a gyro whose field turns round in no time
 
     [[nodiscard]] double temperature_c(double t_s, double duration_s) const {
         return start_c + rise_c * t_s / duration_s;
@@ -93,10 +95,12 @@ private:
 
     void light(double miss, double since_s, HalfRecord& r) {
         const double half_s = 0.5 * g_.tick_s;
-        true_square_ = 0.0;
+        true_square_ = true_higher_ = 0.0;
         for (int k = 0; k < fine; ++k) {
             const double dl = detuning(miss, since_s, half_s * (k + 0.5) / fine);
             true_square_ += dl * dl / fine;
+            for (std::size_t j = 0; j < g_.chi_higher.size(); ++j)
+                true_higher_ += g_.chi_higher[j] * std::pow(dl * dl, j + 2) / fine;
         }
         for (int k = 0; k < g_.light_samples; ++k) {
             const double dl = detuning(miss, since_s, half_s * (k + 0.5) / g_.light_samples);
@@ -121,7 +125,8 @@ private:
         const double sway = g_.sway_arcsec_s * std::sin(2.0 * 3.14159265358979 * g_.sway_hz * middle_s);
         const double angle = (g_.rate_arcsec_s + mode_ * magnetic + sway) * half_s +
                              g_.walk_arcsec_sqrt_s * std::sqrt(half_s) * normal();
-        double cycles = r.bias_sign * mode_ * f * (1.0 - g_.chi * true_square_) * half_s + angle / g_.scale_arcsec;
+        double cycles =
+            r.bias_sign * mode_ * f * (1.0 - g_.chi * true_square_ - true_higher_) * half_s + angle / g_.scale_arcsec;
         // Adler's mean beat.
         const double locked = g_.lock_hz * half_s;
         cycles = std::copysign(std::sqrt(std::fmax(cycles * cycles - locked * locked, 0.0)), cycles);
@@ -129,6 +134,7 @@ private:
         const double before = std::floor(phase_);
         phase_ += cycles;
         r.counts = static_cast<std::int64_t>(std::floor(phase_) - before);
+        if (g_.with_phase) r.fringe = static_cast<float>(std::floor(65536.0 * (phase_ - std::floor(phase_))));
         // Small phases lose no digits.
         phase_ -= before;
     }
@@ -142,6 +148,7 @@ private:
     int mode_ = 1;
     double phase_ = 0.3;
     double true_square_ = 0.0;
+    double true_higher_ = 0.0;
 };
 
 // `without` puts out columns before they are seen.

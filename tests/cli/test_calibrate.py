@@ -1,6 +1,7 @@
 """`zlg calibrate`: constants of simulated gyros, what it refuses, and what its result is worth to `zlg process`."""
 
 import json
+import math
 import os
 import re
 import subprocess
@@ -193,6 +194,46 @@ class Discriminator(CliTest):
         self.refuse(2, "calibrate", "--from-laser", "--set", "laser.gain_loss_ratio=0.9", says=("[laser]",))
         self.refuse(2, "process", log, "--set", "perimeter.discriminator_signal=[0.2,0.1]", "--set",
                     "perimeter.discriminator_detuning_lambda=[0.1,0.2]", "--out", self.folder / "a.csv", says=("growing",))
+
+
+class SignedLoss(Simulated):
+    """A bias that hardly falls, does not, or rises with the detuning, in logs that say nothing of their gyro."""
+
+    RATE = 50.0
+
+    def log(self, name, seed, chi, higher):
+        log = self.simulate(name, 200, seed, gyro__bias_chi=chi, gyro__bias_chi_higher=higher, motion__kind="constant",
+                            motion__rate_arcsec_s=self.RATE, perimeter__miss_lambda=0.2, light__gain_b=1.0,
+                            **{key.replace(".", "__"): 0.0 for key in GYRO if key.startswith("drift.") and "time" not in key},
+                            gyro__bias_temperature_coefficient_per_c=0.0)
+        kept = ("# gyro.tick_s", "# gyro.scale_arcsec")
+        lines = log.read_text().splitlines(True)
+        log.write_text("".join(line for line in lines if not line.startswith("#") or line.startswith(kept)))
+        return log
+
+    def left(self, log, *options):
+        """Angle over the switches less the rotation, rms, and what was said."""
+        angles = self.folder / "angles.csv"
+        result = self.succeed("process", log, *options, "--out", angles, "--force")
+        final = AngleLog(angles).final
+        sums = [sum(final[k - 5:k + 45]) - 50 * 0.005 * self.RATE for k in range(400, len(final) - 60, 400)]
+        return math.sqrt(sum(x * x for x in sums) / len(sums)), result.stderr
+
+    def test_what_was_found_is_used_and_what_was_not_is_said(self):
+        for chi, higher in ((3.6, []), (0.3, []), (0.0, []), (-0.4, []), (0.33057, [-21.0, -1386.67, 38095.2])):
+            with self.subTest(chi=chi, higher=higher):
+                lab, log, toml = self.log("lab.csv", 1, chi, higher), self.log("use.csv", 2, chi, higher), self.folder / "found.toml"
+                said = self.succeed("calibrate", lab, f"--rate-arcsec-s={self.RATE}", "--out", toml, "--force").stderr
+                self.assertIn("perimeter.loop = ", said)
+                self.assertRegex(toml.read_text(), r"(?m)^bias_chi = ")
+                true = {**GYRO, "gyro.bias_chi": chi, "gyro.bias_chi_higher": higher}
+                true = settings({key: true[key] for key in ("gyro.bias_hz", "gyro.bias_chi", "gyro.bias_chi_higher")})
+                found, note = self.left(log, "--config", toml)
+                self.assertLess(found, 1.2 * self.left(log, *true)[0])
+                self.assertLess(found, 1.05 * self.left(log, "--set", "compensation.relock=none")[0])
+                self.assertNotIn("gyro.bias_chi", note)
+                self.assertIn("gyro.light_noise_lambda = 0.0033", note)
+                self.assertIn("gyro.bias_hz = 60000, gyro.bias_chi = 3.6", self.left(log)[1])
 
 
 class RateTable(Simulated):

@@ -93,7 +93,7 @@ TEST(Schema, NoKeyTakesNanOrInfinity) {
     }
     Config c;
     c.gyro.bias_chi = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(complaint([&] { check(c); }), "gyro.bias_chi = nan: allowed is 0..1e6");
+    EXPECT_EQ(complaint([&] { check(c); }), "gyro.bias_chi = nan: allowed is -1e6..1e6");
 }
 
 TEST(Schema, TheTableSaysWhatIsAllowedOfANumberOfEitherSignAndOfZeroOrMore) {

@@ -90,6 +90,20 @@ TEST(LogCompensation, joint_without_light_is_done_another_way_with_a_note) {
     EXPECT_EQ(notes[0].find("log: holds no light samples"), 0u);
 }
 
+TEST(LogCompensation, says_which_constants_nobody_gave) {
+    config::Config given = of(RelockMethod::mean_square);
+    const auto said = [&] { return recorded::log_compensation(given, log_with_all(), "log").presumed; };
+    EXPECT_EQ(said().find("log: presumed, given by neither log nor configuration: gyro.bias_hz = 60000, gyro.bias_chi"),
+              0u);
+    EXPECT_EQ(said().find("discriminator"), std::string::npos);
+    for (const char* set : {"gyro.bias_chi=3.6", "gyro.bias_hz=6e4", "gyro.light_noise_lambda=0.0033",
+                            "gyro.bias_temperature_coefficient_per_c=0", "drift.random_walk_arcsec_sqrt_s=0.14"})
+        config::apply_set(given, set);
+    EXPECT_EQ(said(), "");
+    given = of(RelockMethod::none);
+    EXPECT_EQ(said().find("chi"), std::string::npos);
+}
+
 TEST(LogCompensation, detunings_read_by_a_slope_come_through_the_curve_here) {
     const recorded::LogCompensation made = recorded::log_compensation(with_curve(), log_with_all(), "log");
     EXPECT_NEAR(detuning_of(made.compensation.gyro.record_curve, 2.0 * std::sin(0.2)), 0.2, 1e-12);

@@ -32,7 +32,7 @@ struct Member {
 const std::vector<Member> members = {ZLG_MEMBER(gyro.tick_s, nan, 0.0, -1.0, 11.0),
                                      ZLG_MEMBER(gyro.scale_arcsec, nan, 0.0, 1e7),
                                      ZLG_MEMBER(gyro.bias_hz, nan, -1.0, 0.0, 2e12),
-                                     ZLG_MEMBER(gyro.bias_chi, nan, -1.0, 2e6),
+                                     ZLG_MEMBER(gyro.bias_chi, nan, -2e6, 2e6),
                                      ZLG_MEMBER(gyro.bias_edge_s, nan, -1e-6, 0.0025),
                                      ZLG_MEMBER(gyro.first_bias_sign, 0.0, 2.0),
                                      ZLG_MEMBER(gyro.bias_temperature_coefficient_per_c, nan, 1.1),

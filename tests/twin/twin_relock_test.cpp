@@ -102,6 +102,28 @@ TEST(TwinRelock, TheExponentialLoopGivesTheClosedForm) {
     }
 }
 
+// Of dl^4 alone the square of q stands for q, and half of tau for tau; of dl^6 the cube and a third.
+TEST(TwinRelock, HigherTermsOfTheLossGiveTheClosedForm) {
+    for (const int power : {2, 3}) {
+        TwinConfig config = quiet_gyro();
+        config.perimeter.loop = Loop::exponential;
+        config.perimeter.tau_s = 3.5 * 0.005;
+        config.gyro.bias_edge_s = 0.0;
+        config.gyro.bias_chi = 0.0;
+        config.gyro.bias_chi_higher = std::vector<double>(static_cast<unsigned>(power - 1), 0.0);
+        config.gyro.bias_chi_higher.back() = -30.0;
+        config.perimeter.expansion_lambda_per_c = 0.025;
+        const std::vector<double> drift = false_drift_deg_h(relocked(config, 190.0, 10), 0.005);
+        const double q = std::exp(-power / 3.5);
+        for (std::size_t tick = 0; tick < drift.size(); ++tick) {
+            const double expected_hz = -30.0 * 60e3 * std::pow(0.22, 2 * power) * (3.5 / 2.0 / power) *
+                                       std::pow(q, 2.0 * static_cast<double>(tick)) * (1.0 - q) * (1.0 - q);
+            EXPECT_NEAR(drift[tick], config.gyro.scale_arcsec * expected_hz,
+                        1e-3 * config.gyro.scale_arcsec * std::abs(expected_hz) + 1e-9);
+        }
+    }
+}
+
 // The same equations once more, in volts, by brute force: 0.5 us steps of the classical rule and Simpson's.
 class BruteForce {
 public:

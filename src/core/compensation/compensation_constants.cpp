@@ -7,6 +7,8 @@
 namespace zlg::core {
 namespace {
 
+constexpr double max_bend = 1e15;
+
 // No gyro is that warm or cold; beyond it the product with a coefficient need not be a number.
 constexpr double max_temperature_c = 1e6;
 
@@ -18,10 +20,12 @@ GyroCompensationFault check(const CompensationConstants& g) noexcept {
     using Fault = GyroCompensationFault;
     if (!(is_within(g.tick.value(), 1e-9, 1e9) && is_within(g.scale.value(), 1e-9, 1e9))) return Fault::relock;
     if (!is_within(g.random_walk.value(), 0.0, 1e6)) return Fault::random_walk;
-    const bool bias = g.bias.value() > 0.0 && g.bias.value() <= 1e15 && is_within(g.chi, 0.0, 1e6) &&
+    const bool bias = g.bias.value() > 0.0 && g.bias.value() <= 1e15 && is_within(g.chi, -1e6, 1e6) &&
                       is_within(g.temperature_coefficient_per_c, -1.0, 1.0) &&
                       is_within(g.reference_temperature.value(), -max_temperature_c, max_temperature_c) &&
-                      is_within(g.centre.value(), -max_centre.value(), max_centre.value());
+                      is_within(g.centre.value(), -max_centre.value(), max_centre.value()) &&
+                      is_within(g.bend.term[0], -max_bend, max_bend) &&
+                      is_within(g.bend.term[1], -max_bend, max_bend) && is_within(g.bend.term[2], -max_bend, max_bend);
     if (!bias) return Fault::relock;
     const bool edges = is_within(g.timer.value(), 1.0, 1e15) && is_within(g.plateau_ratio, 1.0, 2.0);
     if (!edges) return Fault::edges;
@@ -29,6 +33,30 @@ GyroCompensationFault check(const CompensationConstants& g) noexcept {
                        is_within(g.fringe_noise_counts, 0.0, 1.0) && check(g.record_curve) == CurveFault::none &&
                        check(g.control_curve) == CurveFault::none;
     return light ? Fault::none : Fault::relock;
+}
+
+double beyond_square(const LossBend& bend, double sq_lambda2) noexcept {
+    return square(sq_lambda2) * (bend.term[0] + sq_lambda2 * (bend.term[1] + sq_lambda2 * bend.term[2]));
+}
+
+double most_over_square(const LossBend& bend, double sq_lambda2) noexcept {
+    return 1.0 +
+           sq_lambda2 * (size(bend.term[0]) + sq_lambda2 * (size(bend.term[1]) + sq_lambda2 * size(bend.term[2])));
+}
+
+double slope_over_square(const LossBend& bend, double sq_lambda2) noexcept {
+    return 1.0 +
+           sq_lambda2 * (2.0 * bend.term[0] + sq_lambda2 * (3.0 * bend.term[1] + sq_lambda2 * 4.0 * bend.term[2]));
+}
+
+double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
+    if (gyro.bend == LossBend{}) return 0.0;
+    const double noise_sq = square(seen.slope * gyro.light_noise.value());
+    const double spread_sq = seen.mean_sq_lambda2 - square(seen.mean_lambda) - noise_sq;
+    const double spread = spread_sq > 0.0 ? square_root(spread_sq) : 0.0;
+    const double middle = seen.mean_lambda - gyro.centre.value();
+    return 0.5 *
+           (beyond_square(gyro.bend, square(middle + spread)) + beyond_square(gyro.bend, square(middle - spread)));
 }
 
 Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept {

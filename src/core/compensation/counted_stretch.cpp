@@ -85,7 +85,8 @@ CountedStretch step(const CompensationConstants& gyro, CountedStretchState& stat
     CountedStretch out;
     // Without either nothing bounds the false drift.
     if (!state.broken && (state.known_before || state.seen))
-        out = {state.n_ticks, angle(gyro, state, bias, second, edges), state.max_sq_lambda2 - state.min_sq_lambda2};
+        out = {state.n_ticks, angle(gyro, state, bias, second, edges),
+               (state.max_sq_lambda2 - state.min_sq_lambda2) * most_over_square(gyro.bend, state.max_sq_lambda2)};
     state.n_ticks = 0;
     const double last_sq_lambda2 = detuning_sq(gyro, second);
     if (last_sq_lambda2 > 0.0 && is_finite(last_sq_lambda2))

@@ -1,7 +1,7 @@
 #pragma once
 // What the alternating bias contributes to the fringe phase of one half-period.
 //
-//   cycles = sign p int helicity (1 - chi dl^2) shape dt
+//   cycles = sign p int helicity (1 - chi dl^2 - h(dl)) shape dt,   h = sum of h_k dl^(2 k + 4)
 //
 // The reversal is a trapezoid through zero, centred on the border of two halves: each end of a half loses the area
 // t_e/4 of the plateau, weighted with the detuning that the end has.
@@ -16,6 +16,9 @@ namespace zlg::twin {
 
 class BiasArea {
 public:
+    // higher  h_k; it outlives this.
+    explicit BiasArea(std::span<const double> higher = {}) : higher_{higher} {}
+
     // A stretch of time over which the detuning is smooth: its start, middle and end.
     // return  false when the light was not two-way, or changed its mode, within the stretch: no count can be trusted.
     bool add(const Mode& start, const Mode& middle, const Mode& end, double duration_s) {
@@ -28,6 +31,7 @@ public:
         helicity_s_ += signed_s;
         shaped_s_ += signed_s;
         shaped_square_ += signed_s * simpson;
+        shaped_higher_ += signed_s * (of_higher(start) + 4.0 * of_higher(middle) + of_higher(end)) / 6.0;
         return true;
     }
 
@@ -39,7 +43,17 @@ public:
         lit_s_ += duration_s;
         helicity_s_ += signed_s;
         shaped_s_ += signed_s;
-        shaped_square_ += signed_s * mean_square(length_lambda, 0.5 * static_cast<double>(mode.centre_half_lambda));
+        const double centre_lambda = 0.5 * static_cast<double>(mode.centre_half_lambda);
+        shaped_square_ += signed_s * mean_square(length_lambda, centre_lambda);
+        if (higher_.empty()) return;
+        const double third_s = signed_s / (3.0 * static_cast<double>(length_lambda.size() - 1));
+        for (std::size_t k = 0; k < length_lambda.size(); ++k) {
+            const bool is_end = k == 0 || k + 1 == length_lambda.size();
+            shaped_higher_ += (is_end       ? 1.0
+                               : k % 2 == 0 ? 2.0
+                                            : 4.0) *
+                              third_s * of_higher(length_lambda[k] - centre_lambda);
+        }
     }
 
     // Take away what a reversal at this end of the half costs.
@@ -48,12 +62,14 @@ public:
         const double lost_s = 0.25 * edge_s * mode.helicity();
         shaped_s_ -= lost_s;
         shaped_square_ -= lost_s * square(mode);
+        shaped_higher_ -= lost_s * of_higher(mode);
     }
 
     [[nodiscard]] double lit_s() const { return lit_s_; }
     [[nodiscard]] double helicity_s() const { return helicity_s_; }        // int helicity dt
     [[nodiscard]] double shaped_s() const { return shaped_s_; }            // int helicity shape dt
     [[nodiscard]] double shaped_square() const { return shaped_square_; }  // int helicity dl^2 shape dt
+    [[nodiscard]] double shaped_higher() const { return shaped_higher_; }  // int helicity h shape dt
 
 private:
     // Simpson's rule: the ends of the pieces with 2, their middles with 4, the outer ends with 1, over 6 for each
@@ -78,6 +94,15 @@ private:
 
     static double square(const Mode& mode) { return mode.detuning_lambda * mode.detuning_lambda; }
 
+    [[nodiscard]] double of_higher(double dl) const {
+        double sum = 0.0;
+        for (std::size_t k = higher_.size(); k > 0; --k) sum = dl * dl * (higher_[k - 1] + sum);
+        return dl * dl * sum;
+    }
+    [[nodiscard]] double of_higher(const Mode& mode) const { return of_higher(mode.detuning_lambda); }
+
+    std::span<const double> higher_;
+    double shaped_higher_ = 0.0;
     double lit_s_ = 0.0;
     double helicity_s_ = 0.0;
     double shaped_s_ = 0.0;

@@ -22,7 +22,7 @@ TEST(CompensationConstants, CheckAcceptsTheDefaultsAndTheEdges) {
     EXPECT_EQ(check(Constants{}), Fault::none);
     EXPECT_EQ(check(Constants{.random_walk = ArcsecPerRootSecond{0.0},
                               .bias = Hertz{1e12},
-                              .chi = 0.0,
+                              .chi = -1e6,
                               .temperature_coefficient_per_c = -1.0,
                               .light_noise = Wavelengths{0.0},
                               .light_samples = 1}),
@@ -37,7 +37,9 @@ TEST(CompensationConstants, CheckNamesTheFirstBadField) {
     expect_fault(Fault::random_walk, [](auto& g, double x) { g.random_walk = ArcsecPerRootSecond{x}; },
                  {-0.1, 1.1e6, nan, inf});
     expect_fault(Fault::relock, [](auto& g, double x) { g.bias = Hertz{x}; }, {0.0, -60e3, 1e300, nan, inf});
-    expect_fault(Fault::relock, [](auto& g, double x) { g.chi = x; }, {-0.1, 1.1e6, nan, inf});
+    expect_fault(Fault::relock, [](auto& g, double x) { g.chi = x; }, {-1.1e6, 1.1e6, nan, inf});
+    for (std::size_t k = 0; k < 3; ++k)
+        expect_fault(Fault::relock, [k](auto& g, double x) { g.bend.term[k] = x; }, {-1.1e15, 1.1e15, nan, inf});
     expect_fault(Fault::relock, [](auto& g, double x) { g.temperature_coefficient_per_c = x; },
                  {-1.1, 1.1, nan, inf, -inf});
     expect_fault(Fault::relock, [](auto& g, double x) { g.reference_temperature = Celsius{x}; },
@@ -71,6 +73,19 @@ TEST(CompensationConstants, TheBiasFollowsTheTemperature) {
     EXPECT_NEAR(bias_at(gyro, Celsius{35.0}).value(), 60e3 * 0.999, 1e-9);
     for (const double none : {not_a_number, infinite, -1.1e6, 1.7e308})
         EXPECT_EQ(bias_at(gyro, Celsius{none}).value(), 60e3) << none;
+}
+
+// Two groups at 0.15 +- 0.05 with noise of 0.01 and a centre of 0.02: b x^4 is the mean of b 0.18^4 and b 0.08^4.
+TEST(CompensationConstants, TermsBeyondTheSquareAreMeansOverTwoGroups) {
+    const double mean_sq = 0.5 * (0.2 * 0.2 + 0.1 * 0.1) + 0.01 * 0.01;
+    for (unsigned k = 0; k < 3; ++k) {
+        Constants g{.centre = Wavelengths{0.02}, .light_noise = Wavelengths{0.01}};
+        g.bend.term[k] = -7.0;
+        const double expected = -3.5 * (std::pow(0.18, 4 + 2 * k) + std::pow(0.08, 4 + 2 * k));
+        EXPECT_NEAR(beyond_square(g, {.mean_lambda = 0.15, .mean_sq_lambda2 = mean_sq}), expected, 1e-15);
+        EXPECT_DOUBLE_EQ(most_over_square(g.bend, 0.04), 1.0 + 7.0 * std::pow(0.04, 1 + k));
+    }
+    EXPECT_EQ(beyond_square(Constants{}, {.mean_lambda = 0.1, .mean_sq_lambda2 = 0.02}), 0.0);
 }
 
 }  // namespace zlg::core::compensation_constants_test

@@ -119,7 +119,8 @@ bool LightFit::solve(const LightSums& sums, double smoothing, double* reciprocal
     return true;
 }
 
-LightFit::LightFit(const LightSums& sums, double light_sd_lambda) noexcept : basis_{sums.basis} {
+LightFit::LightFit(const LightSums& sums, double light_sd_lambda, const LossBend& bend) noexcept
+    : bend_{bend}, basis_{sums.basis} {
     const int n = basis_.n_terms;
     std::array<double, most_light_terms> reciprocal{};
     const auto left_over = [&] { return sums.sum_sq - dot(term_.data(), term_.data(), n); };
@@ -160,11 +161,27 @@ LightHalf LightFit::half(int h) const noexcept {
         for (int b = 0; b < 4; ++b)
             half.slope[static_cast<unsigned>(a)] +=
                 half.product[static_cast<unsigned>(entry(a, b))] * term_[static_cast<unsigned>(half.first + b)];
+    for (int k = 0; k < 4 && bend_ != LossBend{}; ++k) bend(values_at(span, h + gauss_point[k]), gauss_weight[k], half);
     return half;
 }
 
+void LightFit::bend(const std::array<double, 4>& value, double weight, LightHalf& half) const noexcept {
+    double x = 0.0;
+    for (unsigned a = 0; a < 4; ++a) x += value[a] * term_[static_cast<unsigned>(half.first) + a];
+    const double sq = square(x);
+    const auto& [b0, b1, b2] = bend_.term;
+    const double slope = x * (slope_over_square(bend_, sq) - 1.0);
+    const double curvature = sq * (6.0 * b0 + sq * (15.0 * b1 + sq * 28.0 * b2));
+    half.beyond += weight * (beyond_square(bend_, sq) - x * slope);
+    unsigned i = 0;
+    for (unsigned a = 0; a < 4; ++a) {
+        half.slope[a] += weight * slope * value[a];
+        for (unsigned b = 0; b <= a; ++b) half.product[i++] += weight * curvature * value[a] * value[b];
+    }
+}
+
 double LightFit::angle(const LightHalf& half) const noexcept {
-    double sum = 0.0;
+    double sum = half.beyond;
     for (int a = 0; a < 4; ++a) {
         sum += half.slope[static_cast<unsigned>(a)] * term_[static_cast<unsigned>(half.first + a)];
         for (int b = 0; b < 4; ++b)

@@ -79,6 +79,7 @@ double alternation(const SwitchWindow& window, const WindowRow& row) noexcept {
 LightHalf signed_by(int sign, LightHalf half) noexcept {
     for (double& x : half.product) x *= sign;
     for (double& x : half.slope) x *= sign;
+    half.beyond *= sign;
     return half;
 }
 
@@ -148,7 +149,7 @@ ReadingErrors::ReadingErrors(const CompensationConstants& gyro, const SwitchWind
     : window_{window},
       scale_{scale},
       readings_{readings},
-      light_{window.light, gyro.light_noise.value()},
+      light_{window.light, gyro.light_noise.value(), gyro.bend},
       halves_{halves},
       unit_arcsec_{gyro.chi * bias_per_half_arcsec(gyro)},
       bias_arcsec2_{square(bias_error * bias_per_half_arcsec(gyro)) + window.bias_variance_arcsec2} {

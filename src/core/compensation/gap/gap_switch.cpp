@@ -149,7 +149,7 @@ private:
         if (!half.lit) return;
         // Of the recorded mean square D = unit m: the law, and 2 dl times the error of the detuning.
         const double unit = arcsec_per_lambda2(gyro_, gyro_.bias);
-        const double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * unit * size(d);
+        const double common = square(law_error_ratio * d) + 4.0 * square(reading_error_lambda) * size(unit) * size(d);
         row.common_arcsec = d < 0.0 ? -square_root(common) : square_root(common);
     }
 

@@ -47,7 +47,7 @@ void learn_until(const GapBridgeConfig& config, GapBridgeState& state, std::uint
 void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
     if (job.plan.n_late == 0) return;
     const SwitchWindow& window = job.plan.window;
-    const LightFit fit{window.light, gyro.light_noise.value()};
+    const LightFit fit{window.light, gyro.light_noise.value(), gyro.bend};
     if (!fit.is_known()) job.plan.n_late = 0;
     const double unit = arcsec_per_lambda2(gyro, gyro.bias);
     int h = window.n_halves - window.light_start;

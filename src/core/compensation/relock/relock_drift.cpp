@@ -48,9 +48,11 @@ FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t) n
     // Mean of n squares (dl + e)^2: variance (4 dl^2 s^2 + 2 s^4)/n; the measured mean holds dl^2 + s^2.
     const double s2 = square(g.light_noise.value()) * 0.5 * (noise_gain(g, first_seen) + noise_gain(g, second_seen));
     const double above = first + second - 2.0 * s2;
-    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 4.0 * s2 * s2) / g.light_samples;
+    const double steepness = square(slope_over_square(g.bend, above > 0.0 ? above : 0.0));
+    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 * steepness + 4.0 * s2 * s2) / g.light_samples;
     const double unit = sign_of(t) * arcsec_per_lambda2(g, bias_of(g, t));
-    return false_angle(unit * (second - first), square(unit) * variance);
+    const double bent = beyond_square(g, second_seen) - beyond_square(g, first_seen);
+    return false_angle(unit * (second - first + bent), square(unit) * variance);
 }
 
 FalseAngle by_detuning(const CompensationConstants& g, const RelockTick& t) noexcept {
@@ -66,7 +68,8 @@ FalseAngle by_detuning(const CompensationConstants& g, const RelockTick& t) noex
     const double by_second = second_seen.slope * (sum * (2.0 * log_rho + sum / second) - centre);
     const double s2 = square(g.light_noise.value()) / g.light_samples;
     const double unit = 0.5 * sign_of(t) * arcsec_per_lambda2(g, bias_of(g, t));
-    return false_angle(unit * (log_rho * sum * sum - centre * (second - first)),
+    const double bent = beyond_square(g, second_seen) - beyond_square(g, first_seen);
+    return false_angle(unit * (log_rho * sum * sum - centre * (second - first) + 2.0 * bent),
                        square(unit) * (square(by_first) + square(by_second)) * s2);
 }
 
@@ -86,7 +89,8 @@ double seen_lambda2(const CompensationConstants& g, const RelockTick& t) noexcep
 double most_arcsec(const CompensationConstants& g, const RelockDriftState& s, const RelockTick& t) noexcept {
     const double seen = seen_lambda2(g, t);
     const double presumed = 0.5 * square(max_detuning.value()) / (2.0 * as_double(s.since_gap) - 1.0);
-    return arcsec_per_lambda2(g, bias_of(g, t)) * (seen >= 0.0 ? seen : presumed);
+    const double lambda2 = seen >= 0.0 ? seen : presumed;
+    return size(arcsec_per_lambda2(g, bias_of(g, t))) * most_over_square(g.bend, lambda2) * lambda2;
 }
 
 FalseAngle or_missing(FalseAngle found, double most_arcsec) noexcept {

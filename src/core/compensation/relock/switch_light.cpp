@@ -123,9 +123,10 @@ RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfReco
     if (!(from_centre >= 0.0 && from_centre < square(max_detuning_lambda))) return {};
     const double s2 = noise_sq * noise_gain(gyro, seen);
     const double above = from_centre - s2;
-    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 + 2.0 * s2 * s2) / gyro.light_samples;
+    const double steepness = square(slope_over_square(gyro.bend, above > 0.0 ? above : 0.0));
+    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 * steepness + 2.0 * s2 * s2) / gyro.light_samples;
     if (!is_finite(variance)) return {};
-    return {.known = true, .mean_sq_lambda2 = above, .variance_lambda4 = variance};
+    return {.known = true, .mean_sq_lambda2 = above + beyond_square(gyro, seen), .variance_lambda4 = variance};
 }
 
 }  // namespace zlg::core

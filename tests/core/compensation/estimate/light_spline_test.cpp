@@ -57,6 +57,41 @@ TEST(LightSpline, AParabolicCourseGivesItsMeanSquareInEveryHalf) {
     }
 }
 
+// Integrals by brute force; what the noise adds is taken off to second order, and the covariance is that of the trials.
+TEST(LightSpline, TermsBeyondTheSquareAreIntegratedOverTheCourse) {
+    const LossBend bend{{-60.0, 900.0, -2000.0}};
+    const auto course = [](double t) { return 0.2 - 0.03 * t + 0.0006 * t * t; };
+    const LightFit fit{sums_of(40, 16, course), 0.0, bend};
+    for (int h = 0; h < 40; ++h) {
+        double loss = 0.0;
+        for (int k = 0; k < 1000; ++k) {
+            const double u = std::pow(course(h + (k + 0.5) / 1000.0), 2);
+            loss += (u - 60.0 * u * u + 900.0 * u * u * u - 2000.0 * u * u * u * u) / 1000.0;
+        }
+        EXPECT_NEAR(fit.angle(fit.half(h)), loss, 1e-7) << h;
+    }
+}
+
+TEST(LightSpline, TheNoiseOfALossBeyondTheSquareIsThatOfTrials) {
+    Random random{5};
+    const LossBend bend{{-60.0, 900.0, -2000.0}};
+    const auto course = [](double t) { return 0.2 * std::exp(-t / 6.0); };
+    constexpr double noise = 0.003;
+    constexpr int trials = 400;
+    const LightFit exact{sums_of(40, 16, course), 1e-9, bend};
+    double sum = 0.0, sum_sq = 0.0, claimed = 0.0;
+    for (int k = 0; k < trials; ++k) {
+        const LightFit fit{sums_of(40, 16, [&](double t) { return course(t) + noise * random.normal(); }), noise, bend};
+        const LightHalf half = fit.half(1);
+        const double off = fit.angle(half) - exact.angle(exact.half(1));
+        sum += off / trials;
+        sum_sq += off * off / trials;
+        claimed += fit.covariance(half, half) / trials;
+    }
+    EXPECT_NEAR(sum, 0.0, 4.0 * std::sqrt(sum_sq / trials));
+    EXPECT_NEAR(sum_sq / claimed, 1.0, 0.3);
+}
+
 TEST(LightSpline, TheNoiseOfTheLightAddsNothingOnTheMeanAndScattersAsItSays) {
     Random random{4};
     const auto course = [](double t) { return 0.22 * std::exp(-t / 5.0); };

@@ -64,6 +64,24 @@ double corrected_arcsec(const Configured& config, RelockDriftState& state, const
     return next.first.value_arcsec;
 }
 
+// chi (x^2 + b x^4), either sign of either: means over halves of a loop that hardly moves within one.
+TEST(RelockDrift, TermsBeyondTheSquareAddTheFallOfTheirMeans) {
+    const ExponentialLoop slow{.tau_ticks = 60.0};
+    for (const double chi : {3.6, -0.4})
+        for (const double b : {-20.0, 30.0}) {
+            Configured setup = fine(RelockMethod::mean_square);
+            setup.gyro.chi = chi;
+            setup.gyro.bend.term[0] = b;
+            setup.gyro.light_noise = Wavelengths{0.0};
+            RelockDriftState state;
+            enter_gap(state);
+            const auto fall = [&](int power) { return slow.mean(power, 0.5) - slow.mean(power, 0.0); };
+            const double expected = 0.5 * chi * setup.gyro.bias.value() * setup.gyro.scale.value() *
+                                    setup.gyro.tick.value() * (fall(2) + b * fall(4));
+            EXPECT_NEAR(corrected_arcsec(setup, state, slow, 1, 1) / expected, 1.0, 1e-4) << chi << ' ' << b;
+        }
+}
+
 // The bias lacks chi (dl - c)^2 of itself: what the centre adds is linear in the mean.
 TEST(RelockDrift, ACentreOfTheBiasMovesTheFalseAngleByTheMeans) {
     for (const RelockMethod method : {RelockMethod::detuning, RelockMethod::mean_square})

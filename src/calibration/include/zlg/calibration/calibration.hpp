@@ -40,6 +40,7 @@ struct Goodness {
 
 struct Calibration {
     std::vector<Constant> constants;
+    std::vector<double> chi_higher = {};  // gyro.bias_chi_higher, with its bias_chi
     std::vector<Goodness> goodness;
     LossCurve curve;  // where it is determined, bias_chi and detuning_scale are found from logs that it has corrected
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <zlg/calibration/angle_scatter.hpp>
+#include <zlg/core/compensation/border.hpp>
 #include <zlg/core/records.hpp>
 
 namespace zlg::calibration {
@@ -57,6 +58,7 @@ struct Segment {
 struct Relock {
     std::int64_t segment = 0;
     std::vector<core::HalfRecord> halves;
+    core::Border before = {};  // at the start of the first of them
 };
 
 // All halves to be kept are there, with a number in this column.

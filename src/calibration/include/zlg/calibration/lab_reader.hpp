@@ -37,6 +37,7 @@ private:
     bool gap_before_ = false;
     bool has_first_ = false;
     core::HalfRecord first_;
+    core::Border gap_end_;
     double last_piezo_v_ = std::numeric_limits<double>::quiet_NaN();
     std::vector<core::HalfRecord> recent_;  // the last settled window and what steered, a ring
     std::size_t oldest_ = 0;

@@ -7,6 +7,7 @@
 // Every apply function either takes in its whole text or leaves the configuration as it was.
 
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -95,6 +96,9 @@ void check_compensation(const Config& config);
 //
 // errors  std::invalid_argument: there is no such key.
 [[nodiscard]] bool is_given(const Config& config, std::string_view dotted_key);
+
+// Those of these keys that are set and that no layer has given, as `key = value` with commas between.
+[[nodiscard]] std::string not_given(const Config& config, std::span<const std::string_view> dotted_keys);
 
 [[nodiscard]] bool is_known_section(std::string_view name);
 

@@ -14,7 +14,8 @@ namespace zlg::recorded {
 struct LogCompensation {
     config::Config config;  // as it was given, with compensation.relock decided
     core::GyroCompensationConfig compensation;
-    bool lacks_detuning = false;        // for that reason alone nothing is subtracted after a closing
+    std::string presumed;         // one line: constants that neither log nor configuration gives; empty: none is used
+    bool lacks_detuning = false;  // for that reason alone nothing is subtracted after a closing
     std::vector<std::string> notes;     // what is done in place of what was asked or logged, a line each
     std::vector<std::string> warnings;  // what was asked and is not done
 };

@@ -4,6 +4,8 @@
 // The configuration has these structs as its sections, or derives from them to add what only the processor needs to
 // know; the table of keys holds the range of each. The defaults are the gyro of the paper.
 
+#include <vector>
+
 namespace zlg::twin {
 
 enum class Fidelity {
@@ -31,7 +33,8 @@ struct GyroConfig {
     double scale_arcsec = 3.263;  // per count
     double bias_hz = 60e3;        // mean over a half, edges included, at zero detuning and reference temperature
     double bias_chi = 3.6;        // eq (2)
-    double bias_edge_s = 50e-6;   // duration of a reversal, trapezoid centred on the half's border
+    std::vector<double> bias_chi_higher = {};  // loss by dl^4, dl^6, dl^8
+    double bias_edge_s = 50e-6;                // duration of a reversal, trapezoid centred on the half's border
     int first_bias_sign = 1;
     double reference_temperature_c = 20.0;
     double temperature_rise_c = 20.0;  // T(t) = reference + rise (1 - exp(-t/drift.thermal_time_s))

@@ -2,17 +2,34 @@
 // What compensation presumes of the gyro and of its record: each constant that more than one module needs, and the laws
 // of the bias and of the light with it.
 
+#include <array>
+
 #include <zlg/core/common/discriminator_curve.hpp>
 #include <zlg/core/units.hpp>
 
 namespace zlg::core {
+
+// The loss of the bias beyond its square: f = f0 (1 - chi (x^2 + b_0 x^4 + b_1 x^6 + b_2 x^8)), x = dl - centre.
+// Without terms the parabola.
+struct LossBend {
+    std::array<double, 3> term{};
+
+    friend constexpr bool operator==(const LossBend&, const LossBend&) = default;
+};
+
+// What is added to x^2, of which `sq` is; the same over x^2 at its most, whatever the signs, for what is 1 of x^2.
+[[nodiscard]] double beyond_square(const LossBend& bend, double sq_lambda2) noexcept;
+[[nodiscard]] double most_over_square(const LossBend& bend, double sq_lambda2) noexcept;
+// Its slope, over that of the square.
+[[nodiscard]] double slope_over_square(const LossBend& bend, double sq_lambda2) noexcept;
 
 struct CompensationConstants {
     Seconds tick{0.005};                         // T, 1e-9..1e9
     Arcsec scale{3.263};                         // K, per count, 1e-9..1e9
     ArcsecPerRootSecond random_walk{0.14};       // of the angle, 0..1e6
     Hertz bias{60e3};                            // f0 at the reference temperature, > 0, up to 1e15
-    double chi = 3.6;                            // 0..1e6
+    double chi = 3.6;                            // +-1e6
+    LossBend bend{};                             // each +-1e15
     double temperature_coefficient_per_c = 0.0;  // of the bias, +-1
     Celsius reference_temperature{20.0};         // +-1e6
     Wavelengths centre{0.0};                     // detuning of the largest bias, +-1
@@ -63,6 +80,9 @@ enum class GyroCompensationFault : unsigned char {
 [[nodiscard]] constexpr double arcsec_per_lambda2(const CompensationConstants& gyro, Hertz bias) noexcept {
     return 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
 }
+
+// Mean of b_0 x^4 + ... over a half whose motion is that of two equal groups of samples (discriminator_curve.hpp).
+[[nodiscard]] double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
 
 // f0 at a temperature; one beyond +-1e6 is none, like NaN: at the reference temperature.
 [[nodiscard]] Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept;

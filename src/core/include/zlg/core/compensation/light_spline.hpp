@@ -6,6 +6,9 @@
 //   d_h = k (c^T Q_h c - tr(Q_h cov c)),   Q_h = integral of B B^T over half h,   k = chi f0 K T/2           (2)
 //   cov(d_h, d_g) = 4 k^2 (Q_h c)^T cov c (Q_g c) + 2 k^2 tr(Q_h cov c Q_g cov c)                            (3)
 //
+// Where the loss has terms beyond the square, L (LossBend), the integral of L(dl) stands for c^T Q_h c, that of L'(dl)
+// B/2 for Q_h c and that of L''(dl) B B^T/2 for Q_h: to second order in the error of c.
+//
 // x are the samples, A the basis at their times, s^2 their variance: that of the residuals of the knots alone (g = 0)
 // where it is larger than the configured one. c^T P c is the integral of (1 + t)^3 times the square of the third
 // derivative, t in half-periods: the longer a loop has been closed the slower it moves. It is taken as white noise: g
@@ -22,6 +25,7 @@
 #include <span>
 
 #include <zlg/core/common/triangle.hpp>
+#include <zlg/core/compensation/compensation_constants.hpp>
 
 namespace zlg::core {
 
@@ -66,23 +70,24 @@ struct LightSums {
 // The samples of half h, wavelengths, equally spaced over it.
 void add(LightSums& sums, int h, std::span<const double> detuning_lambda) noexcept;
 
-// A half, as (2) and (3) need it: Q_h of the four terms from `first` on, and Q_h c.
+// A half, as (2) and (3) need it: Q_h of the four terms from `first` on, Q_h c, and c^T Q_h c less what that makes.
 struct LightHalf {
     int first;
     std::array<double, 10> product;  // lower triangle
     std::array<double, 4> slope;
+    double beyond;
 };
 
 // The fit (1), in units of k: false angles over k.
 class LightFit {
 public:
     // light_sd_lambda  configured noise of one sample.
-    LightFit(const LightSums& sums, double light_sd_lambda) noexcept;
+    LightFit(const LightSums& sums, double light_sd_lambda, const LossBend& bend = {}) noexcept;
 
     // False where there is no sample.
     [[nodiscard]] bool is_known() const noexcept { return known_; }
     [[nodiscard]] LightHalf half(int h) const noexcept;
-    // (2), without the sign of the bias.
+    // (2), with the sign of the half.
     [[nodiscard]] double angle(const LightHalf& half) const noexcept;
     // (3).
     [[nodiscard]] double covariance(const LightHalf& one, const LightHalf& other) const noexcept;
@@ -91,7 +96,11 @@ private:
     // A^T A + g P in its factor, L^-1 A^T x in `term_`; false where it has none.
     bool solve(const LightSums& sums, double smoothing, double* reciprocal) noexcept;
 
+    // Adds the terms of L beyond the square at a point of weight `weight` where four terms have this value.
+    void bend(const std::array<double, 4>& value, double weight, LightHalf& half) const noexcept;
+
     bool known_ = false;
+    LossBend bend_{};
     LightBasis basis_{};
     std::array<double, most_light_terms> term_{};                       // c
     std::array<double, triangle_size(most_light_terms)> covariance_{};  // cov c

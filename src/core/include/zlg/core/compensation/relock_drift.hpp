@@ -10,9 +10,10 @@
 // detuning     dOm = (chi f0 / 4) ln(rho) (dl_first + dl_second)^2,  rho = dl_second / dl_first  (mean detunings)
 // mean_square  the definition itself, without a model of the loop
 //
-// Where the bias is largest at a detuning c from where the loop settles, the square is that of dl - c, and `detuning`
-// has - chi f0 c (dl_second - dl_first) more. The first two assume an exponential loop, eqs (10)-(13) of the paper with
-// its misprints corrected (docs/compensation.md).
+// The loss may have terms beyond the square (LossBend): `mean_square` and `detuning` take them by the moments of the
+// halves. Where the bias is largest at a detuning c from where the loop settles, the square is that of dl - c, and
+// `detuning` has - chi f0 c (dl_second - dl_first) more. The first two assume an exponential loop, eqs (10)-(13) of the
+// paper with its misprints corrected (docs/compensation.md).
 
 #include <cstdint>
 

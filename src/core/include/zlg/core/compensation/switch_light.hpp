@@ -62,7 +62,7 @@ inline constexpr double max_detuning_lambda = 1e3;
 // Mean square of a half and its variance, from the record.
 struct RecordedSquare {
     bool known = false;
-    double mean_sq_lambda2 = 0.0;  // without that of the noise
+    double mean_sq_lambda2 = 0.0;  // without that of the noise; with what the loss of the bias has beyond it
     double variance_lambda4 = 0.0;
 };
 
