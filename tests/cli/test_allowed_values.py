@@ -5,7 +5,6 @@ ZLG_DRAWS: values a key and verb; without it each key is tried with one verb."""
 import math
 import os
 import re
-import unittest
 
 from support import CliTest, csv_text, quiet_log, run
 
@@ -104,7 +103,3 @@ class AllowedValues(CliTest):
     def test_process(self):
         log = self.write("log.csv", csv_text(quiet_log(gap=range(20, 23)), lines=["gyro.tick_s = 0.005", "gyro.scale_arcsec = 3.263"]))
         self.draw(3, "process", log, "--out", self.folder / "a.csv", "--force")
-
-
-if __name__ == "__main__":
-    unittest.main()

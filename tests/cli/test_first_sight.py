@@ -5,7 +5,6 @@ import os
 import pty
 import re
 import subprocess
-import unittest
 
 from support import ZLG, CliTest
 
@@ -128,7 +127,3 @@ class ForeignFiles(CliTest):
         for content, nature, advice in cases:
             with self.subTest(nature):
                 self.refuse(3, "inspect", self.write("file", content), says=[nature, advice])
-
-
-if __name__ == "__main__":
-    unittest.main()

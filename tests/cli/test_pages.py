@@ -3,12 +3,10 @@
 import html
 import json
 import re
-import tempfile
 import unittest
-from pathlib import Path
 from xml.etree import ElementTree
 
-from support import run
+from support import folder_until, run
 
 FAULT = ["--set", 'faults.kind=["laser_off"]', "--set", "faults.at_s=[3]", "--set", "faults.duration_s=[0.5]", "--set", "faults.size=[0]"]
 
@@ -20,9 +18,7 @@ def verdict(page):
 class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="zlg-pages-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
+        cls.folder = folder_until(cls.addClassCleanup)
         cls.made = {}
         for name, arguments in {"short": ["--duration", "1"], "calm": ["--duration", "8"], "fault": ["--duration", "8", *FAULT],
                                 "switched": ["--duration", "12", "--seed", "5", "--set", "switching.interval_s=3"],
@@ -91,7 +87,3 @@ class Pages(unittest.TestCase):
         self.assertIn("seed 5", page)
         self.assertRegex(page, r"zlg \d+\.\d+\.\d+")
         self.assertEqual((self.folder / "again" / "report.html").read_text(), page)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -9,7 +9,6 @@ import signal
 import socket
 import subprocess
 import time
-import unittest
 
 import h5py
 import numpy
@@ -403,7 +402,3 @@ class BadInput(SweepTest):
         path = self.description(name="sweep.h5")
         self.refused(2, path, "--out", path, "--force", says="sweep.h5")
         self.assertEqual(path.read_text(), SWEEP)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 """What a reader in haste meets, or one who has not followed the story: nothing is lost, nothing wrong is shown."""
 
 import re
-import unittest
 from urllib.parse import unquote
 
 from lab_browser import LivingPageCase, PageCase
@@ -293,7 +292,3 @@ class BrokenLinks(PageCase):
         self.browser.wait_until(lambda: "magnetic" in self.browser.marked("message"))
         self.browser.value(CHANGE.format("run.seed", "7"))
         self.browser.wait_for_state("running")
-
-
-if __name__ == "__main__":
-    unittest.main()

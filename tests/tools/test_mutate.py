@@ -215,7 +215,3 @@ class Lists(unittest.TestCase):
         self.assertEqual(mutate.known_survivors() - every, set())
         lines = mutate.SURVIVORS.read_text(encoding="utf-8").splitlines()
         self.assertEqual(lines, sorted(set(lines)))
-
-
-if __name__ == "__main__":
-    unittest.main()
