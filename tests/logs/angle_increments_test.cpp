@@ -1,12 +1,10 @@
 #include <zlg/logs/angle_increments.hpp>
 
-#include <gtest/gtest.h>
-
-#include <vector>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;

@@ -1,13 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
-#include <fstream>
-#include <string>
 #include <zlg/logs/byte_source.hpp>
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

@@ -1,15 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <fstream>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 namespace {
 

@@ -1,9 +1,8 @@
 #include <zlg/logs/foreign_table.hpp>
 
-#include <gtest/gtest.h>
-
 #include "foreign/units.hpp"
 #include "temporary_folder.hpp"
+#include "test.hpp"
 #include "text_table/dates.hpp"
 
 namespace zlg::logs {

@@ -1,5 +1,4 @@
 // Claims about an HDF5 log while it grows: it can be followed, its writer can be killed, the disk can be full.
-#include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/mount.h>
 #include <sys/prctl.h>
@@ -7,26 +6,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <chrono>
-#include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <random>
-#include <thread>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;
 using namespace std::chrono_literals;
-using zlg::core::AngleRow;
 using zlg::core::HalfRecord;
 namespace fs = std::filesystem;
 
@@ -222,33 +212,6 @@ TEST(GrowingLog, everything_flushed_survives_60_kills_at_random_moments) {
         kills_with_rows += flushed.get() > 0 ? 1 : 0;
     }
     EXPECT_GE(kills_with_rows, 30) << "half of the kills must meet a writer at work";
-}
-
-TEST(GrowingLog, angles_flushed_survive_a_kill) {
-    for (int kill = 0; kill < 5; ++kill) {
-        const TemporaryFolder folder;
-        SharedCount flushed;
-        const pid_t child = in_a_child([&] {
-            AngleWriter writer{folder.file("a.h5"), 0.005, {}, false, {.has_truth = true, .keep_part = true}};
-            for (std::int64_t tick = 0;; ++tick) {
-                writer.write({.tick = tick, .dtheta_arcsec = 0.5 * static_cast<double>(tick)},
-                             static_cast<double>(tick));
-                if (tick % 1000 != 999) continue;
-                writer.flush();
-                flushed.set(tick + 1);
-            }
-        });
-        while (flushed.get() < 3000) std::this_thread::sleep_for(1ms);
-        kill_and_wait(child);
-        AngleReader reader{folder.file("a.h5.part")};
-        std::int64_t tick = 0;
-        for (TimedAngle angle; reader.next(angle); ++tick) {
-            ASSERT_EQ(angle.row.dtheta_arcsec, 0.5 * static_cast<double>(tick));
-            ASSERT_EQ(angle.truth_dtheta_arcsec, static_cast<double>(tick));
-        }
-        EXPECT_GE(tick, flushed.get());
-        EXPECT_FALSE(reader.header().complete);
-    }
 }
 
 // The writer is never more than ten flushes ahead of its reader, so that both are at work together on any machine.

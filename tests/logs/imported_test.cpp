@@ -1,10 +1,7 @@
 #include <zlg/logs/imported.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

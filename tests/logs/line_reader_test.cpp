@@ -1,10 +1,9 @@
 #include "csv/line_reader.hpp"
 
-#include <gtest/gtest.h>
-
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

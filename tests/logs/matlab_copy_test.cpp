@@ -1,13 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/foreign_table.hpp>
 #include <zlg/logs/matlab_copy.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

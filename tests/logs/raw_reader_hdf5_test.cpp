@@ -1,9 +1,5 @@
 // What the reader says of HDF5 logs that others have written, good and bad ones.
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 

@@ -1,10 +1,9 @@
 #pragma once
 // All rows of a raw log.
 
-#include <string>
-#include <vector>
-
 #include <zlg/logs/raw_log.hpp>
+
+#include "test.hpp"
 
 namespace zlg::test {
 

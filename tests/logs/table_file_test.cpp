@@ -1,15 +1,13 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
-#include <filesystem>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/table_file.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;

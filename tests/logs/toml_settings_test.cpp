@@ -1,10 +1,9 @@
 #include "toml_settings.hpp"
 
-#include <gtest/gtest.h>
-
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;

@@ -1,19 +1,12 @@
-#include <gtest/gtest.h>
-
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <string>
-#include <thread>
-#include <vector>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
 
 #include "temporary_folder.hpp"
+#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

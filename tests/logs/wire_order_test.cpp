@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
 #include <zlg/logs/wire_order.hpp>
 #include <zlg/logs/wire_rows.hpp>
 

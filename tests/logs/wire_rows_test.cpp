@@ -1,10 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <vector>
 #include <zlg/logs/wire_rows.hpp>
 #include <zlg/wire/cobs.hpp>
 #include <zlg/wire/crc.hpp>
@@ -185,24 +178,6 @@ TEST(WireRows, AfterARestartTheLogGoesOn) {
     }
 }
 
-TEST(WireRows, FramesThatALineRepeatsAreTakenOnce) {
-    // 300 ticks; from the 280th on, each stretch of three comes twice.
-    Gyro gyro;
-    WireRows rows;
-    std::vector<Bytes> last;
-    for (int k = 0; k < 300; ++k) {
-        last.push_back(gyro.tick());
-        rows.take(last.back());
-        if (k < 280 || k % 3 != 0) continue;
-        for (std::size_t back = 3; back > 0; --back) rows.take(last[last.size() - back]);
-    }
-    rows.take(gyro.drain());
-    rows.end();
-    EXPECT_EQ(rows_of(rows), gyro.rows);
-    EXPECT_EQ(rows.summary().n_restarts, 0u);
-    EXPECT_EQ(rows.summary().n_repeated, 6u * 3u);  // after ticks 282, 285 .. 297
-}
-
 TEST(WireRows, ASessionThatIsFartherThanTheLastOneIsARestartToo) {
     Gyro first;
     Gyro second{2, 100};
@@ -275,20 +250,6 @@ TEST(WireRows, ARowThatIsThereAlreadyIsNotTakenAgain) {
     t.settled_age_ticks = 7;
     rows.take(frame_of(sender, t).view());
     EXPECT_EQ(rows_of(rows).size(), 1u);
-}
-
-TEST(WireRows, AMessageThatComesAgainIsNotTaken) {
-    Gyro gyro;
-    WireRows rows;
-    for (int k = 0; k < 30; ++k) {
-        const Bytes bytes = gyro.tick();
-        rows.take(bytes);
-        rows.take(bytes);
-    }
-    rows.take(gyro.drain());
-    rows.end();
-    EXPECT_EQ(rows_of(rows), gyro.rows);
-    EXPECT_EQ(rows.summary().n_repeated, 30u);
 }
 
 TEST(WireRows, CommandsOnTheSameLineAreNotTheGyros) {
