@@ -1,13 +1,9 @@
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 #include <zlg/wire/angle_register.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

@@ -1,13 +1,10 @@
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <cstdint>
-#include <map>
-#include <random>
-#include <vector>
 #include <zlg/wire/crc.hpp>
 #include <zlg/wire/frame.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {
