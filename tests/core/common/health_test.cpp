@@ -1,8 +1,7 @@
 #include <zlg/core/health.hpp>
 
-#include <set>
-
 #include "support.hpp"
+#include "test.hpp"
 
 namespace zlg::core::health_test {
 

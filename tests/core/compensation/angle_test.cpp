@@ -1,9 +1,9 @@
 #include <zlg/core/compensation/angle.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "compensation_support.hpp"
+#include "test.hpp"
 
 namespace zlg::core::angle_test {
 

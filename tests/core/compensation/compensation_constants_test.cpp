@@ -1,8 +1,7 @@
 #include <zlg/core/compensation/compensation_constants.hpp>
 
-#include <initializer_list>
-
 #include "compensation_support.hpp"
+#include "test.hpp"
 
 namespace zlg::core::compensation_constants_test {
 

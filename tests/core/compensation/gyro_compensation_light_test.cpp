@@ -2,12 +2,8 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
 #include "gyro_compensation_support.hpp"
+#include "test.hpp"
 
 namespace gyro_compensation_light_test {
 

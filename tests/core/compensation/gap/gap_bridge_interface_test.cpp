@@ -3,13 +3,6 @@
 
 namespace zlg::core::gap_bridge_support::interface_test {
 
-TEST(GapBridgeInterface, OrdersAreThoseOfTheNames) {
-    EXPECT_EQ(order_of(BridgeMethod::none), 0);
-    EXPECT_EQ(order_of(BridgeMethod::constant), 0);
-    EXPECT_EQ(order_of(BridgeMethod::linear), 1);
-    EXPECT_EQ(order_of(BridgeMethod::quadratic), 2);
-}
-
 TEST(GapBridgeInterface, TheDelayIsThatOfTheLongestGapAndOfThePointsAfterIt) {
     for (int ahead = 3; ahead <= 8; ++ahead)
         for (int after = 1; after <= 8; ++after) {
@@ -18,19 +11,6 @@ TEST(GapBridgeInterface, TheDelayIsThatOfTheLongestGapAndOfThePointsAfterIt) {
             EXPECT_EQ(delay, 16 + (ahead > after ? ahead : after));
             EXPECT_LE(delay, 24);
         }
-}
-
-TEST(GapBridgeInterface, EveryTickGivesOneSampleAndLaterOneRow) {
-    Random random{1};
-    const GapBridgeConfig config;
-    const Log log = random_log(random, 200);
-    GapBridgeState state;
-    for (std::size_t k = 0; k < log.size(); ++k) {
-        const AngleSample sample = step({}, config, state, log[k]);
-        EXPECT_EQ(sample.tick, static_cast<std::int64_t>(k));
-        EXPECT_EQ(sample.has_final, k >= 20);
-        EXPECT_TRUE(!sample.has_final || sample.final_row.tick == static_cast<std::int64_t>(k) - 20);
-    }
 }
 
 TEST(GapBridgeInterface, DrainGivesTheRestOnceAndThenNothing) {

@@ -1,9 +1,9 @@
 // Laws of the fit at random points: against normal equations solved in 113 bits, and as properties.
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <zlg/core/compensation/polynomial_fit.hpp>
 
 #include "compensation/compensation_support.hpp"
+#include "test.hpp"
 
 namespace zlg::core::polynomial_fit_law_test {
 
