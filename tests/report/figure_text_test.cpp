@@ -1,10 +1,6 @@
 #include <zlg/report/figure.hpp>
 
-#include <gtest/gtest.h>
-
 #include <locale>
-#include <string>
-#include <vector>
 
 #include "example_figures.hpp"
 #include "figure_reading.hpp"
@@ -115,7 +111,7 @@ TEST(SvgText, text_comes_back_as_it_was_given) {
     const auto elements = markup::read(svg(f));
     EXPECT_EQ(markup::all(elements, "title").at(0).text, f.title);
     EXPECT_EQ(markup::all(elements, "text", "legend").at(0).text, f.series[0].name);
-    EXPECT_NE(svg(f).find("\u03B1 \uFFFD\uFFFD<"), std::string::npos);
+    zlg::test::expect_contains(svg(f), "\u03B1 \uFFFD\uFFFD<");
 }
 
 TEST(SvgText, tells_a_reader_who_cannot_see_it) {

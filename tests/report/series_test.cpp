@@ -1,13 +1,5 @@
 #include <zlg/report/figure.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <vector>
-
 #include "example_figures.hpp"
 
 using example::infinity;

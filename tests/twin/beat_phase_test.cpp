@@ -1,16 +1,5 @@
 #include <zlg/twin/beat_phase.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <cstdint>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <stdexcept>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/core/common/maths.hpp>
 
 #include "adler_reference.hpp"

@@ -1,11 +1,5 @@
 // What backscatter makes of a gyro with alternating bias, and what the dither of the edges makes of that.
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
 #include <zlg/core/compensation/lock_in.hpp>
 
 #include "lock_in_gyro.hpp"

@@ -1,12 +1,6 @@
 #include <zlg/twin/quadrature.hpp>
 
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
-
+#include "test.hpp"
 #include "turns_from.hpp"
 
 namespace zlg::twin {
