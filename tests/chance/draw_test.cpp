@@ -2,12 +2,7 @@
 
 #include <zlg/chance/draw.hpp>
 
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::chance {
 namespace {

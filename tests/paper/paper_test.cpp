@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <zlg/paper/paper.hpp>
 #include <zlg/report/export.hpp>
 
 #include "paper_parts.hpp"
+#include "test.hpp"
 
 namespace {
 

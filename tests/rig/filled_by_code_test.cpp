@@ -1,15 +1,10 @@
 // A configuration that code has filled is judged where a gyro is made of it: the range of each key is that of the table
 // of keys, and the line names the key.
 
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,12 +1,11 @@
 // Lock-in in the whole gyro: laser with phases, control, compensation that is told the threshold or is not.
 
-#include <cmath>
-
-#include <gtest/gtest.h>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 
