@@ -4,7 +4,6 @@
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;

@@ -2,7 +2,6 @@
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

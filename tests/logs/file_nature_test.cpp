@@ -2,7 +2,6 @@
 #include <zlg/logs/file_nature.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 namespace {
 

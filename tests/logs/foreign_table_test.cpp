@@ -2,7 +2,6 @@
 
 #include "foreign/units.hpp"
 #include "temporary_folder.hpp"
-#include "test.hpp"
 #include "text_table/dates.hpp"
 
 namespace zlg::logs {

@@ -1,7 +1,6 @@
 #include <zlg/logs/mapping.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

@@ -3,7 +3,6 @@
 #include <zlg/logs/matlab_copy.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

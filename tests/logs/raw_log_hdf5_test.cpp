@@ -15,21 +15,6 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 namespace {
 
-// Recognisable in every column.
-HalfRecord row_of(std::int64_t half) {
-    const auto x = static_cast<double>(half);
-    return {.half = half,
-            .counts = 151 - 302 * (half % 2) + half % 17,
-            .detuning_lambda = 1e-3 * std::sin(x),
-            .detuning_sq_lambda2 = 1e-6 * x,
-            .piezo_v = 150.0 + x,
-            .temperature_c = 20.0 - 1e-4 * x,
-            .bias_sign = static_cast<std::int8_t>(half % 2 == 0 ? 1 : -1),
-            .mode = static_cast<std::int8_t>(half % 1000 < 500 ? 1 : -1),
-            .loop_closed = half % 500 > 3,
-            .valid = half % 777 != 0};
-}
-
 void copy(const std::string& from, const std::string& to) {
     RawReader reader{from};
     RawWriter writer{to, reader.header().settings, false, reader.header()};

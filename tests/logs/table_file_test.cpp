@@ -7,7 +7,6 @@
 #include <zlg/logs/table_file.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;

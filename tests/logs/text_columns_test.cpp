@@ -5,7 +5,6 @@
 #include <zlg/logs/text_columns.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 namespace {
 

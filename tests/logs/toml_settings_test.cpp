@@ -3,7 +3,6 @@
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;

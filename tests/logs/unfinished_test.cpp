@@ -6,7 +6,6 @@
 #include <zlg/logs/unfinished.hpp>
 
 #include "temporary_folder.hpp"
-#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

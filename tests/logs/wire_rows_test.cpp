@@ -223,16 +223,6 @@ TEST(WireRows, OnlyOneRowBeginsAnewThoughItIsLost) {
     EXPECT_NE(got[30].flags & flag_lost, 0u);
 }
 
-TEST(WireRows, OfAStreamThatEndsBeforeAnythingIsSettledAllIsAsDelivered) {
-    Gyro gyro;
-    WireRows rows;
-    for (int k = 0; k < 5; ++k) rows.take(gyro.tick());
-    rows.end();
-    const auto got = rows_of(rows);
-    ASSERT_EQ(got.size(), 5u);
-    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(got[k].dtheta_arcsec, gyro.rows[k].dtheta_arcsec);
-}
-
 TEST(WireRows, AGyroThatNeverSettlesMakesNoRow) {
     Gyro gyro{1, 0, 100'000};
     WireRows rows;
