@@ -1,7 +1,6 @@
 #include <zlg/core/health.hpp>
 
 #include "support.hpp"
-#include "test.hpp"
 
 namespace zlg::core::health_test {
 

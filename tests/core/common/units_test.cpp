@@ -3,7 +3,6 @@
 #include <concepts>
 
 #include "support.hpp"
-#include "test.hpp"
 
 namespace zlg::core::units_test {
 

@@ -3,7 +3,6 @@
 #include <rapidcheck/gtest.h>
 
 #include "compensation_support.hpp"
-#include "test.hpp"
 
 namespace zlg::core::angle_test {
 

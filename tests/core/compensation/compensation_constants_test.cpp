@@ -1,7 +1,6 @@
 #include <zlg/core/compensation/compensation_constants.hpp>
 
 #include "compensation_support.hpp"
-#include "test.hpp"
 
 namespace zlg::core::compensation_constants_test {
 

@@ -3,7 +3,6 @@
 #include <zlg/core/gyro_compensation.hpp>
 
 #include "gyro_compensation_support.hpp"
-#include "test.hpp"
 
 namespace gyro_compensation_light_test {
 

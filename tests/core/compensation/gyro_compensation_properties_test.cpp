@@ -4,7 +4,6 @@
 #include <rapidcheck/gtest.h>
 
 #include "gyro_compensation_support.hpp"
-#include "test.hpp"
 
 namespace zlg::core::gyro_compensation_properties_test {
 

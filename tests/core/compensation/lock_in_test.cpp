@@ -4,7 +4,6 @@
 #include <rapidcheck/gtest.h>
 
 #include "compensation_support.hpp"
-#include "test.hpp"
 
 namespace zlg::core::lock_in_test {
 

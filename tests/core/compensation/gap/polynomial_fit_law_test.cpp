@@ -3,7 +3,6 @@
 #include <zlg/core/compensation/polynomial_fit.hpp>
 
 #include "compensation/compensation_support.hpp"
-#include "test.hpp"
 
 namespace zlg::core::polynomial_fit_law_test {
 
