@@ -166,20 +166,6 @@ TEST(Deviation, is_the_same_from_increments_rate_and_phase) {
     }
 }
 
-TEST(Deviation, is_in_arcsec_per_second_whatever_the_unit_of_the_record) {
-    std::mt19937_64 engine(6);
-    const auto values = random_record(engine, 100, false);
-    const auto in = [&](DataKind kind, Unit unit) {
-        return at(AngleRecord(Series{.what = {kind, unit, 50.0}, .values = values}), DeviationKind::oadev, 3);
-    };
-    const double plain = in(DataKind::rate, Unit::arcsec_s);
-    EXPECT_NEAR(in(DataKind::rate, Unit::deg_h), plain, 1e-12 * plain);  // 3600" in 3600 s
-    EXPECT_NEAR(in(DataKind::rate, Unit::deg_s), 3600.0 * plain, 1e-12 * 3600.0 * plain);
-    EXPECT_NEAR(in(DataKind::rate, Unit::rad_s), 206264.80624709636 * plain, 1e-9 * plain);
-    EXPECT_NEAR(in(DataKind::increments, Unit::arcsec), 50.0 * plain, 1e-12 * 50.0 * plain);
-    EXPECT_NEAR(in(DataKind::increments, Unit::deg), 50.0 * 3600.0 * plain, 1e-12 * 50.0 * 3600.0 * plain);
-}
-
 // A constant rate, and for the Hadamard deviations a constant drift, are not noise: nor do gaps make them so.
 TEST(Deviation, does_not_see_what_its_differences_remove) {
     std::vector<double> values;

@@ -1,6 +1,4 @@
 #include <zlg/logs/wire_rows.hpp>
-#include <zlg/wire/cobs.hpp>
-#include <zlg/wire/crc.hpp>
 
 #include "line_gyro.hpp"
 
@@ -268,23 +266,6 @@ TEST(WireRows, NoiseAloneMakesNoRow) {
     EXPECT_FALSE(rows.tick_s().has_value());
     EXPECT_EQ(rows.summary().n_bytes, noise.size());
     EXPECT_GT(rows.summary().n_damaged, 3000u);
-}
-
-TEST(WireRows, AGyroOfAnotherVersionIsToldApartFromNoise) {
-    Bytes message(12, 0x01);
-    message[0] = 2;
-    const std::uint32_t crc = wire::crc32c(message);
-    for (int k = 0; k < 4; ++k) message.push_back(static_cast<std::uint8_t>(crc >> (8 * k)));
-    Bytes framed(wire::stuffed_bytes(message.size()));
-    framed.resize(wire::stuff(message, framed));
-    framed.push_back(0);
-    WireRows rows;
-    rows.take(framed);
-    rows.take(Bytes{7, 7, 7, 0});
-    rows.end();
-    EXPECT_EQ(rows.summary().n_foreign, 1u);
-    EXPECT_EQ(rows.summary().n_damaged, 2u);
-    EXPECT_EQ(rows.summary().n_telemetry, 0u);
 }
 
 // Whatever happens to the line: what is not flagged is right, and the angle between two right rows too.

@@ -198,18 +198,6 @@ TEST(Paper, another_seed_gives_other_points_and_the_same_theory) {
     EXPECT_NE(fa.at(2).y, fb.at(2).y);
 }
 
-TEST(Paper, progress_goes_from_nothing_to_all) {
-    paper::PaperTask task = small_task();
-    task.switches_per_point = 100;
-    std::vector<double> seen;
-    task.on_progress = [&](double fraction) { seen.push_back(fraction); };
-    (void)paper::recompute_paper(task);
-    ASSERT_GT(seen.size(), 5u);
-    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
-    EXPECT_GE(seen.front(), 0.0);
-    EXPECT_NEAR(seen.back(), 1.0, 1e-12);
-}
-
 TEST(PaperPage, has_a_section_for_every_item_and_one_for_the_claims) {
     const report::Page page = paper::paper_page(paper());
     ASSERT_EQ(page.sections.size(), paper().items.size() + 2) << "the claims before them, how it was made after";

@@ -83,15 +83,4 @@ TEST(GapBridgeInterface, AnAmendedTickIsFinalInEveryFitAndPaidBackByTheLump) {
     }
 }
 
-TEST(GapBridgeInterface, AnAmendmentReachesTheExtrapolationOfTheNextGap) {
-    Log log(30, measured_tick(5.0));
-    log[10] = gap_tick();
-    log[11].value_arcsec = 45.0;
-    log[12].amend_previous = true;
-    log[12].amend_arcsec = -40.0;
-    log[13] = log[14] = gap_tick();
-    const Delivered got = run({}, log);
-    for (const unsigned k : {13u, 14u}) EXPECT_NEAR(got.rows[k].dtheta_arcsec, 5.0, 1e-12);
-}
-
 }  // namespace zlg::core::gap_bridge_support::interface_test
