@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import random
 
 import h5py
 

@@ -68,20 +68,6 @@ class Haste(LivingPageCase):
         self.assertIn("gyro.tick_s=0.01", self.link())
         self.assertEqual(self.field("gyro.tick_s"), "0.01")
 
-    def test_a_good_and_a_wrong_value_of_one_setting_in_one_breath(self):
-        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "3") + CHANGE.format("drift.magnetic_arcsec_s", "much"))
-        self.browser.wait_until(lambda: self.browser.marked("message"))
-        self.browser.value(CHANGE.format("run.seed", "7"))
-        self.browser.wait_until(lambda: "run.seed=7" in self.link())
-        self.assertIn("magnetic_arcsec_s=3", self.link())
-
-    def test_a_change_and_a_fault_in_one_breath_after_a_refusal(self):
-        self.browser.value(CHANGE.format("gyro.light_noise_lambda", "much"))
-        self.browser.wait_until(lambda: self.browser.marked("message"))
-        self.browser.value(CHANGE.format("drift.magnetic_arcsec_s", "3") + FAULT.format("frame missed"))
-        self.browser.wait_until(lambda: "frame_missed" in self.link())
-        self.assertIn("magnetic_arcsec_s=3", self.link())
-
     def test_two_wrong_settings_one_after_the_other(self):
         self.browser.value(CHANGE.format("gyro.light_noise_lambda", "much"))
         self.browser.wait_until(lambda: "light_noise_lambda" in self.browser.marked("message"))
