@@ -52,33 +52,29 @@ TEST(BiasCheck, an_inverted_column_is_found_in_any_motion) {
     for (const auto& rotation : {CheckedGyro{}.rotation, vibration, fast}) {
         EXPECT_NE(complaint({.rotation = rotation, .column = [](int, core::HalfRecord& h) { h.mode *= -1; }}), "");
         EXPECT_NE(complaint({.rotation = rotation, .column = [](int, core::HalfRecord& h) { h.bias_sign *= -1; }}), "");
-        EXPECT_EQ(complaint({.rotation = rotation,
-                             .column =
-                                 [](int, core::HalfRecord& h) {
-                                     h.mode *= -1;
-                                     h.bias_sign *= -1;
-                                 }}),
-                  "");
+        const auto both = [](int, core::HalfRecord& h) {
+            h.mode *= -1;
+            h.bias_sign *= -1;
+        };
+        EXPECT_EQ(complaint({.rotation = rotation, .column = both}), "");
     }
 }
 
 // Every segment is shorter than what lasts, and all are wrong.
 TEST(BiasCheck, gaps_and_halves_that_show_nothing_do_not_end_a_contradiction) {
-    EXPECT_NE(complaint({.column =
-                             [](int t, core::HalfRecord& h) {
-                                 h.mode *= -1;
-                                 if (t % 20 < 8) h.loop_closed = false;
-                             }}),
-              "");
+    const auto in_pieces = [](int t, core::HalfRecord& h) {
+        h.mode *= -1;
+        if (t % 20 < 8) h.loop_closed = false;
+    };
+    EXPECT_NE(complaint({.column = in_pieces}), "");
 }
 
 // The other helicity lases for as long as the control needs to follow it, again and again; one reading is wrong.
 TEST(BiasCheck, faults_are_no_contradiction) {
-    EXPECT_EQ(complaint({.column =
-                             [](int t, core::HalfRecord& h) {
-                                 if (t % 500 < 20) h.mode *= -1;
-                             }}),
-              "");
+    const auto briefly = [](int t, core::HalfRecord& h) {
+        if (t % 500 < 20) h.mode *= -1;
+    };
+    EXPECT_EQ(complaint({.column = briefly}), "");
     EXPECT_EQ(complaint({.column = [](int t, core::HalfRecord& h) { h.counts += t % 300 == 0 ? 100'000 : 0; }}), "");
     EXPECT_EQ(complaint({.column = [](int t, core::HalfRecord& h) { h.counts = t > 2000 ? 0 : h.counts; }}), "");
 }

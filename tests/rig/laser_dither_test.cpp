@@ -1,5 +1,5 @@
 // Lock-in and its cure in the whole gyro: laser with phases, control that shifts the reversals, compensation that takes
-// the known area off the counts.
+// the known area off the counts, and is told the threshold or is not.
 
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
@@ -29,7 +29,7 @@ config::Config gyro(double lock_hz, double rate_arcsec_s, core::DitherMethod dit
     c.motion.kind = config::MotionKind::constant;
     c.motion.rate_arcsec_s = rate_arcsec_s;
     c.gyro.dither = dither;
-    return rig::calibrated_by_laser(c);
+    return c;
 }
 
 class GyroRun {
@@ -65,23 +65,38 @@ private:
 
 // 250 s can hide a quarter of a fringe, 0.0033 arcsec/s.
 TEST(LaserDither, at_rest_there_is_no_bias) {
-    GyroRun run{gyro(300.0, 0.0, core::DitherMethod::automatic)};
+    GyroRun run{rig::calibrated_by_laser(gyro(300.0, 0.0, core::DitherMethod::automatic))};
     EXPECT_NEAR(run.mean_error_arcsec_s(50'000), 0.0, 0.005);
 }
 
 TEST(LaserDither, a_slow_rotation_is_read_within_half_a_percent_that_would_be_held_without) {
-    GyroRun plain{gyro(300.0, 2.0, core::DitherMethod::none)};
+    GyroRun plain{rig::calibrated_by_laser(gyro(300.0, 2.0, core::DitherMethod::none))};
     EXPECT_NEAR(plain.mean_error_arcsec_s(8000), -2.0, 0.05);
-    GyroRun cured{gyro(300.0, 2.0, core::DitherMethod::automatic)};
+    GyroRun cured{rig::calibrated_by_laser(gyro(300.0, 2.0, core::DitherMethod::automatic))};
     EXPECT_NEAR(cured.mean_error_arcsec_s(100'000), 0.0, 0.005 * 2.0);
 }
 
 // A half that a shift made longer holds more counts than an even one; neither the counter nor its monitor may mind.
 TEST(LaserDither, the_highest_rate_leaves_every_half_valid) {
     for (const double rate_arcsec_s : {-1.44e6, 1.44e6}) {
-        const config::Config c = gyro(150.0, rate_arcsec_s, core::DitherMethod::automatic);
+        const config::Config c = rig::calibrated_by_laser(gyro(150.0, rate_arcsec_s, core::DitherMethod::automatic));
         rig::ClosedLoop loop{c, rig::motion(c)};
         for (int h = 0; h < 4000; ++h) ASSERT_TRUE(loop.advance().record.valid) << rate_arcsec_s << ", half " << h;
+    }
+}
+
+// In a minute with five switches.
+TEST(LockInLoop, a_calibrated_threshold_takes_the_scale_error_away_in_the_whole_gyro) {
+    for (const double rate_arcsec_s : {188e3, -188e3}) {
+        const auto scale_error_ppm = [&](double calibrated_hz, double sigma_hz) {
+            config::Config c = gyro(300.0, rate_arcsec_s, core::DitherMethod::automatic);
+            c.switching.interval_s = 10.0;
+            c.compensation.lock_in_hz = calibrated_hz;
+            c.compensation.lock_in_sigma_hz = sigma_hz;
+            return 1e6 * GyroRun{rig::calibrated_by_laser(c)}.mean_error_arcsec_s(12'000) / rate_arcsec_s;
+        };
+        EXPECT_NEAR(scale_error_ppm(0.0, 300.0), 136.0, 10.0);
+        EXPECT_NEAR(scale_error_ppm(300.0, 3.0), 0.0, 0.06 * 136.0);
     }
 }
 

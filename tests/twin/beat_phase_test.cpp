@@ -171,17 +171,6 @@ TEST(BeatPhase, RampsConvergeWithTheFourthPowerOfThePiecesAndAreGoodToAHundredth
     EXPECT_LT(worst, 1e-5);
 }
 
-TEST(BeatPhase, TheUsualReversalTakesSixteenPieces) {
-    EXPECT_EQ(ramp_pieces(-60e3, 60e3, 300.0, 50e-6), 16.0);
-    double worst = 0.0;
-    const AdlerRamp usual{-60e3, 60e3, 300.0, 50e-6};
-    for (double start = 0.0; start < 1.0; start += 0.01) {
-        worst = std::max(worst, error_rad(usual, start, 16, adler_reference(usual, start)));
-    }
-    EXPECT_LT(worst, 2e-6);
-    EXPECT_GT(worst, 1e-6);
-}
-
 // Rotation that changes while one half of the bias is about cancelled by it: slow ramps through the locked region.
 TEST(BeatPhase, SlowRampsThroughLockInAreGoodToAHundredthOfAMilliradian) {
     Draw draw{14};

@@ -221,15 +221,6 @@ TEST(LockIn, AnUnknownThresholdOfItsPresumedSizeLeavesOneSigma) {
     }
 }
 
-TEST(LockIn, TheSlipFormulaGivesTheSameGyro) {
-    for (const double rate : {4.0, 12.0, 650.0}) {
-        LockInGyro g{.bias_hz = 60320.0};
-        const double exact = settled_rate(g, rate, 8000);
-        g.by_slip_formula = true;
-        EXPECT_NEAR(settled_rate(g, rate, 8000), exact, 0.1) << rate;
-    }
-}
-
 TEST(DitheredEdges, LeaveNoBiasAtRest) {
     for (const double bias : {60000.0, 60140.0, 60320.0}) {
         for (const int helicity : {1, -1}) {
