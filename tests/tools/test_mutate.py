@@ -137,6 +137,7 @@ class Mutate(TreeTest):
         self.write("src/core/control/relock.hpp", "int larger(int a, int b) noexcept;\n")
         self.write("src/core/control/perimeter_loop.cpp", SOURCE)
         self.write("tests/core/perimeter_loop_test.cpp", TEST + SECOND_TEST)
+        self.write("tests/test.hpp", "#include <gtest/gtest.h>\n")
 
     def mutate(self, *arguments):
         command = [sys.executable, self.root / "tools" / "mutate", *arguments]
