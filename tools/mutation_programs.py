@@ -25,7 +25,9 @@ SHARED = [COMPILER[0], "-shared", "-Wl,-soname,libcore.so"]
 CORE_OPTIONS = ["-fno-exceptions", "-fno-rtti", "-fno-math-errno", "-D_GLIBCXX_ASSERTIONS", "-fsanitize=undefined",
                 "-fno-sanitize=vptr", "-fsanitize-undefined-trap-on-error"]
 # Eigen, with which some tests compare, lies where Debian puts it.
-INCLUDES = ["-Isrc/core/include", "-Isrc/core", "-Itests/core", "-isystem", "/usr/include/eigen3"]
+INCLUDES = ["-Isrc/core/include", "-Isrc/core", "-Itests/core", "-Itests", "-isystem", "/usr/include/eigen3"]
+# Read before every test, as CMake has it read.
+TEST_OPTIONS = ["-include", "tests/test.hpp"]
 TEST_LIBRARIES = ["-lgtest_main", "-lgtest", "-lrapidcheck", "-lpthread"]
 MEMORY_BYTES = 4 << 30
 
@@ -65,7 +67,7 @@ class Prebuilt:
         tests = sorted({test for tests in wanted.values() for test in tests})
         cache = ["ccache"] if shutil.which("ccache") else []
         with ThreadPoolExecutor(jobs) as pool:
-            work = [(source, CORE_OPTIONS) for source in self.sources] + [(test, []) for test in tests]
+            work = [(source, CORE_OPTIONS) for source in self.sources] + [(test, TEST_OPTIONS) for test in tests]
             list(pool.map(lambda w: must([*cache, *COMPILER, *w[1], *INCLUDES, "-c", w[0], "-o", self.object(w[0])]), work))
             self.headers = dict(zip(self.sources, pool.map(lambda s: must([*COMPILER, *INCLUDES, "-MM", s]), self.sources)))
         self.library = BUILD / "libcore.so"
@@ -174,7 +176,7 @@ def build_library(folder, sources, prebuilt):
 
 def build_tests(folder, tests, program, prebuilt):
     """The program of a module's tests with the headers in `folder`."""
-    if not all(compiled(folder, test, []) for test in tests):
+    if not all(compiled(folder, test, TEST_OPTIONS) for test in tests):
         return False
     must([COMPILER[0], *(folder / f"{t.stem}.o" for t in tests), prebuilt.library, *TEST_LIBRARIES, "-o", program])
     return True

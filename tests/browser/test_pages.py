@@ -256,7 +256,3 @@ class Pages(unittest.TestCase):
         for line in lines[1:]:
             for field in line.split('","')[1:]:
                 float(field.rstrip('"'))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,19 +2,9 @@
 
 #include <zlg/chance/address.hpp>
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "box_muller.hpp"
 #include "philox.hpp"
+#include "test.hpp"
 
 namespace zlg::chance {
 namespace {

@@ -1,14 +1,7 @@
 // The transform against long double, at the ends of its grids and between them.
 
 #include "box_muller.hpp"
-
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::chance {
 namespace {

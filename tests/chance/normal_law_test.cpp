@@ -2,13 +2,7 @@
 
 #include <zlg/chance/address.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::chance {
 namespace {

@@ -2,11 +2,9 @@
 // packages.
 
 #include "philox.hpp"
-
-#include <random>
+#include "test.hpp"
 
 #include <Random123/philox.h>
-#include <gtest/gtest.h>
 
 namespace zlg::chance {
 namespace {

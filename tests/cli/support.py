@@ -41,6 +41,13 @@ def wait_until(is_so, child=None, most_s=60):
         time.sleep(0.001)
 
 
+def folder_until(add_cleanup):
+    """A folder that is there until what `add_cleanup` belongs to, a class of tests or a module, is done."""
+    folder = tempfile.TemporaryDirectory(prefix="zlg-cli-")
+    add_cleanup(folder.cleanup)
+    return Path(folder.name)
+
+
 def is_larger(path, n_bytes=0):
     return path.exists() and path.stat().st_size > n_bytes
 
@@ -138,9 +145,7 @@ class CliTest(unittest.TestCase):
             raise AssertionError(f"no program at {ZLG}: build the release or set ZLG")
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="zlg-cli-")
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        self.folder = folder_until(self.addCleanup)
         self.random = random.Random(f"{type(self).__name__}.{self._testMethodName}")
 
     def write(self, name, text):

@@ -44,7 +44,3 @@ class Built(unittest.TestCase):
     def test_what_the_loader_has_resolved_is_read_only(self):
         self.assertRegex(said_of(ZLG, "-d"), r"BIND_NOW|Flags:.* NOW")
         self.assertIn("GNU_RELRO", said_of(ZLG, "-l"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,7 +3,6 @@
 import json
 import random
 import tempfile
-import unittest
 from pathlib import Path
 
 from support import CliTest, csv_text, quiet_log, run
@@ -25,12 +24,6 @@ class Contradictions(CliTest):
         lines = self.warnings(rows, "inverted")
         self.assertEqual(len(lines), 1)
         self.assertIn("first in half-period 50: bias_sign * mode is -1 and then +1, and the counts are 250 and then -50", lines[0])
-
-    def test_a_bias_sign_of_a_reversed_coil_is_answered(self):
-        rows = quiet_log(QUIET)
-        for row in rows:
-            row["bias_sign"] = -row["bias_sign"]
-        self.assertEqual(len(self.warnings(rows, "coil")), 1)
 
     def test_a_closing_without_detuning_is_answered_unless_that_is_asked_for(self):
         rows = quiet_log(QUIET)
@@ -160,7 +153,3 @@ class Runs(CliTest):
             said = verb("run", "--duration", 8, "--set", f"switching.interval_s={interval}", "--out",
                         self.folder / str(interval)).stderr
             self.assertEqual("the gyro switched every" in said, warned, said)
-
-
-if __name__ == "__main__":
-    unittest.main()

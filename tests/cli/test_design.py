@@ -2,8 +2,6 @@
 
 import json
 from math import exp, hypot, sqrt, tanh
-import re
-import unittest
 
 from support import CliTest, run
 
@@ -47,23 +45,6 @@ class Optimum(CliTest):
     def test_the_papers_gyro(self):
         self.check(0.7, 0.7, 3000, 0.05, 10)
 
-    def test_another_gyro(self):
-        self.check(2.5, 1.2, 900, 0.01, 3, "drift.magnetic_thermal_arcsec_s=2.5", "drift.magnetic_arcsec_s=1.2",
-                   "drift.thermal_time_s=900", "drift.nonmagnetic_arcsec_s=0.01", "design.switch_error_arcsec=3")
-
-
-class Substitution(CliTest):
-    def test_worst_errors_of_the_papers_hard_case(self):
-        result = json.loads(self.succeed("design", "--json", "--set", "motion.frequency_hz=20").stdout)
-        lines = {(line["order"], line["gap_ticks"]): line for line in result["substitution"]}
-        # Direct integration of the ticks at the extremum, 12 000 arcsec/s, 20 Hz.
-        for order, gap, worst in ((0, 1, 26.03), (1, 2, 77.57), (0, 3, 154.51), (2, 1, 1.44), (2, 2, 8.19), (2, 3, 26.85)):
-            self.assertAlmostEqual(lines[order, gap]["worst_arcsec"], worst, delta=0.006)
-            self.assertAlmostEqual(lines[order, gap]["rms_arcsec"], lines[order, gap]["worst_arcsec"] / sqrt(2), delta=1e-9)
-            self.assertEqual(lines[order, gap]["frequency_hz"], 20)
-        self.assertAlmostEqual(lines[0, 3]["noise_gain"], 1.5, delta=1e-12)
-        self.assertAlmostEqual(lines[2, 3]["noise_gain"], 3.808, delta=5e-4)
-
 
 class Refusals(CliTest):
     def test_what_is_no_gyro_and_no_run(self):
@@ -81,34 +62,3 @@ class Refusals(CliTest):
         self.succeed("design", "--out", page)
         self.assertIn("<svg", page.read_text())
         self.assertEqual(run("design", "--out", page).returncode, 3)
-
-
-class OptimalInterval(CliTest):
-    def test_a_run_takes_the_optimum_of_its_own_length(self):
-        raw = self.folder / "raw.csv"
-        options = ["--duration", "600", "--set", "switching.interval_s=optimal", "--set", "design.switch_error_arcsec=2"]
-        result = self.succeed("simulate", *options, "--out", raw)
-        # Independent errors beside a sawtooth of L Om/2 about what the start leaves, at an end anywhere.
-        om = 0.7 + 0.7 * (1 - exp(-0.2))
-        best = (2**2 * 600 / (2 * (0.7**2 + om**2 / 3) / 4)) ** (1 / 3)
-        found = float(re.search(r"# switching.interval_s = (\S+)", raw.read_text()[:5000]).group(1))
-        self.assertAlmostEqual(found / best, 1.0, delta=0.005)
-        self.assertIn(f"{found:.4g} s here", result.stderr)
-
-    def test_what_a_switch_leaves_is_tried_unless_it_is_given(self):
-        def best(*settings):
-            options = [word for setting in settings for word in ("--set", setting)]
-            result = json.loads(self.succeed("design", "--json", "--run-lengths", "600", *options).stdout)
-            return result["switch_error_arcsec"], result["switch_error_is_given"], result["runs"][0]["best"]["interval_s"]
-
-        good = best("motion.kind=rest")
-        bad = best("motion.frequency_hz=20.06", "compensation.bridge=constant")
-        self.assertFalse(good[1])
-        # A constant misses 12 000 arcsec/s at 20 Hz by 154.51 arcsec at the worst phase, 109 rms.
-        self.assertAlmostEqual(bad[0] / 109, 1.0, delta=0.2)
-        self.assertGreater(bad[2], 10 * good[2])
-        self.assertEqual(best("design.switch_error_arcsec=10")[:2], (10, True))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,13 +3,11 @@
 import json
 import re
 import shutil
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 
-from support import CliTest, csv_text, quiet_log, run
+from support import CliTest, csv_text, folder_until, quiet_log, run
 
 SHORT = ["--duration", 15, "--set", "switching.interval_s=4", "--quiet"]
 SHARED = {}
@@ -17,8 +15,7 @@ SHARED = {}
 
 def setUpModule():
     """One run in each format serves every test here."""
-    folder = Path(tempfile.mkdtemp(prefix="zlg-fingerprint-"))
-    unittest.addModuleCleanup(shutil.rmtree, folder)
+    folder = folder_until(unittest.addModuleCleanup)
     CliTest.setUpClass()
     for form in ("csv", "h5"):
         result = run("run", *SHORT, "--out", folder / form, "--format", form)
@@ -87,11 +84,6 @@ class Equal(FingerprintTest):
                           ["--logs", "angles", "--format", "csv"], ["--logs", "none", "--format", "csv"], ["--light"]):
             self.assertEqual(self.run_again(*arguments), SHARED["digits"], arguments)
 
-    def test_the_angles_alone_have_it_too(self):
-        for form in ("csv", "h5"):
-            self.run_again("--logs", "angles", "--format", form)
-            self.assertEqual(self.inspected(self.folder / "again" / f"angles.{form}"), SHARED["digits"])
-
     def test_another_seed_another_motion_and_another_compensation_are_other_runs(self):
         others = [self.run_again(*arguments, "--logs", "none")
                   for arguments in (["--seed", 2], ["--set", "motion.kind=rest"], ["--set", "compensation.bridge=linear"])]
@@ -124,12 +116,6 @@ class OtherLogs(FingerprintTest):
             self.succeed("convert", simulated, "--out", copy)
             self.assertIsNone(self.inspected(copy))
 
-    def test_room_that_was_not_filled_is_none(self):
-        text = csv_text(quiet_log())
-        log = self.write("raw.csv", f"# fingerprint = {'.' * 16}\n{text}")
-        self.assertIsNone(self.inspected(log))
-        self.assertEqual(json.loads(self.succeed("inspect", log, "--json").stdout)["settings"], text.count("# "))
-
 
 class Versions(FingerprintTest):
     def version_of(self, log):
@@ -158,15 +144,6 @@ class Versions(FingerprintTest):
         self.succeed("convert", unknown, "--out", self.folder / "unknown.h5")
         self.assertIsNone(self.version_of(self.folder / "unknown.h5"))
 
-    def test_copies_of_angles_have_it_too(self):
-        angles = self.folder / "angles.h5"
-        shutil.copy(SHARED["h5"] / "angles.h5", angles)
-        with h5py.File(angles, "r+") as file:
-            file.attrs["format_version"] = 1
-        copy = self.folder / "copy.csv"
-        self.succeed("convert", angles, "--out", copy)
-        self.assertEqual([self.version_of(angles), self.version_of(copy)], [1, 1])
-
     def copy_of_version(self, version):
         log = self.folder / "raw.h5"
         shutil.copy(SHARED["h5"] / "raw.h5", log)
@@ -182,7 +159,3 @@ class Versions(FingerprintTest):
             refused = run("inspect", self.copy_of_version(version))
             self.assertEqual(refused.returncode, 3)
             self.assertIn(f"format_version is {version}; allowed is 1 to 3", refused.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -5,7 +5,6 @@ import os
 import pty
 import re
 import subprocess
-import unittest
 
 from support import ZLG, CliTest
 
@@ -126,7 +125,3 @@ class ForeignFiles(CliTest):
                                 (b"time;rate\n0,0;1,5\n0,1;1,6\n0,2;1,7\n", ""), (b"a letter to nobody\n", "")):
             with self.subTest(nature):
                 self.refuse(3, "inspect", self.write("file", content), says=[nature, "zlg import"])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -5,7 +5,6 @@ import json
 import lzma
 from math import cos, isfinite, pi
 from pathlib import Path
-import unittest
 
 from support import CliTest, body_of, run, warnings
 
@@ -117,7 +116,3 @@ class FormerVersions(CliTest):
                         refused = self.refuse(USAGE, *verb, *options, "--out", self.folder / "out.csv")
                         self.assertIn(key, refused.stderr)
                         self.assertIn(takes, refused.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

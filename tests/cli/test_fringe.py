@@ -3,7 +3,6 @@
 import csv
 import math
 import random
-import unittest
 
 from support import AngleLog, CliTest, body_of, csv_text, quiet_log
 
@@ -12,7 +11,6 @@ PHASE = ["--set", "gyro.readout=phase"]
 # The issue's own photodiodes: 10 %, 5 degrees, 1 % of noise, 12 bits.
 IMPERFECT = ["--set", "photodiodes.offset_cosine=0.1", "--set", "photodiodes.offset_sine=-0.1", "--set", "photodiodes.amplitude_error=0.1",
              "--set", "photodiodes.angle_error_deg=5", "--set", "photodiodes.noise=0.01", "--set", "photodiodes.adc_bits=12"]
-RUN = ["--duration", 20, "--set", "switching.interval_s=4", *PHASE]
 COLUMNS = ["half", "bias_sign", "mode", "counts", "loop_closed", "fringe"]
 
 
@@ -35,40 +33,6 @@ def places_of(rows):
         part = float(row["fringe"]) / 65536
         places.append(whole + (0.5 if math.isnan(part) else part))
     return places
-
-
-class LiveAndProcessed(CliTest):
-    def test_give_the_same_bytes(self):
-        for fidelity in ("averaged", "laser"):
-            for kind in ("csv", "h5"):
-                for relock in ("mean_square", "joint"):
-                    if relock == "joint" and kind == "csv":
-                        continue  # it needs the light, which a CSV log cannot hold
-                    with self.subTest(fidelity=fidelity, kind=kind, relock=relock):
-                        out = self.folder / f"{fidelity}-{kind}-{relock}"
-                        light = ["--light"] if relock == "joint" else []
-                        self.succeed("run", *RUN, "--set", f"gyro.fidelity={fidelity}", "--set", f"compensation.relock={relock}", *light,
-                                     "--out", out, "--format", kind)
-                        again = self.folder / f"{out.name}.csv"
-                        self.succeed("process", out / f"raw.{kind}", "--out", again)
-                        live = out / "angles.csv"
-                        if kind == "h5":
-                            live = self.folder / f"{out.name}-live.csv"
-                            self.succeed("convert", out / "angles.h5", "--out", live)
-                        self.assertEqual(body_of(again), body_of(live))
-
-    def test_convert_there_and_back(self):
-        raw, packed, back = (self.folder / name for name in ("raw.csv", "raw.h5", "back.csv"))
-        self.succeed("simulate", *RUN, "--out", raw)
-        self.succeed("convert", raw, "--out", packed)
-        self.succeed("convert", packed, "--out", back)
-        self.assertEqual(raw.read_bytes(), back.read_bytes())
-        self.assertIn("fringe", self.succeed("inspect", packed).stdout)
-
-    def test_by_default_there_is_no_column(self):
-        raw = self.folder / "raw.csv"
-        self.succeed("simulate", "--duration", 2, "--out", raw)
-        self.assertNotIn("fringe", body_of(raw).decode())
 
 
 class ClosedLoop(CliTest):
@@ -151,17 +115,6 @@ class Read(CliTest):
         for tick in range(1, 100):
             self.assertAlmostEqual(log.final[tick], SCALE * (places[2 * tick + 1] - places[2 * tick - 1]), places=9)
 
-    def test_out_of_range_is_refused_with_row_and_value(self):
-        for value in ("-1", "65536", "0.5", "inf", "", "x"):
-            with self.subTest(value=value):
-                fringes = [7] * 20
-                fringes[4] = Text(value)
-                raw = self.write("raw.csv", csv_text(self.rows(fringes), COLUMNS))
-                refused = self.refuse(3, "process", raw, "--out", self.folder / "angles.csv")
-                self.assertIn("row 5, column 'fringe'", refused.stderr)
-                self.assertIn(f"'{value}'", refused.stderr)
-                self.assertIn("allowed is 0..65535, or nan where it is not known", refused.stderr)
-
     def test_a_readout_that_the_log_does_not_have_is_noted(self):
         fringes = [7] * 200
         with_column = self.write("with.csv", csv_text(self.rows(fringes), COLUMNS))
@@ -173,15 +126,3 @@ class Read(CliTest):
                 self.assertEqual(len(lines), 1 if noted else 0, result.stderr)
                 if noted:
                     self.assertIn(f"this log {noted} the column fringe", lines[0])
-
-    def test_a_log_without_the_column_has_whole_counts(self):
-        fringes = [Text("nan")] * 200
-        with_column = self.write("with.csv", csv_text(self.rows(fringes), COLUMNS))
-        without = self.write("without.csv", csv_text(self.rows(fringes), COLUMNS[:-1]))
-        for raw in (with_column, without):
-            self.succeed("process", raw, "--out", f"{raw}.angles.csv")
-        self.assertEqual(body_of(f"{with_column}.angles.csv"), body_of(f"{without}.angles.csv"))
-
-
-if __name__ == "__main__":
-    unittest.main()

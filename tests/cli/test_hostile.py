@@ -5,7 +5,6 @@ import random
 import resource
 import subprocess
 import threading
-import unittest
 
 from support import REQUIRED, CliTest, ZLG, csv_text, quiet_log, run, wait_until
 
@@ -422,10 +421,6 @@ class Sizes(Hostile):
             self.refuse_quickly((2, 3), "simulate", "--duration", 1, "--set", "motion.kind=file", "--set", f"motion.path={path}", "--out",
                                 self.folder / "a.csv", says=[str(path.name)[:20]])
 
-    def test_of_a_seed(self):
-        for key in ("run.seed", "faults.random_seed"):
-            self.refuse_quickly(2, "design", "--set", f"{key}=18446744073709551615", says=["0..9223372036854775807"])
-
     def test_of_the_angle_leave_a_blank_between_columns(self):
         result = run("run", "--duration", "20", "--set", "motion.kind=rest", "--out", self.folder / "run",
                      "--set", "drift.random_walk_arcsec_sqrt_s=1e5", "--set", "switching.interval_s=3")
@@ -435,7 +430,3 @@ class Sizes(Hostile):
         self.assertGreater(len(rows), 2, result.stdout)
         for row in rows:
             self.assertEqual(len(row), 8, row)
-
-
-if __name__ == "__main__":
-    unittest.main()

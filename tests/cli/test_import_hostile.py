@@ -47,9 +47,6 @@ class Npy(Hostile):
     def array(self, head, data, version=2):
         return self.write("a.npy", b"\x93NUMPY" + bytes([version, 0]) + struct.pack("<I", len(head)) + head.encode() + data)
 
-    def test_a_head_of_blanks(self):
-        self.cheap("import", self.array("{'descr':" + " " * 60000 + "'<f8', 'fortran_order': False, 'shape': (8,), }\n", bytes(64)), code=3)
-
     def test_any_spelling_of_the_order_is_read_as_numpy_does(self):
         for order in ("'fortran_order':True", "'fortran_order':  True", '"fortran_order" : True', "'fortran_order': False"):
             for form in ("{{'descr': '<f8', {}, 'shape': (50, 3), }}", "{{'shape':(50,3),{},'descr':'<f8'}}"):
@@ -249,14 +246,6 @@ class Text(Hostile):
     def test_a_log_of_many_names(self):
         path = self.write("names.csv", ",".join(f"c{k}" for k in range(80_000)) + "\n" + ",".join(["1"] * 80_000) + "\n")
         self.cheap("process", path, "--out", self.folder / "o.csv", code=3)
-
-    def test_every_end_of_a_line(self):
-        rates = self.rates(400)
-        for end in ("\n", "\r\n", "\r", "\r\r\n"):
-            text = "".join(f"{k};{rate:.6f}{end}" for k, rate in enumerate(rates))
-            self.assert_turns(self.angles(self.write("ends.csv", text), *W, *FIXED_RATE), [float(f"{r:.6f}") / 100 for r in rates])
-        # A column that is empty but for the ends of lines.
-        self.cheap("import", self.write("empty.csv", "".join(f"{k};{rate:.3f};\r" for k, rate in enumerate(rates))), code=0)
 
     def test_a_clock_that_jumps(self):
         for jump, code in ((1000, 0), (int(1e8), 3), (int(1e15), 3)):

@@ -1,7 +1,6 @@
 """`zlg inspect`: what it finds, and that --repair loses nothing that was whole."""
 
 import json
-import unittest
 
 from support import CliTest, csv_text, quiet_log, run, warnings
 
@@ -114,7 +113,3 @@ class UnclearSettings(CliTest):
         self.succeed("inspect", raw, "--repair", "--out", self.folder / "good.csv")
         self.succeed("inspect", self.folder / "good.csv")
         self.succeed("process", self.folder / "good.csv", "--out", self.folder / "a.csv")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,5 @@
 """A jerk before a switch: what was measured stays as it was measured."""
 
-import unittest
-
 from support import AngleLog, CliTest
 
 SUBSTITUTED = ("extrapolated", "interpolated", "invalid", "correction")
@@ -22,7 +20,3 @@ class Jerk(CliTest):
                     # Corrections of the re-lock that are amended are far below one count.
                     off = [abs(log.final[k] - log.dtheta[k]) for k in measured]
                     self.assertLess(max(off), 3.263)
-
-
-if __name__ == "__main__":
-    unittest.main()

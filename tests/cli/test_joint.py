@@ -1,7 +1,5 @@
 """relock = "joint": the light samples on their way through files, and what becomes of them live and replayed."""
 
-import unittest
-
 import h5py
 import numpy
 
@@ -42,11 +40,6 @@ class Joint(CliTest):
                 del file["raw"][name]
         return path
 
-    def test_replayed_angles_are_the_live_ones(self):
-        angles, said = self.replayed(self.raw)
-        self.expect_live(angles)
-        self.assertEqual(said, "")
-
     def test_copies_keep_both_beams(self):
         there, clean = self.folder / "there.h5", self.folder / "clean.h5"
         self.succeed("convert", self.raw, "--out", there)
@@ -81,7 +74,3 @@ class Joint(CliTest):
     def test_beam_b_needs_as_many_samples_as_beam_a(self):
         path = self.without("light")
         self.refuse(3, "process", path, "--out", self.folder / "a.h5", says=["light_b", "16", "0"])
-
-
-if __name__ == "__main__":
-    unittest.main()

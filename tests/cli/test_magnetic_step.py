@@ -1,7 +1,5 @@
 """By phase a switch is known well enough for the step of the magnetic drift to matter, long before the drift is known."""
 
-import unittest
-
 from support import CliTest
 
 SETTINGS = ("gyro.readout=phase", "switching.interval_s=5", "motion.kind=rest", "drift.magnetic_arcsec_s=3", "compensation.relock=joint")
@@ -21,7 +19,3 @@ class MagneticStep(CliTest):
         # A mean of 46 squares of standard normal numbers: within these with a chance of 0.9999.
         self.assertLess(sum(squares) / 46, 1.95)
         self.assertGreater(sum(squares) / 46, 0.39)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,13 +1,10 @@
 """Man pages and completion that the program makes of its own tables."""
 
 import re
-import shutil
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-from support import ZLG
+from support import ZLG, folder_until
 
 
 def run(*command):
@@ -17,8 +14,7 @@ def run(*command):
 class Manual(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="zlg-manual-"))
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.folder = folder_until(cls.addClassCleanup)
         run(ZLG, "--manual", cls.folder)
         cls.pages = {page.stem: page.read_text() for page in (cls.folder / "man1").iterdir()}
         cls.verbs = sorted(name.removeprefix("zlg-") for name in cls.pages if name != "zlg")
@@ -47,7 +43,3 @@ class Manual(unittest.TestCase):
         for page in sorted((self.folder / "man1").iterdir()):
             done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z", page], capture_output=True, text=True, check=True)
             self.assertEqual(done.stderr, "", page.name)
-
-
-if __name__ == "__main__":
-    unittest.main()

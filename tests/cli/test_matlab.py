@@ -3,29 +3,20 @@
 import json
 import os
 import resource
-import unittest
 
 import h5py
 import numpy
 from mat_file import read_mat
-from support import CliTest, run
+from support import CliTest, folder_until, run
 
 
 class Matlab(CliTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        import tempfile
-        from pathlib import Path
-        cls.shared = tempfile.TemporaryDirectory()
-        cls.made = Path(cls.shared.name)
+        cls.made = folder_until(cls.addClassCleanup)
         settings = ["--set", "switching.interval_s=5", "--set", "gyro.light_samples=8", "--set", "gyro.readout=phase"]
         assert run("run", "--duration", 20, *settings, "--light", "--out", cls.made / "run").returncode == 0
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.shared.cleanup()
-        super().tearDownClass()
 
     def converted(self, log):
         out = self.folder / "log.mat"
@@ -106,7 +97,3 @@ class Matlab(CliTest):
         # A log is no foreign file, but its copy for MATLAB is.
         self.succeed("convert", raw, "--out", out)
         self.refuse(3, "convert", out, "--out", self.folder / "b.csv", says=("MATLAB 5",))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,32 +3,21 @@
 import html
 import json
 import re
-import tempfile
 import unittest
-from pathlib import Path
 from xml.etree import ElementTree
 
-from support import run
+from support import folder_until, run
 
 FAULT = ["--set", 'faults.kind=["laser_off"]', "--set", "faults.at_s=[3]", "--set", "faults.duration_s=[0.5]", "--set", "faults.size=[0]"]
-
-
-def verdict(page):
-    return html.unescape(re.search(r'<p class="verdict">([^<]*)</p>', page)[1])
 
 
 class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="zlg-pages-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
+        cls.folder = folder_until(cls.addClassCleanup)
         cls.made = {}
         for name, arguments in {"short": ["--duration", "1"], "calm": ["--duration", "8"], "fault": ["--duration", "8", *FAULT],
-                                "switched": ["--duration", "12", "--seed", "5", "--set", "switching.interval_s=3"],
-                                "failing": ["--duration", "12", "--set", "switching.interval_s=3", "--set",
-                                            'faults.kind=["switch_no_mode"]', "--set", "faults.at_s=[0]", "--set", "faults.duration_s=[12]",
-                                            "--set", "faults.size=[0.25]"]}.items():
+                                "switched": ["--duration", "12", "--seed", "5", "--set", "switching.interval_s=3"]}.items():
             out = cls.folder / name
             result = run("run", *arguments, "--out", out, "--format", "csv")
             page = out / "report.html"
@@ -37,24 +26,6 @@ class Pages(unittest.TestCase):
             result = run(verb, *inputs, "--out", cls.folder / f"{verb}.html")
             assert result.returncode == 0, result.stderr
             cls.made[verb] = (cls.folder / f"{verb}.html").read_text()
-
-    def test_each_begins_with_what_came_of_it(self):
-        for name, words in {"short": "No switch in this run of 1 s, for the interval is 90 s: there is nothing to correct",
-                            "calm": "No switch in this run of 8 s",
-                            "fault": "With a fault (laser_off from 3 s to 3.5 s): ",
-                            "failing": "With a fault (switch_no_mode from 0 s to 12 s): N switches, N more failed; a switch costs ",
-                            "switched": "3 switches; a switch costs ",
-                            "design": "Switch every ",
-                            "analyze": "angles.csv: angle random walk "}.items():
-            with self.subTest(name):
-                self.assertRegex(verdict(self.made[name]), "^" + re.escape(words).replace("N\\ ", r"\d+ "))
-                self.assertTrue(verdict(self.made[name]).endswith("."))
-
-    def test_without_a_switch_no_sawtooth_is_explained(self):
-        for name in ("short", "calm"):
-            self.assertNotIn("sawtooth", self.made[name])
-            self.assertIn("10 variants, all equal here", self.made[name])
-        self.assertIn("sawtooth", self.made["switched"])
 
     def test_a_fault_is_named_with_what_the_core_made_of_it(self):
         page = self.made["fault"]
@@ -91,7 +62,3 @@ class Pages(unittest.TestCase):
         self.assertIn("seed 5", page)
         self.assertRegex(page, r"zlg \d+\.\d+\.\d+")
         self.assertEqual((self.folder / "again" / "report.html").read_text(), page)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,13 +2,10 @@
 
 import csv
 import json
-import shutil
-import tempfile
 import unittest
 import xml.etree.ElementTree as xml
-from pathlib import Path
 
-from support import CliTest, body_of, run
+from support import CliTest, body_of, folder_until, run
 
 SHORT = ["--duration", 60, "--set", "switching.interval_s=5"]
 ITEMS = ["figure 1", "figure 2", "figure 3", "figure 4", "figure 5", "table 1", "table 2", "figure 6", "figure 7", "figure 8a",
@@ -20,10 +17,8 @@ SHARED = {}
 
 def setUpModule():
     """One recomputation serves every test here."""
-    folder = Path(tempfile.mkdtemp(prefix="zlg-paper-"))
-    unittest.addModuleCleanup(shutil.rmtree, folder)
     CliTest.setUpClass()
-    SHARED["out"] = folder / "paper"
+    SHARED["out"] = folder_until(unittest.addModuleCleanup) / "paper"
     SHARED["result"] = run("paper", *SHORT, "--out", SHARED["out"], "--json")
     if SHARED["result"].returncode != 0:
         raise AssertionError(f"zlg paper fails: exit {SHARED['result'].returncode}, {SHARED['result'].stderr}")
@@ -106,7 +101,3 @@ class SaysNo(CliTest):
         self.assertIn("written to", result.stdout)
         self.assertIn("chi-square", result.stdout)
         self.assertTrue((out / "paper.html").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,13 +4,11 @@ import csv
 import json
 import math
 import re
-import shutil
-import tempfile
 import unittest
 from pathlib import Path
 
 from oracle import Settings, compensate, find_gaps
-from support import AngleLog, CliTest, body_of, run
+from support import AngleLog, CliTest, body_of, folder_until, run
 
 FILES = ["raw.csv", "angles.csv", "health.csv", "switches.csv", "summary.json", "report.html"]
 VARIANTS = ["one_mode", "switching", "relock_frequency", "relock_detuning", "relock_mean_square", "bridge_constant",
@@ -51,10 +49,8 @@ SHARED = {}
 
 def setUpModule():
     """One run serves every test here."""
-    folder = Path(tempfile.mkdtemp(prefix="zlg-run-"))
-    SHARED["folder"] = folder
-    unittest.addModuleCleanup(shutil.rmtree, folder)
     CliTest.setUpClass()
+    folder = SHARED["folder"] = folder_until(unittest.addModuleCleanup)
     SHARED["result"] = run("run", *SHORT, "--out", folder / "first", "--format", "csv", "--json")
     if SHARED["result"].returncode != 0:
         raise AssertionError(f"zlg run fails: exit {SHARED['result'].returncode}, {SHARED['result'].stderr}")
@@ -113,14 +109,6 @@ class Outputs(RunTest):
         switches = list(csv.DictReader(body_of(self.out / "switches.csv").decode().splitlines()))
         self.assertEqual([int(row["tick"]) for row in switches], [first for first, _ in gaps])
 
-    def test_report_is_self_contained(self):
-        page = (self.out / "report.html").read_text()
-        self.assertNotRegex(page, r"(?i)(src|href)\s*=\s*[\"']?\s*(https?:)?//", "the report fetches something")
-        self.assertNotRegex(page, r"(?i)<script[^>]*\ssrc\b", "the report fetches a script")
-        self.assertNotRegex(page, r"(?i)@import|url\(\s*[\"']?https?:", "the report fetches a style")
-        self.assertRegex(page, r"(?i)<svg", "the report has no figure")
-        self.assertRegex(page.rstrip()[-10:].lower(), r"</html>$", "the report is cut off")
-
     def test_angles_agree_with_the_oracle(self):
         out = self.folder / "polynomial"  # the oracle knows no other bridge
         self.succeed("run", *SHORT, "--set", "compensation.bridge=quadratic", "--out", out, "--format", "csv")
@@ -133,11 +121,6 @@ class Outputs(RunTest):
 
 
 class Replay(RunTest):
-    def test_processed_raw_log_gives_the_live_angles(self):
-        angles = self.folder / "angles.csv"
-        self.succeed("process", self.out / "raw.csv", "--out", angles)
-        self.assertEqual(body_of(angles), body_of(self.out / "angles.csv"), "live and replayed angles differ")
-
     def test_simulate_writes_the_raw_log_of_run(self):
         raw = self.folder / "raw.csv"
         self.succeed("simulate", *SHORT, "--out", raw)
@@ -236,17 +219,6 @@ class Switches(CliTest):
         self.assertIn(line, (self.folder / "off" / "report.html").read_text())
 
 
-class Inspect(RunTest):
-    def test_inspect_tells_the_time_span(self):
-        result = json.loads(self.succeed("inspect", self.out / "raw.csv", "--json").stdout)
-        self.assertIsInstance(result, dict)
-        numbers = re.findall(r"-?\d+(?:\.\d+)?", json.dumps(result))
-        self.assertTrue({str(2 * N_TICKS), str(N_TICKS)} & set(numbers), f"neither halves nor ticks are named: {result}")
-
-    def test_inspect_reads_an_angle_log(self):
-        self.assertIsInstance(json.loads(self.succeed("inspect", self.out / "angles.csv", "--json").stdout), dict)
-
-
 class WhatIsCounted(CliTest):
     """`switches_unrepaired` and `ticks_as_whole_counts` of the summary, against the columns of the logs."""
 
@@ -290,7 +262,3 @@ class WhatIsCounted(CliTest):
         summary, shown, *_ = self.result("--duration", 10, "--set", "switching.interval_s=2")
         self.assertEqual(summary["ticks_as_whole_counts"], 0)
         self.assertNotIn("whole counts", shown)
-
-
-if __name__ == "__main__":
-    unittest.main()

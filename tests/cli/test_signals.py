@@ -8,10 +8,9 @@ import signal
 import socket
 import subprocess
 import time
-import unittest
 
 from line_of import Gyro
-from support import CliTest, ZLG, run, wait_until
+from support import CliTest, ZLG, folder_until, run, wait_until
 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -86,20 +85,11 @@ class Signals(CliTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        import tempfile
-        from pathlib import Path
-        cls.shared = tempfile.TemporaryDirectory()
-        cls.raw = Path(cls.shared.name) / "raw.h5"
-        cls.raw_csv = Path(cls.shared.name) / "raw.csv"
-        cls.angles = Path(cls.shared.name) / "angles.csv"
+        shared = folder_until(cls.addClassCleanup)
+        cls.raw, cls.raw_csv, cls.angles = (shared / name for name in ("raw.h5", "raw.csv", "angles.csv"))
         assert run("simulate", "--duration", 1500, "--out", cls.raw).returncode == 0
         assert run("convert", cls.raw, "--out", cls.raw_csv).returncode == 0
         assert run("process", cls.raw, "--out", cls.angles).returncode == 0
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.shared.cleanup()
-        super().tearDownClass()
 
     def setUp(self):
         super().setUp()
@@ -245,7 +235,3 @@ class Signals(CliTest):
         wait_until((self.folder / "r.h5.part").exists, started)
         started.send_signal(signal.SIGHUP)
         self.assertEqual(started.wait(60), 0)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -10,7 +10,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-from support import ROOT, ZLG
+from support import ROOT, ZLG, folder_until
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"```.*?^```|`[^`\n]*`", re.MULTILINE | re.DOTALL)
@@ -86,9 +86,8 @@ class Site(unittest.TestCase):
     def setUpClass(cls):
         if shutil.which("mkdocs") is None:
             raise unittest.SkipTest("mkdocs is not installed: scripts/install site")
-        folder = tempfile.TemporaryDirectory(prefix="zlg-site-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.site = Path(folder.name) / "site"
+        folder = folder_until(cls.addClassCleanup)
+        cls.site = folder / "site"
         cls.built = subprocess.run([ROOT / "scripts" / "site", "--strict", "--out", cls.site], capture_output=True, text=True)
         cls.pages = {page: Page(page.read_text()) for page in cls.site.rglob("*.html")}
 
@@ -137,7 +136,3 @@ class Site(unittest.TestCase):
             self.assertEqual((done.returncode, (Path(folder) / "thesis.txt").read_text()), (2, "mine"))
             self.assertIn(folder, done.stderr)
         self.assertEqual(subprocess.run([ROOT / "scripts" / "site", "--open"], capture_output=True).returncode, 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

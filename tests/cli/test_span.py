@@ -2,7 +2,6 @@
 
 import csv
 import json
-import unittest
 
 from support import CliTest, body_of
 
@@ -56,18 +55,6 @@ class Columns(CliTest):
         for row in rows(self.raw)[end - 40:end]:
             self.assertEqual((row["valid"], row["counts"], row["span"]), ("0", "0", "1"))
 
-    def test_processed_and_converted_it_gives_the_live_angles(self):
-        live = body_of(self.out / "angles.csv")
-        packed, back = self.folder / "raw.h5", self.folder / "back.csv"
-        self.succeed("convert", self.raw, "--out", packed)
-        self.succeed("convert", packed, "--out", back)
-        self.assertEqual(back.read_text(), self.raw.read_text())
-        for raw in (self.raw, packed):
-            angles = self.folder / "angles.csv"
-            self.succeed("process", raw, "--out", angles, "--force")
-            self.assertEqual(body_of(angles), live)
-        self.assertIn("span", json.loads(self.succeed("inspect", packed, "--json").stdout)["optional_columns"])
-
     def test_a_log_without_the_column_is_bridged_as_ever(self):
         kept = [line for line in self.raw.read_text().splitlines() if line.startswith("#")]
         names = [name for name in rows(self.raw)[0] if name != "span"]
@@ -95,7 +82,3 @@ class Columns(CliTest):
             bad.write_text("\n".join(lines) + "\n")
             says = (f"row {end + 1}", "'span'", f"'{span}'", f"allowed is {allowed}")
             self.refuse(3, "process", bad, "--out", self.folder / "x.csv", "--force", says=says)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,7 +3,6 @@
 import csv
 import json
 import math
-import unittest
 
 from support import CliTest, csv_text, quiet_log
 
@@ -118,7 +117,3 @@ class GapsOfOneTick(CliTest):
         self.assertEqual(set(gaps), {3})
         gaps = self.switches("no-miss", "--set", "perimeter.miss_lambda=0")[0]
         self.assertEqual(min(gaps), 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -37,7 +37,3 @@ class Pages(unittest.TestCase):
         for page in PAGES:
             with self.subTest(page.name), tempfile.TemporaryDirectory() as folder:
                 self.follow(page, folder)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -234,27 +234,3 @@ class TestBadInput:
         assert (call.returncode, of_zlg(stderr)) == (3, [f"zlg: cannot write {part}: File too large"])
         swept(on_ranks(2, long / "sweep.toml", "--out", out))
         assert out.read_bytes() == (long / "whole.h5").read_bytes()
-
-
-if __name__ == "__main__":
-    pytest.main([__file__])
-
-
-@needs_ranks
-def test_ranks_that_see_another_motion_file_are_refused(tmp_path):
-    """As two machines do whose files differ: each rank starts in a folder of its own."""
-    text = SWEEP.format(gyros=8, duration_s=10).replace("[base.switching]", "[base.motion]\nkind = 'file'\npath = 'm.csv'\n[base.switching]")
-    (tmp_path / "sweep.toml").write_text(text)
-    for name, last in (("here", 1), ("same", 1), ("there", 2)):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "m.csv").write_text("\n".join(str(k % 7) for k in range(2000)) + f"\n{last}\n")
-
-    def on_folders(other, out):
-        enter = f'cd "{tmp_path}/$([ "$OMPI_COMM_WORLD_RANK" = 0 ] && echo here || echo {other})" && exec "$@"'
-        return run(["mpirun", "-np", 2, "sh", "-c", enter, "sh", ZLG_MPI, "sweep", tmp_path / "sweep.toml", "--out", tmp_path / out])
-
-    assert on_folders("same", "same.h5").returncode == 0
-    result = on_folders("there", "other.h5")
-    assert result.returncode == 3
-    assert "the motion file m.csv has the checksum" in result.stderr
-    assert not (tmp_path / "other.h5").exists()

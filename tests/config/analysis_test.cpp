@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <zlg/config/analysis.hpp>
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,9 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 #include <zlg/config/config.hpp>
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 using namespace zlg::config;
 using zlg::core::BridgeMethod;

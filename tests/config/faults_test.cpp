@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <string>
 #include <zlg/config/config.hpp>
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 using namespace zlg;
 

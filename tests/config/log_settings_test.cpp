@@ -1,9 +1,6 @@
-#include <optional>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/log_settings.hpp>
+
+#include "test.hpp"
 
 namespace zlg::config {
 namespace {
@@ -80,7 +77,7 @@ TEST_P(FormerKeys, AreRefusedElsewhereWithWhatIsInTheirPlace) {
     const std::string by_set = complaint([&](Config& c) { apply_set(c, key + "=" + GetParam().value); });
     EXPECT_EQ(by_set.find(std::string{"--set: "} + GetParam().shown + " is gone since format_version 3 of logs; "), 0u)
         << by_set;
-    EXPECT_NE(by_set.find(GetParam().in_its_place), std::string::npos) << by_set;
+    test::expect_contains(by_set, GetParam().in_its_place);
     const auto dot = key.find('.');
     const std::string by_file = complaint([&](Config& c) {
         apply_toml(c, "[" + key.substr(0, dot) + "]\n" + key.substr(dot + 1) + " = \"" + "growing" + "\"\n", "a.toml");

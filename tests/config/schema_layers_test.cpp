@@ -3,9 +3,6 @@
 
 #include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-
 namespace zlg::config {
 namespace {
 

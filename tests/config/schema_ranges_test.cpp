@@ -1,13 +1,7 @@
 // The range of every number is that of the text that documents it.
 #include "schema_support.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
 #include <regex>
-#include <sstream>
 
 namespace zlg::config {
 namespace {

@@ -1,8 +1,6 @@
 // Rules between keys.
 #include "schema_support.hpp"
 
-#include <vector>
-
 namespace zlg::config {
 namespace {
 

@@ -1,13 +1,9 @@
 #pragma once
 // Configurations from texts, and the messages of those that are refused.
 
-#include <gtest/gtest.h>
-
-#include <initializer_list>
-#include <string>
-#include <string_view>
-
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace zlg::config {
 

@@ -1,12 +1,6 @@
 // The table of keys: each key is a member of its own, with its kind, its choices and its place in the reference.
 #include "schema_support.hpp"
 
-#include <algorithm>
-#include <map>
-#include <set>
-#include <utility>
-#include <vector>
-
 namespace zlg::config {
 namespace {
 

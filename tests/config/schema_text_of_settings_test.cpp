@@ -4,13 +4,6 @@
 #include <rapidcheck/gtest.h>
 #include <stdlib.h>
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <utility>
-#include <vector>
-
 namespace zlg::config {
 namespace {
 

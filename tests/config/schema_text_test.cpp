@@ -1,9 +1,7 @@
 // Text that a configuration can hold, and text that it could not write again.
 #include <zlg/config/schema.hpp>
 
-#include <gtest/gtest.h>
-
-#include <string>
+#include "test.hpp"
 
 namespace {
 

@@ -1,9 +1,6 @@
 // Values: read by their kind, or refused with the place, the value and what is allowed.
 #include "schema_support.hpp"
 
-#include <limits>
-#include <vector>
-
 namespace zlg::config {
 namespace {
 

@@ -1,25 +1,9 @@
 #pragma once
 // What every test of the core includes.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <numbers>
-#include <random>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <zlg/core/common/maths.hpp>
+
+#include "test.hpp"
 
 namespace zlg::core::test {
 

@@ -1,9 +1,4 @@
-#include <gtest/gtest.h>
 #include <zlg/core/common/maths.hpp>
-
-#include <cmath>
-#include <limits>
-#include <random>
 
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/error.hpp>

@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <string>
-
 #include <zlg/design/error.hpp>
+
+#include "test.hpp"
 
 namespace zlg::design {
 namespace {

@@ -1,10 +1,8 @@
 #include <zlg/design/initial_miss.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include <zlg/design/error.hpp>
+
+#include "test.hpp"
 
 namespace {
 

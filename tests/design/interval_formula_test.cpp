@@ -1,16 +1,11 @@
-#include <gtest/gtest.h>
 #include <zlg/core/common/maths.hpp>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
 
 #include <zlg/design/error.hpp>
 #include <zlg/design/interval_formula.hpp>
 #include <zlg/design/switching_interval.hpp>
 
 #include "paper_case.hpp"
+#include "test.hpp"
 
 namespace zlg::design {
 namespace {
@@ -179,14 +174,6 @@ TEST(IntervalFormula, ACaseThatCannotBeIsRefused) {
     EXPECT_THROW((void)roots_as_printed(c), DesignError);
     EXPECT_THROW((void)longest_run_as_printed_s(c.gyro, std::nan("")), DesignError);
     EXPECT_THROW((void)longest_run_as_printed_s({.thermal_time_s = -1.0}, 10.0), DesignError);
-}
-
-TEST(IntervalFormula, EveryStatusHasASentenceOfItsOwn) {
-    EXPECT_NE(sentence(RootStatus::none), sentence(RootStatus::found));
-    EXPECT_NE(sentence(RootStatus::none), sentence(RootStatus::beyond_run));
-    EXPECT_NE(sentence(RootStatus::found), sentence(RootStatus::beyond_run));
-    for (const auto s : {RootStatus::found, RootStatus::none, RootStatus::beyond_run})
-        EXPECT_FALSE(sentence(s).empty());
 }
 
 }  // namespace

@@ -1,10 +1,4 @@
-#include <gtest/gtest.h>
 #include <zlg/core/common/maths.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
 
 #include <zlg/design/error.hpp>
 #include <zlg/design/magnetic_angle.hpp>
@@ -63,8 +57,8 @@ TEST(MagneticAngle, ARefusalIsOneLineThatNamesTheParameterAndItsValue) {
         FAIL();
     } catch (const DesignError& error) {
         const std::string text = error.what();
-        EXPECT_NE(text.find("thermal_time_s"), std::string::npos) << text;
-        EXPECT_NE(text.find("-7.5"), std::string::npos) << text;
+        test::expect_contains(text, "thermal_time_s");
+        test::expect_contains(text, "-7.5");
         EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     }
 }

@@ -2,10 +2,9 @@
 // The angle of an alternating sequence of segments by its definition: the sum of the integrals of the magnetic drift,
 // against which the closed forms are tested.
 
-#include <span>
-#include <vector>
-
 #include <zlg/design/magnetic_angle.hpp>
+
+#include "test.hpp"
 
 namespace zlg::design {
 

@@ -1,9 +1,6 @@
 #include <zlg/design/order_choice.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <cmath>
 
 #include <zlg/design/error.hpp>
 

@@ -1,16 +1,10 @@
 #include <zlg/design/perimeter_response.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <numbers>
-#include <vector>
-
 #include <zlg/design/error.hpp>
+
+#include "test.hpp"
 
 namespace {
 

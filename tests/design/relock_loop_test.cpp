@@ -1,12 +1,8 @@
 #include <zlg/design/relock_loop.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-
 #include <zlg/design/error.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,15 +1,8 @@
 #include <zlg/design/relock_tables.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include <zlg/design/error.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,12 +1,6 @@
 #include <zlg/design/substitution_noise.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-#include <vector>
 
 #include <zlg/design/error.hpp>
 

@@ -1,16 +1,12 @@
 #pragma once
 // Least squares in exact rationals and ticks by exact integrals: what the substitution is held against.
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include <rapidcheck.h>
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <zlg/design/substitution.hpp>
+
+#include "test.hpp"
 
 namespace substitution_test {
 

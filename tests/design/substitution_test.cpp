@@ -1,14 +1,6 @@
 #include <zlg/design/substitution.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
 
 #include <zlg/design/error.hpp>
 

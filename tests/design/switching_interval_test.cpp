@@ -1,12 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <set>
-
 #include <zlg/design/error.hpp>
 #include <zlg/design/interval_formula.hpp>
 #include <zlg/design/switching_interval.hpp>
@@ -333,17 +324,6 @@ TEST(SwitchingInterval, AnIntervalMissedBy30PercentCosts6And3_5PercentOfTheExces
     EXPECT_NEAR(*rise.longer_arcsec_s / excess, (1.3 + 1.0 / 1.3) / 2.0 - 1.0, 1e-9);
     // No interval is longer than the run.
     EXPECT_FALSE(sensitivity(IntervalMethod::worst_case, paper(0.7, 3.0)).longer_arcsec_s.has_value());
-}
-
-TEST(SwitchingInterval, NamesAndSentencesDiffer) {
-    std::set<std::string_view> names;
-    for (const auto method : interval_methods) names.insert(name(method));
-    EXPECT_EQ(names,
-              (std::set<std::string_view>{"corrected", "worst_case", "as_printed", "closed_form", "random_sign"}));
-    const std::set<std::string_view> sentences{sentence(OptimumStatus::inside), sentence(OptimumStatus::whole_run),
-                                               sentence(OptimumStatus::no_magnetic_drift)};
-    EXPECT_EQ(sentences.size(), 3U);
-    EXPECT_EQ(sentences.count(""), 0U);
 }
 
 }  // namespace

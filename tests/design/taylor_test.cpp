@@ -1,10 +1,5 @@
 #include <zlg/design/taylor.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include <zlg/design/error.hpp>
 
 #include "substitution_support.hpp"

@@ -1,10 +1,5 @@
 #include <zlg/deviations/angle_record.hpp>
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "records.hpp"
 
 using namespace zlg::deviations;

@@ -1,15 +1,11 @@
 #include <zlg/deviations/angle_samples.hpp>
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <random>
-
-#include <gtest/gtest.h>
 #include <stdlib.h>
 #include <zlg/deviations/averaging.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
+
+#include "test.hpp"
 
 using namespace zlg;
 using namespace zlg::deviations;

@@ -1,9 +1,8 @@
 #include <zlg/deviations/averaging.hpp>
 
-#include <limits>
-
-#include <gtest/gtest.h>
 #include <zlg/deviations/series.hpp>
+
+#include "test.hpp"
 
 using namespace zlg::deviations;
 using Factors = std::vector<std::int64_t>;

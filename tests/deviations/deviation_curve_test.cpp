@@ -1,10 +1,8 @@
 #include <zlg/deviations/deviation_curve.hpp>
 
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include <zlg/deviations/series.hpp>
+
+#include "test.hpp"
 
 using namespace zlg::deviations;
 

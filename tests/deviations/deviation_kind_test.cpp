@@ -1,7 +1,8 @@
 #include <zlg/deviations/deviation_kind.hpp>
 
-#include <gtest/gtest.h>
 #include <zlg/deviations/series.hpp>
+
+#include "test.hpp"
 
 using namespace zlg::deviations;
 

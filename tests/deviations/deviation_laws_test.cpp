@@ -2,12 +2,7 @@
 
 #include <zlg/deviations/deviation.hpp>
 
-#include <array>
-#include <cmath>
-#include <numeric>
-#include <random>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 using namespace zlg::deviations;
 

@@ -2,12 +2,6 @@
 
 #include <zlg/deviations/deviation.hpp>
 
-#include <array>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "nbs14.hpp"
 #include "records.hpp"
 

@@ -1,10 +1,5 @@
 #include <zlg/deviations/deviation_stream.hpp>
 
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
 #include <zlg/deviations/averaging.hpp>
 
 #include "direct_deviation.hpp"

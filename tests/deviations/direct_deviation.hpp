@@ -2,13 +2,9 @@
 // The deviations from their definitions, one term after another, in extended precision: what the fast paths must agree
 // with.
 
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <vector>
-
 #include <zlg/deviations/deviation_kind.hpp>
+
+#include "test.hpp"
 
 namespace zlg::deviations::direct {
 

@@ -1,6 +1,5 @@
 #include "lag_one.hpp"
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 using namespace zlg::deviations;
 

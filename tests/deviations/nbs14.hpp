@@ -1,8 +1,7 @@
 #pragma once
 // The two test sets of rates of NBS Monograph 140, Annex 8.E, and NIST Special Publication 1065, section 12.4.
 
-#include <cstdint>
-#include <vector>
+#include "test.hpp"
 
 namespace zlg::deviations {
 

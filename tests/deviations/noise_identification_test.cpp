@@ -1,13 +1,6 @@
 #include <zlg/deviations/noise_identification.hpp>
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 using namespace zlg::deviations;
 

@@ -1,13 +1,11 @@
 #pragma once
 // Records of rates, and all that is computed of one.
 
-#include <array>
-#include <limits>
-#include <vector>
-
 #include <zlg/deviations/angle_record.hpp>
 #include <zlg/deviations/deviation_kind.hpp>
 #include <zlg/deviations/series.hpp>
+
+#include "test.hpp"
 
 namespace zlg::deviations {
 

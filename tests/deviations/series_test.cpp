@@ -1,10 +1,6 @@
 #include <zlg/deviations/series.hpp>
 
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 using namespace zlg::deviations;
 

@@ -1,6 +1,6 @@
 #include <zlg/firmware/exchange.hpp>
 
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace {
 

@@ -1,10 +1,6 @@
 #include <zlg/firmware/fault.hpp>
 
-#include <cstdint>
-#include <cstring>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::firmware {
 namespace {

@@ -1,9 +1,6 @@
 #include <zlg/firmware/gyro.hpp>
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include <zlg/firmware/pulse.hpp>
 
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace {
 

@@ -1,7 +1,8 @@
 #include <telemetry_queue.hpp>
 
-#include <gtest/gtest.h>
 #include <zlg/wire/angle_register.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -17,7 +17,3 @@ class Libraries(unittest.TestCase):
         foreign = {name for name in archives if not name.startswith("libzlg_")}
         self.assertTrue(foreign, "the map names no archive: the pattern is wrong")
         self.assertLessEqual(foreign, {"libc.a", "libgcc.a"})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -232,16 +232,6 @@ class Parameters(WireTest):
         reply = self.refused(line.NOT_ALLOWED, SETTLE, (INTERVAL, 3000.0), (SETTLE, -1.0))
         self.assertEqual(reply.part, 1)
 
-    def test_what_can_only_be_read_is_not_set(self):
-        self.refused(line.READ_ONLY, HALF_WAVE, (INTERVAL, 3000.0), (HALF_WAVE, 41.0))
-
-    def test_what_is_no_value_is_not_set(self):
-        self.refused(line.NO_VALUE, INTERVAL, (INTERVAL, 3000.5))
-
-    def test_a_key_that_nobody_knows(self):
-        reply = self.powered_host().ask(READ, 0x7777)
-        self.assertEqual((reply.result, reply.key), (line.UNKNOWN_KEY, 0x7777))
-
     def test_sixteen_at_once(self):
         keys = list(range(0x0101, 0x0105)) + list(range(0x0201, 0x020D))
         reply = self.powered_host().ask(READ, *keys)
@@ -286,12 +276,6 @@ class Repeated(WireTest):
         self.assertEqual(again.sequence > first.sequence, True)
         self.assertEqual(host.repeat(11, READ, INTERVAL).values, {INTERVAL: 3000.0})
 
-    def test_the_same_number_of_another_host_is_another_command(self):
-        host = self.powered_host()
-        host.repeat(10, SET, (INTERVAL, 3000.0))
-        host.session += 1
-        self.assertEqual(host.repeat(10, SET, (INTERVAL, 4000.0)).values, {INTERVAL: 4000.0})
-
 
 class Disturbed(WireTest):
     def test_noise_and_halves_of_frames_cost_nothing_but_themselves(self):
@@ -310,18 +294,6 @@ class Disturbed(WireTest):
         messages = host.of(TELEMETRY)
         self.assertEqual([m.tick for m in messages], list(range(len(messages))))
         self.assertEqual(host.decoder.n_damaged, 0)
-
-    def test_messages_of_a_gyro_are_no_commands(self):
-        host = self.powered_host()
-        host.send(line.frame(REPLY, 1, 0, bytes(13)))
-        host.ticks(20)
-        self.assertEqual(host.of(REPLY), [])
-
-    def test_a_command_of_another_length_is_malformed(self):
-        host = self.powered_host()
-        host.send(line.frame(line.COMMAND, 77, 5, struct.pack("<BB", SET, 2) + bytes(10)))
-        reply = host.listen_until(lambda m: m.kind == REPLY)
-        self.assertEqual((reply.to_session, reply.to_sequence, reply.result), (77, 5, line.MALFORMED))
 
     def test_after_a_reset_the_session_is_the_next_one_and_all_begins_anew(self):
         host = self.powered_host()
@@ -402,20 +374,3 @@ class Stored(WireTest):
         self.assertEqual(state.n_overruns, 0)
         messages = host.of(TELEMETRY)
         self.assertEqual([m.tick for m in messages], list(range(len(messages))))
-
-
-class Ends(unittest.TestCase):
-    """The decoder itself, against what the document says."""
-
-    def test_check_value(self):
-        self.assertEqual(line.crc32c(b"123456789"), 0xE3069283)
-
-    def test_stuffing(self):
-        for plain, stuffed in ((b"", b"\1"), (b"\0", b"\1\1"), (b"\x11\0\0\x22", b"\2\x11\1\2\x22"), (b"a" * 254, None)):
-            if stuffed is not None:
-                self.assertEqual(line.stuffed(plain), stuffed)
-            self.assertEqual(line.unstuffed(line.stuffed(plain)), plain)
-
-
-if __name__ == "__main__":
-    unittest.main()

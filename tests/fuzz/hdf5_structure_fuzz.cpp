@@ -56,52 +56,28 @@ hid_t narrow_type(std::size_t bits) {
     return type;
 }
 
-hid_t any_type(unsigned kind) {
+hid_t pair_type() {
     const hsize_t two = 2;
-    switch (kind) {
-        case 0:
-            return H5Tcopy(H5T_STD_I8BE);
-        case 1:
-            return H5Tcopy(H5T_STD_U8LE);
-        case 2:
-            return H5Tcopy(H5T_STD_I16LE);
-        case 3:
-            return H5Tcopy(H5T_STD_I32BE);
-        case 4:
-            return H5Tcopy(H5T_STD_U32LE);
-        case 5:
-            return H5Tcopy(H5T_STD_I64BE);
-        case 6:
-            return H5Tcopy(H5T_STD_U64LE);
-        case 7:
-            return H5Tcopy(H5T_IEEE_F32BE);
-        case 8:
-            return H5Tcopy(H5T_IEEE_F64BE);
-        case 9:
-            return H5Tcopy(H5T_NATIVE_LDOUBLE);
-        case 10:
-            return H5Tcopy(H5T_STD_B8LE);
-        case 11:
-            return H5Tcreate(H5T_OPAQUE, 5);
-        case 12:
-            return string_type(6, H5T_CSET_ASCII);
-        case 13:
-            return string_type(H5T_VARIABLE, H5T_CSET_UTF8);
-        case 14:
-            return compound_type();
-        case 15:
-            return enum_type();
-        case 16:
-            return H5Tvlen_create(H5T_NATIVE_INT32);
-        case 17:
-            return H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &two);
-        case 18:
-            return H5Tcopy(H5T_STD_REF_OBJ);
-        case 19:
-            return narrow_type(13);
-        default:
-            return H5Tcopy(H5T_UNIX_D32LE);
-    }
+    return H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &two);
+}
+
+hid_t any_type(unsigned kind) {
+    const std::array plain{H5T_STD_I8BE,   H5T_STD_U8LE,       H5T_STD_I16LE, H5T_STD_I32BE,
+                           H5T_STD_U32LE,  H5T_STD_I64BE,      H5T_STD_U64LE, H5T_IEEE_F32BE,
+                           H5T_IEEE_F64BE, H5T_NATIVE_LDOUBLE, H5T_STD_B8LE};
+    if (kind < plain.size()) return H5Tcopy(plain[kind]);
+    using Made = hid_t (*)();
+    const std::array<Made, 9> made{[] { return H5Tcreate(H5T_OPAQUE, 5); },
+                                   [] { return string_type(6, H5T_CSET_ASCII); },
+                                   [] { return string_type(H5T_VARIABLE, H5T_CSET_UTF8); },
+                                   compound_type,
+                                   enum_type,
+                                   [] { return H5Tvlen_create(H5T_NATIVE_INT32); },
+                                   pair_type,
+                                   [] { return H5Tcopy(H5T_STD_REF_OBJ); },
+                                   [] { return narrow_type(13); }};
+    kind -= static_cast<unsigned>(plain.size());
+    return kind < made.size() ? made[kind]() : H5Tcopy(H5T_UNIX_D32LE);
 }
 
 // How a data set is stored: contiguous, in chunks, compressed, within its own header, with a fill value and no data.

@@ -115,7 +115,3 @@ class Subdirectory(unittest.TestCase):
             commands = run("ninja", "-C", source / "build", "-t", "commands", "CMakeFiles/outer.dir/main.cpp.o")
             self.assertIn("-std=c++20", commands.replace("gnu++20", "c++20"))
             self.assertNotIn("-Werror", run("ninja", "-C", source / "build", "-t", "commands", "zlg_core"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 """How soon the lab page answers. It runs alone: a second browser beside it would take the processor."""
 
-import unittest
 
 from lab_browser import LivingPageCase
 
@@ -36,7 +35,3 @@ class Answers(LivingPageCase):
             self.browser.press("#run")
             self.browser.wait_until(lambda n=n: self.browser.value("answers.length") == n, timeout_s=5)
         return sorted(self.browser.value("answers"))
-
-
-if __name__ == "__main__":
-    unittest.main()

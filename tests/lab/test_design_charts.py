@@ -3,7 +3,6 @@
 import json
 import math
 import re
-import unittest
 
 from lab_browser import PageCase
 from test_lab import zlg
@@ -86,7 +85,3 @@ class DesignCharts(PageCase):
             in_histogram = r"rms error .*, as configured ([\d.]+) arcsec"
             self.browser.wait_until(lambda: re.match(r"A switch leaves ([\d.]+) arcsec\.", self.browser.text("#design-text")))
             self.browser.wait_until(lambda: shown(self.browser.text("#design-text"), r"A switch leaves ([\d.]+)") == shown(self.browser.text("#histogram-text"), in_histogram), timeout_s=5)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -7,7 +7,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import unittest
 from pathlib import Path
 
 from lab_browser import ROOT, PageCase
@@ -165,7 +164,3 @@ class Live(PageCase):
                     self.browser.wait_until(lambda: self.time_s() > 59.9)
                     self.assertEqual(self.browser.value("document.documentElement.scrollWidth"), width)
         self.assertEqual(self.browser.complaints(), [])
-
-
-if __name__ == "__main__":
-    unittest.main()

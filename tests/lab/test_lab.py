@@ -189,7 +189,3 @@ class WithoutPage(unittest.TestCase):
             self.assertEqual(refused.returncode, 3)
             self.assertIn("holds no lab page", refused.stderr)
             self.assertFalse((Path(folder) / "lab.html").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 """The lab page at full speed for a long time: the memory of its module and of its page does not grow. What the worker holds beside the module is not seen here."""
 
-import unittest
 
 from lab_browser import PageCase
 
@@ -23,7 +22,3 @@ class Lasting(PageCase):
         # would nearly double it.
         self.assertLess(seen[1500][0], 1.5 * seen[600][0])
         self.assertEqual(seen[1500][1], seen[600][1])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,7 +3,6 @@
 import re
 import tempfile
 import time
-import unittest
 from pathlib import Path
 
 from lab_browser import LivingPageCase
@@ -138,7 +137,3 @@ class Logs(LivingPageCase):
         self.assertTrue(self.browser.text("#log-switch-text").startswith("At 55 s"))
         self.browser.press("#log-switch-strip button:nth-child(2)")
         self.assertTrue(self.browser.text("#log-switch-text").startswith(f"At {names[1].split()[2]} s"))
-
-
-if __name__ == "__main__":
-    unittest.main()

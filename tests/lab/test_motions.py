@@ -3,7 +3,6 @@
 import json
 import math
 import tempfile
-import unittest
 from pathlib import Path
 
 from lab_browser import LivingPageCase
@@ -87,7 +86,3 @@ class Motions(LivingPageCase):
         self.browser.wait_until(lambda: "100 rows" in self.browser.text("#motion-text"))
         self.browser.wait_for_state("done")
         self.assertEqual(self.browser.marked("time"), "2.0000")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,7 +3,6 @@
 import json
 import re
 import tempfile
-import unittest
 from pathlib import Path
 
 from lab_browser import LivingPageCase
@@ -181,7 +180,3 @@ class Views(LivingPageCase):
         unnamed = self.browser.value("""[...document.querySelectorAll('input, select, textarea, button')].filter(e =>
             !(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim())).map(e => e.outerHTML)""")
         self.assertEqual(unnamed, [])
-
-
-if __name__ == "__main__":
-    unittest.main()

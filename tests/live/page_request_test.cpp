@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <string>
 #include <zlg/live/page_request.hpp>
+
+#include "test.hpp"
 
 namespace zlg::live {
 namespace {

@@ -1,17 +1,13 @@
 #include <arpa/inet.h>
-#include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <chrono>
-#include <string>
-#include <thread>
 #include <zlg/live/page_server.hpp>
 #include <zlg/logs/error.hpp>
+
+#include "test.hpp"
 
 namespace zlg::live {
 namespace {
@@ -68,9 +64,9 @@ TEST(PageServers, GiveThePageAndTheStream) {
     EXPECT_TRUE(answer.ends_with("\r\n\r\n<p>the page"));
     const Peer stream{server.port()};
     stream.say(request(server, "/records"));
-    EXPECT_NE(stream.hear("\n\nevent: snapshot\n").find("text/event-stream"), std::string::npos);
+    test::expect_contains(stream.hear("\n\nevent: snapshot\n"), "text/event-stream");
     book.add({.angle = {.tick = 1}}, 0.005);
-    EXPECT_NE(stream.hear("event: rows\n").find("event: rows"), std::string::npos);
+    test::expect_contains(stream.hear("event: rows\n"), "event: rows");
 }
 
 TEST(PageServers, SayWhichPortIsInUse) {
@@ -80,7 +76,7 @@ TEST(PageServers, SayWhichPortIsInUse) {
         const PageServer second{"", book, server.port()};
         FAIL() << "two servers at one port";
     } catch (const logs::IoError& error) {
-        EXPECT_NE(std::string{error.what()}.find(std::to_string(server.port())), std::string::npos);
+        test::expect_contains(std::string{error.what()}, std::to_string(server.port()));
     }
 }
 
@@ -117,12 +113,12 @@ TEST(PageServers, TakeRecordsWhilePagesComeAndGo) {
     for (int k = 0; k < 20; ++k) {
         const Peer stream{server.port()};
         stream.say(request(server, "/records"));
-        EXPECT_NE(stream.hear("snapshot").find("snapshot"), std::string::npos);
+        test::expect_contains(stream.hear("snapshot"), "snapshot");
     }
     writer.join();
     const Peer stream{server.port()};
     stream.say(request(server, "/records"));
-    EXPECT_NE(stream.hear("\"ended\":true").find("\"ended\":true"), std::string::npos);
+    test::expect_contains(stream.hear("\"ended\":true"), "\"ended\":true");
 }
 
 }  // namespace

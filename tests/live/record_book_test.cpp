@@ -1,13 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <zlg/live/record_book.hpp>
 
 #include "gap_view.hpp"
+#include "test.hpp"
 #include "thinned.hpp"
 
 namespace zlg::live {

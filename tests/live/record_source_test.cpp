@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
 #include <zlg/config/schema.hpp>
 #include <zlg/live/record_source.hpp>
 #include <zlg/logs/error.hpp>
@@ -11,7 +5,8 @@
 #include <zlg/rig/replay.hpp>
 
 #include "../logs/line_gyro.hpp"
-#include "../logs/temporary_folder.hpp"
+#include "temporary_folder.hpp"
+#include "test.hpp"
 
 namespace zlg::live {
 namespace {

@@ -1,8 +1,5 @@
 #include <zlg/logs/angle_increments.hpp>
 
-#include <gtest/gtest.h>
-
-#include <vector>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <vector>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 
@@ -105,16 +101,6 @@ TEST(AngleReader, misses_a_column_that_is_not_there) {
     const std::string path =
         folder.write("angles.csv", "tick,t_s,dtheta_arcsec,sigma_arcsec,mode,flags\n0,0,0,0,1,0\n");
     expect_contains(message_of<FormatError>([&] { AngleReader{path}; }), "'dtheta_final_arcsec' is missing");
-}
-
-TEST(AngleWriter, refuses_angles_that_are_not_finite_and_sigmas_below_zero) {
-    const TemporaryFolder folder;
-    AngleWriter writer{folder.file("angles.csv"), 0.005, {}, false};
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(writer.write({.dtheta_arcsec = nan}), FormatError);
-    EXPECT_THROW(writer.write({.dtheta_final_arcsec = std::numeric_limits<double>::infinity()}), FormatError);
-    EXPECT_THROW(writer.write({.sigma_arcsec = nan}), FormatError);
-    EXPECT_THROW(writer.write({.sigma_arcsec = -1.0}), FormatError);
 }
 
 TEST(AngleWriter, has_room_for_the_longest_row) {

@@ -4,12 +4,9 @@
 #include <rapidcheck.h>
 #include <stdlib.h>
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 #include <zlg/core/records.hpp>
+
+#include "test.hpp"
 
 namespace zlg::test {
 

@@ -1,9 +1,8 @@
 #include <zlg/logs/budget.hpp>
 
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <zlg/logs/error.hpp>
+
+#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

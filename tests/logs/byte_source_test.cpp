@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
-#include <fstream>
-#include <string>
 #include <zlg/logs/byte_source.hpp>
 #include <zlg/logs/error.hpp>
 

@@ -1,16 +1,11 @@
 // Claims about files of columns: what is written reads back, and a file is as before or whole.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <string>
-#include <vector>
 
 #include <unistd.h>
 
 #include <zlg/logs/column_file.hpp>
 #include <zlg/logs/error.hpp>
+
+#include "test.hpp"
 
 namespace {
 

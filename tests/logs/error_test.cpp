@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <type_traits>
 #include <zlg/logs/error.hpp>
+
+#include "test.hpp"
 
 using namespace zlg::logs;
 

@@ -1,11 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <fstream>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
 

@@ -1,11 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <fstream>
-#include <limits>
-#include <optional>
-#include <string>
-#include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/follower.hpp>
 

@@ -1,7 +1,5 @@
 #include <zlg/logs/foreign_table.hpp>
 
-#include <gtest/gtest.h>
-
 #include "foreign/units.hpp"
 #include "temporary_folder.hpp"
 #include "text_table/dates.hpp"

@@ -1,52 +1,27 @@
 // Claims about an HDF5 log while it grows: it can be followed, its writer can be killed, the disk can be full.
-#include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/mount.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <chrono>
-#include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <random>
-#include <thread>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 
+#include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
 using namespace zlg::logs;
 using namespace zlg::test;
 using namespace std::chrono_literals;
-using zlg::core::AngleRow;
 using zlg::core::HalfRecord;
 namespace fs = std::filesystem;
 
 namespace {
 
 constexpr RawWriterOptions keep{.light_samples = 4, .keep_part = true};
-
-HalfRecord row_of(std::int64_t half) {
-    const auto x = static_cast<double>(half);
-    return {.half = half,
-            .counts = 151 - 302 * (half % 2) + half % 17,
-            .detuning_lambda = 1e-3 * std::sin(x),
-            .detuning_sq_lambda2 = 1e-6 * x,
-            .piezo_v = 150.0 + x,
-            .temperature_c = 20.0 - 1e-4 * x,
-            .bias_sign = static_cast<std::int8_t>(half % 2 == 0 ? 1 : -1),
-            .mode = static_cast<std::int8_t>(half % 1000 < 500 ? 1 : -1),
-            .loop_closed = half % 500 > 3,
-            .valid = half % 777 != 0};
-}
 
 std::array<float, 4> light_of(std::int64_t half) {
     const auto x = static_cast<float>(half % 1000);
@@ -86,18 +61,6 @@ private:
     std::atomic<std::int64_t>* count_;
 };
 
-// The child ends with its parent, whatever it waits for.
-template <class Action>
-pid_t in_a_child(Action action) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-        action();
-        ::_exit(0);
-    }
-    return child;
-}
-
 // The exit status of a child; empty when it has not ended in time, and then it is killed.
 std::optional<int> status_of(pid_t child, std::chrono::milliseconds limit = 60s) {
     int status = 0;
@@ -108,11 +71,6 @@ std::optional<int> status_of(pid_t child, std::chrono::milliseconds limit = 60s)
     ::kill(child, SIGKILL);
     ::waitpid(child, &status, 0);
     return std::nullopt;
-}
-
-void kill_and_wait(pid_t child) {
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
 }
 
 bool begins_as_hdf5(const std::string& path) { return content_of(path).starts_with("\x89HDF"); }
@@ -188,107 +146,6 @@ private:
 };
 
 }  // namespace
-
-TEST(GrowingLog, everything_flushed_survives_60_kills_at_random_moments) {
-    std::mt19937 random{1};
-    int kills_with_rows = 0;
-    for (int kill = 0; kill < 60; ++kill) {
-        const TemporaryFolder folder;
-        SharedCount flushed;
-        const std::int64_t rows_per_flush = 1 + static_cast<std::int64_t>(random() % 3000);
-        const pid_t child = in_a_child([&] {
-            RawWriter writer{folder.file("raw.h5"), {{"run.seed", "1"}}, false, all_raw_columns, keep};
-            for (std::int64_t half = 0;; ++half) {
-                write_row(writer, half);
-                if ((half + 1) % rows_per_flush != 0) continue;
-                writer.flush();
-                flushed.set(half + 1);
-            }
-        });
-        // Half of them from its first moment on; half while rows are surely coming, however busy the machine.
-        if (kill % 2 == 1)
-            while (flushed.get() == 0) std::this_thread::sleep_for(1ms);
-        std::this_thread::sleep_for(std::chrono::microseconds(random() % 25'000));
-        kill_and_wait(child);
-        EXPECT_FALSE(fs::exists(folder.file("raw.h5")));
-        const std::string part = folder.file("raw.h5.part");
-        if (!fs::exists(part) || !begins_as_hdf5(part)) {
-            EXPECT_EQ(flushed.get(), 0) << "killed before the file was published";
-            continue;
-        }
-        RawReader reader{part};
-        EXPECT_FALSE(reader.header().complete);
-        EXPECT_GE(good_rows(reader), flushed.get()) << "kill " << kill;
-        kills_with_rows += flushed.get() > 0 ? 1 : 0;
-    }
-    EXPECT_GE(kills_with_rows, 30) << "half of the kills must meet a writer at work";
-}
-
-TEST(GrowingLog, angles_flushed_survive_a_kill) {
-    for (int kill = 0; kill < 5; ++kill) {
-        const TemporaryFolder folder;
-        SharedCount flushed;
-        const pid_t child = in_a_child([&] {
-            AngleWriter writer{folder.file("a.h5"), 0.005, {}, false, {.has_truth = true, .keep_part = true}};
-            for (std::int64_t tick = 0;; ++tick) {
-                writer.write({.tick = tick, .dtheta_arcsec = 0.5 * static_cast<double>(tick)},
-                             static_cast<double>(tick));
-                if (tick % 1000 != 999) continue;
-                writer.flush();
-                flushed.set(tick + 1);
-            }
-        });
-        while (flushed.get() < 3000) std::this_thread::sleep_for(1ms);
-        kill_and_wait(child);
-        AngleReader reader{folder.file("a.h5.part")};
-        std::int64_t tick = 0;
-        for (TimedAngle angle; reader.next(angle); ++tick) {
-            ASSERT_EQ(angle.row.dtheta_arcsec, 0.5 * static_cast<double>(tick));
-            ASSERT_EQ(angle.truth_dtheta_arcsec, static_cast<double>(tick));
-        }
-        EXPECT_GE(tick, flushed.get());
-        EXPECT_FALSE(reader.header().complete);
-    }
-}
-
-// The writer is never more than ten flushes ahead of its reader, so that both are at work together on any machine.
-TEST(GrowingLog, can_be_followed_to_its_end_from_another_process) {
-    const TemporaryFolder folder;
-    constexpr std::int64_t n = 150'000;
-    constexpr std::int64_t rows_per_flush = 997;
-    constexpr std::int64_t most_ahead = 10 * rows_per_flush;
-    const std::string part = folder.file("raw.h5.part");
-    SharedCount rows;  // that the reader has
-    const pid_t child = in_a_child([&] {
-        RawWriter writer{folder.file("raw.h5"), {}, false, all_raw_columns, keep};
-        for (std::int64_t half = 0; half < n; ++half) {
-            write_row(writer, half);
-            if (half % rows_per_flush != 0) continue;
-            writer.flush();
-            do std::this_thread::sleep_for(200us);
-            while (half > rows.get() + most_ahead);
-        }
-        writer.close();
-    });
-    while (!fs::exists(part) || !begins_as_hdf5(part)) std::this_thread::sleep_for(100us);
-    RawReader reader{part};
-    EXPECT_FALSE(reader.header().complete);
-    rows.set(good_rows(reader));
-    int times_grown = 0;
-    // A reader that saw nothing new would leave the writer waiting for it.
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (!reader.header().complete && std::chrono::steady_clock::now() < end) {
-        if (reader.refresh()) ++times_grown;
-        rows.set(good_rows(reader, rows.get()));
-    }
-    EXPECT_EQ(rows.get(), n);
-    EXPECT_GT(times_grown, 10);
-    ASSERT_EQ(status_of(child), 0);
-    EXPECT_FALSE(fs::exists(part));
-    RawReader whole{folder.file("raw.h5")};
-    EXPECT_TRUE(whole.header().complete);
-    EXPECT_EQ(good_rows(whole), n);
-}
 
 TEST(GrowingLog, a_follower_in_the_same_process_sees_what_is_flushed) {
     const TemporaryFolder folder;

@@ -5,13 +5,9 @@
 #include <hdf5.h>
 #else
 #include <hdf5/serial/hdf5.h>
-#endif
 
-#include <cstdint>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
-#include <vector>
+#include "test.hpp"
+#endif
 
 namespace zlg::test {
 

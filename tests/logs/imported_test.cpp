@@ -1,9 +1,5 @@
 #include <zlg/logs/imported.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "temporary_folder.hpp"
 
 namespace zlg::logs {

@@ -1,15 +1,8 @@
 // Claims about an HDF5 log that was never closed or has lost a part: what it still holds is read, and nothing is made
 // up.
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cmath>
-#include <filesystem>
-#include <limits>
-#include <numeric>
-#include <vector>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>

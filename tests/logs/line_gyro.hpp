@@ -1,14 +1,9 @@
 #pragma once
 // A gyro that speaks over a line, and what the log of it should hold.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 #include <zlg/logs/wire_rows.hpp>
+
+#include "test.hpp"
 
 namespace zlg::logs {
 

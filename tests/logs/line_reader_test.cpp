@@ -1,7 +1,5 @@
 #include "csv/line_reader.hpp"
 
-#include <gtest/gtest.h>
-
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"

@@ -1,10 +1,4 @@
 // Claims about the fingerprint of a run in a raw log and in an angle log, CSV and HDF5.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <type_traits>
 
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
@@ -121,19 +115,10 @@ TEST_P(LoggedFingerprint, is_refused_if_it_is_none_or_has_no_room) {
     RawWriter raw = raw_writer(file("raw"));
     for (const char* wrong : {"", "0123456789abcde", "0123456789abcdef0", "0123456789ABCDEF", "0123456789abcde\n"}) {
         const std::string message = message_of<FormatError>([&] { raw.set_fingerprint(wrong); });
-        EXPECT_NE(message.find("allowed are 16 hexadecimal digits"), std::string::npos) << message;
+        test::expect_contains(message, "allowed are 16 hexadecimal digits");
     }
     AngleWriter angles = angle_writer(file("angles"), false);
-    EXPECT_NE(message_of<FormatError>([&] { angles.set_fingerprint(digits); }).find("no room"), std::string::npos);
-}
-
-TEST_P(LoggedFingerprint, cannot_be_set_after_the_end) {
-    RawWriter log = raw_writer(file("raw"));
-    write_rows(log, 2);
-    log.set_fingerprint(digits);
-    log.close();
-    EXPECT_THROW(log.set_fingerprint(digits), IoError);
-    EXPECT_EQ(RawReader{file("raw")}.header().fingerprint, digits);
+    test::expect_contains(message_of<FormatError>([&] { angles.set_fingerprint(digits); }), "no room");
 }
 
 TEST(LoggedFingerprintCsv, of_another_form_is_a_note_of_the_laboratory) {
@@ -191,18 +176,6 @@ TEST(LoggedFingerprintHdf5, of_a_log_that_is_not_complete_is_none) {
     EXPECT_EQ(growing.header().fingerprint, digits);
 }
 
-TEST(LoggedFingerprintHdf5, of_a_writer_that_gave_up_is_none) {
-    const TemporaryFolder folder;
-    const std::string path = folder.file("raw.h5");
-    {
-        RawWriter log = raw_writer(path);
-        write_rows(log, 100);
-        log.set_fingerprint(digits);
-    }
-    EXPECT_EQ(RawReader{path + ".part"}.header().fingerprint, "");
-    EXPECT_EQ(test::rows_of(path + ".part").size(), 100u);
-}
-
 TEST(LoggedFingerprintHdf5, of_another_form_is_refused) {
     const TemporaryFolder folder;
     for (const char* wrong : {"left thumb", "0123456789ABCDEF", "0123456789abcdef0"}) {
@@ -212,7 +185,7 @@ TEST(LoggedFingerprintHdf5, of_another_form_is_refused) {
         log.close();
         test::Hdf5File{path, true}.text("/fingerprint", wrong);
         const std::string message = message_of<FormatError>([&] { RawReader{path}; });
-        EXPECT_NE(message.find("/fingerprint: the fingerprint is '"), std::string::npos) << message;
+        test::expect_contains(message, "/fingerprint: the fingerprint is '");
     }
 }
 

@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/foreign_table.hpp>
 #include <zlg/logs/matlab_copy.hpp>

@@ -1,6 +1,5 @@
 #include "foreign/npy_head.hpp"
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::logs {
 namespace {

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
@@ -33,7 +29,7 @@ RawHeader header_of(const std::string& text) {
 // What the reader says of a text, without the folder that precedes the file's name.
 std::string complaint(const std::string& text) {
     const std::string message = message_of<FormatError>([&] { static_cast<void>(read_text(text)); });
-    EXPECT_NE(message.find("raw.csv"), std::string::npos) << message;
+    expect_contains(message, "raw.csv");
     return message.substr(std::min(message.find("raw.csv"), message.size()));
 }
 
@@ -169,13 +165,6 @@ TEST(RawReader, refuses_values_that_no_gyro_can_have_recorded) {
     EXPECT_EQ(read_text(names + "0,1,1,-4503599627370496,1\n")[0].counts, -(std::int64_t{1} << 52));
 }
 
-TEST(RawReader, refuses_numbers_that_are_not_finite) {
-    for (const std::string value : {"nan", "inf", "-inf", "1e999", "abc", "0x10", "1,5", ""}) {
-        const std::string text = "half,bias_sign,mode,counts,loop_closed,piezo_v\n0,1,1,5,1," + value + "\n";
-        EXPECT_THROW(static_cast<void>(read_text(text)), FormatError) << value;
-    }
-}
-
 TEST(RawReader, refuses_detunings_that_no_perimeter_can_have) {
     const std::string head = "half,bias_sign,mode,counts,loop_closed,detuning_lambda,detuning_sq_lambda2\n0,1,1,5,1,";
     const auto row = [&](const std::string& text) { return complaint(head + text + "\n"); };
@@ -187,19 +176,6 @@ TEST(RawReader, refuses_detunings_that_no_perimeter_can_have) {
     for (const std::string good : {"-0.2,0.04", "-0.2,0.01", "0.2,0.039", "0.2,0", "-30,900", "0.01,0", "0,0.3"})
         EXPECT_EQ(read_text(head + good + "\n").size(), 1u) << good;
     EXPECT_EQ(read_text("half,bias_sign,mode,counts,loop_closed,detuning_sq_lambda2\n0,1,1,5,1,0.01\n").size(), 1u);
-}
-
-TEST(RawReader, half_must_count_from_0_without_holes) {
-    expect_contains(complaint(names + "1,1,1,5,1\n"), "column 'half': '1' leaves a hole; expected 0");
-    expect_contains(complaint(names + "0,1,1,5,1\n2,-1,1,5,1\n"),
-                    "row 2, column 'half': '2' leaves a hole; expected 1");
-    expect_contains(complaint(names + "0,1,1,5,1\n0,-1,1,5,1\n"), "'0' is a repetition; expected 1");
-    expect_contains(complaint(names + "-1,1,1,5,1\n"), "'-1' is out of range");
-}
-
-TEST(RawReader, bias_sign_must_alternate) {
-    expect_contains(complaint(names + "0,1,1,5,1\n1,1,1,5,1\n"), "row 2, column 'bias_sign': '1' as in the row before");
-    EXPECT_EQ(read_text(names + "0,-1,1,5,1\n1,1,1,5,1\n2,-1,1,5,1\n").size(), 3u);
 }
 
 TEST(RawReader, tells_a_truncated_log_from_one_without_a_last_line_end) {
@@ -224,24 +200,10 @@ TEST(RawReader, refuses_what_is_no_text) {
     expect_contains(complaint(std::string(3u << 20, 'a')), "a line of more than 1048576 bytes");
 }
 
-TEST(RawReader, reads_a_log_of_many_buffers) {
-    std::string text = names;
-    constexpr int n = 200000;
-    for (int i = 0; i < n; ++i)
-        text += std::to_string(i) + (i % 2 == 0 ? ",1,1," : ",-1,1,") + std::to_string(7 * i) + ",1\n";
-    const auto rows = read_text(text);
-    ASSERT_EQ(rows.size(), static_cast<std::size_t>(n));
-    for (int i = 0; i < n; ++i) ASSERT_EQ(rows[static_cast<std::size_t>(i)].counts, 7 * i);
-}
-
 TEST(RawReader, a_file_that_cannot_be_read_is_an_io_error) {
     const TemporaryFolder folder;
     expect_contains(message_of<IoError>([&] { RawReader{folder.file("none.csv")}; }), "none.csv: No such file");
     expect_contains(message_of<IoError>([&] { RawReader{folder.file("")}; }), "Is a directory");
-}
-
-TEST(RawReader, a_byte_order_mark_is_no_part_of_the_first_name) {
-    EXPECT_EQ(read_text("\xEF\xBB\xBF" + names + "0,1,1,5,1\n").size(), 1u);
 }
 
 TEST(RawWriter, writes_settings_names_and_shortest_numbers) {
@@ -318,8 +280,10 @@ TEST(RawReader, knows_how_much_of_the_file_it_has_read) {
     const double before = reader.fraction_read();
     EXPECT_GT(before, 0.0);
     EXPECT_LT(before, 0.5) << "3 MB are read in pieces of 1 MiB";
-    (void)rows_of(reader);
+    const auto rows = rows_of(reader);
     EXPECT_EQ(reader.fraction_read(), 1.0);
+    ASSERT_EQ(rows.size(), 200'000u);
+    for (const HalfRecord& row : rows) ASSERT_EQ(row.counts, row.bias_sign > 0 ? 151 : -149);
 }
 
 TEST(RawReader, tells_a_last_line_that_may_have_been_cut_off) {
@@ -353,7 +317,7 @@ TEST(RawLog, with_shifts_says_how_fast_the_timer_runs) {
         const std::string message = message_of<FormatError>([&] {
             RawWriter{folder.file("raw.csv"), {}, false, columns};
         });
-        EXPECT_NE(message.find("timer_hz"), std::string::npos) << message;
+        expect_contains(message, "timer_hz");
     }
     columns.timer_hz = 1e7;
     RawWriter writer{folder.file("raw.csv"), {{"note", "x"}}, false, columns};
@@ -372,11 +336,11 @@ TEST(RawReader, takes_shifts_only_with_the_timer_that_they_count) {
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0].edge_offset_ticks, -7);
     EXPECT_EQ(header_of("# timer_hz = 1e7\n# timer_hz = 10000000\n" + table).timer_hz, 1e7);
-    EXPECT_NE(complaint(table).find("timer_hz is missing"), std::string::npos);
+    expect_contains(complaint(table), "timer_hz is missing");
     for (const char* bad : {"0", "-1", "1e16", "fast", "nan"}) {
-        EXPECT_NE(complaint(std::string{"# timer_hz = "} + bad + "\n" + table).find("allowed is"), std::string::npos);
+        expect_contains(complaint(std::string{"# timer_hz = "} + bad + "\n" + table), "allowed is");
     }
-    EXPECT_NE(complaint("# timer_hz = 1e7\n# timer_hz = 1e6\n" + table).find("timer_hz = 1e6"), std::string::npos);
+    expect_contains(complaint("# timer_hz = 1e7\n# timer_hz = 1e6\n" + table), "timer_hz = 1e6");
     // Without the column it is a note like any other.
     EXPECT_EQ(header_of("# timer_hz = fast\n" + names + "0,1,1,150,1\n").settings.size(), 1u);
 }
@@ -385,6 +349,6 @@ TEST(RawReader, a_shift_is_an_integer_of_32_bits) {
     const std::string head = "# timer_hz = 1e7\nhalf,bias_sign,mode,counts,loop_closed,edge_offset_ticks\n0,1,1,150,1,";
     EXPECT_EQ(read_text(head + "-2147483648\n")[0].edge_offset_ticks, std::numeric_limits<std::int32_t>::min());
     for (const char* bad : {"2147483648", "0.5", "", "x"}) {
-        EXPECT_NE(complaint(head + bad + "\n").find("edge_offset_ticks"), std::string::npos) << bad;
+        expect_contains(complaint(head + bad + "\n"), "edge_offset_ticks");
     }
 }

@@ -1,9 +1,5 @@
 // What the reader says of HDF5 logs that others have written, good and bad ones.
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
@@ -42,10 +38,27 @@ std::string complaint_about_rows(Change change) {
     return message.substr(std::min(message.find("raw.h5"), message.size()));
 }
 
+template <class Change>
+void refused(const char* why, Change change) {
+    expect_contains(complaint_about_rows(change), why);
+}
+
 template <class T>
 std::string complaint_of(const std::string& column, const std::vector<T>& values) {
     return complaint_about_rows(
         [&](Hdf5File& file) { file.remove("/raw/" + column).column("/raw/" + column, values); });
+}
+
+// Another column of three rows, of which `prepare` says how it is stored.
+template <class Prepare>
+void make_piezo(const Hdf5File& file, Prepare prepare, const hsize_t* limit = nullptr) {
+    const hsize_t size = 3;
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    const hid_t space = H5Screate_simple(1, &size, limit);
+    prepare(creation, space);
+    H5Dclose(H5Dcreate2(file.id(), "/raw/piezo_v", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+    H5Sclose(space);
+    H5Pclose(creation);
 }
 
 }  // namespace
@@ -126,11 +139,10 @@ TEST(RawReader, refuses_values_of_an_hdf5_log_that_no_gyro_can_have_recorded) {
     expect_contains(complaint_of<double>("piezo_v", {1.0, nan, 1.0}),
                     "row 2, column '/raw/piezo_v': 'nan' is not finite");
     expect_contains(complaint_of<double>("temperature_c", {-HUGE_VAL, 1.0, 1.0}), "'-inf' is not finite");
-    expect_contains(
-        complaint_about_rows([](Hdf5File& file) {
-            file.table<float>("/raw/light", {1, 2, 3, 4, std::numeric_limits<float>::infinity(), 6}, {3, 2});
-        }),
-        "row 3, column '/raw/light': 'inf' is out of range; allowed is a finite number, or nan");
+    refused("row 3, column '/raw/light': 'inf' is out of range; allowed is a finite number, or nan",
+            [](Hdf5File& file) {
+                file.table<float>("/raw/light", {1, 2, 3, 4, std::numeric_limits<float>::infinity(), 6}, {3, 2});
+            });
 }
 
 TEST(RawReader, refuses_detunings_of_an_hdf5_log_that_no_perimeter_can_have) {
@@ -160,40 +172,29 @@ TEST(RawReader, hands_out_the_rows_of_an_hdf5_log_before_the_first_bad_one) {
 
 TEST(RawReader, refuses_data_sets_that_are_no_columns) {
     expect_contains(complaint_of<double>("counts", {1, 2, 3}), "/raw/counts: holds another type; allowed are integers");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text("/raw/piezo_v", "x"); }),
-                    "/raw/piezo_v: holds another type");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.group("/raw/piezo_v"); }), "/raw/piezo_v: is no data set");
-    expect_contains(complaint_about_rows([](Hdf5File& f) {
-                        f.column<double>("/raw/piezo_v", {1, 2, 3}, H5T_NATIVE_LDOUBLE);
-                    }),
-                    "numbers of at most 8 bytes");
-    expect_contains(complaint_about_rows([](Hdf5File& f) {
-                        f.table<double>("/raw/piezo_v", {1, 2, 3}, {3, 1});
-                    }),
-                    "/raw/piezo_v: has 2 dimensions; allowed is 1");
-    expect_contains(complaint_about_rows([](Hdf5File& f) {
-                        f.column<float>("/raw/light", {1, 2, 3});
-                    }),
-                    "allowed is 2");
-    expect_contains(complaint_about_rows([](Hdf5File& f) {
-                        f.table<float>("/raw/light", std::vector<float>(195), {3, 65});
-                    }),
-                    "has 65 values in a row; allowed is 1..64");
-    expect_contains(complaint_about_rows([](Hdf5File& f) {
-                        f.table<float>("/raw/light_b", {1, 2, 3, 4, 5, 6}, {3, 2});
-                    }),
-                    "/raw/light_b has 2 samples in a half; allowed are the 0 of /raw/light");
+    refused("/raw/piezo_v: holds another type", [](Hdf5File& f) { f.text("/raw/piezo_v", "x"); });
+    refused("/raw/piezo_v: is no data set", [](Hdf5File& f) { f.group("/raw/piezo_v"); });
+    refused("numbers of at most 8 bytes", [](Hdf5File& f) {
+        f.column<double>("/raw/piezo_v", {1, 2, 3}, H5T_NATIVE_LDOUBLE);
+    });
+    refused("/raw/piezo_v: has 2 dimensions; allowed is 1", [](Hdf5File& f) {
+        f.table<double>("/raw/piezo_v", {1, 2, 3}, {3, 1});
+    });
+    refused("allowed is 2", [](Hdf5File& f) { f.column<float>("/raw/light", {1, 2, 3}); });
+    refused("has 65 values in a row; allowed is 1..64", [](Hdf5File& f) {
+        f.table<float>("/raw/light", std::vector<float>(195), {3, 65});
+    });
+    refused("/raw/light_b has 2 samples in a half; allowed are the 0 of /raw/light", [](Hdf5File& f) {
+        f.table<float>("/raw/light_b", {1, 2, 3, 4, 5, 6}, {3, 2});
+    });
     expect_contains(complaint_of<int>("mode", {1, 1}),
                     "/raw/mode has 2 rows, /raw/loop_closed has 3; allowed is one length");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.remove("/raw/counts"); }),
-                    "/raw: the column 'counts' is missing");
-    expect_contains(complaint_about_rows([](Hdf5File& f) {
-                        f.column<int>("/raw/valld", {1, 1, 1});
-                    }),
-                    "unknown column 'valld'; did you mean 'valid'?");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.remove("/raw"); }), "the group /raw is missing");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.remove("/raw").column<int>("/raw", {1}); }),
-                    "/raw: is no group");
+    refused("/raw: the column 'counts' is missing", [](Hdf5File& f) { f.remove("/raw/counts"); });
+    refused("unknown column 'valld'; did you mean 'valid'?", [](Hdf5File& f) {
+        f.column<int>("/raw/valld", {1, 1, 1});
+    });
+    refused("the group /raw is missing", [](Hdf5File& f) { f.remove("/raw"); });
+    refused("/raw: is no group", [](Hdf5File& f) { f.remove("/raw").column<int>("/raw", {1}); });
 }
 
 TEST(RawReader, ignores_an_unknown_data_set_with_a_warning) {
@@ -210,67 +211,40 @@ TEST(RawReader, ignores_an_unknown_data_set_with_a_warning) {
 TEST(RawReader, reads_nothing_that_lies_outside_the_file) {
     const TemporaryFolder folder;
     const std::string secret = folder.write("secret", std::string(24, 'x'));
-    expect_contains(
-        complaint_about_rows([&](Hdf5File& f) {
-            const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-            const hsize_t size = 3;
-            H5Pset_external(creation, secret.c_str(), 0, 24);
-            const hid_t space = H5Screate_simple(1, &size, nullptr);
-            H5Dclose(H5Dcreate2(f.id(), "/raw/piezo_v", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-            H5Sclose(space);
-            H5Pclose(creation);
-        }),
-        "/raw/piezo_v: is stored in another file");
-    expect_contains(complaint_about_rows([&](Hdf5File& f) {
-                        H5Lcreate_external("other.h5", "/x", f.id(), "/raw/piezo_v", H5P_DEFAULT, H5P_DEFAULT);
-                    }),
-                    "/raw/piezo_v: a link that leads elsewhere");
-    expect_contains(
-        complaint_about_rows([&](Hdf5File& f) {
-            const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-            const hsize_t size = 3;
-            const hid_t space = H5Screate_simple(1, &size, nullptr);
-            H5Pset_virtual(creation, space, "other.h5", "/x", space);
-            H5Dclose(H5Dcreate2(f.id(), "/raw/piezo_v", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-            H5Sclose(space);
-            H5Pclose(creation);
-        }),
-        "/raw/piezo_v: is stored in another file");
+    refused("/raw/piezo_v: is stored in another file", [&](Hdf5File& f) {
+        make_piezo(f, [&](hid_t creation, hid_t) { H5Pset_external(creation, secret.c_str(), 0, 24); });
+    });
+    refused("/raw/piezo_v: a link that leads elsewhere", [&](Hdf5File& f) {
+        H5Lcreate_external("other.h5", "/x", f.id(), "/raw/piezo_v", H5P_DEFAULT, H5P_DEFAULT);
+    });
+    refused("/raw/piezo_v: is stored in another file", [](Hdf5File& f) {
+        make_piezo(f, [](hid_t creation, hid_t space) { H5Pset_virtual(creation, space, "other.h5", "/x", space); });
+    });
 }
 
 TEST(RawReader, refuses_chunks_that_only_a_hostile_file_has) {
-    expect_contains(
-        complaint_about_rows([](Hdf5File& f) {
-            const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-            const hsize_t size = 3, chunk = 9'000'000, limit = H5S_UNLIMITED;
-            H5Pset_chunk(creation, 1, &chunk);
-            const hid_t space = H5Screate_simple(1, &size, &limit);
-            H5Dclose(H5Dcreate2(f.id(), "/raw/piezo_v", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
-            H5Sclose(space);
-            H5Pclose(creation);
-        }),
-        "/raw/piezo_v: chunks of 9000000 x 1 values; allowed are 8388608");
+    refused("/raw/piezo_v: chunks of 9000000 x 1 values; allowed are 8388608", [](Hdf5File& f) {
+        const hsize_t chunk = 9'000'000, limit = H5S_UNLIMITED;
+        make_piezo(
+            f, [&](hid_t creation, hid_t) { H5Pset_chunk(creation, 1, &chunk); }, &limit);
+    });
 }
 
 TEST(RawReader, refuses_a_configuration_that_contradicts_or_is_none) {
-    expect_contains(
-        complaint_about_rows([](Hdf5File& f) { f.text("/config", "gyro.tick_s = 0.005\n").attribute("tick_s", 0.01); }),
-        "the attribute tick_s is 0.01, but /config says 0.005");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text("/config", "a = 1\nb =\n"); }), "/config:2:");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.column<int>("/config", {1}); }),
-                    "/config: allowed is one text");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.attribute("format_version", 4); }),
-                    "format_version is 4; allowed is 1 to 3");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); }),
-                    "the attribute tick_s is inf; allowed is a finite number");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text_attribute("tick_s", "0.005"); }),
-                    "the attribute tick_s is the text '0.005'; allowed is a finite number");
-    expect_contains(complaint_about_rows([](Hdf5File& f) { f.text_attribute("format_version", "1"); }),
-                    "the attribute format_version is the text '1'; allowed is a finite number");
-    expect_contains(complaint_about_rows([](Hdf5File& f) {
-                        f.attributes("scale_arcsec", {3.2, 3.3});
-                    }),
-                    "the attribute scale_arcsec is a list of 2 numbers; allowed is a finite number");
+    refused("the attribute tick_s is 0.01, but /config says 0.005",
+            [](Hdf5File& f) { f.text("/config", "gyro.tick_s = 0.005\n").attribute("tick_s", 0.01); });
+    refused("/config:2:", [](Hdf5File& f) { f.text("/config", "a = 1\nb =\n"); });
+    refused("/config: allowed is one text", [](Hdf5File& f) { f.column<int>("/config", {1}); });
+    refused("format_version is 4; allowed is 1 to 3", [](Hdf5File& f) { f.attribute("format_version", 4); });
+    refused("the attribute tick_s is inf; allowed is a finite number",
+            [](Hdf5File& f) { f.attribute("tick_s", HUGE_VAL); });
+    refused("the attribute tick_s is the text '0.005'; allowed is a finite number",
+            [](Hdf5File& f) { f.text_attribute("tick_s", "0.005"); });
+    refused("the attribute format_version is the text '1'; allowed is a finite number",
+            [](Hdf5File& f) { f.text_attribute("format_version", "1"); });
+    refused("the attribute scale_arcsec is a list of 2 numbers; allowed is a finite number", [](Hdf5File& f) {
+        f.attributes("scale_arcsec", {3.2, 3.3});
+    });
 }
 
 TEST(RawReader, an_hdf5_log_without_rows_is_an_error_once_it_is_complete) {

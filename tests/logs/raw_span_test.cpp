@@ -1,9 +1,5 @@
 // The column span of raw logs: what may stand in it, in both formats, and old logs without it.
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/raw_log.hpp>
 
@@ -77,10 +73,10 @@ TEST_P(RawSpan, goes_over_no_more_than_the_missed_rows_before_it) {
         const TemporaryFolder folder;
         write_span_log(folder.file(GetParam()), c.rows);
         const std::string message = message_of<FormatError>([&] { (void)rows_of(folder.file(GetParam())); });
-        EXPECT_NE(message.find("span"), std::string::npos) << message;
-        EXPECT_NE(message.find("'" + c.value + "'"), std::string::npos) << message;
-        EXPECT_NE(message.find("allowed is " + c.allowed + ":"), std::string::npos) << message;
-        EXPECT_NE(message.find("row 7"), std::string::npos) << message;
+        expect_contains(message, "span");
+        expect_contains(message, "'" + c.value + "'");
+        expect_contains(message, "allowed is " + c.allowed + ":");
+        expect_contains(message, "row 7");
     }
 }
 

@@ -1,6 +1,6 @@
 #include <zlg/logs/row_rules.hpp>
 
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace {
 
@@ -15,7 +15,7 @@ TEST(RowRules, rows_are_counted_without_holes) {
     EXPECT_FALSE(RowNumber::allows(8, 7));
     EXPECT_EQ(RowNumber::fault(8, 7), "leaves a hole; expected 7");
     EXPECT_EQ(RowNumber::fault(6, 7), "is a repetition; expected 7");
-    EXPECT_NE(RowNumber::fault(796, 0).find("expected 0, where the numbers of every log begin"), std::string::npos);
+    zlg::test::expect_contains(RowNumber::fault(796, 0), "expected 0, where the numbers of every log begin");
     EXPECT_EQ(RowNumber::fault(-1, 7), "is out of range; allowed is 0..9223372036854775807");
 }
 
@@ -80,7 +80,7 @@ TEST(RawSequence, a_span_goes_over_missed_rows_alone) {
     EXPECT_FALSE(rows.next(row));
     EXPECT_STREQ(rows.fault(row).column, "span");
     EXPECT_EQ(rows.fault(row).value, 4);
-    EXPECT_NE(rows.fault(row).what.find("allowed is 1..3: this row and the 2 directly before it"), std::string::npos);
+    zlg::test::expect_contains(rows.fault(row).what, "allowed is 1..3: this row and the 2 directly before it");
     row.span = 0;
     EXPECT_FALSE(rows.next(row));
     row.span = 3;

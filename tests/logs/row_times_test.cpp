@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/row_times.hpp>
 
+#include "test.hpp"
 #include "text_table/time_names.hpp"
 
 namespace {

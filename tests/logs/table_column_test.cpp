@@ -1,11 +1,9 @@
 #include <zlg/logs/table_column.hpp>
 
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include <zlg/logs/angle_layout.hpp>
 #include <zlg/logs/raw_layout.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <zlg/logs/time_check.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ TEST(TimeCheck, a_column_of_times_that_nobody_asked_for_is_named_with_the_others
               head + "say which analysis.column it is, of column 2, or 1 if it is that one");
     EXPECT_EQ(mistaken(table_of({}, 5, times)),
               head + "say which analysis.column it is, of columns 2..5, or 1 if it is that one");
-    EXPECT_NE(mistaken(table_of({"t", "x", "y"}, 3, times)).find("of columns 'x', 'y', or 1"), std::string::npos);
+    zlg::test::expect_contains(mistaken(table_of({"t", "x", "y"}, 3, times)), "of columns 'x', 'y', or 1");
     EXPECT_EQ(mistaken(table_of({"t", "x"}, 2, times), true), "");
     EXPECT_EQ(mistaken(table_of({}, 2, {5.0, 3.0, 4.0})), "");
 }

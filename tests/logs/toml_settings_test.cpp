@@ -1,7 +1,5 @@
 #include "toml_settings.hpp"
 
-#include <gtest/gtest.h>
-
 #include <zlg/logs/error.hpp>
 
 #include "temporary_folder.hpp"

@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
 #include <zlg/logs/wire_order.hpp>
 #include <zlg/logs/wire_rows.hpp>
 
@@ -85,19 +79,6 @@ TEST(WireOrder, AMessageThatComesAgainAnywhereIsTakenOnce) {
         }
 }
 
-TEST(WireOrder, MessagesInTheWrongOrderComeInTheRightOne) {
-    for (const std::size_t at : {1u, 5u, 20u, 254u, 255u, 256u, 500u, 1998u}) {
-        Gyro gyro;
-        std::vector<Bytes> frames = ticks_of(gyro, 2000);
-        std::swap(frames[at], frames[at + 1]);
-        const Followed f = followed(frames);
-        if (at < 1998) expect_once(f.rows, gyro.rows, "swapped");
-        EXPECT_EQ(f.rows.size(), 2000u) << at;
-        EXPECT_EQ(f.summary.n_restarts, 0u) << at;
-        EXPECT_NEAR(f.summary.angle_arcsec, sum(gyro.rows, &core::AngleRow::dtheta_arcsec), 1e-6) << at;
-    }
-}
-
 TEST(WireOrder, AReplayOfAnyLengthIsTakenOnce) {
     Gyro gyro;
     const std::vector<Bytes> sent = ticks_of(gyro, 3000);
@@ -116,24 +97,6 @@ TEST(WireOrder, AReplayOfAnyLengthIsTakenOnce) {
         EXPECT_EQ(f.summary.n_restarts, 0u) << from << ' ' << to;
         EXPECT_EQ(f.summary.n_repeated, static_cast<std::uint64_t>(to - from));
     }
-}
-
-TEST(WireOrder, AReplayOfAnEarlierSessionIsNotTaken) {
-    Gyro first{1};
-    Gyro second{2, 0, 0, 60.0};
-    std::vector<Bytes> frames = ticks_of(first, 800);
-    const std::vector<Bytes> replayed{frames.begin(), frames.begin() + 700};
-    const std::vector<Bytes> later = ticks_of(second, 600);
-    frames.insert(frames.end(), later.begin(), later.begin() + 300);
-    frames.insert(frames.end(), replayed.begin(), replayed.end());
-    frames.insert(frames.end(), later.begin() + 300, later.end());
-    const Followed f = followed(frames);
-    EXPECT_EQ(f.rows.size(), 1400u);
-    EXPECT_EQ(f.summary.n_restarts, 1u);
-    EXPECT_EQ(f.summary.n_repeated, 700u);
-    EXPECT_NEAR(f.summary.angle_arcsec,
-                sum(first.rows, &core::AngleRow::dtheta_arcsec) + sum(second.rows, &core::AngleRow::dtheta_arcsec),
-                1e-6);
 }
 
 TEST(WireOrder, OfAGyroThatCountsNoStartsOtherMessagesOfTheSameNumbersAreAStart) {

@@ -1,13 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <vector>
 #include <zlg/logs/wire_rows.hpp>
-#include <zlg/wire/cobs.hpp>
-#include <zlg/wire/crc.hpp>
 
 #include "line_gyro.hpp"
 
@@ -185,24 +176,6 @@ TEST(WireRows, AfterARestartTheLogGoesOn) {
     }
 }
 
-TEST(WireRows, FramesThatALineRepeatsAreTakenOnce) {
-    // 300 ticks; from the 280th on, each stretch of three comes twice.
-    Gyro gyro;
-    WireRows rows;
-    std::vector<Bytes> last;
-    for (int k = 0; k < 300; ++k) {
-        last.push_back(gyro.tick());
-        rows.take(last.back());
-        if (k < 280 || k % 3 != 0) continue;
-        for (std::size_t back = 3; back > 0; --back) rows.take(last[last.size() - back]);
-    }
-    rows.take(gyro.drain());
-    rows.end();
-    EXPECT_EQ(rows_of(rows), gyro.rows);
-    EXPECT_EQ(rows.summary().n_restarts, 0u);
-    EXPECT_EQ(rows.summary().n_repeated, 6u * 3u);  // after ticks 282, 285 .. 297
-}
-
 TEST(WireRows, ASessionThatIsFartherThanTheLastOneIsARestartToo) {
     Gyro first;
     Gyro second{2, 100};
@@ -248,16 +221,6 @@ TEST(WireRows, OnlyOneRowBeginsAnewThoughItIsLost) {
     EXPECT_NE(got[30].flags & flag_lost, 0u);
 }
 
-TEST(WireRows, OfAStreamThatEndsBeforeAnythingIsSettledAllIsAsDelivered) {
-    Gyro gyro;
-    WireRows rows;
-    for (int k = 0; k < 5; ++k) rows.take(gyro.tick());
-    rows.end();
-    const auto got = rows_of(rows);
-    ASSERT_EQ(got.size(), 5u);
-    for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(got[k].dtheta_arcsec, gyro.rows[k].dtheta_arcsec);
-}
-
 TEST(WireRows, AGyroThatNeverSettlesMakesNoRow) {
     Gyro gyro{1, 0, 100'000};
     WireRows rows;
@@ -275,20 +238,6 @@ TEST(WireRows, ARowThatIsThereAlreadyIsNotTakenAgain) {
     t.settled_age_ticks = 7;
     rows.take(frame_of(sender, t).view());
     EXPECT_EQ(rows_of(rows).size(), 1u);
-}
-
-TEST(WireRows, AMessageThatComesAgainIsNotTaken) {
-    Gyro gyro;
-    WireRows rows;
-    for (int k = 0; k < 30; ++k) {
-        const Bytes bytes = gyro.tick();
-        rows.take(bytes);
-        rows.take(bytes);
-    }
-    rows.take(gyro.drain());
-    rows.end();
-    EXPECT_EQ(rows_of(rows), gyro.rows);
-    EXPECT_EQ(rows.summary().n_repeated, 30u);
 }
 
 TEST(WireRows, CommandsOnTheSameLineAreNotTheGyros) {
@@ -317,23 +266,6 @@ TEST(WireRows, NoiseAloneMakesNoRow) {
     EXPECT_FALSE(rows.tick_s().has_value());
     EXPECT_EQ(rows.summary().n_bytes, noise.size());
     EXPECT_GT(rows.summary().n_damaged, 3000u);
-}
-
-TEST(WireRows, AGyroOfAnotherVersionIsToldApartFromNoise) {
-    Bytes message(12, 0x01);
-    message[0] = 2;
-    const std::uint32_t crc = wire::crc32c(message);
-    for (int k = 0; k < 4; ++k) message.push_back(static_cast<std::uint8_t>(crc >> (8 * k)));
-    Bytes framed(wire::stuffed_bytes(message.size()));
-    framed.resize(wire::stuff(message, framed));
-    framed.push_back(0);
-    WireRows rows;
-    rows.take(framed);
-    rows.take(Bytes{7, 7, 7, 0});
-    rows.end();
-    EXPECT_EQ(rows.summary().n_foreign, 1u);
-    EXPECT_EQ(rows.summary().n_damaged, 2u);
-    EXPECT_EQ(rows.summary().n_telemetry, 0u);
 }
 
 // Whatever happens to the line: what is not flagged is right, and the angle between two right rows too.

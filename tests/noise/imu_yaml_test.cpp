@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-
 #include <zlg/logs/error.hpp>
 #include <zlg/noise/imu_yaml.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -23,12 +19,7 @@ protected:
         return path_;
     }
     std::string complaint(const std::string& text) {
-        try {
-            (void)read_imu_yaml(write(text));
-        } catch (const zlg::logs::FormatError& error) {
-            return error.what();
-        }
-        return "";
+        return zlg::test::refusal_by<zlg::logs::FormatError>([&] { (void)read_imu_yaml(write(text)); });
     }
 
 private:
@@ -48,7 +39,7 @@ TEST_F(ImuYaml, a_limit_is_called_so) {
     KalibrGyro gyro{.noise_density_rad_s_sqrt_hz = 1e-6, .random_walk_rad_s2_sqrt_hz = 1e-9, .update_rate_hz = 200.0};
     EXPECT_EQ(imu_yaml(gyro).find("limit"), std::string::npos);
     gyro.random_walk_is_limit = true;
-    EXPECT_NE(imu_yaml(gyro).find("upper limit, none was found"), std::string::npos);
+    zlg::test::expect_contains(imu_yaml(gyro), "upper limit, none was found");
     EXPECT_EQ(read_imu_yaml(write(imu_yaml(gyro))).random_walk_rad_s2_sqrt_hz, 1e-9);
 }
 
@@ -69,18 +60,17 @@ TEST_F(ImuYaml, reads_what_kalibr_users_have) {
 }
 
 TEST_F(ImuYaml, what_is_wrong_is_named) {
-    EXPECT_NE(complaint("a: 1\n").find("has no gyroscope_noise_density"), std::string::npos);
-    EXPECT_NE(complaint("gyroscope_noise_density: 1\nupdate_rate: 1\n").find("has no gyroscope_random_walk"),
-              std::string::npos);
-    EXPECT_NE(
-        complaint("gyroscope_noise_density: -1\ngyroscope_random_walk: 1\nupdate_rate: 1\n").find("= -1, allowed"),
-        std::string::npos);
-    EXPECT_NE(complaint("gyroscope_noise_density: x\ngyroscope_random_walk: 1\nupdate_rate: 1\n").find("= x, allowed"),
-              std::string::npos);
-    EXPECT_NE(complaint("gyroscope_noise_density: .nan\ngyroscope_random_walk: 1\nupdate_rate: 1\n").find("allowed"),
-              std::string::npos);
-    EXPECT_NE(complaint("a: [1\n").find("is no YAML"), std::string::npos);
-    EXPECT_NE(complaint("").find("has no"), std::string::npos);
+    zlg::test::expect_contains(complaint("a: 1\n"), "has no gyroscope_noise_density");
+    zlg::test::expect_contains(complaint("gyroscope_noise_density: 1\nupdate_rate: 1\n"),
+                               "has no gyroscope_random_walk");
+    zlg::test::expect_contains(complaint("gyroscope_noise_density: -1\ngyroscope_random_walk: 1\nupdate_rate: 1\n"),
+                               "= -1, allowed");
+    zlg::test::expect_contains(complaint("gyroscope_noise_density: x\ngyroscope_random_walk: 1\nupdate_rate: 1\n"),
+                               "= x, allowed");
+    zlg::test::expect_contains(complaint("gyroscope_noise_density: .nan\ngyroscope_random_walk: 1\nupdate_rate: 1\n"),
+                               "allowed");
+    zlg::test::expect_contains(complaint("a: [1\n"), "is no YAML");
+    zlg::test::expect_contains(complaint(""), "has no");
     EXPECT_THROW((void)read_imu_yaml("/no/such/file.yaml"), zlg::logs::IoError);
 }
 

@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/mode_split.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,11 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
-
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/noise_fit.hpp>
 

@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include <zlg/noise/noise_terms.hpp>
+
+#include "test.hpp"
 
 namespace {
 

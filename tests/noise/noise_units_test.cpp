@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/noise_units.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,11 +1,7 @@
 #pragma once
 // Rates with noise of known terms, made step by step.
 
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <random>
-#include <vector>
+#include "test.hpp"
 
 namespace zlg::noise {
 

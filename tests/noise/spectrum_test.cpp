@@ -1,9 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/spectrum.hpp>
 

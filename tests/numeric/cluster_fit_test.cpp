@@ -1,8 +1,6 @@
 #include <zlg/numeric/cluster_fit.hpp>
 
-#include <gtest/gtest.h>
-
-#include <vector>
+#include "test.hpp"
 
 using namespace zlg::numeric;
 

@@ -1,9 +1,6 @@
 #include <zlg/numeric/estimate.hpp>
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 using namespace zlg::numeric;
 

@@ -1,10 +1,6 @@
 #include <zlg/numeric/minimum.hpp>
 
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::numeric {
 namespace {

@@ -1,14 +1,6 @@
 #include <zlg/numeric/parallel.hpp>
 
-#include <atomic>
-#include <cstddef>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::numeric {
 namespace {

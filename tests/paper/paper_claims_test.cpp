@@ -1,15 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-#include <string>
-#include <vector>
-
 #include <fmt/format.h>
 
 #include "paper_parts.hpp"
+#include "test.hpp"
 
 namespace {
 
@@ -162,8 +154,8 @@ TEST(PaperClaims, gain_of_the_regime) {
         return (0.75 + 0.7 * (1.0 - 3000.0 / t * (1.0 - std::exp(-t / 3000.0)))) / least;
     };
     const std::string text = findings("closing");
-    EXPECT_NE(text.find(fmt::format("{:.1f} times in an hour", gain(3600.0, 0.1524))), std::string::npos) << text;
-    EXPECT_NE(text.find(fmt::format("{:.0f} times in ten hours", gain(36000.0, 0.0841))), std::string::npos) << text;
+    zlg::test::expect_contains(text, fmt::format("{:.1f} times in an hour", gain(3600.0, 0.1524)));
+    zlg::test::expect_contains(text, fmt::format("{:.0f} times in ten hours", gain(36000.0, 0.0841)));
 }
 
 }  // namespace

@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include <zlg/paper/paper.hpp>
 #include <zlg/report/export.hpp>
 
 #include "paper_parts.hpp"
+#include "test.hpp"
 
 namespace {
 
@@ -206,18 +196,6 @@ TEST(Paper, another_seed_gives_other_points_and_the_same_theory) {
     const auto& fb = b.items.back().section.figures.at(0).series;
     EXPECT_EQ(fa.at(1).y, fb.at(1).y);
     EXPECT_NE(fa.at(2).y, fb.at(2).y);
-}
-
-TEST(Paper, progress_goes_from_nothing_to_all) {
-    paper::PaperTask task = small_task();
-    task.switches_per_point = 100;
-    std::vector<double> seen;
-    task.on_progress = [&](double fraction) { seen.push_back(fraction); };
-    (void)paper::recompute_paper(task);
-    ASSERT_GT(seen.size(), 5u);
-    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
-    EXPECT_GE(seen.front(), 0.0);
-    EXPECT_NEAR(seen.back(), 1.0, 1e-12);
 }
 
 TEST(PaperPage, has_a_section_for_every_item_and_one_for_the_claims) {

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <stdexcept>
-
 #include "paper_words.hpp"
+#include "test.hpp"
 
 namespace {
 

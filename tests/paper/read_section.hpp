@@ -1,10 +1,10 @@
 #pragma once
 // What a part of the recomputed paper shows.
 
-#include <string>
-
 #include <zlg/report/figure.hpp>
 #include <zlg/report/page.hpp>
+
+#include "test.hpp"
 
 namespace zlg::test {
 

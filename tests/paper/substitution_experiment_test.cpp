@@ -1,18 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/paper/substitution_experiment.hpp>
 
 #include "phase_regression.hpp"
 #include "random_phase_motion.hpp"
+#include "test.hpp"
 
 namespace {
 

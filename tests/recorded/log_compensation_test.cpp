@@ -1,12 +1,9 @@
 #include <zlg/recorded/log_compensation.hpp>
 
-#include <cmath>
-#include <limits>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <zlg/logs/error.hpp>
 #include <zlg/rig/asked_compensation.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -44,12 +41,7 @@ double detuning_of(const core::DiscriminatorCurve& curve, double apparent_lambda
 config::Settings settings_of(const config::Config& c) { return config::to_settings(c); }
 
 std::string refusal(const config::Config& c, const logs::RawHeader& log) {
-    try {
-        (void)recorded::log_compensation(c, log, "the log");
-    } catch (const config::ConfigError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_by<config::ConfigError>([&] { (void)recorded::log_compensation(c, log, "the log"); });
 }
 
 TEST(LogCompensation, of_a_log_is_by_the_columns_that_it_has) {
@@ -71,12 +63,11 @@ TEST(LogCompensation, a_method_without_its_column_is_refused) {
     EXPECT_EQ(refusal(of(RelockMethod::mean_square), log),
               "compensation.relock = \"mean_square\" needs the column detuning_sq_lambda2, which the log lacks; "
               "allowed without it: \"none\", \"frequency\"");
-    EXPECT_NE(refusal(of(RelockMethod::joint), log).find("\"joint\" needs the column detuning_sq_lambda2"),
-              std::string::npos);
+    zlg::test::expect_contains(refusal(of(RelockMethod::joint), log), "\"joint\" needs the column detuning_sq_lambda2");
     EXPECT_EQ(refusal(of(RelockMethod::detuning), log), "");
     log.has_detuning = false;
-    EXPECT_NE(refusal(of(RelockMethod::detuning), log).find("\"detuning\" needs the column detuning_lambda"),
-              std::string::npos);
+    zlg::test::expect_contains(refusal(of(RelockMethod::detuning), log),
+                               "\"detuning\" needs the column detuning_lambda");
     EXPECT_EQ(refusal(of(RelockMethod::none), log), "");
     EXPECT_EQ(refusal(of(RelockMethod::frequency), log), "");
 }

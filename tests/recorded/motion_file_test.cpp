@@ -1,12 +1,5 @@
 #include "motion_file.hpp"
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>

@@ -1,11 +1,8 @@
 #include <zlg/recorded/motion.hpp>
 
-#include <filesystem>
-#include <fstream>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,11 +1,8 @@
 #include <zlg/recorded/text_layout.hpp>
 
-#include <string>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace zlg::recorded {
 namespace {

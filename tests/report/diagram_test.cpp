@@ -1,9 +1,6 @@
 #include <zlg/report/diagram.hpp>
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <string>
+#include "test.hpp"
 
 using zlg::report::Diagram;
 using zlg::report::diagram_of;

@@ -3,9 +3,7 @@
 
 #include <zlg/report/figure.hpp>
 
-#include <limits>
-#include <utility>
-#include <vector>
+#include "test.hpp"
 
 namespace example {
 

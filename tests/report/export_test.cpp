@@ -1,12 +1,5 @@
 #include <zlg/report/export.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "example_figures.hpp"
 #include "markup.hpp"
 

@@ -1,13 +1,6 @@
 #pragma once
 // What a reader takes from a printed figure: numbers of the tick labels, values of places, the plot's frame.
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <iterator>
-#include <string>
-#include <vector>
-
 #include "markup.hpp"
 
 namespace reading {

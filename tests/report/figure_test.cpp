@@ -1,12 +1,5 @@
 #include <zlg/report/figure.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "example_figures.hpp"
 #include "figure_reading.hpp"
 #include "markup.hpp"

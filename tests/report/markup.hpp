@@ -1,13 +1,7 @@
 #pragma once
 // A small reader of well-formed XML, enough to judge the figures and the body of the page.
 
-#include <cctype>
-#include <cstddef>
-#include <map>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
+#include "test.hpp"
 
 namespace markup {
 

@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <zlg/report/number_text.hpp>
 
 #include "example_figures.hpp"

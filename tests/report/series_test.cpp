@@ -1,13 +1,5 @@
 #include <zlg/report/figure.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <vector>
-
 #include "example_figures.hpp"
 
 using example::infinity;
@@ -72,17 +64,6 @@ TEST(Thin, keeps_ends_extremes_and_order) {
     EXPECT_TRUE(std::is_sorted(t.x.begin(), t.x.end()));
     ASSERT_EQ(t.y_error.size(), t.x.size());
     for (std::size_t i = 0; i < t.x.size(); ++i) EXPECT_EQ(t.y_error[i], 0.5 * t.x[i]);
-}
-
-TEST(Thin, keeps_the_extremes_of_each_stretch) {
-    Series data = series({}, {});
-    for (int i = 0; i < 1002; ++i) {
-        data.x.push_back(i);
-        data.y.push_back(i % 100 == 50 ? 1.0 : i % 100 == 60 ? -1.0 : 0.0);
-    }
-    const Series t = thin(data, 22);
-    EXPECT_EQ(std::count(t.y.begin(), t.y.end(), 1.0), 10);
-    EXPECT_EQ(std::count(t.y.begin(), t.y.end(), -1.0), 10);
 }
 
 TEST(Thin, a_gap_stays_a_gap) {

@@ -5,24 +5,16 @@
 // The gyro runs, or is refused by a line that names a key which was set, its value and what is allowed. ZLG_DRAWS:
 // values a key and gyro.
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <random>
 #include <regex>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,10 +1,8 @@
 #include <zlg/rig/asked_compensation.hpp>
 
-#include <algorithm>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,8 +1,6 @@
 #include "bias_wiring.hpp"
 #include "config_with.hpp"
 
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>

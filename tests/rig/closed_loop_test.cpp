@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,11 +1,10 @@
 #pragma once
 // The default configuration with some settings.
 
-#include <initializer_list>
-#include <string_view>
-
 #include <zlg/config/config.hpp>
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace zlg::test {
 

@@ -1,11 +1,6 @@
 #include "fault_wiring.hpp"
 #include "config_with.hpp"
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -60,21 +55,17 @@ TEST(FaultWiring, AFaultIsFeltInTheLoopAndInItsRecords) {
 }
 
 TEST(FaultWiring, WhatCannotBeIsTold) {
-    EXPECT_NE(complaint(test::config_with({"faults.kind=shock"})).find("allowed is as many of each"),
-              std::string::npos);
-    EXPECT_NE(complaint(test::config_with(
-                            {"faults.kind=beam_fades", "faults.at_s=1", "faults.duration_s=1", "faults.size=2"}))
-                  .find("fault beam_fades: faults.size is 2, allowed is 0..1"),
-              std::string::npos);
+    zlg::test::expect_contains(complaint(test::config_with({"faults.kind=shock"})), "allowed is as many of each");
+    zlg::test::expect_contains(complaint(test::config_with({"faults.kind=beam_fades", "faults.at_s=1",
+                                                            "faults.duration_s=1", "faults.size=2"})),
+                               "fault beam_fades: faults.size is 2, allowed is 0..1");
     EXPECT_THROW(
         (void)rig::faults_of(test::config_with({"faults.random_per_hour=1", "motion.kind=file", "motion.path=a.txt"})),
         config::ConfigError);
-    EXPECT_NE(
-        complaint(test::config_with({"faults.random_per_hour=1e6", "run.duration_s=1e9"})).find("random_per_hour"),
-        std::string::npos);
-    EXPECT_NE(complaint(test::config_with({"perimeter.loop=exponential", "faults.random_per_hour=100"}))
-                  .find("exponential loop"),
-              std::string::npos);
+    zlg::test::expect_contains(complaint(test::config_with({"faults.random_per_hour=1e6", "run.duration_s=1e9"})),
+                               "random_per_hour");
+    zlg::test::expect_contains(
+        complaint(test::config_with({"perimeter.loop=exponential", "faults.random_per_hour=100"})), "exponential loop");
 }
 
 }  // namespace

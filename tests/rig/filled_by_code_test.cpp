@@ -1,15 +1,10 @@
 // A configuration that code has filled is judged where a gyro is made of it: the range of each key is that of the table
 // of keys, and the line names the key.
 
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -29,54 +24,19 @@ struct Member {
 #member, [](config::Config & c, double v) { c.member = static_cast<decltype(c.member)>(v); }, { __VA_ARGS__ } \
     }
 
+// One of each section and of each kind of range: `check` goes through all keys of the table alike.
 const std::vector<Member> members = {ZLG_MEMBER(gyro.tick_s, nan, 0.0, -1.0, 11.0),
-                                     ZLG_MEMBER(gyro.scale_arcsec, nan, 0.0, 1e7),
-                                     ZLG_MEMBER(gyro.bias_hz, nan, -1.0, 0.0, 2e12),
-                                     ZLG_MEMBER(gyro.bias_chi, nan, -2e6, 2e6),
                                      ZLG_MEMBER(gyro.bias_edge_s, nan, -1e-6, 0.0025),
                                      ZLG_MEMBER(gyro.first_bias_sign, 0.0, 2.0),
-                                     ZLG_MEMBER(gyro.bias_temperature_coefficient_per_c, nan, 1.1),
                                      ZLG_MEMBER(gyro.reference_temperature_c, nan),
-                                     ZLG_MEMBER(gyro.temperature_rise_c, nan),
                                      ZLG_MEMBER(gyro.light_samples, 0.0, 65.0),
-                                     ZLG_MEMBER(gyro.light_noise_lambda, nan, -1e-9, 11.0),
                                      ZLG_MEMBER(gyro.discriminator_per_lambda, nan, 0.0),
-                                     ZLG_MEMBER(drift.magnetic_arcsec_s, nan),
-                                     ZLG_MEMBER(drift.magnetic_thermal_arcsec_s, nan),
-                                     ZLG_MEMBER(drift.thermal_time_s, nan, 0.0),
-                                     ZLG_MEMBER(drift.nonmagnetic_arcsec_s, nan),
                                      ZLG_MEMBER(drift.random_walk_arcsec_sqrt_s, nan, -1.0, 2e6),
-                                     ZLG_MEMBER(perimeter.tau_s, nan, 0.0),
-                                     ZLG_MEMBER(perimeter.limit_lambda, nan, 0.0),
                                      ZLG_MEMBER(perimeter.miss_lambda, nan, -0.1, 0.24),
-                                     ZLG_MEMBER(perimeter.expansion_lambda_per_c, nan),
                                      ZLG_MEMBER(piezo.half_wave_v, nan, 0.0, -40.0),
-                                     ZLG_MEMBER(piezo.half_wave_temperature_coefficient_per_c, nan),
-                                     ZLG_MEMBER(piezo.rc_s, nan, 0.0),
-                                     ZLG_MEMBER(piezo.slew_v_s, nan, 0.0),
-                                     ZLG_MEMBER(piezo.range_min_v, nan),
-                                     ZLG_MEMBER(piezo.range_max_v, nan, 2e6),
-                                     ZLG_MEMBER(piezo.hysteresis, nan, 0.41, -0.01),
-                                     ZLG_MEMBER(piezo.creep_per_decade, nan, 0.06),
                                      ZLG_MEMBER(piezo.mirror_hz, nan, 50.0),
-                                     ZLG_MEMBER(piezo.mirror_damping, nan, 0.0),
-                                     ZLG_MEMBER(piezo.dac_bits, 0.0, 25.0),
-                                     ZLG_MEMBER(piezo.adc_bits, 0.0, 25.0),
-                                     ZLG_MEMBER(piezo.adc_noise_v, nan, -1.0),
                                      ZLG_MEMBER(laser.perimeter_m, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.round_trip_loss_ratio, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.gain_loss_ratio, nan, infinity, -1.0),
-                                     ZLG_MEMBER(laser.doppler_half_width_hz, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.homogeneous_half_width_hz, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.isotope_shift_hz, nan, infinity, -infinity),
                                      ZLG_MEMBER(laser.upper_isotope_ratio, nan, infinity, 1.5),
-                                     ZLG_MEMBER(laser.zeeman_hz_per_g, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.opposite_sigma_coupling, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.bias_field_g, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.scatter_phase_deg, nan, 90.0),
-                                     ZLG_MEMBER(laser.lock_in_left_hz, nan, -1.0, 1.1e6),
-                                     ZLG_MEMBER(laser.lock_in_right_hz, nan, -1.0, 1.1e6),
-                                     ZLG_MEMBER(laser.comparator_threshold, nan, -0.1, 0.51),
                                      ZLG_MEMBER(faults.vibration_hz, nan, 0.0)};
 
 TEST(FilledByCode, ANumberOutOfItsRangeIsRefusedByItsKey) {

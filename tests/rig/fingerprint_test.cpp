@@ -1,13 +1,7 @@
 // The fingerprint of a run: what enters it and what does not.
 #include <zlg/rig/fingerprint.hpp>
 
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <limits>
-#include <set>
-#include <string>
-#include <type_traits>
+#include "test.hpp"
 
 namespace zlg::rig {
 namespace {

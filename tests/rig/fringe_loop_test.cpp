@@ -1,17 +1,13 @@
 // The loop closed around a gyro whose fringes are read by phase: what is recorded, and what faults of its photodiodes
 // cost.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/core/health.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "fringe_wiring.hpp"
+#include "test.hpp"
 
 namespace {
 

@@ -1,13 +1,11 @@
 #include <zlg/rig/laser_calibration.hpp>
 
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/four_wave.hpp>
+
+#include "test.hpp"
 
 namespace {
 

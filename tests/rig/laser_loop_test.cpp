@@ -1,15 +1,11 @@
 // What the paper reports, out of the four-wave laser in the loop with the control.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -66,29 +62,6 @@ TEST(LaserLoop, the_false_drift_after_a_miss_of_0_22_is_that_of_table_1) {
         sum += drift;
     }
     EXPECT_NEAR(sum, 8525.0, 0.08 * 8525.0);
-}
-
-// Rate of the counts in the middle of segments of either mode, rotation subtracted.
-TEST(LaserLoop, the_angle_is_a_saw_of_the_magnetic_drift_on_the_slope_of_the_other) {
-    config::Config c = laser_gyro();
-    c.motion.kind = config::MotionKind::constant;
-    c.motion.rate_arcsec_s = 3000.0;  // away from zones
-    c.laser.lock_in_left_hz = 0.0;
-    c.laser.lock_in_right_hz = 0.0;
-    c.drift.magnetic_arcsec_s = 20.0;
-    c.drift.magnetic_thermal_arcsec_s = 0.0;
-    c.drift.nonmagnetic_arcsec_s = 3.0;
-    c.switching.interval_s = 10.0;
-    rig::ClosedLoop loop{c, rig::motion(c)};
-    std::array<double, 4> rate{};
-    for (int h = 0; h < 16000; ++h) {
-        const rig::LoopHalf half = loop.advance();
-        const int in_segment = h % 4000;
-        if (in_segment < 400 || in_segment >= 3600) continue;
-        const double turned = c.gyro.scale_arcsec * static_cast<double>(half.record.counts);
-        rate[static_cast<std::size_t>(h / 4000)] += (turned - 3000.0 * 0.0025) / (3200 * 0.0025);
-    }
-    for (std::size_t k = 0; k < rate.size(); ++k) EXPECT_NEAR(rate[k], k % 2 == 0 ? 23.0 : -17.0, 0.9) << k;
 }
 
 TEST(LaserLoop, the_digital_loop_sees_the_light_of_the_laser_too) {

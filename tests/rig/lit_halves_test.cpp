@@ -1,17 +1,11 @@
 // Which halves of a gap are lit, what is recorded of them, and what they are worth: the twin of either fidelity.
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

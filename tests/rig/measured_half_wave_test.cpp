@@ -1,9 +1,6 @@
 #include <zlg/rig/measured_half_wave.hpp>
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace {
 

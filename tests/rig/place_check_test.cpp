@@ -1,13 +1,6 @@
 #include <zlg/rig/place_check.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace {
 
@@ -59,8 +52,7 @@ TEST(PlaceCheck, right_places_agree_with_the_counts_whatever_the_motion) {
 
 TEST(PlaceCheck, noise_is_found_moving_or_at_rest) {
     for (const auto& motion : {shaking, earth, slow})
-        EXPECT_NE(complaint(motion, random_place()).find("contradicts the counts in 2 of 2 stretches"),
-                  std::string::npos);
+        zlg::test::expect_contains(complaint(motion, random_place()), "contradicts the counts in 2 of 2 stretches");
 }
 
 double halved(int, double p) { return 0.5 * p; }
@@ -117,8 +109,8 @@ TEST(PlaceCheck, places_that_stand_still_are_found_where_the_counts_move) {
 TEST(PlaceCheck, says_where_it_begins_and_in_how_much_of_the_log) {
     const auto from_there = [](int t, double p) { return t >= 9000 ? 0.4 : p; };
     const std::string said = complaint(shaking, from_there, 16 + 4 * 4096);
-    EXPECT_NE(said.find("raw.csv: the column fringe contradicts the counts in 1 of 3"), std::string::npos) << said;
-    EXPECT_NE(said.find("first before half-period 16399"), std::string::npos) << said;
+    zlg::test::expect_contains(said, "raw.csv: the column fringe contradicts the counts in 1 of 3");
+    zlg::test::expect_contains(said, "first before half-period 16399");
 }
 
 // Of a jerk of 200 counts at rest, which moves counts and places once.

@@ -1,10 +1,8 @@
 #include <zlg/rig/refusal.hpp>
 
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -17,12 +15,7 @@ config::Config warm() {
 }
 
 std::string message_of(auto&& refused) {
-    try {
-        refused();
-    } catch (const config::ConfigError& error) {
-        return error.what();
-    }
-    return {};
+    return test::refusal_by<config::ConfigError>([&] { refused(); });
 }
 
 TEST(Refusal, a_message_that_names_a_key_which_was_set_stays) {

@@ -1,9 +1,8 @@
 #include <zlg/rig/replay.hpp>
 
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -132,11 +131,11 @@ TEST(Replay, a_half_without_the_other_one_is_named) {
     rig::Replay replay{of_bridge(core::BridgeMethod::none)};
     EXPECT_EQ(replay.odd_half("log"), "");
     replay.take(record(0));
-    EXPECT_NE(replay.odd_half("log").find("log: the last half-period (0)"), std::string::npos);
+    zlg::test::expect_contains(replay.odd_half("log"), "log: the last half-period (0)");
     replay.take(record(1));
     EXPECT_EQ(replay.odd_half("log"), "");
     replay.take(record(2));
-    EXPECT_NE(replay.odd_half("log").find("log: the last half-period (2)"), std::string::npos);
+    zlg::test::expect_contains(replay.odd_half("log"), "log: the last half-period (2)");
 }
 
 }  // namespace

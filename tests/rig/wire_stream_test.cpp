@@ -1,14 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <vector>
-
 #include <fmt/format.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/wire_rows.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/wire_stream.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace zlg::rig {
 namespace {

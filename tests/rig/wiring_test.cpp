@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -138,7 +138,3 @@ class WebAssembly(Target, unittest.TestCase):
         found = self.calls(*refused * 100, ["memory_bytes"], *refused * 5000, ["memory_bytes"])
         self.assertEqual(len(set(found[:100] + found[101:-1])), 1)
         self.assertEqual(found[100], found[-1])
-
-
-if __name__ == "__main__":
-    unittest.main()

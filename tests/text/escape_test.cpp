@@ -1,9 +1,8 @@
 #include <zlg/text/escape.hpp>
 
-#include <string>
-
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+
+#include "test.hpp"
 
 namespace zlg::text {
 namespace {

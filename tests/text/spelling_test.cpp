@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <zlg/text/spelling.hpp>
+
+#include "test.hpp"
 
 namespace {
 

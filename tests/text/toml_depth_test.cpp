@@ -1,11 +1,9 @@
 #include <zlg/text/toml_depth.hpp>
 
-#include <algorithm>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <toml++/toml.h>
+
+#include "test.hpp"
 
 namespace zlg::text {
 namespace {

@@ -1,8 +1,6 @@
 #include <zlg/text/toml_document.hpp>
 
-#include <string>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::text {
 namespace {
@@ -20,7 +18,7 @@ TEST(TomlDocument, ADeepKeyIsRefusedAtItsPlace) {
         FAIL() << "no refusal";
     } catch (const toml::parse_error& error) {
         EXPECT_EQ(error.source().begin.line, 2u);
-        EXPECT_NE(std::string{error.description()}.find("64"), std::string::npos);
+        test::expect_contains(std::string{error.description()}, "64");
     }
 }
 

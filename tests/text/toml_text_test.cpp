@@ -1,12 +1,10 @@
 #include <zlg/text/toml_text.hpp>
 
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <zlg/text/toml_document.hpp>
+
+#include "test.hpp"
 
 namespace zlg::text {
 namespace {

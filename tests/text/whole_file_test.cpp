@@ -1,9 +1,6 @@
 #include <zlg/text/whole_file.hpp>
 
-#include <filesystem>
-#include <fstream>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::text {
 namespace {

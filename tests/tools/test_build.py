@@ -154,41 +154,34 @@ class WithoutApt(unittest.TestCase):
 class LeftOut(unittest.TestCase):
     """In continuous integration no test is left out for want of what scripts/install brings."""
 
-    def called(self, function, runner, log, folder, mode="usual", **environment):
+    def called(self, function, arguments, log, folder, mode="usual", **environment):
         (folder / "log").write_text(log, encoding="utf-8")
         functions = (ROOT / "scripts" / "test").read_text(encoding="utf-8").partition('mkdir -p "$logs"')[0].partition("set -euo pipefail")[2]
         functions = functions.replace('cd "$(dirname "${BASH_SOURCE[0]}")/.."\n', "", 1)
-        done = subprocess.run(["bash", "-c", f'{functions}\n{function} "$wanted_runner" "$wanted_log"', "scripts/test", mode], cwd=ROOT,
-                              capture_output=True, text=True, check=False,
-                              env={**os.environ, "wanted_runner": runner, "wanted_log": str(folder / "log"), **environment})
+        done = subprocess.run(["bash", "-c", f'{functions}\n{function} {arguments} "$wanted_log"', "scripts/test", mode], cwd=ROOT,
+                              capture_output=True, text=True, check=False, env={**os.environ, "wanted_log": str(folder / "log"), **environment})
         self.assertEqual(done.stderr, "")
         return done
 
-    def wanting(self, runner, log, folder, mode="usual"):
-        return self.called("left_out_for_want", runner, log, folder, mode).stdout.splitlines()
+    def wanting(self, log, folder, mode="usual"):
+        return self.called("left_out_for_want", "", log, folder, mode).stdout.splitlines()
 
     def test_a_tool_or_an_image_is_wanting_and_data_are_not(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             tool, page = "SKIPPED [2] tests/x.py:3: there is no node", "SKIPPED [1] tests/y.py:4: this build holds no lab page"
-            self.assertEqual(self.wanting("pytest", f"{tool}\n{page}\n1 passed, 3 skipped\n", folder), [tool])
-            self.assertEqual(self.wanting("pytest", f"{page}\n1 passed, 1 skipped\n", folder), [])
+            self.assertEqual(self.wanting(f"{tool}\n{page}\n1 passed, 3 skipped\n", folder), [tool])
+            self.assertEqual(self.wanting(f"{page}\n1 passed, 1 skipped\n", folder), [])
             # It brings the page itself.
-            self.assertEqual(self.wanting("pytest", f"{page}\n1 passed, 1 skipped\n", folder, "deep"), [page])
-            self.assertEqual(self.wanting("pytest", "4 passed\n", folder), [])
-            last = folder / "Testing" / "Temporary" / "LastTest.log"
-            last.parent.mkdir(parents=True)
-            log = f"Internal ctest changing into directory: {folder}\n"
-            last.write_text("a_test.cpp:5: Skipped\nthe recorded log a is not on this machine\n\n[  SKIPPED ] A.b\n", encoding="utf-8")
-            self.assertEqual(self.wanting("ctest", log, folder), [])
-            last.write_text("b_test.cpp:5: Skipped\nno image of the processor, or no emulator\n\n[  SKIPPED ] B.c\n", encoding="utf-8")
-            self.assertEqual(self.wanting("ctest", log, folder), ["no image of the processor, or no emulator"])
-            self.assertEqual(self.wanting("none", log, folder), [])
+            self.assertEqual(self.wanting(f"{page}\n1 passed, 1 skipped\n", folder, "deep"), [page])
+            self.assertEqual(self.wanting("4 passed\n", folder), [])
+            image = "SKIPPED no image of the processor, or no emulator"
+            self.assertEqual(self.wanting(f"{image}\nSKIPPED the recorded log a is not on this machine\n", folder), [image])
 
     def test_where_all_was_left_out_nothing_was_run(self):
         with tempfile.TemporaryDirectory() as name:
             for log, fails in (("3 skipped\n", 1), ("1 passed, 3 skipped\n", 0), ("0 passed, 0 failed, 2 skipped\n", 1)):
-                for runner in ("pytest", "shards"):
+                for runner in ("pytest", "gtest"):
                     self.assertEqual(self.called("add_totals", runner, log, Path(name), CI="true").returncode, fails, log)
                     self.assertEqual(self.called("add_totals", runner, log, Path(name), CI="").returncode, 0, log)
 
@@ -213,7 +206,3 @@ class Scripts(unittest.TestCase):
         for path in sorted((ROOT / "scripts").iterdir()):
             used = re.findall(r"scripts/install\"? (\w+)", path.read_text(encoding="utf-8"))
             self.assertLessEqual(set(used), known, path.name)
-
-
-if __name__ == "__main__":
-    unittest.main()

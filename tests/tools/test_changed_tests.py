@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-import unittest
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
@@ -199,7 +198,3 @@ class Quick(TreeTest):
         answer = self.quick("no_such")
         self.assertEqual((answer.returncode, answer.stderr.count("\n")), (2, 1), answer.stderr)
         self.assertIn("no revision 'no_such'", answer.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 """Claims about tools/check_core_symbols, on archives compiled for the machine that runs the tests."""
 
 import subprocess
-import unittest
 
 from trees import TreeTest
 
@@ -65,7 +64,3 @@ class CheckCoreSymbols(TreeTest):
 
     def test_an_absent_archive_is_refused(self):
         self.assert_refused(self.run_check("check_core_symbols", self.root / "absent.a"), "no symbols")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 """Claims about tools/check_includes: each rule is obeyed by a good tree, and breaking it is found, with its place."""
 
-import unittest
 
 from trees import TreeTest
 
@@ -92,7 +91,3 @@ class CheckIncludes(TreeTest):
 
     def test_a_tree_without_sources_is_refused(self):
         self.assertEqual(self.run_check("check_includes", self.root / "tests").returncode, 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

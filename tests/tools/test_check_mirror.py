@@ -1,6 +1,5 @@
 """Claims about tools/check_mirror."""
 
-import unittest
 
 from trees import TreeTest
 
@@ -47,7 +46,3 @@ class CheckMirror(TreeTest):
     def test_an_excuse_without_its_header_is_named(self):
         (self.root / "src/logs/include/zlg/logs/error.hpp").unlink()
         self.assert_refused(self.run_check("check_mirror"), "logs/error.hpp is excused but does not exist")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 """Claims about tools/check_nocompile."""
 
-import unittest
 
 from trees import TreeTest
 
@@ -36,7 +35,3 @@ class CheckNocompile(TreeTest):
 
     def test_no_cases_at_all_fail(self):
         self.assert_refused(self.run_check("check_nocompile"), "0 passed, 0 failed")
-
-
-if __name__ == "__main__":
-    unittest.main()

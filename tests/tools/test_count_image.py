@@ -78,7 +78,3 @@ class Modules(unittest.TestCase):
         core = BENCH.parent / "src" / "core"
         lost = [path.name for path in sorted(core.rglob("*.cpp")) if count_image.Image.module(str(path)) is None]
         self.assertEqual(lost, [])
-
-
-if __name__ == "__main__":
-    unittest.main()

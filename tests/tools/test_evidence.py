@@ -33,7 +33,3 @@ class Evidence(unittest.TestCase):
         done = call("gyros", "nothing")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("'nothing'", done.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

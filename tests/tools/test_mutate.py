@@ -137,6 +137,7 @@ class Mutate(TreeTest):
         self.write("src/core/control/relock.hpp", "int larger(int a, int b) noexcept;\n")
         self.write("src/core/control/perimeter_loop.cpp", SOURCE)
         self.write("tests/core/perimeter_loop_test.cpp", TEST + SECOND_TEST)
+        self.write("tests/test.hpp", "#include <gtest/gtest.h>\n")
 
     def mutate(self, *arguments):
         command = [sys.executable, self.root / "tools" / "mutate", *arguments]
@@ -215,7 +216,3 @@ class Lists(unittest.TestCase):
         self.assertEqual(mutate.known_survivors() - every, set())
         lines = mutate.SURVIVORS.read_text(encoding="utf-8").splitlines()
         self.assertEqual(lines, sorted(set(lines)))
-
-
-if __name__ == "__main__":
-    unittest.main()

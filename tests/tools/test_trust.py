@@ -45,7 +45,3 @@ class Fuzz(unittest.TestCase):
     def test_the_corpus_stays_small(self):
         sizes = [path.stat().st_size for path in (ROOT / "tests" / "fuzz" / "corpus").rglob("*") if path.is_file()]
         self.assertLess(sum(sizes), 200_000)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,15 +1,12 @@
 #pragma once
 // Adler's equation by a general integrator of eighth order, which knows nothing of Moebius maps.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include <boost/numeric/odeint/stepper/runge_kutta4_classic.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include <zlg/twin/beat_phase.hpp>
+
+#include "test.hpp"
 
 namespace zlg::twin {
 

@@ -1,13 +1,5 @@
 #include "perimeter/analog_loop.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <span>
-#include <vector>
-
 #include "quiet_gyro.hpp"
 
 namespace zlg::twin {

@@ -1,9 +1,6 @@
 #include <zlg/twin/averaged_laser.hpp>
 
-#include <cmath>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

@@ -1,11 +1,5 @@
 // Photodiodes of the two beams that differ, and light that falls, in both fidelities.
 
-#include <cmath>
-#include <tuple>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "laser_gyro.hpp"
 
 namespace zlg::twin {

@@ -1,11 +1,6 @@
 #include <laser/competition.hpp>
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

@@ -1,12 +1,8 @@
 #include <zlg/twin/discriminator_curve.hpp>
 
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include <zlg/twin/laser_zones.hpp>
+
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

@@ -1,10 +1,6 @@
 #include <laser/faddeeva.hpp>
 
-#include <cmath>
-#include <complex>
-#include <numbers>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

@@ -1,9 +1,6 @@
 #include <zlg/twin/fault_kinds.hpp>
 
-#include <set>
-#include <string_view>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

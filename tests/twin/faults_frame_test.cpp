@@ -1,11 +1,4 @@
 // Faults of what the frame holds: slow converters, counter, delivery, bias current, rotation.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "counter_limit.hpp"
 #include "faults_support.hpp"

@@ -1,10 +1,4 @@
 // Faults of the light and of its converters.
-#include <cmath>
-#include <numbers>
-#include <numeric>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "faults_support.hpp"
 

@@ -1,10 +1,4 @@
 // Faults that move the perimeter.
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "faults_support.hpp"
 

@@ -1,10 +1,6 @@
 #pragma once
 // A quiet twin with faults, half by half.
 
-#include <cstdint>
-#include <utility>
-#include <vector>
-
 #include <zlg/twin/faults.hpp>
 #include <zlg/twin/twin.hpp>
 

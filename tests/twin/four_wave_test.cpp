@@ -1,10 +1,5 @@
 #include <zlg/twin/four_wave.hpp>
 
-#include <cmath>
-#include <numbers>
-
-#include <gtest/gtest.h>
-
 #include "laser_reference.hpp"
 
 namespace zlg::twin {

@@ -1,11 +1,5 @@
 // Both photodiodes of the beat, sampled at the latch: where the bias is reversed and the beat turns round.
 
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-
-#include <gtest/gtest.h>
-
 #include <zlg/twin/twin.hpp>
 
 #include "laser_gyro.hpp"

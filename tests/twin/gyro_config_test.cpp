@@ -1,6 +1,6 @@
 #include <zlg/twin/gyro_config.hpp>
 
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

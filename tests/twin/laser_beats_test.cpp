@@ -1,12 +1,8 @@
 // Steps of the beats against a general integrator that reads the four-wave equations at every moment.
 
 #include "laser/laser_beats.hpp"
+#include "test.hpp"
 
-#include <array>
-#include <cmath>
-#include <numbers>
-
-#include <gtest/gtest.h>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include <zlg/twin/four_wave.hpp>

@@ -1,22 +1,12 @@
 #include <zlg/twin/laser_config.hpp>
 
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {
 
 std::string refusal(const LaserConfig& config) {
-    try {
-        validate(config);
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return {};
+    return test::refusal_by<std::invalid_argument>([&] { validate(config); });
 }
 
 // A ring of 0.16 m; wavelength 632.8 nm; neon at 400 K, of which half is neon 22; a field of 15 G.

@@ -2,10 +2,6 @@
 // The four-wave equations computed from their definitions: integrals by quadrature, the steady state by following the
 // waves in time. Slow, and shares nothing with the product.
 
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include <zlg/twin/laser_config.hpp>
 
 #include "quadrature.hpp"

@@ -1,16 +1,10 @@
 #include <zlg/twin/laser_table.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include <zlg/twin/laser_zones.hpp>
 
 #include <laser/laser_grid.hpp>
+
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

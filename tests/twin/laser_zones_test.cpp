@@ -1,10 +1,6 @@
 #include <zlg/twin/laser_zones.hpp>
 
-#include <limits>
-#include <stdexcept>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

@@ -2,12 +2,11 @@
 // One helicity of a gyro with backscatter, a trapezoidal bias and edges that may be dithered: what the tests of lock-in
 // look at. Latched at the reversals, as the counter is.
 
-#include <cstdint>
-#include <vector>
-
 #include <zlg/core/control/edge_dither.hpp>
 #include <zlg/twin/beat_phase.hpp>
 #include <zlg/twin/slip_phase.hpp>
+
+#include "test.hpp"
 
 namespace zlg::twin {
 

@@ -1,11 +1,5 @@
 // What backscatter makes of a gyro with alternating bias, and what the dither of the edges makes of that.
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
 #include <zlg/core/compensation/lock_in.hpp>
 
 #include "lock_in_gyro.hpp"
@@ -224,15 +218,6 @@ TEST(LockIn, AnUnknownThresholdOfItsPresumedSizeLeavesOneSigma) {
         const PutBack read = put_back({.dithered = true}, unknown, rate);
         EXPECT_EQ(read.left_arcsec_s, read.plain_arcsec_s);
         EXPECT_NEAR(std::abs(read.plain_arcsec_s) / read.sigma_arcsec_s, 1.0, 0.05) << rate;
-    }
-}
-
-TEST(LockIn, TheSlipFormulaGivesTheSameGyro) {
-    for (const double rate : {4.0, 12.0, 650.0}) {
-        LockInGyro g{.bias_hz = 60320.0};
-        const double exact = settled_rate(g, rate, 8000);
-        g.by_slip_formula = true;
-        EXPECT_NEAR(settled_rate(g, rate, 8000), exact, 0.1) << rate;
     }
 }
 

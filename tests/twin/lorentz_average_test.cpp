@@ -1,10 +1,5 @@
 #include <laser/lorentz_average.hpp>
 
-#include <cmath>
-#include <numbers>
-
-#include <gtest/gtest.h>
-
 #include "quadrature.hpp"
 
 namespace zlg::twin {

@@ -1,14 +1,8 @@
 #include <zlg/twin/motion.hpp>
 
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numbers>
-#include <stdexcept>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/core/common/maths.hpp>
+
+#include "test.hpp"
 
 namespace zlg::twin {
 namespace {

@@ -1,13 +1,6 @@
 #include <zlg/twin/optical_beats.hpp>
 
-#include <cmath>
-#include <complex>
-#include <cstdint>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
-
+#include "test.hpp"
 #include "turns_from.hpp"
 
 namespace zlg::twin {

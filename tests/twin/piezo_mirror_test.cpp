@@ -1,11 +1,5 @@
 #include "perimeter/piezo_mirror.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <vector>
-
 #include "quiet_gyro.hpp"
 
 namespace zlg::twin {

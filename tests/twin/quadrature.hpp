@@ -1,7 +1,7 @@
 #pragma once
 // Adaptive Simpson quadrature, to judge closed forms by.
 
-#include <cmath>
+#include "test.hpp"
 
 namespace zlg::twin {
 

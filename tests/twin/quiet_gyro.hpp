@@ -1,11 +1,9 @@
 #pragma once
 // A gyro without noise or drift, of equal photodiodes, and the moves that the tests make with it.
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include <zlg/twin/twin.hpp>
+
+#include "test.hpp"
 
 namespace zlg::twin {
 

@@ -1,14 +1,6 @@
 #include <zlg/twin/slip_phase.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <numbers>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
+#include "test.hpp"
 #include "turns_from.hpp"
 
 namespace zlg::twin {

@@ -1,12 +1,5 @@
 // Both fidelities side by side: an averaged gyro with the constants of the laser, and the laser.
 
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/twin/averaged_laser.hpp>
 #include <zlg/twin/four_wave.hpp>
 

@@ -2,13 +2,6 @@
 
 #include <zlg/twin/twin_config.hpp>
 
-#include <functional>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/core/common/maths.hpp>
 
 #include <zlg/twin/averaged_laser.hpp>

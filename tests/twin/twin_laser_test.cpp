@@ -1,11 +1,5 @@
 // The twin as a laser: what it shows of its light, counts and reversals.
 
-#include <cmath>
-#include <cstdint>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include <zlg/twin/four_wave.hpp>
 #include <zlg/twin/twin.hpp>
 

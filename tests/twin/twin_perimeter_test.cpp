@@ -1,12 +1,5 @@
 // The twin's perimeter: the piezo's move, the light between modes, the miss at closing.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "quiet_gyro.hpp"
 
 namespace zlg::twin {

@@ -1,11 +1,5 @@
 // The twin's loop, and the false angle after re-lock.
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "quiet_gyro.hpp"
 
 namespace zlg::twin {

@@ -1,10 +1,5 @@
 #include <zlg/twin/twin.hpp>
 
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "quiet_gyro.hpp"
 
 namespace zlg::twin {

@@ -1,11 +1,9 @@
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <vector>
 #include <zlg/wire/cobs.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

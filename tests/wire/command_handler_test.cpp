@@ -1,12 +1,10 @@
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <cstdint>
-#include <random>
-#include <vector>
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/wire/command_handler.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <vector>
 #include <zlg/wire/command.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

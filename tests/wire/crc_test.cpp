@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
-#include <vector>
 #include <zlg/wire/crc.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

@@ -1,13 +1,10 @@
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <cstdint>
-#include <map>
-#include <random>
-#include <vector>
 #include <zlg/wire/crc.hpp>
 #include <zlg/wire/frame.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {
@@ -186,37 +183,6 @@ struct Line {
         return all.size();
     }
 };
-
-TEST(Frame, OfALineThatLosesATenthOfItsBytesWhatArrivesIsRight) {
-    Line line;
-    Receiver receiver;
-    std::size_t n_arrived = 0;
-    for (int k = 0; k < 200; ++k) {
-        Bytes left;
-        for (const std::uint8_t byte : line.frames(100))
-            if (line.random() % 10 != 0) left.push_back(byte);
-        n_arrived += line.checked(receiver, left);
-    }
-    // 0.9^n for a frame of n bytes: of short ones some arrive.
-    EXPECT_GT(n_arrived, 200u);
-    EXPECT_LT(n_arrived, 5000u);
-}
-
-TEST(Frame, OfALineThatLosesATenthInBurstsMostArrives) {
-    Line line;
-    Receiver receiver;
-    std::size_t n_arrived = 0;
-    for (int k = 0; k < 100; ++k) {
-        const Bytes stream = line.frames(100);
-        Bytes left;
-        for (std::size_t from = 0; from < stream.size(); from += 500) {
-            const bool lost = line.random() % 10 == 0;
-            for (std::size_t i = from; !lost && i < std::min(stream.size(), from + 500); ++i) left.push_back(stream[i]);
-        }
-        n_arrived += line.checked(receiver, left);
-    }
-    EXPECT_GT(n_arrived, 7000u);
-}
 
 TEST(Frame, AfterAnyNoiseTheNextFrameButOneArrives) {
     Line line;

@@ -1,12 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <iterator>
-#include <limits>
-#include <set>
-#include <string>
 #include <zlg/wire/parameters.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

@@ -1,10 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <vector>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/wire/status.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 #include <zlg/wire/telemetry.hpp>
+
+#include "test.hpp"
 
 namespace zlg::wire {
 namespace {

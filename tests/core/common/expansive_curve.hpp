@@ -1,8 +1,9 @@
 #pragma once
 // An expansive discriminator, and curves of measured nodes that undo it.
 
-#include <vector>
 #include <zlg/core/common/discriminator_curve.hpp>
+
+#include "test.hpp"
 
 namespace zlg::core::test {
 

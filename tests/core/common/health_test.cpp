@@ -1,7 +1,5 @@
 #include <zlg/core/health.hpp>
 
-#include <set>
-
 #include "support.hpp"
 
 namespace zlg::core::health_test {

@@ -1,7 +1,6 @@
 #include <zlg/core/units.hpp>
 
 #include <concepts>
-#include <type_traits>
 
 #include "support.hpp"
 
@@ -45,24 +44,11 @@ static_assert(!Addable<Volts, double> && !Addable<double, Volts> && !Comparable<
 static_assert(Multipliable<double, Volts>);
 static_assert(!Multipliable<Volts, Volts> && !Multipliable<Seconds, Hertz>);
 
-TEST(Units, AQuantityStartsAtZeroAndKeepsItsNumber) {
-    EXPECT_EQ(Seconds{}.value(), 0.0);
-    EXPECT_EQ(Seconds{0.005}.value(), 0.005);
-}
-
-TEST(Units, ArithmeticIsThatOfTheNumbers) {
-    constexpr Volts a{3.5};
-    constexpr Volts b{1.25};
-    EXPECT_EQ((a + b).value(), 4.75);
-    EXPECT_EQ((a - b).value(), 2.25);
-    EXPECT_EQ((-2.0 * a).value(), -7.0);
-    static_assert((a + b).value() == 4.75);
-}
-
-TEST(Units, OrderIsThatOfTheNumbers) {
+TEST(Units, AQuantityStartsAtZeroAndCountsAsItsNumberDoes) {
+    static_assert(Seconds{}.value() == 0.0);
+    static_assert((Volts{3.5} + Volts{1.25}).value() == 4.75 && (Volts{3.5} - Volts{1.25}).value() == 2.25);
+    static_assert((-2.0 * Volts{3.5}).value() == -7.0);
     EXPECT_LT(Hertz{1.0}, Hertz{2.0});
-    EXPECT_GT(Celsius{20.0}, Celsius{-40.0});
-    EXPECT_EQ(Arcsec{3.263}, Arcsec{3.263});
     EXPECT_NE(Wavelengths{0.1}, Wavelengths{0.2});
 }
 

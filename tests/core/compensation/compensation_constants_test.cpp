@@ -1,7 +1,5 @@
 #include <zlg/core/compensation/compensation_constants.hpp>
 
-#include <initializer_list>
-
 #include "compensation_support.hpp"
 
 namespace zlg::core::compensation_constants_test {

@@ -83,17 +83,6 @@ TEST(GyroCompensationEdges, EveryTickIsAsIfTheEdgesStoodStill) {
     }
 }
 
-TEST(GyroCompensationEdges, ALongLogLosesNoAngle) {
-    const auto config = config_of(RelockMethod::none, BridgeMethod::quadratic);
-    const int n_ticks = 200000;
-    const Delivered got = run(config, Gyro{.dither = DitherMethod::random}.log(n_ticks));
-    Quad sum = 0;
-    for (const AngleRow& row : got.rows) sum += row.dtheta_arcsec;
-    const Quad expected = Quad{3.263e-3} * (3 * 2 * half_ticks) * n_ticks;
-    EXPECT_LT(static_cast<double>(magnitude(sum - expected)), 1e-9);
-    EXPECT_NEAR(got.samples.back().angle_arcsec, static_cast<double>(expected), 2e-8);  // its last place
-}
-
 // `frequency` reads the bias's deficit from the difference of the halves, to which the shifts add theirs.
 TEST(GyroCompensationEdges, TheDeficitAfterASwitchIsNotMistaken) {
     const auto config = config_of(RelockMethod::frequency, BridgeMethod::quadratic);

@@ -2,11 +2,6 @@
 
 #include <zlg/core/gyro_compensation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
 #include "gyro_compensation_support.hpp"
 
 namespace gyro_compensation_light_test {

@@ -1,7 +1,6 @@
 // What lock-in takes from the counts, against the mean beat of Adler's equation, found here by its period.
 #include <zlg/core/compensation/lock_in.hpp>
 
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "compensation_support.hpp"

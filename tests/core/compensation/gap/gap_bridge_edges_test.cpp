@@ -4,18 +4,6 @@
 
 namespace zlg::core::gap_bridge_support::edges_test {
 
-TEST(GapBridgeEdges, TheHelicityBeforeAGapIsThatOfItsLastTick) {
-    Log log = measured(4);
-    log.back().mode = -1;
-    log.push_back(gap_tick(-1));
-    log.push_back(measured_tick(10.0));
-    log.back().mode = -1;
-    const Delivered got = run({}, log);
-    EXPECT_EQ(got.rows[4].flags & flag_switching, 0u);
-    ASSERT_EQ(got.gaps.size(), 1u);
-    EXPECT_FALSE(got.gaps[0].mode_changed);
-}
-
 // With 4 points the constant has the weights 1/4: the sum of three neighbouring covariances of -count^2/12, twice. A
 // line through 3 points, one tick ahead, is (-2/3, 1/3, 4/3): with unequal weights it matters which neighbours are
 // meant. Ticks with the phase at both ends among others without share at most what the better one has; exact ticks

@@ -3,13 +3,6 @@
 
 namespace zlg::core::gap_bridge_support::interface_test {
 
-TEST(GapBridgeInterface, OrdersAreThoseOfTheNames) {
-    EXPECT_EQ(order_of(BridgeMethod::none), 0);
-    EXPECT_EQ(order_of(BridgeMethod::constant), 0);
-    EXPECT_EQ(order_of(BridgeMethod::linear), 1);
-    EXPECT_EQ(order_of(BridgeMethod::quadratic), 2);
-}
-
 TEST(GapBridgeInterface, TheDelayIsThatOfTheLongestGapAndOfThePointsAfterIt) {
     for (int ahead = 3; ahead <= 8; ++ahead)
         for (int after = 1; after <= 8; ++after) {
@@ -18,19 +11,6 @@ TEST(GapBridgeInterface, TheDelayIsThatOfTheLongestGapAndOfThePointsAfterIt) {
             EXPECT_EQ(delay, 16 + (ahead > after ? ahead : after));
             EXPECT_LE(delay, 24);
         }
-}
-
-TEST(GapBridgeInterface, EveryTickGivesOneSampleAndLaterOneRow) {
-    Random random{1};
-    const GapBridgeConfig config;
-    const Log log = random_log(random, 200);
-    GapBridgeState state;
-    for (std::size_t k = 0; k < log.size(); ++k) {
-        const AngleSample sample = step({}, config, state, log[k]);
-        EXPECT_EQ(sample.tick, static_cast<std::int64_t>(k));
-        EXPECT_EQ(sample.has_final, k >= 20);
-        EXPECT_TRUE(!sample.has_final || sample.final_row.tick == static_cast<std::int64_t>(k) - 20);
-    }
 }
 
 TEST(GapBridgeInterface, DrainGivesTheRestOnceAndThenNothing) {
@@ -101,17 +81,6 @@ TEST(GapBridgeInterface, AnAmendedTickIsFinalInEveryFitAndPaidBackByTheLump) {
             EXPECT_EQ(got.rows[k].dtheta_final_arcsec, plain.rows[k].dtheta_final_arcsec);
         EXPECT_NEAR(got.gaps.at(0).dp_arcsec, plain.gaps.at(0).dp_arcsec, 1e-12);
     }
-}
-
-TEST(GapBridgeInterface, AnAmendmentReachesTheExtrapolationOfTheNextGap) {
-    Log log(30, measured_tick(5.0));
-    log[10] = gap_tick();
-    log[11].value_arcsec = 45.0;
-    log[12].amend_previous = true;
-    log[12].amend_arcsec = -40.0;
-    log[13] = log[14] = gap_tick();
-    const Delivered got = run({}, log);
-    for (const unsigned k : {13u, 14u}) EXPECT_NEAR(got.rows[k].dtheta_arcsec, 5.0, 1e-12);
 }
 
 }  // namespace zlg::core::gap_bridge_support::interface_test

@@ -6,11 +6,7 @@
 
 #include <zlg/core/compensation/gap_bridge.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <utility>
-#include <vector>
+#include "test.hpp"
 
 namespace gap_bridge_reference {
 

@@ -126,19 +126,4 @@ TEST(LearningBridge, TicksOfARampAreWithinTheirSigma) {
     }
 }
 
-TEST(LearningBridge, AStateIsAPlainValue) {
-    Random random{12};
-    const GapBridgeConfig config{.method = BridgeMethod::automatic};
-    const Log log = random_log(random, 1500);
-    GapBridgeState state;
-    for (std::size_t t = 0; t < 700; ++t) (void)step(fine, config, state, log[t]);
-    GapBridgeState copy = state;
-    EXPECT_EQ(copy, state);
-    for (std::size_t t = 700; t < log.size(); ++t) {
-        ASSERT_EQ(step(fine, config, state, log[t]).dtheta_arcsec, step(fine, config, copy, log[t]).dtheta_arcsec);
-    }
-    EXPECT_EQ(copy, state);
-    EXPECT_LT(sizeof(GapBridgeState), 200u * 1024u);
-}
-
 }  // namespace zlg::core::gap_bridge_support::state_test

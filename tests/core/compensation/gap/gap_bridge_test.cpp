@@ -56,19 +56,6 @@ TEST(GapBridge, TheStandardGapHasTheWeightsOfThePaper) {
     for (const unsigned k : {13u, 14u, 16u, 17u}) EXPECT_EQ(got.rows[k].flags, 0u) << k;
 }
 
-TEST(GapBridge, WhatTheCounterReadsInAGapShowsNowhere) {
-    Random random{1};
-    for (int trial = 0; trial < 50; ++trial) {
-        const GapBridgeConfig config = random_config(random);
-        if (config.method == BridgeMethod::none) continue;
-        Log log = random_log(random, 150);
-        const Delivered before = run(config, log);
-        for (TickInput& tick : log)
-            if (!tick.measured) tick.value_arcsec = random.uniform(-1e9, 1e9);
-        EXPECT_EQ(run(config, log).rows, before.rows);
-    }
-}
-
 TEST(GapBridge, MethodNonePassesTheTicksAsRead) {
     Log log = log_of(30, 10, 3, parabola);
     log[20] = gap_tick(-1);
@@ -81,101 +68,6 @@ TEST(GapBridge, MethodNonePassesTheTicksAsRead) {
     }
     EXPECT_TRUE(has(got.rows[20].flags, flag_switching));
     EXPECT_FALSE(has(got.rows[11].flags, flag_switching));
-}
-
-TEST(GapBridge, TheCorrectionWaitsForAMeasuredTick) {
-    // The correction of the gap 10..12 is due at tick 15, in the next gap, which ends at 18.
-    Log log = log_of(40, 10, 3, [](int k) { return k == 9 ? 1.0 : 0.0; });
-    for (unsigned k = 15; k < 19; ++k) log[k] = gap_tick();
-    const Delivered got = run(config_of(BridgeMethod::quadratic), log);
-    for (unsigned k = 15; k < 19; ++k) EXPECT_FALSE(has(got.rows[k].flags, flag_correction)) << k;
-    EXPECT_TRUE(has(got.rows[19].flags, flag_correction));
-    EXPECT_NEAR(got.rows[19].dtheta_arcsec, 2.5 - 253.0 / 20.0, 1e-12);
-    EXPECT_TRUE(has(got.rows[21].flags, flag_correction));
-    // The lump is no motion: no fit may see it.
-    EXPECT_EQ(got.rows[19].dtheta_final_arcsec, 0.0);
-}
-
-TEST(GapBridge, LumpsStayOutOfLaterExtrapolations) {
-    // Tick 15 carries a lump of -10.15 and is the tick before the gap 16..17.
-    Log log = log_of(40, 10, 3, [](int k) { return k == 9 ? 1.0 : 0.0; });
-    log[16] = log[17] = gap_tick();
-    const Delivered got = run(config_of(BridgeMethod::quadratic), log);
-    EXPECT_NEAR(got.rows[15].dtheta_arcsec, 2.5 - 253.0 / 20.0, 1e-12);
-    for (const unsigned k : {16u, 17u}) {
-        EXPECT_EQ(got.rows[k].dtheta_arcsec, 0.0);
-        EXPECT_EQ(got.rows[k].dtheta_final_arcsec, 0.0);
-    }
-}
-
-TEST(GapBridge, AtTheStartTheTicksAfterAreUsedInReversedTime) {
-    for (const BridgeMethod method : all_bridges) {
-        const auto motion = [&](int k) { return motion_of_order(order_of(method), k); };
-        const Delivered got = run(config_of(method), log_of(20, 0, 3, motion));
-        double lump = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            const AngleRow& row = got.rows[static_cast<unsigned>(k)];
-            EXPECT_EQ(row.dtheta_arcsec, 0.0);
-            EXPECT_NEAR(row.dtheta_final_arcsec, motion(k), 1e-12);
-            EXPECT_FALSE(has(row.flags, flag_interpolated) || has(row.flags, flag_unrepaired));
-            EXPECT_TRUE(std::isfinite(row.sigma_arcsec));
-            lump += motion(k);
-        }
-        // Four points of the other side are needed: the correction is in the tick after the fourth.
-        EXPECT_NEAR(got.rows[7].dtheta_arcsec, motion(7) + lump, 1e-11);
-        EXPECT_TRUE(has(got.rows[7].flags, flag_correction));
-        EXPECT_TRUE(got.gaps.empty());
-    }
-}
-
-TEST(GapBridge, AtTheEndTheExtrapolationIsTheBestThereIs) {
-    const Delivered got = run(config_of(BridgeMethod::quadratic), log_of(20, 17, 3, parabola));
-    ASSERT_EQ(got.rows.size(), 20u);
-    for (unsigned k = 17; k < 20; ++k) {
-        EXPECT_NEAR(got.rows[k].dtheta_arcsec, parabola(static_cast<int>(k)), 1e-10);
-        EXPECT_EQ(got.rows[k].dtheta_final_arcsec, got.rows[k].dtheta_arcsec);
-        EXPECT_EQ(got.rows[k].flags, flag_extrapolated);
-        EXPECT_TRUE(std::isfinite(got.rows[k].sigma_arcsec));
-    }
-    EXPECT_TRUE(got.gaps.empty());
-}
-
-TEST(GapBridge, OneTickAfterTheGapIsEnoughAtTheEnd) {
-    const Delivered got = run(config_of(BridgeMethod::quadratic), log_of(20, 16, 3, parabola));
-    for (unsigned k = 16; k < 19; ++k) {
-        EXPECT_NEAR(got.rows[k].dtheta_final_arcsec, parabola(static_cast<int>(k)), 1e-10);
-        EXPECT_TRUE(has(got.rows[k].flags, flag_interpolated));
-        EXPECT_FALSE(has(got.rows[k].flags, flag_lower_order));  // three points are enough
-    }
-    ASSERT_EQ(got.gaps.size(), 1u);
-}
-
-TEST(GapBridge, TooFewPointsLowerTheOrderAndSaySo) {
-    // One tick, a gap, one tick: a straight line through the two.
-    const Delivered got =
-        run(config_of(BridgeMethod::quadratic), {measured_tick(10.0), gap_tick(), gap_tick(), measured_tick(16.0)});
-    for (const unsigned k : {1u, 2u}) {
-        EXPECT_EQ(got.rows[k].dtheta_arcsec, 10.0);
-        EXPECT_NEAR(got.rows[k].dtheta_final_arcsec, 10.0 + 2.0 * k, 1e-12);
-        EXPECT_TRUE(has(got.rows[k].flags, flag_lower_order) && has(got.rows[k].flags, flag_interpolated));
-        EXPECT_TRUE(has(got.samples[k].flags, flag_lower_order));
-    }
-}
-
-TEST(GapBridge, IslandsOfOneTickAreBridgedFromOneAnother) {
-    // Every second tick of a parabola is missing. Standard positions -1..0 and 2..3 hold one measured tick each, so
-    // the final value is on the chord. Wider points reach over the islands.
-    Log log;
-    for (int k = 0; k < 100; ++k) log.push_back(k % 2 == 1 ? gap_tick() : measured_tick(parabola(k)));
-    const Delivered got = run(config_of(BridgeMethod::quadratic), log);
-    const Delivered wider = run({.extrapolation_points = 8, .points_before = 8, .points_after = 8}, log);
-    for (int k = 1; k < 99; k += 2) {
-        const AngleRow& row = got.rows[static_cast<unsigned>(k)];
-        EXPECT_NEAR(row.dtheta_final_arcsec, 0.5 * (parabola(k - 1) + parabola(k + 1)), 1e-9) << k;
-        EXPECT_TRUE(has(row.flags, flag_lower_order) && has(row.flags, flag_interpolated));
-        if (k >= 20 && k < 80)
-            EXPECT_NEAR(wider.rows[static_cast<unsigned>(k)].dtheta_final_arcsec, parabola(k), 1e-9) << k;
-    }
 }
 
 TEST(GapBridge, SixteenTicksAreBridgedSeventeenAreNot) {

@@ -1,5 +1,4 @@
 // Laws of the fit at random points: against normal equations solved in 113 bits, and as properties.
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <zlg/core/compensation/polynomial_fit.hpp>
 
@@ -86,16 +85,6 @@ RC_GTEST_PROP(PolynomialFitLaw, MirroringPointsAndTickChangesNothing, ()) {
     const FitWeights before = fit_of(positions, order).weights(j);
     for (std::int32_t& x : positions) x = -x;
     RC_ASSERT(fit_of(positions, order).weights(-j) == before);
-}
-
-RC_GTEST_PROP(PolynomialFitLaw, TheOrderOfThePointsDoesNotMatter, ()) {
-    auto positions = *positions_generator();
-    const int order = *rc::gen::inRange(0, max_fit_order + 1);
-    const std::int32_t j = *rc::gen::inRange(-64, 65);
-    const FitWeights before = fit_of(positions, order).weights(j);
-    const std::size_t n = positions.size();
-    const FitWeights after = fit_of({positions.rbegin(), positions.rend()}, order).weights(j);
-    for (std::size_t k = 0; k < n; ++k) RC_ASSERT(after[k] == before[n - 1 - k]);
 }
 
 }  // namespace zlg::core::polynomial_fit_law_test

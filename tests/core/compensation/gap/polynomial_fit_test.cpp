@@ -139,22 +139,4 @@ TEST(PolynomialFit, TooFewPointsLowerTheOrder) {
     expect_weights({0, 2}, 2, 5, {-3, 5}, 2);
 }
 
-TEST(PolynomialFit, ThreePointsAreMetExactlyByAParabola) {
-    const PolynomialFit fit = fit_of({-5, 2, 11}, 2);
-    for (unsigned k = 0; k < 3; ++k) {
-        const FitWeights w = fit.weights(fit.position(static_cast<int>(k)));
-        for (unsigned other = 0; other < max_fit_points; ++other) EXPECT_EQ(w[other], other == k ? 1.0 : 0.0);
-    }
-}
-
-TEST(PolynomialFit, RemembersItsPoints) {
-    const PolynomialFit fit = fit_of({-5, 2, 11}, 1);
-    EXPECT_EQ(fit.n(), 3);
-    EXPECT_EQ(fit.position(0), -5);
-    EXPECT_EQ(fit.position(2), 11);
-    EXPECT_EQ(fit, fit_of({-5, 2, 11}, 1));
-    EXPECT_NE(fit, fit_of({-5, 2, 11}, 2));
-    EXPECT_EQ(PolynomialFit{}.n(), 0);
-}
-
 }  // namespace zlg::core::polynomial_fit_test

@@ -1,15 +1,9 @@
 #pragma once
 // A folder of its own for a test, removed with all that is in it.
 
-#include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <string_view>
+#include "test.hpp"
 
 namespace zlg::test {
 
@@ -39,22 +33,6 @@ inline std::string content_of(const std::string& path) {
     std::ostringstream text;
     text << std::ifstream{path, std::ios::binary}.rdbuf();
     return text.str();
-}
-
-// The message of the Error that `action` throws; a test failure when it throws none.
-template <class Error, class Action>
-std::string message_of(Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
-
-inline void expect_contains(const std::string& text, std::string_view part) {
-    EXPECT_NE(text.find(part), std::string::npos) << "in: " << text << "\nmissing: " << part;
 }
 
 }  // namespace zlg::test
